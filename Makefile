@@ -1,0 +1,69 @@
+# Everything a person types: make weave, make test, make bench, make docs. Each sets up what it needs.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+
+# A fresh .venv keeps its bytecode, whatever the shell says: every later start is faster.
+unexport PYTHONDONTWRITEBYTECODE
+
+.DEFAULT_GOAL := help
+.PHONY: help weave test lint types layers unit bench docs venv lock clean
+
+help:
+	@echo "make weave   weave the shipped example and print where its report lies"
+	@echo "make test    every check and every test"
+	@echo "make bench   the benchmarks, side by side with their peers"
+	@echo "make docs    the documentation, in docs/_build/html"
+	@echo "make venv    .venv with everything for development"
+
+$(BIN)/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "ilmek needs Python 3.11 or newer; " + sys.executable + " is " + sys.version.split()[0] + ". Try: make PYTHON=python3.12 ...")'
+	@$(PYTHON) -m venv $(VENV) || { echo "could not make $(VENV): on Debian and Ubuntu, apt-get install python3-venv"; rm -rf $(VENV); exit 1; }
+
+$(VENV)/.installed: pyproject.toml constraints.txt | $(BIN)/python
+	@echo "installing ilmek into $(VENV) (once; about a minute)"
+	@$(PIP) install --constraint constraints.txt --editable .
+	@touch $@
+
+$(VENV)/.installed-dev: pyproject.toml constraints.txt | $(BIN)/python
+	@echo "installing ilmek and its development tools into $(VENV) (once; about two minutes)"
+	@$(PIP) install --constraint constraints.txt --editable '.[dev]'
+	@touch $(VENV)/.installed $@
+
+venv: $(VENV)/.installed-dev
+
+weave: $(VENV)/.installed
+	@$(BIN)/ilmek weave examples/medallion.png --size seccade --quality 25x25/dm --out out/medallion --force
+
+test: lint layers types unit
+
+lint: venv
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+layers: venv
+	$(BIN)/lint-imports
+
+types: venv
+	$(BIN)/mypy
+
+unit: venv
+	$(BIN)/pytest -n 2
+
+bench: venv
+	$(BIN)/python -m benchmarks
+
+docs: venv
+	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
+	@echo "docs/_build/html/index.html"
+
+# Versions move only by this command; the file names no host.
+lock:
+	rm -rf .venv-lock && $(PYTHON) -m venv .venv-lock
+	.venv-lock/bin/python -m pip install --quiet --upgrade '.[dev]'
+	.venv-lock/bin/python -m pip freeze --exclude ilmek --exclude-editable > constraints.txt
+	rm -rf .venv-lock
+
+clean:
+	rm -rf .venv out docs/_build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache

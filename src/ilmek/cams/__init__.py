@@ -1,0 +1,1 @@
+"""Motion laws and cam profiles."""

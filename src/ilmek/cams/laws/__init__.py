@@ -1,0 +1,1 @@
+"""Motion laws, one file each."""

@@ -1,0 +1,1 @@
+"""Carpets: sizes, quality, yarn, colour, chart, yarn bill."""

@@ -1,0 +1,1 @@
+"""Forces from motion."""

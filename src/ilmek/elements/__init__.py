@@ -1,0 +1,1 @@
+"""Machine elements: beams, shafts, motors, materials."""

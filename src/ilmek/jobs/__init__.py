@@ -1,0 +1,1 @@
+"""The main jobs, shared by the command line and the studio."""

@@ -1,0 +1,1 @@
+"""Assur groups in closed form, one file each."""

@@ -1,0 +1,26 @@
+"""What a machine is to everything above it: parameters, a design and a report."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from ilmek.params import Params
+from ilmek.report import Report
+
+
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """A machine of the catalogue.
+
+    name     as typed on the command line: `beat-up`
+    summary  one line for `ilmek machines`
+    params   its declared parameters
+    design   params -> the design (a frozen record of the machine's own)
+    report   design -> Report
+    """
+
+    name: str
+    summary: str
+    params: type[Params]
+    design: Callable[[Any], Any]
+    report: Callable[[Any], Report]

@@ -1,0 +1,1 @@
+"""Plane geometry in complex numbers."""

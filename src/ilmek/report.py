@@ -1,0 +1,218 @@
+"""What a design says: results, checks, tables and figures, as plain data.
+
+A machine returns a `Report`; the command line, the web page and the JSON are made from it and know nothing else of the
+machine. Values are SI; the unit beside a value is the one to show it in.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+
+Json: TypeAlias = float | int | bool | str | Mapping[str, "Json"] | Sequence["Json"] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A judgement: `value` against `limit` [SI, shown in `unit`], and where the limit comes from."""
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    ok: bool
+    source: str
+    relation: str = "<="
+
+
+def at_most(name: str, value: float, limit: float, unit: str, source: str) -> Check:
+    """The check value <= limit; NaN fails."""
+    return Check(name, float(value), float(limit), unit, bool(value <= limit), source, "<=")
+
+
+def at_least(name: str, value: float, limit: float, unit: str, source: str) -> Check:
+    """The check value >= limit; NaN fails."""
+    return Check(name, float(value), float(limit), unit, bool(value >= limit), source, ">=")
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A number (or text, or group of them) that a design answers with; `name` is stable and documented."""
+
+    name: str
+    value: Json
+    unit: str
+    meaning: str
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A table's column: heading and the unit its SI numbers are shown in ("" for text and plain numbers)."""
+
+    heading: str
+    unit: str = ""
+    digits: int = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of SI numbers and texts under columns."""
+
+    name: str
+    title: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[float | int | str, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """A plot's axis: label, and the unit its SI data are shown in."""
+
+    label: str
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """A curve: SI abscissae and ordinates of one length."""
+
+    label: str
+    x: FloatArray
+    y: FloatArray
+    dashed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A named abscissa: a vertical line in a plot."""
+
+    x: float
+    label: str
+
+
+@dataclass(frozen=True, slots=True)
+class Plot:
+    """Curves over one axis."""
+
+    name: str
+    title: str
+    x: Axis
+    y: Axis
+    series: tuple[Series, ...]
+    marks: tuple[Mark, ...] = ()
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """A polyline of a drawing [m]. Its role sets how it is drawn.
+
+    role  outline (thick), link (thick, coloured), ground (hatched grey), path (thin, coloured), construction (thin
+          dashed), dimension (thin with arrows at both ends), yarn
+    """
+
+    points: ComplexArray
+    role: str
+    label: str = ""
+    closed: bool = False
+    filled: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Dot:
+    """A named point of a drawing [m]; role: pin (moving joint), pivot (joint on the ground), point."""
+
+    at: complex
+    label: str
+    role: str = "pin"
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """A drawing to scale: strokes and dots [m], shown in `unit`."""
+
+    name: str
+    title: str
+    strokes: tuple[Stroke, ...]
+    dots: tuple[Dot, ...] = ()
+    unit: str = "mm"
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Lane:
+    """One track of a cyclogram: position of an actuator over the master angle.
+
+    angle     master angle [rad], ascending from 0 to 2 pi     position  0 to 1 of the stroke
+    events    named master angles [rad]
+    """
+
+    name: str
+    actuator: str
+    angle: FloatArray
+    position: FloatArray
+    events: tuple[Mark, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """A cyclogram to draw: lanes over one turn of the master shaft, which takes `period` [s]."""
+
+    name: str
+    title: str
+    period: float
+    lanes: tuple[Lane, ...]
+    note: str = ""
+
+
+Figure: TypeAlias = Plot | Drawing | Timing
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Everything that a design says."""
+
+    machine: str
+    title: str
+    parameters: Mapping[str, Json]
+    results: tuple[Result, ...]
+    checks: tuple[Check, ...]
+    tables: tuple[Table, ...] = ()
+    figures: tuple[Figure, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def failed(self) -> tuple[Check, ...]:
+        """The checks that do not hold."""
+        return tuple(check for check in self.checks if not check.ok)
+
+    def as_json(self) -> dict[str, Any]:
+        """The contract of `--json`: machine, parameters, results, checks, warnings; SI, full precision."""
+        return {
+            "machine": self.machine,
+            "parameters": plain(self.parameters),
+            "results": {result.name: plain(result.value) for result in self.results},
+            "checks": [check_as_json(check) for check in self.checks],
+            "warnings": list(self.warnings),
+        }
+
+
+def check_as_json(check: Check) -> dict[str, Any]:
+    """A check as plain data: name, value, limit, unit (to show it in), ok, source, relation."""
+    return {name: plain(getattr(check, name)) for name in Check.__slots__}
+
+
+def plain(value: Any) -> Any:
+    """The value as JSON knows it: arrays become lists, complex numbers [x, y], numbers that are not finite None."""
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, complex):
+        return [plain(value.real), plain(value.imag)]
+    return None if isinstance(value, float) and not np.isfinite(value) else value

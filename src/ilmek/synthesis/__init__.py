@@ -1,0 +1,1 @@
+"""Dimensions from tasks."""

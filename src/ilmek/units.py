@@ -1,0 +1,155 @@
+"""Units: factors to SI, reading and writing quantities.
+
+Inside ilmek every number is an SI float and every angle is in radians. Units enter and leave at the edges, by the
+functions here or by a factor: `60 * mm`, `170 * deg`, `15.5 * rpm`.
+
+>>> round(parse_quantity("60mm", "m"), 12)
+0.06
+>>> parse_quantity("90deg", "rad") == 90 * deg
+True
+>>> format_quantity(0.06, "mm")
+'60 mm'
+"""
+
+import difflib
+import math
+import re
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ilmek.errors import UnitError
+
+Dimension: TypeAlias = tuple[int, int, int, int]
+"""Exponents of metre, kilogram, second and radian. The radian counts, so that degrees are never taken for lengths."""
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit as written, its factor to SI, and its dimension."""
+
+    symbol: str
+    factor: float
+    dimension: Dimension
+
+
+m, dm, cm, mm, um, km, inch, foot = 1.0, 0.1, 0.01, 1e-3, 1e-6, 1e3, 0.0254, 0.3048
+kg, g, mg, tonne = 1.0, 1e-3, 1e-6, 1e3
+s, ms, minute, hour, day = 1.0, 1e-3, 60.0, 3600.0, 86400.0
+rad, mrad, deg, turn = 1.0, 1e-3, math.pi / 180, 2 * math.pi
+rpm = turn / minute
+N, kN, mN = 1.0, 1e3, 1e-3
+Pa, kPa, MPa, GPa = 1.0, 1e3, 1e6, 1e9
+
+_NONE: Dimension = (0, 0, 0, 0)
+_LENGTH: Dimension = (1, 0, 0, 0)
+_MASS: Dimension = (0, 1, 0, 0)
+_TIME: Dimension = (0, 0, 1, 0)
+_ANGLE: Dimension = (0, 0, 0, 1)
+_FORCE: Dimension = (1, 1, -2, 0)
+_PRESSURE: Dimension = (-1, 1, -2, 0)
+_ENERGY: Dimension = (2, 1, -2, 0)
+_POWER: Dimension = (2, 1, -3, 0)
+
+_UNITS: dict[str, tuple[float, Dimension]] = {
+    "1": (1.0, _NONE),
+    "%": (0.01, _NONE),
+    **{name: (factor, _LENGTH) for name, factor in dict(m=m, dm=dm, cm=cm, mm=mm, um=um, km=km, ft=foot).items()},
+    "in": (inch, _LENGTH),
+    "inch": (inch, _LENGTH),
+    **{name: (factor, _MASS) for name, factor in dict(kg=kg, g=g, mg=mg, t=tonne).items()},
+    **{name: (factor, _TIME) for name, factor in dict(s=s, ms=ms, min=minute, h=hour, d=day, day=day).items()},
+    **{name: (factor, _ANGLE) for name, factor in dict(rad=rad, mrad=mrad, deg=deg, turn=turn, rev=turn).items()},
+    "°": (deg, _ANGLE),
+    "rpm": (rpm, (0, 0, -1, 1)),
+    "Hz": (1.0, (0, 0, -1, 0)),
+    **{name: (factor, _FORCE) for name, factor in dict(N=N, kN=kN, mN=mN).items()},
+    **{name: (factor, _PRESSURE) for name, factor in dict(Pa=Pa, kPa=kPa, MPa=MPa, GPa=GPa).items()},
+    **{name: (factor, _ENERGY) for name, factor in dict(J=1.0, kJ=1e3, Nm=1.0, kWh=3.6e6).items()},
+    **{name: (factor, _POWER) for name, factor in dict(W=1.0, kW=1e3).items()},
+}
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$", re.DOTALL)
+_FACTOR = re.compile(r"([a-zA-Z%°]+|1)(?:\^?(-?\d+))?$")
+_SUPERSCRIPTS = str.maketrans({"²": "2", "³": "3", "·": "*", "µ": "u", "μ": "u"})
+
+
+def parse_unit(text: str) -> Unit:
+    """The unit written as products and quotients of known ones: `kg/m^3`, `N*m`, `rad/s`, `m/s²`; "" is 1.
+
+    Raises UnitError for an unknown unit, naming the nearest known one.
+    """
+    factor, dimension = 1.0, _NONE
+    sign = 1
+    for part in re.split(r"\s*([*/])\s*", text.translate(_SUPERSCRIPTS).strip()) if text.strip() else ():
+        if part in ("*", "/"):
+            sign = 1 if part == "*" else -1
+            continue
+        matched = _FACTOR.match(part)
+        known = _UNITS.get(matched[1]) if matched else None
+        if matched is None or known is None:
+            raise UnitError(f"unknown unit {text!r}", allowed=_allowed_units(part))
+        power = sign * int(matched[2] or 1)
+        factor *= known[0] ** power
+        a, b, c, d = (have + power * add for have, add in zip(dimension, known[1], strict=True))
+        dimension = (a, b, c, d)
+    return Unit(text, factor, dimension)
+
+
+def parse_quantity(text: str, unit: str) -> float:
+    """The SI value of `text`, which must have the dimension of `unit`; a bare number is taken as SI.
+
+    Raises UnitError where the text is no finite number with a unit of that dimension.
+    """
+    matched = _NUMBER.match(text)
+    example = f"write it like {_example(unit)}"
+    if matched is None:
+        raise UnitError(f"{text!r} is not a quantity", allowed=example)
+    wanted = parse_unit(unit)
+    written = parse_unit(matched[2])
+    if matched[2] and written.dimension != wanted.dimension:
+        kind = f"a quantity in {unit}" if unit not in ("", "1") else "a plain number"
+        raise UnitError(f"{text!r} has the wrong unit", allowed=f"{kind} is wanted", do=example)
+    value = float(matched[1]) * (written.factor if matched[2] else 1.0)
+    if not math.isfinite(value):
+        raise UnitError(f"{text!r} is too large a number", allowed=example)
+    return value
+
+
+def from_si(value: float, unit: str) -> float:
+    """The SI value expressed in `unit`."""
+    return value / parse_unit(unit).factor
+
+
+def format_quantity(value: float, unit: str, digits: int = 4) -> str:
+    """The SI value written in `unit` with `digits` significant digits, without trailing zeros.
+
+    >>> format_quantity(0.0597375, "mm")
+    '59.74 mm'
+    """
+    number = format_number(from_si(value, unit), digits)
+    return number if unit in ("", "1") else f"{number} {unit}" if unit not in ("°", "%") else f"{number}{unit}"
+
+
+def format_number(value: float, digits: int = 4) -> str:
+    """A number with `digits` significant digits, plain between 1e-4 and 1e7, else in powers of ten.
+
+    >>> format_number(135000.0), format_number(0.00002), format_number(float("inf"))
+    ('135000', '2e-05', 'inf')
+    """
+    if value == 0 or not math.isfinite(value):
+        return "0" if value == 0 else str(value)
+    if not 1e-4 <= abs(value) < 1e7:
+        return f"{value:.{digits}g}"
+    decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
+    plain = f"{value:.{decimals}f}"
+    return plain.rstrip("0").rstrip(".") if "." in plain else plain
+
+
+def _example(unit: str) -> str:
+    return f"60{unit}" if unit not in ("", "1") else "60"
+
+
+def _allowed_units(part: str) -> str:
+    near = difflib.get_close_matches(part, _UNITS, n=1, cutoff=0.5)
+    hint = f"did you mean {near[0]!r}? " if near else ""
+    return f"{hint}known units: {' '.join(name for name in _UNITS if name != '1')}"

@@ -1,0 +1,51 @@
+"""Declared parameters: bounds, kinds, unknown names and the slips they guess."""
+
+import math
+from dataclasses import dataclass
+
+import pytest
+
+from ilmek.errors import ParameterError
+from ilmek.params import Params, declared, param
+from ilmek.units import deg, mm
+
+
+@dataclass(frozen=True, slots=True)
+class Sample(Params):
+    swing: float = param(30 * deg, unit="deg", above=0.0, below=math.pi, doc="swing")
+    lift: float = param(60 * mm, unit="mm", above=0.0, at_most=1.0, doc="lift")
+    warps: int = param(600, at_least=2, doc="warps")
+    law: str = param("harmonic", choices=("harmonic", "cycloidal"), doc="law")
+    both: bool = param(False, doc="both")
+    crank: float | None = param(None, unit="mm", above=0.0, doc="crank")
+
+
+def test_reads_units_and_keeps_defaults() -> None:
+    sample = Sample.read({"swing": "170deg", "warps": "300", "both": "yes", "crank": "59.7mm"})
+    assert sample.swing == pytest.approx(170 * deg)
+    assert (sample.warps, sample.both, sample.lift) == (300, True, 60 * mm)
+    assert sample.crank == pytest.approx(0.0597)
+    assert [p.name for p in declared(Sample)] == ["swing", "lift", "warps", "law", "both", "crank"]
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"swnig": "30deg"}, "did you mean swing"),
+        ({"swing": "200deg"}, "below 180 deg"),
+        ({"swing": "30"}, "did you mean 30deg"),
+        ({"lift": "60"}, "did you mean 60mm"),
+        ({"lift": "0mm"}, "above 0 mm"),
+        ({"lift": "60kg"}, "wrong unit"),
+        ({"lift": float("nan")}, "not a number"),
+        ({"warps": "3.5"}, "whole number"),
+        ({"warps": "1"}, "at least 2"),
+        ({"law": "harmonik"}, "did you mean harmonic"),
+        ({"both": "maybe"}, "neither true nor false"),
+        ({"crank": "-1mm"}, "above 0 mm"),
+        ({"swing": "none"}, "not a quantity"),
+    ],
+)
+def test_says_what_is_wrong(settings: dict[str, str], said: str) -> None:
+    with pytest.raises(ParameterError, match=said):
+        Sample.read(settings)
