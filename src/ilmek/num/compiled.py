@@ -11,7 +11,7 @@ import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numba
 
@@ -22,7 +22,7 @@ def compiled(kernel: F) -> F:
     """`kernel` compiled on its first call: division by zero gives inf, NaN tests hold, multiply-adds may be fused."""
     # Under pytest a type checker is wrapped around every function; the compiler wants the bare one.
     bare = inspect.unwrap(kernel)
-    return numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(bare)  # type: ignore[no-any-return]
+    return cast(F, numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(bare))
 
 
 def _sources_key() -> str:
@@ -49,4 +49,4 @@ def _cache_folder() -> Path:
 
 
 if "NUMBA_CACHE_DIR" not in os.environ:
-    numba.config.CACHE_DIR = str(_cache_folder())
+    vars(numba.config)["CACHE_DIR"] = str(_cache_folder())
