@@ -1,0 +1,122 @@
+"""Sphinx extension: the reference pages, generated from the code so that they cannot drift from it.
+
+Writes docs/reference/generated/: one page for the machines (parameters and results), one for the command line, one for
+each package (signatures and docstrings, shown as they stand in the source).
+"""
+
+import ast
+from pathlib import Path
+from typing import Any
+
+import click
+from click.testing import CliRunner
+
+from ilmek.cli import main
+from ilmek.machines import MACHINES
+from ilmek.machines.machine import Machine
+from ilmek.params import Parameter, declared
+from ilmek.units import format_quantity
+
+SOURCE = Path(__file__).parents[2] / "src" / "ilmek"
+OUT = Path(__file__).parents[1] / "reference" / "generated"
+PACKAGES = (
+    "units", "errors", "arrays", "params", "report", "num", "plane", "linkage", "carpet", "synthesis", "dynamics",
+    "cams", "elements", "timing", "loom", "machines", "io", "viz", "jobs",
+)  # fmt: skip
+
+
+def cell(text: object) -> str:
+    """A table cell: one line, bars escaped."""
+    return str(text).replace("|", "\\|").replace("\n", " ").strip()
+
+
+def table(header: tuple[str, ...], rows: list[tuple[object, ...]]) -> str:
+    """A Markdown table."""
+    lines = [header, ("---",) * len(header), *rows]
+    return "\n".join("| " + " | ".join(cell(item) for item in line) + " |" for line in lines)
+
+
+def default(parameter: Parameter) -> str:
+    """A parameter's default in its unit; a dash where it is derived."""
+    value = parameter.default
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return value if isinstance(value, str) else format_quantity(value, parameter.unit, digits=6)
+
+
+def machine_section(machine: Machine) -> str:
+    """One machine: its parameters and, from a run of its defaults, its results and checks."""
+    parameters = [
+        (f"`{p.name}`", p.symbol or "", default(p), p.unit or "–", p.allowed().removeprefix("allowed: "), p.doc)
+        for p in declared(machine.params)
+    ]
+    report = machine.report(machine.design(machine.params()))
+    results = [(f"`{r.name}`", r.unit or "–", r.meaning) for r in report.results]
+    checks = [(c.name, c.relation, format_quantity(c.limit, c.unit), c.source) for c in report.checks]
+    return "\n\n".join(
+        (
+            f"## {machine.name}",
+            machine.summary,
+            table(("parameter", "symbol", "default", "unit", "allowed", "meaning"), parameters),
+            "Results (JSON in SI and radians; the unit is the one a report shows):",
+            table(("result", "unit", "meaning"), results),
+            "Checks, with the limits of the default parameters:",
+            table(("check", "", "limit", "source"), checks),
+        )
+    )
+
+
+def command_section(path: tuple[str, ...]) -> str:
+    """The help of one command, as the terminal shows it."""
+    shown = CliRunner().invoke(main, [*path, "--help"], prog_name="ilmek", terminal_width=100)
+    return f"## ilmek {' '.join(path)}\n\n```text\n{shown.output.strip()}\n```"
+
+
+def signature(node: ast.FunctionDef | ast.ClassDef) -> str:
+    """The definition's first line, with annotations; a dataclass shows its fields."""
+    if isinstance(node, ast.FunctionDef):
+        returns = f" -> {ast.unparse(node.returns)}" if node.returns else ""
+        return f"{node.name}({ast.unparse(node.args)}){returns}"
+    fields = [ast.unparse(item) for item in node.body if isinstance(item, ast.AnnAssign)]
+    return f"class {node.name}" + "".join(f"\n    {field}" for field in fields)
+
+
+def module_section(path: Path) -> str:
+    """One module: its docstring and every public definition."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    name = ".".join(path.relative_to(SOURCE.parent).with_suffix("").parts).removesuffix(".__init__")
+    parts = [f"## {name}", f"```text\n{ast.get_docstring(tree)}\n```"]
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_"):
+            body = f"{signature(node)}\n\n{ast.get_docstring(node) or ''}".rstrip()
+            parts.append(f"### {node.name}\n\n```text\n{body}\n```")
+    return "\n\n".join(parts)
+
+
+def package_page(package: str) -> str:
+    """All modules of a package on one page."""
+    folder = SOURCE / package
+    paths = sorted(folder.rglob("*.py")) if folder.is_dir() else [SOURCE / f"{package}.py"]
+    return "\n\n".join((f"# ilmek.{package}", *(module_section(path) for path in paths)))
+
+
+def write_pages(_app: Any) -> None:
+    """Write every generated page."""
+    OUT.mkdir(parents=True, exist_ok=True)
+    pages = {
+        "machines": "\n\n".join(("# Machines", *(machine_section(machine) for machine in MACHINES.values()))),
+        "command-line": "\n\n".join(
+            ("# Command line", command_section(()), *(command_section((name,)) for name in main.list_commands(click.Context(main))))
+        ),
+        **{f"api-{package}": package_page(package) for package in PACKAGES},
+    }  # fmt: skip
+    for name, text in pages.items():
+        (OUT / f"{name}.md").write_text(text + "\n", encoding="utf-8")
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Register with Sphinx."""
+    app.connect("builder-inited", write_pages)
+    return {"parallel_read_safe": True}
