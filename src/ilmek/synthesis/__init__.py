@@ -1,1 +1,1 @@
-"""Dimensions from tasks."""
+"""From a task to link lengths: closed-form synthesis of linkages."""

@@ -1,0 +1,231 @@
+"""Crank-rockers with a given swing of the rocker and a given turn of the crank between the dead centres.
+
+The family of Khare and Dave (Mechanism and Machine Theory 14 (1979) 319), as used for the beat-up of handmade carpet
+looms by Topalbekiroglu and Celik, "Kinematic analysis of beat-up mechanism used for handmade carpet looms", here
+called [paper]. Everything is a ratio to the ground link, whose length is 1.
+
+    ground D = 0, A = 1     crank DC = a     coupler CB = b     rocker AB = c, B above the ground line (branch +1)
+    psi   swing of the rocker
+    phi   turn of the crank, counter-clockwise, from the extended dead centre (D, C, B in line, |DB| = a + b) to the
+          folded one (|DB| = b - a); the rocker turns by +psi meanwhile
+    beta  crank angle of the extended dead centre: where the beater beats
+
+    (b - a) e^{i(beta + phi - pi)} - 1 = [(a + b) e^{i beta} - 1] e^{i psi}
+
+One family has three names for its members, each with its own function here: `beta`, the coupler `b`, and the ratio
+`a / b`. The first fails at phi = pi + psi, where beta is no longer free; the others hold for every phi.
+
+All functions are formulas on numbers or arrays of any shape and check nothing: outside the family they give NaN or a
+linkage that is no crank-rocker. `crank_rocker_selection.member` checks, chooses and explains.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, RealField
+from ilmek.units import turn
+
+
+class Links(NamedTuple):
+    """Link lengths of a four-bar in units of its ground link."""
+
+    crank: RealField
+    coupler: RealField
+    rocker: RealField
+
+
+class Limits(NamedTuple):
+    """Ends of an open interval."""
+
+    low: RealField
+    high: RealField
+
+
+class DeadCentres(NamedTuple):
+    """What a crank-rocker does between its dead centres [rad]."""
+
+    swing: RealField
+    rotation: RealField
+    beta: RealField
+
+
+def links_of_beta(swing: RealField, rotation: RealField, beta: RealField) -> Links:
+    """Links from the crank angle of the extended dead centre.
+
+        a = -sin(psi/2) cos(phi/2 + beta) / sin((phi-psi)/2)      b = sin(psi/2) sin(phi/2 + beta) / cos((phi-psi)/2)
+        c^2 = (a + b - cos beta)^2 + sin^2 beta
+
+    Fails (0/0) at phi = pi + psi. [paper, Eqs 1 to 3; the last is the sum of squares that Eq 3 multiplies out]
+
+    >>> [round(float(link), 4) for link in links_of_beta(np.radians(30), np.pi, np.radians(48))]
+    [0.1991, 0.6691, 0.7694]
+    """
+    half, toggle = swing / 2, rotation / 2 + beta
+    crank = -np.sin(half) * np.cos(toggle) / np.sin(rotation / 2 - half)
+    coupler = np.sin(half) * np.sin(toggle) / np.cos(rotation / 2 - half)
+    return Links(crank, coupler, _rocker(crank, coupler, beta))
+
+
+def links_of_ratio(swing: RealField, rotation: RealField, ratio: RealField) -> Links:
+    """Links from the ratio crank / coupler, for every phi.
+
+        b = sin(psi/2) / sqrt(ratio^2 sin^2((phi-psi)/2) + cos^2((phi-psi)/2)),     a = ratio b
+
+    Follows from `links_of_beta` by eliminating beta with sin^2 + cos^2 = 1. [derived; at phi = pi + psi Eqs 11 to 13]
+    """
+    half = swing / 2
+    coupler = np.sin(half) / np.hypot(ratio * np.sin(rotation / 2 - half), np.cos(rotation / 2 - half))
+    crank = ratio * coupler
+    return Links(crank, coupler, _rocker(crank, coupler, beta_of_ratio(swing, rotation, ratio)))
+
+
+def links_of_coupler(swing: RealField, rotation: RealField, coupler: RealField) -> Links:
+    """Links from the length of the coupler, for every phi.
+
+        a = sqrt(sin^2(psi/2) - b^2 cos^2((phi-psi)/2)) / sin((phi-psi)/2)
+
+    [derived as in `links_of_ratio`]
+    """
+    half = swing / 2
+    crank = np.sqrt(np.sin(half) ** 2 - (coupler * np.cos(rotation / 2 - half)) ** 2) / np.sin(rotation / 2 - half)
+    return Links(crank, coupler, _rocker(crank, coupler, beta_of_ratio(swing, rotation, crank / coupler)))
+
+
+def beta_of_ratio(swing: RealField, rotation: RealField, ratio: RealField) -> RealField:
+    """Crank angle of the extended dead centre [rad] of the member with the given ratio crank / coupler.
+
+        phi/2 + beta = arg(-ratio sin((phi-psi)/2) + i cos((phi-psi)/2))  in (0, 2 pi)
+
+    [the quotient of the two Eqs 1; at phi = pi + psi Eq 10, beta = pi - phi/2, whatever the ratio]
+    """
+    lag = rotation / 2 - swing / 2
+    return np.mod(np.arctan2(np.cos(lag), -ratio * np.sin(lag)), turn) - rotation / 2
+
+
+def _rocker(crank: RealField, coupler: RealField, beta: RealField) -> RealField:
+    return np.hypot(crank + coupler - np.cos(beta), np.sin(beta))
+
+
+def rotation_limits(swing: RealField) -> Limits:
+    """Turns of the crank between dead centres that crank-rockers of this swing can have [rad], ends excluded.
+
+    pi/2 + psi/2 < phi < 3 pi/2 + psi/2     [derived: there `coupler_limits` opens]
+    """
+    return Limits(np.pi / 2 + swing / 2, 3 * np.pi / 2 + swing / 2)
+
+
+def beta_limits(swing: RealField, rotation: RealField) -> Limits:
+    """Crank angles of the extended dead centre that give crank-rockers [rad], ends (change points) excluded.
+
+    phi <= pi              pi - phi .. pi/2 - psi/2       [paper, Eq 8]
+    pi < phi < pi + psi           0 .. pi/2 - psi/2       [paper, Eq 6, which prints it for every phi > pi]
+    phi = pi + psi         only pi - phi/2                [paper, Eq 10]: the interval is a point
+    phi > pi + psi    pi/2 - psi/2 .. 2 pi - phi          [not in the paper]
+    """
+    mirror = np.pi / 2 - swing / 2
+    toggle = np.where(
+        rotation <= np.pi, np.pi - rotation, np.where(rotation < np.pi + swing, 0.0, 2 * np.pi - rotation)
+    )
+    return Limits(np.minimum(mirror, toggle)[()], np.maximum(mirror, toggle)[()])
+
+
+def coupler_limits(swing: RealField, rotation: RealField) -> Limits:
+    """Couplers that give crank-rockers, in ground links, ends excluded; one rule for every phi.
+
+    sin(psi/2) < b < sin(psi/2) sin(phi/2) / |cos((phi-psi)/2)|
+
+    The upper end is far away at phi = pi + psi, where the coupler is free. [derived from `beta_limits`]
+    """
+    low = np.sin(swing / 2)
+    return Limits(low, low * np.sin(rotation / 2) / np.abs(np.cos(rotation / 2 - swing / 2)))
+
+
+def ratio_limits(swing: RealField, rotation: RealField) -> Limits:
+    """Ratios crank / coupler that crank-rockers can have, ends excluded: |cot(phi/2) cot((phi-psi)/2)| < a/b < 1.
+
+    [derived from `coupler_limits`; the ratio falls as the coupler grows]
+    """
+    low = np.abs(np.cos(rotation / 2) * np.cos(rotation / 2 - swing / 2))
+    return Limits(low / np.abs(np.sin(rotation / 2) * np.sin(rotation / 2 - swing / 2)), np.ones_like(low)[()])
+
+
+def transmission_angles(links: Links) -> tuple[RealField, RealField]:
+    """Angle between coupler and rocker [rad] with the crank on the ground line: at crank angle 0, at crank angle pi.
+
+        tan^2(mu/2) = (x^2 - (b-c)^2) / ((b+c)^2 - x^2),    x = 1 -+ a
+
+    The least and the greatest of the turn. Half angles, because arccos loses digits near a toggle.
+    [law of cosines in triangle CBA; paper, Eq 7 for x = 1 - a]
+    """
+    crank, coupler, rocker = links
+
+    def angle(x: RealField) -> RealField:
+        open_, shut = (coupler + rocker - x) * (coupler + rocker + x), (x - coupler + rocker) * (x + coupler - rocker)
+        return 2 * np.arctan2(np.sqrt(shut), np.sqrt(open_))
+
+    return angle(1 - crank), angle(1 + crank)
+
+
+def transmission_angle_min(links: Links) -> RealField:
+    """Least acute angle between coupler and rocker over the turn [rad]; NaN where the crank cannot turn.
+
+        mu_min = min(mu(crank at 0), pi - mu(crank at pi))
+
+    The first governs for phi >= pi [paper, Eqs 7, 14, 18], the second for phi <= pi:
+    cos mu = ((1+a)^2 - b^2 - c^2) / (2bc). The paper's Eq 9 prints that numerator with its sign reversed, which gives
+    the obtuse mu_max (154.92 deg for phi = 160 deg, beta = 70 deg); its Table 1 uses the right one (25.08 deg).
+    """
+    at_zero, at_half_turn = transmission_angles(links)
+    return np.minimum(at_zero, np.pi - at_half_turn)
+
+
+def best_ratio(swing: RealField, rotation: RealField) -> RealField:
+    """Ratio crank / coupler of the member with the greatest least transmission angle; 0 for phi = pi.
+
+        s^4 S^2 x^3 + 2 s^2 c^2 S^2 x^2 - s^2 c^2 S^2 x - c^2 C^2 = 0,     x = (a/b)^2,
+        s, c = sin, cos(phi/2),     S, C = sin, cos((phi-psi)/2)
+
+    The cubic of Freudenstein and Primrose, Q^3 + 2 Q^2 - t^2 Q - (t^2/u^2)(1 + t^2) = 0 with t = tan(phi/2),
+    u = tan((phi-psi)/2), (b/a)^2 = t^2/Q, freed of its poles at phi = pi and phi = pi + psi. There it gives the
+    paper's member b = sqrt(a(1+a)) [paper, Eq 12]. One root is positive; Newton from 1 falls on it without
+    overshooting, because the cubic is convex and, where crank-rockers exist, positive there.
+    """
+    s, c = np.sin(rotation / 2) ** 2, np.cos(rotation / 2) ** 2
+    S, C = np.sin(rotation / 2 - swing / 2) ** 2, np.cos(rotation / 2 - swing / 2) ** 2
+    a3, a1, a0 = s * s * S, s * c * S, c * C
+    x = np.ones_like(s + S)
+    for _ in range(64):
+        x = x - (((a3 * x + 2 * a1) * x - a1) * x - a0) / ((3 * a3 * x + 4 * a1) * x - a1)
+    ratio: RealField = np.sqrt(np.maximum(x, 0.0))[()]
+    return ratio
+
+
+def grashof_margin(links: Links) -> RealField:
+    """Sum of the two middle links minus the shortest and the longest, in ground links; positive: Grashof, strictly.
+
+    [paper, criterion iii]
+    """
+    crank, coupler, rocker = links
+    lengths = np.stack(np.broadcast_arrays(np.ones_like(crank), crank, coupler, rocker))
+    margin: RealField = np.sum(lengths, axis=0) - 2 * (np.min(lengths, axis=0) + np.max(lengths, axis=0))
+    return margin
+
+
+def dead_centres(links: Links) -> DeadCentres:
+    """Swing, turn of the crank and beta of given links [rad]: the way back. NaN where a dead centre does not close.
+
+    B stands at distance a + b from D in the extended dead centre and at |b - a| in the folded one, above the ground
+    line at distance c from A.     [paper, Fig 3; derived]
+    """
+    crank, coupler, _ = links
+    extended, folded = _above(links, crank + coupler), _above(links, np.abs(coupler - crank))
+    beta = np.angle(extended)
+    rotation = np.mod(np.angle(np.where(coupler >= crank, -folded, folded)) - beta, turn)
+    return DeadCentres(np.angle((folded - 1) / (extended - 1)), rotation, beta)
+
+
+def _above(links: Links, distance: RealField) -> ComplexField:
+    """The point above the ground line at the given distance from D and on the rocker's circle about A."""
+    along = 0.5 * (distance**2 + 1 - links.rocker**2)
+    return along + 1j * np.sqrt(distance**2 - along**2)
