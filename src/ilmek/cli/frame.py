@@ -1,0 +1,151 @@
+"""The frame of every command: lazy loading, and the one place where an error becomes one line.
+
+    exit 0    done
+    exit 1    the reader of the output went away
+    exit 2    bad input, or an output that cannot be written: one line on the error stream, nothing written
+    exit 130  Ctrl-C (143: terminated): nothing half-written
+
+Errors of ours (IlmekError) and click's are shown alike; a defect of the program keeps its traceback.
+"""
+
+import contextlib
+import difflib
+import importlib
+import os
+import signal
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from types import FrameType
+from typing import Any, NoReturn, cast
+
+import click
+
+from ilmek.errors import IlmekError
+
+
+class Frame(click.Group):
+    """A group whose commands live in modules of their own, loaded when needed.
+
+    modules  command name -> (module that holds the command under the name `command`, one line of help)
+    """
+
+    def __init__(self, *, modules: Mapping[str, tuple[str, str]], **settings: Any) -> None:
+        super().__init__(invoke_without_command=True, callback=_help_alone, **settings)
+        self.modules = modules
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
+        """The commands, in the order of use."""
+        return list(self.modules)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
+        """The command, its module loaded; None where there is none."""
+        if cmd_name not in self.modules:
+            return None
+        return cast(click.Command, importlib.import_module(self.modules[cmd_name][0]).command)
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command named first; an unknown one is a usage error that names the nearest."""
+        name = args[0]
+        command = self.get_command(ctx, name)
+        if command is None:
+            near = difflib.get_close_matches(name, self.modules, n=1)
+            hint = f"did you mean {near[0]!r}?" if near else f"commands: {', '.join(self.modules)}"
+            raise click.UsageError(f"no such command {name!r}; {hint}", ctx)
+        return name, command, args[1:]
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's
+        """The list of commands, without loading one."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, line) for name, (_, line) in self.modules.items()])
+
+    def main(
+        self,
+        args: Sequence[str] | None = None,
+        prog_name: str | None = None,
+        complete_var: str | None = None,
+        standalone_mode: bool = True,
+        windows_expand_args: bool = True,
+        **extra: Any,
+    ) -> Any:
+        """Run; standalone, every error a user can mend becomes one line and an exit code."""
+        settings = dict(extra, complete_var=complete_var, windows_expand_args=windows_expand_args)
+        run = partial(super().main, args, prog_name or "ilmek", standalone_mode=False, **settings)
+        if not standalone_mode:
+            return run()
+        _write_any_character()
+        with _terminable():
+            try:
+                status: object = run()
+            except (KeyboardInterrupt, click.Abort):
+                _leave("interrupted; nothing was written", 130)
+            except click.ClickException as error:
+                _leave(_usage(error), 2)
+            except IlmekError as error:
+                _leave(str(error), 2)
+            except MemoryError:
+                _leave("out of memory; try a smaller picture, size or quality", 2)
+            except OSError as error:
+                _leave(f"{error.filename or 'a file'} cannot be read or written: {error.strerror or error}", 2)
+        sys.exit(status if isinstance(status, int) else 0)
+
+
+def _help_alone() -> None:
+    """The bare program shows its help."""
+    context = click.get_current_context()
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())
+
+
+def _usage(error: click.ClickException) -> str:
+    """A usage error in one line, with where to read on."""
+    said = error.format_message().rstrip(".")
+    context = getattr(error, "ctx", None)
+    return f"{said}; see '{context.command_path} --help'" if context is not None else said
+
+
+def _leave(message: str, status: int) -> NoReturn:
+    """Say one line on the error stream and end with `status`; a file name cannot smuggle in lines or escapes."""
+    line = "".join(letter if letter.isprintable() else " " for letter in message)
+    with contextlib.suppress(OSError):
+        click.echo(f"ilmek: {' '.join(line.split())}", err=True)
+    sys.exit(status)
+
+
+def _write_any_character() -> None:
+    """A terminal that has no × or ° shows a question mark instead of failing."""
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(errors="replace")
+
+
+def _terminated(number: int, _frame: FrameType | None) -> NoReturn:
+    raise SystemExit(128 + number)
+
+
+@contextlib.contextmanager
+def _terminable() -> Iterator[None]:
+    """While inside, SIGTERM and SIGHUP unwind the stack, so that temporary files are removed."""
+    numbers = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    try:
+        before = {n: signal.signal(n, _terminated) for n in numbers if signal.getsignal(n) is signal.SIG_DFL}
+    except ValueError:  # not the main thread: the program around us handles signals
+        before = {}
+    try:
+        yield
+        _flush()
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _flush() -> None:
+    """Write out what is buffered; where the reader has gone, send the rest nowhere and end with 1."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)

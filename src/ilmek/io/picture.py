@@ -1,0 +1,194 @@
+"""Pictures in: any that Pillow opens safely, as 8-bit sRGB, with a note of everything that was done to it.
+
+Formats that would start another program (EPS, WMF) or are no pictures to weave (HDF5, GRIB, BUFR, MPEG) are left out.
+"""
+
+import difflib
+import io
+import re
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+from PIL import Image, ImageCms, ImageOps, UnidentifiedImageError
+
+from ilmek.arrays import Rgb
+from ilmek.errors import PictureError
+
+FORMATS = (
+    "PNG", "JPEG", "MPO", "TIFF", "BMP", "DIB", "GIF", "WEBP", "AVIF", "JPEG2000", "PPM", "TGA", "PCX", "DCX", "ICO",
+    "ICNS", "QOI", "PSD", "SGI", "SUN", "XBM", "XPM", "MSP", "IM", "SPIDER", "DDS", "BLP",
+)  # fmt: skip
+"""The formats that are read, by Pillow's names."""
+
+SMALLEST = 8
+"""Least width and height [pixels]."""
+
+LARGEST = 150_000_000
+"""Most pixels; more is taken for a decompression bomb."""
+
+_SIXTEEN_BITS = re.compile(r"'(?:RGB[AX]?|LA|CMYK);16[BLN]'")  # in Pillow's description of the file's pixels
+_ORIENTATION = 0x0112
+_RGB_PROFILE = ImageCms.createProfile("sRGB")
+_ICC_MODES = {"RGB": "RGB", "GRAY": "L", "CMYK": "CMYK", "Lab": "LAB"}
+_Step: TypeAlias = tuple[Image.Image, tuple[str, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A picture as sRGB, 8 bits a channel, row 0 on top; notes say what was done to the file's pixels."""
+
+    rgb: Rgb
+    notes: tuple[str, ...] = ()
+
+
+def read_picture(path: Path) -> Picture:
+    """The picture in a file.
+
+    The first frame is taken, EXIF rotation applied, an embedded colour profile converted to sRGB, 16 bits brought to 8,
+    CMYK and grey brought to RGB, transparency laid on white; each with a note. Raises PictureError where there is no
+    picture of at least 8 x 8 pixels and at most 150 megapixels.
+    """
+    data = _read_bytes(path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # Pillow's warnings are covered by the notes and by the limit of our own
+        try:
+            with Image.open(io.BytesIO(data)) as opened:
+                if opened.format not in FORMATS:
+                    raise PictureError(f"{path} is of the format {opened.format}, which is not read", do=_USE)
+                _check_size(path, opened.width, opened.height)
+                return _decoded(opened)
+        except PictureError:
+            raise
+        except UnidentifiedImageError:
+            raise PictureError(f"{path} is not a picture that can be read", do=_USE) from None
+        except Image.DecompressionBombError:
+            raise PictureError(f"{path} is too large a picture", allowed=_LIMIT, do="scale it down") from None
+        except Exception as error:
+            # A decoder fed with a damaged file raises whatever it trips over.
+            raise PictureError(f"{path} is damaged or cut off ({_words(error)})", do="save or copy it again") from None
+
+
+_USE = "use a PNG, JPEG, TIFF, WebP, BMP or GIF file"
+_LIMIT = f"at most {LARGEST // 1_000_000} megapixels"
+
+
+def _read_bytes(path: Path) -> bytes:
+    try:
+        if not path.is_file():
+            raise PictureError(_not_a_file(path), do="give the path of a picture")
+        data = path.read_bytes()
+    except (OSError, ValueError) as error:
+        raise PictureError(f"{path} cannot be read ({_words(error)})") from None
+    if not data:
+        raise PictureError(f"{path} is empty", do=_USE)
+    return data
+
+
+def _not_a_file(path: Path) -> str:
+    if path.is_dir():
+        return f"{path} is a folder, not a picture"
+    if path.exists():
+        return f"{path} is not a file"
+    folder = path.parent
+    near = difflib.get_close_matches(path.name, [p.name for p in folder.iterdir()], 1) if folder.is_dir() else []
+    return f"{path} does not exist" + (f" (did you mean {folder / near[0]}?)" if near else "")
+
+
+def _words(error: Exception) -> str:
+    """What a library said, in few words."""
+    said = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    return said.split("\n")[0][:120] or type(error).__name__
+
+
+def _check_size(path: Path, width: int, height: int) -> None:
+    size = f"{path} is {width} x {height} pixels"
+    if width < SMALLEST or height < SMALLEST:
+        raise PictureError(size, allowed=f"at least {SMALLEST} x {SMALLEST}", do="use a larger picture")
+    if width * height > LARGEST:
+        raise PictureError(size, allowed=_LIMIT, do="scale it down")
+
+
+def _decoded(opened: Image.Image) -> Picture:
+    image, notes = _first_frame(opened)
+    for step in (_upright, _eight_bits, _on_white_in_srgb):
+        image, said = step(image)
+        notes += said
+    return Picture(np.array(image, dtype=np.uint8), notes)
+
+
+def _first_frame(image: Image.Image) -> _Step:
+    frames = getattr(image, "n_frames", 1)
+    deep = _SIXTEEN_BITS.search(str(getattr(image, "tile", "")))
+    notes = (f"the first of {frames} frames is used",) if frames > 1 else ()
+    if frames > 1:
+        image.seek(0)
+    image.load()
+    return image, (*notes, *(("16 bits a channel brought to 8",) if deep else ()))
+
+
+def _upright(image: Image.Image) -> _Step:
+    if image.getexif().get(_ORIENTATION, 1) not in range(2, 9):
+        return image, ()
+    return ImageOps.exif_transpose(image), ("turned upright as its EXIF data say",)
+
+
+def _eight_bits(image: Image.Image) -> _Step:
+    """Integer greys of 16 bits and floating-point greys, as 8 bits."""
+    if not image.mode.startswith(("I", "F")):
+        return image, ()
+    grey = np.asarray(image, dtype=np.float64)
+    low, high = (0.0, 65535.0) if image.mode != "F" and grey.min() >= 0 and grey.max() <= 65535 else _range(grey)
+    eight = np.rint(np.nan_to_num((grey - low) * (255 / (high - low)), nan=0.0)).clip(0, 255).astype(np.uint8)
+    brought = Image.fromarray(eight, "L")
+    brought.info = image.info
+    whole = (low, high) == (0.0, 65535.0)
+    return brought, ("16 bits brought to 8" if whole else "grey scaled from darkest to lightest",)
+
+
+def _range(grey: np.ndarray) -> tuple[float, float]:
+    finite = grey[np.isfinite(grey)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    return low, high if high > low else low + 1.0
+
+
+def _on_white_in_srgb(image: Image.Image) -> _Step:
+    """Colours as sRGB by the embedded profile or the mode's own rule; what is transparent, on white."""
+    cover = _cover(image)
+    flat = image.convert("RGBA").convert("RGB") if image.mode in ("P", "PA", "RGBa", "La", "LA", "RGBA") else image
+    flat, notes = _in_srgb(flat, image.info.get("icc_profile"))
+    if cover is None:
+        return flat, notes
+    white = Image.new("RGB", flat.size, "white")
+    white.paste(flat, mask=cover)
+    return white, (*notes, "transparent parts laid on white")
+
+
+def _cover(image: Image.Image) -> Image.Image | None:
+    """The alpha channel, where it hides something."""
+    if not image.has_transparency_data:
+        return None
+    alpha = image.convert("RGBA").getchannel("A")
+    return alpha if alpha.getextrema()[0] != 255 else None
+
+
+def _in_srgb(image: Image.Image, profile: bytes | None) -> _Step:
+    mode = image.mode
+    if profile:
+        try:
+            embedded = ImageCms.ImageCmsProfile(io.BytesIO(profile))
+            if mode == _ICC_MODES.get(embedded.profile.xcolor_space.strip()):
+                name = ImageCms.getProfileDescription(embedded).strip()
+                converted = ImageCms.profileToProfile(image, embedded, _RGB_PROFILE, outputMode="RGB")
+                assert converted is not None
+                return converted, () if name.startswith("sRGB") else (f"colours converted from {name!r} to sRGB",)
+        except (ImageCms.PyCMSError, OSError, ValueError, TypeError):
+            return image.convert("RGB"), ("its colour profile is damaged and left aside",)
+    if mode == "LAB":
+        lab = ImageCms.createProfile("LAB")
+        converted = ImageCms.profileToProfile(image, lab, _RGB_PROFILE, outputMode="RGB")
+        assert converted is not None
+        return converted, ("CIELAB brought to sRGB",)
+    return image.convert("RGB"), ("CMYK without a colour profile brought to sRGB",) if mode == "CMYK" else ()
