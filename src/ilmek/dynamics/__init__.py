@@ -1,1 +1,1 @@
-"""Forces from motion."""
+"""Masses, loads and the forces that a motion needs."""
