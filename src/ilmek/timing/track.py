@@ -1,0 +1,209 @@
+"""A track of a cyclogram: what one actuator does while the master shaft turns once.
+
+    position(q) = begin + (finish - begin) s(u),      u = (q - start)/(end - start)            inside a segment
+    position(q) = where the last segment ended                                                 between them: a dwell
+
+Over the master angle q the derivatives are h/beta v(u) and h/beta^2 a(u), with h = finish - begin and
+beta = end - start; over time they are multiplied by w and w^2, w = 2 pi / period.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias, runtime_checkable
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.errors import ParameterError
+from ilmek.units import deg, format_quantity, turn
+
+Curve: TypeAlias = Callable[[RealField], RealField]
+_SAME = 1e-9
+
+
+@runtime_checkable
+class MotionLaw(Protocol):
+    """A rise of 1 in a time of 1: s, v, a on u in [0, 1] and the largest |v| and |a|. `ilmek.cams.laws.Law` is one."""
+
+    @property
+    def name(self) -> str:
+        """The law's name, by which files keep it."""
+
+    @property
+    def s(self) -> Curve:
+        """Displacement: from 0 at u = 0 to 1 at u = 1."""
+
+    @property
+    def v(self) -> Curve:
+        """First derivative."""
+
+    @property
+    def a(self) -> Curve:
+        """Second derivative."""
+
+    @property
+    def velocity_peak(self) -> float:
+        """Largest |v|."""
+
+    @property
+    def acceleration_peak(self) -> float:
+        """Largest |a|."""
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """A motion from `begin` to `finish` [SI] while the master turns from `start` to `end` [rad], by a law."""
+
+    name: str
+    start: float
+    end: float
+    begin: float
+    finish: float
+    law: MotionLaw
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """A named instant of a track: master angle [rad]."""
+
+    name: str
+    angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """One actuator over a turn of the master shaft.
+
+    segments   its motions, ascending and apart; dwells are implied between them
+    unit       the unit positions are shown in (SI inside)
+    revolves   the position may end a whole number of these higher or lower than it began (a shaft that turns on);
+               0: it must return
+
+    Raises ParameterError where segments overlap, leave the turn, do not join, or do not return.
+    """
+
+    name: str
+    actuator: str
+    segments: tuple[Segment, ...]
+    events: tuple[Event, ...] = ()
+    unit: str = "mm"
+    revolves: float = 0.0
+
+    def __post_init__(self) -> None:
+        for segment in self.segments:
+            _require_inside(self.name, segment)
+        for first, then in zip(self.segments, self.segments[1:], strict=False):
+            _require_apart(self.name, first, then)
+            _require_joined(self, first, then, 0.0)
+        if self.segments:
+            _require_joined(self, self.segments[-1], self.segments[0], self.revolves)
+        for event in self.events:
+            if not 0 <= event.angle <= turn:
+                raise ParameterError(
+                    f"{self.name}: event {event.name!r} at {_shown(event.angle)}", allowed="0..360 deg"
+                )
+
+    def segment(self, name: str) -> Segment:
+        """The motion of that name. Raises ParameterError where there is none."""
+        for segment in self.segments:
+            if segment.name == name:
+                return segment
+        known = ", ".join(segment.name for segment in self.segments)
+        raise ParameterError(f"{self.name} has no motion {name!r}", allowed=f"its motions: {known}")
+
+    @property
+    def stroke(self) -> float:
+        """Largest minus least position [SI]; laws are taken not to overshoot."""
+        ends = [end for segment in self.segments for end in (segment.begin, segment.finish)]
+        return max(ends) - min(ends) if ends else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class TrackMotion:
+    """Position of a track over the master angle, and its first two derivatives by the angle [SI per rad]."""
+
+    angle: FloatArray
+    position: FloatArray
+    slope: FloatArray
+    bend: FloatArray
+
+
+def sample(track: Track, angle: FloatArray) -> TrackMotion:
+    """The track's motion at master angles in [0, 2 pi] [rad]; at the joint of two segments the later one counts."""
+    position = np.full(angle.shape, track.segments[0].begin if track.segments else 0.0)
+    slope, bend = np.zeros(angle.shape), np.zeros(angle.shape)
+    for segment in track.segments:
+        after = angle >= segment.start
+        position[after], slope[after], bend[after] = segment.finish, 0.0, 0.0
+        within = after & (angle <= segment.end)
+        stroke, beta = segment.finish - segment.begin, segment.end - segment.start
+        u = (angle[within] - segment.start) / beta
+        position[within] = segment.begin + stroke * segment.law.s(u)
+        slope[within] = stroke / beta * segment.law.v(u)
+        bend[within] = stroke / beta**2 * segment.law.a(u)
+    return TrackMotion(angle, position, slope, bend)
+
+
+def peak_speed(track: Track, period: float) -> float:
+    """Largest speed of the track [SI/s] at a period of the master shaft [s]: max |h| v_peak (w/beta)."""
+    w = turn / period
+    return max((_stroke(part) * part.law.velocity_peak * w / _angle(part) for part in track.segments), default=0.0)
+
+
+def peak_acceleration(track: Track, period: float) -> float:
+    """Largest acceleration of the track [SI/s^2] at a period of the master shaft [s]: max |h| a_peak (w/beta)^2."""
+    w = turn / period
+    peaks = (_stroke(part) * part.law.acceleration_peak * (w / _angle(part)) ** 2 for part in track.segments)
+    return max(peaks, default=0.0)
+
+
+def shortest_period(track: Track, speed_limit: float, acceleration_limit: float) -> float:
+    """The shortest period of the master shaft [s] at which the track keeps both limits [SI/s, SI/s^2].
+
+    Speeds go with 1/T and accelerations with 1/T^2, so that T = max(V(1 s)/V_limit, sqrt(A(1 s)/A_limit)) s.
+    """
+    return max(peak_speed(track, 1.0) / speed_limit, math.sqrt(peak_acceleration(track, 1.0) / acceleration_limit))
+
+
+def _stroke(segment: Segment) -> float:
+    return abs(segment.finish - segment.begin)
+
+
+def _angle(segment: Segment) -> float:
+    return segment.end - segment.start
+
+
+def _shown(angle: float) -> str:
+    return format_quantity(angle, "deg")
+
+
+def _require_inside(track: str, segment: Segment) -> None:
+    if not 0 <= segment.start < segment.end <= turn + _SAME * deg:
+        raise ParameterError(
+            f"{track}: {segment.name} runs from {_shown(segment.start)} to {_shown(segment.end)}",
+            allowed="a motion starts before it ends, both within 0..360 deg",
+            do="move the start or the end",
+        )
+
+
+def _require_apart(track: str, first: Segment, then: Segment) -> None:
+    if then.start < first.end - _SAME:
+        raise ParameterError(
+            f"{track}: {then.name} starts at {_shown(then.start)}, before {first.name} ends at {_shown(first.end)}",
+            allowed="the motions of one track follow each other",
+            do=f"start {then.name} {_shown(first.end - then.start)} later",
+        )
+
+
+def _require_joined(track: Track, first: Segment, then: Segment, revolves: float) -> None:
+    gap = first.finish - then.begin
+    if revolves:
+        gap -= revolves * round(gap / revolves)
+    if abs(gap) > _SAME:
+        raise ParameterError(
+            f"{track.name}: {first.name} ends at {format_quantity(first.finish, track.unit)}, "
+            f"{then.name} begins at {format_quantity(then.begin, track.unit)}",
+            allowed="a track never jumps, nor from the end of the turn to its beginning",
+            do="let one begin where the other ends",
+        )
