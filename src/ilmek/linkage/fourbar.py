@@ -1,0 +1,105 @@
+"""The two everyday mechanisms, ready to plan: four-bar and slider-crank.
+
+Both stand with the crank's pivot at the origin. Names are those of the drawing:
+
+    four-bar        crank A0-A, coupler A-B, rocker B0-B, ground A0-B0 along x
+    slider-crank    crank A0-A, rod A-B, slider at B on a line parallel to x, `offset` above the crank's pivot
+"""
+
+import math
+from collections.abc import Mapping
+
+from ilmek.errors import MechanismError
+from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
+
+Points = Mapping[str, Mapping[str, complex]]
+"""Body's name -> further points of it, in its frame [m]."""
+
+
+def four_bar(
+    ground: float,
+    crank: float,
+    coupler: float,
+    rocker: float,
+    *,
+    branch: int,
+    points: Points | None = None,
+    name: str = "four-bar",
+) -> Mechanism:
+    """Four-bar driven by its crank: link lengths [m].
+
+    A0 = 0, B0 = `ground` on the x axis; the crank turns by its angle against x about A0. Each link's frame has its
+    origin at its first pin (crank A0, coupler A, rocker B0) and its x axis to the second.
+
+    branch  +1: pin B on the left of A -> B0, -1: on the right
+    points  further points by body, in those frames: `{"rocker": {"E": 0.3}}`
+
+    Raises MechanismError for a length that is not above zero.
+    """
+    lengths(name, ground=ground, crank=crank, coupler=coupler, rocker=rocker)
+    return Mechanism(
+        bodies=(
+            _body(GROUND, {"A0": 0, "B0": ground}, points),
+            _body("crank", {"A0": 0, "A": crank}, points),
+            _body("coupler", {"A": 0, "B": coupler}, points),
+            _body("rocker", {"B0": 0, "B": rocker}, points),
+        ),
+        joints=(
+            Pin("A0", GROUND, "crank"),
+            Pin("A", "crank", "coupler"),
+            Pin("B", "coupler", "rocker"),
+            Pin("B0", GROUND, "rocker"),
+        ),
+        inputs=(Rotation("crank", "A0"),),
+        branches={"B": branch},
+        name=name,
+    )
+
+
+def slider_crank(
+    crank: float,
+    rod: float,
+    *,
+    branch: int,
+    offset: float = 0.0,
+    points: Points | None = None,
+    name: str = "slider-crank",
+) -> Mechanism:
+    """Slider-crank driven by its crank: link lengths and offset of the slider's line [m].
+
+    The line is y = offset; its own point is (0, offset), so that the slide's s is the x of pin B.
+    branch  +1: the slider on the side of +x of the foot of A on the line, -1: on the other
+    points  further points by body: crank (origin A0, x to A), rod (origin A, x to B), slider (origin B, x along)
+
+    Raises MechanismError for a length that is not above zero.
+    """
+    lengths(name, crank=crank, rod=rod)
+    return Mechanism(
+        bodies=(
+            _body(GROUND, {"A0": 0, "line": 1j * offset}, points),
+            _body("crank", {"A0": 0, "A": crank}, points),
+            _body("rod", {"A": 0, "B": rod}, points),
+            _body("slider", {"B": 0, "line": 0}, points),
+        ),
+        joints=(
+            Pin("A0", GROUND, "crank"),
+            Pin("A", "crank", "rod"),
+            Pin("B", "rod", "slider"),
+            Slide("line", "slider", GROUND),
+        ),
+        inputs=(Rotation("crank", "A0"),),
+        branches={"B": branch},
+        name=name,
+    )
+
+
+def lengths(mechanism: str, **named: float) -> None:
+    """Raise MechanismError unless every length is finite and above zero."""
+    for name, length in named.items():
+        if not (math.isfinite(length) and length > 0):
+            raise MechanismError(f"{name} of {mechanism} is {length:g} m", allowed="lengths are finite and above 0")
+
+
+def _body(name: str, own: Mapping[str, complex], further: Points | None) -> Body:
+    extra = (further or {}).get(name, {})
+    return Body(name, {**extra, **own})

@@ -1,0 +1,269 @@
+"""What a planar mechanism is: rigid bodies, the joints between them, and what drives it.
+
+A mechanism is data. `structure.plan` finds the order in which it can be solved, `solve.solve` moves it.
+
+>>> from ilmek.linkage.fourbar import four_bar
+>>> mechanism = four_bar(0.300, 0.060, 0.200, 0.230, branch=+1)
+>>> [body.name for body in mechanism.bodies]
+['ground', 'crank', 'coupler', 'rocker']
+>>> freedom(mechanism)
+1
+"""
+
+import cmath
+import difflib
+import math
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from ilmek.errors import MechanismError
+
+GROUND = "ground"
+"""The body that stands still; its local frame is the world."""
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A rigid body: named points in its own frame [m].
+
+    The frame is free to choose; the origin need not be a point of the body. The body named "ground" stands still and
+    its frame is the world.
+    """
+
+    name: str
+    points: Mapping[str, complex]
+
+    def __post_init__(self) -> None:
+        points = {name: complex(point) for name, point in self.points.items()}
+        for name, point in points.items():
+            if not cmath.isfinite(point):
+                raise MechanismError(f"point {name!r} of body {self.name!r} is {point}", allowed="finite coordinates")
+        object.__setattr__(self, "points", points)
+
+
+@dataclass(frozen=True, slots=True)
+class Pin:
+    """A turning joint: two bodies at the point that both carry under the pin's name.
+
+    The order matters for the branch of a group whose free pin this is: +1 puts the pin on the left of the line from
+    the known pin of `first` to the known pin of `second`.
+    """
+
+    name: str
+    first: str
+    second: str
+
+    @property
+    def bodies(self) -> tuple[str, str]:
+        """The two bodies it joins."""
+        return self.first, self.second
+
+
+@dataclass(frozen=True, slots=True)
+class Slide:
+    """A sliding joint: a point of `body` moves along a line of `guide`, the angle between the two is fixed.
+
+    The line goes through the guide's point of the slide's name, in direction `along` [rad] of the guide's frame; the
+    body's point of the slide's name lies on it, `s` metres from the guide's point. The body stands turned by `turned`
+    [rad] against the guide. An offset slider is one whose line misses the crank's pivot; the guide may move.
+    """
+
+    name: str
+    body: str
+    guide: str
+    along: float = 0.0
+    turned: float = 0.0
+
+    @property
+    def bodies(self) -> tuple[str, str]:
+        """The two bodies it joins: the sliding one and the guide."""
+        return self.body, self.guide
+
+
+@dataclass(frozen=True, slots=True)
+class Rotation:
+    """An input that turns `body` about the pin `about`: the angle [rad] against the other body at that pin.
+
+    For a pin on the ground that is the angle of the body in the world, counter-clockwise from x.
+    """
+
+    body: str
+    about: str
+
+    @property
+    def name(self) -> str:
+        """The name under which `solve` takes its values: the body's."""
+        return self.body
+
+    @property
+    def joint(self) -> str:
+        """The joint that it drives."""
+        return self.about
+
+
+@dataclass(frozen=True, slots=True)
+class Displacement:
+    """An input that shifts a slide: the distance s [m] from the guide's point along the line."""
+
+    slide: str
+
+    @property
+    def name(self) -> str:
+        """The name under which `solve` takes its values: the slide's."""
+        return self.slide
+
+    @property
+    def joint(self) -> str:
+        """The joint that it drives."""
+        return self.slide
+
+
+Joint: TypeAlias = Pin | Slide
+Input: TypeAlias = Rotation | Displacement
+
+
+@dataclass(frozen=True, slots=True)
+class Mechanism:
+    """Bodies, joints, inputs, and the way each group is put together.
+
+    branches  free pin's name -> +1 or -1. A group of two links hung on known pins closes in two ways; see `Pin` (two
+              links: side of the line between the known pins) and `groups.rrp` (link and slider: further along the
+              line, or less far).
+    name      said in messages
+    pose      body -> (origin [m], angle [rad]) in some assembled position, roughly; needed only by groups without a
+              closed form, which Newton's method follows from there. A body not named is taken as drawn in place.
+
+    Raises MechanismError for a name used twice or unknown, a body that no joint holds, a link of zero length, a
+    branch that is neither +1 nor -1, and where joints and inputs do not leave exactly no freedom.
+    """
+
+    bodies: tuple[Body, ...]
+    joints: tuple[Joint, ...]
+    inputs: tuple[Input, ...]
+    branches: Mapping[str, int] = field(default_factory=dict)
+    name: str = "mechanism"
+    pose: Mapping[str, tuple[complex, float]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for one in ("bodies", "joints", "inputs"):
+            object.__setattr__(self, one, tuple(getattr(self, one)))
+        object.__setattr__(self, "branches", dict(self.branches))
+        object.__setattr__(self, "pose", dict(self.pose))
+        _check(self)
+
+    def body(self, name: str) -> Body:
+        """The body of that name."""
+        return _find(name, self.bodies, "body", self.name)
+
+    def joint(self, name: str) -> Joint:
+        """The joint of that name."""
+        return _find(name, self.joints, "joint", self.name)
+
+    def point(self, body: str, point: str) -> complex:
+        """A body's point in the body's frame [m]."""
+        points = self.body(body).points
+        if point not in points:
+            known = ", ".join(points) or "none"
+            raise MechanismError(f"body {body!r} of {self.name} has no point {point!r}", allowed=f"it has {known}")
+        return points[point]
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """Names of all bodies but the ground."""
+        return tuple(body.name for body in self.bodies if body.name != GROUND)
+
+
+def freedom(mechanism: Mechanism) -> int:
+    """Degrees of freedom by count, the inputs left free: 3 a moving body less 2 a joint [Gruebler's count]."""
+    return 3 * len(mechanism.moving) - 2 * len(mechanism.joints)
+
+
+def _find(name: str, among: Iterable, kind: str, of: str):  # type: ignore[no-untyped-def, type-arg]
+    known = {one.name: one for one in among}
+    if name in known:
+        return known[name]
+    near = difflib.get_close_matches(name, known, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else ""
+    raise MechanismError(f"{of} has no {kind} {name!r}", allowed=f"it has {', '.join(known) or 'none'}", do=hint)
+
+
+def _check(mechanism: Mechanism) -> None:
+    _check_names(mechanism)
+    for joint in mechanism.joints:
+        _check_joint(mechanism, joint)
+    for entry in mechanism.inputs:
+        _check_input(mechanism, entry)
+    for name in mechanism.moving:
+        _check_held(mechanism, name)
+    _check_branches(mechanism)
+    _check_freedom(mechanism)
+
+
+def _check_names(mechanism: Mechanism) -> None:
+    for kind, named in (("bodies", mechanism.bodies), ("joints", mechanism.joints), ("inputs", mechanism.inputs)):
+        for name, times in Counter(one.name for one in named).items():
+            if times > 1:
+                raise MechanismError(f"{mechanism.name} has {times} {kind} named {name!r}", do="give each its own name")
+    if GROUND not in {body.name for body in mechanism.bodies}:
+        raise MechanismError(f"{mechanism.name} has no body named {GROUND!r}", do="one body must stand still")
+    for name in mechanism.pose:
+        mechanism.body(name)
+
+
+def _check_joint(mechanism: Mechanism, joint: Joint) -> None:
+    if joint.bodies[0] == joint.bodies[1]:
+        raise MechanismError(f"joint {joint.name!r} of {mechanism.name} joins {joint.bodies[0]!r} to itself")
+    for body in joint.bodies:
+        mechanism.point(body, joint.name)
+    if isinstance(joint, Slide) and not (math.isfinite(joint.along) and math.isfinite(joint.turned)):
+        raise MechanismError(f"slide {joint.name!r} has along={joint.along}, turned={joint.turned}: angles in radians")
+
+
+def _check_input(mechanism: Mechanism, entry: Input) -> None:
+    joint = mechanism.joint(entry.joint)
+    wanted = Pin if isinstance(entry, Rotation) else Slide
+    if not isinstance(joint, wanted):
+        raise MechanismError(
+            f"{type(entry).__name__.lower()} {entry.name!r} of {mechanism.name} drives {joint.name!r}, "
+            f"a {type(joint).__name__.lower()}",
+            allowed=f"a {type(entry).__name__.lower()} needs a {wanted.__name__.lower()}",
+        )
+    if isinstance(entry, Rotation) and entry.body not in joint.bodies:
+        raise MechanismError(
+            f"input turns {entry.body!r} about {joint.name!r}", allowed=f"that pin joins {' and '.join(joint.bodies)}"
+        )
+    if sum(other.joint == entry.joint for other in mechanism.inputs) > 1:
+        raise MechanismError(f"two inputs of {mechanism.name} drive joint {joint.name!r}", do="leave one of them")
+
+
+def _check_held(mechanism: Mechanism, body: str) -> None:
+    joints = [joint for joint in mechanism.joints if body in joint.bodies]
+    if not joints:
+        raise MechanismError(f"no joint of {mechanism.name} holds body {body!r}", do="join it or leave it out")
+    places = {mechanism.point(body, joint.name) for joint in joints}
+    if len(joints) > 1 and len(places) == 1 and all(isinstance(joint, Pin) for joint in joints):
+        pins = " and ".join(joint.name for joint in joints)
+        raise MechanismError(f"link {body!r} has zero length: its pins {pins} coincide", do="give it a length above 0")
+
+
+def _check_branches(mechanism: Mechanism) -> None:
+    for name, branch in mechanism.branches.items():
+        mechanism.joint(name)
+        if branch not in (+1, -1):
+            raise MechanismError(f"branch of {name!r} in {mechanism.name} is {branch!r}", allowed="+1 or -1")
+
+
+def _check_freedom(mechanism: Mechanism) -> None:
+    free, driven = freedom(mechanism), len(mechanism.inputs)
+    if free == driven:
+        return
+    bodies, joints = len(mechanism.moving), len(mechanism.joints)
+    slack = free - driven
+    raise MechanismError(
+        f"{mechanism.name} is {'under' if slack > 0 else 'over'}-constrained",
+        allowed=f"{bodies} moving bodies and {joints} joints have 3·{bodies} - 2·{joints} = {free} "
+        f"{'freedom' if free == 1 else 'freedoms'}, and {driven} {'is' if driven == 1 else 'are'} driven",
+        do=f"add {slack} inputs, or joints" if slack > 0 else f"take away {-slack} inputs, or joints",
+    )
