@@ -1,1 +1,1 @@
-"""Motion laws and cam profiles."""
+"""Cams: motion laws, programmes of rises, falls and dwells, profiles and their limits."""

@@ -1,1 +1,1 @@
-"""Machine elements: beams, shafts, motors, materials."""
+"""Machine elements: beams, shafts, bearings, motors and reducers, materials."""

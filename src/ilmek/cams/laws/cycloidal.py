@@ -1,0 +1,44 @@
+"""Cycloidal motion (inclined sine): the course of a point on a circle of radius L/2pi that rolls along a line.
+
+    s = u - sin(2 pi u) / (2 pi)                                                      [thesis, 2.2.2, eq. 2.52-2.56]
+
+Acceleration starts and ends at 0, so it joins a dwell without a jump; the jerk is finite (4 pi^2), not zero as the
+thesis' "jerk-free" says. Eq. 2.55 and 2.56 print the bracket with the trigonometric function under the fraction bar;
+it belongs above it.
+"""
+
+import math
+
+import numpy as np
+
+from ilmek.arrays import RealField
+from ilmek.cams.laws.law import Law
+
+_TURN = 2.0 * math.pi
+
+
+def s(u: RealField) -> RealField:
+    """Displacement over u in [0, 1], from 0 to 1.
+
+    >>> float(s(0.5))
+    0.5
+    """
+    return u - np.sin(_TURN * u) / _TURN
+
+
+def v(u: RealField) -> RealField:
+    """Velocity ds/du."""
+    return 2.0 * np.sin(0.5 * _TURN * u) ** 2
+
+
+def a(u: RealField) -> RealField:
+    """Acceleration d2s/du2."""
+    return _TURN * np.sin(_TURN * u)
+
+
+def j(u: RealField) -> RealField:
+    """Jerk d3s/du3."""
+    return _TURN**2 * np.cos(_TURN * u)
+
+
+LAW = Law("cycloidal", s, v, a, j, 2.0, _TURN, _TURN**2)

@@ -1,0 +1,41 @@
+"""Simple harmonic motion: the projection of a point that runs on a circle of diameter L.
+
+    s = (1 - cos pi u) / 2                                                            [thesis, 2.2.2, eq. 2.47-2.51]
+
+The smoothest start and the least velocity of the simple laws, but against a dwell the acceleration jumps from 0 to
+pi^2/2. Eq. 2.47 prints cos theta for cos(pi theta/beta); eq. 2.49 prints L/[2(1 - cos)] for (L/2)(1 - cos).
+"""
+
+import math
+
+import numpy as np
+
+from ilmek.arrays import RealField
+from ilmek.cams.laws.law import Law
+
+
+def s(u: RealField) -> RealField:
+    """Displacement over u in [0, 1], from 0 to 1.
+
+    >>> float(s(1.0))
+    1.0
+    """
+    return np.sin(0.5 * math.pi * u) ** 2
+
+
+def v(u: RealField) -> RealField:
+    """Velocity ds/du."""
+    return 0.5 * math.pi * np.sin(math.pi * u)
+
+
+def a(u: RealField) -> RealField:
+    """Acceleration d2s/du2."""
+    return 0.5 * math.pi**2 * np.cos(math.pi * u)
+
+
+def j(u: RealField) -> RealField:
+    """Jerk d3s/du3 inside the rise."""
+    return -0.5 * math.pi**3 * np.sin(math.pi * u)
+
+
+LAW = Law("harmonic", s, v, a, j, math.pi / 2, math.pi**2 / 2, math.inf)

@@ -1,0 +1,56 @@
+"""Plate cam with a translating roller or knife-edge follower: formulas of one cam angle.
+
+The cam turns counter-clockwise by theta; the follower slides along +x on the line y = -e. In the cam's own frame the
+roller's centre is, with r = s + sqrt(Rp^2 - e^2),
+
+    P = (r - i e) exp(-i theta),    dP/dtheta = ((s' - e) - i r) exp(-i theta)
+
+so that the outward normal is n = (r + i (s' - e)) exp(-i theta) / |dP|. Rp is the prime radius: the least distance of
+the roller's centre (of the knife's edge, where the roller radius is 0) from the cam's axis. The offset e is positive
+on the side that lowers the pressure angle of a rise. s, s', s'' [m, m/rad, m/rad^2]; any shapes that broadcast.
+[Norton, Cam Design and Manufacturing, 7; thesis 3.2]
+"""
+
+import math
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, RealField
+
+
+def reach(s: RealField, prime_radius: float, offset: float = 0.0) -> RealField:
+    """Distance r [m] of the roller's centre from the cam's axis along the follower's line."""
+    return s + math.sqrt(prime_radius**2 - offset**2)
+
+
+def pitch_point(angle: RealField, s: RealField, prime_radius: float, offset: float = 0.0) -> ComplexField:
+    """Roller's centre in the cam's frame [m], complex."""
+    return (reach(s, prime_radius, offset) - 1j * offset) * np.exp(-1j * np.asarray(angle))
+
+
+def normal(angle: RealField, s: RealField, ds: RealField, prime_radius: float, offset: float = 0.0) -> ComplexField:
+    """Outward unit normal of the pitch curve in the cam's frame, complex."""
+    arrow = reach(s, prime_radius, offset) + 1j * (ds - offset)
+    return arrow / np.abs(arrow) * np.exp(-1j * np.asarray(angle))
+
+
+def profile_point(
+    angle: RealField, s: RealField, ds: RealField, prime_radius: float, offset: float = 0.0, *, roller_radius: float
+) -> ComplexField:
+    """Point of the cam's surface under the roller, in the cam's frame [m]: a roller radius inside the pitch curve."""
+    inwards = -roller_radius * normal(angle, s, ds, prime_radius, offset)
+    return pitch_point(angle, s, prime_radius, offset) + inwards
+
+
+def pressure_angle(s: RealField, ds: RealField, prime_radius: float, offset: float = 0.0) -> RealField:
+    """Angle [rad] between the cam's push and the follower's way: tan mu = (s' - e) / r; positive pushes it aside."""
+    return np.arctan2(ds - offset, reach(s, prime_radius, offset))
+
+
+def curvature(s: RealField, ds: RealField, dds: RealField, prime_radius: float, offset: float = 0.0) -> RealField:
+    """Curvature of the pitch curve [1/m], positive where convex.
+
+    kappa = (r (r - s'') + (s' - e)(2 s' - e)) / (r^2 + (s' - e)^2)^(3/2)
+    """
+    r = reach(s, prime_radius, offset)
+    return (r * (r - dds) + (ds - offset) * (2 * ds - offset)) / (r**2 + (ds - offset) ** 2) ** 1.5

@@ -1,0 +1,82 @@
+"""Motors and reducers: what torque arrives, what stays locked, which motor is enough.
+
+A reducer of ratio i and efficiency eta: M_motor = M_load / (i eta). With the same friction losses driven backwards,
+eta_back = 2 - 1/eta, so a reducer that locks itself (eta_back <= 0) has eta <= 1/2: a worm can be self-locking or
+efficient, not both.                                                       [Shigley, Mechanical Engineering Design, 13]
+"""
+
+import math
+from dataclasses import dataclass
+
+from ilmek.units import rpm
+
+
+@dataclass(frozen=True, slots=True)
+class Reducer:
+    """A speed reducer: ratio (input turns per output turn) and efficiency, above 0 and at most 1."""
+
+    ratio: float
+    efficiency: float
+
+    def motor_torque(self, load_torque: float) -> float:
+        """Torque at the input [N m] that moves a load torque at the output [N m]."""
+        return load_torque / (self.ratio * self.efficiency)
+
+    @property
+    def back_driving_efficiency(self) -> float:
+        """Efficiency when the load drives, 2 - 1/eta: nothing comes back where it is not above 0."""
+        return 2 - 1 / self.efficiency
+
+    @property
+    def self_locking(self) -> bool:
+        """Whether the load cannot drive it backwards: efficiency at most 1/2."""
+        return self.back_driving_efficiency <= 0
+
+
+def worm_efficiency(lead_angle: float, friction_angle: float) -> float:
+    """Efficiency of a worm: tan g / tan(g + r) of its lead angle g and the angle of friction r [rad].
+
+    It locks itself for g <= r, and then the efficiency is (1 - tan^2 r)/2 at most.
+    """
+    return math.tan(lead_angle) / math.tan(lead_angle + friction_angle)
+
+
+@dataclass(frozen=True, slots=True)
+class Motor:
+    """A class of motors, no maker's product: lasting torque [N m] up to a speed [rad/s]."""
+
+    name: str
+    kind: str
+    torque: float
+    speed: float
+
+
+def _stepper(frame: str, torque: float) -> Motor:
+    return Motor(f"stepper {frame}, {torque:g} N m", "stepper", torque, 300 * rpm)
+
+
+def _servo(power: float, turns: float) -> Motor:
+    torque = power / (turns * rpm)
+    return Motor(f"servo {power:g} W, {turns:g} rpm, {torque:.3g} N m", "servo", torque, turns * rpm)
+
+
+MOTORS = (
+    *(_stepper("NEMA 17", torque) for torque in (0.4,)),
+    *(_stepper("NEMA 23", torque) for torque in (1.0, 2.0)),
+    *(_stepper("NEMA 34", torque) for torque in (4.0, 7.0, 12.0)),
+    *(_servo(power, 3000.0) for power in (100.0, 200.0, 400.0, 750.0, 1000.0, 1500.0, 2000.0, 3000.0)),
+    *(_servo(power, 1500.0) for power in (2900.0, 4400.0, 5500.0, 7500.0, 11000.0, 15000.0)),
+)
+"""Classes to choose from. Steppers: the torque left at 300 rpm, about two thirds of holding. Servos: rated power and
+speed, torque = power / speed."""
+
+
+def smallest_motor(torque: float, speed: float = 0.0, kind: str | None = None) -> Motor | None:
+    """The motor of least torque in `MOTORS` that gives `torque` [N m] at `speed` [rad/s]; None where none does.
+
+    kind  "stepper" or "servo"; None takes either
+    >>> smallest_motor(6.5).name
+    'stepper NEMA 34, 7 N m'
+    """
+    enough = [m for m in MOTORS if m.torque >= torque and m.speed >= speed and kind in (None, m.kind)]
+    return min(enough, key=lambda motor: motor.torque, default=None)

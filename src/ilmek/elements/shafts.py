@@ -1,0 +1,43 @@
+"""Smallest section of a simply supported, uniformly loaded shaft for a slope and a deflection.
+
+The second moment of area that keeps the limit, put into the section's formula (`beams`). Load w [N/m], length l [m],
+modulus E [Pa], slope theta [rad], deflection y [m].                                  [thesis 3.1, 3.2, eq. 3.4, 3.5]
+"""
+
+import math
+
+from ilmek.units import mm
+
+STOCK_SIDES = tuple(
+    side * mm for side in (20, 22, 25, 28, 30, 32, 35, 40, 45, 50, 55, 60, 65, 70, 75, 80, 90, 100, 110, 120, 130, 150)
+)
+"""Sides of hot rolled square steel bars that dealers keep [m] (a choice from EN 10059)."""
+
+
+def inertia_for_slope(load: float, length: float, modulus: float, slope: float) -> float:
+    """Least second moment of area [m^4] that keeps the slope at the supports: w l^3 / (24 E theta)."""
+    return load * length**3 / (24 * modulus * slope)
+
+
+def inertia_for_deflection(load: float, length: float, modulus: float, deflection: float) -> float:
+    """Least second moment of area [m^4] that keeps the deflection at mid-span: 5 w l^4 / (384 E y)."""
+    return 5 * load * length**4 / (384 * modulus * deflection)
+
+
+def square_side(inertia: float) -> float:
+    """Side [m] of the square bar of that second moment of area: (12 I)^(1/4)."""
+    return float((12 * inertia) ** 0.25)
+
+
+def tube_outer_radius(inertia: float, inner_radius: float) -> float:
+    """Outer radius [m] of the tube of that second moment of area: (Ri^4 + 4 I / pi)^(1/4)."""
+    return float((inner_radius**4 + 4 * inertia / math.pi) ** 0.25)
+
+
+def stock_side(side: float) -> float | None:
+    """The smallest stock bar's side [m] that is not below `side`; None beyond the largest.
+
+    >>> stock_side(0.069)
+    0.07
+    """
+    return next((stock for stock in STOCK_SIDES if stock >= side * (1 - 1e-9)), None)

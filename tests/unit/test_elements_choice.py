@@ -1,0 +1,60 @@
+"""Choosing elements: bearings for a slope, motors for a torque, stock bars; worms that lock."""
+
+import math
+
+import pytest
+
+from ilmek.elements.bearings import BEARINGS, bearings_for
+from ilmek.elements.materials import MATERIALS
+from ilmek.elements.motors import MOTORS, Reducer, smallest_motor, worm_efficiency
+from ilmek.elements.shafts import STOCK_SIDES, stock_side
+from ilmek.units import GPa, deg, mm, rpm
+
+
+def test_slope_limits_of_the_bearings() -> None:
+    """0.004 deep groove, 0.001 cylindrical, 0.0005 tapered (thesis 3.1)."""
+    assert [bearing.slope_limit for bearing in BEARINGS] == [0.004, 0.001, 0.0005]
+    assert [len(bearings_for(slope)) for slope in (0.0004, 0.0005, 0.0006, 0.001, 0.003, 0.0041)] == [3, 3, 2, 2, 1, 0]
+
+
+@pytest.mark.parametrize("torque", [0.1, 0.5, 3.9, 4.0, 7.0, 7.1, 30.0])
+def test_smallest_motor_is_enough_and_none_smaller_is(torque) -> None:
+    chosen = smallest_motor(torque)
+    assert chosen is not None
+    assert chosen.torque >= torque
+    assert not [motor for motor in MOTORS if torque <= motor.torque < chosen.torque]
+
+
+def test_motor_must_also_be_quick_enough() -> None:
+    assert smallest_motor(6.0, 1000 * rpm).kind == "servo"
+    assert smallest_motor(6.0, 200 * rpm, kind="stepper").name == "stepper NEMA 34, 7 N m"
+    assert smallest_motor(6.0, 200 * rpm, kind="servo").speed == pytest.approx(3000 * rpm)
+    assert smallest_motor(1e4) is None
+    assert smallest_motor(1.0, 9000 * rpm) is None
+
+
+def test_servo_torque_is_power_over_speed() -> None:
+    assert smallest_motor(1.0, 3000 * rpm).torque == pytest.approx(400 / (3000 * rpm))
+
+
+@pytest.mark.parametrize("friction", [3 * deg, 5 * deg, 8 * deg])
+def test_a_worm_that_locks_itself_wastes_more_than_half(friction) -> None:
+    at_the_limit = worm_efficiency(friction, friction)
+    assert at_the_limit == pytest.approx((1 - math.tan(friction) ** 2) / 2)
+    assert at_the_limit < 0.5
+    assert Reducer(100.0, at_the_limit).self_locking
+    assert not Reducer(100.0, worm_efficiency(3 * friction, friction)).self_locking
+
+
+def test_stock_bars() -> None:
+    assert stock_side(69.0098 * mm) == pytest.approx(70 * mm)
+    assert stock_side(70 * mm * (1 + 1e-12)) == pytest.approx(70 * mm)
+    assert stock_side(max(STOCK_SIDES) + 1 * mm) is None
+
+
+def test_materials_are_of_their_kind() -> None:
+    assert MATERIALS["structural steel"].modulus == 210 * GPa
+    for material in MATERIALS.values():
+        assert 60 * GPa <= material.modulus <= 215 * GPa
+        assert 2600 <= material.density <= 8000
+        assert material.source.startswith("EN ")
