@@ -1,0 +1,62 @@
+"""One row of a programme, and what each head ties in it."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from jaxtyping import UInt8
+
+from ilmek.arrays import IntArray
+from ilmek.errors import LoomError
+from ilmek.loom.schedule import PASSES, Layout, Line, replay
+from ilmek.loom.sharing import halves
+
+_ALL_COLOURS = 255
+
+
+@dataclass(frozen=True, slots=True)
+class Ties:
+    """What a head ties in a row, in order: the warp pair (column of the chart) and the yarn of each knot."""
+
+    pairs: IntArray
+    colours: Line
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row of knots as the loom ties it.
+
+    number   loom row, 0 at the carpet's bottom edge: even rows are swept from column 0, odd rows back
+    colours  yarn of each knot, by column        keys  uint8 (parts, 3), see `loom.schedule`
+    edges    of the parts, see `loom.sharing`
+    """
+
+    number: int
+    colours: Line
+    keys: UInt8[np.ndarray, "parts 3"]
+    edges: IntArray
+    heads: int
+
+    @property
+    def forward(self) -> bool:
+        """Whether the row is swept from column 0."""
+        return self.number % 2 == 0
+
+    def passes(self, head: int) -> tuple[bool, ...]:
+        """For each part of a head, left to right: whether it is tied colour by colour."""
+        parts = halves(self.heads)
+        return tuple(bool(key == PASSES) for key in self.keys[head * parts : (head + 1) * parts, 0])
+
+    def ties(self) -> tuple[Ties, ...]:
+        """What each head ties, in order."""
+        order = np.empty(len(self.colours), np.int64)
+        colours = np.ascontiguousarray(self.colours)
+        replay(colours, Layout(_ALL_COLOURS, self.heads, self.edges), self.forward, self.keys, order)
+        blocks = self.edges[:: halves(self.heads)]
+        return tuple(Ties(order[low:high], colours[order[low:high]]) for low, high in pairwise(blocks))
+
+    def ties_of(self, head: int) -> Ties:
+        """What one head ties, in order. Raises LoomError for a head that is not there."""
+        if not 0 <= head < self.heads:
+            raise LoomError(f"head {head}", allowed=f"heads 0 to {self.heads - 1}")
+        return self.ties()[head]
