@@ -1,0 +1,53 @@
+"""How a rigid body carries its points.
+
+    p = a + r,    p' = a' + i w r,    p'' = a'' + (i alpha - w^2) r,     r = e (local - anchor)
+
+with a the motion of the body's anchor, e its direction (unit complex), w and alpha its angular velocity and
+acceleration [Norton, Design of Machinery, chapters 4, 6, 7: the complex vector method].
+"""
+
+from dataclasses import dataclass
+
+from ilmek.arrays import ComplexField, RealField
+
+
+@dataclass(frozen=True, slots=True)
+class PointMotion:
+    """A point's position [m], velocity [m/s] and acceleration [m/s^2]: complex, one value or one a sample."""
+
+    position: ComplexField
+    velocity: ComplexField
+    acceleration: ComplexField
+
+
+@dataclass(frozen=True, slots=True)
+class BodyMotion:
+    """A body's motion: that of one point, the anchor, and the turning.
+
+    anchor     motion of the anchor             at     the anchor's place in the body's frame [m]
+    direction  unit complex e^{i theta}         omega  [rad/s]         alpha  [rad/s^2]
+    """
+
+    anchor: PointMotion
+    at: complex
+    direction: ComplexField
+    omega: RealField
+    alpha: RealField
+
+    def carry(self, local: complex) -> PointMotion:
+        """Motion of the point that stands at `local` [m] in the body's frame."""
+        arm = local - self.at
+        return self.anchor if arm == 0 else self.reach(self.direction * arm)
+
+    def reach(self, arm: ComplexField) -> PointMotion:
+        """Motion of the body's point that stands at `arm` [m] from the anchor, in the world's directions."""
+        spin = 1j * self.omega
+        return PointMotion(
+            self.anchor.position + arm,
+            self.anchor.velocity + spin * arm,
+            self.anchor.acceleration + (1j * self.alpha - self.omega * self.omega) * arm,
+        )
+
+
+STILL = BodyMotion(PointMotion(0j, 0j, 0j), 0j, 1 + 0j, 0.0, 0.0)
+"""The ground's motion."""

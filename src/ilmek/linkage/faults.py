@@ -1,0 +1,83 @@
+"""Where a motion fails, in words: at which input values, by how much, and what to do."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from jaxtyping import Bool, Float, Int8
+
+from ilmek.errors import MechanismError
+from ilmek.linkage.body_motion import STILL, BodyMotion
+from ilmek.linkage.groups.group import Drive, Step
+from ilmek.linkage.model import GROUND, Rotation
+from ilmek.linkage.status import Status, judge
+from ilmek.linkage.structure import Plan
+from ilmek.units import deg, mm
+
+SHOWN = 3
+"""Ranges written out in a message; further ones are counted."""
+
+
+def first_fault(plan: Plan, drives: Mapping[str, Drive], status: Int8[np.ndarray, " samples"]) -> MechanismError:
+    """The error for the first step that fails anywhere: the failing samples are solved once more, step by step."""
+    bad = status != Status.OK
+    drives = {name: _chosen(drive, bad) for name, drive in drives.items()}
+    known: dict[str, BodyMotion] = {GROUND: STILL}
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        for step in plan.steps:
+            solved = step.solve(known, drives)
+            found = np.zeros(np.count_nonzero(bad), dtype=np.int8)
+            if solved.margin is not None:
+                judge(step, known, solved.margin, found)
+            if found.any():
+                return _error(plan, step, _where(plan, drives, bad, found), step.shortfall(known), Status(found.max()))
+            known.update(step.place(known, solved.columns))
+    raise AssertionError("a sample that failed fails again")
+
+
+def _error(plan: Plan, step: Step, where: str, shortfall: tuple[str, str], status: Status) -> MechanismError:
+    name, bodies = plan.mechanism.name, " and ".join(step.bodies)
+    if status is Status.DEAD_CENTRE:
+        return MechanismError(
+            f"{name} stands at a dead centre for {where}",
+            allowed=f"{bodies} are in line there and have no definite velocity",
+            do="drive another body or keep away from it",
+        )
+    if status is Status.NOT_CONVERGED:
+        return MechanismError(
+            f"{name}: no position of {bodies} found for {where}",
+            allowed="Newton's method follows them from the mechanism's pose",
+            do="give a pose nearer to an assembled one, or limit the input",
+        )
+    limit = " or ".join(entry.name for entry in plan.mechanism.inputs)
+    return MechanismError(f"{name} cannot close for {where}: {shortfall[0]}", do=f"{shortfall[1]} or limit the {limit}")
+
+
+def _chosen(drive: Drive, bad: Bool[np.ndarray, " samples"]) -> Drive:
+    fields = (drive.value, drive.speed, drive.acceleration)
+    return Drive(*(value[bad] if isinstance(value, np.ndarray) else value for value in fields))
+
+
+def _where(
+    plan: Plan,
+    drives: Mapping[str, Drive],
+    bad: Bool[np.ndarray, " samples"],
+    found: Int8[np.ndarray, " bad"],
+) -> str:
+    """The failing samples as ranges of the input, or of sample numbers where there are several inputs."""
+    samples = np.flatnonzero(bad)[found != Status.OK]
+    runs = np.split(np.arange(len(samples)), np.flatnonzero(np.diff(samples) > 1) + 1)
+    if len(drives) == 1:
+        entry = plan.mechanism.inputs[0]
+        value = np.asarray(drives[entry.name].value)[found != Status.OK]
+        return f"{entry.name} {_ranges(value, runs, isinstance(entry, Rotation))}"
+    first, last = samples[runs[0][0]], samples[runs[0][-1]]
+    return f"{len(samples)} of {len(bad)} samples, the first of them {first}..{last}"
+
+
+def _ranges(value: Float[np.ndarray, " failing"], runs: list[np.ndarray], angle: bool) -> str:
+    unit, sign = (deg, "°") if angle else (mm, " mm")
+    said = []
+    for run in runs[:SHOWN]:
+        first, last = (f"{value[at] / unit:.1f}{sign}" for at in (run[0], run[-1]))
+        said.append(first if first == last else f"{first}..{last}")
+    return ", ".join(said) + (f" and {len(runs) - SHOWN} further ranges" if len(runs) > SHOWN else "")

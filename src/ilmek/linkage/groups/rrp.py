@@ -1,0 +1,188 @@
+"""RRP dyad: a link hung on a known pin A, pinned at C to a slider whose direction is known.
+
+    |C - A| = a,    C = Q + s e,    C on the `branch` side along e of the foot of A
+    C' = A' + i wa (C - A) = Q' + i w s e + s' e,    and the same once more for C''
+
+Q is where C stands at s = 0 (so offsets and sliders that reach out to C are in it), e the unit direction of the line,
+w and alpha the rates of the guide, which may move [Norton, Design of Machinery, sections 4.6, 6.7, 7.3].
+The dyad stands at a dead centre where the link is square to the line: (C - A) . e = 0. There the rates are infinite.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_motion import BodyMotion, PointMotion
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved
+from ilmek.linkage.groups.shift import Track, track
+from ilmek.linkage.groups.turn import hung
+from ilmek.linkage.model import Pin, Slide
+from ilmek.units import format_quantity
+
+
+def position(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField, branch: RealField) -> RealField:
+    """Travel s [m] of the slider; NaN where the link does not reach the line.
+
+    A  known pin [m]   Q  point of C at s = 0 [m]   e  unit direction   a  link's length [m]
+    branch  +1: C beyond the foot of A in direction e, -1: before it
+    >>> float(position(0j, 1 + 3j, 1 + 0j, 5.0, branch=+1))
+    3.0
+    """
+    d = A - Q
+    foot = e.real * d.real + e.imag * d.imag
+    height = e.real * d.imag - e.imag * d.real
+    return foot + branch * np.sqrt(a * a - height * height)
+
+
+def turning(u: ComplexField, e: ComplexField) -> RealField:
+    """u . e [m] of the link u = C - A and the line's direction e: zero at a dead centre."""
+    return u.real * e.real + u.imag * e.imag
+
+
+def link_rate(e: ComplexField, r: ComplexField, cosine: RealField) -> RealField:
+    """wa of i wa u - s' e = r, with cosine = u . e: angular velocity [rad/s] of the link.
+
+    For velocities r is the line's velocity at C less A'; for accelerations the answer is alpha_a, see `sliding_rest`.
+    >>> float(link_rate(1 + 0j, 8j, 4.0)), float(slider_rate(4 - 3j, 8j, 4.0))
+    (2.0, 6.0)
+    """
+    return (e.real * r.imag - e.imag * r.real) / cosine
+
+
+def slider_rate(u: ComplexField, r: ComplexField, cosine: RealField) -> RealField:
+    """s' of i wa u - s' e = r, with cosine = u . e: speed of the slider along its line [m/s]; see `link_rate`."""
+    return -(u.real * r.real + u.imag * r.imag) / cosine
+
+
+def shortness(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField) -> RealField:
+    """By how much the link is too short for the line [m], 0 where it reaches.
+
+    >>> float(shortness(0j, 7j, 1 + 0j, 5.0)), float(shortness(0j, 3j, 1 + 0j, 5.0))
+    (2.0, 0.0)
+    """
+    d = A - Q
+    return np.maximum(np.abs(e.real * d.imag - e.imag * d.real) - a, 0)
+
+
+@dataclass(frozen=True, slots=True)
+class SliderDyad:
+    """A link of length a [m] hung on a known body and pinned to a slider on another (or the same) known body.
+
+    hinge  known pin in the frame of the body that the link hangs on [m]      at  the same pin in the link's frame [m]
+    arm    known pin -> free pin in the link's frame [m]      reach  slide's point -> free pin in the slider's frame [m]
+    """
+
+    link: str
+    slider: str
+    on: tuple[str, str]
+    pin: str
+    branch: int
+    hinge: complex
+    at: complex
+    arm: complex
+    a: float
+    reach: complex
+    track: Track
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Link and slider."""
+        return self.link, self.slider
+
+    @property
+    def parents(self) -> tuple[str, ...]:
+        """The bodies that they hang on."""
+        return self.on
+
+    @property
+    def words(self) -> str:
+        """What it is, for people."""
+        return (
+            f"{self.link} and slider {self.slider} joined at {self.pin} (branch {self.branch:+d}), "
+            f"hung on {self.on[0]} and {self.on[1]}: RRP"
+        )
+
+    def hung(self, known: Known) -> tuple[PointMotion, PointMotion, ComplexField]:
+        """Motions of the known pin and of the line's zero for the free pin, and the line's direction."""
+        guide = known[self.on[1]]
+        zero = guide.carry(self.track.root + self.track.twist * self.reach)
+        return known[self.on[0]].carry(self.hinge), zero, guide.direction * self.track.lead
+
+    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
+        """Direction and rates of the link; travel, speed and acceleration of the slider."""
+        A, Q, e = self.hung(known)
+        w, alpha = known[self.on[1]].omega, known[self.on[1]].alpha
+        s = position(A.position, Q.position, e, self.a, self.branch)
+        u = Q.position + s * e - A.position
+        cosine = turning(u, e)
+        r = Q.velocity + 1j * (w * s) * e - A.velocity
+        wa, ds = link_rate(e, r, cosine), slider_rate(u, r, cosine)
+        r = Q.acceleration + (1j * (alpha * s + 2 * w * ds) - w * w * s) * e - A.acceleration + wa * wa * u
+        columns = {
+            self.link: (u * (1 / self.arm), wa, link_rate(e, r, cosine)),
+            self.slider: (s, ds, slider_rate(u, r, cosine)),
+        }
+        return Solved(columns, cosine * (1 / self.a))
+
+    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+        """The link, anchored at the known pin, and the slider, anchored at the slide's point."""
+        return {
+            self.link: hung(known[self.on[0]], self.hinge, self.at, columns[self.link]),
+            self.slider: self.track.place(known[self.on[1]], columns[self.slider]),
+        }
+
+    @property
+    def size(self) -> float:
+        """The link [m]."""
+        return self.a
+
+    @property
+    def failure(self) -> str:
+        """The link does not reach the line."""
+        return "CANNOT_CLOSE"
+
+    def gap(self, known: Known) -> RealField:
+        """How much too short the link is for the line [m]."""
+        A, Q, e = self.hung(known)
+        return shortness(A.position, Q.position, e, self.a)
+
+    def shortfall(self, known: Known) -> tuple[str, str]:
+        """The largest distance of the known pin from the line against the link."""
+        gap = float(np.nanmax(self.gap(known)))
+        away, link = format_quantity(self.a + gap, "mm"), format_quantity(self.a, "mm")
+        return (
+            f"the line of {self.slider} is {away} away from the far pin of {self.link}, {self.link} = {link}",
+            f"lengthen {self.link} by {format_quantity(gap, 'mm')}",
+        )
+
+
+def recognise(group: Group) -> SliderDyad | None:
+    """The group as an RRP dyad, or None. Raises MechanismError where its pin has no branch or its link no length."""
+    if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
+        return None
+    pin, mechanism = group.inner[0], group.mechanism
+    slide = next((joint for joint in group.outer if isinstance(joint, Slide)), None)
+    hinge = next((joint for joint in group.outer if isinstance(joint, Pin)), None)
+    if not isinstance(pin, Pin) or slide is None or hinge is None:
+        return None
+    link = next(body for body in group.bodies if body in hinge.bodies)
+    slider = next(body for body in group.bodies if body in slide.bodies)
+    if link == slider:
+        return None
+    on = group.beyond(hinge, link), group.beyond(slide, slider)
+    arm = group.arm(link, hinge.name, pin.name)
+    return SliderDyad(
+        link=link,
+        slider=slider,
+        on=on,
+        pin=pin.name,
+        branch=group.branch(pin.name),
+        hinge=mechanism.point(on[0], hinge.name),
+        at=mechanism.point(link, hinge.name),
+        arm=arm,
+        a=abs(arm),
+        reach=mechanism.point(slider, pin.name) - mechanism.point(slider, slide.name),
+        track=track(mechanism, slide, slider),
+    )

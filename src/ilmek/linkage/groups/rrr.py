@@ -1,0 +1,197 @@
+"""RRR dyad: two links joined by a pin C and hung on two known pins A and B.
+
+    |C - A| = a,    |C - B| = b,    C on the `branch` side of A -> B
+    C' = A' + i wa (C - A) = B' + i wb (C - B),    and the same once more for C''
+
+[Norton, Design of Machinery, sections 4.5, 6.7, 7.3, with the angles eliminated: no arc functions.]
+The dyad stands at a dead centre where its links are in line: (C - A) x (C - B) = 0. There the rates are infinite.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_motion import BodyMotion, PointMotion
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved
+from ilmek.linkage.groups.turn import hung
+from ilmek.linkage.model import Pin
+from ilmek.units import format_quantity
+
+
+def position(A: ComplexField, B: ComplexField, a: RealField, b: RealField, branch: RealField) -> ComplexField:
+    """Free pin C [m]; NaN where the dyad cannot close.
+
+    A, B  known pins [m], complex, any shape      a, b  link lengths [m]      branch  +1: C left of A -> B, -1: right
+    >>> complex(position(0j, 4 + 0j, 3.0, 5.0, branch=+1))
+    3j
+    """
+    d = B - A
+    dd = d.real * d.real + d.imag * d.imag
+    along = 0.5 + (0.5 * (a * a - b * b)) / dd  # C = A + (along + i across) d
+    across = branch * np.sqrt(a * a / dd - along * along)
+    return A + (along + 1j * across) * d
+
+
+def turning(u: ComplexField, v: ComplexField) -> RealField:
+    """u x v [m^2] of the links u = C - A and v = C - B: a b sin(transmission angle), zero at a dead centre.
+
+    >>> float(turning(3j, -4 + 3j))
+    12.0
+    """
+    return u.real * v.imag - u.imag * v.real
+
+
+def first_rate(v: ComplexField, r: ComplexField, sine: RealField) -> RealField:
+    """wa of i wa u - i wb v = r, with sine = u x v: angular velocity [rad/s] of the link on A.
+
+    For velocities r = B' - A'; for accelerations r = (B'' - wb^2 v) - (A'' - wa^2 u) and the answer is alpha_a.
+    >>> float(first_rate(-4 + 3j, -2 + 0j, 12.0)), float(second_rate(3j, -2 + 0j, 12.0))
+    (0.6666666666666666, 0.0)
+    """
+    return (v.real * r.real + v.imag * r.imag) / sine
+
+
+def second_rate(u: ComplexField, r: ComplexField, sine: RealField) -> RealField:
+    """wb of i wa u - i wb v = r, with sine = u x v: angular velocity [rad/s] of the link on B; see `first_rate`."""
+    return (u.real * r.real + u.imag * r.imag) / sine
+
+
+def misfit(A: ComplexField, B: ComplexField, a: RealField, b: RealField) -> RealField:
+    """By how much the dyad fails to close [m]: above 0 too far apart, below 0 too near, 0 where it closes.
+
+    >>> float(misfit(0j, 9 + 0j, 3.0, 5.0)), float(misfit(0j, 1 + 0j, 3.0, 5.0)), float(misfit(0j, 4 + 0j, 3.0, 5.0))
+    (1.0, -1.0, 0.0)
+    """
+    reach = np.abs(B - A)
+    return np.maximum(reach - (a + b), 0) + np.minimum(reach - np.abs(a - b), 0)
+
+
+@dataclass(frozen=True, slots=True)
+class Dyad:
+    """Two links, of lengths a and b [m], hung on known bodies and joined by the free pin.
+
+    hinges  known pins in the frames of the bodies in `on` [m]      at  the same pins in the links' frames [m]
+    arms    known pin -> free pin in the links' frames [m]
+    """
+
+    links: tuple[str, str]
+    on: tuple[str, str]
+    pin: str
+    hung_at: tuple[str, str]
+    branch: int
+    hinges: tuple[complex, complex]
+    at: tuple[complex, complex]
+    arms: tuple[complex, complex]
+    a: float
+    b: float
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Both links."""
+        return self.links
+
+    @property
+    def parents(self) -> tuple[str, ...]:
+        """The bodies that they hang on."""
+        return self.on
+
+    @property
+    def words(self) -> str:
+        """What it is, for people."""
+        (p, q), (on_p, on_q) = self.links, self.on
+        return f"{p} and {q} joined at {self.pin} (branch {self.branch:+d}), hung on {on_p} and {on_q}: RRR"
+
+    def hung(self, known: Known) -> tuple[PointMotion, PointMotion]:
+        """Motions of the known pins."""
+        return known[self.on[0]].carry(self.hinges[0]), known[self.on[1]].carry(self.hinges[1])
+
+    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
+        """Directions, angular velocities and accelerations of the links."""
+        A, B = self.hung(known)
+        C = position(A.position, B.position, self.a, self.b, self.branch)
+        u, v = C - A.position, C - B.position
+        sine = turning(u, v)
+        r = B.velocity - A.velocity
+        wa, wb = first_rate(v, r, sine), second_rate(u, r, sine)
+        r = (B.acceleration - wb * wb * v) - (A.acceleration - wa * wa * u)
+        columns = {
+            self.links[0]: (u * (1 / self.arms[0]), wa, first_rate(v, r, sine)),
+            self.links[1]: (v * (1 / self.arms[1]), wb, second_rate(u, r, sine)),
+        }
+        return Solved(columns, sine * (1 / (self.a * self.b)))
+
+    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+        """The links, anchored at the known pins."""
+        return {
+            link: hung(known[on], hinge, at, columns[link])
+            for link, on, hinge, at in zip(self.links, self.on, self.hinges, self.at, strict=True)
+        }
+
+    @property
+    def size(self) -> float:
+        """The longer link [m]."""
+        return max(self.a, self.b)
+
+    @property
+    def failure(self) -> str:
+        """The links do not reach each other."""
+        return "CANNOT_CLOSE"
+
+    def gap(self, known: Known) -> RealField:
+        """How much too far apart (above 0) or too near (below 0) the known pins are [m]."""
+        A, B = self.hung(known)
+        return misfit(A.position, B.position, self.a, self.b)
+
+    def shortfall(self, known: Known) -> tuple[str, str]:
+        """The worst distance of the known pins against the links."""
+        A, B = self.hung(known)
+        gaps = np.ravel(self.gap(known))
+        worst = int(np.nanargmax(np.abs(gaps)))
+        reach, gap = np.ravel(np.abs(B.position - A.position))[worst], gaps[worst]
+        (p, q), pins = self.links, "-".join(self.hung_at)
+        if gap > 0:
+            return (
+                f"|{pins}| reaches {_mm(reach)}, {p} + {q} = {_mm(self.a + self.b)}",
+                f"lengthen one by {_mm(gap)}",
+            )
+        longer, shorter = (p, q) if self.a > self.b else (q, p)
+        return (
+            f"|{pins}| falls to {_mm(reach)}, {longer} - {shorter} = {_mm(abs(self.a - self.b))}",
+            f"lengthen {shorter} by {_mm(-gap)}",
+        )
+
+
+def recognise(group: Group) -> Dyad | None:
+    """The group as an RRR dyad, or None. Raises MechanismError where its pin has no branch or a link no length."""
+    if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
+        return None
+    pin, mechanism = group.inner[0], group.mechanism
+    if not all(isinstance(joint, Pin) for joint in group.joints):
+        return None
+    links = pin.bodies
+    held = [group.outer_of(link) for link in links]
+    if any(len(joints) != 1 for joints in held):
+        return None
+    outer = [joints[0] for joints in held]
+    on = [group.beyond(joint, link) for joint, link in zip(outer, links, strict=True)]
+    at = [mechanism.point(link, joint.name) for joint, link in zip(outer, links, strict=True)]
+    hinges = [mechanism.point(body, joint.name) for joint, body in zip(outer, on, strict=True)]
+    arms = [group.arm(link, joint.name, pin.name) for joint, link in zip(outer, links, strict=True)]
+    return Dyad(
+        links=links,
+        on=(on[0], on[1]),
+        pin=pin.name,
+        hung_at=(outer[0].name, outer[1].name),
+        branch=group.branch(pin.name),
+        hinges=(hinges[0], hinges[1]),
+        at=(at[0], at[1]),
+        arms=(arms[0], arms[1]),
+        a=abs(arms[0]),
+        b=abs(arms[1]),
+    )
+
+
+def _mm(length: float) -> str:
+    return format_quantity(float(length), "mm")

@@ -1,0 +1,94 @@
+"""A body shifted by an input along a slide on a known body: P = G + s e, angle fixed against the known body."""
+
+import cmath
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ilmek.arrays import ComplexField
+from ilmek.linkage.body_motion import BodyMotion, PointMotion
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Sure
+from ilmek.linkage.model import Displacement, Mechanism, Slide
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """A slide seen from its known body, whichever of the two that is.
+
+    The unknown body's point of the slide, at `at` [m] of its frame, stands at `root` + s `lead` of the known body's
+    frame, and its direction is that of the known body times `twist`.
+    """
+
+    root: complex
+    lead: complex
+    twist: complex
+    at: complex
+
+    def place(self, on: BodyMotion, columns: Columns) -> BodyMotion:
+        """The sliding body anchored at the slide's point; columns: s, s', s''.
+
+        P = G + s e,  P' = G' + (i w s + s') e,  P'' = G'' + ((i alpha - w^2) s + 2 i w s' + s'') e
+        """
+        s, ds, dds = columns
+        root = on.carry(self.root)
+        e, w = on.direction * self.lead, on.omega
+        anchor = PointMotion(
+            root.position + s * e,
+            root.velocity + (ds + 1j * (w * s)) * e,
+            root.acceleration + (dds - w * w * s + 1j * (on.alpha * s + 2 * w * ds)) * e,
+        )
+        return BodyMotion(anchor, self.at, on.direction * self.twist, w, on.alpha)
+
+
+def track(mechanism: Mechanism, slide: Slide, body: str) -> Track:
+    """The slide as the unknown `body` sees it."""
+    along, turned = cmath.rect(1, slide.along), cmath.rect(1, slide.turned)
+    on_line, guide = mechanism.point(slide.body, slide.name), mechanism.point(slide.guide, slide.name)
+    if body == slide.body:
+        return Track(root=guide, lead=along, twist=turned, at=on_line)
+    return Track(root=on_line, lead=-along * turned.conjugate(), twist=turned.conjugate(), at=guide)
+
+
+@dataclass(frozen=True, slots=True)
+class Shift(Sure):
+    """A driven slider: shifted along its track on the known body `on`."""
+
+    body: str
+    on: str
+    entry: str
+    track: Track
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """The driven body."""
+        return (self.body,)
+
+    @property
+    def parents(self) -> tuple[str, ...]:
+        """The body that it slides on."""
+        return (self.on,)
+
+    @property
+    def words(self) -> str:
+        """What it is, for people."""
+        return f"{self.body} shifted by the input on {self.on}"
+
+    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - the slide's s is the input
+        """Travel, speed and acceleration of the slide."""
+        drive = drives[self.entry]
+        columns: tuple[ComplexField, ...] = (drive.value, drive.speed, drive.acceleration)
+        return Solved({self.body: columns})
+
+    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+        """The driven body, anchored at the slide's point."""
+        return {self.body: self.track.place(known[self.on], columns[self.body])}
+
+
+def recognise(group: Group) -> Shift | None:
+    """The group as a driven slider, or None."""
+    if len(group.bodies) != 1 or len(group.joints) != 1:
+        return None
+    (body,), (joint,) = group.bodies, group.joints
+    entry = next((entry for entry in group.inputs if entry.joint == joint.name), None)
+    if not isinstance(joint, Slide) or not isinstance(entry, Displacement):
+        return None
+    return Shift(body, group.beyond(joint, body), entry.name, track(group.mechanism, joint, body))

@@ -1,0 +1,69 @@
+"""A body turned by an input about a pin on a known body: theta = theta_carrier + input."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ilmek.linkage.body_motion import BodyMotion
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Sure
+from ilmek.linkage.model import GROUND, Pin, Rotation
+from ilmek.plane.vectors import unit
+
+
+@dataclass(frozen=True, slots=True)
+class Turn(Sure):
+    """A driven body: pinned at `hinge` of the carrier, at `at` of its own frame [m]; turned backwards if `sign` is -1."""
+
+    body: str
+    carrier: str
+    entry: str
+    hinge: complex
+    at: complex
+    sign: int
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """The driven body."""
+        return (self.body,)
+
+    @property
+    def parents(self) -> tuple[str, ...]:
+        """The body that carries it."""
+        return (self.carrier,)
+
+    @property
+    def words(self) -> str:
+        """What it is, for people."""
+        return f"{self.body} turned by the input on {self.carrier}"
+
+    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:
+        """Direction, angular velocity and acceleration of the driven body."""
+        carrier, drive = known[self.carrier], drives[self.entry]
+        value, speed, acceleration = drive.value, drive.speed, drive.acceleration
+        if self.sign < 0:
+            value, speed, acceleration = -value, -speed, -acceleration
+        direction = unit(value) if self.carrier == GROUND else carrier.direction * unit(value)
+        return Solved({self.body: (direction, carrier.omega + speed, carrier.alpha + acceleration)})
+
+    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+        """The driven body, anchored at its pin."""
+        return {self.body: hung(known[self.carrier], self.hinge, self.at, columns[self.body])}
+
+
+def hung(on: BodyMotion, hinge: complex, at: complex, columns: Columns) -> BodyMotion:
+    """A body pinned at `at` [m] of its frame to `hinge` [m] of a known body; columns: direction, omega, alpha."""
+    direction, omega, alpha = columns
+    return BodyMotion(on.carry(hinge), at, direction, omega, alpha)
+
+
+def recognise(group: Group) -> Turn | None:
+    """The group as a driven turning body, or None."""
+    if len(group.bodies) != 1 or len(group.joints) != 1:
+        return None
+    (body,), (joint,), mechanism = group.bodies, group.joints, group.mechanism
+    entry = next((entry for entry in group.inputs if entry.joint == joint.name), None)
+    if not isinstance(joint, Pin) or not isinstance(entry, Rotation):
+        return None
+    carrier = group.beyond(joint, body)
+    sign = 1 if entry.body == body else -1
+    hinge, at = mechanism.point(carrier, joint.name), mechanism.point(body, joint.name)
+    return Turn(body, carrier, entry.name, hinge, at, sign)

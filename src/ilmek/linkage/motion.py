@@ -1,0 +1,111 @@
+"""What `solve` answers: the motion of every body, sample by sample, and whether it could be had."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from jaxtyping import Complex, Float, Int8
+
+from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
+from ilmek.linkage.faults import first_fault
+from ilmek.linkage.groups.group import Columns, Drive
+from ilmek.linkage.model import GROUND
+from ilmek.linkage.status import Status
+from ilmek.linkage.structure import Plan
+
+__all__ = ["Motion", "Status"]
+
+Reals: TypeAlias = Float[np.ndarray, " samples"]
+Points: TypeAlias = Complex[np.ndarray, " samples"]
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """The motion of a mechanism over a batch of samples.
+
+    Only directions and rates are kept; points and origins are computed when asked for. Every answer is an array over
+    the samples, and may be a read-only view.
+
+    status  Status of each sample (int8)        drives  the inputs' courses by name
+    """
+
+    plan: Plan
+    drives: Mapping[str, Drive]
+    columns: Mapping[str, Columns]
+    status: Int8[np.ndarray, " samples"]
+
+    def __len__(self) -> int:
+        return len(self.status)
+
+    @property
+    def ok(self) -> bool:
+        """Whether every sample could be solved."""
+        return not self.status.any()
+
+    def body(self, name: str) -> BodyMotion:
+        """A body's motion, its constants left as plain numbers."""
+        if name == GROUND:
+            return STILL
+        self.plan.mechanism.body(name)
+        step = self.plan.step_of(name)
+        known = {parent: self.body(parent) for parent in step.parents}
+        return step.place(known, {body: self.columns[body] for body in step.bodies})[name]
+
+    def point(self, body: str, point: str) -> PointMotion:
+        """Motion of a body's named point: position [m], velocity [m/s], acceleration [m/s^2]."""
+        return self._carried(body, self.plan.mechanism.point(body, point))
+
+    def origin(self, body: str) -> Points:
+        """World position of the origin of a body's frame [m]."""
+        return self._carried(body, 0j).position
+
+    def velocity_of_origin(self, body: str) -> Points:
+        """Velocity of the origin of a body's frame [m/s]."""
+        return self._carried(body, 0j).velocity
+
+    def acceleration_of_origin(self, body: str) -> Points:
+        """Acceleration of the origin of a body's frame [m/s^2]."""
+        return self._carried(body, 0j).acceleration
+
+    def direction(self, body: str) -> Points:
+        """Unit complex e^{i theta} along the x axis of a body's frame."""
+        return self._spread(self.body(body).direction, complex)
+
+    def angle(self, body: str) -> Reals:
+        """Angle of a body's frame against the world's x [rad], unwrapped along the samples, the first in (-pi, pi].
+
+        Samples more than half a turn apart cannot be told from fewer turns.
+        """
+        return np.unwrap(np.angle(self.direction(body)))
+
+    def omega(self, body: str) -> Reals:
+        """Angular velocity of a body [rad/s]."""
+        return self._spread(self.body(body).omega, float)
+
+    def alpha(self, body: str) -> Reals:
+        """Angular acceleration of a body [rad/s^2]."""
+        return self._spread(self.body(body).alpha, float)
+
+    def require(self) -> "Motion":
+        """This motion, if every sample could be solved.
+
+        Raises MechanismError that says where along the input it could not, by how much, and what to do.
+        """
+        if self.ok:
+            return self
+        raise first_fault(self.plan, self.drives, self.status)
+
+    def _carried(self, body: str, local: complex) -> PointMotion:
+        point = self.body(body).carry(local)
+        return PointMotion(
+            self._spread(point.position, complex),
+            self._spread(point.velocity, complex),
+            self._spread(point.acceleration, complex),
+        )
+
+    def _spread(self, value, kind):  # type: ignore[no-untyped-def]
+        """A constant as a read-only array over the samples; an array as it is."""
+        if isinstance(value, np.ndarray) and value.ndim and value.dtype == kind:
+            return value
+        return np.broadcast_to(np.asarray(value, dtype=kind), self.status.shape)

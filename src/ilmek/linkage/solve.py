@@ -1,0 +1,133 @@
+"""Moving a mechanism: a plan and the course of its inputs give its motion.
+
+The batch is worked off in blocks that stay in the processor's cache (evaluated whole, a million samples take several
+times as long), each block written into arrays made once. Nothing is carried from one sample to the next.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ilmek.arrays import RealField
+from ilmek.errors import MechanismError
+from ilmek.linkage.body_motion import STILL, BodyMotion
+from ilmek.linkage.groups.group import Columns, Drive
+from ilmek.linkage.model import GROUND
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.status import judge
+from ilmek.linkage.structure import Plan
+
+BLOCK = 4096
+"""Samples worked off at a time: a few dozen arrays of this length fit the second-level cache."""
+
+Courses = RealField | Mapping[str, RealField]
+"""One input's values, or several inputs' by name: a rotation's by its body, a displacement's by its slide."""
+
+
+def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Courses = 0.0) -> Motion:
+    """Motion of the mechanism for a batch of input values.
+
+    angle         value of the input [rad, or m for a displacement]: a number, or an array over the samples
+    speed         its rate [rad/s, m/s], one number or an array over the samples
+    acceleration  its second rate [rad/s^2, m/s^2], likewise
+    Where there are several inputs: mappings from the input's name; a speed or acceleration left out is zero.
+
+    Never fails for a sample: see `Motion.status` and `Motion.require`. Raises MechanismError for unknown or missing
+    inputs, values that are not finite, and arrays of different lengths.
+    """
+    drives = _drives(plan, angle, speed, acceleration)
+    samples = len(drives[plan.mechanism.inputs[0].name].value)
+    status = np.zeros(samples, dtype=np.int8)
+    columns: dict[str, Columns] = {}
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        for start in range(0, samples, BLOCK):
+            part = slice(start, start + BLOCK)
+            solved = _block(plan, {name: _part(drive, part) for name, drive in drives.items()}, status[part])
+            if start == 0:
+                columns = {body: _room(fields, samples) for body, fields in solved.items()}
+            for body, fields in solved.items():
+                _write(columns[body], fields, part)
+    return Motion(plan, drives, columns, status)
+
+
+def _block(plan: Plan, drives: Mapping[str, Drive], status: np.ndarray) -> dict[str, Columns]:
+    """Every body's columns for one block of samples; writes into `status`."""
+    known: dict[str, BodyMotion] = {GROUND: STILL}
+    columns: dict[str, Columns] = {}
+    last = plan.steps[-1]
+    for step in plan.steps:
+        solved = step.solve(known, drives)
+        columns.update(solved.columns)
+        if solved.margin is not None:
+            judge(step, known, solved.margin, status)
+        if step is not last:
+            known.update(step.place(known, solved.columns))
+    return columns
+
+
+def _room(fields: Columns, samples: int) -> Columns:
+    """Arrays for all samples, where the first block's columns are arrays; else the number itself."""
+    return tuple(np.empty(samples, field.dtype) if isinstance(field, np.ndarray) else field for field in fields)
+
+
+def _write(room: Columns, fields: Columns, part: slice) -> None:
+    for place, field in zip(room, fields, strict=True):
+        if isinstance(place, np.ndarray):
+            place[part] = field
+
+
+def _part(drive: Drive, part: slice) -> Drive:
+    fields = (drive.value, drive.speed, drive.acceleration)
+    return Drive(*(value[part] if isinstance(value, np.ndarray) else value for value in fields))
+
+
+def _drives(plan: Plan, angle: Courses, speed: Courses, acceleration: Courses) -> dict[str, Drive]:
+    names = [entry.name for entry in plan.mechanism.inputs]
+    values, speeds, accelerations = (
+        _by_name(names, courses, what)
+        for courses, what in ((angle, "value"), (speed, "speed"), (acceleration, "acceleration"))
+    )
+    missing = [name for name in names if name not in values]
+    if missing:
+        raise MechanismError(f"no value given for input {missing[0]!r} of {plan.mechanism.name}")
+    fields = [course for given in (values, speeds, accelerations) for course in given.values()]
+    samples = _samples(fields)
+    return {
+        name: Drive(
+            np.broadcast_to(values[name], samples),
+            _spread(speeds.get(name, 0.0), samples),
+            _spread(accelerations.get(name, 0.0), samples),
+        )
+        for name in names
+    }
+
+
+def _by_name(names: list[str], courses: Courses, what: str) -> dict[str, RealField]:
+    """Courses by input name, checked; a lone number or array belongs to the only input, or is zero for all."""
+    if not isinstance(courses, Mapping):
+        if len(names) > 1 and np.any(np.asarray(courses) != 0):
+            raise MechanismError(f"one {what} given for the inputs {', '.join(names)}", do="give a mapping by name")
+        courses = dict.fromkeys(names, courses)
+    for name, course in courses.items():
+        if name not in names:
+            raise MechanismError(f"unknown input {name!r}", allowed=f"the inputs are {', '.join(names)}")
+        if not np.isfinite(course).all():
+            raise MechanismError(f"the {what} of input {name!r} is not finite everywhere")
+    return {name: _real(course) for name, course in courses.items()}
+
+
+def _real(course: RealField) -> RealField:
+    return np.asarray(course, dtype=float) if np.size(course) != 1 else float(np.asarray(course).item())
+
+
+def _spread(course: RealField, samples: int) -> RealField:
+    return np.broadcast_to(course, samples) if np.ndim(course) else course
+
+
+def _samples(courses: list[RealField]) -> int:
+    """The one length of all arrays; 1 where there are only numbers."""
+    shapes = {np.shape(course) for course in courses if np.ndim(course)} or {(1,)}
+    if len(shapes) > 1 or len(min(shapes)) != 1:
+        said = " and ".join(str(shape) for shape in sorted(shapes))
+        raise MechanismError(f"inputs have arrays of shapes {said}", allowed="one-dimensional arrays of one length")
+    return min(shapes)[0]

@@ -1,0 +1,42 @@
+"""The closed vocabulary of failure, and how a step's answer is judged."""
+
+from enum import IntEnum
+
+import numpy as np
+from jaxtyping import Int8
+
+from ilmek.arrays import RealField
+from ilmek.linkage.groups.group import Known, Step
+
+DEAD = 1e-7
+"""A margin (sine of the transmission angle) this small leaves a velocity no digit: positions there are known to 1e-9,
+and the error is divided by the margin twice."""
+
+TOUCHING = 1e-12
+"""A gap this small against the links is rounding: the links are in line and just touch."""
+
+
+class Status(IntEnum):
+    """What became of a sample.
+
+    OK             solved
+    CANNOT_CLOSE   the links do not reach: no position, NaN
+    DEAD_CENTRE    links in line: a position (NaN if in line to rounding), but no velocity or acceleration to trust
+    NOT_CONVERGED  Newton's method found no position: NaN
+    """
+
+    OK = 0
+    CANNOT_CLOSE = 1
+    DEAD_CENTRE = 2
+    NOT_CONVERGED = 3
+
+
+def judge(step: Step, known: Known, margin: RealField, status: Int8[np.ndarray, " samples"]) -> None:
+    """Write into `status` what a step's margin says of the samples that were still OK."""
+    if np.min(np.abs(margin)) > DEAD:  # false for NaN too
+        return
+    lost = np.isnan(margin)
+    touching = lost & (np.abs(step.gap(known)) <= TOUCHING * step.size)
+    dead = touching | (np.abs(margin) <= DEAD)
+    found = np.where(dead, Status.DEAD_CENTRE, np.where(lost, Status[step.failure], Status.OK))
+    np.copyto(status, found.astype(np.int8), where=status == Status.OK)
