@@ -1,0 +1,83 @@
+"""Yarn bill: what to buy for a chart.
+
+    metres = knots × length per knot,   kilograms = metres × linear density,   linear density = ply / (1000 Nm)
+
+per colour of the pile, and warp and two wefts for the ground.
+"""
+
+from dataclasses import dataclass
+
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.ground import GroundParams, ground_yarns
+from ilmek.carpet.knots import PileParams, knot_length
+from ilmek.carpet.yarn import Yarn
+
+
+@dataclass(frozen=True, slots=True)
+class YarnNeed:
+    """One line of the bill: the yarn and its use (pile, warp, weft), knots (0 for the ground), length [m], mass [kg],
+    price (None where no price per kg is known).
+    """
+
+    name: str
+    use: str
+    knots: int
+    length: float
+    mass: float
+    price: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class YarnBill:
+    """The bill: pile yarns in the order of the list (those with knots), then warp and wefts."""
+
+    pile: tuple[YarnNeed, ...]
+    ground: tuple[YarnNeed, ...]
+
+    @property
+    def needs(self) -> tuple[YarnNeed, ...]:
+        """All lines."""
+        return self.pile + self.ground
+
+    @property
+    def knots(self) -> int:
+        """All knots."""
+        return sum(need.knots for need in self.pile)
+
+    @property
+    def pile_mass(self) -> float:
+        """Mass of the pile yarns [kg]."""
+        return sum(need.mass for need in self.pile)
+
+    @property
+    def mass(self) -> float:
+        """Mass of all yarns [kg]."""
+        return sum(need.mass for need in self.needs)
+
+    @property
+    def price(self) -> float | None:
+        """Price of the pile yarns; None unless all of them have one."""
+        prices = [need.price for need in self.pile if need.price is not None]
+        return sum(prices) if len(prices) == len(self.pile) else None
+
+
+def pile_need(yarn: Yarn, knots: int, length_per_knot: float) -> YarnNeed:
+    """The line of a pile yarn: knots × length per knot, × linear density, × price per kg."""
+    length = knots * length_per_knot
+    mass = length * yarn.linear_density
+    return YarnNeed(yarn.name, "pile", knots, length, mass, None if yarn.price is None else mass * yarn.price)
+
+
+def yarn_bill(chart: Chart, pile: PileParams | None = None, ground: GroundParams | None = None) -> YarnBill:
+    """The yarn that a chart takes."""
+    needs = tuple(
+        pile_need(yarn, knots, knot_length(chart.knot, chart.quality, yarn.linear_density, pile))
+        for yarn, knots in zip(chart.yarns, chart.counts, strict=True)
+        if knots
+    )
+    uses = ("warp", "weft", "weft")
+    threads = ground_yarns(chart.size, chart.quality, chart.rows, chart.columns, ground)
+    return YarnBill(
+        needs,
+        tuple(YarnNeed(need.name, use, 0, need.length, need.mass) for need, use in zip(threads, uses, strict=True)),
+    )

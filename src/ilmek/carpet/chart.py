@@ -1,0 +1,112 @@
+"""Chart: picture, size, quality and yarns in, one yarn a knot out.
+
+The picture is averaged onto the knot grid (`design`), each distinct colour gets the yarn nearest by CIEDE2000
+(`palette`), and lone knots are merged into a neighbour (`lone`).
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import Indices, Rgb
+from ilmek.carpet.design import Progress, knot_grid, resampled
+from ilmek.carpet.knots import parse_knot
+from ilmek.carpet.lone import count_lone, merge_lone
+from ilmek.carpet.palette import best_yarns, distinct_colours, nearest_yarns, paint
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import Size
+from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
+from ilmek.errors import PictureError, YarnError
+
+
+@dataclass(frozen=True, slots=True)
+class Chart:
+    """A knot chart.
+
+    knots  the yarn's place in `yarns`, one a knot; row 0 is the top of the picture      knot  symmetric or asymmetric
+    mean_delta_e  mean CIEDE2000 of the knots' yarns to the averaged picture             merged  lone knots merged
+    least_delta_e  the same if each knot had its nearest yarn of the list: the optimum
+    """
+
+    knots: Indices
+    yarns: tuple[Yarn, ...]
+    size: Size
+    quality: Quality
+    knot: str
+    mean_delta_e: float
+    least_delta_e: float
+    merged: int = 0
+
+    @property
+    def rows(self) -> int:
+        """Rows of knots."""
+        return int(self.knots.shape[0])
+
+    @property
+    def columns(self) -> int:
+        """Knots in a row."""
+        return int(self.knots.shape[1])
+
+    @property
+    def counts(self) -> tuple[int, ...]:
+        """Knots of each yarn, in the order of `yarns`."""
+        return tuple(np.bincount(self.knots.ravel(), minlength=len(self.yarns)).tolist())
+
+    @property
+    def colours(self) -> int:
+        """Yarns that at least one knot has."""
+        return sum(count > 0 for count in self.counts)
+
+    @property
+    def lone_fraction(self) -> float:
+        """Knots unlike all their neighbours, of all knots."""
+        return count_lone(self.knots) / self.knots.size
+
+    @property
+    def changes_per_knot(self) -> float:
+        """Changes of yarn along the rows, of all knots."""
+        return int(np.count_nonzero(self.knots[:, 1:] != self.knots[:, :-1])) / self.knots.size
+
+
+def make_chart(
+    rgb: Rgb,
+    size: Size,
+    quality: Quality,
+    yarns: Sequence[Yarn],
+    *,
+    knot: str = "symmetric",
+    keep_lone: bool = False,
+    colours: int | None = None,
+    progress: Progress | None = None,
+) -> Chart:
+    """The knot chart of a picture.
+
+    colours  the best so many yarns of the list are taken, in its order; None: all    keep_lone  leave lone knots
+    progress  called with the share done, 0 to 1
+    Raises PictureError for an empty picture, CarpetError for a knot or grid that cannot be, YarnError for a list of
+    less than 2 or more than 255 yarns, or a `colours` it cannot give.
+    """
+    if rgb.size == 0:
+        raise PictureError("the picture is empty", allowed="at least one pixel each way")
+    if not 2 <= len(yarns) <= MOST_YARNS:
+        raise YarnError(f"the yarn list has {len(yarns)} yarns", allowed=f"2 to {MOST_YARNS} yarns")
+    kind = parse_knot(knot)
+    picture = resampled(rgb, *knot_grid(size, quality), _part(progress, 0.0, 0.4))
+    distinct = distinct_colours(picture)
+    chosen = tuple(yarns)
+    if colours is not None:
+        chosen = tuple(yarns[place] for place in best_yarns(distinct, yarn_labs(yarns), colours))
+    labs = yarn_labs(chosen)
+    yarn_of, difference = nearest_yarns(distinct, labs, _part(progress, 0.4, 0.8))
+    knots = paint(picture, distinct, yarn_of)
+    merged, added = (0, 0.0) if keep_lone else merge_lone(knots, picture, distinct, labs, difference)
+    least = float(distinct.counts @ difference)
+    if progress is not None:
+        progress(1.0)
+    return Chart(knots, chosen, size, quality, kind, (least + added) / knots.size, least / knots.size, merged)
+
+
+def _part(progress: Progress | None, start: float, end: float) -> Callable[[float], object] | None:
+    """The progress of a part of the work as progress of the whole."""
+    return None if progress is None else lambda share: progress(start + share * (end - start))

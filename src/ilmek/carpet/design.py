@@ -1,0 +1,116 @@
+"""Design: from a picture to one colour a knot.
+
+Each knot sees its own rectangle of the picture. Light is added up in linear light, each pixel by the share of it that
+the rectangle covers (a box filter; exact, separable, any ratio up or down), and the mean is rounded to sRGB codes. The
+design fills the carpet: where the picture's proportions differ from the carpet's it is stretched, by `distortion`.
+
+Knots are not square when the quality differs across and along; the grid takes care of that.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ilmek.arrays import Rgb
+from ilmek.carpet.colour import LINEAR, decode
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import Size
+from ilmek.errors import CarpetError
+from ilmek.num.compiled import compiled
+
+Progress = Callable[[float], object]
+
+MOST_KNOTS = 200_000_000
+LARGEST_DISTORTION = 0.02
+"""A stretch that the eye forgives; above it a job should warn."""
+
+_BAND = 128
+_STEPS = 4096
+
+# Linear light at which the code above begins to be the nearer one, and the code at each of _STEPS even steps of light.
+_THRESHOLDS = np.append(decode((np.arange(255) + 0.5) / 255), np.inf)
+_GUESSES = np.searchsorted(_THRESHOLDS, np.arange(_STEPS + 1) / _STEPS).astype(np.int64)
+
+
+def knot_grid(size: Size, quality: Quality) -> tuple[int, int]:
+    """(rows, columns) of knots: length × along and width × across, each rounded.
+
+    Raises CarpetError where that is less than two knots a side or more than MOST_KNOTS.
+
+    >>> knot_grid(Size(1.2, 1.8), Quality(250.0, 250.0))
+    (450, 300)
+    """
+    rows, columns = round(size.length * quality.along), round(size.width * quality.across)
+    if min(rows, columns) < 2:
+        raise CarpetError(
+            f"{size} at {quality} has {columns} × {rows} knots",
+            allowed="at least 2 × 2",
+            do="take a larger size or a finer quality",
+        )
+    if rows * columns > MOST_KNOTS:
+        raise CarpetError(
+            f"{size} at {quality} has {rows * columns / 1e6:.0f} million knots",
+            allowed=f"at most {MOST_KNOTS // 1_000_000} million",
+            do="take a smaller size or a coarser quality",
+        )
+    return rows, columns
+
+
+def distortion(rgb: Rgb, size: Size) -> float:
+    """How much wider the picture is drawn than it is, against its height: 0 for true proportions, 0.5 for half as wide
+    again, negative where it is drawn narrower.
+
+    >>> round(distortion(np.zeros((180, 100, 3), np.uint8), Size(1.2, 1.8)), 9)
+    0.2
+    """
+    height, width = int(rgb.shape[0]), int(rgb.shape[1])
+    return (size.width / size.length) / (width / height) - 1
+
+
+@compiled
+def _encoded(light: float) -> int:
+    """The sRGB code nearest to a linear light, by the encoded value."""
+    code: int = _GUESSES[int(min(max(light, 0.0), 1.0) * _STEPS)]
+    while light > _THRESHOLDS[code]:
+        code += 1
+    return code
+
+
+@compiled
+def _resample(rgb: Rgb, out: Rgb, first: int, rows: int) -> None:
+    # In units of 1/rows (1/columns) of a pixel both pixels and knots begin and end at whole numbers: shares are exact.
+    height, width = rgb.shape[0], rgb.shape[1]
+    columns = out.shape[1]
+    line = np.empty((width, 3))
+    for row in range(out.shape[0]):
+        line[:] = 0.0
+        start, end = (first + row) * height, (first + row + 1) * height
+        for y in range(start // rows, (end - 1) // rows + 1):
+            share = (min(end, (y + 1) * rows) - max(start, y * rows)) / height
+            for x in range(width):
+                for channel in range(3):
+                    line[x, channel] += share * LINEAR[rgb[y, x, channel]]
+        for column in range(columns):
+            left, right = column * width, (column + 1) * width
+            red, green, blue = 0.0, 0.0, 0.0
+            for x in range(left // columns, (right - 1) // columns + 1):
+                share = (min(right, (x + 1) * columns) - max(left, x * columns)) / width
+                red += share * line[x, 0]
+                green += share * line[x, 1]
+                blue += share * line[x, 2]
+            out[row, column, 0] = _encoded(red)
+            out[row, column, 1] = _encoded(green)
+            out[row, column, 2] = _encoded(blue)
+
+
+def resampled(rgb: Rgb, rows: int, columns: int, progress: Progress | None = None) -> Rgb:
+    """The picture on a grid of rows × columns by box averages in linear light; itself where it has that grid."""
+    rgb = np.ascontiguousarray(rgb)
+    if rgb.shape[:2] == (rows, columns):
+        return rgb
+    out = np.empty((rows, columns, 3), dtype=np.uint8)
+    for first in range(0, rows, _BAND):
+        _resample(rgb, out[first : first + _BAND], first, rows)
+        if progress is not None:
+            progress(min(first + _BAND, rows) / rows)
+    return out

@@ -1,0 +1,185 @@
+"""Palette: the distinct colours of a picture, each solved once, and the best N yarns of a list.
+
+A carpet picture of millions of knots has some hundred thousand distinct colours; the nearest yarn is found for each of
+those and looked up for the rest, through a table of all 2^24 codes.
+"""
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int, Int32, Int64, UInt8
+
+from ilmek.arrays import FloatArray, Indices, IntArray, Rgb
+from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.difference import delta_e_2000, nearest
+from ilmek.errors import YarnError
+from ilmek.num.compiled import compiled
+
+Progress = Callable[[float], object]
+
+_CODES = 1 << 24
+_BATCH = 65536
+_LARGEST_TABLE = 1 << 25
+_MOST_TRIALS = 3_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Colours:
+    """The distinct colours of a picture.
+
+    place  for each code r·65536 + g·256 + b the colour's place in the list, counted from 1; 0: not in the picture
+    labs   CIELAB of each                 counts  knots of each
+    """
+
+    place: Int32[np.ndarray, " codes"]
+    labs: Float[np.ndarray, "colours 3"]
+    counts: Int64[np.ndarray, " colours"]
+
+
+@compiled
+def _count(rgb: Rgb, place: IntArray, codes: IntArray, counts: IntArray) -> int:
+    found = 0
+    for row in range(rgb.shape[0]):
+        for column in range(rgb.shape[1]):
+            code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
+            if place[code] == 0:
+                codes[found] = code
+                counts[found] = 0
+                found += 1
+                place[code] = found
+            counts[place[code] - 1] += 1
+    return found
+
+
+@compiled
+def _paint(rgb: Rgb, place: IntArray, yarn_of: UInt8[np.ndarray, " colours"], knots: Indices) -> None:
+    for row in range(rgb.shape[0]):
+        for column in range(rgb.shape[1]):
+            code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
+            knots[row, column] = yarn_of[place[code] - 1]
+
+
+def distinct_colours(rgb: Rgb) -> Colours:
+    """The distinct colours of a picture, in order of first appearance."""
+    place = np.zeros(_CODES, dtype=np.int32)
+    most = min(_CODES, rgb.shape[0] * rgb.shape[1])
+    codes, counts = np.empty(most, dtype=np.int32), np.empty(most, dtype=np.int64)
+    found = _count(np.ascontiguousarray(rgb), place, codes, counts)
+    seen = codes[:found]
+    channels = np.stack([seen >> 16, seen >> 8 & 255, seen & 255], axis=-1).astype(np.uint8)
+    return Colours(place, srgb_to_lab(channels), counts[:found].copy())
+
+
+def nearest_yarns(
+    colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], progress: Progress | None = None
+) -> tuple[UInt8[np.ndarray, " colours"], Float[np.ndarray, " colours"]]:
+    """For each distinct colour the yarn nearest by CIEDE2000 and its difference."""
+    index = np.empty(len(colours.labs), dtype=np.uint8)
+    delta = np.empty(len(colours.labs))
+    for start in range(0, len(index), _BATCH):
+        batch = slice(start, start + _BATCH)
+        index[batch], delta[batch] = nearest(colours.labs[batch], yarn_labs)
+        if progress is not None:
+            progress(min(start + _BATCH, len(index)) / len(index))
+    return index, delta
+
+
+def paint(rgb: Rgb, colours: Colours, yarn_of: UInt8[np.ndarray, " colours"]) -> Indices:
+    """The knot chart of a picture whose distinct colours have been given their yarns."""
+    knots = np.empty(rgb.shape[:2], dtype=np.uint8)
+    _paint(np.ascontiguousarray(rgb), colours.place, yarn_of, knots)
+    return knots
+
+
+def best_yarns(colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], count: int) -> tuple[int, ...]:
+    """Places of the `count` yarns that leave the least total CIEDE2000 over the picture, ascending.
+
+    Every choice is tried where that is little work; else yarns are added one by one, each the best addition, and then
+    swapped one for one while any swap helps. Where the table colours × yarns would outgrow 2^25 entries, near colours
+    are counted together. Raises YarnError where count is not 2 to the length of the list.
+    """
+    if not 2 <= count <= len(yarn_labs):
+        raise YarnError(f"{count} colours cannot be picked from the list", allowed=f"2 to {len(yarn_labs)}, its length")
+    labs, weights = _pooled(colours, _LARGEST_TABLE // len(yarn_labs))
+    table = np.empty((len(yarn_labs), len(labs)), dtype=np.float32)
+    for row, lab in zip(table, yarn_labs, strict=True):
+        row[:] = delta_e_2000(labs, lab) * weights
+    if math.comb(len(yarn_labs), count) * len(labs) * count <= _MOST_TRIALS:
+        choices = itertools.combinations(range(len(yarn_labs)), count)
+        return min(choices, key=lambda choice: total_difference(table, choice))
+    return tuple(sorted(_swap_while_better(table, _add_one_by_one(table, count))))
+
+
+def total_difference(table: Float[np.ndarray, "yarns colours"], choice: tuple[int, ...]) -> float:
+    """Sum over the colours of the least entry among the chosen yarns."""
+    return float(table[list(choice)].min(axis=0).sum(dtype=float))
+
+
+def _pooled(colours: Colours, most: int) -> tuple[FloatArray, FloatArray]:
+    """CIELAB and knots of the colours, those of one cell of the Lab space counted as their mean where too many."""
+    labs, weights = colours.labs, colours.counts.astype(float)
+    cell = 1.0
+    while len(labs) > most:
+        keys = np.floor(colours.labs / cell).astype(np.int64) + 512
+        _, group = np.unique(keys @ np.array([1 << 20, 1 << 10, 1]), return_inverse=True)
+        weights = np.bincount(group, weights=colours.counts)
+        labs = np.stack(
+            [np.bincount(group, weights=colours.counts * axis) / weights for axis in colours.labs.T], axis=-1
+        )
+        cell *= 1.5
+    return labs, weights
+
+
+def _add_one_by_one(table: Float[np.ndarray, "yarns colours"], count: int) -> list[int]:
+    """The yarns that a greedy choice takes, in order."""
+    chosen: list[int] = []
+    least = np.full(table.shape[1], np.inf, dtype=np.float32)
+    for _ in range(count):
+        totals = [float(np.minimum(row, least).sum(dtype=float)) for row in table]
+        best = min((place for place in range(len(table)) if place not in chosen), key=totals.__getitem__)
+        chosen.append(best)
+        least = np.minimum(least, table[best])
+    return chosen
+
+
+@compiled
+def _swap_totals(
+    entering: FloatArray, place: IntArray, least: FloatArray, second: FloatArray, totals: FloatArray
+) -> None:
+    # totals[k]: the sum if the yarn entering replaces the chosen one k. Only colours of k fall back to their second.
+    shared = 0.0
+    totals[:] = 0.0
+    for i in range(len(entering)):
+        kept = min(entering[i], least[i])
+        shared += kept
+        totals[place[i]] += min(entering[i], second[i]) - kept
+    totals += shared
+
+
+def _swap_while_better(table: Float[np.ndarray, "yarns colours"], chosen: list[int]) -> list[int]:
+    """Exchange the best pair (one chosen, one not) while that lowers the total."""
+    totals = np.empty(len(chosen))
+    while True:
+        place, least, second = _two_least(table, chosen)
+        best = (float(least.sum(dtype=float)) * (1 - 1e-9), -1, -1)
+        for candidate in range(len(table)):
+            if candidate not in chosen:
+                _swap_totals(table[candidate], place, least, second, totals)
+                leaving = int(totals.argmin())
+                best = min(best, (float(totals[leaving]), candidate, leaving))
+        if best[1] < 0:
+            return chosen
+        chosen[best[2]] = best[1]
+
+
+def _two_least(
+    table: Float[np.ndarray, "yarns colours"], chosen: list[int]
+) -> tuple[Int[np.ndarray, " colours"], FloatArray, FloatArray]:
+    """For each colour the place in `chosen` of its best yarn, its entry there, and the second least entry."""
+    entries = table[chosen]
+    order = np.argpartition(entries, 1, axis=0)[:2]
+    columns = np.arange(table.shape[1])
+    return order[0], entries[order[0], columns], entries[order[1], columns]

@@ -1,0 +1,129 @@
+"""Carpet sizes: the Turkish standard names and free sizes, width × length.
+
+Source: thesis, Table 1.1 (which gives length × width in cm).
+
+>>> parse_size("seccade")
+Size(width=1.2, length=1.8, name='seccade')
+>>> parse_size("120 × 180 cm") == parse_size("1.2x1.8m") == Size(1.2, 1.8)
+True
+"""
+
+import difflib
+import math
+import re
+import unicodedata
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ilmek.errors import CarpetError
+from ilmek.units import cm, format_number, format_quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """A carpet's width (along a row of knots) and length (along the warps) [m]; name: the standard one, or ""."""
+
+    width: float
+    length: float
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        for side in (self.width, self.length):
+            if not math.isfinite(side) or not SMALLEST <= side <= LARGEST:
+                raise CarpetError(
+                    f"a carpet side of {format_quantity(side, 'cm')} cannot be woven",
+                    allowed=f"a side is {format_quantity(SMALLEST, 'cm')} to {format_quantity(LARGEST, 'm')}",
+                    do=EXAMPLE if side > 0 else f"give both sides above zero; {EXAMPLE}",
+                )
+
+    @property
+    def area(self) -> float:
+        """Width × length [m²]."""
+        return self.width * self.length
+
+    def __str__(self) -> str:
+        sides = f"{format_number(self.width / cm)} × {format_number(self.length / cm)} cm"
+        return f"{self.name}, {sides}" if self.name else sides
+
+
+SMALLEST, LARGEST = 0.01, 50.0
+EXAMPLE = "write it width x length, like 120x180cm"
+
+STANDARD_SIZES: dict[str, Size] = {
+    size.name: size
+    for size in (
+        Size(0.25, 0.40, "küçük yastık"),
+        Size(0.60, 1.00, "yastık"),
+        Size(0.90, 1.35, "çeyrek"),
+        Size(1.20, 1.80, "seccade"),
+        Size(1.30, 2.00, "seccade-large"),
+        Size(1.50, 2.20, "karyola"),
+        Size(2.00, 3.00, "kelle"),
+    )
+}
+"""Thesis, Table 1.1; it gives seccade as 180 × 120 to 200 × 130 cm, here the two ends of that range."""
+
+_OTHER_NAMES = {"seccade-130x200": "seccade-large", "seccade-120x180": "seccade"}
+_OPEN_NAMES = {
+    "taban": "a taban is any carpet above 6 m²: give its size, like 250x350cm",
+    "yolluk": "a yolluk (runner) has any size: give it, like 80x300cm",
+}
+_UNITS = {
+    **dict.fromkeys(("mm", "millimetre", "millimeter"), Fraction(1, 1000)),
+    **dict.fromkeys(("cm", "centimetre", "centimeter"), Fraction(1, 100)),
+    **dict.fromkeys(("dm", "decimetre", "decimeter"), Fraction(1, 10)),
+    **dict.fromkeys(("m", "metre", "meter"), Fraction(1)),
+    **dict.fromkeys(("in", "inch", '"', "″"), Fraction("0.0254")),
+    **dict.fromkeys(("ft", "foot", "feet", "'", "′"), Fraction("0.3048")),
+}
+_NUMBER = r"([+-]?(?:\d+(?:\.\d*)?|\.\d+))"
+_SIDES = re.compile(rf"\s*{_NUMBER}\s*([^\d\s.×x*]*)\s*[x×*]\s*{_NUMBER}\s*(\S*?)\s*", re.IGNORECASE)
+
+
+def parse_size(text: str) -> Size:
+    """The size of a standard name (Turkish letters or not, any case) or of `width x length unit`.
+
+    Units: mm, cm, dm, m, in, ft; one for both sides. Raises CarpetError for anything else.
+    """
+    named = _BY_KEY.get(_key(text))
+    if named is not None:
+        return named
+    if _key(text) in _OPEN_NAMES:
+        raise CarpetError(f"{text.strip()!r} names no size", allowed=_OPEN_NAMES[_key(text)])
+    matched = _SIDES.fullmatch(text)
+    if matched is None:
+        raise CarpetError(f"unknown size {text!r}", allowed=_near_names(text), do=f"or {EXAMPLE}")
+    unit = _common_unit(text, matched[2].lower(), matched[4].lower())
+    return Size(float(Fraction(matched[1]) * unit), float(Fraction(matched[3]) * unit))
+
+
+def _common_unit(text: str, first: str, second: str) -> Fraction:
+    """The factor of the one unit said once or twice."""
+    for symbol in (first, second):
+        if symbol and symbol not in _UNITS:
+            raise CarpetError(f"size {text!r} has the unknown unit {symbol!r}", allowed="mm, cm, dm, m, in or ft")
+    if not first and not second:
+        raise CarpetError(f"size {text!r} has no unit", allowed="mm, cm, dm, m, in or ft", do=EXAMPLE)
+    if not second:
+        raise CarpetError(f"the second side of size {text!r} has no unit", do=EXAMPLE)
+    if first and _UNITS[first] != _UNITS[second]:
+        raise CarpetError(f"size {text!r} mixes {first} and {second}", allowed="one unit for both sides", do=EXAMPLE)
+    return _UNITS[second]
+
+
+def _key(name: str) -> str:
+    """A name without case, Turkish letters, spaces, hyphens and underscores."""
+    plain = unicodedata.normalize("NFKD", name.casefold().replace("ı", "i").replace("×", "x"))
+    return re.sub(r"[\s_-]+", "", "".join(letter for letter in plain if not unicodedata.combining(letter)))
+
+
+def _near_names(text: str) -> str:
+    """The standard names, the nearest first where one is near."""
+    near = difflib.get_close_matches(_key(text), [*_BY_KEY, *_OPEN_NAMES], n=1, cutoff=0.6)
+    said = _BY_KEY[near[0]].name if near and near[0] in _BY_KEY else "".join(near)
+    return f"{f'did you mean {said!r}? ' if said else ''}standard sizes: {', '.join(STANDARD_SIZES)}"
+
+
+_BY_KEY = {_key(name): size for name, size in STANDARD_SIZES.items()} | {
+    _key(other): STANDARD_SIZES[name] for other, name in _OTHER_NAMES.items()
+}
