@@ -1,0 +1,34 @@
+"""Motion of any place on a body, such as its mass centre, over the samples of a motion."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, ComplexField
+from ilmek.linkage.motion import Motion
+
+
+class Place(NamedTuple):
+    """Motion of a place on a body [m, m/s, m/s²]: complex, one value a sample."""
+
+    position: ComplexArray
+    velocity: ComplexArray
+    acceleration: ComplexArray
+
+
+def attached(motion: Motion, body: str, local: complex) -> Place:
+    """Motion of the place at `local` [m] in a body's frame."""
+    moved = motion.body(body).carry(local)
+    return Place(_over(moved.position, motion), _over(moved.velocity, motion), _over(moved.acceleration, motion))
+
+
+def passing(motion: Motion, body: str, position: ComplexArray) -> ComplexArray:
+    """Velocity of the material of a body that is at a position of the world [m, m/s]: v_O + i omega (p - O)."""
+    origin = attached(motion, body, 0j)
+    velocity: ComplexArray = origin.velocity + 1j * motion.omega(body) * (position - origin.position)
+    return velocity
+
+
+def _over(value: ComplexField, motion: Motion) -> ComplexArray:
+    """The value as an array over the samples: what stands still is one number in the motion."""
+    return np.broadcast_to(np.asarray(value, dtype=np.complex128), motion.status.shape)

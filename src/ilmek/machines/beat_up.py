@@ -1,0 +1,23 @@
+"""The beat-up mechanism: a crank-rocker that drives weft and knots to the fell.
+
+Sized by the swing of the rocker and the turn of the crank between its dead centres, or by its lengths outright, after
+Topalbekiroglu and Celik, "Kinematic analysis of beat-up mechanism used for handmade carpet looms"; moved by
+`ilmek.linkage`, loaded by `ilmek.dynamics`.
+
+The force given for the beater is the one the rocker pushes it with, m_E (a_E - g): what its inertia and weight ask of
+its bolts. It is greatest near the extended dead centre, where the beater turns back at the fell.
+"""
+
+from ilmek.machines.beat_up_design import BeatUp, BeatUpParams, design
+from ilmek.machines.beat_up_report import report
+from ilmek.machines.machine import Machine
+
+__all__ = ["MACHINE", "BeatUp", "BeatUpParams", "design", "report"]
+
+MACHINE = Machine(
+    name="beat-up",
+    summary="crank-rocker that beats weft and knots to the fell: links, motion, forces",
+    params=BeatUpParams,
+    design=design,
+    report=report,
+)

@@ -1,0 +1,289 @@
+"""The beat-up's parameters and its design: links, motion, forces, and their greatest values over a turn.
+
+    ground D-A     crank D-C, driven, counter-clockwise     coupler C-B     rocker A-B, the beater at E beyond B
+
+D is the origin, A lies on the x axis; crank angles are counted from D-A, counter-clockwise. The extended dead centre,
+at the crank angle beta, is the beat.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.dynamics.attached import Place, attached
+from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined, point_mass
+from ilmek.dynamics.inverse import Forces, inverse
+from ilmek.dynamics.loads import Gravity
+from ilmek.dynamics.peaks import Peak, peaks
+from ilmek.errors import MechanismError, ParameterError
+from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import Plan, plan
+from ilmek.params import Params, param
+from ilmek.synthesis.crank_rocker import DeadCentres, Links, dead_centres, grashof_margin, transmission_angle_min
+from ilmek.synthesis.crank_rocker_selection import member
+from ilmek.units import deg, format_quantity, turn
+
+PINS = ("A", "B", "C", "D")
+
+BEATER_RATIO = 1.3
+"""Beater over rocker, AE / AB: 0.3001 m / 0.2308 m; inferred from the paper, which prints AE only."""
+
+SAMPLES = 720
+"""Samples over a turn: half a degree."""
+
+TOGGLE = 1e-9
+"""Least Grashof margin, in ground links, of a crank-rocker that does not stand in a toggle."""
+
+
+@dataclass(frozen=True, slots=True)
+class BeatUpParams(Params):
+    """What may be asked of a beat-up mechanism; the defaults are the paper's."""
+
+    swing: float = param(
+        30 * deg, unit="deg", above=0.0, below=math.pi, doc="swing of the rocker between its dead centres", symbol="ψ"
+    )
+    crank_rotation: float = param(
+        180 * deg,
+        unit="deg",
+        above=math.pi / 2,
+        below=2 * math.pi,
+        doc="turn of the crank from the beat to the other dead centre; 180 deg has the best transmission angle",
+        symbol="φ",
+    )
+    beta: float | None = param(
+        None,
+        unit="deg",
+        above=0.0,
+        below=math.pi,
+        doc="crank angle of the beat; unsaid: chosen by transmission angle and crank/coupler ratio",
+        symbol="β",
+    )
+    ground: float = param(0.3, unit="mm", above=0.0, doc="distance of the pivots of crank and rocker", symbol="AD")
+    crank: float | None = param(None, unit="mm", above=0.0, doc="crank outright, instead of synthesis", symbol="DC")
+    coupler: float | None = param(None, unit="mm", above=0.0, doc="coupler outright, instead of synthesis", symbol="CB")
+    rocker: float | None = param(None, unit="mm", above=0.0, doc="rocker outright, instead of synthesis", symbol="AB")
+    beater: float | None = param(
+        None, unit="mm", above=0.0, doc="beater from the rocker's pivot; unsaid: 1.3 times the rocker", symbol="AE"
+    )
+    speed: float = param(15.5, unit="rad/s", above=0.0, doc="speed of the crank", symbol="ω")
+    beater_mass: float = param(2.5, unit="kg", at_least=0.0, doc="mass of the beater", symbol="m_E")
+    density: float = param(7210.0, unit="kg/m^3", above=0.0, doc="density of the links; cast iron", symbol="ρ")
+    width: float = param(0.03, unit="mm", above=0.0, doc="width of the links, in the plane of motion", symbol="w")
+    thickness: float = param(0.01, unit="mm", above=0.0, doc="thickness of the links")
+    gravity: float = param(0.0, unit="m/s^2", at_least=0.0, doc="free fall; the paper leaves weight out", symbol="g")
+    gravity_direction: float = param(
+        -90 * deg,
+        unit="deg",
+        at_least=-turn,
+        at_most=turn,
+        doc="where weight points, from the ground line D-A counter-clockwise; turns with the place of the loom",
+    )
+    beat_force: float = param(60.0, unit="N", at_least=0.0, doc="force on the beater that is wanted at its peak")
+    crank_angle: float | None = param(
+        None, unit="deg", at_least=-2 * turn, at_most=2 * turn, doc="crank angle at which to report forces", symbol="θ"
+    )
+
+    def check_together(self) -> None:
+        """Crank, coupler and rocker are given together or not at all."""
+        outright = {"crank": self.crank, "coupler": self.coupler, "rocker": self.rocker}
+        missing = [name for name, length in outright.items() if length is None]
+        if 0 < len(missing) < len(outright):
+            given = [name for name in outright if name not in missing]
+            raise ParameterError(
+                f"{' and '.join(given)} given without {' and '.join(missing)}",
+                do="give crank, coupler and rocker, or none of them",
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """The mechanism at given crank angles, one value a sample.
+
+    pins          pin -> size of the force in it [N]
+    torque        drive torque on the crank, counter-clockwise [N m]
+    beater        position, velocity, acceleration of the beater E [m, s], complex
+    beater_force  force of the rocker on the beater [N], complex: m_E (a_E - g)
+    """
+
+    angle: FloatArray
+    motion: Motion
+    forces: Forces
+    pins: Mapping[str, FloatArray]
+    torque: FloatArray
+    beater: Place
+    beater_force: ComplexArray
+
+
+@dataclass(frozen=True, slots=True)
+class BeatUp:
+    """A designed beat-up mechanism.
+
+    links     ratios to the ground link        dead_centres  swing, crank rotation and beta of these links
+    lengths   ground, crank, coupler, rocker, beater [m]
+    masses    of the bars crank, coupler, rocker [kg]       inertias  of the same about their own centres [kg m²]
+    state     over one turn, both ends included             peaks     greatest values over the turn
+    at        at the crank angle asked for, if any
+    """
+
+    params: BeatUpParams
+    links: Links
+    dead_centres: DeadCentres
+    lengths: Mapping[str, float]
+    masses: Mapping[str, float]
+    inertias: Mapping[str, float]
+    plan: Plan
+    state: State
+    peaks: Mapping[str, Peak]
+    at: State | None
+
+    @property
+    def transmission_angle_min(self) -> float:
+        """Least acute angle between coupler and rocker over a turn [rad]."""
+        return float(transmission_angle_min(self.links))
+
+    @property
+    def beat_angle(self) -> float:
+        """Crank angle of the beat, beta [rad]."""
+        return float(self.dead_centres.beta)
+
+    @property
+    def back_angle(self) -> float:
+        """Crank angle of the folded dead centre, the beater farthest from the fell [rad]."""
+        return float(np.mod(self.dead_centres.beta + self.dead_centres.rotation, turn))
+
+
+def design(params: BeatUpParams) -> BeatUp:
+    """Size, move and load a beat-up mechanism.
+
+    Raises ParameterError where the family of crank-rockers has no such member, MechanismError where lengths given
+    outright do not turn or do not swing.
+    """
+    links = _links(params)
+    lengths = _lengths(params, links)
+    planned = plan(mechanism(lengths))
+    bars = _bars(params, lengths)
+    inertias = _inertias(params, lengths, bars)
+    angle = np.arange(SAMPLES + 1) * (turn / SAMPLES)
+    _require_swing(links, planned, angle)
+
+    def state(at: FloatArray) -> State:
+        return evaluate(params, planned, inertias, at)
+
+    return BeatUp(
+        params=params,
+        links=links,
+        dead_centres=dead_centres(links),
+        lengths=lengths,
+        masses={name: inertia.mass for name, inertia in bars.items()},
+        inertias={name: inertia.moment for name, inertia in bars.items()},
+        plan=planned,
+        state=state(angle),
+        peaks=peaks(lambda at: sizes(state(at)), samples=SAMPLES),
+        at=None if params.crank_angle is None else state(np.array([params.crank_angle])),
+    )
+
+
+def mechanism(lengths: Mapping[str, float]) -> Mechanism:
+    """The crank-rocker with its beater, B above the ground line."""
+    return Mechanism(
+        name="beat-up",
+        bodies=(
+            Body(GROUND, {"D": 0, "A": lengths["ground"]}),
+            Body("crank", {"D": 0, "C": lengths["crank"]}),
+            Body("coupler", {"C": 0, "B": lengths["coupler"]}),
+            Body("rocker", {"A": 0, "B": lengths["rocker"], "E": lengths["beater"]}),
+        ),
+        joints=(
+            Pin("D", GROUND, "crank"),
+            Pin("C", "crank", "coupler"),
+            Pin("B", "coupler", "rocker"),
+            Pin("A", GROUND, "rocker"),
+        ),
+        inputs=(Rotation("crank", "D"),),
+        branches={"B": +1},
+    )
+
+
+def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia], angle: FloatArray) -> State:
+    """Motion and forces at the given crank angles [rad]."""
+    motion = solve(planned, angle, params.speed).require()
+    weight = params.gravity * complex(math.cos(params.gravity_direction), math.sin(params.gravity_direction))
+    forces = inverse(motion, inertias, (Gravity(weight),))
+    beater = attached(motion, "rocker", planned.mechanism.point("rocker", "E"))
+    return State(
+        angle=angle,
+        motion=motion,
+        forces=forces,
+        pins={pin: np.abs(forces.pin(pin)) for pin in PINS},
+        torque=forces.effort("crank"),
+        beater=beater,
+        beater_force=params.beater_mass * (beater.acceleration - weight),
+    )
+
+
+def sizes(state: State) -> dict[str, FloatArray]:
+    """The curves whose greatest values are reported, by name; pins by their letters."""
+    return {
+        "beater_velocity": np.abs(state.beater.velocity),
+        "beater_acceleration": np.abs(state.beater.acceleration),
+        "beater_force": np.abs(state.beater_force),
+        "drive_torque": np.abs(state.torque),
+        **state.pins,
+    }
+
+
+def _links(params: BeatUpParams) -> Links:
+    if params.crank is None or params.coupler is None or params.rocker is None:
+        return member(params.swing, params.crank_rotation, params.beta).links
+    return Links(params.crank / params.ground, params.coupler / params.ground, params.rocker / params.ground)
+
+
+def _lengths(params: BeatUpParams, links: Links) -> dict[str, float]:
+    """Lengths [m]; those given outright stay as given, to the last bit."""
+    ratios = {"ground": 1.0, "crank": links.crank, "coupler": links.coupler, "rocker": links.rocker}
+    lengths = {name: float(getattr(params, name) or ratio * params.ground) for name, ratio in ratios.items()}
+    return {**lengths, "beater": params.beater or BEATER_RATIO * lengths["rocker"]}
+
+
+def _bars(params: BeatUpParams, lengths: Mapping[str, float]) -> dict[str, Inertia]:
+    """The bars of the moving links, from pin to pin; the rocker's reaches to the beater, or to B if that is farther."""
+    spans = {
+        "crank": lengths["crank"],
+        "coupler": lengths["coupler"],
+        "rocker": max(lengths["rocker"], lengths["beater"]),
+    }
+    return {
+        name: bar(
+            0, span, mass=float(bar_mass(span, params.width, params.thickness, params.density)), width=params.width
+        )
+        for name, span in spans.items()
+    }
+
+
+def _inertias(params: BeatUpParams, lengths: Mapping[str, float], bars: Mapping[str, Inertia]) -> dict[str, Inertia]:
+    """The moving bodies: the bars, and the beater as a point mass on the rocker."""
+    return {**bars, "rocker": combined(bars["rocker"], point_mass(params.beater_mass, lengths["beater"]))}
+
+
+def _require_swing(links: Links, planned: Plan, angle: FloatArray) -> None:
+    """Raise MechanismError unless the crank turns fully and the rocker swings, away from any toggle."""
+    solve(planned, angle).require()
+    shown = ", ".join(f"{name} {format_quantity(float(ratio), '1')}" for name, ratio in links._asdict().items())
+    margin = float(grashof_margin(links))
+    if margin < TOGGLE:
+        raise MechanismError(
+            f"beat-up stands in a toggle: {shown} (ground 1) are {margin:.2g} from a change point",
+            allowed="shortest + longest link must be less than the sum of the other two",
+            do="shorten the crank",
+        )
+    if links.crank > min(1.0, *links):
+        raise MechanismError(
+            f"the rocker of beat-up turns right round instead of swinging: {shown} (ground 1)",
+            allowed="the crank must be the shortest link",
+            do="lengthen ground, or shorten the crank",
+        )

@@ -1,0 +1,127 @@
+"""The beat-up's figures: the mechanism to scale at its beat, and its curves over a turn of the crank."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.linkage.solve import solve
+from ilmek.machines.beat_up_design import BeatUp
+from ilmek.plane.vectors import cross, dot
+from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
+from ilmek.units import format_quantity, turn
+
+CARPET = 0.35
+"""Length of carpet and of warp drawn, over the length of the beater."""
+
+
+def figures(design: BeatUp) -> tuple[Figure, ...]:
+    """The drawing and six plots."""
+    return (drawing(design), *(plot(design) for plot in (travel, velocity, acceleration, pins, torque, transmission)))
+
+
+def drawing(design: BeatUp) -> Drawing:
+    """The mechanism to scale at its beat, the other dead centre dashed, with the paths of crank pin and beater."""
+    beat, back = (_pose(design, angle) for angle in (design.beat_angle, design.back_angle))
+    crank, coupler, rocker = (_labelled(design, name) for name in ("crank", "coupler", "rocker"))
+    D, A = 0j, complex(design.lengths["ground"])
+    circle = design.lengths["crank"] * np.exp(1j * np.linspace(0, turn, 121))
+    strokes = (
+        Stroke(np.array([D, A]), "ground", _labelled(design, "ground")),
+        Stroke(circle, "path", "path of the crank pin", closed=True),
+        Stroke(design.state.beater.position, "path", "path of the beater"),
+        Stroke(np.array([D, back["C"], back["B"]]), "construction", "farthest from the fell"),
+        Stroke(np.array([A, back["E"]]), "construction"),
+        *_cloth(design, beat["E"]),
+        Stroke(np.array([A, beat["E"]]), "link", f"{rocker}, {_labelled(design, 'beater')}"),
+        Stroke(np.array([beat["C"], beat["B"]]), "link", coupler),
+        Stroke(np.array([D, beat["C"]]), "link", crank),
+    )
+    dots = (
+        Dot(D, "D", "pivot"),
+        Dot(A, "A", "pivot"),
+        Dot(beat["C"], "C"),
+        Dot(beat["B"], "B"),
+        Dot(beat["E"], "E", "point"),
+    )
+    note = "Side view at the beat; the weft and the knots are driven to the fell by the beater E."
+    return Drawing("beat-up", "Beat-up mechanism to scale", strokes, dots, note=note)
+
+
+def _pose(design: BeatUp, angle: float) -> dict[str, complex]:
+    motion = solve(design.plan, np.array([angle]))
+    places = (("crank", "C"), ("coupler", "B"), ("rocker", "E"))
+    return {point: complex(np.ravel(motion.point(body, point).position)[0]) for body, point in places}
+
+
+def _cloth(design: BeatUp, fell: complex) -> tuple[Stroke, Stroke, Stroke]:
+    """Carpet beyond the fell, warp on the beater's side, and the fell: the warp is tangent to the beater's arc."""
+    radius = fell - design.lengths["ground"]
+    to_carpet = -1j * radius * CARPET
+    edge = 0.06 * radius
+    return (
+        Stroke(np.array([fell, fell + to_carpet]), "yarn", "carpet"),
+        Stroke(np.array([fell, fell - 2 * to_carpet]), "construction", "warp"),
+        Stroke(np.array([fell - edge, fell + edge]), "outline", "fell"),
+    )
+
+
+def _labelled(design: BeatUp, name: str) -> str:
+    return f"{name} {format_quantity(design.lengths[name], 'mm')}"
+
+
+def travel(design: BeatUp) -> Plot:
+    """Distance of the beater from the fell, along its arc."""
+    turned = design.state.motion.angle("rocker")
+    distance = (turned - np.min(turned)) * design.lengths["beater"]
+    return _plot(
+        design, "beater-travel", "Distance of the beater from the fell", Axis("distance", "mm"), {"beater": distance}
+    )
+
+
+def velocity(design: BeatUp) -> Plot:
+    """Velocity of the beater along its arc, away from the fell positive."""
+    speed = design.state.motion.omega("rocker") * design.lengths["beater"]
+    return _plot(
+        design,
+        "beater-velocity",
+        "Velocity of the beater",
+        Axis("velocity", "m/s"),
+        {"beater": speed},
+    )
+
+
+def acceleration(design: BeatUp) -> Plot:
+    """Acceleration of the beater: its size, and the part along its arc."""
+    along = design.state.motion.alpha("rocker") * design.lengths["beater"]
+    curves = {"size": np.abs(design.state.beater.acceleration), "along the arc": along}
+    return _plot(design, "beater-acceleration", "Acceleration of the beater", Axis("acceleration", "m/s^2"), curves)
+
+
+def pins(design: BeatUp) -> Plot:
+    """Sizes of the forces in the four pins."""
+    return _plot(design, "pin-forces", "Forces in the pins", Axis("force", "N"), design.state.pins)
+
+
+def torque(design: BeatUp) -> Plot:
+    """Torque of the drive on the crank."""
+    curves = {"drive": design.state.torque}
+    return _plot(design, "drive-torque", "Torque of the drive on the crank", Axis("torque", "N*m"), curves)
+
+
+def transmission(design: BeatUp) -> Plot:
+    """Acute angle between coupler and rocker."""
+    motion = design.state.motion
+    across = np.abs(cross(motion.direction("coupler"), motion.direction("rocker")))
+    along = np.abs(dot(motion.direction("coupler"), motion.direction("rocker")))
+    curves = {"acute angle between coupler and rocker": np.arctan2(across, along)}
+    return _plot(design, "transmission-angle", "Transmission angle", Axis("angle", "deg"), curves)
+
+
+def _plot(design: BeatUp, name: str, title: str, y: Axis, curves: Mapping[str, FloatArray]) -> Plot:
+    series = tuple(
+        Series(said, design.state.angle, values, dashed=place > 0 and len(curves) == 2)
+        for place, (said, values) in enumerate(curves.items())
+    )
+    marks = (Mark(design.beat_angle, "beat"), Mark(design.back_angle, "farthest back"))
+    return Plot(name, title, Axis("crank angle", "deg"), y, series, marks)

@@ -1,0 +1,186 @@
+"""What a beat-up design says: results, checks against the paper's criteria, tables and figures."""
+
+import math
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.machines.beat_up_design import PINS, BeatUp
+from ilmek.machines.beat_up_figures import figures
+from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
+from ilmek.synthesis.crank_rocker import grashof_margin
+from ilmek.synthesis.crank_rocker_selection import DEVIATIONS, RATIO_LIMIT
+from ilmek.units import format_quantity, minute, turn
+
+PAPER = "Topalbekiroglu and Celik, Kinematic analysis of beat-up mechanism used for handmade carpet looms"
+LINKS = ("crank", "coupler", "rocker")
+POWER_LIMIT = 1e-9
+
+
+def report(design: BeatUp) -> Report:
+    """Everything that the design says."""
+    return Report(
+        machine="beat-up",
+        title="Beat-up",
+        parameters=design.params.as_dict(),
+        results=(*_geometry(design), *_motion(design), *_loads(design), *_at(design)),
+        checks=_checks(design),
+        tables=(_link_table(design), _dead_centre_table(design), _peak_table(design)),
+        figures=figures(design),
+        warnings=_warnings(design),
+    )
+
+
+def _geometry(design: BeatUp) -> tuple[Result, ...]:
+    links, dead = design.links, design.dead_centres
+    return (
+        Result("crank", float(links.crank), "1", "crank over ground (paper, Eq 1)"),
+        Result("coupler", float(links.coupler), "1", "coupler over ground (paper, Eq 1)"),
+        Result("rocker", float(links.rocker), "1", "rocker over ground (paper, Eq 3)"),
+        Result("crank_coupler_ratio", float(links.crank / links.coupler), "1", "crank over coupler, r/l"),
+        Result("transmission_angle_min", design.transmission_angle_min, "deg", "least acute transmission angle"),
+        Result("swing", float(dead.swing), "deg", "swing of the rocker between its dead centres"),
+        Result(
+            "crank_rotation", float(dead.rotation), "deg", "turn of the crank from the beat to the other dead centre"
+        ),
+        Result("beta", float(dead.beta), "deg", "crank angle of the beat, the extended dead centre"),
+        Result(
+            "lengths", dict(design.lengths), "mm", "lengths of the links, and of the beater from the rocker's pivot"
+        ),
+        Result("masses", dict(design.masses), "kg", "masses of the bars; the rocker's reaches to the beater"),
+        Result("inertias", dict(design.inertias), "kg*m^2", "moments of inertia of the bars about their centres"),
+    )
+
+
+def _motion(design: BeatUp) -> tuple[Result, ...]:
+    peaks = design.peaks
+    period = turn / design.params.speed
+    return (
+        Result("period", period, "s", "time of one beat, a turn of the crank"),
+        Result("beats_per_minute", minute / period, "1", "beats a minute"),
+        Result("beater_stroke", _stroke(design), "mm", "chord of the beater's path between the dead centres"),
+        Result("beater_velocity_max", peaks["beater_velocity"].value, "m/s", "greatest speed of the beater"),
+        Result(
+            "beater_acceleration_max",
+            peaks["beater_acceleration"].value,
+            "m/s^2",
+            "greatest acceleration of the beater, along and across its path together",
+        ),
+        Result(
+            "beater_acceleration_angle",
+            peaks["beater_acceleration"].angle,
+            "deg",
+            "crank angle of the greatest acceleration, near the beat",
+        ),
+    )
+
+
+def _loads(design: BeatUp) -> tuple[Result, ...]:
+    peaks = design.peaks
+    torque = design.state.torque[:-1]
+    return (
+        Result(
+            "beater_force_max",
+            peaks["beater_force"].value,
+            "N",
+            "greatest force between rocker and beater: beater mass times acceleration, less its weight",
+        ),
+        Result("pin_force_max", {pin: peaks[pin].value for pin in PINS}, "N", "greatest force in each pin"),
+        Result("drive_torque_max", peaks["drive_torque"].value, "N*m", "greatest size of the torque on the crank"),
+        Result("drive_torque_rms", math.sqrt(float(np.mean(torque**2))), "N*m", "root mean square of the torque"),
+        Result(
+            "drive_power_max",
+            peaks["drive_torque"].value * design.params.speed,
+            "W",
+            "greatest power to and from the drive, at constant speed",
+        ),
+    )
+
+
+def _at(design: BeatUp) -> tuple[Result, ...]:
+    if design.at is None:
+        return ()
+    state = design.at
+    answer: dict[str, Json] = {
+        "drive_torque": _only(state.torque),
+        "pin_forces": {pin: _only(force) for pin, force in state.pins.items()},
+        "beater_acceleration": _only(np.abs(state.beater.acceleration)),
+        "beater_velocity": _only(np.abs(state.beater.velocity)),
+        "beater_force": _only(np.abs(state.beater_force)),
+    }
+    return (Result("at", answer, "", "the same at crank_angle: torque with its sign, the others as sizes"),)
+
+
+def _only(values: FloatArray) -> float:
+    return float(values[0])
+
+
+def _stroke(design: BeatUp) -> float:
+    return 2 * design.lengths["beater"] * math.sin(float(design.dead_centres.swing) / 2)
+
+
+def _checks(design: BeatUp) -> tuple[Check, ...]:
+    wanted, tolerated = (math.pi / 2 - deviation for deviation in DEVIATIONS)
+    angle, ratio = design.transmission_angle_min, float(design.links.crank / design.links.coupler)
+    # A ratio chosen as 0.3 is 0.3 only to the last bit.
+    ratio = round(ratio, 12)
+    margin, force = float(grashof_margin(design.links)), design.peaks["beater_force"].value
+    return (
+        at_least("transmission angle, to run at all", angle, tolerated, "deg", f"{PAPER}, criterion i: 90° - µ < 50°"),
+        at_least("transmission angle, to run well", angle, wanted, "deg", f"{PAPER}, criterion i: 90° - µ < 40°"),
+        at_most("crank/coupler ratio", ratio, RATIO_LIMIT, "1", f"{PAPER}, criterion ii"),
+        at_least("Grashof margin, in ground links", margin, 0.0, "1", f"{PAPER}, criterion iii"),
+        at_least("force on the beater", force, design.params.beat_force, "N", f"{PAPER}, abstract: over 60 N"),
+        at_most("power balance of the forces", design.state.forces.power_error, POWER_LIMIT, "1", "virtual power"),
+    )
+
+
+def _warnings(design: BeatUp) -> tuple[str, ...]:
+    force, wanted = design.peaks["beater_force"].value, design.params.beat_force
+    if force >= wanted or design.params.gravity > 0 or force == 0:
+        return ()
+    # Without weight every force grows with the square of the speed.
+    speed = format_quantity(design.params.speed * math.sqrt(wanted / force), "rad/s")
+    reached, asked = format_quantity(force, "N"), format_quantity(wanted, "N")
+    return (f"the beater is pushed with {reached} where {asked} are wanted: turn the crank at {speed}",)
+
+
+def _link_table(design: BeatUp) -> Table:
+    columns = (
+        Column("link"),
+        Column("over ground"),
+        Column("length", "mm"),
+        Column("mass", "kg"),
+        Column("J", "kg*m^2"),
+    )
+    rows = tuple(
+        (name, design.lengths[name] / design.lengths["ground"], design.lengths[name], design.masses[name], moment)
+        for name, moment in design.inertias.items()
+    )
+    return Table("beat-up-links", "Links, with mass and moment of inertia of their bars", columns, rows)
+
+
+def _dead_centre_table(design: BeatUp) -> Table:
+    turned = design.state.motion.angle("rocker")
+    columns = (Column("dead centre"), Column("crank angle", "deg"), Column("rocker angle", "deg"), Column("time", "s"))
+    rows = (
+        ("extended: the beat", design.beat_angle, float(np.min(turned)), design.beat_angle / design.params.speed),
+        ("folded: farthest back", design.back_angle, float(np.max(turned)), design.back_angle / design.params.speed),
+    )
+    return Table("beat-up-dead-centres", "Dead centres", columns, rows)
+
+
+def _peak_table(design: BeatUp) -> Table:
+    named = {
+        "beater_velocity": ("speed of the beater", "m/s"),
+        "beater_acceleration": ("acceleration of the beater", "m/s^2"),
+        "beater_force": ("force on the beater", "N"),
+        "drive_torque": ("drive torque", "N*m"),
+        **{pin: (f"force in pin {pin}", "N") for pin in PINS},
+    }
+    rows = tuple(
+        (said, format_quantity(design.peaks[name].value, unit), design.peaks[name].angle)
+        for name, (said, unit) in named.items()
+    )
+    columns = (Column("quantity"), Column("greatest value"), Column("at crank angle", "deg"))
+    return Table("beat-up-peaks", "Greatest values over a turn", columns, rows)
