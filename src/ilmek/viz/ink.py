@@ -1,0 +1,80 @@
+"""From a matplotlib figure to SVG text that can stand inside a page.
+
+A page holds many figures: every id gets the figure's prefix, ids that nobody refers to go, lengths are rounded to a
+hundredth of a point, and the size is left to the page (the view box keeps the proportions). The text stays text. It is
+laid out with the metrics of DejaVu Sans, the widest of the fonts named, so that no fallback runs into its neighbour.
+"""
+
+import io
+import re
+from xml.sax.saxutils import escape, quoteattr
+
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+
+from ilmek.viz.style import PAPER
+
+FONTS = "'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
+
+_POINTS = 72.0
+_DECIMALS = re.compile(r"-?\d+\.\d{3,}")
+_ID = re.compile(r'\sid="([^"]+)"')
+_REFERENCE = re.compile(r'(?:xlink:href="#|url\(#)([^")]+)')
+_FONT = re.compile(r" ?font-family: [^;\"]*;?")
+_SLUG = re.compile(r"[^A-Za-z0-9]+")
+
+
+def sheet(width: float, height: float) -> Figure:
+    """An empty figure of width x height [pt] with a canvas of its own."""
+    figure = Figure(figsize=(width / _POINTS, height / _POINTS), facecolor="none")
+    FigureCanvasSVG(figure)
+    return figure
+
+
+def axes_in_points(figure: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
+    """Axes at a place of the figure given in points from its lower left corner."""
+    whole, high = (float(side) * _POINTS for side in figure.get_size_inches())
+    axes = figure.add_axes((left / whole, bottom / high, width / whole, height / high))
+    axes.set_facecolor(PAPER)
+    return axes
+
+
+def slug(text: str) -> str:
+    """The text as part of an id: letters, digits and single hyphens.
+
+    >>> slug("beat-up: drive torque")
+    'beat-up-drive-torque'
+    """
+    return _SLUG.sub("-", text).strip("-").lower() or "figure"
+
+
+def inline_svg(figure: Figure, title: str, prefix: str) -> str:
+    """The figure as an `<svg>` element with a title, ids that begin with `prefix`, and no fixed size.
+
+    >>> text = inline_svg(sheet(72, 36), "a < b", "one")
+    >>> text.startswith('<svg') and "a &lt; b" in text
+    True
+    """
+    stream = io.StringIO()
+    figure.savefig(stream, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
+    text = stream.getvalue()
+    body = text[text.index(">", text.index("<svg")) + 1 :]
+    body = re.sub(r"\s*<metadata>.*?</metadata>", "", body, flags=re.DOTALL)
+    body = re.sub(r"<!--.*?-->\s*", "", body, flags=re.DOTALL)
+    body = re.sub(r"\s*<defs>\s*<style.*?</style>\s*</defs>", "", body, count=1, flags=re.DOTALL)
+    body = _DECIMALS.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), body)
+    body = _FONT.sub("", _own_ids(body, prefix))
+    body = re.sub(r"\s*\n\s*", "\n", re.sub(r' transform="rotate\(-?0 [^"]*"', "", body))
+    width, height = (float(side) * _POINTS for side in figure.get_size_inches())
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" role="img" '
+        f'viewBox="0 0 {width:.6g} {height:.6g}" style="stroke-linejoin:round;font-family:{FONTS}" aria-label={quoteattr(title)}>\n<title>{escape(title)}</title>{body}'
+    )
+
+
+def _own_ids(body: str, prefix: str) -> str:
+    """The body with the ids referred to under the prefix, and without the others."""
+    used = set(_REFERENCE.findall(body))
+    body = _ID.sub(lambda found: f' id="{prefix}-{found[1]}"' if found[1] in used else "", body)
+    return _REFERENCE.sub(lambda found: found[0].replace(found[1], f"{prefix}-{found[1]}"), body)

@@ -1,0 +1,74 @@
+"""Names put beside the things they name, without running into them or into each other."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.viz.style import text_width
+
+_AROUND = np.exp(1j * np.radians([45, 135, -45, -135, 90, -90, 0, 180, 22, 158, -22, -158, 68, 112, -68, -112]))
+_REACHES = (1.0, 1.8, 2.8)
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """A name to place: the points it may stand beside [pt], the first the dearest, and the least distance to keep [pt].
+
+    pull  how much a place far from its point costs; the higher, the closer the name stays
+    """
+
+    anchors: ComplexArray
+    text: str
+    size: float
+    distance: float = 6.0
+    pull: float = 1.0
+
+    @property
+    def half(self) -> complex:
+        """Half the width and half the height of the text [pt]."""
+        return complex(text_width(self.text, self.size) / 2 + 1.0, 0.62 * self.size)
+
+
+def placed(wanted: list[Wanted], obstacles: ComplexArray, lower: complex, upper: complex) -> list[complex]:
+    """Centres of the names [pt], chosen one after the other among places around their points.
+
+    obstacles       points that should not be covered [pt], those along the lines of the drawing
+    lower, upper    corners of the sheet that no name leaves [pt]
+
+    A place costs 1 for each point it covers, 200 for a name it touches, and a little for its distance.
+    """
+    boxes: list[tuple[complex, complex]] = []
+    for one in wanted:
+        half = one.half
+        candidates, cost = _candidates(one)
+        least, most = lower + half, upper - half
+        out = (candidates.real < least.real) | (candidates.real > most.real)
+        out |= (candidates.imag < least.imag) | (candidates.imag > most.imag)
+        cost += 400.0 * out + _covered(candidates, half, obstacles)
+        for centre, other in boxes:
+            apart = np.abs((candidates - centre).real) < (half + other).real
+            cost += 200.0 * (apart & (np.abs((candidates - centre).imag) < (half + other).imag))
+        boxes.append((complex(candidates[int(np.argmin(cost))]), half))
+    return [centre for centre, _ in boxes]
+
+
+def _candidates(one: Wanted) -> tuple[ComplexArray, FloatArray]:
+    """Centres such that the box of the text just clears the distance from an anchor, and what their distance costs."""
+    half = one.half
+    way = np.tile(_AROUND, len(_REACHES))
+    reach = np.repeat(_REACHES, len(_AROUND))
+    beside = np.sign(np.round(way.real, 1)) * half.real + 1j * np.sign(np.round(way.imag, 1)) * half.imag
+    offsets = way * one.distance * reach + beside
+    cost = one.pull * (np.array(reach) - 1.0) * one.distance * 0.3 + 0.05 * np.arange(len(way)) / len(way)
+    dearness = 0.8 * np.arange(len(one.anchors))
+    return (one.anchors[:, np.newaxis] + offsets).ravel(), (dearness[:, np.newaxis] + cost).ravel()
+
+
+def _covered(centres: ComplexArray, half: complex, obstacles: ComplexArray) -> FloatArray:
+    """How many obstacle points each box covers, up to 12."""
+    if not len(obstacles):
+        return np.zeros(len(centres))
+    away = obstacles[np.newaxis, :] - centres[:, np.newaxis]
+    inside = (np.abs(away.real) < half.real + 1.0) & (np.abs(away.imag) < half.imag + 1.0)
+    return np.minimum(inside.sum(axis=1), 12).astype(float)

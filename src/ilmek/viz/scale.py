@@ -1,0 +1,54 @@
+"""Round numbers along an axis."""
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from ilmek.arrays import FloatArray
+
+_ANGLES = ("deg", "°")
+_MINUS = str.maketrans("-", "−")
+
+
+def span(values: FloatArray) -> tuple[float, float]:
+    """The least and the greatest finite value; a span of nothing is widened, and of no value at all is 0 to 1.
+
+    >>> span(np.array([2.0, np.nan, 5.0])), span(np.array([]))
+    ((2.0, 5.0), (0.0, 1.0))
+    """
+    finite = values[np.isfinite(values)]
+    if not len(finite):
+        return 0.0, 1.0
+    low, high = float(finite.min()), float(finite.max())
+    if high - low > 1e-9 * max(abs(low), abs(high)):
+        return low, high
+    slack = 0.1 * abs(high) or 1.0
+    return low - slack, high + slack
+
+
+def ticks(low: float, high: float, unit: str = "", wanted: int = 6) -> list[float]:
+    """Tick positions within [low, high]: angles in degrees step by 5, 10, 15, 30, 45, 60, 90 or 180.
+
+    >>> ticks(0.0, 360.0, "deg", 9)
+    [0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0, 360.0]
+    """
+    slack = 1e-9 * (high - low)
+    if unit in _ANGLES and high - low > 20:
+        step = next((step for step in (5, 10, 15, 30, 45, 60, 90) if (high - low) / step <= wanted), 180)
+        first, last = np.ceil((low - slack) / step), np.floor((high + slack) / step)
+        return [float(step * number) for number in np.arange(first, last + 1)]
+    places = MaxNLocator(nbins=wanted, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+    return [float(place) for place in places if low - slack <= place <= high + slack]
+
+
+def tick_labels(places: list[float]) -> list[str]:
+    """The ticks written with as many decimals as the step needs, with true minus signs.
+
+    >>> tick_labels([-0.5, 0.0, 0.5]), tick_labels([0.0, 200000.0])
+    (['−0.5', '0.0', '0.5'], ['0', '200 000'])
+    """
+    step = min((abs(b - a) for a, b in zip(places, places[1:], strict=False)), default=1.0) or 1.0
+    largest = max((abs(place) for place in places), default=0.0)
+    if largest >= 1e6 or (largest and largest < 1e-3):
+        return [f"{place:.3g}".translate(_MINUS) for place in places]
+    decimals = next((d for d in range(7) if abs(step * 10**d - round(step * 10**d)) < 1e-6 * 10**d * step), 6)
+    return [f"{place + 0.0:,.{decimals}f}".replace(",", "\u2009").translate(_MINUS) for place in places]

@@ -1,0 +1,28 @@
+"""Figures of a report as inline SVG.
+
+The look is `style`, the three kinds of figure are `plot`, `drawing` and `timing`, the text is made in `ink`.
+"""
+
+from matplotlib import rc_context
+
+from ilmek.report import Drawing, Figure, Plot
+from ilmek.viz.drawing import draw_drawing
+from ilmek.viz.ink import inline_svg, slug
+from ilmek.viz.plot import draw_plot
+from ilmek.viz.style import RC
+from ilmek.viz.timing import draw_timing
+
+
+def svg(figure: Figure, prefix: str = "") -> str:
+    """The figure as the text of an `<svg>` element; the same figure gives the same text.
+
+    prefix  put before every id, so that one page can hold figures of the same name
+    """
+    with rc_context(RC):
+        if isinstance(figure, Plot):
+            sheet = draw_plot(figure)
+        elif isinstance(figure, Drawing):
+            sheet = draw_drawing(figure)
+        else:
+            sheet = draw_timing(figure)
+        return inline_svg(sheet, figure.title, slug(f"{prefix}-{figure.name}"))
