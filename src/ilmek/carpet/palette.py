@@ -68,9 +68,12 @@ def distinct_colours(rgb: Rgb) -> Colours:
     most = min(_CODES, rgb.shape[0] * rgb.shape[1])
     codes, counts = np.empty(most, dtype=np.int32), np.empty(most, dtype=np.int64)
     found = _count(np.ascontiguousarray(rgb), place, codes, counts)
-    seen = codes[:found]
-    channels = np.stack([seen >> 16, seen >> 8 & 255, seen & 255], axis=-1).astype(np.uint8)
-    return Colours(place, srgb_to_lab(channels), counts[:found].copy())
+    labs = np.empty((found, 3))
+    for start in range(0, found, _BATCH):
+        seen = codes[start : min(start + _BATCH, found)]
+        channels = np.stack([seen >> 16, seen >> 8 & 255, seen & 255], axis=-1).astype(np.uint8)
+        labs[start : start + len(seen)] = srgb_to_lab(channels)
+    return Colours(place, labs, counts[:found].copy())
 
 
 def nearest_yarns(
