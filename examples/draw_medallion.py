@@ -23,9 +23,9 @@ WIDTH, HEIGHT = 300, 450  # knots
 PIXELS = 4  # a knot
 FINE = 4  # drawn pixels a pixel, averaged at the end
 
-NIGHT, INDIGO, BLUE, SKY = "#22202a", "#1f3157", "#3d6690", "#8fb0bd"
+NIGHT, INDIGO, BLUE, SKY = "#1e1b1d", "#1f3157", "#3d6690", "#8fb0bd"
 MADDER, WINE, CORAL, ROSE = "#96282b", "#6b1a24", "#bf5638", "#d39c86"
-IVORY, STRAW, GOLD, OLIVE = "#ebdfc3", "#d9bd83", "#c8953c", "#66743f"
+IVORY, STRAW, GOLD, OLIVE = "#ebdfc3", "#dfbd62", "#c8953c", "#66743f"
 
 CENTRE = complex(WIDTH / 2, HEIGHT / 2)
 FIELD = 63.0  # from the edge to the field

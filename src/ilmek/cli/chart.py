@@ -1,0 +1,86 @@
+"""`ilmek chart`: the carpet part alone."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ilmek.carpet.bill import YarnBill
+from ilmek.cli.options import carpet_options, force_option, json_option
+from ilmek.cli.terminal import console, give_json, note, progress_bar, show_pairs, show_table
+from ilmek.io.json_file import write_json
+from ilmek.io.output import check_free, output_folder
+from ilmek.jobs.chart import FILES, Charted, chart_results, job_json, make_charted, write_chart
+from ilmek.jobs.order import read_order
+from ilmek.jobs.place import free_folder
+from ilmek.units import format_number, g
+
+EXAMPLES = """\b
+Examples:
+  ilmek chart photo.jpg --size 120x180cm --quality 40x40/dm --out photo-chart
+  ilmek chart photo.jpg --size kelle --colours 8 --yarns wool.toml
+  ilmek chart photo.jpg --json -
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@carpet_options
+@force_option
+@json_option
+def command(out: Path | None, force: bool, json_to: str | None, **order: Any) -> None:
+    """Make the knot chart of PICTURE and the bill of yarn.
+
+    The output folder holds chart.png (a pixel a knot), chart.pdf (to weave from) and yarn.csv. With --json and without
+    --out no folder is made.
+    """
+    wanted = read_order(**order)
+    folder = out or (None if json_to else free_folder(wanted.picture, "chart"))
+    if folder is not None:
+        check_free(folder, force=force)
+    with progress_bar() as told:
+        charted = make_charted(wanted, told)
+        files = _write(charted, folder, force)
+    data = job_json("chart", wanted, chart_results(charted), notes=list(charted.notes), files=files)
+    if not give_json(json_to, data):
+        show_chart(charted)
+        if folder is not None:
+            console().print(f"files in {folder}: {', '.join(FILES)}")
+    for said in charted.notes:
+        note(said)
+
+
+def _write(charted: Charted, folder: Path | None, force: bool) -> list[str]:
+    if folder is None:
+        return []
+    files = [str(folder / name) for name in (*FILES, "chart.json")]
+    data = job_json("chart", charted.order, chart_results(charted), notes=list(charted.notes), files=files)
+    with output_folder(folder, force=force) as work:
+        write_chart(charted, work)
+        write_json(work / "chart.json", data)
+    return files
+
+
+def show_chart(charted: Charted) -> None:
+    """A chart in a few lines, and its yarn."""
+    chart = charted.chart
+    show_pairs(
+        [
+            ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
+            ("knots", f"{chart.rows * chart.columns:,} ({chart.rows} rows of {chart.columns})"),
+            ("colours", f"{chart.colours} of {len(charted.order.yarns)} yarns"),
+            ("colour difference", f"{chart.mean_delta_e:.2f} mean CIEDE2000 ({chart.least_delta_e:.2f} at best)"),
+            ("lone knots", f"{chart.lone_fraction:.2%} ({chart.merged:,} merged)"),
+            ("colour changes", f"{chart.changes_per_knot:.3f} a knot"),
+        ]
+    )
+    show_yarn(charted.bill)
+
+
+def show_yarn(bill: YarnBill) -> None:
+    """The yarn bill as a table."""
+    rows = [
+        (need.name, need.use, f"{need.knots:,}" if need.knots else "", f"{need.length:,.0f}", f"{need.mass / g:,.0f}",
+         "" if need.price is None else format_number(need.price))
+        for need in bill.needs
+    ]  # fmt: skip
+    show_table(("yarn", "use", "knots", "metres", "grams", "price"), rows, right=(2, 3, 4, 5))

@@ -1,0 +1,96 @@
+"""`ilmek design`: one machine, designed from its parameters and reported."""
+
+import difflib
+from collections.abc import Iterable
+from pathlib import Path
+
+import click
+
+from ilmek.cli.options import json_option
+from ilmek.cli.terminal import console, give_json, note, passed, show_checks, show_table
+from ilmek.errors import ParameterError
+from ilmek.io.json_file import json_text
+from ilmek.io.output import write_whole
+from ilmek.machines import MACHINES
+from ilmek.machines.machine import Machine
+from ilmek.report import Report, Result
+from ilmek.units import format_quantity
+from ilmek.viz.page import machine_page
+
+EXAMPLES = """\b
+Examples:
+  ilmek design beat-up
+  ilmek design beat-up --set swing=30deg --set crank_rotation=180deg --json -
+  ilmek design shedding --set lift=60mm --set pressure_angle_limit=30deg --report shedding.html
+
+The parameters of a machine: ilmek machines MACHINE
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("name", metavar="MACHINE")
+@click.argument("more", nargs=-1, metavar="[NAME=VALUE]...")
+@click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", help="Set a parameter; a value takes its unit.")
+@json_option
+@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a page to read.")
+def command(
+    name: str, more: tuple[str, ...], settings: tuple[str, ...], json_to: str | None, page_to: Path | None
+) -> None:
+    """Design MACHINE and report it: results, checks against limits, warnings."""
+    machine = find_machine(name)
+    params = machine.params.read(read_settings((*settings, *more)))
+    report = machine.report(machine.design(params))
+    if page_to is not None:
+        write_whole(page_to, machine_page(report))
+    if not give_json(json_to, report.as_json()):
+        show_report(report)
+        if page_to is not None:
+            console().print(f"report: {page_to}")
+    for warning in report.warnings:
+        note(warning)
+
+
+def find_machine(name: str) -> Machine:
+    """The machine of a name. Raises ParameterError, naming the nearest."""
+    if name in MACHINES:
+        return MACHINES[name]
+    near = difflib.get_close_matches(name.lower().replace("_", "-"), MACHINES, n=1)
+    hint = f"did you mean {near[0]}?" if near else ""
+    raise ParameterError(f"unknown machine {name!r}", allowed=f"machines: {', '.join(MACHINES)}", do=hint)
+
+
+def read_settings(settings: Iterable[str]) -> dict[str, str]:
+    """Texts by parameter name. Raises ParameterError for a setting without a name or value, or one given twice."""
+    read: dict[str, str] = {}
+    for setting in settings:
+        name, equals, value = (part.strip() for part in setting.partition("="))
+        if not equals or not name or not value:
+            raise ParameterError(f"{setting!r} sets nothing", do="write NAME=VALUE, like swing=30deg")
+        if name in read:
+            raise ParameterError(f"{name} is set twice: {read[name]} and {value}", do="set it once")
+        read[name] = value
+    return read
+
+
+def show_report(report: Report) -> None:
+    """Results and checks as tables."""
+    console().print(report.title)
+    show_table(("result", "value", "meaning"), [(r.name, _shown(r), r.meaning) for r in report.results], right=(1,))
+    if report.checks:
+        show_checks(report.checks)
+        console().print(f"checks: {passed(report.checks)}")
+
+
+def _shown(result: Result) -> str:
+    """A result in its unit; a group is shown name by name."""
+    return _value(result.value, result.unit)
+
+
+def _value(value: object, unit: str) -> str:
+    if isinstance(value, bool) or value is None:
+        return {True: "yes", False: "no", None: "–"}[value]
+    if isinstance(value, int | float):
+        return format_quantity(value, unit)
+    if isinstance(value, dict):
+        return "\n".join(f"{name} {_value(item, unit)}" for name, item in value.items())
+    return value if isinstance(value, str) else " ".join(json_text(value).split())

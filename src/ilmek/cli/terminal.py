@@ -1,0 +1,96 @@
+"""What a person sees: short tables on standard output, notes and a progress bar on the error stream."""
+
+import contextlib
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+from rich import box
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from ilmek.io.json_file import json_text, write_json
+from ilmek.jobs.told import Told
+from ilmek.report import Check
+from ilmek.units import format_quantity
+
+WIDTH_IN_A_PIPE = 120
+
+
+def console() -> Console:
+    """Standard output as rich sees it; texts are shown as they are."""
+    width = None if sys.stdout.isatty() else WIDTH_IN_A_PIPE
+    return Console(file=sys.stdout, width=width, markup=False, highlight=False, emoji=False)
+
+
+def show_table(headings: Sequence[str], rows: Sequence[Sequence[str]], *, right: Sequence[int] = ()) -> None:
+    """A table; the columns numbered in `right` are aligned to the right."""
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for place, heading in enumerate(headings):
+        table.add_column(heading, justify="right" if place in right else "left")
+    for row in rows:
+        table.add_row(*row)
+    console().print(table)
+
+
+def show_pairs(pairs: Sequence[tuple[str, str]]) -> None:
+    """Names and what they are, two columns."""
+    table = Table(box=None, show_header=False, pad_edge=False)
+    for pair in pairs:
+        table.add_row(*pair)
+    console().print(table)
+
+
+def show_checks(checks: Sequence[Check]) -> None:
+    """Value against limit, the failed ones first."""
+    ordered = sorted(checks, key=lambda check: check.ok)
+    rows = [
+        (
+            "pass" if check.ok else "FAIL",
+            check.name,
+            format_quantity(check.value, check.unit),
+            f"{check.relation} {format_quantity(check.limit, check.unit)}",
+            check.source,
+        )
+        for check in ordered
+    ]
+    show_table(("check", "", "value", "limit", "source"), rows, right=(2,))
+
+
+def passed(checks: Sequence[Check]) -> str:
+    """How many checks hold, in words, naming those that do not."""
+    failed = [check.name for check in checks if not check.ok]
+    said = f"{len(checks) - len(failed)} passed, {len(failed)} failed"
+    return f"{said}: {'; '.join(failed)}" if failed else said
+
+
+def note(text: str) -> None:
+    """A remark on the error stream, one line."""
+    click.echo(f"note: {' '.join(text.split())}", err=True)
+
+
+def give_json(to: str | None, data: Any) -> bool:
+    """Write JSON where `--json` says; whether it went to standard output, which is then kept clean of all else."""
+    if to is None:
+        return False
+    if to == "-":
+        click.echo(json_text(data), nl=False)
+        return True
+    write_json(Path(to), data)
+    return False
+
+
+@contextlib.contextmanager
+def progress_bar() -> Iterator[Told | None]:
+    """A bar for long work on a terminal; nothing (None) in a pipe."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    screen = Console(stderr=True, markup=False, highlight=False)
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=screen, transient=True) as bar:
+        task = bar.add_task("", total=1.0)
+        yield lambda doing, share: bar.update(task, description=doing, completed=share)

@@ -1,0 +1,27 @@
+"""The yarn bill as CSV: one line a yarn, for a spreadsheet or a supplier."""
+
+import csv
+import io
+from pathlib import Path
+
+from ilmek.carpet.bill import YarnBill
+from ilmek.carpet.yarn import Yarn
+from ilmek.units import g
+
+COLUMNS = ("yarn", "use", "srgb", "knots", "length [m]", "mass [g]", "price")
+"""The heading; price is empty where the list gives none."""
+
+
+def write_yarn_csv(path: Path, bill: YarnBill, yarns: tuple[Yarn, ...]) -> None:
+    """Write the bill to a file in UTF-8; lengths to the decimetre, masses to the decigram."""
+    colours = {yarn.name: yarn.hex for yarn in yarns}
+    text = io.StringIO()
+    lines = csv.writer(text, lineterminator="\n")
+    lines.writerow(COLUMNS)
+    for need in bill.needs:
+        price = "" if need.price is None else f"{need.price:.2f}"
+        colour = colours[need.name] if need.use == "pile" else ""
+        lines.writerow(
+            (need.name, need.use, colour, need.knots or "", f"{need.length:.1f}", f"{need.mass / g:.1f}", price)
+        )
+    path.write_text(text.getvalue(), encoding="utf-8")

@@ -1,0 +1,63 @@
+"""A carpet as ordered: what a person types, read and checked before any work is done."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ilmek.carpet.design import knot_grid
+from ilmek.carpet.knots import PileParams, parse_knot
+from ilmek.carpet.quality import Quality, parse_quality
+from ilmek.carpet.sizes import Size, parse_size
+from ilmek.carpet.yarn import Yarn
+from ilmek.errors import YarnError
+from ilmek.io.yarn_file import default_yarns, read_yarns
+from ilmek.params import Setting
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """Which carpet: picture file, size, quality, knot, yarn list, how many of its yarns, lone knots, pile."""
+
+    picture: Path
+    size: Size
+    quality: Quality
+    knot: str
+    yarns: tuple[Yarn, ...]
+    colours: int | None
+    keep_lone: bool
+    pile: PileParams
+
+    def as_dict(self) -> dict[str, object]:
+        """The order as plain data, SI."""
+        return {
+            "picture": str(self.picture),
+            "size": {"width": self.size.width, "length": self.size.length, "name": self.size.name},
+            "quality": {"across": self.quality.across, "along": self.quality.along},
+            "knot": self.knot,
+            "yarns": [yarn.name for yarn in self.yarns],
+            "colours": self.colours,
+            "keep_lone": self.keep_lone,
+            "pile": self.pile.as_dict(),
+        }
+
+
+def read_order(
+    picture: Path,
+    *,
+    size: str = "seccade",
+    quality: str = "25x25/dm",
+    knot: str = "symmetric",
+    yarn_file: Path | None = None,
+    colours: int | None = None,
+    keep_lone: bool = False,
+    pile_height: Setting = "8mm",
+) -> Order:
+    """The order from texts. Raises CarpetError, YarnError or ParameterError; the picture is not opened yet."""
+    kind, wide, fine = parse_knot(knot), parse_size(size), parse_quality(quality)
+    pile = PileParams.read({"pile_height": pile_height})
+    knot_grid(wide, fine)
+    yarns = default_yarns() if yarn_file is None else read_yarns(yarn_file)
+    if colours is not None and not 2 <= colours <= len(yarns):
+        raise YarnError(
+            f"--colours {colours}", allowed=f"2 to {len(yarns)}, the yarns of the list", do="or leave it out"
+        )
+    return Order(picture, wide, fine, kind, yarns, colours, keep_lone, pile)
