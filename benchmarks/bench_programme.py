@@ -1,0 +1,85 @@
+"""A carpet of 20 million knots to a programme file: time, memory, size, and the reading of a random row.
+
+Limits (issue 2): 30 s in all, 1.5 GB, 5 MB, 0.1 ms a row.
+"""
+
+import math
+import resource
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+from ilmek.arrays import Indices
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import Size
+from ilmek.carpet.yarn import Yarn
+from ilmek.io.programme_file import Label, open_programme, write_programme
+from ilmek.loom.programme import Times, heads_for, make_programme
+
+ROWS, COLUMNS, YARNS = 5000, 4000, 16
+TIMES = Times(knot=2.0, colour_change=0.54, travel=0.0022, weft=12.0)
+READS = 2000
+
+
+def medallion(grain: float) -> Indices:
+    """Rings of colour round the middle, each knot off by one colour with a probability `grain`."""
+    rng = np.random.default_rng(7)
+    knots = np.empty((ROWS, COLUMNS), np.uint8)
+    x = (np.arange(COLUMNS) - COLUMNS / 2) / COLUMNS
+    for first in range(0, ROWS, 250):
+        y = (np.arange(first, first + 250) - ROWS / 2)[:, None] / ROWS
+        rings = 40 * np.hypot(x, y) + 2 * np.sin(14 * np.arctan2(y, x))
+        knots[first : first + 250] = (rings + (rng.random(rings.shape) < grain)) % YARNS
+    return knots
+
+
+def run() -> None:
+    """Print the figures for a design with some grain and for one with much."""
+    make_programme(np.zeros((2, 8), np.uint8), 2, 2, TIMES).row(0).ties()
+    print(f"programme of {ROWS * COLUMNS / 1e6:.0f} million knots ({COLUMNS} x {ROWS}), {YARNS} yarns")
+    for name, knots in (("medallion with grain", medallion(0.03)), ("medallion, much grain", medallion(0.2))):
+        _measure(name, knots)
+
+
+def _measure(name: str, knots: Indices) -> None:
+    grey = tuple(Yarn(f"yarn {k}", (k, k, k), (0.0, 0.0, 0.0), 2.5, 2) for k in range(YARNS))
+    label = Label(Size(COLUMNS / 1800, ROWS / 1800), Quality(1800.0, 1800.0), "symmetric", grey, 0.5 / 1800)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "programme.ilmek"
+        start = time.perf_counter()
+        programme = make_programme(knots, YARNS, 13, TIMES)
+        ordered = time.perf_counter()
+        write_programme(path, programme, label)
+        written = time.perf_counter()
+        heads = heads_for(knots, YARNS, 1.3 * programme.duration, TIMES, 13)
+        searched = time.perf_counter()
+        size = path.stat().st_size
+        row, ties = _read(path, ties=False), _read(path, ties=True)
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+    print(f"  {name}: {programme.work.changes.sum() / knots.size:.3f} changes a knot")
+    print(f"    order {ordered - start:.2f} s + file {written - ordered:.2f} s   (limit 30 s)")
+    print(f"    heads for a deadline: {heads}, found in {searched - written:.2f} s")
+    print(f"    file {size / 1e6:.2f} MB (limit 5)   peak memory {memory / 1e9:.2f} GB (limit 1.5)")
+    print(f"    random row {row * 1e6:.0f} us, with every head's order of tying {ties * 1e6:.0f} us   (limit 100)")
+
+
+def _read(path: Path, *, ties: bool) -> float:
+    """Mean time of a random row [s]; the best of three rounds."""
+    numbers = np.random.default_rng(1).integers(0, ROWS, READS).tolist()
+    best = math.inf
+    with open_programme(path) as programme:
+        for _ in range(3):
+            start = time.perf_counter()
+            for number in numbers:
+                row = programme.row(number)
+                if ties:
+                    row.ties()
+            best = min(best, (time.perf_counter() - start) / READS)
+    return best
+
+
+if __name__ == "__main__":
+    run()

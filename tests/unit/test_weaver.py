@@ -1,0 +1,97 @@
+"""The knotting head: order of motions, limits, cycle."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ilmek.cams.laws import LAWS
+from ilmek.errors import ParameterError
+from ilmek.machines.weaver import MACHINE, WeaverParams, design, report
+from ilmek.machines.weaver_cyclogram import DRAW_TURN, HANDLER
+from ilmek.machines.weaver_design import move_time
+from ilmek.timing.track import sample
+from ilmek.units import deg
+
+
+def test_the_default_head_passes_all_checks_and_beats_the_hand() -> None:
+    made = report(design(WeaverParams()))
+    assert made.failed == ()
+    assert made.results[0].name == "cycle_time_knot"
+    assert made.results[0].value == 2.0
+    assert any("hand weaver" in check.source and check.limit == 2.4 for check in made.checks)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("limit", [5.0, 20.0, 80.0])
+def test_no_tool_exceeds_its_limits_at_the_shortest_cycle(law: str, limit: float) -> None:
+    head = design(WeaverParams(cycle=0.01, law=law, acceleration_limit=limit))
+    assert head.cycle == pytest.approx(head.shortest)
+    angle = np.linspace(0, 2 * math.pi, 20001)
+    largest = 0.0
+    for track in head.cyclogram.tracks:
+        arm = head.handler_radius if track.name == HANDLER else 1.0
+        motion = sample(track, angle)
+        speed = np.abs(motion.slope).max() * arm * head.cyclogram.speed
+        acceleration = np.abs(motion.bend).max() * arm * head.cyclogram.speed**2
+        assert speed <= 1.0 + 1e-9
+        assert acceleration <= limit * (1 + 1e-9)
+        largest = max(largest, float(speed), float(acceleration) / limit)
+    assert largest == pytest.approx(1.0, abs=2e-3)
+
+
+def test_a_cycle_that_is_too_short_is_said() -> None:
+    made = report(design(WeaverParams(cycle=0.5)))
+    assert made.failed == ()
+    assert "not the 0.5 s asked for" in made.warnings[0]
+
+
+def test_a_slow_head_fails_against_the_hand() -> None:
+    failed = report(design(WeaverParams(cycle=3.0))).failed
+    assert [check.name for check in failed] == ["knot cycle"]
+
+
+@pytest.mark.parametrize("shift", [-20, 0, 20])
+def test_the_order_holds_wherever_the_steps_end(shift: float) -> None:
+    moved = WeaverParams(open_end=(172 + shift) * deg, knot_end=(250 - shift / 2) * deg, relation_gap=0.5 * deg)
+    assert [check.name for check in report(design(moved)).failed if " after " in check.name] == []
+
+
+def test_a_gap_that_does_not_fit_is_found() -> None:
+    failed = report(design(WeaverParams(relation_gap=20 * deg))).failed
+    assert failed
+    assert all("after" in check.name for check in failed)
+
+
+def test_the_handler_draws_the_yarn_of_a_knot() -> None:
+    head = design(WeaverParams(knot_yarn=0.05))
+    draw = head.cyclogram.track(HANDLER).segment("draw")
+    assert head.handler_radius * (draw.finish - draw.begin) == pytest.approx(0.05)
+    assert draw.finish - draw.begin == pytest.approx(DRAW_TURN)
+
+
+def test_the_screw_turns_the_grippers() -> None:
+    assert design(WeaverParams(crossing=0.02, crossing_turn=180 * deg)).screw_lead == pytest.approx(0.04)
+
+
+@pytest.mark.parametrize(
+    ("distance", "expected"), [(0.0, 0.0), (0.02, 2 * math.sqrt(0.01)), (0.03125, 0.25), (1.0, 4.125)]
+)
+def test_time_of_a_move(distance: float, expected: float) -> None:
+    assert move_time(distance, 0.25, 2.0) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(("tubes", "expected"), [(1, 0.0), (2, 2 * math.sqrt(0.012)), (16, 0.54)])
+def test_colour_change(tubes: int, expected: float) -> None:
+    assert design(WeaverParams(tubes=tubes)).colour_change == pytest.approx(expected)
+
+
+def test_steps_must_follow_each_other() -> None:
+    with pytest.raises(ParameterError, match="open_end=100 deg leaves the step after prepare_end no room"):
+        WeaverParams(open_end=100 * deg)
+
+
+def test_the_machine_reads_its_parameters() -> None:
+    made = MACHINE.report(MACHINE.design(WeaverParams.read({"cycle": "2.2s", "law": "cycloidal", "tubes": "8"})))
+    assert made.as_json()["results"]["knots_per_minute"] == pytest.approx(60 / 2.2)
+    assert {figure.name for figure in made.figures} == {"knot", "acceleration"}
