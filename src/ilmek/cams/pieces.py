@@ -47,7 +47,9 @@ def supremum(function: Function, knots: FloatArray) -> Extremum:
         best = np.argmax(value, axis=1)
         low, high = angle[row, np.maximum(best - 1, 0)], angle[row, np.minimum(best + 1, count - 1)]
     piece = int(np.argmax(value[row, best]))
-    return Extremum(float(angle[piece, best[piece]]), float(value[piece, best[piece]]))
+    place, top = float(angle[piece, best[piece]]), float(value[piece, best[piece]])
+    knot = float(knots[np.argmin(np.abs(knots - place))])
+    return Extremum(knot if abs(knot - place) < 2 * _INSIDE else place, top)
 
 
 def infimum(function: Function, knots: FloatArray) -> Extremum:
@@ -62,6 +64,20 @@ def integral(function: Function, knots: FloatArray) -> float:
     half = 0.5 * (high - low)
     value = function(0.5 * (low + high)[:, None] + half[:, None] * _NODES)
     return float(np.sum(half[:, None] * _WEIGHTS * value))
+
+
+def crossing(function: Function, low: float, high: float) -> float:
+    """The place [rad] where a function that rises from `low` to `high` passes 0; `low` where it never is below 0.
+
+    high < low is allowed: the function then rises backwards.
+    >>> crossing(lambda x: x**2 - 2.0, 0.0, 2.0) == 2.0**0.5
+    True
+    """
+    for _ in range(11):
+        place = np.linspace(low, high, 33)
+        first = int(np.argmax(function(place) >= 0))
+        low, high = float(place[max(first - 1, 0)]), float(place[first])
+    return high
 
 
 def _inside(knots: FloatArray) -> tuple[FloatArray, FloatArray]:

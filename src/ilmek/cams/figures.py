@@ -1,0 +1,86 @@
+"""What a cam looks like: motion diagrams, profile to scale, pressure angle and curvature over the turn."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.cams.limits import PlateCam
+from ilmek.cams.programme import TURN, Programme
+from ilmek.report import Axis, Dot, Drawing, Mark, Plot, Series, Stroke
+
+_ANGLE = Axis("cam angle", "deg")
+_BESIDE = 1e-9
+
+
+def sample_angles(*programmes: Programme, count: int = 361) -> FloatArray:
+    """Cam angles of one turn [rad] for a diagram: evenly spread, and both sides of every knot to show jumps upright."""
+    knots = np.mod(np.concatenate([programme.knots for programme in programmes]), TURN)
+    sides = np.clip(np.concatenate([knots - _BESIDE, knots + _BESIDE]), 0.0, TURN)
+    return np.unique(np.concatenate([np.linspace(0.0, TURN, count), sides]))
+
+
+def motion_plots(programmes: Mapping[str, Programme], speed: float, note: str = "") -> tuple[Plot, ...]:
+    """Displacement, velocity and acceleration by time, of followers by name, at a cam speed [rad/s]."""
+    angle = sample_angles(*programmes.values())
+    courses = {name: programme.at(angle) for name, programme in programmes.items()}
+    kinds = (("displacement", "mm", 0), ("velocity", "mm/s", 1), ("acceleration", "mm/s^2", 2))
+    return tuple(
+        Plot(
+            name=kind,
+            title=f"{kind.capitalize()} over the cam angle",
+            x=_ANGLE,
+            y=Axis(kind, unit),
+            series=tuple(
+                Series(name, angle, speed**order * course[order], dashed=place > 0)
+                for place, (name, course) in enumerate(courses.items())
+            ),
+            note=note if order == 2 else "",
+        )
+        for kind, unit, order in kinds
+    )
+
+
+def pressure_plot(cam: PlateCam, limit: float, at: float) -> Plot:
+    """Pressure angle over the turn between +-limit [rad]; `at` [rad] marks the largest."""
+    angle = sample_angles(cam.programme)
+    bounds = tuple(Series(name, np.array([0.0, TURN]), np.full(2, y), True) for name, y in _bounds(limit))
+    series = (Series("pressure angle", angle, cam.pressure_angle(angle)), *bounds)
+    axis = Axis("pressure angle", "deg")
+    return Plot("pressure-angle", "Pressure angle", _ANGLE, axis, series, (Mark(at, "largest"),))
+
+
+def curvature_plot(cam: PlateCam, at: float) -> Plot:
+    """Curvature of the pitch curve over the turn; `at` [rad] marks the sharpest convex place."""
+    angle = sample_angles(cam.programme)
+    series = (Series("pitch curve", angle, cam.curvature(angle)),)
+    note = "positive: convex; the radius of curvature is the reciprocal"
+    title = "Curvature of the pitch curve"
+    return Plot("curvature", title, _ANGLE, Axis("curvature", "1/m"), series, (Mark(at, "sharpest"),), note)
+
+
+def cam_drawing(cam: PlateCam, bore_side: float, guide_radius: float) -> Drawing:
+    """The cam to scale, zero of the cam angle to the right: surface, prime circle, pitch curve, square bore, guide."""
+    angle = sample_angles(cam.programme, count=721)
+    circle = np.exp(1j * np.linspace(0.0, TURN, 361))
+    corners = bore_side / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
+    pitch = (Stroke(cam.pitch(angle), "path", "pitch curve", closed=True),) if cam.roller_radius > 0 else ()
+    strokes = (
+        Stroke(guide_radius * circle, "construction", "guide cam", closed=True),
+        Stroke(cam.surface(angle), "outline", "cam", closed=True, filled=True),
+        Stroke(cam.prime_radius * circle, "construction", "prime circle", closed=True),
+        *pitch,
+        Stroke(corners, "outline", "square bore", closed=True),
+        Stroke(_to_the_tip(cam, angle), "dimension", "nose radius"),
+    )
+    note = "turns counter-clockwise; the warp lies on the right when the cam angle is 0"
+    return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "axis", "pivot"),), note=note)
+
+
+def _bounds(limit: float) -> tuple[tuple[str, float], ...]:
+    return ("limit", limit), ("limit on the return", -limit)
+
+
+def _to_the_tip(cam: PlateCam, angle: FloatArray) -> ComplexArray:
+    surface = cam.surface(angle)
+    return np.array([0j, surface[np.argmax(np.abs(surface))]])

@@ -1,0 +1,31 @@
+"""What a beam and its section look like: deflection line along the width, section to scale."""
+
+import math
+
+import numpy as np
+
+from ilmek.elements import beams
+from ilmek.report import Axis, Dot, Drawing, Plot, Series, Stroke
+
+
+def deflection_plot(load: float, length: float, modulus: float, inertia: float, limit: float) -> Plot:
+    """Deflection line of a simply supported, uniformly loaded beam, and its limit [m]; downwards as on the drawing."""
+    x = np.linspace(0.0, length, 121)
+    series = (
+        Series("deflection", x, -beams.deflection(x, load, length, modulus, inertia=inertia)),
+        Series("limit", np.array([0.0, length]), np.full(2, -limit), dashed=True),
+    )
+    title = "Deflection along the width"
+    return Plot("deflection", title, Axis("place between the bearings", "mm"), Axis("deflection", "mm"), series)
+
+
+def tube_drawing(outer_radius: float, inner_radius: float, least_outer_radius: float) -> Drawing:
+    """Section of a tube to scale, and the outer radius that the slope alone asks for."""
+    circle = np.exp(1j * np.linspace(0.0, 2 * math.pi, 361))
+    strokes = (
+        Stroke(outer_radius * circle, "outline", "outside", closed=True),
+        Stroke(inner_radius * circle, "outline", "inside", closed=True),
+        Stroke(least_outer_radius * circle, "construction", "least outside for the slope", closed=True),
+        Stroke(np.array([-outer_radius, outer_radius]) + 0j, "dimension", "outer diameter"),
+    )
+    return Drawing("section", "Section of the cylinder, to scale", strokes, (Dot(0j, "axis", "pivot"),))

@@ -1,0 +1,23 @@
+"""The shedding cams: a cam for each warp, opposed for odd and even ones, on a square shaft.
+
+Sized by the lift and the motion law, with the smallest prime circle that keeps the pressure angle, after the thesis on
+carpet robots, chapter 3.2; the cams stand on `ilmek.cams`, the shaft and its drive on `ilmek.elements`.
+
+Where the thesis' numbers are misprinted: Table 3.2 has its columns swapped (the larger side is the deflection's) and
+the limit behind it is 1 mm, not 0.1 mm; 550 kg weigh 5395 N, not 5489 N; only the warps of one parity are lifted at a
+time, so that 600 x 10 N never act together.
+"""
+
+from ilmek.machines.machine import Machine
+from ilmek.machines.shedding_design import SheddingDesign, SheddingParams, design
+from ilmek.machines.shedding_report import report
+
+__all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design", "report"]
+
+MACHINE = Machine(
+    name="shedding",
+    summary="cams that open the shed: profile, pressure angle, curvature, torque, square shaft",
+    params=SheddingParams,
+    design=design,
+    report=report,
+)

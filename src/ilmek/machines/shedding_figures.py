@@ -1,0 +1,55 @@
+"""The shedding cams' figures: motion of both parities, the cam to scale, pressure angle, curvature, torque, shaft."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ilmek.cams import figures as cam_figures
+from ilmek.cams.limits import convex_radius_min, pressure_angle_max
+from ilmek.cams.programme import TURN, jumps
+from ilmek.elements import beams
+from ilmek.elements.figures import deflection_plot
+from ilmek.machines.shedding_design import SheddingDesign
+from ilmek.report import Axis, Figure, Mark, Plot, Series
+from ilmek.units import format_quantity
+
+
+def figures(design: SheddingDesign) -> tuple[Figure, ...]:
+    """The cam to scale and the plots, in the order of the report."""
+    cam, shaft = design.cam, design.shaft
+    drawn: tuple[Figure, ...] = (
+        cam_figures.cam_drawing(cam, shaft.bar, design.stack.guide_radius),
+        *cam_figures.motion_plots({"even": design.even, "odd": design.odd}, design.params.speed, jump_note(design)),
+        cam_figures.pressure_plot(cam, design.params.pressure_angle_limit, pressure_angle_max(cam).at),
+        cam_figures.curvature_plot(cam, convex_radius_min(cam).at),
+        torque_plot(design),
+        deflection_plot(
+            shaft.load,
+            shaft.length,
+            design.params.modulus,
+            float(beams.square_inertia(shaft.bar)),
+            design.params.deflection_limit,
+        ),
+    )
+    return tuple(replace(figure, name=f"shedding-{figure.name}") for figure in drawn)
+
+
+def torque_plot(design: SheddingDesign) -> Plot:
+    """Torque of the warps on the shaft over the turn, and its rms."""
+    angle = cam_figures.sample_angles(design.even, design.odd)
+    rms = design.drive.torque_rms
+    series = (
+        Series("torque", angle, design.torque(angle)),
+        Series("root mean square", np.array([0.0, TURN]), np.full(2, rms), dashed=True),
+    )
+    mark = Mark(design.drive.torque_max.at, format_quantity(design.drive.torque_max.value, "Nm"))
+    note = "positive: the shaft lifts the warps; negative: the warps press the shaft on"
+    title = "Torque of the warps on the shaft"
+    return Plot("torque", title, Axis("cam angle", "deg"), Axis("torque", "Nm"), series, (mark,), note)
+
+
+def jump_note(design: SheddingDesign) -> str:
+    """Where the acceleration of the even warps jumps, in words."""
+    found = jumps(design.even)
+    said = ", ".join(f"{jump.place} at {format_quantity(jump.angle, 'deg')}" for jump in found)
+    return f"even warps: the acceleration jumps {said}" if said else "the acceleration has no jump"

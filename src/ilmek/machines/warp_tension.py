@@ -1,0 +1,23 @@
+"""The warp tension cylinder: a tube between two bearings that all warps pull on, turned by a motor through a reducer.
+
+Sized by slope and deflection after the thesis on carpet robots, chapter 3.1, on `ilmek.elements`.
+
+Where the thesis' numbers are misprinted: the radii of Table 3.1 are headed as diameters, its last column lacks the
+factor 5 of eq. 3.4, its row 125 has 125.12 for 125.11; the tube 140 x 5 mm sags 0.199 mm (not 0.0025 mm) with a slope
+of 5.3e-4 (not 5.2e-5); and a reducer that locks itself cannot bring 630 N m out of a 7 N m motor at 1:100, because that
+takes an efficiency of 0.9 where self-locking allows one half.
+"""
+
+from ilmek.machines.machine import Machine
+from ilmek.machines.warp_tension_design import WarpTensionDesign, WarpTensionParams, design
+from ilmek.machines.warp_tension_report import report
+
+__all__ = ["MACHINE", "WarpTensionDesign", "WarpTensionParams", "design", "report"]
+
+MACHINE = Machine(
+    name="warp-tension",
+    summary="cylinder that tensions the warps: slope, deflection, torque, reducer and motor, take-up",
+    params=WarpTensionParams,
+    design=design,
+    report=report,
+)

@@ -1,0 +1,203 @@
+"""The warp tension cylinder's parameters and its design.
+
+    w = T n / l,   slope = w l^3 / (24 E I),   deflection = 5 w l^4 / (384 E I),   M = n T R       [thesis, eq. 3.4-3.8]
+
+Every warp pulls the cylinder one way with its tension T; the weight of the tube (2 % of the pull) is left out, as in
+the thesis, and said. Carpet that is wound on the cylinder makes its radius, and so the torque, grow:
+pi (R^2 - Ro^2) = length x thickness.
+"""
+
+import math
+from dataclasses import dataclass
+
+from ilmek.elements import beams, shafts
+from ilmek.elements.materials import GRAVITY, MATERIALS
+from ilmek.elements.motors import Motor, Reducer, smallest_motor
+from ilmek.errors import ParameterError
+from ilmek.params import Params, param
+from ilmek.units import N, format_quantity, m, mm, s, turn
+
+STEEL = MATERIALS["structural steel"]
+
+INNER_RADIUS = 65 * mm
+"""The thesis' tube, 140 x 5 mm."""
+
+RATIOS = (100.0, 150.0, 200.0, 300.0, 500.0, 1000.0)
+"""The thesis' reducer, and larger ones, a worm behind a first stage, for wide looms."""
+
+
+@dataclass(frozen=True, slots=True)
+class WarpTensionParams(Params):
+    """What is asked of the cylinder; the defaults are the thesis' loom."""
+
+    warps: int = param(600, at_least=1, at_most=100_000, doc="warps on the cylinder", symbol="n")
+    tension: float = param(15 * N, unit="N", above=0.0, at_most=1e4, doc="tension of a warp", symbol="T")
+    width: float = param(1.2 * m, unit="m", above=0.0, at_most=20.0, doc="cylinder between its bearings", symbol="l")
+    outer_radius: float | None = param(
+        None,
+        unit="mm",
+        above=0.0,
+        at_most=2.0,
+        doc="outer radius; none: the least whole millimetre that keeps slope, deflection and wall",
+        symbol="Ro",
+    )
+    inner_radius: float = param(
+        65 * mm, unit="mm", at_least=0.0, at_most=2.0, doc="inner radius; 0: solid", symbol="Ri"
+    )
+    wall: float = param(5 * mm, unit="mm", above=0.0, at_most=0.5, doc="least wall where the outer radius is chosen")
+    modulus: float = param(STEEL.modulus, unit="GPa", above=0.0, at_most=1e13, doc="Young's modulus", symbol="E")
+    density: float = param(STEEL.density, unit="kg/m^3", above=0.0, at_most=25e3, doc="density of the tube")
+    strength: float = param(STEEL.strength, unit="MPa", above=0.0, at_most=1e10, doc="yield strength of the tube")
+    slope_limit: float = param(0.004, unit="rad", above=0.0, below=0.5, doc="largest slope at the bearings")
+    deflection_limit: float = param(1 * mm, unit="mm", above=0.0, at_most=0.1, doc="largest deflection")
+    ratio: float | None = param(
+        None, above=0.0, at_most=1e5, doc="ratio of the reducer; none: 100, or more where no motor is strong enough"
+    )
+    efficiency: float = param(0.45, above=0.0, at_most=1.0, doc="efficiency of the reducer")
+    self_locking: bool = param(True, doc="the reducer must hold the warps by itself; no: a brake holds them")
+    motor_torque: float | None = param(
+        None, unit="Nm", above=0.0, at_most=1e4, doc="torque of the motor; none: the smallest that is enough"
+    )
+    row_pitch: float = param(4 * mm, unit="mm", above=0.0, at_most=0.1, doc="carpet taken up for each row of knots")
+    take_up_time: float = param(1 * s, unit="s", above=0.0, at_most=3600.0, doc="time to take up a row")
+    carpet_length: float = param(1.8 * m, unit="m", above=0.0, at_most=1000.0, doc="length of the carpet")
+    carpet_thickness: float = param(
+        0.0, unit="mm", at_least=0.0, at_most=0.1, doc="thickness of carpet wound on the cylinder; 0: it is led away"
+    )
+
+    def check_together(self) -> None:
+        """Raise ParameterError where the tube has no wall."""
+        if self.outer_radius is not None and self.inner_radius is not None and self.outer_radius <= self.inner_radius:
+            inner = format_quantity(self.inner_radius, "mm")
+            given = f"outer_radius={format_quantity(self.outer_radius, 'mm')} is not above inner_radius={inner}"
+            raise ParameterError(given, allowed=f"above {inner}", do="give radii, not diameters, or leave it out")
+
+
+@dataclass(frozen=True, slots=True)
+class WarpTensionDesign:
+    """The cylinder, designed; forces N, N/m, lengths m, angles rad, torques N m.
+
+    outer_radius_min             least outer radius for the slope with the inner radius given
+    outer_radius_min_deflection  the same for the deflection
+    roll_radius                  radius with the whole carpet wound on; the outer radius where none is
+    torque, torque_full          of all warps on the bare cylinder, and on the full one
+    motor_limit                  lasting torque of the motor; NaN where none is strong enough
+    """
+
+    params: WarpTensionParams
+    load: float
+    inner_radius: float
+    outer_radius: float
+    outer_radius_min: float
+    outer_radius_min_deflection: float
+    slope: float
+    deflection: float
+    stress: float
+    torque: float
+    torque_full: float
+    roll_radius: float
+    reducer: Reducer
+    motor_torque: float
+    motor_speed: float
+    motor: Motor | None
+    motor_limit: float
+
+    @property
+    def inertia(self) -> float:
+        """Second moment of area of the tube [m^4]."""
+        return float(beams.tube_inertia(self.outer_radius, self.inner_radius))
+
+    @property
+    def reaction(self) -> float:
+        """Force on each bearing [N]."""
+        return float(beams.reaction(self.load, self.params.width))
+
+    @property
+    def mass(self) -> float:
+        """Mass of the tube between its bearings [kg]."""
+        section = math.pi * (self.outer_radius**2 - self.inner_radius**2)
+        return section * self.params.width * self.params.density
+
+    @property
+    def self_weight(self) -> float:
+        """Weight of the tube per length [N/m], left out of slope and deflection."""
+        return self.mass * GRAVITY / self.params.width
+
+    @property
+    def take_up_turns(self) -> float:
+        """Turns of the cylinder for the whole carpet."""
+        params = self.params
+        if params.carpet_thickness == 0:
+            return params.carpet_length / (turn * self.outer_radius)
+        return (self.roll_radius - self.outer_radius) / params.carpet_thickness
+
+
+def design(params: WarpTensionParams) -> WarpTensionDesign:
+    """Cylinder and drive for the parameters."""
+    load, pull = params.warps * params.tension / params.width, params.warps * params.tension
+    inner, outer = _tube(params)
+    for_slope, for_deflection = outer_radii_min(params, inner)
+    inertia = float(beams.tube_inertia(outer, inner))
+    roll = math.sqrt(outer**2 + params.carpet_length * params.carpet_thickness / math.pi)
+    reducer, motor, speed = _drive(params, pull * roll, params.row_pitch / outer / params.take_up_time)
+    return WarpTensionDesign(
+        params=params,
+        load=load,
+        inner_radius=inner,
+        outer_radius=outer,
+        outer_radius_min=for_slope,
+        outer_radius_min_deflection=for_deflection,
+        slope=float(beams.slope_max(load, params.width, params.modulus, inertia)),
+        deflection=float(beams.deflection_max(load, params.width, params.modulus, inertia)),
+        stress=float(beams.bending_stress(beams.moment_max(load, params.width), outer, inertia)),
+        torque=pull * outer,
+        torque_full=pull * roll,
+        roll_radius=roll,
+        reducer=reducer,
+        motor_torque=reducer.motor_torque(pull * roll),
+        motor_speed=speed,
+        motor=motor,
+        motor_limit=params.motor_torque or (motor.torque if motor else math.nan),
+    )
+
+
+def _tube(params: WarpTensionParams) -> tuple[float, float]:
+    """Inner and outer radius [m]: as given; the other by the wall; both, the first millimetre that keeps the limits."""
+    inner, outer, wall = params.inner_radius, params.outer_radius, params.wall
+    if outer is not None:
+        return (max(outer - wall, 0.0) if inner is None else inner), outer
+    if inner is not None:
+        return inner, _whole_millimetre(max(*outer_radii_min(params, inner), inner + wall))
+    # A wider tube with the same wall is stiffer; no cylinder is wider than the largest radius that can be given.
+    tried = (INNER_RADIUS + step * mm for step in range(2000))
+    found = next((radius for radius in tried if max(outer_radii_min(params, radius)) <= radius + wall), None)
+    if found is None:
+        given = f"no tube with a wall of {format_quantity(wall, 'mm')} keeps slope and deflection"
+        raise ParameterError(given, do="set a larger wall or inner_radius")
+    return found, found + wall
+
+
+def _drive(params: WarpTensionParams, torque: float, rate: float) -> tuple[Reducer, Motor | None, float]:
+    """Reducer, the motor chosen and its speed [rad/s], for a torque [N m] and a speed [rad/s] at the cylinder."""
+    ratios = RATIOS if params.ratio is None else (params.ratio,)
+    if params.motor_torque is not None:
+        return Reducer(ratios[0], params.efficiency), None, ratios[0] * rate
+    for ratio in ratios:
+        reducer, speed = Reducer(ratio, params.efficiency), ratio * rate
+        motor = smallest_motor(reducer.motor_torque(torque), speed)
+        if motor is not None:
+            break
+    return reducer, motor, speed
+
+
+def outer_radii_min(params: WarpTensionParams, inner_radius: float) -> tuple[float, float]:
+    """Least outer radii [m] for the slope and for the deflection, with an inner radius [m]."""
+    load, width, modulus = params.warps * params.tension / params.width, params.width, params.modulus
+    for_slope = shafts.inertia_for_slope(load, width, modulus, params.slope_limit)
+    for_deflection = shafts.inertia_for_deflection(load, width, modulus, params.deflection_limit)
+    return shafts.tube_outer_radius(for_slope, inner_radius), shafts.tube_outer_radius(for_deflection, inner_radius)
+
+
+def _whole_millimetre(radius: float) -> float:
+    """The radius, or the next whole millimetre above; rounding below a nanometre is no reason for another one."""
+    return math.ceil(radius / mm - 1e-6) * mm
