@@ -6,6 +6,7 @@ names, hatches and arrows keep their size whatever the machine's size; a scale b
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -87,7 +88,7 @@ def _colours(strokes: tuple[Stroke, ...]) -> dict[int, int]:
     return numbers
 
 
-def _line(pen: _Pen, stroke: Stroke, **look: object) -> ComplexArray:
+def _line(pen: _Pen, stroke: Stroke, **look: Any) -> ComplexArray:
     """The stroke as a line; returns its points on the sheet."""
     points = thinned_line(pen(stroke.points))
     if stroke.closed and len(points):
@@ -198,8 +199,9 @@ def _beside(points: ComplexArray, closed: bool) -> ComplexArray:
     shares = np.arange(24) / 24 if closed else np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8])
     places = np.interp(shares * along[-1], along, points.real) + 1j * np.interp(shares * along[-1], along, points.imag)
     if not closed:
-        return places
-    return places[np.argsort(np.abs(np.angle((places - places.mean()) * np.exp(-1j * np.pi / 4))), kind="stable")]
+        return np.asarray(places)
+    turned = np.angle((places - places.mean()) * np.exp(-1j * np.pi / 4))
+    return np.asarray(places[np.argsort(np.abs(turned), kind="stable")])
 
 
 def _middle(points: ComplexArray) -> tuple[complex, complex]:
@@ -249,7 +251,8 @@ _DOTS: Mapping[str, Callable[[_Pen, complex], None]] = {"pin": _pin, "pivot": _p
 
 def _names(pen: _Pen, drawing: Drawing, corner: complex) -> None:
     """Names of dots in bold, names of strokes in the stroke's colour, all clear of the lines."""
-    wanted, looks = [], []
+    wanted: list[Wanted] = []
+    looks: list[dict[str, Any]] = []
     for dot in drawing.dots:
         if dot.label:
             wanted.append(Wanted(pen(np.array([dot.at])), dot.label, STRONG, 5.5, pull=3.0))
@@ -258,14 +261,8 @@ def _names(pen: _Pen, drawing: Drawing, corner: complex) -> None:
     for number, stroke in enumerate(drawing.strokes):
         if stroke.label and stroke.label not in seen and stroke.role != "dimension" and len(stroke.points) > 1:
             seen.add(stroke.label)
-            wanted.append(
-                Wanted(
-                    _beside(thinned_line(pen(stroke.points)), stroke.closed),
-                    stroke.label,
-                    TEXT,
-                    7.0 if stroke.role == "link" else 4.5,
-                )
-            )
+            places = _beside(thinned_line(pen(stroke.points)), stroke.closed)
+            wanted.append(Wanted(places, stroke.label, TEXT, 7.0 if stroke.role == "link" else 4.5))
             looks.append({"color": _shade(pen, stroke, number), "fontsize": TEXT})
     centres = placed(wanted, _obstacles(pen, drawing), complex(2.0, _FOOT), corner - (2 + 2j))
     for one, centre, look in zip(wanted, centres, looks, strict=True):
@@ -295,7 +292,7 @@ def _obstacles(pen: _Pen, drawing: Drawing) -> ComplexArray:
         pen(np.array([dot.at])) + np.linspace(-9 - 13j, 9 - 13j, 6) for dot in drawing.dots if dot.role == "pivot"
     ]
     points = np.concatenate(parts)
-    return points[np.isfinite(points)]
+    return np.asarray(points[np.isfinite(points)])
 
 
 def _scale_bar(pen: _Pen) -> None:

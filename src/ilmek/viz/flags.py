@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Flag:
-    """A name at a tick: its place along the axis, the line above the axis it is written on, and whether it ends there."""
+    """A name at a tick: its place along the axis, the line above the axis it is written on, and whether it ends there
+    (else it begins there).
+    """
 
     x: float
     tier: int

@@ -21,7 +21,14 @@ _POINTS = 72.0
 _DECIMALS = re.compile(r"-?\d+\.\d{3,}")
 _ID = re.compile(r'\sid="([^"]+)"')
 _REFERENCE = re.compile(r'(?:xlink:href="#|url\(#)([^")]+)')
-_FONT = re.compile(r" ?font-family: [^;\"]*;?")
+_TIDY = (
+    (re.compile(r"\s*<metadata>.*?</metadata>", re.DOTALL), ""),
+    (re.compile(r"<!--.*?-->\s*", re.DOTALL), ""),
+    (re.compile(r"\s*<defs>\s*<style.*?</style>\s*</defs>", re.DOTALL), ""),  # it would hold for the whole page
+    (re.compile(r' ?font-family: [^;"]*;?'), ""),
+    (re.compile(r' transform="rotate\(-?0 [^"]*"'), ""),
+    (re.compile(r"\s*\n\s*"), "\n"),
+)
 _SLUG = re.compile(r"[^A-Za-z0-9]+")
 
 
@@ -60,16 +67,14 @@ def inline_svg(figure: Figure, title: str, prefix: str) -> str:
     figure.savefig(stream, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
     text = stream.getvalue()
     body = text[text.index(">", text.index("<svg")) + 1 :]
-    body = re.sub(r"\s*<metadata>.*?</metadata>", "", body, flags=re.DOTALL)
-    body = re.sub(r"<!--.*?-->\s*", "", body, flags=re.DOTALL)
-    body = re.sub(r"\s*<defs>\s*<style.*?</style>\s*</defs>", "", body, count=1, flags=re.DOTALL)
-    body = _DECIMALS.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), body)
-    body = _FONT.sub("", _own_ids(body, prefix))
-    body = re.sub(r"\s*\n\s*", "\n", re.sub(r' transform="rotate\(-?0 [^"]*"', "", body))
+    for pattern, instead in _TIDY:
+        body = pattern.sub(instead, body)
+    body = _DECIMALS.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), _own_ids(body, prefix))
     width, height = (float(side) * _POINTS for side in figure.get_size_inches())
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" role="img" '
-        f'viewBox="0 0 {width:.6g} {height:.6g}" style="stroke-linejoin:round;font-family:{FONTS}" aria-label={quoteattr(title)}>\n<title>{escape(title)}</title>{body}'
+        f'viewBox="0 0 {width:.6g} {height:.6g}" style="stroke-linejoin:round;font-family:{FONTS}" '
+        f"aria-label={quoteattr(title)}>\n<title>{escape(title)}</title>{body}"
     )
 
 

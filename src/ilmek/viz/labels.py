@@ -71,4 +71,4 @@ def _covered(centres: ComplexArray, half: complex, obstacles: ComplexArray) -> F
         return np.zeros(len(centres))
     away = obstacles[np.newaxis, :] - centres[:, np.newaxis]
     inside = (np.abs(away.real) < half.real + 1.0) & (np.abs(away.imag) < half.imag + 1.0)
-    return np.minimum(inside.sum(axis=1), 12).astype(float)
+    return np.asarray(np.minimum(inside.sum(axis=1), 12).astype(float))

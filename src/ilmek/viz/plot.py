@@ -1,6 +1,7 @@
 """Curves over one axis."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -77,10 +78,10 @@ def _padded(low: float, high: float) -> tuple[float, float]:
     return low - air, high + air
 
 
-def _line(series: Series, number: int) -> dict[str, object]:
+def _line(series: Series, number: int) -> dict[str, Any]:
     """How a curve is drawn; beyond the palette the line is broken too."""
     rounds = number // len(PALETTE)
-    style: object = DASHES[0] if series.dashed else DASHES[(rounds - 1) % len(DASHES)] if rounds else "-"
+    style = DASHES[0] if series.dashed else DASHES[(rounds - 1) % len(DASHES)] if rounds else "-"
     return {"color": colour(number), "linewidth": 1.5, "linestyle": style}
 
 

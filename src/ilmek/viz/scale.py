@@ -1,5 +1,7 @@
 """Round numbers along an axis."""
 
+import itertools
+
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
@@ -35,18 +37,18 @@ def ticks(low: float, high: float, unit: str = "", wanted: int = 6) -> list[floa
     if unit in _ANGLES and high - low > 20:
         step = next((step for step in (5, 10, 15, 30, 45, 60, 90) if (high - low) / step <= wanted), 180)
         first, last = np.ceil((low - slack) / step), np.floor((high + slack) / step)
-        return [float(step * number) for number in np.arange(first, last + 1)]
+        return [float(step * number) + 0.0 for number in np.arange(first, last + 1)]
     places = MaxNLocator(nbins=wanted, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
     return [float(place) for place in places if low - slack <= place <= high + slack]
 
 
 def tick_labels(places: list[float]) -> list[str]:
-    """The ticks written with as many decimals as the step needs, with true minus signs.
+    r"""The ticks written with as many decimals as the step needs, with true minus signs.
 
     >>> tick_labels([-0.5, 0.0, 0.5]), tick_labels([0.0, 200000.0])
-    (['−0.5', '0.0', '0.5'], ['0', '200 000'])
+    (['−0.5', '0.0', '0.5'], ['0', '200\u2009000'])
     """
-    step = min((abs(b - a) for a, b in zip(places, places[1:], strict=False)), default=1.0) or 1.0
+    step = min((abs(b - a) for a, b in itertools.pairwise(places)), default=1.0) or 1.0
     largest = max((abs(place) for place in places), default=0.0)
     if largest >= 1e6 or (largest and largest < 1e-3):
         return [f"{place:.3g}".translate(_MINUS) for place in places]

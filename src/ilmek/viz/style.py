@@ -5,6 +5,7 @@ orange darkened for white paper: they stay apart under every common colour blind
 """
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from matplotlib.colors import to_hex, to_rgb
@@ -26,7 +27,7 @@ DASHES: tuple[tuple[float, tuple[float, ...]], ...] = ((0, (4.5, 2.0)), (0, (1.2
 SMALL, TEXT, STRONG = 7.2, 8.2, 8.8
 """Sizes of letters [pt]: ticks and marks, labels, names."""
 
-RC: dict[str, object] = {
+RC: dict[Any, Any] = {
     "svg.fonttype": "none",
     "svg.hashsalt": "ilmek",
     "font.family": "DejaVu Sans",
@@ -88,7 +89,8 @@ def tint(colour_text: str, share: float) -> str:
     >>> tint("#000000", 0.2)
     '#cccccc'
     """
-    return to_hex([1 - share * (1 - channel) for channel in to_rgb(colour_text)])
+    red, green, blue = (1 - share * (1 - channel) for channel in to_rgb(colour_text))
+    return to_hex((red, green, blue))
 
 
 @lru_cache(maxsize=4096)

@@ -1,5 +1,7 @@
 """Curves with no more points than a figure can show."""
 
+import itertools
+
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
@@ -23,7 +25,7 @@ def thinned_curve(x: FloatArray, y: FloatArray, limit: int = LIMIT) -> tuple[Flo
         return x, y
     edges = np.linspace(0, count, limit // 4, dtype=np.intp)
     kept = {0, count - 1}
-    for start, stop in zip(edges[:-1], edges[1:], strict=True):
+    for start, stop in itertools.pairwise(edges):
         group = y[start:stop]
         gaps = np.flatnonzero(~np.isfinite(group))
         kept.add(int(start))
@@ -58,12 +60,12 @@ def thinned_line(points: ComplexArray, tolerance: float = TOLERANCE, limit: int 
         if away[farthest] > tolerance:
             middle = first + 1 + farthest
             stretches += [(first, middle), (middle, last)]
-    return points[keep]
+    return np.asarray(points[keep])
 
 
 def _distances(points: ComplexArray, start: complex, end: complex) -> FloatArray:
     """How far each point lies from the chord."""
     chord = end - start
     if chord == 0:
-        return np.abs(points - start)
-    return np.abs((np.conj(chord) * (points - start)).imag) / abs(chord)
+        return np.asarray(np.abs(points - start))
+    return np.asarray(np.abs((np.conj(chord) * (points - start)).imag) / abs(chord))

@@ -43,7 +43,7 @@ class _Tufts:
 
 def encoded(light: Light) -> Rgb:
     """Linear light as sRGB codes, clipped."""
-    return _CODES[(np.clip(light, 0.0, 1.0) * np.float32(_FINE)).astype(np.uint16)]
+    return np.asarray(_CODES[(np.clip(light, 0.0, 1.0) * np.float32(_FINE)).astype(np.uint16)])
 
 
 def abrash(yarns: int, rows: int, rng: np.random.Generator) -> Float32[np.ndarray, "yarns rows 3"]:
@@ -65,7 +65,7 @@ def yarn_light(knots: Indices, srgb: Sequence[tuple[int, int, int]], rng: np.ran
     palette = LINEAR[np.array(srgb, dtype=np.uint8)].astype(np.float32)
     shades = palette[:, np.newaxis, :] * abrash(len(palette), knots.shape[0], rng)
     light = shades[knots, rows]
-    return light * (1.0 + grain * rng.standard_normal(knots.shape, dtype=np.float32))[:, :, np.newaxis]
+    return np.asarray(light * (1.0 + grain * rng.standard_normal(knots.shape, dtype=np.float32))[:, :, np.newaxis])
 
 
 def tufted(light: Light, across: int, down: int, rng: np.random.Generator, fibre: float = 0.0) -> Light:
@@ -75,11 +75,11 @@ def tufted(light: Light, across: int, down: int, rng: np.random.Generator, fibre
     """
     tufts = _scattered(light, rng)
     rows, columns = light.shape[:2]
-    out = np.empty((rows, down, columns, across, 3), dtype=np.float32)
+    cells = np.empty((rows, down, columns, across, 3), dtype=np.float32)
     for j in range(down):
         for i in range(across):
-            out[:, j, :, i] = _seen(tufts, (i + 0.5) / across, (j + 0.5) / down, rng, fibre)
-    out = out.reshape(rows * down, columns * across, 3)
+            cells[:, j, :, i] = _seen(tufts, (i + 0.5) / across, (j + 0.5) / down, rng, fibre)
+    out = cells.reshape(rows * down, columns * across, 3)
     if fibre:
         out *= _streaks(out.shape[0], out.shape[1], across, rng, fibre)[:, :, np.newaxis]
     return out
@@ -99,23 +99,30 @@ def _scattered(light: Light, rng: np.random.Generator) -> _Tufts:
 def _seen(tufts: _Tufts, x: float, y: float, rng: np.random.Generator, fray: float) -> Light:
     """What is seen at one place of every cell: the highest of its own tuft and the three nearest neighbours'."""
     aside, above = (1 if x > 0.5 else -1), (1 if y > 0.5 else -1)
-    best: Plane | None = None
-    for dx, dy in ((0, 0), (aside, 0), (0, above), (aside, above)):
-        part = (slice(1 + dy, tufts.height.shape[0] - 1 + dy), slice(1 + dx, tufts.height.shape[1] - 1 + dx))
-        u = (np.float32(x - dx) - tufts.across[part]) * np.float32(1 / _FOOT[0])
-        v = (np.float32(y - dy) - tufts.down[part]) * np.float32(1 / _FOOT[1])
-        z = tufts.height[part] - u * u - v * v
-        if fray:
-            z = z + np.float32(1.3 * fray) * rng.standard_normal(z.shape, dtype=np.float32)
-        slope = u * np.float32(_SUN[0]) + v * np.float32(_SUN[1])
-        if best is None:
-            best, lit, colour = z, slope, tufts.colour[part]
-        else:
-            higher = z > best
-            best, lit = np.where(higher, z, best), np.where(higher, slope, lit)
-            colour = np.where(higher[:, :, np.newaxis], tufts.colour[part], colour)
+    best, lit, colour = _tuft(tufts, x, y, 0, 0)
+    best = best + _roughness(fray, best.shape, rng)
+    for dx, dy in ((aside, 0), (0, above), (aside, above)):
+        z, slope, other = _tuft(tufts, x, y, dx, dy)
+        z = z + _roughness(fray, z.shape, rng)
+        higher = z > best
+        best, lit = np.where(higher, z, best), np.where(higher, slope, lit)
+        colour = np.where(higher[:, :, np.newaxis], other, colour)
     depth = np.clip(best, -0.4, 1.2)
-    return colour * (0.60 + 0.42 * depth + lit)[:, :, np.newaxis]
+    return np.asarray(colour * (0.60 + 0.42 * depth + lit)[:, :, np.newaxis])
+
+
+def _tuft(tufts: _Tufts, x: float, y: float, dx: int, dy: int) -> tuple[Plane, Plane, Light]:
+    """Height, brightness by its slope, and colour of the tufts dx, dy cells away, at one place of every cell."""
+    part = (slice(1 + dy, tufts.height.shape[0] - 1 + dy), slice(1 + dx, tufts.height.shape[1] - 1 + dx))
+    u = (np.float32(x - dx) - tufts.across[part]) * np.float32(1 / _FOOT[0])
+    v = (np.float32(y - dy) - tufts.down[part]) * np.float32(1 / _FOOT[1])
+    slope = u * np.float32(_SUN[0]) + v * np.float32(_SUN[1])
+    return tufts.height[part] - u * u - v * v, slope, tufts.colour[part]
+
+
+def _roughness(fray: float, shape: tuple[int, ...], rng: np.random.Generator) -> Plane | np.float32:
+    """How uneven the tips of the fibres are."""
+    return np.float32(1.3 * fray) * rng.standard_normal(shape, dtype=np.float32) if fray else np.float32(0)
 
 
 def _streaks(height: int, width: int, across: int, rng: np.random.Generator, strength: float) -> Plane:

@@ -1,0 +1,89 @@
+"""Knot charts as indexed PNG: one pixel one knot, the palette the yarns.
+
+The file is a picture to everybody and a chart to ilmek: the palette holds the yarns' colours in their order, the pHYs
+chunk the knots per metre both ways (so that viewers that heed it show knots in true proportion), and text chunks the
+title and, as JSON under `ilmek-chart`, yarns, size, quality and knot.
+"""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, UnidentifiedImageError
+from PIL.PngImagePlugin import PngInfo
+
+from ilmek.arrays import Indices
+from ilmek.carpet.chart import Chart
+from ilmek.errors import PictureError
+
+KEY = "ilmek-chart"
+_METRE = 0.0254
+"""Metres per inch: Pillow takes dots per inch and writes dots per metre."""
+
+
+@dataclass(frozen=True, slots=True)
+class ChartPicture:
+    """What a chart PNG holds: indices, yarn names and colours in their order; size [m], quality [knots/m], knot."""
+
+    knots: Indices
+    names: tuple[str, ...]
+    srgb: tuple[tuple[int, int, int], ...]
+    size: tuple[float, float]
+    quality: tuple[float, float]
+    knot: str
+
+
+def chart_picture(chart: Chart) -> Image.Image:
+    """The chart as a picture with a palette."""
+    picture = Image.frombytes("P", (chart.columns, chart.rows), np.ascontiguousarray(chart.knots).tobytes())
+    picture.putpalette([channel for yarn in chart.yarns for channel in yarn.srgb])
+    return picture
+
+
+def write_chart_png(path: Path, chart: Chart) -> None:
+    """Write the chart to `path`."""
+    facts = {
+        "yarns": [{"name": yarn.name, "srgb": list(yarn.srgb)} for yarn in chart.yarns],
+        "size": [chart.size.width, chart.size.length],
+        "quality": [chart.quality.across, chart.quality.along],
+        "knot": chart.knot,
+    }
+    info = PngInfo()
+    info.add_text("Title", "Knot chart: one pixel one knot")
+    info.add_text("Software", "ilmek")
+    info.add_itxt(KEY, json.dumps(facts, ensure_ascii=False))
+    dots = (chart.quality.across * _METRE, chart.quality.along * _METRE)
+    chart_picture(chart).save(path, format="PNG", pnginfo=info, dpi=dots)
+
+
+def read_chart_png(path: Path) -> ChartPicture:
+    """Read a chart that `write_chart_png` wrote. Raises PictureError for any other file."""
+    no_chart = PictureError(f"{path} is no knot chart", allowed="a chart.png written by ilmek is wanted")
+    try:
+        with Image.open(path, formats=("PNG",)) as picture:
+            picture.load()
+            text = str(getattr(picture, "text", {}).get(KEY, ""))
+            if picture.mode != "P" or not text:
+                raise no_chart
+            return _chart(np.array(picture, dtype=np.uint8), json.loads(text))
+    except (UnidentifiedImageError, SyntaxError, ValueError, KeyError, TypeError, OSError) as error:
+        raise no_chart from error
+
+
+def _chart(knots: Indices, facts: dict[str, object]) -> ChartPicture:
+    """The chart by its text. Raises KeyError, TypeError or ValueError where the text is not a chart's."""
+    yarns, size, quality = facts["yarns"], facts["size"], facts["quality"]
+    if not (isinstance(yarns, list) and isinstance(size, list) and isinstance(quality, list)):
+        raise TypeError("yarns, size and quality are lists")
+    if int(knots.max()) >= len(yarns):
+        raise ValueError("a knot without a yarn")
+    colours = [yarn["srgb"] for yarn in yarns]
+    return ChartPicture(
+        knots,
+        tuple(str(yarn["name"]) for yarn in yarns),
+        tuple((int(red), int(green), int(blue)) for red, green, blue in colours),
+        (float(size[0]), float(size[1])),
+        (float(quality[0]), float(quality[1])),
+        str(facts["knot"]),
+    )
