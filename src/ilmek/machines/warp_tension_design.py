@@ -41,10 +41,15 @@ class WarpTensionParams(Params):
         doc="outer radius; none: the least whole millimetre that keeps slope, deflection and wall",
         symbol="Ro",
     )
-    inner_radius: float = param(
-        65 * mm, unit="mm", at_least=0.0, at_most=2.0, doc="inner radius; 0: solid", symbol="Ri"
+    inner_radius: float | None = param(
+        None,
+        unit="mm",
+        at_least=0.0,
+        at_most=2.0,
+        doc="inner radius, 0: solid; none: 65 mm, or what the limits ask of a tube of that wall",
+        symbol="Ri",
     )
-    wall: float = param(5 * mm, unit="mm", above=0.0, at_most=0.5, doc="least wall where the outer radius is chosen")
+    wall: float = param(5 * mm, unit="mm", above=0.0, at_most=0.5, doc="wall of the tube where a radius is chosen")
     modulus: float = param(STEEL.modulus, unit="GPa", above=0.0, at_most=1e13, doc="Young's modulus", symbol="E")
     density: float = param(STEEL.density, unit="kg/m^3", above=0.0, at_most=25e3, doc="density of the tube")
     strength: float = param(STEEL.strength, unit="MPa", above=0.0, at_most=1e10, doc="yield strength of the tube")

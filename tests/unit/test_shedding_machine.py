@@ -1,0 +1,197 @@
+"""The shedding machine: masses, load, shuttle window, drive, checks and warnings, and what it refuses."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ilmek.cams.laws import LAWS
+from ilmek.errors import ParameterError
+from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams
+from ilmek.report import Drawing, Plot, Report
+from ilmek.units import deg, mm
+
+
+def made(**given_settings: str) -> SheddingDesign:
+    return MACHINE.design(SheddingParams.read(given_settings))
+
+
+def answer(**given_settings: str) -> Report:
+    return MACHINE.report(made(**given_settings))
+
+
+def failed(report: Report) -> list[str]:
+    return [check.name for check in report.failed]
+
+
+def test_the_thesis_loom_passes_its_checks() -> None:
+    report = answer()
+    assert failed(report) == []
+    assert len(report.checks) == 9
+    assert len(report.warnings) == 1
+    assert "bridges the hollow" in report.warnings[0]
+
+
+def test_load_is_the_vector_sum_of_weight_and_one_parity_with_safety_2() -> None:
+    design = made()
+    weight, across = design.stack.mass * 9.81, 300 * 10.0
+    assert design.shaft.load == pytest.approx(2 * math.hypot(weight, across) / 1.2)
+    assert made(safety="1").shaft.load == pytest.approx(design.shaft.load / 2)
+
+
+def test_the_stack_weighs_cams_guides_and_the_shaft_in_their_bores() -> None:
+    design = made()
+    stack, bar = design.stack, design.shaft.bar
+    shaft = bar**2 * 1.2 * 7850
+    assert stack.mass == pytest.approx(600 * (stack.cam_mass + stack.guide_mass) + shaft)
+
+
+def test_overlapping_sheds_load_the_shaft_with_all_warps_and_fail() -> None:
+    design, report = made(rise="120deg"), answer(rise="120deg")
+    assert design.shaft.load == pytest.approx(2 * math.hypot(design.stack.mass * 9.81, 6000) / 1.2)
+    assert "one parity down while the other is up" in failed(report)
+
+
+def test_half_turn_rises_balance_each_other() -> None:
+    """While one parity rises the other comes down: the torques cancel, and there is no work left for the motor."""
+    design = made(rise="180deg")
+    assert np.max(np.abs(design.torque(np.linspace(0, 7, 200)))) < 1e-11
+    assert design.drive.torque_rms < 1e-11
+
+
+def test_shuttle_window_of_the_harmonic_law() -> None:
+    """30 (1 - cos 2q) = 40 mm at q = acos(-1/3)/2."""
+    first, last = made().shuttle_window
+    assert first == pytest.approx(math.acos(-1 / 3) / 2, abs=1e-14)
+    assert last == pytest.approx(math.pi - first, abs=1e-14)
+
+
+def test_a_raised_dwell_keeps_the_shed_open() -> None:
+    short, long = made(rise="60deg", dwell="0deg"), made(rise="60deg", dwell="60deg")
+    spans = [design.shuttle_window[1] - design.shuttle_window[0] for design in (short, long)]
+    assert spans[1] - spans[0] == pytest.approx(60 * deg)
+    assert [segment.name for segment in long.even.segments] == ["rise", "dwell", "fall", "dwell"]
+
+
+def test_a_shed_too_low_for_the_shuttle_fails() -> None:
+    report = answer(lift="30mm")
+    assert "shed for the shuttle" in failed(report)
+    assert report.as_json()["results"]["shuttle_time"] == 0.0
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    law=st.sampled_from(list(LAWS)),
+    lift=st.floats(0.02, 0.12),
+    rise=st.floats(40 * deg, 89 * deg),
+    tension=st.floats(5.0, 30.0),
+)
+def test_work_of_the_torque_is_the_work_on_the_warps(law, lift, rise, tension) -> None:
+    """Virtual power: the torque over the rise does what stretches the warps; over the turn nothing is left."""
+    design = MACHINE.design(SheddingParams(lift=lift, rise=rise, law=law, tension=tension, half_span=0.2))
+    angle = np.linspace(0, rise, 4001)
+    work = np.trapezoid(design.torque(angle), angle)
+    assert work == pytest.approx(300 * 2 * tension * (math.hypot(lift, 0.2) - 0.2), rel=1e-5)
+    whole = np.linspace(0, 2 * math.pi, 20_001)
+    assert abs(np.trapezoid(design.torque(whole), whole)) < 1e-3 * work
+
+
+def test_opposed_cams_are_half_a_turn_apart() -> None:
+    design = made(law="3-4-5")
+    angle = np.linspace(0, 6, 50)
+    np.testing.assert_allclose(design.opening(angle), -design.opening(angle + math.pi), atol=1e-14)
+
+
+def test_fine_pitch_takes_thin_cams() -> None:
+    design = made(warp_pitch="0.5mm", warps="2400")
+    assert design.stack.thickness == pytest.approx(0.25 * mm)
+    assert design.stack.thickness + design.stack.guide_thickness == pytest.approx(0.5 * mm)
+    assert design.shaft.length == pytest.approx(1.2)
+
+
+def test_prime_circle_too_small_for_the_limit_or_the_bore_fails_and_says_the_size() -> None:
+    report = answer(prime_radius="40mm")
+    assert failed(report) == ["pressure angle", "prime radius round the bore"]
+    needed = report.as_json()["results"]["prime_radius_for_bore"] / mm
+    assert any(f"set prime_radius={needed:.2f}mm" in warning for warning in report.warnings)
+    assert failed(answer(prime_radius="90mm")) == []
+
+
+def test_roller_larger_than_the_curvature_undercuts() -> None:
+    assert "convex radius of the pitch curve (no undercut)" in failed(answer(roller_radius="75mm"))
+
+
+def test_more_cams_than_the_shaft_is_long() -> None:
+    assert failed(answer(shaft_length="1m")) == ["width of the cams on the shaft"]
+
+
+def test_motor_is_chosen_or_judged() -> None:
+    assert made().drive.motor.torque >= made().drive.motor_torque == pytest.approx(180 / 85)
+    assert failed(answer(motor_torque="2Nm")) == ["motor torque"]
+    report = answer(ratio="1", efficiency="1")
+    assert failed(report) == ["motor torque"]
+    assert "no motor gives 180 Nm at 5 rpm" in report.warnings[-1]
+
+
+def test_a_quick_shaft_is_warned_of() -> None:
+    assert any("the thesis allows 5 rpm" in warning for warning in answer(speed="10rpm").warnings)
+
+
+def test_shaft_beyond_the_stock_is_made_to_measure() -> None:
+    design = made(shaft_load="2000kN/m")
+    assert design.shaft.bar >= design.shaft.side
+    assert design.shaft.bar * 100 == pytest.approx(round(design.shaft.bar * 100))
+
+
+def test_report_is_whole() -> None:
+    report = answer(law="parabolic", dwell="10deg", rise="80deg")
+    names = [figure.name for figure in report.figures]
+    assert len(set(names)) == len(names) == 8
+    assert [type(figure) for figure in report.figures].count(Drawing) == 1
+    for figure in report.figures:
+        for series in figure.series if isinstance(figure, Plot) else ():
+            assert series.x.shape == series.y.shape
+            assert np.all(np.isfinite(series.y))
+    assert {table.name for table in report.tables} == {
+        "shedding-phases",
+        "shedding-laws",
+        "shedding-shaft",
+        "shedding-cam-points",
+    }
+    for table in report.tables:
+        assert {len(row) for row in table.rows} == {len(table.columns)}
+    assert [row[0] for row in report.tables[1].rows] == list(LAWS)
+
+
+def test_law_table_agrees_with_a_design_by_that_law() -> None:
+    for row in answer().tables[1].rows:
+        found = answer(law=str(row[0])).as_json()["results"]
+        wanted = [found[n] for n in ("prime_radius", "curvature_radius_min", "velocity_max", "acceleration_max")]
+        assert list(row[1:5]) == pytest.approx(wanted, rel=1e-9)
+        assert row[5] == len(found["acceleration_jumps"])
+
+
+@pytest.mark.parametrize(
+    ("given_settings", "said"),
+    [
+        ({"rise": "200deg"}, "rise \\+ dwell \\+ fall = 400 deg; they must fit one turn"),
+        ({"rise": "90"}, "did you mean 90deg"),
+        ({"lift": "60"}, "did you mean 60mm"),
+        ({"lift": "0mm"}, "lift=0 mm is out of bounds"),
+        ({"law": "harmonik"}, "did you mean harmonic"),
+        ({"cam_thickness": "2mm"}, "cam_thickness=2 mm does not fit warp_pitch=2 mm; below 2 mm"),
+        ({"cam_thickness": "1mm", "warp_pitch": "0.8mm"}, "leave it out for half the pitch"),
+        ({"tension": "15N"}, "half_span is missing"),
+        ({"half_span": "170mm"}, "tension is missing"),
+        ({"pressure_angle_limit": "90deg"}, "below 90 deg"),
+        ({"warps": "1"}, "at least 2"),
+        ({"safety": "0.5"}, "at least 1"),
+        ({"prime_radius": "10mm", "roller_radius": "12mm"}, "prime_radius=10 mm is too small; above 12 mm"),
+        ({"pressure_angel_limit": "30deg"}, "did you mean pressure_angle_limit"),
+    ],
+)
+def test_refuses_in_one_line(given_settings, said) -> None:
+    with pytest.raises(ParameterError, match=said):
+        made(**given_settings)

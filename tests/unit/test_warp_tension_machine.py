@@ -1,0 +1,143 @@
+"""The warp tension machine: tube chosen or judged, drive, take-up, what it refuses."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ilmek.errors import ParameterError
+from ilmek.machines.warp_tension import MACHINE, WarpTensionDesign, WarpTensionParams
+from ilmek.report import Report
+from ilmek.units import mm, rpm
+
+
+def made(**given_settings: str) -> WarpTensionDesign:
+    return MACHINE.design(WarpTensionParams.read(given_settings))
+
+
+def answer(**given_settings: str) -> Report:
+    return MACHINE.report(made(**given_settings))
+
+
+def test_the_thesis_tube_comes_out_and_passes() -> None:
+    design, report = made(), answer()
+    assert (design.inner_radius, design.outer_radius) == pytest.approx((65 * mm, 70 * mm))
+    assert report.failed == ()
+    assert report.warnings == ()
+
+
+@settings(max_examples=40, deadline=None)
+@given(warps=st.integers(50, 4000), tension=st.floats(2.0, 40.0), width=st.floats(0.3, 4.0))
+def test_the_tube_chosen_keeps_the_limits_and_a_millimetre_less_does_not(warps, tension, width) -> None:
+    params = WarpTensionParams(warps=warps, tension=tension, width=width)
+    design = MACHINE.design(params)
+    assert design.slope <= params.slope_limit
+    assert design.deflection <= params.deflection_limit
+    assert design.deflection / design.slope == pytest.approx(5 * width / 16)
+    assert design.outer_radius - design.inner_radius == pytest.approx(params.wall)
+    if design.inner_radius > 65.5 * mm:
+        less = dict(inner_radius=design.inner_radius - mm, outer_radius=design.outer_radius - mm)
+        smaller = MACHINE.design(WarpTensionParams(warps=warps, tension=tension, width=width, **less))
+        assert smaller.deflection > params.deflection_limit or smaller.slope > params.slope_limit
+
+
+@given(inner=st.floats(0.0, 0.2))
+def test_least_outer_radius_has_just_the_slope_allowed(inner) -> None:
+    least = MACHINE.design(WarpTensionParams(inner_radius=inner)).outer_radius_min
+    at_the_limit = MACHINE.design(WarpTensionParams(inner_radius=inner, outer_radius=least))
+    assert at_the_limit.slope == pytest.approx(0.004, rel=1e-6)
+
+
+def test_inner_radius_alone_takes_the_next_whole_millimetre_with_its_wall() -> None:
+    assert made(inner_radius="50mm").outer_radius == pytest.approx(55 * mm)
+    solid = made(inner_radius="0mm")
+    assert solid.outer_radius == pytest.approx(math.ceil(solid.outer_radius_min_deflection / mm) * mm)
+
+
+def test_outer_radius_alone_takes_the_wall_off() -> None:
+    assert made(outer_radius="80mm").inner_radius == pytest.approx(75 * mm)
+
+
+def test_bearings_for_the_slope() -> None:
+    found = answer().as_json()["results"]["bearings"]
+    assert found == ["deep-groove ball", "cylindrical roller"]
+
+
+def test_a_weak_tube_fails() -> None:
+    report = answer(outer_radius="40mm", inner_radius="39mm")
+    assert [check.name for check in report.failed] == ["slope in the bearings", "deflection", "bending stress"]
+
+
+def test_motor_is_the_smallest_behind_the_reducer() -> None:
+    design = made()
+    assert design.motor_torque == pytest.approx(630 / 45)
+    assert design.motor.torque >= design.motor_torque
+    assert design.motor_speed == pytest.approx(100 * 4 / 70)
+
+
+def test_a_wide_loom_takes_a_larger_ratio_before_it_gives_up() -> None:
+    wide = made(warps="3200", width="4m")
+    assert wide.reducer.ratio > 100
+    assert wide.motor is not None
+    report = answer(warps="3200", width="4m", ratio="10")
+    assert [check.name for check in report.failed] == ["motor torque"]
+    assert "set a larger ratio" in report.warnings[0]
+
+
+def test_self_locking_or_efficient() -> None:
+    assert made(efficiency="0.5").reducer.self_locking
+    assert [check.name for check in answer(efficiency="0.7").failed] == ["efficiency, to lock itself"]
+    assert "does not lock itself" in answer(efficiency="0.7").warnings[0]
+    assert answer(efficiency="0.7", self_locking="no").failed == ()
+
+
+def test_carpet_wound_on_makes_the_torque_grow() -> None:
+    """pi (R^2 - Ro^2) = length x thickness; the turns are the layers."""
+    design = made(carpet_thickness="10mm", carpet_length="10m")
+    added = math.pi * (design.roll_radius**2 - design.outer_radius**2)
+    assert added == pytest.approx(0.1)
+    assert design.torque_full / design.torque == pytest.approx(design.roll_radius / design.outer_radius)
+    mean = (design.roll_radius + design.outer_radius) / 2
+    assert design.take_up_turns * 2 * math.pi * mean == pytest.approx(10.0)
+    assert design.motor_torque == pytest.approx(design.torque_full / 45)
+
+
+def test_thin_carpet_takes_the_turns_of_a_bare_cylinder() -> None:
+    bare, thin = made(), made(carpet_thickness="0.001mm")
+    assert thin.take_up_turns == pytest.approx(bare.take_up_turns, rel=1e-3)
+
+
+def test_take_up_sets_the_motor_speed() -> None:
+    assert made(take_up_time="0.1s").motor_speed == pytest.approx(10 * made().motor_speed)
+    quick = made(take_up_time="1ms")
+    assert quick.motor is None or quick.motor.speed >= quick.motor_speed > 1000 * rpm
+
+
+def test_report_is_whole() -> None:
+    report = answer()
+    assert [figure.name for figure in report.figures] == ["warp-tension-deflection", "warp-tension-section"]
+    for table in report.tables:
+        assert {len(row) for row in table.rows} == {len(table.columns)}
+    names = [result.name for result in report.results]
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize(
+    ("given_settings", "said"),
+    [
+        ({"outer_radius": "60mm", "inner_radius": "65mm"}, "outer_radius=60 mm is not above inner_radius=65 mm"),
+        ({"outer_radius": "65mm", "inner_radius": "65mm"}, "give radii, not diameters"),
+        ({"warps": "0"}, "at least 1"),
+        ({"tension": "15kg"}, "wrong unit"),
+        ({"width": "0m"}, "above 0 m"),
+        ({"efficiency": "1.2"}, "at most 1"),
+        ({"efficiency": "0"}, "above 0"),
+        ({"slope_limit": "4"}, "below 0.5 rad"),
+        ({"self_locking": "perhaps"}, "neither true nor false"),
+        ({"warps": "100000", "tension": "1000N", "width": "20m", "wall": "1mm"}, "no tube with a wall of 1 mm"),
+    ],
+)
+def test_refuses_in_one_line(given_settings, said) -> None:
+    with pytest.raises(ParameterError, match=said):
+        made(**given_settings)
