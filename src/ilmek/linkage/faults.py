@@ -9,6 +9,7 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
 from ilmek.linkage.groups.group import Drive, Step
 from ilmek.linkage.model import GROUND, Rotation
+from ilmek.linkage.newton import starts
 from ilmek.linkage.status import Status, judge
 from ilmek.linkage.structure import Plan
 from ilmek.units import deg, mm
@@ -21,7 +22,7 @@ def first_fault(plan: Plan, drives: Mapping[str, Drive], status: Int8[np.ndarray
     """The error for the first step that fails anywhere: the failing samples are solved once more, step by step."""
     bad = status != Status.OK
     drives = {name: _chosen(drive, bad) for name, drive in drives.items()}
-    known: dict[str, BodyMotion] = {GROUND: STILL}
+    known: dict[str, BodyMotion] = {GROUND: STILL, **starts(plan, drives)}
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         for step in plan.steps:
             solved = step.solve(known, drives)

@@ -16,7 +16,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 from ilmek.errors import MechanismError
 
@@ -122,6 +122,7 @@ class Displacement:
 
 Joint: TypeAlias = Pin | Slide
 Input: TypeAlias = Rotation | Displacement
+Named = TypeVar("Named", Body, Pin | Slide)
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +181,7 @@ def freedom(mechanism: Mechanism) -> int:
     return 3 * len(mechanism.moving) - 2 * len(mechanism.joints)
 
 
-def _find(name: str, among: Iterable, kind: str, of: str):  # type: ignore[no-untyped-def, type-arg]
+def _find(name: str, among: Iterable[Named], kind: str, of: str) -> Named:
     known = {one.name: one for one in among}
     if name in known:
         return known[name]

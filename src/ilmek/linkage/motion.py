@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from jaxtyping import Complex, Float, Int8
 
+from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.faults import first_fault
 from ilmek.linkage.groups.group import Columns, Drive
@@ -58,37 +59,37 @@ class Motion:
 
     def origin(self, body: str) -> Points:
         """World position of the origin of a body's frame [m]."""
-        return self._carried(body, 0j).position
+        return self._points(self._carried(body, 0j).position)
 
     def velocity_of_origin(self, body: str) -> Points:
         """Velocity of the origin of a body's frame [m/s]."""
-        return self._carried(body, 0j).velocity
+        return self._points(self._carried(body, 0j).velocity)
 
     def acceleration_of_origin(self, body: str) -> Points:
         """Acceleration of the origin of a body's frame [m/s^2]."""
-        return self._carried(body, 0j).acceleration
+        return self._points(self._carried(body, 0j).acceleration)
 
     def direction(self, body: str) -> Points:
         """Unit complex e^{i theta} along the x axis of a body's frame."""
-        return self._spread(self.body(body).direction, complex)
+        return self._points(self.body(body).direction)
 
     def angle(self, body: str) -> Reals:
         """Angle of a body's frame against the world's x [rad], unwrapped along the samples, the first in (-pi, pi].
 
         Samples more than half a turn apart cannot be told from fewer turns.
         """
-        return np.unwrap(np.angle(self.direction(body)))
+        return np.asarray(np.unwrap(np.angle(self.direction(body))))
 
     def omega(self, body: str) -> Reals:
         """Angular velocity of a body [rad/s]."""
-        return self._spread(self.body(body).omega, float)
+        return self._reals(self.body(body).omega)
 
     def alpha(self, body: str) -> Reals:
         """Angular acceleration of a body [rad/s^2]."""
-        return self._spread(self.body(body).alpha, float)
+        return self._reals(self.body(body).alpha)
 
     def require(self) -> "Motion":
-        """This motion, if every sample could be solved.
+        """The motion itself, if every sample could be solved.
 
         Raises MechanismError that says where along the input it could not, by how much, and what to do.
         """
@@ -98,14 +99,19 @@ class Motion:
 
     def _carried(self, body: str, local: complex) -> PointMotion:
         point = self.body(body).carry(local)
-        return PointMotion(
-            self._spread(point.position, complex),
-            self._spread(point.velocity, complex),
-            self._spread(point.acceleration, complex),
-        )
+        return PointMotion(*(self._points(one) for one in (point.position, point.velocity, point.acceleration)))
 
-    def _spread(self, value, kind):  # type: ignore[no-untyped-def]
-        """A constant as a read-only array over the samples; an array as it is."""
-        if isinstance(value, np.ndarray) and value.ndim and value.dtype == kind:
-            return value
-        return np.broadcast_to(np.asarray(value, dtype=kind), self.status.shape)
+    def _points(self, value: ComplexField) -> Points:
+        points: Points = _over(value, self.status.shape, np.dtype(complex))
+        return points
+
+    def _reals(self, value: RealField) -> Reals:
+        reals: Reals = _over(value, self.status.shape, np.dtype(float))
+        return reals
+
+
+def _over(value: ComplexField, shape: tuple[int, ...], dtype: np.dtype[Any]) -> Any:
+    """A constant as a read-only array over the samples; an array as it is."""
+    if isinstance(value, np.ndarray) and value.ndim:
+        return value
+    return np.broadcast_to(np.asarray(value, dtype=dtype), shape)

@@ -11,14 +11,18 @@ import numpy as np
 from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
+from ilmek.linkage.groups.block import Block
 from ilmek.linkage.groups.group import Columns, Drive
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
+from ilmek.linkage.newton import starts
 from ilmek.linkage.status import judge
 from ilmek.linkage.structure import Plan
 
 BLOCK = 4096
 """Samples worked off at a time: a few dozen arrays of this length fit the second-level cache."""
+NEWTON_BLOCK = 1 << 15
+"""The same where a group is left to Newton's method, which first follows the way from the mechanism's pose."""
 
 Courses = RealField | Mapping[str, RealField]
 """One input's values, or several inputs' by name: a rotation's by its body, a displacement's by its slide."""
@@ -36,12 +40,13 @@ def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Course
     inputs, values that are not finite, and arrays of different lengths.
     """
     drives = _drives(plan, angle, speed, acceleration)
-    samples = len(drives[plan.mechanism.inputs[0].name].value)
+    size = NEWTON_BLOCK if any(isinstance(step, Block) for step in plan.steps) else BLOCK
+    samples = np.size(drives[plan.mechanism.inputs[0].name].value)
     status = np.zeros(samples, dtype=np.int8)
     columns: dict[str, Columns] = {}
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        for start in range(0, samples, BLOCK):
-            part = slice(start, start + BLOCK)
+        for start in range(0, samples, size):
+            part = slice(start, start + size)
             solved = _block(plan, {name: _part(drive, part) for name, drive in drives.items()}, status[part])
             if start == 0:
                 columns = {body: _room(fields, samples) for body, fields in solved.items()}
@@ -52,7 +57,7 @@ def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Course
 
 def _block(plan: Plan, drives: Mapping[str, Drive], status: np.ndarray) -> dict[str, Columns]:
     """Every body's columns for one block of samples; writes into `status`."""
-    known: dict[str, BodyMotion] = {GROUND: STILL}
+    known: dict[str, BodyMotion] = {GROUND: STILL, **starts(plan, drives)}
     columns: dict[str, Columns] = {}
     last = plan.steps[-1]
     for step in plan.steps:
@@ -130,4 +135,4 @@ def _samples(courses: list[RealField]) -> int:
     if len(shapes) > 1 or len(min(shapes)) != 1:
         said = " and ".join(str(shape) for shape in sorted(shapes))
         raise MechanismError(f"inputs have arrays of shapes {said}", allowed="one-dimensional arrays of one length")
-    return min(shapes)[0]
+    return int(min(shapes)[0])

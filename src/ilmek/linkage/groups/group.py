@@ -4,17 +4,18 @@ A file of this package holds one kind of group: its leaf formulas, the step that
 recognises it.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import Any, TypeAlias
 
-from ilmek.arrays import ComplexField, RealField
+from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.model import Input, Joint, Mechanism
 
-Columns: TypeAlias = tuple[ComplexField, ...]
-"""What is kept of a body's motion, one field each: enough for `Step.place` to give all of it back."""
+Columns: TypeAlias = tuple[Any, ...]
+"""What is kept of a body's motion, real and complex fields: enough for `Step.place` to give all of it back."""
 
 Known: TypeAlias = Mapping[str, BodyMotion]
 """Motions of the bodies already solved, by name."""
@@ -40,62 +41,53 @@ class Solved:
     margin: RealField | None = None
 
 
-class Step(Protocol):
-    """A group ready to be solved. Steps are frozen records of numbers; they keep nothing of a motion."""
+class Step(ABC):
+    """A group ready to be solved. Steps are frozen records of numbers; they keep nothing of a motion.
+
+    As it stands, a step that cannot fail; the others say by how much they do.
+    """
+
+    __slots__ = ()
 
     @property
+    @abstractmethod
     def bodies(self) -> tuple[str, ...]:
         """The bodies it solves."""
 
     @property
+    @abstractmethod
     def parents(self) -> tuple[str, ...]:
         """The bodies it hangs on."""
 
     @property
+    @abstractmethod
     def words(self) -> str:
         """What it is, for people."""
 
+    @abstractmethod
     def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:
         """The bodies' columns at every sample."""
 
+    @abstractmethod
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The bodies' motions from their columns."""
 
     @property
     def size(self) -> float:
         """Its largest length [m]."""
+        return 0.0
 
     @property
     def failure(self) -> str:
         """Name of the Status of a sample that it cannot solve."""
+        return "CANNOT_CLOSE"
 
-    def gap(self, known: Known) -> RealField:
-        """By how much it fails to close [m], 0 where it closes."""
+    def gap(self, known: Known) -> RealField:  # noqa: ARG002 - for the steps that can fail
+        """By how much it fails to close [m], 0 where it closes, NaN where what it hangs on is lost."""
+        return 0.0
 
-    def shortfall(self, known: Known) -> tuple[str, str]:
+    def shortfall(self, known: Known) -> tuple[str, str]:  # noqa: ARG002 - for the steps that can fail
         """The worst gap of the samples in words, and what would mend it."""
-
-
-@dataclass(frozen=True, slots=True)
-class Sure:
-    """Part of a step that cannot fail."""
-
-    @property
-    def size(self) -> float:
-        """Nothing to measure."""
-        return 0.0
-
-    @property
-    def failure(self) -> str:
-        """It never fails."""
-        return "OK"
-
-    def gap(self, known: Known) -> RealField:  # noqa: ARG002
-        """It always closes."""
-        return 0.0
-
-    def shortfall(self, known: Known) -> tuple[str, str]:  # noqa: ARG002
-        """Nothing is short."""
         return "", ""
 
 

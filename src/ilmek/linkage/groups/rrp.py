@@ -15,7 +15,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
 from ilmek.linkage.groups.shift import Track, track
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin, Slide
@@ -37,14 +37,15 @@ def position(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField, br
 
 
 def turning(u: ComplexField, e: ComplexField) -> RealField:
-    """u . e [m] of the link u = C - A and the line's direction e: zero at a dead centre."""
+    """Lean u . e [m] of the link u = C - A and the line's direction e: zero at a dead centre."""
     return u.real * e.real + u.imag * e.imag
 
 
 def link_rate(e: ComplexField, r: ComplexField, cosine: RealField) -> RealField:
-    """wa of i wa u - s' e = r, with cosine = u . e: angular velocity [rad/s] of the link.
+    """Angular velocity wa [rad/s] of the link, from i wa u - s' e = r with cosine = u . e.
 
-    For velocities r is the line's velocity at C less A'; for accelerations the answer is alpha_a, see `sliding_rest`.
+    For velocities r = Q' + i w s e - A'; for accelerations r = Q'' + (i alpha - w^2) s e + 2 i w s' e - A'' + wa^2 u,
+    and the answers are alpha_a and s''.
     >>> float(link_rate(1 + 0j, 8j, 4.0)), float(slider_rate(4 - 3j, 8j, 4.0))
     (2.0, 6.0)
     """
@@ -52,7 +53,7 @@ def link_rate(e: ComplexField, r: ComplexField, cosine: RealField) -> RealField:
 
 
 def slider_rate(u: ComplexField, r: ComplexField, cosine: RealField) -> RealField:
-    """s' of i wa u - s' e = r, with cosine = u . e: speed of the slider along its line [m/s]; see `link_rate`."""
+    """Speed s' [m/s] of the slider along its line, from i wa u - s' e = r with cosine = u . e; see `link_rate`."""
     return -(u.real * r.real + u.imag * r.imag) / cosine
 
 
@@ -67,7 +68,7 @@ def shortness(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField) -
 
 
 @dataclass(frozen=True, slots=True)
-class SliderDyad:
+class SliderDyad(Step):
     """A link of length a [m] hung on a known body and pinned to a slider on another (or the same) known body.
 
     hinge  known pin in the frame of the body that the link hangs on [m]      at  the same pin in the link's frame [m]
@@ -137,11 +138,6 @@ class SliderDyad:
     def size(self) -> float:
         """The link [m]."""
         return self.a
-
-    @property
-    def failure(self) -> str:
-        """The link does not reach the line."""
-        return "CANNOT_CLOSE"
 
     def gap(self, known: Known) -> RealField:
         """How much too short the link is for the line [m]."""

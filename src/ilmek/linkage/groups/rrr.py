@@ -14,7 +14,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin
 from ilmek.units import format_quantity
@@ -35,7 +35,7 @@ def position(A: ComplexField, B: ComplexField, a: RealField, b: RealField, branc
 
 
 def turning(u: ComplexField, v: ComplexField) -> RealField:
-    """u x v [m^2] of the links u = C - A and v = C - B: a b sin(transmission angle), zero at a dead centre.
+    """Lean u x v [m^2] of the links u = C - A and v = C - B: a b sin(transmission angle), zero at a dead centre.
 
     >>> float(turning(3j, -4 + 3j))
     12.0
@@ -44,7 +44,7 @@ def turning(u: ComplexField, v: ComplexField) -> RealField:
 
 
 def first_rate(v: ComplexField, r: ComplexField, sine: RealField) -> RealField:
-    """wa of i wa u - i wb v = r, with sine = u x v: angular velocity [rad/s] of the link on A.
+    """Angular velocity wa [rad/s] of the link on A, from i wa u - i wb v = r with sine = u x v.
 
     For velocities r = B' - A'; for accelerations r = (B'' - wb^2 v) - (A'' - wa^2 u) and the answer is alpha_a.
     >>> float(first_rate(-4 + 3j, -2 + 0j, 12.0)), float(second_rate(3j, -2 + 0j, 12.0))
@@ -54,7 +54,7 @@ def first_rate(v: ComplexField, r: ComplexField, sine: RealField) -> RealField:
 
 
 def second_rate(u: ComplexField, r: ComplexField, sine: RealField) -> RealField:
-    """wb of i wa u - i wb v = r, with sine = u x v: angular velocity [rad/s] of the link on B; see `first_rate`."""
+    """Angular velocity wb [rad/s] of the link on B, from i wa u - i wb v = r with sine = u x v; see `first_rate`."""
     return (u.real * r.real + u.imag * r.imag) / sine
 
 
@@ -65,11 +65,12 @@ def misfit(A: ComplexField, B: ComplexField, a: RealField, b: RealField) -> Real
     (1.0, -1.0, 0.0)
     """
     reach = np.abs(B - A)
-    return np.maximum(reach - (a + b), 0) + np.minimum(reach - np.abs(a - b), 0)
+    gap: RealField = np.maximum(reach - (a + b), 0) + np.minimum(reach - np.abs(a - b), 0)
+    return gap
 
 
 @dataclass(frozen=True, slots=True)
-class Dyad:
+class Dyad(Step):
     """Two links, of lengths a and b [m], hung on known bodies and joined by the free pin.
 
     hinges  known pins in the frames of the bodies in `on` [m]      at  the same pins in the links' frames [m]
@@ -133,11 +134,6 @@ class Dyad:
     def size(self) -> float:
         """The longer link [m]."""
         return max(self.a, self.b)
-
-    @property
-    def failure(self) -> str:
-        """The links do not reach each other."""
-        return "CANNOT_CLOSE"
 
     def gap(self, known: Known) -> RealField:
         """How much too far apart (above 0) or too near (below 0) the known pins are [m]."""

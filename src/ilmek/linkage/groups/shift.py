@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ilmek.arrays import ComplexField
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Sure
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
 from ilmek.linkage.model import Displacement, Mechanism, Slide
 
 
@@ -49,7 +49,7 @@ def track(mechanism: Mechanism, slide: Slide, body: str) -> Track:
 
 
 @dataclass(frozen=True, slots=True)
-class Shift(Sure):
+class Shift(Step):
     """A driven slider: shifted along its track on the known body `on`."""
 
     body: str

@@ -4,14 +4,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Sure
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
 from ilmek.linkage.model import GROUND, Pin, Rotation
 from ilmek.plane.vectors import unit
 
 
 @dataclass(frozen=True, slots=True)
-class Turn(Sure):
-    """A driven body: pinned at `hinge` of the carrier, at `at` of its own frame [m]; turned backwards if `sign` is -1."""
+class Turn(Step):
+    """A driven body, pinned at `hinge` of the carrier and `at` of its own frame [m]; `sign` -1 turns it backwards."""
 
     body: str
     carrier: str

@@ -1,0 +1,112 @@
+"""Loop equations of joints and inputs, with their exact derivatives.
+
+An equation c(poses, t) = 0 is differentiated twice along the motion:
+
+    c'  = sum over bodies (J_x x' + J_y y' + J_theta theta') - input's rate                  = 0
+    c'' = the same sum over accelerations + bias(poses, velocities) - input's second rate    = 0
+
+A pose is the world position of a body's origin (x + i y) and its direction. Angles are held by the sine of their
+error: near the solution it is the error itself [Nikravesh, Computer-Aided Analysis of Mechanical Systems, chapter 3].
+"""
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_motion import BodyMotion
+from ilmek.linkage.groups.group import Drive, Known
+from ilmek.linkage.model import Mechanism, Pin, Rotation, Slide
+from ilmek.plane.vectors import dot
+
+Row: TypeAlias = dict[str, tuple[RealField, RealField, RealField]]
+"""Derivatives of one equation by x, y [1/m], theta [1/rad] of each body that it holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """One scalar equation at the present poses: value, derivatives, bias, and what its input demands of it.
+
+    length  1 if its value is a length, 0 if it is an angle
+    """
+
+    value: RealField
+    row: Row
+    bias: RealField
+    rate: RealField = 0.0
+    second_rate: RealField = 0.0
+    length: int = 1
+
+
+def pin_equations(mechanism: Mechanism, pin: Pin, bodies: Known) -> list[Equation]:
+    """P_first - P_second = 0, in x and in y."""
+    p, q = (bodies[body] for body in pin.bodies)
+    r, s = (bodies[body].direction * mechanism.point(body, pin.name) for body in pin.bodies)
+    gap = p.anchor.position + r - q.anchor.position - s
+    bias = q.omega**2 * s - p.omega**2 * r
+    return [
+        Equation(gap.real, {pin.first: (1, 0, -r.imag), pin.second: (-1, 0, s.imag)}, bias.real),
+        Equation(gap.imag, {pin.first: (0, 1, r.real), pin.second: (0, -1, -s.real)}, bias.imag),
+    ]
+
+
+def slide_equations(mechanism: Mechanism, slide: Slide, bodies: Known) -> list[Equation]:
+    """D x f = 0 and theta_body - theta_guide - turned = 0, with D from the guide's point to the body's along f."""
+    across = _along(mechanism, slide, bodies, 1j)
+    return [across, _angle(slide.body, slide.guide, slide.turned, bodies)]
+
+
+def displacement_equation(mechanism: Mechanism, slide: Slide, drive: Drive, bodies: Known) -> Equation:
+    """D . f - s = 0: the driven slide."""
+    along = _along(mechanism, slide, bodies, 1)
+    return Equation(along.value - drive.value, along.row, along.bias, drive.speed, drive.acceleration)
+
+
+def rotation_equation(mechanism: Mechanism, entry: Rotation, drive: Drive, bodies: Known) -> Equation:
+    """theta_body - theta_carrier - input = 0: the driven pin."""
+    first, second = mechanism.joint(entry.about).bodies
+    carrier = second if entry.body == first else first
+    held = _angle(entry.body, carrier, drive.value, bodies)
+    return Equation(held.value, held.row, held.bias, drive.speed, drive.acceleration, length=0)
+
+
+def travel(mechanism: Mechanism, slide: Slide, bodies: Known) -> RealField:
+    """Displacement s [m] of a slide in the present poses."""
+    return _along(mechanism, slide, bodies, 1).value
+
+
+def relative_angle(mechanism: Mechanism, entry: Rotation, bodies: Known) -> RealField:
+    """Angle [rad] of a driven body against the other body at its pin, in the present poses."""
+    first, second = mechanism.joint(entry.about).bodies
+    carrier = second if entry.body == first else first
+    turned: RealField = np.angle(bodies[entry.body].direction * np.conj(bodies[carrier].direction))
+    return turned
+
+
+def _along(mechanism: Mechanism, slide: Slide, bodies: Known, quarter: complex) -> Equation:
+    """D . f for f along the line (quarter = 1) or square to it (quarter = i), without an input."""
+    body, guide = bodies[slide.body], bodies[slide.guide]
+    r = body.direction * mechanism.point(slide.body, slide.name)
+    s = guide.direction * mechanism.point(slide.guide, slide.name)
+    f = guide.direction * np.exp(1j * slide.along) * quarter
+    apart = body.anchor.position + r - guide.anchor.position - s
+    parting = _velocity(body, r) - _velocity(guide, s)
+    spin = guide.omega
+    bias = dot(f, spin**2 * s - body.omega**2 * r) + 2 * dot(1j * spin * f, parting) - spin**2 * dot(f, apart)
+    row: Row = {
+        slide.body: (f.real, f.imag, dot(f, 1j * r)),
+        slide.guide: (-f.real, -f.imag, dot(1j * f, apart) - dot(f, 1j * s)),
+    }
+    return Equation(dot(f, apart), row, bias)
+
+
+def _angle(body: str, against: str, angle: RealField, bodies: Known) -> Equation:
+    """sin(theta_body - theta_against - angle), without an input."""
+    error = bodies[body].direction * np.conj(bodies[against].direction * np.exp(1j * np.asarray(angle)))
+    bias = -error.imag * (bodies[body].omega - bodies[against].omega) ** 2
+    return Equation(error.imag, {body: (0, 0, error.real), against: (0, 0, -error.real)}, bias, length=0)
+
+
+def _velocity(body: BodyMotion, arm: ComplexField) -> ComplexField:
+    return body.anchor.velocity + 1j * body.omega * arm

@@ -1,0 +1,40 @@
+"""Many small linear systems at once."""
+
+from typing import TypeAlias
+
+import numpy as np
+from jaxtyping import Float
+
+Matrices: TypeAlias = Float[np.ndarray, "*batch n n"]
+Vectors: TypeAlias = Float[np.ndarray, "*batch n"]
+
+
+def solve_many(matrix: Matrices, right: Vectors) -> Vectors:
+    """Solution x of matrix x = right, system by system; NaN where a system is singular or not finite.
+
+    >>> solve_many(np.array([[[2.0, 0.0], [0.0, 4.0]], [[1.0, 1.0], [1.0, 1.0]]]), np.ones((2, 2)))
+    array([[0.5 , 0.25],
+           [ nan,  nan]])
+    """
+    usable = np.isfinite(matrix).all(axis=(-2, -1)) & np.isfinite(right).all(axis=-1)
+    size = matrix.shape[-1]
+    safe = np.where(usable[..., None, None], matrix, np.eye(size))
+    try:
+        found = np.linalg.solve(safe, right[..., None])[..., 0]
+    except np.linalg.LinAlgError:  # one exactly singular system spoils the batch: leave those out
+        regular = np.linalg.matrix_rank(safe) == size
+        usable &= regular
+        safe = np.where(regular[..., None, None], safe, np.eye(size))
+        found = np.linalg.solve(safe, right[..., None])[..., 0]
+    return np.where(usable[..., None], found, np.nan)
+
+
+def reciprocal_condition(matrix: Matrices) -> Float[np.ndarray, "*batch"]:
+    """Smallest by largest singular value: 1 at best, 0 where singular, NaN where not finite.
+
+    >>> reciprocal_condition(np.array([[[2.0, 0.0], [0.0, 4.0]]]))
+    array([0.5])
+    """
+    usable = np.isfinite(matrix).all(axis=(-2, -1))
+    values = np.linalg.svd(np.where(usable[..., None, None], matrix, np.eye(matrix.shape[-1])), compute_uv=False)
+    return np.where(usable, values[..., -1] / values[..., 0], np.nan)
