@@ -10,6 +10,7 @@ Knots are not square when the quality differs across and along; the grid takes c
 from collections.abc import Callable
 
 import numpy as np
+from jaxtyping import UInt8
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.colour import LINEAR, decode
@@ -103,7 +104,9 @@ def _resample(rgb: Rgb, out: Rgb, first: int, rows: int) -> None:
             out[row, column, 2] = _encoded(blue)
 
 
-def resampled(rgb: Rgb, rows: int, columns: int, progress: Progress | None = None) -> Rgb:
+def resampled(
+    rgb: Rgb, rows: int, columns: int, progress: Progress | None = None
+) -> UInt8[np.ndarray, "rows columns 3"]:
     """The picture on a grid of rows × columns by box averages in linear light; itself where it has that grid."""
     rgb = np.ascontiguousarray(rgb)
     if rgb.shape[:2] == (rows, columns):

@@ -92,7 +92,7 @@ class Notation:
         return "{1}" in self.form
 
 
-_NUMBER = r"([+-]?(?:\d+(?:\.\d*)?|\.\d+))"
+_NUMBER = r"([+-]?(?:\d{1,15}(?:\.\d{0,40})?|\.\d{1,40}))"
 INCH, GEREH = Fraction("0.0254"), Fraction("0.07")
 
 
@@ -151,7 +151,7 @@ def _read(notation: Notation, first: str, second: str | None, gereh: str | None 
 
 def _gereh(text: str) -> Fraction:
     """The town's gereh [m] from centimetres."""
-    if not re.fullmatch(r"\d+(\.\d*)?|\.\d+", text) or not 5 <= Fraction(text) <= 10:
+    if not re.fullmatch(r"\d{1,15}(\.\d{0,40})?", text) or not 5 <= Fraction(text) <= 10:
         raise CarpetError(f"a gereh of {text} cm is no gereh", allowed="5 to 10 cm; 6.5 to 7 by town", do="40raj@6.5cm")
     return Fraction(text) / 100
 

@@ -76,7 +76,7 @@ _UNITS = {
     **dict.fromkeys(("in", "inch", '"', "″"), Fraction("0.0254")),
     **dict.fromkeys(("ft", "foot", "feet", "'", "′"), Fraction("0.3048")),
 }
-_NUMBER = r"([+-]?(?:\d+(?:\.\d*)?|\.\d+))"
+_NUMBER = r"([+-]?(?:\d{1,15}(?:\.\d{0,40})?|\.\d{1,40}))"
 _SIDES = re.compile(rf"\s*{_NUMBER}\s*([^\d\s.×x*]*)\s*[x×*]\s*{_NUMBER}\s*(\S*?)\s*", re.IGNORECASE)
 
 
