@@ -6,6 +6,7 @@ The paper's misprints are named where they are met, with the right value beside 
 import numpy as np
 import pytest
 
+from ilmek.machines.beat_up import BeatUp, BeatUpParams, design
 from ilmek.synthesis.crank_rocker import (
     Links,
     best_ratio,
@@ -161,3 +162,74 @@ def test_eqs_10_to_14_of_the_linkage_with_a_free_coupler() -> None:
     # It is the best of its family, which the paper does not say.
     others = links_of_coupler(SWING, 210 * deg, found.coupler * np.array([0.99, 1.01]))
     assert np.all(transmission_angle_min(others) < float(transmission_angle_min(found.links)))
+
+
+# Section 2.1.4 prints the lengths to a tenth of a millimetre; the peaks below are for these.
+PRINTED = {"crank": "59.7mm", "coupler": "200.7mm", "rocker": "230.8mm", "beater": "300.1mm"}
+
+
+def printed(**settings: str) -> BeatUp:
+    return design(BeatUpParams.read({**PRINTED, **settings}))
+
+
+def test_lengths_of_the_selected_linkage() -> None:
+    lengths = design(BeatUpParams.read({"beta": "48deg"})).lengths
+    expected = {"ground": 0.3, "crank": 0.0597375, "coupler": 0.2007392, "rocker": 0.2308080, "beater": 0.30005}
+    assert lengths == pytest.approx(expected, abs=1e-6)
+
+
+def test_masses_and_moments_of_inertia() -> None:
+    found = printed()
+    assert found.masses == pytest.approx({"crank": 0.129131, "coupler": 0.434114, "rocker": 0.649116}, abs=5e-7)
+    # The paper's 4.073e-5 for the crank is m (L² + (w/2)²) / 12 with m = 0.129 kg: an error. The others are right.
+    assert found.inertias["crank"] == pytest.approx(4.8038e-5, abs=5e-10)
+    assert pytest.approx(4.073e-5, abs=5e-9) == 0.129 * (0.0597**2 + 0.015**2) / 12
+    assert found.inertias["coupler"] == pytest.approx(0.0014898, abs=5e-8)
+    assert found.inertias["rocker"] == pytest.approx(0.0049203, abs=5e-8)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "angle"),
+    [
+        ("beater_acceleration", 25.4315, 40.875),  # the paper: 25 m/s²
+        ("beater_force", 63.5787, 40.875),  # the paper: over 60 N
+        ("beater_velocity", 1.28877, 339.2),  # the paper: greatest "at about beating point"; there it is near zero
+        ("drive_torque", 3.2305, 13.84),
+        ("A", 34.544, None),
+        ("B", 94.423, 38.47),
+        ("C", 101.517, 38.84),
+        ("D", 102.425, None),
+    ],
+)
+def test_greatest_values_over_a_turn(name: str, value: float, angle: float | None) -> None:
+    peak = printed().peaks[name]
+    assert peak.value == pytest.approx(value, abs=0.5 * 10.0 ** -len(str(value).partition(".")[2]))
+    assert angle is None or peak.angle / deg == pytest.approx(angle, abs=0.05)
+
+
+def test_the_speed_is_small_where_the_acceleration_is_greatest() -> None:
+    at = printed(crank_angle="40.875deg").at
+    assert at is not None
+    assert float(np.abs(at.beater.velocity)[0]) == pytest.approx(0.203, abs=5e-4)
+
+
+def test_acceleration_at_the_dead_centre_and_at_the_pin() -> None:
+    at = printed(crank_angle="48deg").at
+    assert at is not None
+    assert float(np.abs(at.beater.acceleration)[0]) == pytest.approx(25.049, abs=5e-4)
+    # 25 m/s² is the beater's (E), not the rocker's pin's (B): that has 19.5588.
+    pin = printed(beater="230.8mm").peaks["beater_acceleration"].value
+    assert pin == pytest.approx(19.5588, abs=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("direction", "force"),
+    [
+        (30, 88.1),
+        (165, 50.8),  # the least of orientations 15 deg apart ...
+        (166.18, 50.41),  # ... and of all: two peaks of the turn are equal there
+    ],
+)
+def test_weight_moves_the_peak_with_the_orientation_of_the_loom(direction: float, force: float) -> None:
+    peak = printed(gravity="9.81m/s^2", gravity_direction=f"{direction}deg").peaks["beater_force"].value
+    assert peak == pytest.approx(force, abs=0.05)

@@ -7,7 +7,7 @@ Directions are those of the world: x and y of the ground, torque counter-clockwi
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import Protocol, TypeAlias, runtime_checkable
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.dynamics.attached import Place, attached
@@ -31,6 +31,7 @@ class Wrench:
     torque: RealField
 
 
+@runtime_checkable
 class Load(Protocol):
     """Anything that can be resolved into wrenches."""
 

@@ -1,0 +1,123 @@
+"""The beat-up machine: what it answers, and what it refuses."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from ilmek.errors import IlmekError, MechanismError, ParameterError
+from ilmek.machines.beat_up import MACHINE, BeatUpParams, design, report
+from ilmek.report import Drawing, Plot, Report
+from ilmek.units import deg
+
+
+def answer(**settings: str) -> Report:
+    return report(design(BeatUpParams.read(settings)))
+
+
+def test_answers_by_the_names_that_are_promised() -> None:
+    said = answer(swing="30deg", crank_rotation="180deg", beta="48deg", crank_angle="60deg").as_json()["results"]
+    assert said["crank_coupler_ratio"] == pytest.approx(0.297588, abs=1e-6)
+    assert said["transmission_angle_min"] / deg == pytest.approx(67.2445, abs=1e-4)
+    assert (said["crank"], said["coupler"], said["rocker"]) == pytest.approx((0.19913, 0.66913, 0.76936), abs=5e-6)
+    assert list(said["lengths"]) == ["ground", "crank", "coupler", "rocker", "beater"]
+    assert list(said["masses"]) == list(said["inertias"]) == ["crank", "coupler", "rocker"]
+    assert list(said["pin_force_max"]) == list(said["at"]["pin_forces"]) == ["A", "B", "C", "D"]
+    assert {"beater_acceleration_max", "beater_force_max", "drive_torque_max"} < set(said)
+    assert {"drive_torque", "beater_acceleration", "beater_velocity"} < set(said["at"])
+    assert json.dumps(said)
+
+
+def test_unasked_design_meets_every_check() -> None:
+    said = answer()
+    assert not said.failed
+    assert not said.warnings
+    assert len(said.checks) == 6
+    assert "at" not in said.as_json()["results"]
+
+
+def test_peaks_are_not_below_any_instant() -> None:
+    made = design(BeatUpParams())
+    fine = np.linspace(0, 2 * math.pi, 20011)
+    for angle in (0.3, 0.7134, 5.9):
+        at = design(BeatUpParams(crank_angle=angle)).at
+        assert at is not None
+        assert float(np.abs(at.torque[0])) <= made.peaks["drive_torque"].value
+    torque = np.interp(fine, made.state.angle, np.abs(made.state.torque))
+    assert torque.max() <= made.peaks["drive_torque"].value <= torque.max() * (1 + 1e-4)
+
+
+def test_lengths_given_outright_come_back_to_the_last_bit_with_what_they_do() -> None:
+    given = dict(crank="59.7mm", coupler="200.7mm", rocker="230.8mm", beater="300.1mm")
+    made = design(BeatUpParams.read(given))
+    assert made.lengths == {"ground": 0.3, **{name: getattr(made.params, name) for name in given}}
+    assert float(made.dead_centres.swing) / deg == pytest.approx(30, abs=0.05)
+    assert made.beat_angle / deg == pytest.approx(48, abs=0.05)
+
+
+def test_a_beater_below_the_pin_keeps_the_bar_to_the_pin() -> None:
+    made = design(BeatUpParams.read({"beater": "100mm"}))
+    assert made.masses["rocker"] == pytest.approx(made.lengths["rocker"] * 0.03 * 0.01 * 7210)
+
+
+@pytest.mark.parametrize("rotation", [150, 200, 209.9999999, 210, 210.0000001, 230])
+def test_every_turn_of_the_crank_gives_a_design_whose_checks_tell(rotation: float) -> None:
+    said = answer(crank_rotation=f"{rotation}deg")
+    results = said.as_json()["results"]
+    assert results["crank_rotation"] / deg == pytest.approx(rotation, abs=1e-6)
+    assert results["swing"] / deg == pytest.approx(30, abs=1e-6)
+    well = next(check for check in said.checks if check.name == "transmission angle, to run well")
+    assert not well.ok
+
+
+def test_too_weak_a_beat_names_the_speed_that_would_do() -> None:
+    said = answer(beat_force="100N")
+    assert [check.name for check in said.failed] == ["force on the beater"]
+    speed = float(said.warnings[0].rpartition("at ")[2].removesuffix(" rad/s"))
+    assert design(BeatUpParams(speed=speed)).peaks["beater_force"].value == pytest.approx(100, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("settings", "error", "said"),
+    [
+        ({"crank": "60mm"}, ParameterError, "give crank, coupler and rocker"),
+        ({"crank": "60mm", "coupler": "100mm", "rocker": "150mm"}, MechanismError, "cannot close"),
+        ({"crank": "300mm", "coupler": "400mm", "rocker": "350mm", "ground": "100mm"}, MechanismError, "right round"),
+        ({"crank": "50mm", "coupler": "300mm", "rocker": "50mm"}, MechanismError, ""),
+        ({"beta": "80deg"}, ParameterError, "below 75 deg"),
+        ({"beta": "48"}, ParameterError, "did you mean 48deg"),
+        ({"swing": "170deg", "crank_rotation": "100deg"}, ParameterError, "above 175 deg, below 355 deg"),
+        ({"speed": "0"}, ParameterError, "above 0 rad/s"),
+        ({"speed": "15.5mm/s"}, ParameterError, "wrong unit"),
+        ({"beater_mass": "-1kg"}, ParameterError, "at least 0 kg"),
+        ({"swnig": "30deg"}, ParameterError, "did you mean swing"),
+    ],
+)
+def test_refuses_in_words(settings: dict[str, str], error: type[IlmekError], said: str) -> None:
+    with pytest.raises(error) as refused:
+        design(BeatUpParams.read(settings))
+    assert said in str(refused.value)
+
+
+def test_figures_are_a_drawing_of_the_beat_and_curves_over_a_turn() -> None:
+    said = answer()
+    drawing, *plots = said.figures
+    assert isinstance(drawing, Drawing)
+    places = {dot.label: dot.at for dot in drawing.dots}
+    made = design(BeatUpParams())
+    # The beat is the extended dead centre: D, C and B in line, and the beater at the end of its path.
+    assert abs(places["B"]) == pytest.approx(made.lengths["crank"] + made.lengths["coupler"])
+    assert np.angle(places["C"]) == pytest.approx(made.beat_angle)
+    path = next(stroke for stroke in drawing.strokes if stroke.label == "path of the beater")
+    assert np.min(np.abs(path.points - places["E"])) < 1e-5
+    for plot in plots:
+        assert isinstance(plot, Plot)
+        assert [mark.label for mark in plot.marks] == ["beat", "farthest back"]
+        assert all(np.isfinite(series.y).all() and series.x[-1] == pytest.approx(2 * math.pi) for series in plot.series)
+
+
+def test_machine_is_in_the_shape_of_the_catalogue() -> None:
+    assert MACHINE.name == "beat-up"
+    made = MACHINE.design(MACHINE.params.read({"swing": "25deg"}))
+    assert MACHINE.report(made).machine == "beat-up"
