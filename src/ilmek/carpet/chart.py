@@ -4,16 +4,17 @@ The picture is averaged onto the knot grid (`design`), each distinct colour gets
 (`palette`), and lone knots are merged into a neighbour (`lone`).
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ilmek.arrays import Indices, Rgb
-from ilmek.carpet.design import Progress, knot_grid, resampled
+from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.knots import parse_knot
 from ilmek.carpet.lone import count_lone, merge_lone
 from ilmek.carpet.palette import best_yarns, distinct_colours, nearest_yarns, paint
+from ilmek.carpet.progress import Progress, part
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
@@ -92,21 +93,16 @@ def make_chart(
     if not 2 <= len(yarns) <= MOST_YARNS:
         raise YarnError(f"the yarn list has {len(yarns)} yarns", allowed=f"2 to {MOST_YARNS} yarns")
     kind = parse_knot(knot)
-    picture = resampled(rgb, *knot_grid(size, quality), _part(progress, 0.0, 0.4))
+    picture = resampled(rgb, *knot_grid(size, quality), part(progress, 0.0, 0.4))
     distinct = distinct_colours(picture)
     chosen = tuple(yarns)
     if colours is not None:
         chosen = tuple(yarns[place] for place in best_yarns(distinct, yarn_labs(yarns), colours))
     labs = yarn_labs(chosen)
-    yarn_of, difference = nearest_yarns(distinct, labs, _part(progress, 0.4, 0.8))
+    yarn_of, difference = nearest_yarns(distinct, labs, part(progress, 0.4, 0.8))
     knots = paint(picture, distinct, yarn_of)
     merged, added = (0, 0.0) if keep_lone else merge_lone(knots, picture, distinct, labs, difference)
     least = float(distinct.counts @ difference)
     if progress is not None:
         progress(1.0)
     return Chart(knots, chosen, size, quality, kind, (least + added) / knots.size, least / knots.size, merged)
-
-
-def _part(progress: Progress | None, start: float, end: float) -> Callable[[float], object] | None:
-    """The progress of a part of the work as progress of the whole."""
-    return None if progress is None else lambda share: progress(start + share * (end - start))

@@ -7,19 +7,16 @@ design fills the carpet: where the picture's proportions differ from the carpet'
 Knots are not square when the quality differs across and along; the grid takes care of that.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 from jaxtyping import UInt8
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.colour import LINEAR, decode
+from ilmek.carpet.progress import Progress
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.errors import CarpetError
 from ilmek.num.compiled import compiled
-
-Progress = Callable[[float], object]
 
 MOST_KNOTS = 200_000_000
 LARGEST_DISTORTION = 0.02

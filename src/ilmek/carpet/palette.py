@@ -6,7 +6,6 @@ those and looked up for the rest, through a table of all 2^24 codes.
 
 import itertools
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,10 +14,9 @@ from jaxtyping import Float, Int, Int32, Int64, UInt8
 from ilmek.arrays import FloatArray, Indices, IntArray, Rgb
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.difference import delta_e_2000, nearest
+from ilmek.carpet.progress import Progress
 from ilmek.errors import YarnError
 from ilmek.num.compiled import compiled
-
-Progress = Callable[[float], object]
 
 _CODES = 1 << 24
 _BATCH = 65536
