@@ -13,7 +13,7 @@ from ilmek.io.output import check_free, output_folder
 from ilmek.jobs.chart import FILES, Charted, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.order import read_order
 from ilmek.jobs.place import free_folder
-from ilmek.units import format_number, g
+from ilmek.units import g
 
 EXAMPLES = """\b
 Examples:
@@ -80,7 +80,7 @@ def show_yarn(bill: YarnBill) -> None:
     """The yarn bill as a table."""
     rows = [
         (need.name, need.use, f"{need.knots:,}" if need.knots else "", f"{need.length:,.0f}", f"{need.mass / g:,.0f}",
-         "" if need.price is None else format_number(need.price))
+         "" if need.price is None else f"{need.price:,.2f}")
         for need in bill.needs
     ]  # fmt: skip
     show_table(("yarn", "use", "knots", "metres", "grams", "price"), rows, right=(2, 3, 4, 5))

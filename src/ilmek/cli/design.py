@@ -1,6 +1,5 @@
 """`ilmek design`: one machine, designed from its parameters and reported."""
 
-import difflib
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -9,10 +8,8 @@ import click
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import console, give_json, note, passed, show_checks, show_table
 from ilmek.errors import ParameterError
-from ilmek.io.json_file import json_text
 from ilmek.io.output import write_whole
-from ilmek.machines import MACHINES
-from ilmek.machines.machine import Machine
+from ilmek.machines import find_machine
 from ilmek.report import Report, Result
 from ilmek.units import format_quantity
 from ilmek.viz.page import machine_page
@@ -50,15 +47,6 @@ def command(
         note(warning)
 
 
-def find_machine(name: str) -> Machine:
-    """The machine of a name. Raises ParameterError, naming the nearest."""
-    if name in MACHINES:
-        return MACHINES[name]
-    near = difflib.get_close_matches(name.lower().replace("_", "-"), MACHINES, n=1)
-    hint = f"did you mean {near[0]}?" if near else ""
-    raise ParameterError(f"unknown machine {name!r}", allowed=f"machines: {', '.join(MACHINES)}", do=hint)
-
-
 def read_settings(settings: Iterable[str]) -> dict[str, str]:
     """Texts by parameter name. Raises ParameterError for a setting without a name or value, or one given twice."""
     read: dict[str, str] = {}
@@ -93,4 +81,6 @@ def _value(value: object, unit: str) -> str:
         return format_quantity(value, unit)
     if isinstance(value, dict):
         return "\n".join(f"{name} {_value(item, unit)}" for name, item in value.items())
-    return value if isinstance(value, str) else " ".join(json_text(value).split())
+    if isinstance(value, list | tuple):
+        return ", ".join(_value(item, unit) for item in value)
+    return str(value)

@@ -1,5 +1,6 @@
 """`ilmek inspect`: what a loom programme holds."""
 
+import itertools
 import random
 from pathlib import Path
 from typing import Any
@@ -23,7 +24,9 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file", type=click.Path(path_type=Path), metavar="FILE.ilmek")
-@click.option("--row", "number", type=int, metavar="N", help="The row to show, 0 at the bottom edge; else a random one.")
+@click.option(
+    "--row", "number", type=int, metavar="N", help="The row to show, 0 at the bottom edge; else a random one."
+)
 @json_option
 def command(file: Path, number: int | None, json_to: str | None) -> None:
     """Show the carpet, colours and statistics of a loom programme, and one row as the heads tie it."""
@@ -41,8 +44,7 @@ def runs(ties: Ties) -> list[tuple[int, int, int]]:
     pairs, colours = ties.pairs.astype(np.int64), ties.colours
     breaks = (np.abs(np.diff(pairs)) != 1) | (np.diff(colours.astype(np.int64)) != 0)
     edges = np.concatenate(([0], np.flatnonzero(breaks) + 1, [len(pairs)])).tolist()
-    spans = zip(edges[:-1], edges[1:], strict=True)
-    return [(int(pairs[begin]), int(pairs[end - 1]), int(colours[begin])) for begin, end in spans]
+    return [(int(pairs[begin]), int(pairs[end - 1]), int(colours[begin])) for begin, end in itertools.pairwise(edges)]
 
 
 def as_json(programme: ProgrammeFile, row: Row, time: float) -> dict[str, Any]:
@@ -100,7 +102,9 @@ def show_programme(programme: ProgrammeFile) -> None:
 def show_row(programme: ProgrammeFile, row: Row, time: float) -> None:
     """One row: for each head the runs of knots in the order they are tied."""
     names = [yarn.name for yarn in programme.label.yarns]
-    console().print(f"row {row.number} of 0 to {programme.rows - 1}: {format_quantity(time, 's')}, warp pairs in order of tying")
+    console().print(
+        f"row {row.number} of 0 to {programme.rows - 1}: {format_quantity(time, 's')}, warp pairs in order of tying"
+    )
     lines = []
     for head, ties in enumerate(row.ties(), 1):
         tied = "  ".join(f"{a}–{b} {names[y]}" if a != b else f"{a} {names[y]}" for a, b, y in runs(ties))

@@ -2,10 +2,9 @@
 
 import click
 
-from ilmek.cli.design import find_machine
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import console, give_json, show_table
-from ilmek.machines import MACHINES
+from ilmek.machines import MACHINES, find_machine
 from ilmek.machines.machine import Machine
 from ilmek.params import Parameter, declared
 from ilmek.units import format_quantity

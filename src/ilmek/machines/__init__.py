@@ -1,8 +1,22 @@
 """The catalogue of machines. A new machine is a file here and a line below."""
 
+import difflib
+
+from ilmek.errors import ParameterError
 from ilmek.machines.beat_up import MACHINE as BEAT_UP
 from ilmek.machines.machine import Machine
+from ilmek.machines.shedding import MACHINE as SHEDDING
+from ilmek.machines.warp_tension import MACHINE as WARP_TENSION
 from ilmek.machines.weaver import MACHINE as WEAVER
 
-MACHINES: dict[str, Machine] = {machine.name: machine for machine in (BEAT_UP, WEAVER)}
+MACHINES: dict[str, Machine] = {machine.name: machine for machine in (BEAT_UP, SHEDDING, WARP_TENSION, WEAVER)}
 """Every machine by its name, in the order of the catalogue."""
+
+
+def find_machine(name: str) -> Machine:
+    """The machine of a name. Raises ParameterError, naming the nearest."""
+    if name in MACHINES:
+        return MACHINES[name]
+    near = difflib.get_close_matches(name.lower().replace("_", "-"), MACHINES, n=1)
+    hint = f"did you mean {near[0]}?" if near else ""
+    raise ParameterError(f"unknown machine {name!r}", allowed=f"machines: {', '.join(MACHINES)}", do=hint)

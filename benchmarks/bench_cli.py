@@ -1,0 +1,31 @@
+"""The command line from a shell: start of the program, and the whole arc on the shipped picture."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+WEAVE = ["weave", "examples/medallion.png", "--size", "seccade", "--quality", "25x25/dm", "--force", "--out"]
+
+
+def seconds(arguments: list[str], cache: str | None = None) -> float:
+    """Wall time of one run of the program; `cache` is the folder for compiled kernels."""
+    environment = dict(os.environ, **({"XDG_CACHE_HOME": cache} if cache else {}))
+    begin = time.perf_counter()
+    subprocess.run(
+        [sys.executable, "-m", "ilmek", *arguments], cwd=ROOT, env=environment, check=True, capture_output=True
+    )
+    return time.perf_counter() - begin
+
+
+def run() -> None:
+    """Print the times."""
+    print(f"ilmek --help          {min(seconds(['--help']) for _ in range(5)):6.2f} s   (limit 0.4)")
+    with tempfile.TemporaryDirectory() as folder:
+        out = str(Path(folder) / "out")
+        first = seconds([*WEAVE, out], cache=folder)
+        print(f"ilmek weave, first    {first:6.2f} s   (limit 6; kernels are compiled)")
+        print(f"ilmek weave, again    {min(seconds([*WEAVE, out], cache=folder) for _ in range(3)):6.2f} s")

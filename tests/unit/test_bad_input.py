@@ -1,0 +1,207 @@
+"""Bad input through the real command line: exit 2, one line that says what to do, nothing written."""
+
+import re
+import struct
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+from ilmek.cli import main
+
+
+def png(width: int, height: int, raw: bytes) -> bytes:
+    def chunk(name: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b"")
+
+
+def yarns(*lines: str) -> bytes:
+    return "\n".join(("name,srgb,nm", *lines, "")).encode()
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a good picture and all the bad files."""
+    folder = tmp_path_factory.mktemp("bad")
+    pixels = np.random.default_rng(3).integers(0, 256, (30, 20, 3), dtype=np.uint8)
+    Image.fromarray(pixels).save(folder / "good.png")
+    whole = (folder / "good.png").read_bytes()
+    (folder / "taken").mkdir()
+    (folder / "taken/mine.txt").write_text("mine")
+    contents = {
+        "empty.png": b"",
+        "text.png": b"not a picture",
+        "cut.png": whole[: len(whole) // 2],
+        "pixel.png": png(1, 1, b"\0\0"),
+        "line.png": png(400, 1, b"\0" * 401),
+        "bomb.png": png(65_000, 65_000, b"\0"),
+        "eps.png": b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 50 50\n%%EndComments\n",
+        "duplicate.csv": yarns("red,#800000,2", "red,#000080,2"),
+        "colour.csv": yarns("red,#80000g,2", "blue,#000080,2"),
+        "nonm.csv": yarns("red,#800000,2", "blue,#000080,"),
+        "one.csv": yarns("red,#800000,2"),
+        "many.csv": yarns(*(f"y{i},#800000,2" for i in range(300))),
+        "minus.csv": yarns("red,#800000,-2", "blue,#000080,2"),
+        "word.csv": yarns("red,#800000,two", "blue,#000080,2"),
+        "noheader.csv": b"red,#800000,2\nblue,#000080,2\n",
+        "broken.toml": b"[[yarn]\nname = 'x'\n",
+        "table.toml": b"[yarn]\nname = 'x'\n",
+        "nothing.toml": b"\n",
+        "latin.csv": b"name,srgb,nm\nk\xfdrm\xfdz\xfd,#800000,2\n",
+        "wool.xlsx": b"PK",
+        "programme.ilmek": b"SQLite format 3\0" + b"\0" * 200,
+        "notes.ilmek": b"a note",
+        "void.ilmek": b"",
+    }
+    for name, data in contents.items():
+        (folder / name).write_bytes(data)
+    return folder
+
+
+PICTURE = {
+    "missing picture": ("gone.png", "gone.png does not exist"),
+    "misspelt picture": ("godo.png", r"did you mean good\.png"),
+    "empty picture": ("empty.png", "is empty"),
+    "text as picture": ("text.png", "is not a picture that can be read"),
+    "truncated picture": ("cut.png", "damaged or cut off"),
+    "one pixel": ("pixel.png", "1 x 1 pixels; at least 8 x 8"),
+    "a line of pixels": ("line.png", "400 x 1 pixels"),
+    "decompression bomb": ("bomb.png", "at most 150 megapixels"),
+    "postscript": ("eps.png", "format EPS"),
+    "folder as picture": ("taken", "is a folder"),
+    "device as picture": ("/dev/null", "is not a file"),
+    "name too long": ("x" * 400, "cannot be read"),
+}
+
+CARPET = {
+    "unknown size": ("--size sejade", "unknown size 'sejade'.*did you mean 'seccade'"),
+    "size without unit": ("--size 120x180", "has no unit"),
+    "one side": ("--size 120cm", "unknown size"),
+    "zero size": ("--size 0x180cm", "above zero"),
+    "negative size": ("--size -120x180cm", "above zero"),
+    "mixed units": ("--size 120cmx2m", "mixes cm and m"),
+    "unknown unit of size": ("--size 120x180px", "unknown unit 'px'"),
+    "endless size": ("--size 1e9x1e9m", "unknown size|cannot be woven"),
+    "too large a carpet": ("--size 40x50m --quality 400x400/dm", "million knots"),
+    "runner without size": ("--size yolluk", "yolluk"),
+    "quality zero": ("--quality 0x25/dm", "no carpet|at least 1 knot"),
+    "quality negative": ("--quality -25x25/dm", "no carpet|at least 1 knot|unknown quality"),
+    "quality too fine": ("--quality 9000x9000/dm", "needs a warp every"),
+    "quality without unit": ("--quality fine", "unknown quality 'fine'"),
+    "quality in a wrong unit": ("--quality 25x25/kg", "unknown quality"),
+    "unknown knot": ("--knot symetric", "did you mean symmetric"),
+    "negative pile": ("--pile-height -8mm", "pile_height=-8 mm is out of bounds"),
+    "pile in metres": ("--pile-height 8", "did you mean 8mm"),
+    "pile in kilograms": ("--pile-height 8kg", "wrong unit"),
+    "one colour": ("--colours 1", "2 to 16"),
+    "more colours than yarns": ("--colours 40", "2 to 16"),
+    "colours in words": ("--colours many", "'many' is not a valid int"),
+}
+
+YARNS = {
+    "missing yarn list": ("gone.toml", "does not exist"),
+    "duplicate yarns": ("duplicate.csv", "both named 'red'"),
+    "bad colour": ("colour.csv", "'#80000g' is no colour"),
+    "missing Nm": ("nonm.csv", r"yarn 2 \(blue\) has no nm"),
+    "one yarn only": ("one.csv", "one yarn only"),
+    "300 yarns": ("many.csv", "300 yarns; 2 to 255"),
+    "negative Nm": ("minus.csv", "nm -2.0 cannot be used"),
+    "Nm in words": ("word.csv", "line 2: nm 'two' is not a number"),
+    "no header": ("noheader.csv", "unknown column 'red'"),
+    "broken TOML": ("broken.toml", "not TOML"),
+    "table for a list": ("table.toml", "not a list of tables"),
+    "empty yarn list": ("nothing.toml", "is empty"),
+    "yarn list in another encoding": ("latin.csv", "line 2 is not UTF-8"),
+    "spreadsheet": ("wool.xlsx", "'.xlsx'; a yarn list is a .toml or .csv file"),
+    "folder as yarn list": ("taken", "is a folder"),
+}
+
+OTHER = {
+    "unknown command": ("weav good.png", "did you mean 'weave'"),
+    "strange command": ("qqq", "commands: weave, chart"),
+    "unknown option": ("chart good.png --siez kelle", "No such option.*--size"),
+    "option without value": ("chart good.png --size", "requires an argument"),
+    "no picture": ("chart", "Missing argument 'PICTURE'"),
+    "two pictures": ("chart good.png text.png", "unexpected extra argument"),
+    "folder taken": ("chart good.png --out taken", "taken exists.*--force"),
+    "foreign folder with force": ("chart good.png --out taken --force", "did not make: mine.txt"),
+    "file for a folder": ("chart good.png --out good.png", "is not a folder"),
+    "folder below a file": ("chart good.png --out good.png/out", "is not a folder"),
+    "folder below a device": ("chart good.png --out /dev/null/out", "is not a folder"),
+    "folder in no file system": ("chart good.png --out /proc/ilmek/out", "cannot be (written|made)"),
+    "unknown machine": ("design beat-pu", "did you mean beat-up"),
+    "unknown machine to list": ("machines hammer", "machines: beat-up"),
+    "unknown parameter": ("design beat-up --set swimg=30deg", "did you mean swing"),
+    "setting without value": ("design beat-up --set swing", "write NAME=VALUE"),
+    "setting without name": ("design beat-up --set =3", "write NAME=VALUE"),
+    "set twice": ("design beat-up --set swing=30deg --set swing=40deg", "set twice"),
+    "degrees taken for radians": ("design beat-up --set swing=30", "did you mean 30deg"),
+    "out of bounds": ("design beat-up --set swing=-30deg", "swing=-30 deg is out of bounds; allowed: above 0 deg"),
+    "wrong unit": ("design beat-up --set swing=30mm", "wrong unit"),
+    "unknown unit": ("design beat-up --set swing=30degs", "unknown unit"),
+    "no number": ("design beat-up --set swing=wide", "is not a quantity"),
+    "not finite": ("design beat-up --set swing=1e999deg", "too large"),
+    "no such law": ("design shedding --set law=harmonik", "did you mean harmonic"),
+    "negative lift": ("design shedding --set lift=-60mm", "out of bounds"),
+    "half a warp": ("design warp-tension --set warps=600.5", "not a whole number"),
+    "shaft without wall": ("design warp-tension --set inner_radius=80mm --set outer_radius=50mm", "radius"),
+    "mechanism that cannot close": (
+        "design beat-up --set crank=59.7mm --set coupler=100mm --set rocker=100mm --set beater=300mm",
+        "cannot close for crank .* mm",
+    ),
+    "JSON into a folder": ("design beat-up --json taken", "taken is a folder"),
+    "report into no folder": ("design beat-up --report gone/beat-up.html", "cannot be written"),
+    "missing programme": ("inspect gone.ilmek", "cannot be read"),
+    "no programme": ("inspect notes.ilmek", "is no loom programme"),
+    "empty programme": ("inspect void.ilmek", "is no loom programme"),
+    "other database": ("inspect programme.ilmek", "is no loom programme"),
+}
+
+WEAVE = {
+    "deadline without unit": ("--deadline 72", "did you mean 72h"),
+    "deadline of nothing": ("--deadline 0h", "deadline"),
+    "negative deadline": ("--deadline -5h", "deadline"),
+    "deadline in metres": ("--deadline 5m", "wrong unit"),
+    "deadline too soon": ("--deadline 1min", "deadline of .* cannot be met"),
+    "no heads": ("--heads 0", "heads"),
+    "more heads than fit": ("--heads 5000", "heads"),
+    "heads and deadline": ("--heads 2 --deadline 72h", "one of --heads and --deadline"),
+    "quality beyond the pitch": ("--quality 40x40/dm --warp-pitch 2mm", r"1\.25 ?mm"),
+    "pitch of nothing": ("--warp-pitch 0mm", "pitch"),
+}
+
+SMALL = "--size 20x30cm --quality 20x20/dm"
+CASES = {
+    **{name: (f"chart {file} {SMALL} --out new", said) for name, (file, said) in PICTURE.items()},
+    **{f"weave {name}": (f"weave {file} {SMALL} --out new", said) for name, (file, said) in PICTURE.items()},
+    **{name: (f"chart good.png {options} --out new", said) for name, (options, said) in CARPET.items()},
+    **{name: (f"weave good.png {SMALL} --yarns {file} --out new", said) for name, (file, said) in YARNS.items()},
+    **{name: (f"weave good.png {SMALL} {options} --out new", said) for name, (options, said) in WEAVE.items()},
+    **OTHER,
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_bad_input_is_one_line(place: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    command, said = CASES[name]
+    monkeypatch.chdir(place)
+    before = sorted(place.rglob("*"))
+    result = CliRunner().invoke(main, command.split())
+    assert isinstance(result.exception, SystemExit), result.exception
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert result.stderr.startswith("ilmek: ")
+    assert result.stderr.count("\n") == 1
+    assert result.stderr.endswith("\n")
+    assert re.search(said, result.stderr), result.stderr
+    assert sorted(place.rglob("*")) == before
+
+
+def test_there_are_enough_of_them() -> None:
+    assert len(CASES) >= 60

@@ -1,0 +1,138 @@
+"""The frame of the command line: help, version, exit codes, interruptions, pipes."""
+
+import errno
+import importlib
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner, Result
+
+import ilmek
+from ilmek.cli import main
+from ilmek.cli.frame import Frame
+from ilmek.errors import OutputError
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(main, arguments)
+
+
+def failing(error: BaseException) -> Frame:
+    """A program whose one command fails so."""
+
+    @click.command()
+    def command() -> None:
+        raise error
+
+    class One(Frame):
+        def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # click's signature
+            return command if cmd_name == "go" else None
+
+    return One(name="ilmek", modules={"go": ("nowhere", "Go.")})
+
+
+def test_bare_program_shows_its_help() -> None:
+    assert run().exit_code == 0
+    assert run().stdout == run("--help").stdout
+    assert all(name in run().stdout for name in main.modules)
+
+
+def test_version() -> None:
+    assert run("--version").stdout == f"ilmek {ilmek.__version__}\n"
+
+
+@pytest.mark.parametrize("name", list(main.modules))
+def test_each_command_has_help_with_examples(name: str) -> None:
+    shown = run(name, "--help")
+    assert shown.exit_code == 0
+    assert "Examples:" in shown.stdout
+    assert f"ilmek {name}" in shown.stdout
+    assert importlib.import_module(main.modules[name][0]).command.help
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "said"),
+    [
+        (OutputError("a", allowed="b", do="c"), 2, "ilmek: a; b; c\n"),
+        (OutputError("line\nbreak \x1b[31mred"), 2, "ilmek: line break [31mred\n"),
+        (KeyboardInterrupt(), 130, "interrupted; nothing was written\n"),
+        (click.Abort(), 130, "ilmek: interrupted; nothing was written\n"),
+        (click.UsageError("What?"), 2, "ilmek: What?; see 'ilmek go --help'\n"),
+        (
+            PermissionError(errno.EACCES, "Permission denied", "a.json"),
+            2,
+            "a.json cannot be read or written: Permission",
+        ),
+        (MemoryError(), 2, "ilmek: out of memory"),
+    ],
+)
+def test_errors_become_one_line(error: BaseException, status: int, said: str) -> None:
+    result = CliRunner().invoke(failing(error), ["go"])
+    assert (result.exit_code, result.stdout) == (status, "")
+    assert said in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+def test_a_defect_keeps_its_traceback() -> None:
+    assert isinstance(CliRunner().invoke(failing(ZeroDivisionError()), ["go"]).exception, ZeroDivisionError)
+
+
+def test_module_and_script_are_the_same_program() -> None:
+    shown = subprocess.run([sys.executable, "-m", "ilmek", "--version"], capture_output=True, text=True, check=True)
+    assert shown.stdout == f"ilmek {ilmek.__version__}\n"
+
+
+SLOW = """
+import time
+from pathlib import Path
+import click
+from ilmek.cli.frame import Frame
+from ilmek.io.output import output_folder
+
+@click.command()
+def command():
+    with output_folder(Path("deep/out")) as work:
+        (work / "chart.png").write_text("half")
+        print("writing", flush=True)
+        time.sleep(60)
+
+Frame.get_command = lambda self, ctx, name: command
+Frame(name="ilmek", modules={}).main(["go"])
+"""
+
+
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
+def test_nothing_is_half_written_after_a_signal(tmp_path: Path, number: signal.Signals, status: int) -> None:
+    command = [sys.executable, "-c", SLOW]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "writing\n"
+        process.send_signal(number)
+        said = process.communicate(timeout=30)[1]
+    assert process.returncode == status
+    assert "Traceback" not in said
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_reader_that_goes_away_is_no_traceback() -> None:
+    command = [sys.executable, "-c", "from ilmek.cli import main; main(['machines'])"]
+    read, write = os.pipe()
+    os.close(read)
+    try:
+        shown = subprocess.run(command, stdout=write, stderr=subprocess.PIPE, text=True, check=False)
+    finally:
+        os.close(write)
+    assert shown.returncode == 1
+    assert shown.stderr == ""
+
+
+def test_a_terminal_without_the_signs_shows_question_marks() -> None:
+    environment = dict(os.environ, PYTHONIOENCODING="ascii")
+    command = [sys.executable, "-m", "ilmek", "machines", "beat-up"]
+    shown = subprocess.run(command, capture_output=True, env=environment, check=False)
+    assert (shown.returncode, shown.stderr) == (0, b"")
