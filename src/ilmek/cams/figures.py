@@ -8,6 +8,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.limits import PlateCam
 from ilmek.cams.programme import TURN, Programme
 from ilmek.report import Axis, Dot, Drawing, Mark, Plot, Series, Stroke
+from ilmek.units import format_quantity
 
 _ANGLE = Axis("cam angle", "deg")
 _BESIDE = 1e-9
@@ -20,8 +21,10 @@ def sample_angles(*programmes: Programme, count: int = 361) -> FloatArray:
     return np.unique(np.concatenate([np.linspace(0.0, TURN, count), sides]))
 
 
-def motion_plots(programmes: Mapping[str, Programme], speed: float, note: str = "") -> tuple[Plot, ...]:
-    """Displacement, velocity and acceleration by time, of followers by name, at a cam speed [rad/s]."""
+def motion_plots(
+    programmes: Mapping[str, Programme], speed: float, marks: tuple[Mark, ...] = (), note: str = ""
+) -> tuple[Plot, ...]:
+    """Displacement (with marks), velocity and acceleration (with a note) of followers by name, at a speed [rad/s]."""
     angle = sample_angles(*programmes.values())
     courses = {name: programme.at(angle) for name, programme in programmes.items()}
     kinds = (("displacement", "mm", 0), ("velocity", "mm/s", 1), ("acceleration", "mm/s^2", 2))
@@ -35,6 +38,7 @@ def motion_plots(programmes: Mapping[str, Programme], speed: float, note: str = 
                 Series(name, angle, speed**order * course[order], dashed=place > 0)
                 for place, (name, course) in enumerate(courses.items())
             ),
+            marks=marks if order == 0 else (),
             note=note if order == 2 else "",
         )
         for kind, unit, order in kinds
@@ -63,18 +67,24 @@ def cam_drawing(cam: PlateCam, bore_side: float, guide_radius: float) -> Drawing
     """The cam to scale, zero of the cam angle to the right: surface, prime circle, pitch curve, square bore, guide."""
     angle = sample_angles(cam.programme, count=721)
     circle = np.exp(1j * np.linspace(0.0, TURN, 361))
+    tip = _to_the_tip(cam, angle)
     corners = bore_side / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
     pitch = (Stroke(cam.pitch(angle), "path", "pitch curve", closed=True),) if cam.roller_radius > 0 else ()
     strokes = (
-        Stroke(guide_radius * circle, "construction", "guide cam", closed=True),
+        Stroke(guide_radius * circle, "construction", f"guide cam {format_quantity(guide_radius, 'mm')}", closed=True),
         Stroke(cam.surface(angle), "outline", "cam", closed=True, filled=True),
-        Stroke(cam.prime_radius * circle, "construction", "prime circle", closed=True),
+        Stroke(
+            cam.prime_radius * circle,
+            "construction",
+            f"Rp {format_quantity(cam.prime_radius, 'mm')}",
+            closed=True,
+        ),
         *pitch,
-        Stroke(corners, "outline", "square bore", closed=True),
-        Stroke(_to_the_tip(cam, angle), "dimension", "nose radius"),
+        Stroke(corners, "outline", f"bore {format_quantity(bore_side, 'mm')}", closed=True),
+        Stroke(tip, "dimension", format_quantity(float(np.abs(tip[1])), "mm")),
     )
     note = "turns counter-clockwise; the warp lies on the right when the cam angle is 0"
-    return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "axis", "pivot"),), note=note)
+    return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "", "point"),), note=note)
 
 
 def _bounds(limit: float) -> tuple[tuple[str, float], ...]:

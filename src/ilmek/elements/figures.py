@@ -6,6 +6,7 @@ import numpy as np
 
 from ilmek.elements import beams
 from ilmek.report import Axis, Dot, Drawing, Plot, Series, Stroke
+from ilmek.units import format_quantity
 
 
 def deflection_plot(load: float, length: float, modulus: float, inertia: float, limit: float) -> Plot:
@@ -21,11 +22,15 @@ def deflection_plot(load: float, length: float, modulus: float, inertia: float, 
 
 def tube_drawing(outer_radius: float, inner_radius: float, least_outer_radius: float) -> Drawing:
     """Section of a tube to scale, and the outer radius that the slope alone asks for."""
+    note = f"dashed: the least outer radius for the slope, {format_quantity(least_outer_radius, 'mm')}"
     circle = np.exp(1j * np.linspace(0.0, 2 * math.pi, 361))
+    below = outer_radius * (np.array([-1.0, 1.0]) - 1.15j)
     strokes = (
-        Stroke(outer_radius * circle, "outline", "outside", closed=True),
-        Stroke(inner_radius * circle, "outline", "inside", closed=True),
-        Stroke(least_outer_radius * circle, "construction", "least outside for the slope", closed=True),
-        Stroke(np.array([-outer_radius, outer_radius]) + 0j, "dimension", "outer diameter"),
+        Stroke(outer_radius * circle, "outline", closed=True),
+        Stroke(
+            inner_radius * circle, "outline", f"wall {format_quantity(outer_radius - inner_radius, 'mm')}", closed=True
+        ),
+        Stroke(least_outer_radius * circle, "construction", closed=True),
+        Stroke(below, "dimension", f"diameter {format_quantity(2 * outer_radius, 'mm')}"),
     )
-    return Drawing("section", "Section of the cylinder, to scale", strokes, (Dot(0j, "axis", "pivot"),))
+    return Drawing("section", "Section of the cylinder, to scale", strokes, (Dot(0j, "", "point"),), note=note)

@@ -26,7 +26,7 @@ from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.motors import Motor, Reducer, smallest_motor
 from ilmek.errors import ParameterError
 from ilmek.params import Params, param
-from ilmek.units import GPa, N, deg, format_quantity, mm, rpm
+from ilmek.units import GPa, MPa, N, deg, format_quantity, mm, rpm
 
 _NO_DWELL = 1e-9
 
@@ -35,20 +35,22 @@ _NO_DWELL = 1e-9
 class SheddingParams(Params):
     """What is asked of the shedding cams."""
 
-    lift: float = param(60 * mm, unit="mm", above=0.0, at_most=1.0, doc="lift of a warp: the height of the shed")
-    rise: float = param(90 * deg, unit="deg", above=0.0, below=TURN, doc="cam angle of the rise", symbol="beta")
+    lift: float = param(
+        60 * mm, unit="mm", at_least=0.01 * mm, at_most=1.0, doc="lift of a warp: the height of the shed"
+    )
+    rise: float = param(90 * deg, unit="deg", at_least=1 * deg, below=TURN, doc="cam angle of the rise", symbol="beta")
     fall: float | None = param(
-        None, unit="deg", above=0.0, below=TURN, doc="cam angle of the return; none: as the rise"
+        None, unit="deg", at_least=1 * deg, below=TURN, doc="cam angle of the return; none: as the rise"
     )
     dwell: float = param(0.0, unit="deg", at_least=0.0, below=TURN, doc="cam angle for which the warp stays lifted")
     law: str = param("harmonic", choices=tuple(LAWS), doc="motion law of rise and return")
     pressure_angle_limit: float = param(
-        30 * deg, unit="deg", above=0.0, below=90 * deg, doc="largest pressure angle", symbol="mu"
+        30 * deg, unit="deg", at_least=1 * deg, below=90 * deg, doc="largest pressure angle", symbol="mu"
     )
     prime_radius: float | None = param(
         None,
         unit="mm",
-        above=0.0,
+        at_least=0.1 * mm,
         at_most=2.0,
         doc="prime radius; none: the smallest for the pressure angle",
         symbol="Rp",
@@ -57,44 +59,56 @@ class SheddingParams(Params):
         0.0, unit="mm", at_least=0.0, at_most=0.5, doc="radius of the warp or roller on the cam"
     )
     warps: int = param(600, at_least=2, at_most=100_000, doc="warps, one cam each")
-    warp_pitch: float = param(2 * mm, unit="mm", above=0.0, at_most=50 * mm, doc="distance between two warps")
+    warp_pitch: float = param(2 * mm, unit="mm", at_least=0.01 * mm, at_most=50 * mm, doc="distance between two warps")
     cam_thickness: float | None = param(
-        None, unit="mm", above=0.0, at_most=50 * mm, doc="thickness of a cam; none: half the pitch"
+        None, unit="mm", at_least=0.001 * mm, at_most=50 * mm, doc="thickness of a cam; none: half the pitch"
     )
     guide_height: float = param(
         10 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="height of the guide cams over the nose"
     )
     density: float = param(
-        MATERIALS["structural steel"].density, unit="kg/m^3", above=0.0, at_most=25e3, doc="density of cams and shaft"
+        MATERIALS["structural steel"].density,
+        unit="kg/m^3",
+        at_least=1.0,
+        at_most=25e3,
+        doc="density of cams and shaft",
     )
     warp_force: float = param(10 * N, unit="N", at_least=0.0, at_most=1e4, doc="force of a lifted warp across the cam")
-    tension: float | None = param(None, unit="N", above=0.0, at_most=1e4, doc="tension of a warp, with half_span")
+    tension: float | None = param(None, unit="N", at_least=1e-6, at_most=1e4, doc="tension of a warp, with half_span")
     half_span: float | None = param(
-        None, unit="mm", above=0.0, at_most=10.0, doc="cam to the next hold of the warp: force from tension and lift"
+        None,
+        unit="mm",
+        at_least=0.1 * mm,
+        at_most=10.0,
+        doc="cam to the next hold of the warp: force from tension and lift",
     )
-    shuttle_height: float = param(40 * mm, unit="mm", above=0.0, at_most=1.0, doc="opening that the shuttle needs")
-    speed: float = param(5 * rpm, unit="rpm", above=0.0, at_most=600 * rpm, doc="speed of the cam shaft")
+    shuttle_height: float = param(
+        40 * mm, unit="mm", at_least=0.01 * mm, at_most=1.0, doc="opening that the shuttle needs"
+    )
+    speed: float = param(5 * rpm, unit="rpm", at_least=1e-6 * rpm, at_most=600 * rpm, doc="speed of the cam shaft")
     shaft_length: float | None = param(
-        None, unit="m", above=0.0, at_most=20.0, doc="shaft between its bearings; none: warps x pitch", symbol="l"
+        None, unit="m", at_least=1 * mm, at_most=20.0, doc="shaft between its bearings; none: warps x pitch", symbol="l"
     )
     shaft_load: float | None = param(
-        None, unit="kN/m", above=0.0, at_most=1e7, doc="load of the shaft; none: from cams and warps", symbol="w"
+        None, unit="kN/m", at_least=1e-3, at_most=1e7, doc="load of the shaft; none: from cams and warps", symbol="w"
     )
     safety: float | None = param(
         None, at_least=1.0, at_most=20.0, doc="factor on the load; none: 1 on a given load, 2 on one computed here"
     )
     modulus: float = param(
-        200 * GPa, unit="GPa", above=0.0, at_most=1e13, doc="Young's modulus of the shaft", symbol="E"
+        200 * GPa, unit="GPa", at_least=1 * MPa, at_most=1e13, doc="Young's modulus of the shaft", symbol="E"
     )
-    slope_limit: float = param(0.004, unit="rad", above=0.0, below=0.5, doc="largest slope at the bearings")
-    deflection_limit: float = param(1 * mm, unit="mm", above=0.0, at_most=0.1, doc="largest deflection of the shaft")
+    slope_limit: float = param(0.004, unit="rad", at_least=1e-9, below=0.5, doc="largest slope at the bearings")
+    deflection_limit: float = param(
+        1 * mm, unit="mm", at_least=1e-9, at_most=0.1, doc="largest deflection of the shaft"
+    )
     bore_wall: float = param(
         5 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="least wall between square bore and surface"
     )
-    ratio: float = param(100.0, above=0.0, at_most=1e5, doc="ratio of the reducer on the shaft")
-    efficiency: float = param(0.85, above=0.0, at_most=1.0, doc="efficiency of the reducer")
+    ratio: float = param(100.0, at_least=1e-3, at_most=1e5, doc="ratio of the reducer on the shaft")
+    efficiency: float = param(0.85, at_least=0.01, at_most=1.0, doc="efficiency of the reducer")
     motor_torque: float | None = param(
-        None, unit="Nm", above=0.0, at_most=1e4, doc="torque of the motor; none: the smallest that is enough"
+        None, unit="Nm", at_least=1e-6, at_most=1e4, doc="torque of the motor; none: the smallest that is enough"
     )
 
     def check_together(self) -> None:

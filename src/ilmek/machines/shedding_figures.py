@@ -19,7 +19,9 @@ def figures(design: SheddingDesign) -> tuple[Figure, ...]:
     cam, shaft = design.cam, design.shaft
     drawn: tuple[Figure, ...] = (
         cam_figures.cam_drawing(cam, shaft.bar, design.stack.guide_radius),
-        *cam_figures.motion_plots({"even": design.even, "odd": design.odd}, design.params.speed, jump_note(design)),
+        *cam_figures.motion_plots(
+            {"even": design.even, "odd": design.odd}, design.params.speed, shuttle_marks(design), jump_note(design)
+        ),
         cam_figures.pressure_plot(cam, design.params.pressure_angle_limit, pressure_angle_max(cam).at),
         cam_figures.curvature_plot(cam, convex_radius_min(cam).at),
         torque_plot(design),
@@ -46,6 +48,12 @@ def torque_plot(design: SheddingDesign) -> Plot:
     note = "positive: the shaft lifts the warps; negative: the warps press the shaft on"
     title = "Torque of the warps on the shaft"
     return Plot("torque", title, Axis("cam angle", "deg"), Axis("torque", "Nm"), series, (mark,), note)
+
+
+def shuttle_marks(design: SheddingDesign) -> tuple[Mark, ...]:
+    """When the shuttle may enter and must have left the even shed; none where the shed is too low for it."""
+    first, last = design.shuttle_window
+    return (Mark(first, "shuttle in"), Mark(last, "shuttle out")) if last > first else ()
 
 
 def jump_note(design: SheddingDesign) -> str:

@@ -15,7 +15,7 @@ from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.motors import Motor, Reducer, smallest_motor
 from ilmek.errors import ParameterError
 from ilmek.params import Params, param
-from ilmek.units import N, format_quantity, m, mm, s, turn
+from ilmek.units import MPa, N, format_quantity, m, mm, ms, s, turn
 
 STEEL = MATERIALS["structural steel"]
 
@@ -31,12 +31,14 @@ class WarpTensionParams(Params):
     """What is asked of the cylinder; the defaults are the thesis' loom."""
 
     warps: int = param(600, at_least=1, at_most=100_000, doc="warps on the cylinder", symbol="n")
-    tension: float = param(15 * N, unit="N", above=0.0, at_most=1e4, doc="tension of a warp", symbol="T")
-    width: float = param(1.2 * m, unit="m", above=0.0, at_most=20.0, doc="cylinder between its bearings", symbol="l")
+    tension: float = param(15 * N, unit="N", at_least=1e-6, at_most=1e4, doc="tension of a warp", symbol="T")
+    width: float = param(
+        1.2 * m, unit="m", at_least=1 * mm, at_most=20.0, doc="cylinder between its bearings", symbol="l"
+    )
     outer_radius: float | None = param(
         None,
         unit="mm",
-        above=0.0,
+        at_least=0.1 * mm,
         at_most=2.0,
         doc="outer radius; none: the least whole millimetre that keeps slope, deflection and wall",
         symbol="Ro",
@@ -49,23 +51,29 @@ class WarpTensionParams(Params):
         doc="inner radius, 0: solid; none: 65 mm, or what the limits ask of a tube of that wall",
         symbol="Ri",
     )
-    wall: float = param(5 * mm, unit="mm", above=0.0, at_most=0.5, doc="wall of the tube where a radius is chosen")
-    modulus: float = param(STEEL.modulus, unit="GPa", above=0.0, at_most=1e13, doc="Young's modulus", symbol="E")
-    density: float = param(STEEL.density, unit="kg/m^3", above=0.0, at_most=25e3, doc="density of the tube")
-    strength: float = param(STEEL.strength, unit="MPa", above=0.0, at_most=1e10, doc="yield strength of the tube")
-    slope_limit: float = param(0.004, unit="rad", above=0.0, below=0.5, doc="largest slope at the bearings")
-    deflection_limit: float = param(1 * mm, unit="mm", above=0.0, at_most=0.1, doc="largest deflection")
-    ratio: float | None = param(
-        None, above=0.0, at_most=1e5, doc="ratio of the reducer; none: 100, or more where no motor is strong enough"
+    wall: float = param(
+        5 * mm, unit="mm", at_least=0.01 * mm, at_most=0.5, doc="wall of the tube where a radius is chosen"
     )
-    efficiency: float = param(0.45, above=0.0, at_most=1.0, doc="efficiency of the reducer")
+    modulus: float = param(STEEL.modulus, unit="GPa", at_least=1 * MPa, at_most=1e13, doc="Young's modulus", symbol="E")
+    density: float = param(STEEL.density, unit="kg/m^3", at_least=1.0, at_most=25e3, doc="density of the tube")
+    strength: float = param(
+        STEEL.strength, unit="MPa", at_least=1 * MPa, at_most=1e10, doc="yield strength of the tube"
+    )
+    slope_limit: float = param(0.004, unit="rad", at_least=1e-9, below=0.5, doc="largest slope at the bearings")
+    deflection_limit: float = param(1 * mm, unit="mm", at_least=1e-9, at_most=0.1, doc="largest deflection")
+    ratio: float | None = param(
+        None, at_least=1e-3, at_most=1e5, doc="ratio of the reducer; none: 100, or more where no motor is strong enough"
+    )
+    efficiency: float = param(0.45, at_least=0.01, at_most=1.0, doc="efficiency of the reducer")
     self_locking: bool = param(True, doc="the reducer must hold the warps by itself; no: a brake holds them")
     motor_torque: float | None = param(
-        None, unit="Nm", above=0.0, at_most=1e4, doc="torque of the motor; none: the smallest that is enough"
+        None, unit="Nm", at_least=1e-6, at_most=1e4, doc="torque of the motor; none: the smallest that is enough"
     )
-    row_pitch: float = param(4 * mm, unit="mm", above=0.0, at_most=0.1, doc="carpet taken up for each row of knots")
-    take_up_time: float = param(1 * s, unit="s", above=0.0, at_most=3600.0, doc="time to take up a row")
-    carpet_length: float = param(1.8 * m, unit="m", above=0.0, at_most=1000.0, doc="length of the carpet")
+    row_pitch: float = param(
+        4 * mm, unit="mm", at_least=0.001 * mm, at_most=0.1, doc="carpet taken up for each row of knots"
+    )
+    take_up_time: float = param(1 * s, unit="s", at_least=1 * ms, at_most=3600.0, doc="time to take up a row")
+    carpet_length: float = param(1.8 * m, unit="m", at_least=1 * mm, at_most=1000.0, doc="length of the carpet")
     carpet_thickness: float = param(
         0.0, unit="mm", at_least=0.0, at_most=0.1, doc="thickness of carpet wound on the cylinder; 0: it is led away"
     )
