@@ -1,9 +1,11 @@
 """The family of crank-rockers: closed forms against first principles, against each other and against brute force."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ilmek.linkage import quality
 from ilmek.synthesis.crank_rocker import (
     Links,
     best_ratio,
@@ -18,6 +20,7 @@ from ilmek.synthesis.crank_rocker import (
     ratio_limits,
     rotation_limits,
     transmission_angle_min,
+    transmission_angles,
 )
 from ilmek.units import deg
 
@@ -106,3 +109,17 @@ def test_no_member_beats_the_best_ratio(task: tuple[float, float]) -> None:
     assert float(transmission_angle_min(links_of_ratio(swing, rotation, best))) >= np.max(angles) - 1e-12
     # One maximum only: `select_ratio` relies on it.
     assert np.sum(np.diff(np.sign(np.diff(angles))) < 0) <= 1
+
+
+@given(tasks(), unit)
+def test_agrees_with_the_qualities_of_a_four_bar(task: tuple[float, float], part: float) -> None:
+    swing, rotation = task
+    links = links_of_ratio(swing, rotation, between(ratio_limits(swing, rotation), part))
+    lengths = (1.0, *(float(link) for link in links))
+    extended, folded = quality.dead_centres(*lengths, branch=+1)
+    found = dead_centres(links)
+    assert extended.crank_angle == pytest.approx(float(found.beta), abs=1e-6)
+    assert np.angle(np.exp(1j * (folded.crank_angle - found.beta - found.rotation))) == pytest.approx(0, abs=1e-6)
+    assert folded.rocker_angle - extended.rocker_angle == pytest.approx(swing, abs=1e-6)
+    assert quality.transmission_extremes(*lengths) == pytest.approx(transmission_angles(links), abs=1e-7)
+    assert quality.grashof(*lengths).kind == "crank-rocker"

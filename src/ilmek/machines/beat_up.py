@@ -8,7 +8,8 @@ The force given for the beater is the one the rocker pushes it with, m_E (a_E - 
 its bolts. It is greatest near the extended dead centre, where the beater turns back at the fell.
 """
 
-from ilmek.machines.beat_up_design import BeatUp, BeatUpParams, design
+from ilmek.machines.beat_up_design import BeatUp, design
+from ilmek.machines.beat_up_params import BeatUpParams
 from ilmek.machines.beat_up_report import report
 from ilmek.machines.machine import Machine
 

@@ -1,4 +1,4 @@
-"""The beat-up's parameters and its design: links, motion, forces, and their greatest values over a turn.
+"""The beat-up's design: links, motion, forces, and their greatest values over a turn.
 
     ground D-A     crank D-C, driven, counter-clockwise     coupler C-B     rocker A-B, the beater at E beyond B
 
@@ -18,15 +18,16 @@ from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined, point_mass
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity
 from ilmek.dynamics.peaks import Peak, peaks
-from ilmek.errors import MechanismError, ParameterError
+from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
 from ilmek.linkage.motion import Motion
+from ilmek.linkage.quality import grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.params import Params, param
+from ilmek.machines.beat_up_params import BeatUpParams
 from ilmek.synthesis.crank_rocker import DeadCentres, Links, dead_centres, grashof_margin, transmission_angle_min
 from ilmek.synthesis.crank_rocker_selection import member
-from ilmek.units import deg, format_quantity, turn
+from ilmek.units import format_quantity, turn
 
 PINS = ("A", "B", "C", "D")
 
@@ -38,66 +39,6 @@ SAMPLES = 720
 
 TOGGLE = 1e-9
 """Least Grashof margin, in ground links, of a crank-rocker that does not stand in a toggle."""
-
-
-@dataclass(frozen=True, slots=True)
-class BeatUpParams(Params):
-    """What may be asked of a beat-up mechanism; the defaults are the paper's."""
-
-    swing: float = param(
-        30 * deg, unit="deg", above=0.0, below=math.pi, doc="swing of the rocker between its dead centres", symbol="ψ"
-    )
-    crank_rotation: float = param(
-        180 * deg,
-        unit="deg",
-        above=math.pi / 2,
-        below=2 * math.pi,
-        doc="turn of the crank from the beat to the other dead centre; 180 deg has the best transmission angle",
-        symbol="φ",
-    )
-    beta: float | None = param(
-        None,
-        unit="deg",
-        above=0.0,
-        below=math.pi,
-        doc="crank angle of the beat; unsaid: chosen by transmission angle and crank/coupler ratio",
-        symbol="β",
-    )
-    ground: float = param(0.3, unit="mm", above=0.0, doc="distance of the pivots of crank and rocker", symbol="AD")
-    crank: float | None = param(None, unit="mm", above=0.0, doc="crank outright, instead of synthesis", symbol="DC")
-    coupler: float | None = param(None, unit="mm", above=0.0, doc="coupler outright, instead of synthesis", symbol="CB")
-    rocker: float | None = param(None, unit="mm", above=0.0, doc="rocker outright, instead of synthesis", symbol="AB")
-    beater: float | None = param(
-        None, unit="mm", above=0.0, doc="beater from the rocker's pivot; unsaid: 1.3 times the rocker", symbol="AE"
-    )
-    speed: float = param(15.5, unit="rad/s", above=0.0, doc="speed of the crank", symbol="ω")
-    beater_mass: float = param(2.5, unit="kg", at_least=0.0, doc="mass of the beater", symbol="m_E")
-    density: float = param(7210.0, unit="kg/m^3", above=0.0, doc="density of the links; cast iron", symbol="ρ")
-    width: float = param(0.03, unit="mm", above=0.0, doc="width of the links, in the plane of motion", symbol="w")
-    thickness: float = param(0.01, unit="mm", above=0.0, doc="thickness of the links")
-    gravity: float = param(0.0, unit="m/s^2", at_least=0.0, doc="free fall; the paper leaves weight out", symbol="g")
-    gravity_direction: float = param(
-        -90 * deg,
-        unit="deg",
-        at_least=-turn,
-        at_most=turn,
-        doc="where weight points, from the ground line D-A counter-clockwise; turns with the place of the loom",
-    )
-    beat_force: float = param(60.0, unit="N", at_least=0.0, doc="force on the beater that is wanted at its peak")
-    crank_angle: float | None = param(
-        None, unit="deg", at_least=-2 * turn, at_most=2 * turn, doc="crank angle at which to report forces", symbol="θ"
-    )
-
-    def check_together(self) -> None:
-        """Crank, coupler and rocker are given together or not at all."""
-        outright = {"crank": self.crank, "coupler": self.coupler, "rocker": self.rocker}
-        missing = [name for name, length in outright.items() if length is None]
-        if 0 < len(missing) < len(outright):
-            given = [name for name in outright if name not in missing]
-            raise ParameterError(
-                f"{' and '.join(given)} given without {' and '.join(missing)}",
-                do="give crank, coupler and rocker, or none of them",
-            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -281,7 +222,7 @@ def _require_swing(links: Links, planned: Plan, angle: FloatArray) -> None:
             allowed="shortest + longest link must be less than the sum of the other two",
             do="shorten the crank",
         )
-    if links.crank > min(1.0, *links):
+    if grashof(1.0, *(float(link) for link in links)).kind != "crank-rocker":
         raise MechanismError(
             f"the rocker of beat-up turns right round instead of swinging: {shown} (ground 1)",
             allowed="the crank must be the shortest link",

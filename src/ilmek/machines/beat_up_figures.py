@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up_design import BeatUp
-from ilmek.plane.vectors import cross, dot
 from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.units import format_quantity, turn
 
@@ -111,10 +111,8 @@ def torque(design: BeatUp) -> Plot:
 
 def transmission(design: BeatUp) -> Plot:
     """Acute angle between coupler and rocker."""
-    motion = design.state.motion
-    across = np.abs(cross(motion.direction("coupler"), motion.direction("rocker")))
-    along = np.abs(dot(motion.direction("coupler"), motion.direction("rocker")))
-    curves = {"acute angle between coupler and rocker": np.arctan2(across, along)}
+    angle = transmission_angle(design.state.motion, "B")
+    curves = {"acute angle between coupler and rocker": np.minimum(angle, np.pi - angle)}
     return _plot(design, "transmission-angle", "Transmission angle", Axis("angle", "deg"), curves)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.machines.beat_up_design import PINS, BeatUp
 from ilmek.machines.beat_up_figures import figures
+from ilmek.machines.rounding import settled
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.synthesis.crank_rocker import grashof_margin
 from ilmek.synthesis.crank_rocker_selection import DEVIATIONS, RATIO_LIMIT
@@ -122,13 +123,11 @@ def _stroke(design: BeatUp) -> float:
 def _checks(design: BeatUp) -> tuple[Check, ...]:
     wanted, tolerated = (math.pi / 2 - deviation for deviation in DEVIATIONS)
     angle, ratio = design.transmission_angle_min, float(design.links.crank / design.links.coupler)
-    # A ratio chosen as 0.3 is 0.3 only to the last bit.
-    ratio = round(ratio, 12)
     margin, force = float(grashof_margin(design.links)), design.peaks["beater_force"].value
     return (
         at_least("transmission angle, to run at all", angle, tolerated, "deg", f"{PAPER}, criterion i: 90° - µ < 50°"),
         at_least("transmission angle, to run well", angle, wanted, "deg", f"{PAPER}, criterion i: 90° - µ < 40°"),
-        at_most("crank/coupler ratio", ratio, RATIO_LIMIT, "1", f"{PAPER}, criterion ii"),
+        at_most("crank/coupler ratio", settled(ratio, RATIO_LIMIT), RATIO_LIMIT, "1", f"{PAPER}, criterion ii"),
         at_least("Grashof margin, in ground links", margin, 0.0, "1", f"{PAPER}, criterion iii"),
         at_least("force on the beater", force, design.params.beat_force, "N", f"{PAPER}, abstract: over 60 N"),
         at_most("power balance of the forces", design.state.forces.power_error, POWER_LIMIT, "1", "virtual power"),
