@@ -66,6 +66,7 @@ def test_says_the_allowed_interval_in_degrees(swing: float, rotation: float, bet
     with pytest.raises(ParameterError) as refused:
         member(swing * deg, rotation * deg, None if beta is None else beta * deg)
     assert said in str(refused.value)
+    assert "radians" not in str(refused.value)
 
 
 def test_guesses_degrees_typed_as_radians() -> None:

@@ -28,12 +28,12 @@ def drawing(design: BeatUp) -> Drawing:
     circle = design.lengths["crank"] * np.exp(1j * np.linspace(0, turn, 121))
     strokes = (
         Stroke(np.array([D, A]), "ground", _labelled(design, "ground")),
-        Stroke(circle, "path", "path of the crank pin", closed=True),
+        Stroke(circle, "path", closed=True),
         Stroke(design.state.beater.position, "path", "path of the beater"),
         Stroke(np.array([back["C"], back["B"]]), "construction"),
         Stroke(np.array([A, back["E"]]), "construction", "farthest from the fell"),
         *_cloth(design, beat["E"]),
-        Stroke(np.array([A, beat["E"]]), "link", f"{rocker}, {_labelled(design, 'beater')}"),
+        Stroke(np.array([A, beat["E"]]), "link", rocker),
         Stroke(np.array([beat["C"], beat["B"]]), "link", coupler),
         Stroke(np.array([D, beat["C"]]), "link", crank),
     )
@@ -44,7 +44,8 @@ def drawing(design: BeatUp) -> Drawing:
         Dot(beat["B"], "B"),
         Dot(beat["E"], "E", "point"),
     )
-    note = "Side view at the beat; the weft and the knots are driven to the fell by the beater E."
+    reach = format_quantity(design.lengths["beater"], "mm")
+    note = f"Side view at the beat: the beater E, {reach} from A, drives weft and knots to the fell."
     return Drawing("beat-up", "Beat-up mechanism to scale", strokes, dots, note=note)
 
 

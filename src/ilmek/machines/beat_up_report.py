@@ -13,7 +13,7 @@ from ilmek.synthesis.crank_rocker import grashof_margin
 from ilmek.synthesis.crank_rocker_selection import DEVIATIONS, RATIO_LIMIT
 from ilmek.units import format_quantity, minute, turn
 
-PAPER = "Topalbekiroglu and Celik, Kinematic analysis of beat-up mechanism used for handmade carpet looms"
+PAPER = "Topalbekiroglu and Celik, beat-up mechanism"
 LINKS = ("crank", "coupler", "rocker")
 POWER_LIMIT = 1e-9
 

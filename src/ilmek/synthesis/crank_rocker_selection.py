@@ -135,7 +135,7 @@ def _require_forced_beta(rotation: float, beta: float) -> None:
 def _require_beta(swing: float, rotation: float, beta: float) -> None:
     low, high = beta_limits(swing, rotation)
     if not low + SAME_ANGLE < beta < high - SAME_ANGLE:
-        slip = " (a bare number is in radians)" if low < beta * deg < high else ""
+        slip = " (a bare number is in radians)" if beta > math.pi and low < beta * deg < high else ""
         raise ParameterError(
             f"beta={_shown(beta)} gives no crank-rocker for swing={_shown(swing)}, crank_rotation={_shown(rotation)}",
             allowed=f"allowed: above {_shown(low)}, below {_shown(high)}; at the ends it stands in a toggle",
