@@ -41,11 +41,12 @@ def draw_overview(canvas: Any, chart: Chart, plan: Cut, name: str) -> None:
 
 def _facts(chart: Chart, plan: Cut) -> tuple[str, ...]:
     size, quality = chart.size, chart.quality
+    lengths = f"{format_number(size.width * 100)} × {format_number(size.length * 100)} cm (width × length)"
+    density = f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} knots per dm"
+    knots = f"{chart.columns} knots × {chart.rows} rows = {chart.knots.size} knots in {chart.colours} colours"
     return (
-        f"{format_number(size.width * 100)} × {format_number(size.length * 100)} cm (width × length), "
-        f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} knots per dm, {chart.knot} knots",
-        f"{chart.columns} knots × {chart.rows} rows = {chart.knots.size} knots in {chart.colours} colours on "
-        f"{plan.count} sheets of {plan.sheet_columns} knots × {plan.sheet_rows} rows",
+        f"{lengths}, {density}, {chart.knot} knots",
+        f"{knots} on {plan.count} sheets of {plan.sheet_columns} knots × {plan.sheet_rows} rows",
         "Rows are counted from the bottom, knots from the left. Shaded knots belong to the next sheet.",
     )
 

@@ -128,8 +128,8 @@ def _draw_lines(canvas: Any, plan: Cut, sheet: Sheet) -> None:
     """Hairlines round each cell, a bold line each 10 knots of the carpet, a dashed one where the overlap begins."""
     wide, high = plan.cell_width, plan.cell_height
     columns, rows = sheet.shown_right - sheet.left, sheet.shown_high - sheet.low
-    upright = [(number * wide, 0, number * wide, rows * high) for number in range(columns + 1)]
-    level = [(0, number * high, columns * wide, number * high) for number in range(rows + 1)]
+    upright = [(number * wide, 0.0, number * wide, rows * high) for number in range(columns + 1)]
+    level = [(0.0, number * high, columns * wide, number * high) for number in range(rows + 1)]
     canvas.setStrokeColorRGB(0.25, 0.25, 0.25, alpha=0.55)
     canvas.setLineWidth(0.2)
     canvas.lines(upright + level)

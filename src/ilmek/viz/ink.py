@@ -18,6 +18,7 @@ from ilmek.viz.style import PAPER
 FONTS = "'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 
 _POINTS = 72.0
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # no XML may hold these
 _DECIMALS = re.compile(r"-?\d+\.\d{3,}")
 _ID = re.compile(r'\sid="([^"]+)"')
 _REFERENCE = re.compile(r'(?:xlink:href="#|url\(#)([^")]+)')
@@ -65,16 +66,17 @@ def inline_svg(figure: Figure, title: str, prefix: str) -> str:
     """
     stream = io.StringIO()
     figure.savefig(stream, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
-    text = stream.getvalue()
+    text = _CONTROL.sub("", stream.getvalue())
     body = text[text.index(">", text.index("<svg")) + 1 :]
     for pattern, instead in _TIDY:
         body = pattern.sub(instead, body)
     body = _DECIMALS.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), _own_ids(body, prefix))
+    shown = _CONTROL.sub("", title)
     width, height = (float(side) * _POINTS for side in figure.get_size_inches())
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" role="img" '
         f'viewBox="0 0 {width:.6g} {height:.6g}" style="stroke-linejoin:round;font-family:{FONTS}" '
-        f"aria-label={quoteattr(title)}>\n<title>{escape(title)}</title>{body}"
+        f"aria-label={quoteattr(shown)}>\n<title>{escape(shown)}</title>{body}"
     )
 
 

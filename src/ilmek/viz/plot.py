@@ -29,7 +29,7 @@ from ilmek.viz.thinning import thinned_curve, thinned_line
 
 WIDTH, HEIGHT = 420.0, 168.0
 """Width of the sheet and height of the plotting area [pt]."""
-_RIGHT, _BOTTOM, _ROW, _TIER = 14.0, 34.0, 13.0, 10.0
+_RIGHT, _BOTTOM, _ROW, _TIER = 14.0, 29.0, 13.0, 10.0
 _KEY = 20.0
 
 

@@ -24,11 +24,12 @@ PAPER = "#ffffff"
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#b4558f", "#c98a00", "#3f9fd8", "#5b4b8a", "#4a4a4a")
 DASHES: tuple[tuple[float, tuple[float, ...]], ...] = ((0, (4.5, 2.0)), (0, (1.2, 1.6)), (0, (6, 1.8, 1.2, 1.8)))
 
-SMALL, TEXT, STRONG = 7.2, 8.2, 8.8
+SMALL, TEXT, STRONG = 7.8, 8.7, 9.2
 """Sizes of letters [pt]: ticks and marks, labels, names."""
 
 RC: dict[Any, Any] = {
     "svg.fonttype": "none",
+    "text.parse_math": False,
     "svg.hashsalt": "ilmek",
     "font.family": "DejaVu Sans",
     "font.size": TEXT,
@@ -44,7 +45,7 @@ RC: dict[Any, Any] = {
 }
 """Settings of matplotlib for every figure; names of fonts are put in afterwards, see `ink.FONTS`."""
 
-_POWERS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+POWERS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 def shown_unit(unit: str) -> str:
@@ -55,11 +56,11 @@ def shown_unit(unit: str) -> str:
     """
     if unit in ("", "1"):
         return ""
-    plain = {"deg": "°", "um": "µm", "rpm": "rev/min", "inch": "in"}.get(unit, unit)
+    plain = {"deg": "°", "um": "µm", "rpm": "rev/min", "inch": "in", "Nm": "N·m"}.get(unit, unit)
     head, *powers = plain.split("^")
     for power in powers:
         digits = len(power) - len(power.lstrip("-0123456789"))
-        head += power[:digits].translate(_POWERS) + power[digits:]
+        head += power[:digits].translate(POWERS) + power[digits:]
     return head.replace("*", "·")
 
 

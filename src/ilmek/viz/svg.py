@@ -3,6 +3,8 @@
 The look is `style`, the three kinds of figure are `plot`, `drawing` and `timing`, the text is made in `ink`.
 """
 
+import warnings
+
 from matplotlib import rc_context
 
 from ilmek.report import Drawing, Figure, Plot
@@ -18,7 +20,8 @@ def svg(figure: Figure, prefix: str = "") -> str:
 
     prefix  put before every id, so that one page can hold figures of the same name
     """
-    with rc_context(RC):
+    with rc_context(RC), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", r"Glyph .* missing from font")  # the reader's fonts may have it
         if isinstance(figure, Plot):
             sheet = draw_plot(figure)
         elif isinstance(figure, Drawing):

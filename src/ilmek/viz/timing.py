@@ -17,7 +17,7 @@ from ilmek.viz.style import AXIS, GRID, INK, MUTED, SMALL, STRONG, TEXT, colour,
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 WIDTH = 600.0
-_RIGHT, _TOP, _BOTTOM = 16.0, 32.0, 34.0
+_RIGHT, _TOP, _BOTTOM = 16.0, 30.0, 30.0
 _STROKE, _GAP, _TIER = 26.0, 9.0, 9.5
 """Height of a full stroke, air between tracks, height of a line of event names [pt]."""
 _TURN = 360.0

@@ -1,0 +1,153 @@
+"""Reports as web pages that need nothing but themselves: they open from disk, without a network, and print.
+
+`machine_page` shows a machine's report. `carpet_page` shows a carpet with the loom for it. Texts from outside are
+escaped by the template engine; figures come from `svg`, pictures from `carpet_picture`.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+import ilmek
+from ilmek.carpet.bill import YarnBill
+from ilmek.carpet.chart import Chart
+from ilmek.report import Check, Figure, Report, Timing
+from ilmek.viz.page_parts import Fact, FileNote, carpet_facts, pictures, yarn_lines
+from ilmek.viz.style import shown_unit, with_unit
+from ilmek.viz.svg import svg
+from ilmek.viz.writing import cells, count, fixed, number, quantity, sign, words
+
+_TEMPLATES = Path(__file__).parent / "templates"
+
+
+@dataclass(frozen=True, slots=True)
+class CarpetPage:
+    """What the page of a carpet shows.
+
+    title, lead    heading and the line below it
+    chart, bill    the carpet and its yarn
+    symbols        the sign of each yarn of `chart.yarns` in the printed chart ("": none)
+    facts          further entries of the summary, after knots, colours and yarn (heads, weaving time, deadline)
+    reports        the machines, in the order to show them
+    checks         checks of the whole that belong to no machine
+    files          the files beside the page
+    warnings       what was done to the picture, and whatever else a person must know
+    """
+
+    title: str
+    lead: str
+    chart: Chart
+    bill: YarnBill
+    symbols: str = ""
+    facts: tuple[Fact, ...] = ()
+    reports: tuple[Report, ...] = ()
+    checks: tuple[Check, ...] = ()
+    files: tuple[FileNote, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Drawn:
+    """A figure with its drawing; a wide one takes the whole width of the page."""
+
+    figure: Figure
+    svg: Markup
+    wide: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Section:
+    """A machine's part of a page."""
+
+    id: str
+    report: Report
+    figures: tuple[_Drawn, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Judged:
+    """A check and the machine it belongs to."""
+
+    machine: str
+    check: Check
+
+
+def carpet_page(page: CarpetPage) -> str:
+    """The text of a carpet's page: HTML, complete in itself."""
+    sections = [_section(number, report) for number, report in enumerate(page.reports, 1)]
+    judged = [_Judged("", check) for check in page.checks]
+    judged += [_Judged(report.title, check) for report in page.reports for check in report.checks]
+    warnings = [*page.warnings, *(f"{r.title}: {warning}" for r in page.reports for warning in r.warnings)]
+    return _render(
+        "carpet.html.j2",
+        title=page.title,
+        lead=page.lead,
+        facts=carpet_facts(page.chart, page.bill, page.facts, [one.check for one in judged]),
+        failed=[one.check for one in judged if not one.check.ok],
+        warnings=warnings,
+        pictures=pictures(page.chart),
+        yarn=yarn_lines(page.chart, page.bill, page.symbols),
+        bill=page.bill,
+        length=sum(need.length for need in page.bill.needs),
+        priced=any(need.price is not None for need in page.bill.needs),
+        sections=sections,
+        checks=_failures_first(judged),
+        files=page.files,
+    )
+
+
+def machine_page(report: Report) -> str:
+    """The text of a machine's page: HTML, complete in itself."""
+    return _render(
+        "machine.html.j2",
+        title=report.title,
+        lead=f"{len(report.checks) - len(report.failed)} of {len(report.checks)} checks hold" if report.checks else "",
+        failed=report.failed,
+        section=_section(1, report),
+        checks=_failures_first([_Judged(report.title, check) for check in report.checks]),
+    )
+
+
+def _section(place: int, report: Report) -> _Section:
+    drawn = tuple(
+        _Drawn(figure, Markup(svg(figure, f"m{place}-{order}")), isinstance(figure, Timing))
+        for order, figure in enumerate(report.figures, 1)
+    )
+    return _Section(f"m{place}", report, drawn)
+
+
+def _failures_first(judged: Sequence[_Judged]) -> list[_Judged]:
+    return sorted(judged, key=lambda one: one.check.ok)
+
+
+def _render(template: str, **values: object) -> str:
+    return _environment().get_template(template).render(version=ilmek.__version__, **values)
+
+
+@lru_cache(maxsize=1)
+def _environment() -> Environment:
+    """The template engine: everything escaped, a name that is missing an error."""
+    environment = Environment(
+        loader=FileSystemLoader(_TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    filters: Mapping[str, object] = {
+        "number": number,
+        "quantity": quantity,
+        "count": count,
+        "fixed": fixed,
+        "words": words,
+        "sign": sign,
+        "cells": cells,
+        "unit": shown_unit,
+        "with_unit": with_unit,
+    }
+    environment.filters.update(filters)
+    return environment

@@ -1,0 +1,147 @@
+"""The parts of a carpet's page: summary, pictures, yarn."""
+
+import base64
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from PIL import Image
+
+from ilmek.carpet.bill import YarnBill, YarnNeed
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.colour import LINEAR
+from ilmek.report import Check
+from ilmek.units import format_number
+from ilmek.viz.carpet_picture import carpet_picture, close_up
+from ilmek.viz.writing import count, fixed
+
+_LARGEST = 1600
+"""Pixels along the longer side of the chart's picture on the page, at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """An entry of the summary; mood is "", "good" or "bad"."""
+
+    label: str
+    value: str
+    note: str = ""
+    mood: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class FileNote:
+    """A file beside the page and what it holds."""
+
+    name: str
+    meaning: str
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A picture of the page: data address, proportions, what it shows; `times` is how much a click enlarges it."""
+
+    source: str
+    width: int
+    height: int
+    caption: str
+    alt: str
+    note: str = ""
+    pixelated: bool = False
+    wide: bool = False
+    times: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class YarnLine:
+    """A line of the yarn table; colour and letter colour are CSS, empty for the ground's yarns."""
+
+    need: YarnNeed
+    symbol: str
+    colour: str
+    letter: str
+    share: str
+
+
+def carpet_facts(chart: Chart, bill: YarnBill, more: Sequence[Fact], checks: Sequence[Check]) -> list[Fact]:
+    """The summary: knots, colours, yarn, what the job adds, and how many checks hold."""
+    held = sum(check.ok for check in checks)
+    failed = len(checks) - held
+    size, quality = chart.size, chart.quality
+    facts = [
+        Fact("Size", f"{_cm(size.width)} × {_cm(size.length)} cm", size.name),
+        Fact("Knots", count(int(chart.knots.size)), f"{count(chart.columns)} across × {count(chart.rows)} rows"),
+        Fact(
+            "Quality",
+            f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} / dm",
+            f"{chart.knot} knot",
+        ),
+        Fact("Colours", str(chart.colours), f"mean ΔE {chart.mean_delta_e:.1f} to the picture"),
+        Fact("Yarn", f"{fixed(bill.mass, 1, 2)} kg", f"pile {fixed(bill.pile_mass, 1, 2)} kg"),
+        *more,
+    ]
+    if checks:
+        mood, note = ("bad", f"{held} of {len(checks)} hold") if failed else ("good", "none fails")
+        facts.append(Fact("Checks", f"{failed} failed" if failed else f"{held} passed", note, mood))
+    return facts
+
+
+def _cm(length: float) -> str:
+    return format_number(100 * length)
+
+
+def pictures(chart: Chart) -> list[Picture]:
+    """The chart, the carpet as it will look, and some of its knots."""
+    name = f"{chart.columns} by {chart.rows} knots in {chart.colours} colours"
+    whole, near = carpet_picture(chart), close_up(chart)
+    width, height = round(1000 * chart.size.width), round(1000 * chart.size.length)
+    return [
+        Picture(
+            _address(_chart_png(chart), "png"), width, height, "Knot chart.", f"Knot chart, {name}",
+            "One cell one knot; click to enlarge.", pixelated=True, times=max(1.0, 3 * chart.columns / width),
+        ),
+        Picture(
+            _address(whole, "jpeg"), *_size(whole), "As it will look.", f"Simulated carpet, {name}",
+            "Simulated pile, fringe and selvedge.", times=1.25,
+        ),
+        Picture(
+            _address(near, "jpeg"), *_size(near), "The knots at its centre.", "Simulated close-up of single tufts",
+            "Simulated; each tuft is one knot.", wide=True, times=1.25,
+        ),
+    ]  # fmt: skip
+
+
+def _chart_png(chart: Chart) -> bytes:
+    """The chart as an indexed PNG; of a very large one each n-th knot."""
+    step = -(-max(chart.rows, chart.columns) // _LARGEST)
+    knots = np.ascontiguousarray(chart.knots[::step, ::step])
+    picture = Image.frombytes("P", (knots.shape[1], knots.shape[0]), knots.tobytes())
+    picture.putpalette([channel for yarn in chart.yarns for channel in yarn.srgb])
+    stream = io.BytesIO()
+    picture.save(stream, format="PNG")
+    return stream.getvalue()
+
+
+def _size(picture: bytes) -> tuple[int, int]:
+    with Image.open(io.BytesIO(picture)) as opened:
+        return opened.size
+
+
+def _address(picture: bytes, kind: str) -> str:
+    return f"data:image/{kind};base64,{base64.b64encode(picture).decode('ascii')}"
+
+
+def yarn_lines(chart: Chart, bill: YarnBill, symbols: str) -> list[YarnLine]:
+    """The bill's lines with the yarns' colours and signs; a sign is black or white, as in the printed chart."""
+    places = {yarn.name: place for place, yarn in enumerate(chart.yarns)}
+    lines = []
+    for need in bill.pile:
+        place = places[need.name]
+        srgb = chart.yarns[place].srgb
+        light = float(LINEAR[list(srgb)] @ np.array([0.2126, 0.7152, 0.0722]))
+        letter = "#ffffff" if light < 0.179 else "#000000"
+        share = f"{100 * need.knots / chart.knots.size:.1f} %"
+        symbol = symbols[place] if place < len(symbols) else ""
+        lines.append(YarnLine(need, symbol, "#{:02x}{:02x}{:02x}".format(*srgb), letter, share))
+    return lines + [YarnLine(need, "", "", "", "") for need in bill.ground]

@@ -1,0 +1,133 @@
+"""How numbers and names are written on a page."""
+
+import math
+from dataclasses import dataclass
+from typing import TypeGuard
+
+from ilmek.report import Json, Table
+from ilmek.units import format_number, parse_unit
+from ilmek.viz.style import POWERS, shown_unit
+
+_MINUS = str.maketrans("-", "−")
+_SIGNS = {"<=": "≤", ">=": "≥", "==": "="}
+_NOISE = 1e-12
+NARROW_SPACE = "\u202f"
+
+
+def number(value: Json, unit: str = "", digits: int = 4) -> str:
+    r"""An SI number in `unit` without the unit; a text stays, a truth is yes or no, nothing is a dash.
+
+    >>> number(0.0597375, "mm"), number(-2.0), number(135000), number(True), number(None), number(4.857e-5)
+    ('59.74', '−2', '135\u202f000', 'yes', '–', '4.857·10⁻⁵')
+    """
+    if value is None or isinstance(value, str | bool):
+        return "–" if value is None else value if isinstance(value, str) else "yes" if value else "no"
+    if not isinstance(value, int | float):
+        return str(value)
+    if isinstance(value, int) and unit in ("", "1"):
+        return count(value)
+    written = format_number(float(value) / parse_unit(unit).factor, digits)
+    if "e" in written:
+        mantissa, power = written.split("e")
+        return f"{mantissa}·10{str(int(power)).translate(POWERS)}".replace("-", "−")
+    head, point, tail = written.partition(".")
+    if head.lstrip("-").isdigit() and len(head.lstrip("-")) > 4:
+        head = f"{int(head):,}".replace(",", NARROW_SPACE)
+    return (head + point + tail).translate(_MINUS)
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A table's cell as it is printed, and whether it is a number."""
+
+    text: str
+    is_number: bool
+
+
+def cells(table: Table) -> list[list[Cell]]:
+    """A table's rows as they are printed; a number of rounding noise beside the others of its column is 0.
+
+    >>> from ilmek.report import Column
+    >>> shown = cells(Table("t", "", (Column("x", "mm"),), ((0.1,), (1e-17,))))
+    >>> [row[0].text for row in shown]
+    ['100', '0']
+    """
+    noise = [
+        _NOISE * max((abs(v) for v in column if _measured(v)), default=0.0) for column in zip(*table.rows, strict=True)
+    ]
+    return [
+        [
+            Cell(number(0 if _measured(v) and abs(v) < least else v, c.unit, c.digits), isinstance(v, int | float))
+            for v, least, c in zip(row, noise, table.columns, strict=True)
+        ]
+        for row in table.rows
+    ]
+
+
+def _measured(value: float | int | str) -> TypeGuard[float]:
+    return isinstance(value, float) and math.isfinite(value)
+
+
+def quantity(value: Json, unit: str = "") -> str:
+    """An SI number in `unit` with the unit; what is not a number stays alone.
+
+    >>> quantity(0.5, "deg"), quantity(9.81, "m/s^2"), quantity("cycloidal", "")
+    ('28.65°', '9.81 m/s²', 'cycloidal')
+    """
+    written, printed = number(value, unit), shown_unit(unit)
+    if not printed or value is None or isinstance(value, str | bool):
+        return written
+    return f"{written}{'' if printed in ('°', '%') else ' '}{printed}"
+
+
+def count(value: int) -> str:
+    """A whole number with its thousands apart.
+
+    >>> count(1234567) == "1 234 567".replace(" ", NARROW_SPACE)
+    True
+    """
+    return f"{value:,}".replace(",", NARROW_SPACE).translate(_MINUS)
+
+
+def fixed(value: float, factor: float, decimals: int) -> str:
+    """The value divided by a factor, with so many decimals.
+
+    >>> fixed(1.23456, 0.001, 1).replace(NARROW_SPACE, " ")
+    '1 234.6'
+    """
+    return f"{value / factor:,.{decimals}f}".replace(",", NARROW_SPACE).translate(_MINUS)
+
+
+def words(name: str) -> str:
+    """A name of the programme as words.
+
+    >>> words("drive_torque")
+    'drive torque'
+    """
+    return name.replace("_", " ")
+
+
+def sign(relation: str) -> str:
+    """A relation as it is printed.
+
+    >>> sign("<=")
+    '≤'
+    """
+    return _SIGNS.get(relation, relation)
+
+
+def duration(seconds: float) -> str:
+    """A time in the units people say it in.
+
+    >>> duration(42.0), duration(5400.0), duration(270000.0)
+    ('42 s', '1 h 30 min', '75 h')
+    """
+    minutes = round(seconds / 60.0)
+    if seconds < 120:
+        return f"{format_number(seconds, 3)} s"
+    if minutes < 60:
+        return f"{minutes} min"
+    hours, left = divmod(minutes, 60)
+    if hours >= 48 or not left:
+        return f"{count(round(seconds / 3600.0))} h"
+    return f"{hours} h {left} min"
