@@ -1,0 +1,33 @@
+"""The fully automated carpet loom of the thesis, sized for one carpet.
+
+Warp cylinders, shedding cams, beat-up and k knotting heads, each by its own machine, with parameters that follow from
+the carpet's width, length and quality; timed together by two cyclograms, of a knot and of a row.
+
+Source: thesis, chapters 2.2.3 and 3. How heads share a row: `ilmek.loom.sharing`.
+"""
+
+from ilmek.machines.automated_loom_design import LoomDesign, design
+from ilmek.machines.automated_loom_params import AutomatedLoomParams
+from ilmek.machines.automated_loom_report import report
+from ilmek.machines.automated_loom_time import Production, estimated_time, production_time, programme_for
+from ilmek.machines.machine import Machine
+
+__all__ = [
+    "MACHINE",
+    "AutomatedLoomParams",
+    "LoomDesign",
+    "Production",
+    "design",
+    "estimated_time",
+    "production_time",
+    "programme_for",
+    "report",
+]
+
+MACHINE = Machine(
+    name="automated-loom",
+    summary="the loom for one carpet: heads, shedding, beat-up, warp tension, timed together",
+    params=AutomatedLoomParams,
+    design=design,
+    report=report,
+)

@@ -1,0 +1,143 @@
+"""The loom's cyclogram for a row: two wefts and two beats on one turn of the shedding cams.     [thesis, 3.3]
+
+    1   0 to  90 deg    cams lift the even warps; the shuttle passes while the shed is open for it
+    2  90 to 180 deg    they come down; the beater beats and is back
+    3 180 to 270 deg    cams lift the odd warps; the shuttle passes back
+    4 270 to 360 deg    they come down; the beater beats; the carpet is taken up by a row
+
+The heads stand clear of the warps for the whole turn; the knots of the row were tied before it began. The thesis prints
+the four steps of 90 degrees and the harmonic law; where within them shuttle, beater and take-up move is chosen here.
+"""
+
+import math
+from dataclasses import dataclass
+
+from ilmek.cams.laws import LAWS
+from ilmek.timing.cyclogram import Cyclogram, Event, Moment, Relation, Segment, Track
+from ilmek.timing.track import MotionLaw, shortest_period
+from ilmek.units import deg, turn
+
+EVEN, ODD, SHUTTLE, BEATER, TAKE_UP = "even warps", "odd warps", "shuttle", "beater", "take-up"
+SOURCE = "thesis, 3.3: the four steps of a row"
+GAP = 2 * deg
+"""Least angle between the shuttle in the shed and the beater."""
+
+_HALF = turn / 2
+
+
+@dataclass(frozen=True, slots=True)
+class RowTiming:
+    """What the cyclogram of a row is made of.
+
+    lift, law        of the warps [m]                window  shed angles between which the shuttle has room [rad]
+    shuttle_stroke   from rest to rest [m]           beat_end, take_up_end  angles of each, and of the second, half
+    beat_stroke      chord of the beater [m]         beat_time  of a turn of its crank [s]    beat_share  of it forward
+    row_pitch        carpet taken up for a row [m]
+    """
+
+    lift: float
+    law: str
+    window: tuple[float, float]
+    shuttle_stroke: float
+    beat_stroke: float
+    beat_time: float
+    beat_share: float
+    beat_end: float
+    row_pitch: float
+    take_up_end: float
+
+
+def shortest_row(timing: RowTiming, speed_limit: float, acceleration_limit: float) -> float:
+    """The shortest turn of the cams [s] in which the shuttle keeps its limits and the beat fits behind it.
+
+    inf where no angle is left between shuttle and beat.
+    """
+    room = timing.beat_end - timing.window[1] - GAP
+    if room <= 0:
+        return math.inf
+    return max(shortest_period(_shuttle(timing), speed_limit, acceleration_limit), timing.beat_time * turn / room)
+
+
+def cyclogram(timing: RowTiming, period: float) -> Cyclogram:
+    """The cyclogram of a row at a period of the shedding cams [s].
+
+    Raises ParameterError where shuttle, beat and take-up do not follow each other.
+    """
+    tracks = (
+        _warps(EVEN, timing, 0.0),
+        _warps(ODD, timing, _HALF),
+        _shuttle(timing),
+        _beater(timing, period),
+        _take_up(timing),
+    )
+    return Cyclogram("row", period, tracks)
+
+
+def relations() -> tuple[Relation, ...]:
+    """What must come after what on the turn."""
+    room = "the shuttle moves only where the shed has room for it"
+    clear = "beater and shuttle are never in the shed together"
+    order = (
+        (Moment(SHUTTLE, "pass", "start"), Moment(EVEN, "room for the shuttle", "event"), 0.0, room),
+        (Moment(EVEN, "room ends", "event"), Moment(SHUTTLE, "pass", "end"), 0.0, room),
+        (Moment(BEATER, "beat 1", "start"), Moment(SHUTTLE, "pass", "end"), GAP, clear),
+        (Moment(SHUTTLE, "pass back", "start"), Moment(BEATER, "back 1", "end"), GAP, clear),
+        (Moment(SHUTTLE, "pass back", "start"), Moment(ODD, "room for the shuttle", "event"), 0.0, room),
+        (Moment(ODD, "room ends", "event"), Moment(SHUTTLE, "pass back", "end"), 0.0, room),
+        (Moment(BEATER, "beat 2", "start"), Moment(SHUTTLE, "pass back", "end"), GAP, clear),
+        (Moment(ODD, "lift", "start"), Moment(EVEN, "lower", "end"), 0.0, SOURCE),
+        (Moment(TAKE_UP, "take up", "start"), Moment(BEATER, "back 2", "end"), 0.0, "the beater is off the fell"),
+    )
+    return tuple(Relation(then, first, gap, why) for then, first, gap, why in order)
+
+
+def _law(name: str) -> MotionLaw:
+    return LAWS[name]
+
+
+def _warps(name: str, timing: RowTiming, shift: float) -> Track:
+    law, quarter = _law(timing.law), turn / 4
+    parts = (
+        Segment("lift", shift, shift + quarter, 0.0, timing.lift, law),
+        Segment("lower", shift + quarter, shift + _HALF, timing.lift, 0.0, law),
+    )
+    first, last = timing.window
+    events = (Event("room for the shuttle", shift + first), Event("room ends", shift + last))
+    return Track(name, "shedding cams", parts, events)
+
+
+def _shuttle(timing: RowTiming) -> Track:
+    first, last = timing.window
+    law, stroke = _law("cycloidal"), timing.shuttle_stroke
+    parts = (
+        Segment("pass", first, last, 0.0, stroke, law),
+        Segment("pass back", _HALF + first, _HALF + last, stroke, 0.0, law),
+    )
+    events = (Event("straight weft laid", last), Event("sinuous weft laid", _HALF + last))
+    return Track(SHUTTLE, "linear axis", parts, events)
+
+
+def _beater(timing: RowTiming, period: float) -> Track:
+    """A turn of the crank for each beat, drawn harmonic; the true motion is the crank-rocker's."""
+    law, spent = _law("harmonic"), turn * timing.beat_time / period
+    parts: list[Segment] = []
+    for number, end in ((1, timing.beat_end), (2, _HALF + timing.beat_end)):
+        start = end - spent
+        middle = start + timing.beat_share * spent
+        parts += [
+            Segment(f"beat {number}", start, middle, 0.0, timing.beat_stroke, law),
+            Segment(f"back {number}", middle, end, timing.beat_stroke, 0.0, law),
+        ]
+    events = (Event("beat", parts[0].end), Event("beat", parts[2].end))
+    return Track(BEATER, "beat-up crank", tuple(parts), events)
+
+
+def _take_up(timing: RowTiming) -> Track:
+    start = _HALF + timing.beat_end
+    part = Segment("take up", start, _HALF + timing.take_up_end, 0.0, timing.row_pitch, _law("3-4-5"))
+    return Track(TAKE_UP, "warp cylinder", (part,), revolves=timing.row_pitch)
+
+
+def take_up_time(timing: RowTiming, period: float) -> float:
+    """Time of the take-up [s] at a period of the cams [s]."""
+    return (timing.take_up_end - timing.beat_end) / turn * period

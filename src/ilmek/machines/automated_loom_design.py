@@ -1,0 +1,258 @@
+"""The automated loom for one carpet: its machines, sized by the carpet and timed together."""
+
+import math
+from dataclasses import dataclass, replace
+
+from ilmek.carpet.design import knot_grid
+from ilmek.carpet.sizes import Size
+from ilmek.elements import beams
+from ilmek.errors import LoomError
+from ilmek.loom.programme import Times
+from ilmek.loom.sharing import heads_that_fit, least_distance, share
+from ilmek.machines import beat_up, shedding, warp_tension, weaver
+from ilmek.machines.automated_loom_cyclogram import RowTiming, cyclogram, shortest_row, take_up_time
+from ilmek.machines.automated_loom_params import AutomatedLoomParams
+from ilmek.machines.shedding_report import prime_radius_for_bore
+from ilmek.machines.warp_tension_design import WarpTensionDesign
+from ilmek.timing.cyclogram import Cyclogram
+from ilmek.units import format_quantity, mm, turn
+
+TENSION, TENSION_PITCH = 15.0, 2 * mm
+"""Tension of a warp of the thesis [N] and its pitch [m]. A warp's mass per length goes with its pitch, and with it what
+it bears: the tension per width stays the same."""
+
+HEADS = 4
+"""Heads of a loom for which no number is said, where so many fit."""
+
+STOCK_TUBES = tuple(
+    (diameter * mm, wall * mm)
+    for diameter, wall in (
+        (140, 5),
+        (139.7, 10),
+        (168.3, 6.3),
+        (168.3, 10),
+        (193.7, 8),
+        (219.1, 8),
+        (219.1, 12.5),
+        (244.5, 10),
+        (273, 10),
+        (273, 16),
+        (323.9, 12.5),
+        (355.6, 16),
+        (406.4, 16),
+        (457, 20),
+        (508, 25),
+        (610, 30),
+    )
+)
+"""Outer diameter and wall of tubes to choose from [m]: the thesis' 140 x 5, and sizes of EN 10210-2."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoomDesign:
+    """A loom for one carpet.
+
+    rows, columns   of knots            warps  two for each knot of a row
+    heads           that share a row          heads_max  the most that can share a row without meeting
+    row_timing, row_cyclogram           of the wefts and beats of a row, one turn of the shedding cams
+    tube            outer diameter and wall of the warp cylinder [m]
+    """
+
+    params: AutomatedLoomParams
+    rows: int
+    columns: int
+    heads: int
+    heads_max: int
+    weaver: weaver.Weaver
+    shedding: shedding.SheddingDesign
+    beat_up: beat_up.BeatUp
+    warp_tension: WarpTensionDesign
+    tube: tuple[float, float]
+    row_timing: RowTiming
+    row_cyclogram: Cyclogram
+
+    @property
+    def warps(self) -> int:
+        """Warps: two for each knot of a row."""
+        return 2 * self.columns
+
+    @property
+    def knot_pitch(self) -> float:
+        """Distance of two neighbouring knots [m]."""
+        return 2 * self.params.pitch
+
+    @property
+    def head_distance(self) -> float:
+        """The least distance that two heads ever have [m]; inf for one head."""
+        return least_distance(share(self.columns, self.heads), self.heads, self.knot_pitch)
+
+    @property
+    def cyclograms(self) -> tuple[Cyclogram, Cyclogram]:
+        """The cyclograms of a knot and of a row."""
+        return self.weaver.cyclogram, self.row_cyclogram
+
+    @property
+    def times(self) -> Times:
+        """What the acts of weaving take [s], as the programme counts them.
+
+        A step to the next knot that is longer than the heads leave for it lengthens the knot.
+        """
+        head = self.weaver
+        late = max(0.0, head.carriage_step - head.carriage_window)
+        return Times(head.cycle + late, head.colour_change, head.travel, self.row_cyclogram.period)
+
+
+def design(params: AutomatedLoomParams) -> LoomDesign:
+    """The loom for a carpet.
+
+    Raises LoomError where the heads do not fit, no stock tube carries the warps, or the shed leaves no time for shuttle
+    and beat; CarpetError for a carpet without knots; the errors of the machines where those cannot be.
+    """
+    quality = params.quality
+    rows, columns = knot_grid(Size(params.width, params.length), quality)
+    most = heads_that_fit(columns, 2 * params.pitch, params.head_width)
+    heads = _heads(params, most)
+    head = weaver.design(_weaver_params(params))
+    beating = beat_up.design(_beat_up_params(params))
+    cams = _shedding(params, 2 * columns)
+    timing = _row_timing(params, cams, beating, 1 / quality.along)
+    period = _row_period(params, timing)
+    if period > turn / params.shed_speed:
+        cams = shedding.design(replace(cams.params, speed=turn / period))
+    tube, cylinder = _cylinder(params, 2 * columns, 1 / quality.along, take_up_time(timing, period))
+    row = cyclogram(timing, period)
+    return LoomDesign(params, rows, columns, heads, most, head, cams, beating, cylinder, tube, timing, row)
+
+
+def frame_width(params: AutomatedLoomParams) -> float:
+    """Distance of the bearings of cylinders and cam shaft [m]."""
+    return params.width + 2 * params.margin
+
+
+def warp_tension_of(params: AutomatedLoomParams) -> float:
+    """Tension of a warp [N]: as given, or the thesis' for the warp's mass."""
+    return params.tension or TENSION * params.pitch / TENSION_PITCH
+
+
+def _heads(params: AutomatedLoomParams, most: int) -> int:
+    """The number of heads: as asked for, or the usual, if so many fit."""
+    if params.heads is not None and params.heads > most:
+        width, head = format_quantity(params.width, "m"), format_quantity(params.head_width, "mm")
+        raise LoomError(
+            f"{params.heads} heads of {head} do not fit a carpet {width} wide",
+            allowed=f"at most {most}: neighbours keep half a head's share of the row between them",
+            do=f"set heads={most}, or narrower heads",
+        )
+    return params.heads or min(HEADS, most)
+
+
+def _weaver_params(params: AutomatedLoomParams) -> weaver.WeaverParams:
+    return weaver.WeaverParams(
+        cycle=params.knot_cycle,
+        law=params.knot_law,
+        knot_yarn=params.knot_yarn,
+        acceleration_limit=params.head_acceleration,
+        knot_pitch=2 * params.pitch,
+        carriage_speed=params.carriage_speed,
+        tubes=params.colours,
+    )
+
+
+def _beat_up_params(params: AutomatedLoomParams) -> beat_up.BeatUpParams:
+    return beat_up.BeatUpParams(
+        speed=params.beat_speed,
+        beater_mass=params.beater_density * params.width,
+        beat_force=params.beat_force * params.width,
+    )
+
+
+def _shedding(params: AutomatedLoomParams, warps: int) -> shedding.SheddingDesign:
+    """The cams, with a prime circle that leaves room for the shaft's bore: a larger cam is heavier, so by turns."""
+    asked = shedding.SheddingParams(
+        lift=params.lift,
+        warps=warps,
+        warp_pitch=params.pitch,
+        tension=warp_tension_of(params),
+        half_span=params.half_span,
+        shuttle_height=params.shuttle_height,
+        speed=params.shed_speed,
+        shaft_length=frame_width(params),
+    )
+    made = shedding.design(asked)
+    for _ in range(_TURNS):
+        least = prime_radius_for_bore(made)
+        if made.cam.prime_radius >= least or least > _LARGEST_PRIME:
+            break
+        made = shedding.design(replace(asked, prime_radius=math.ceil(least / mm) * mm))
+    return made
+
+
+_TURNS = 20
+_LARGEST_PRIME = 1.0
+
+
+def _row_timing(
+    params: AutomatedLoomParams, cams: shedding.SheddingDesign, beating: beat_up.BeatUp, row_pitch: float
+) -> RowTiming:
+    swing, dead = float(beating.dead_centres.swing), beating.dead_centres
+    return RowTiming(
+        lift=params.lift,
+        law=cams.params.law,
+        window=cams.shuttle_window,
+        shuttle_stroke=params.width + 2 * params.shuttle_run,
+        beat_stroke=2 * beating.lengths["beater"] * math.sin(swing / 2),
+        beat_time=turn / params.beat_speed,
+        beat_share=1 - float(dead.rotation) / turn,
+        beat_end=params.beat_end,
+        row_pitch=row_pitch,
+        take_up_end=params.take_up_end,
+    )
+
+
+def _row_period(params: AutomatedLoomParams, timing: RowTiming) -> float:
+    """Time of a turn of the shedding cams [s]: as asked for, or the shortest that shuttle and beat allow."""
+    shed, window = format_quantity(params.lift, "mm"), timing.window
+    if window[1] - window[0] < 1e-6:
+        raise LoomError(
+            f"a shed of {shed} has no room for a shuttle of {format_quantity(params.shuttle_height, 'mm')}",
+            allowed="the lift must exceed the shuttle's height",
+            do="set a larger lift or a lower shuttle_height",
+        )
+    shortest = shortest_row(timing, params.shuttle_speed, params.shuttle_acceleration)
+    if not math.isfinite(shortest):
+        raise LoomError(
+            f"the beater is to be back at {format_quantity(params.beat_end, 'deg')}",
+            allowed=f"the shed is free of the shuttle from {format_quantity(window[1], 'deg')} on",
+            do="set a later beat_end, or a higher shuttle_height for a shorter passage",
+        )
+    if params.take_up_end <= params.beat_end:
+        raise LoomError("the take-up ends before the beat", do="set take_up_end after beat_end")
+    return max(turn / params.shed_speed, shortest)
+
+
+def _cylinder(
+    params: AutomatedLoomParams, warps: int, row_pitch: float, take_up: float
+) -> tuple[tuple[float, float], WarpTensionDesign]:
+    """The lightest stock tube that carries the warps within slope and deflection, and the cylinder made of it."""
+    asked = warp_tension.WarpTensionParams(
+        warps=warps,
+        tension=warp_tension_of(params),
+        width=frame_width(params),
+        row_pitch=row_pitch,
+        take_up_time=take_up,
+        carpet_length=params.length,
+    )
+    load = warps * asked.tension / asked.width
+    for diameter, wall in sorted(STOCK_TUBES, key=lambda tube: tube[1] * (tube[0] - tube[1])):
+        outer, inner = diameter / 2, diameter / 2 - wall
+        inertia = float(beams.tube_inertia(outer, inner))
+        slope = float(beams.slope_max(load, asked.width, asked.modulus, inertia))
+        sag = float(beams.deflection_max(load, asked.width, asked.modulus, inertia))
+        if slope <= asked.slope_limit and sag <= asked.deflection_limit:
+            return (diameter, wall), warp_tension.design(replace(asked, outer_radius=outer, inner_radius=inner))
+    pull, across = format_quantity(load, "kN/m"), format_quantity(asked.width, "m")
+    raise LoomError(
+        f"no stock tube carries {pull} of warps over {across}",
+        allowed=f"slope {asked.slope_limit:g} rad, deflection {format_quantity(asked.deflection_limit, 'mm')}",
+        do="set a lower tension or a narrower carpet",
+    )

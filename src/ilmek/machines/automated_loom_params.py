@@ -1,0 +1,101 @@
+"""What is asked of an automated loom for one carpet. Everything else is derived from it."""
+
+from dataclasses import dataclass
+
+from ilmek.cams.laws import LAWS
+from ilmek.carpet.knots import WRAPS
+from ilmek.carpet.quality import COARSEST, FINEST, Quality
+from ilmek.carpet.sizes import LARGEST, SMALLEST
+from ilmek.errors import LoomError
+from ilmek.params import Params, param
+from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
+
+QUALITY = 25 / dm
+"""Knots per metre where neither density nor pitch is said: the thesis' loom."""
+
+
+WIDEST = 12.0
+"""The widest loom [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class AutomatedLoomParams(Params):
+    """The carpet, the heads, and the limits of what moves; the defaults are the thesis' loom with four heads."""
+
+    width: float = param(1.2, unit="m", at_least=SMALLEST, at_most=WIDEST, doc="width of the carpet")
+    length: float = param(1.8, unit="m", at_least=SMALLEST, at_most=LARGEST, doc="length of the carpet")
+    knots_across: float | None = param(
+        None, unit="1/dm", at_least=COARSEST, at_most=FINEST, doc="knots along a row; none: what the warp pitch gives"
+    )
+    knots_along: float | None = param(
+        None, unit="1/dm", at_least=COARSEST, at_most=FINEST, doc="rows along the carpet; none: as across"
+    )
+    warp_pitch: float | None = param(
+        None, unit="mm", above=0.0, at_most=0.05, doc="distance of two warps; none: two warps a knot"
+    )
+    knot: str = param("symmetric", choices=tuple(WRAPS), doc="kind of knot")
+    heads: int | None = param(
+        None, at_least=1, at_most=1000, doc="knotting heads that share a row; none: four, or as many as fit"
+    )
+    head_width: float = param(80 * mm, unit="mm", above=0.0, at_most=1.0, doc="least distance of two heads")
+    colours: int = param(16, at_least=1, at_most=255, doc="yarns, a tube for each in every head")
+    knot_cycle: float = param(2.0, unit="s", above=0.0, doc="time of a knot that is asked for")
+    knot_yarn: float = param(45 * mm, unit="mm", above=0.0, at_most=0.3, doc="pile yarn drawn for a knot")
+    knot_law: str = param("modified-sine", choices=tuple(LAWS), doc="law of the heads' cams")
+    head_acceleration: float = param(20.0, unit="m/s^2", above=0.0, doc="allowed acceleration of a head's tools")
+    carriage_speed: float = param(0.25, unit="m/s", above=0.0, doc="speed of a head along the row")
+    changes_per_knot: float = param(
+        0.06, at_least=0.0, at_most=1.0, doc="colour changes a knot, to estimate the time before there is a chart"
+    )
+    tension: float | None = param(
+        None, unit="N", above=0.0, at_most=1e3, doc="tension of a warp; none: 15 N at 2 mm pitch, as the warp's mass"
+    )
+    margin: float = param(50 * mm, unit="mm", at_least=0.0, at_most=1.0, doc="from the carpet's edge to a bearing")
+    lift: float = param(60 * mm, unit="mm", above=0.0, at_most=0.5, doc="lift of the warps for the shed")
+    half_span: float = param(
+        170 * mm, unit="mm", above=0.0, at_most=2.0, doc="shedding cams to the next hold of the warps"
+    )
+    shed_speed: float = param(5 * rpm, unit="rpm", above=0.0, at_most=60 * rpm, doc="speed of the shedding cams")
+    shuttle_height: float = param(40 * mm, unit="mm", above=0.0, at_most=0.3, doc="shed that the shuttle needs")
+    shuttle_run: float = param(150 * mm, unit="mm", above=0.0, at_most=1.0, doc="run of the shuttle beyond each edge")
+    shuttle_speed: float = param(3.0, unit="m/s", above=0.0, doc="allowed speed of the shuttle")
+    shuttle_acceleration: float = param(20.0, unit="m/s^2", above=0.0, doc="allowed acceleration of the shuttle")
+    beat_speed: float = param(15.5, unit="rad/s", above=0.0, doc="speed of the beat-up's crank")
+    beater_density: float = param(2.5 / 1.2, unit="kg/m", above=0.0, doc="mass of the beater over the width")
+    beat_force: float = param(50.0, unit="N/m", at_least=0.0, doc="force on the beater over the width that is wanted")
+    beat_end: float = param(
+        158 * deg, unit="deg", above=0.0, below=turn / 2, doc="cam angle at which the beater is back"
+    )
+    take_up_end: float = param(178 * deg, unit="deg", above=0.0, at_most=turn / 2, doc="cam angle, of the second half")
+
+    @property
+    def pitch(self) -> float:
+        """Distance of two warps [m]: as given, or two warps for each knot."""
+        return self.warp_pitch or 0.5 / (self.knots_across or QUALITY)
+
+    @property
+    def quality(self) -> Quality:
+        """The carpet's quality; what is not said follows the warp pitch, and rows follow knots across."""
+        across = self.knots_across or 0.5 / self.pitch
+        return Quality(across, self.knots_along or across)
+
+    def check_together(self) -> None:
+        """Raise LoomError where the warp pitch does not give the knots across."""
+        gives = 0.5 / self.pitch
+        if abs(self.quality.across / gives - 1) > _SAME:
+            wanted, pitch = self.quality.across, format_quantity(self.pitch, "mm")
+            needed = format_quantity(0.5 / wanted, "mm")
+            finer = wanted > gives
+            raise LoomError(
+                f"{_per_dm(wanted)} knots/dm on a warp pitch of {pitch}",
+                allowed=f"{_per_dm(gives)} knots/dm is {'all' if finer else 'what'} that {pitch} pitch gives",
+                do=f"{_per_dm(wanted)}/dm needs {needed}: set warp_pitch so, or leave it out",
+            )
+
+
+_SAME = 5e-3
+"""A pitch within half a percent is the quality's: dealers allow ten."""
+
+
+def _per_dm(density: float) -> str:
+    return f"{density * dm:.4g}"

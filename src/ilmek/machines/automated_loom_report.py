@@ -1,0 +1,172 @@
+"""What an automated loom says: its own results and checks, and those of the machines in it."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ilmek.elements.shafts import STOCK_SIDES
+from ilmek.machines import beat_up, shedding, warp_tension, weaver
+from ilmek.machines.automated_loom_cyclogram import SHUTTLE, relations
+from ilmek.machines.automated_loom_design import LoomDesign, warp_tension_of
+from ilmek.machines.automated_loom_figures import figures
+from ilmek.machines.automated_loom_time import estimated_time
+from ilmek.machines.rounding import settled
+from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
+from ilmek.timing.cyclogram import check_all
+from ilmek.timing.track import peak_acceleration, peak_speed
+from ilmek.units import format_quantity, turn
+
+
+def report(loom: LoomDesign) -> Report:
+    """Everything that the loom's design says; checks of a machine carry its name."""
+    parts = parts_of(loom)
+    checks = (*_checks(loom), *(check for part in parts for check in _prefixed(part)))
+    warnings = (*_warnings(loom), *(f"{part.machine}: {said}" for part in parts for said in part.warnings))
+    return Report(
+        "automated-loom",
+        "Automated loom",
+        loom.params.as_dict(),
+        (*_results(loom), *(_nested(part) for part in parts)),
+        checks,
+        (_heads_table(loom), _parts_table(loom), _row_table(loom)),
+        figures(loom),
+        warnings,
+    )
+
+
+def parts_of(loom: LoomDesign) -> tuple[Report, Report, Report, Report]:
+    """The reports of the machines in the loom: head, beat-up, shedding, warp tension."""
+    return (
+        weaver.report(loom.weaver),
+        beat_up.report(loom.beat_up),
+        shedding.report(loom.shedding),
+        warp_tension.report(loom.warp_tension),
+    )
+
+
+def bottleneck(loom: LoomDesign) -> str:
+    """What takes most of a row: knotting, or wefts and beats."""
+    row = estimated_time(loom) / loom.rows
+    return "knotting" if row > 2 * loom.times.weft else "wefts and beats"
+
+
+def _results(loom: LoomDesign) -> tuple[Result, ...]:
+    params, times = loom.params, loom.times
+    estimate, knots = estimated_time(loom), loom.rows * loom.columns
+    return (
+        Result("cycle_time_knot", times.knot, "s", "time of a knot of one head"),
+        Result(
+            "cycle_time_row", times.weft, "s", "wefts and beats of a row: a turn of the shedding cams, without knots"
+        ),
+        Result("row_time", estimate / loom.rows, "s", "a row with its knots, estimated"),
+        Result("knots_per_minute", 60 * knots / estimate, "1", "of all heads, wefts included, estimated"),
+        Result("weaving_time", estimate, "h", "the carpet, estimated; a programme tells it exactly"),
+        Result("bottleneck", bottleneck(loom), "", "what takes most of a row"),
+        Result("heads", loom.heads, "1", "knotting heads"),
+        Result("heads_max", loom.heads_max, "1", "the most that can share a row without meeting"),
+        Result("rows", loom.rows, "1", "rows of knots"),
+        Result("columns", loom.columns, "1", "knots of a row"),
+        Result("knots", knots, "1", "knots of the carpet"),
+        Result("warps", loom.warps, "1", "warps: two for each knot of a row"),
+        Result("warp_pitch", params.pitch, "mm", "distance of two warps"),
+        Result("tension", warp_tension_of(params), "N", "tension of a warp"),
+        Result("colour_change_time", times.colour_change, "s", "mean time to bring another yarn in line"),
+        Result("tube", {"diameter": loom.tube[0], "wall": loom.tube[1]}, "mm", "stock tube of the warp cylinders"),
+        Result("mass", _mass(loom), "kg", "cams with shaft, three cylinders, beat-up; frame and heads not counted"),
+    )
+
+
+def _mass(loom: LoomDesign) -> float:
+    beating = sum(loom.beat_up.masses.values()) + loom.beat_up.params.beater_mass
+    return loom.shedding.stack.mass + 3 * loom.warp_tension.mass + beating
+
+
+def _nested(part: Report) -> Result:
+    results: Json = {result.name: result.value for result in part.results}
+    return Result(part.machine.replace("-", "_"), results, "", f"results of the {part.machine}")
+
+
+def _prefixed(part: Report) -> Iterator[Check]:
+    return (replace(check, name=f"{part.machine}: {check.name}") for check in part.checks)
+
+
+def _checks(loom: LoomDesign) -> tuple[Check, ...]:
+    params, cyclogram = loom.params, loom.row_cyclogram
+    shuttle = cyclogram.track(SHUTTLE)
+    speed, acceleration = peak_speed(shuttle, cyclogram.period), peak_acceleration(shuttle, cyclogram.period)
+    limit = params.shuttle_acceleration
+    shed = loom.shedding.params.shuttle_height
+    return (
+        at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width"),
+        at_least("distance of two heads", loom.head_distance, params.head_width, "mm", "head_width"),
+        at_most("shuttle: speed", settled(speed, params.shuttle_speed), params.shuttle_speed, "m/s", "shuttle_speed"),
+        at_most("shuttle: acceleration", settled(acceleration, limit), limit, "m/s^2", "shuttle_acceleration"),
+        at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
+        *(replace(check, name=f"row: {check.name}") for check in check_all(cyclogram, relations())),
+    )
+
+
+def _least_room(loom: LoomDesign) -> float:
+    """The least opening of the shed while the shuttle is in it [m]; it is least when it enters and when it leaves."""
+    passing = loom.row_cyclogram.track(SHUTTLE).segment("pass")
+    rooms = loom.shedding.opening(np.array([passing.start, passing.end]))
+    return settled(float(rooms.min()), loom.shedding.params.shuttle_height)
+
+
+def _heads_table(loom: LoomDesign) -> Table:
+    columns = (Column("heads"), Column("weaving time", "h"), Column("a row", "s"), Column("knots a minute"))
+    knots = loom.rows * loom.columns
+    rows = []
+    for heads in range(1, loom.heads_max + 1):
+        time = estimated_time(loom, heads)
+        rows.append((heads, time, time / loom.rows, 60 * knots / time))
+    return Table("loom-heads", "Weaving time by number of heads, estimated", columns, tuple(rows))
+
+
+def _parts_table(loom: LoomDesign) -> Table:
+    tube, stack, cylinder = loom.tube, loom.shedding.stack, loom.warp_tension
+    outer, wall = (format_quantity(size, "mm") for size in tube)
+    bar, prime = (format_quantity(size, "mm") for size in (loom.shedding.shaft.bar, loom.shedding.cam.prime_radius))
+    rows = (
+        ("knotting head", loom.heads, f"five cams, {loom.params.colours} tubes", "not weighed"),
+        ("shedding cam", loom.warps, f"prime radius {prime}", f"{loom.warps * stack.cam_mass:.4g} kg"),
+        (
+            "guide cam",
+            loom.warps,
+            f"radius {stack.guide_radius * 1e3:.4g} mm",
+            f"{loom.warps * stack.guide_mass:.4g} kg",
+        ),
+        ("cam shaft", 1, f"square {bar}", "with the cams"),
+        ("cylinder", 3, f"tube {outer} x {wall}", f"{3 * cylinder.mass:.4g} kg"),
+        ("beater", 1, "comb across the warps", f"{loom.beat_up.params.beater_mass:.4g} kg"),
+    )
+    columns = (Column("part"), Column("number"), Column("what"), Column("mass, all"))
+    return Table("loom-parts", "Parts of the loom", columns, rows)
+
+
+def _row_table(loom: LoomDesign) -> Table:
+    columns = (Column("track"), Column("motion"), Column("from", "deg"), Column("to", "deg"), Column("time", "s"))
+    period = loom.row_cyclogram.period
+    rows = tuple(
+        (track.name, part.name, part.start, part.end, (part.end - part.start) / turn * period)
+        for track in loom.row_cyclogram.tracks
+        for part in track.segments
+    )
+    return Table("loom-row", "Motions of a row over the angle of the shedding cams", columns, rows)
+
+
+def _warnings(loom: LoomDesign) -> tuple[str, ...]:
+    params, said = loom.params, []
+    if params.knot != "symmetric":
+        said.append(
+            f"the head of the thesis ties symmetric knots; {params.knot} ones need other motions of its grippers"
+        )
+    asked = turn / params.shed_speed
+    if loom.times.weft > asked * (1 + 1e-9):
+        slower = format_quantity(turn / loom.times.weft, "rpm")
+        said.append(f"the shedding cams turn at {slower} only: shuttle and beat need that time at this width")
+    if loom.shedding.shaft.bar > STOCK_SIDES[-1]:
+        bar, largest = (format_quantity(side, "mm") for side in (loom.shedding.shaft.bar, STOCK_SIDES[-1]))
+        said.append(f"the cam shaft needs a bar of {bar}, beyond the {largest} of stock: give it bearings between")
+    return tuple(said)

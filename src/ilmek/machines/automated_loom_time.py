@@ -1,0 +1,87 @@
+"""How long a loom weaves: estimated before there is a chart, and told from a programme.
+
+    estimate = rows * ( wefts + (n_first + n_second) * (t_knot + c t_change) )
+
+n knots of the widest part in each half of a row, c colour changes a knot. Waiting for the slower of two heads is not in
+the estimate; a programme has it.
+"""
+
+from dataclasses import dataclass, replace
+
+from ilmek.arrays import Indices
+from ilmek.errors import LoomError
+from ilmek.loom.programme import Programme, heads_for, least_time, make_programme
+from ilmek.machines.automated_loom_design import LoomDesign, design
+from ilmek.machines.automated_loom_params import AutomatedLoomParams
+from ilmek.machines.weaver_design import HAND_KNOT
+
+
+@dataclass(frozen=True, slots=True)
+class Production:
+    """Where the weaving time of a carpet goes [s].
+
+    total        weaving time                       wefts      of it, wefts and beats
+    tying, changing, travelling, waiting            the rest, as the mean of the heads: together total - wefts
+    by_hand      what the best hand weaver takes for the knots alone
+    """
+
+    total: float
+    wefts: float
+    tying: float
+    changing: float
+    travelling: float
+    waiting: float
+    knots: int
+    by_hand: float
+
+    @property
+    def knots_per_minute(self) -> float:
+        """Knots a minute of all heads, wefts and waiting included."""
+        return 60 * self.knots / self.total
+
+    @property
+    def utilisation(self) -> float:
+        """Share of the weaving time that a head ties, on average."""
+        return self.tying / self.total
+
+
+def programme_for(
+    knots: Indices, yarns: int, params: AutomatedLoomParams, deadline: float | None = None
+) -> tuple[LoomDesign, Programme]:
+    """The loom and the programme for a chart of indices below `yarns`, row 0 = top.
+
+    With a deadline [s] the loom gets the smallest number of heads that meets it. Raises LoomError where none does, and
+    where the chart is not the knots of the loom's carpet; and the errors of `design`.
+    """
+    loom = design(replace(params, heads=None) if deadline is not None else params)
+    if knots.shape != (loom.rows, loom.columns):
+        raise LoomError(
+            f"a chart of {knots.shape[1]} x {knots.shape[0]} knots",
+            allowed=f"the carpet of this loom has {loom.columns} x {loom.rows}",
+            do="give the loom the size and quality of the chart",
+        )
+    if deadline is not None:
+        loom = design(replace(params, heads=heads_for(knots, yarns, deadline, loom.times, loom.heads_max)))
+    return loom, make_programme(knots, yarns, loom.heads, loom.times)
+
+
+def production_time(programme: Programme) -> Production:
+    """Where the time of a programme goes, on the loom whose times it was made with."""
+    times, work, heads = programme.times, programme.work, programme.heads
+    wefts = programme.rows * times.weft
+    knots = int(work.knots.sum())
+    tying, changing = knots * times.knot / heads, int(work.changes.sum()) * times.colour_change / heads
+    busy = float(work.busy.sum()) / heads
+    total = programme.duration
+    waiting = max(0.0, total - wefts - busy)
+    # What a head is busy with besides tying and changing is moving.
+    travelling = max(0.0, busy - tying - changing)
+    return Production(total, wefts, tying, changing, travelling, waiting, knots, knots * HAND_KNOT)
+
+
+def estimated_time(loom: LoomDesign, heads: int | None = None) -> float:
+    """Weaving time [s] without a chart, for the loom's heads or another number."""
+    changes = loom.params.changes_per_knot
+    times = loom.times
+    knot = times.knot + changes * times.colour_change
+    return least_time(loom.rows, loom.columns, heads or loom.heads, replace(times, knot=knot))

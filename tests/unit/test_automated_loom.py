@@ -1,0 +1,198 @@
+"""The automated loom: what follows from a carpet, what is checked, and what cannot be."""
+
+import contextlib
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ilmek.arrays import Indices
+from ilmek.errors import IlmekError, LoomError, ParameterError
+from ilmek.machines.automated_loom import (
+    MACHINE,
+    AutomatedLoomParams,
+    design,
+    estimated_time,
+    production_time,
+    programme_for,
+    report,
+)
+from ilmek.machines.automated_loom_cyclogram import BEATER, SHUTTLE
+from ilmek.report import Drawing, Plot, Timing
+from ilmek.timing.track import peak_acceleration, peak_speed, sample
+from ilmek.units import deg, dm, hour, mm
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        dict(width=0.25, length=0.4, heads=1),
+        dict(width=3.0, length=4.0, heads=10),
+        dict(width=2.0, length=3.0, knots_across=100 / dm, heads=12),
+        dict(width=2.2, length=2.8, knots_across=180 / dm, heads=13),
+        dict(width=1.2, knots_across=10 / dm, knots_along=20 / dm, heads=2),
+        dict(width=5.0, length=7.0, heads=20),
+    ],
+)
+def test_looms_for_other_carpets_keep_all_limits(settings: dict[str, Any]) -> None:
+    loom = design(AutomatedLoomParams(**settings))
+    made = report(loom)
+    assert [check.name for check in made.failed] == []
+    assert loom.warps == 2 * loom.columns
+    assert loom.shedding.params.warps == loom.warp_tension.params.warps == loom.warps
+    assert loom.knot_pitch * loom.columns == pytest.approx(loom.params.width, abs=loom.knot_pitch)
+    assert loom.head_distance >= loom.params.head_width
+
+
+def test_checks_carry_the_name_of_their_machine() -> None:
+    names = [check.name for check in report(design(AutomatedLoomParams())).checks]
+    assert len(set(names)) == len(names)
+    for machine in ("weaver", "beat-up", "shedding", "warp-tension", "row", "shuttle"):
+        assert any(name.startswith(f"{machine}: ") for name in names)
+
+
+def test_results_and_figures() -> None:
+    made = report(design(AutomatedLoomParams()))
+    results = made.as_json()["results"]
+    assert len(results) == len(made.results)
+    assert results["beat_up"]["transmission_angle_min"] > 0
+    assert results["shedding"]["prime_radius"] == pytest.approx(78.16653826 * mm)
+    assert results["warp_tension"]["torque"] == pytest.approx(630.0)
+    assert results["weaver"]["cycle_time_knot"] == results["cycle_time_knot"] == 2.0
+    assert [type(figure) for figure in made.figures] == [Drawing, Timing, Timing, Plot]
+
+
+def test_shuttle_and_beater_are_never_in_the_shed_together() -> None:
+    loom = design(AutomatedLoomParams())
+    angle = np.linspace(0, 2 * math.pi, 7201)
+    moving = np.abs(sample(loom.row_cyclogram.track(SHUTTLE), angle).slope) > 1e-6
+    beating = sample(loom.row_cyclogram.track(BEATER), angle).position > 1e-6
+    assert moving.any()
+    assert beating.any()
+    assert not (moving & beating).any()
+    opening = np.abs(loom.shedding.opening(angle[moving]))
+    assert opening.min() >= loom.params.shuttle_height - 1e-9
+
+
+def test_a_wide_loom_takes_the_time_that_its_shuttle_needs() -> None:
+    loom = design(AutomatedLoomParams(width=5.0, shuttle_speed=2.0))
+    shuttle, period = loom.row_cyclogram.track(SHUTTLE), loom.row_cyclogram.period
+    assert period > 12.0
+    assert peak_speed(shuttle, period) == pytest.approx(2.0)
+    assert peak_acceleration(shuttle, period) < 20.0
+    assert loom.shedding.params.speed == pytest.approx(2 * math.pi / period)
+    assert any("shedding cams turn at" in said for said in report(loom).warnings)
+
+
+def test_a_slow_beat_lengthens_the_row() -> None:
+    loom = design(AutomatedLoomParams(beat_speed=1.0))
+    assert loom.times.weft > 12.0
+    assert [check for check in report(loom).failed if check.name.startswith("row")] == []
+
+
+@pytest.mark.parametrize(
+    ("settings", "pitch", "across"),
+    [({}, 2 * mm, 250.0), ({"warp_pitch": 1 * mm}, 1 * mm, 500.0), ({"knots_across": 400.0}, 1.25 * mm, 400.0)],
+)
+def test_pitch_and_quality_follow_each_other(settings: dict[str, Any], pitch: float, across: float) -> None:
+    params = AutomatedLoomParams(**settings)
+    assert params.pitch == pytest.approx(pitch)
+    assert (params.quality.across, params.quality.along) == pytest.approx((across, across))
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        (
+            dict(warp_pitch=2 * mm, knots_across=40 / dm),
+            "40 knots/dm on a warp pitch of 2 mm; 25 knots/dm is all that 2 mm pitch gives; 40/dm needs 1.25 mm",
+        ),
+        (dict(warp_pitch=2 * mm, knots_across=20 / dm), "25 knots/dm is what that 2 mm pitch gives"),
+        (dict(heads=9), "9 heads of 80 mm do not fit a carpet 1.2 m wide; at most 7"),
+        (dict(shuttle_height=70 * mm), "a shed of 60 mm has no room for a shuttle of 70 mm"),
+        (dict(beat_end=120 * deg), "the shed is free of the shuttle from 125.3 deg on"),
+        (dict(take_up_end=150 * deg), "the take-up ends before the beat"),
+        (dict(width=12.0), "no stock tube carries"),
+    ],
+)
+def test_looms_that_cannot_be(settings: dict[str, Any], said: str) -> None:
+    with pytest.raises(LoomError, match=said):
+        design(AutomatedLoomParams(**settings))
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [dict(width=20.0), dict(width=-1.0), dict(heads=0), dict(knots_across=0.0), dict(colours=300), dict(knot="granny")],
+)
+def test_parameters_out_of_bounds(settings: dict[str, Any]) -> None:
+    with pytest.raises(ParameterError):
+        AutomatedLoomParams(**settings)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        dict(width=0.01, length=0.01, heads=1),
+        dict(width=12.0, length=50.0, knots_across=1 / dm, heads=1),
+        dict(width=0.3, knots_across=500 / dm, heads=1),
+        dict(lift=0.5),
+        dict(shed_speed=6.0),
+        dict(margin=0.0),
+        dict(head_width=1.0, heads=1),
+        dict(knot_cycle=0.001),
+        dict(shuttle_run=1.0),
+        dict(beat_speed=0.01),
+    ],
+)
+def test_extreme_looms_are_designed_or_refused_in_words(settings: dict[str, Any]) -> None:
+    with contextlib.suppress(IlmekError):
+        assert report(design(AutomatedLoomParams(**settings))).as_json()["results"]["cycle_time_row"] > 0
+
+
+def test_more_heads_weave_sooner() -> None:
+    loom = design(AutomatedLoomParams())
+    times = [estimated_time(loom, heads) for heads in range(1, loom.heads_max + 1)]
+    assert times == sorted(times, reverse=True)
+    assert times[0] == pytest.approx(450 * (12 + 300 * (2 + 0.06 * 0.54)))
+
+
+def chart() -> Indices:
+    rows, columns = np.mgrid[0:450, 0:300]
+    return ((rows // 9 + columns // 7) % 5).astype(np.uint8)
+
+
+def test_from_chart_and_deadline_to_heads_and_time() -> None:
+    loom, programme = programme_for(chart(), 5, AutomatedLoomParams(), deadline=24 * hour)
+    assert loom.heads == programme.heads == 4
+    assert programme.times == loom.times
+    spent = production_time(programme)
+    assert spent.total == programme.duration <= 24 * hour
+    parts = spent.wefts + spent.tying + spent.changing + spent.travelling + spent.waiting
+    assert parts == pytest.approx(spent.total)
+    assert spent.tying == pytest.approx(135000 * 2.0 / 4)
+    assert spent.by_hand == pytest.approx(135000 * 2.4)
+    assert 0.85 < spent.utilisation < 1
+    assert spent.knots_per_minute == pytest.approx(135000 / (spent.total / 60))
+
+
+def test_heads_by_default_and_as_asked_for() -> None:
+    assert programme_for(chart(), 5, AutomatedLoomParams())[1].heads == 4
+    assert programme_for(chart(), 5, AutomatedLoomParams(heads=7))[1].heads == 7
+    assert design(AutomatedLoomParams(width=0.25, length=0.4)).heads == 1
+
+
+def test_a_chart_of_another_carpet() -> None:
+    with pytest.raises(LoomError, match="a chart of 300 x 450 knots; the carpet of this loom has 300 x 500"):
+        programme_for(chart(), 5, AutomatedLoomParams(length=2.0))
+
+
+def test_a_deadline_that_no_number_of_heads_meets() -> None:
+    with pytest.raises(LoomError, match="7 heads are all that fit this width; they weave it in"):
+        programme_for(chart(), 5, AutomatedLoomParams(), deadline=8 * hour)
+
+
+def test_the_machine_reads_its_parameters() -> None:
+    settings = {"width": "1.2m", "warp_pitch": "2mm", "heads": "4", "knots_along": "30 1/dm"}
+    results = MACHINE.report(MACHINE.design(AutomatedLoomParams.read(settings))).as_json()["results"]
+    assert (results["heads"], results["rows"], results["columns"]) == (4, 540, 300)
