@@ -136,7 +136,7 @@ OTHER = {
     "folder below a device": ("chart good.png --out /dev/null/out", "is not a folder"),
     "folder in no file system": ("chart good.png --out /proc/ilmek/out", "cannot be (written|made)"),
     "unknown machine": ("design beat-pu", "did you mean beat-up"),
-    "unknown machine to list": ("machines hammer", "machines: beat-up"),
+    "unknown machine to list": ("machines hammer", "machines: automated-loom, weaver, beat-up"),
     "unknown parameter": ("design beat-up --set swimg=30deg", "did you mean swing"),
     "setting without value": ("design beat-up --set swing", "write NAME=VALUE"),
     "setting without name": ("design beat-up --set =3", "write NAME=VALUE"),

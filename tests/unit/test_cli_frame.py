@@ -30,7 +30,7 @@ def failing(error: BaseException) -> Frame:
         raise error
 
     class One(Frame):
-        def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # click's signature
+        def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's
             return command if cmd_name == "go" else None
 
     return One(name="ilmek", modules={"go": ("nowhere", "Go.")})

@@ -40,7 +40,7 @@ def command(out: Path | None, force: bool, json_to: str | None, **order: Any) ->
     with progress_bar() as told:
         charted = make_charted(wanted, told)
         files = _write(charted, folder, force)
-    data = job_json("chart", wanted, chart_results(charted), notes=list(charted.notes), files=files)
+    data = job_json("chart", wanted.as_dict(), chart_results(charted), notes=list(charted.notes), files=files)
     if not give_json(json_to, data):
         show_chart(charted)
         if folder is not None:
@@ -53,7 +53,7 @@ def _write(charted: Charted, folder: Path | None, force: bool) -> list[str]:
     if folder is None:
         return []
     files = [str(folder / name) for name in (*FILES, "chart.json")]
-    data = job_json("chart", charted.order, chart_results(charted), notes=list(charted.notes), files=files)
+    data = job_json("chart", charted.order.as_dict(), chart_results(charted), notes=list(charted.notes), files=files)
     with output_folder(folder, force=force) as work:
         write_chart(charted, work)
         write_json(work / "chart.json", data)

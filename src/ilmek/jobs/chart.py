@@ -1,5 +1,6 @@
 """The carpet part: picture to knot chart and yarn bill, and their files."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -87,14 +88,13 @@ def _need(need: YarnNeed) -> dict[str, Any]:
     return {name: getattr(need, name) for name in ("name", "use", "knots", "length", "mass", "price")}
 
 
-def write_chart(charted: Charted, folder: Path, told: Told | None = None) -> None:
+def write_chart(charted: Charted, folder: Path, progress: Callable[[float], None] | None = None) -> None:
     """Write the chart's files into a folder. An OSError passes through."""
-    progress = part(told, "chart.pdf", 0.0, 1.0)
     write_chart_png(folder / "chart.png", charted.chart)
     write_chart_pdf(folder / "chart.pdf", charted.chart, progress=progress)
     write_yarn_csv(folder / "yarn.csv", charted.bill, charted.chart.yarns)
 
 
-def job_json(job: str, order: Order, results: dict[str, Any], **more: Any) -> dict[str, Any]:
+def job_json(job: str, parameters: dict[str, Any], results: dict[str, Any], **more: Any) -> dict[str, Any]:
     """The JSON of a job: like a machine's report (parameters, results), and each result under its own name too."""
-    return {"job": job, "parameters": order.as_dict(), "results": results, **more, **results}
+    return {"job": job, "parameters": parameters, "results": results, **more, **results}

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.knots import PileParams, parse_knot
@@ -26,7 +27,7 @@ class Order:
     keep_lone: bool
     pile: PileParams
 
-    def as_dict(self) -> dict[str, object]:
+    def as_dict(self) -> dict[str, Any]:
         """The order as plain data, SI."""
         return {
             "picture": str(self.picture),

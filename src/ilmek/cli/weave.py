@@ -1,0 +1,75 @@
+"""`ilmek weave`: the main job."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ilmek.cli.options import carpet_options, force_option, json_option
+from ilmek.cli.terminal import give_json, note, passed, progress_bar, show_pairs
+from ilmek.io.output import check_free
+from ilmek.jobs.loom import read_loom_order
+from ilmek.jobs.order import read_order
+from ilmek.jobs.place import free_folder
+from ilmek.jobs.weave import Woven, time_in_words, weave, weave_json
+from ilmek.units import format_quantity
+
+EXAMPLES = """\b
+Examples:
+  ilmek weave photo.jpg
+  ilmek weave photo.jpg --size 120x180cm --quality 40x40/dm --yarns wool.toml --knot symmetric --deadline 72h
+  ilmek weave photo.jpg --size kelle --colours 8 --heads 6 --out carpet --force
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@carpet_options
+@click.option("--heads", type=int, metavar="N", help="Knotting heads; without it 4, or as the deadline needs.")
+@click.option("--deadline", metavar="TIME", help="Find the heads that weave the carpet in this time, like 72h.")
+@click.option("--warp-pitch", metavar="LENGTH", help="Distance of two warps of your loom; without it the quality's.")
+@force_option
+@json_option
+def command(
+    *,
+    out: Path | None,
+    heads: int | None,
+    deadline: str | None,
+    warp_pitch: str | None,
+    force: bool,
+    json_to: str | None,
+    **carpet: Any,
+) -> None:
+    """Take PICTURE to everything that weaves it: knot chart, yarn, loom with its machines, programme, report.
+
+    The output folder holds report.html, report.json, chart.png, chart.pdf, yarn.csv, programme.ilmek and machine.json.
+    """
+    order = read_order(**carpet)
+    asked = read_loom_order(order, heads=heads, deadline=deadline, warp_pitch=warp_pitch)
+    folder = out or free_folder(order.picture, "carpet")
+    check_free(folder, force=force)
+    with progress_bar() as told:
+        woven = weave(order, asked, folder, force=force, told=told)
+    if not give_json(json_to, weave_json(woven)):
+        show_woven(woven)
+    for said in woven.charted.notes:
+        note(said)
+
+
+def show_woven(woven: Woven) -> None:
+    """The job in a few lines, and where the report lies."""
+    chart, bill, programme = woven.charted.chart, woven.charted.bill, woven.loomed.programme
+    heads = f"{programme.heads} (of {woven.loomed.design.heads_max} that fit)"
+    if woven.asked.deadline is not None:
+        heads = f"{programme.heads} needed for the deadline of {time_in_words(woven.asked.deadline)}"
+    show_pairs(
+        [
+            ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
+            ("knots", f"{chart.knots.size:,} ({chart.rows} rows of {chart.columns})"),
+            ("colours", f"{chart.colours} of {len(woven.charted.order.yarns)} yarns"),
+            ("yarn", f"{format_quantity(bill.mass, 'kg', 3)}, pile {format_quantity(bill.pile_mass, 'kg', 3)}"),
+            ("weaving time", time_in_words(programme.duration)),
+            ("heads", heads),
+            ("checks", passed(woven.checks)),
+            ("report", str(woven.folder / "report.html")),
+        ]
+    )

@@ -1,0 +1,97 @@
+"""The loom part: what is asked of the loom, the loom designed for a chart, and its programme."""
+
+import re
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.knots import knot_length
+from ilmek.errors import ParameterError, UnitError
+from ilmek.jobs.order import Order
+from ilmek.loom.programme import Programme, heads_for, make_programme
+from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.params import Setting
+from ilmek.units import format_quantity, parse_quantity
+
+USUAL_HEADS = 4
+"""Heads where neither a number nor a deadline is given, provided that they fit."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoomOrder:
+    """What is asked of the loom: its parameters as far as the carpet is known without its picture, and
+
+    heads     knotting heads; None: as the deadline needs, or USUAL_HEADS
+    deadline  time for the whole carpet [s]; None: none
+    """
+
+    params: AutomatedLoomParams
+    heads: int | None
+    deadline: float | None
+
+    def as_dict(self) -> dict[str, Any]:
+        """What was asked, as plain data, SI."""
+        return {"heads": self.heads, "deadline": self.deadline, "warp_pitch": self.params.pitch}
+
+
+@dataclass(frozen=True, slots=True)
+class Loomed:
+    """A loom for a chart, and the programme that weaves the chart on it."""
+
+    design: LoomDesign
+    programme: Programme
+
+
+def read_loom_order(
+    order: Order, *, heads: int | None = None, deadline: str | None = None, warp_pitch: Setting = None
+) -> LoomOrder:
+    """What is asked of the loom, from texts. Raises ParameterError, UnitError, or LoomError where the quality is beyond
+    the warp pitch.
+    """
+    if heads is not None and deadline is not None:
+        raise ParameterError("heads and a deadline are both given", do="give one of --heads and --deadline")
+    limit = None if deadline is None else _deadline(deadline)
+    settings: dict[str, Setting] = dict(
+        width=order.size.width,
+        length=order.size.length,
+        knots_across=order.quality.across,
+        knots_along=order.quality.along,
+        knot=order.knot,
+        heads=1 if heads is None else heads,
+    )
+    if warp_pitch is not None:
+        settings["warp_pitch"] = warp_pitch
+    return LoomOrder(AutomatedLoomParams.read(settings), heads, limit)
+
+
+def _deadline(text: str) -> float:
+    if re.fullmatch(r"\s*[\d.]+\s*", text):
+        raise UnitError(f"deadline {text!r} has no unit", allowed="h, min or d", do=f"did you mean {text.strip()}h?")
+    seconds = parse_quantity(text, "h")
+    if seconds <= 0:
+        raise ParameterError(f"a deadline of {format_quantity(seconds, 'h')}", allowed="above 0 h", do="like 72h")
+    return seconds
+
+
+def make_loomed(asked: LoomOrder, order: Order, chart: Chart) -> Loomed:
+    """The loom for a chart with the heads that are asked for or needed, and its programme.
+
+    Raises LoomError where the heads do not fit or the deadline cannot be met, or another error of the machines.
+    """
+    longest = max(knot_length(chart.knot, chart.quality, yarn.linear_density, order.pile) for yarn in chart.yarns)
+    params = replace(
+        asked.params, colours=chart.colours, knot_yarn=longest, changes_per_knot=min(1.0, chart.changes_per_knot)
+    )
+    made = design(params)
+    heads = _heads(asked, made, chart)
+    if heads != params.heads:
+        made = design(replace(params, heads=heads))
+    return Loomed(made, make_programme(chart.knots, len(chart.yarns), heads, made.times))
+
+
+def _heads(asked: LoomOrder, made: LoomDesign, chart: Chart) -> int:
+    if asked.heads is not None:
+        return asked.heads
+    if asked.deadline is None:
+        return min(USUAL_HEADS, made.heads_max)
+    return heads_for(chart.knots, len(chart.yarns), asked.deadline, made.times, made.heads_max)

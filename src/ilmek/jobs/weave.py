@@ -1,0 +1,174 @@
+"""The whole arc: carpet picture in; chart, yarn, loom, programme and report out."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from ilmek.io.chart_symbols import symbols
+from ilmek.io.json_file import write_json
+from ilmek.io.output import output_folder
+from ilmek.io.programme_file import Label, write_programme
+from ilmek.jobs.chart import Charted, chart_results, job_json, make_charted, write_chart
+from ilmek.jobs.loom import Loomed, LoomOrder, make_loomed
+from ilmek.jobs.order import Order
+from ilmek.jobs.told import Told, part
+from ilmek.machines.automated_loom import report as loom_report
+from ilmek.machines.automated_loom_report import parts_of
+from ilmek.report import Check, Report, at_most, check_as_json
+from ilmek.units import format_quantity, hour
+from ilmek.viz.page import CarpetPage, carpet_page
+from ilmek.viz.page_parts import Fact, FileNote
+
+FILES = (
+    FileNote("report.html", "this page: pictures, yarn, machines, checks"),
+    FileNote("report.json", "the same results as data, SI"),
+    FileNote("chart.png", "the knot chart, one pixel one knot"),
+    FileNote("chart.pdf", "the knot chart to weave from, with symbols and row numbers"),
+    FileNote("yarn.csv", "the yarn to buy"),
+    FileNote("programme.ilmek", "the loom programme; look into it with `ilmek inspect`"),
+    FileNote("machine.json", "the loom and its machines: parameters, results, checks"),
+)
+"""What a woven folder holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Woven:
+    """All that the job found, and the folder it lies in.
+
+    loom   the loom's report with everything of its machines in it     parts  the reports of its machines
+    """
+
+    charted: Charted
+    asked: LoomOrder
+    loomed: Loomed
+    loom: Report
+    parts: tuple[Report, ...]
+    folder: Path
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Every check: of the whole, the loom and each of its machines, by whose name it begins."""
+        return (*job_checks(self.asked, self.loomed), *self.loom.checks)
+
+    @property
+    def files(self) -> list[str]:
+        """The paths of the files."""
+        return [str(self.folder / file.name) for file in FILES]
+
+
+def weave(order: Order, asked: LoomOrder, folder: Path, *, force: bool = False, told: Told | None = None) -> Woven:
+    """Do the whole job and put its files into a folder, whole or not at all.
+
+    Raises any IlmekError; then nothing is written.
+    """
+    charted = make_charted(order, _until(told, 0.4))
+    if told is not None:
+        told("loom", 0.4)
+    loomed = make_loomed(asked, order, charted.chart)
+    woven = Woven(charted, asked, loomed, loom_report(loomed.design), parts_of(loomed.design), folder)
+    with output_folder(folder, force=force) as work:
+        write_chart(charted, work, part(told, "chart.pdf", 0.5, 0.7))
+        write_programme(
+            work / "programme.ilmek", loomed.programme, _label(woven), progress=part(told, "programme", 0.7, 0.8)
+        )
+        write_json(work / "machine.json", machine_json(woven))
+        write_json(work / "report.json", weave_json(woven))
+        if told is not None:
+            told("report", 0.8)
+        (work / "report.html").write_text(carpet_page(_page(woven)), encoding="utf-8")
+    return woven
+
+
+def _until(told: Told | None, end: float) -> Told | None:
+    return None if told is None else lambda doing, share: told(doing, share * end)
+
+
+def loom_alone(loom: Report, parts: tuple[Report, ...]) -> Report:
+    """The loom's report without what its machines say themselves."""
+    names = tuple(f"{part.machine}: " for part in parts)
+    nested = {part.machine.replace("-", "_") for part in parts}
+    return replace(
+        loom,
+        results=tuple(result for result in loom.results if result.name not in nested),
+        checks=tuple(check for check in loom.checks if not check.name.startswith(names)),
+        warnings=tuple(warning for warning in loom.warnings if not warning.startswith(names)),
+    )
+
+
+def job_checks(asked: LoomOrder, loomed: Loomed) -> tuple[Check, ...]:
+    """Checks of the whole: the deadline, where there is one."""
+    if asked.deadline is None:
+        return ()
+    return (at_most("weaving time", loomed.programme.duration, asked.deadline, "h", "the deadline asked for"),)
+
+
+def weave_results(woven: Woven) -> dict[str, Any]:
+    """The results of the whole by their stable names, SI."""
+    programme, made = woven.loomed.programme, woven.loomed.design
+    return {
+        **chart_results(woven.charted),
+        "heads": programme.heads,
+        "heads_max": made.heads_max,
+        "weaving_time": programme.duration,
+        "knot_time": made.times.knot,
+        "row_time": made.times.weft,
+        "colour_changes": int(programme.work.changes.sum()),
+        "warps": made.warps,
+        "warp_pitch": made.params.pitch,
+    }
+
+
+def weave_json(woven: Woven) -> dict[str, Any]:
+    """The JSON of the whole."""
+    return job_json(
+        "weave",
+        {**woven.charted.order.as_dict(), **woven.asked.as_dict()},
+        weave_results(woven),
+        checks=[check_as_json(check) for check in woven.checks],
+        notes=list(woven.charted.notes),
+        warnings=list(woven.loom.warnings),
+        files=woven.files,
+    )
+
+
+def machine_json(woven: Woven) -> dict[str, Any]:
+    """The loom's report as JSON, and under `machines` those of its machines by name."""
+    machines = {part.machine: part.as_json() for part in woven.parts}
+    return {**loom_alone(woven.loom, woven.parts).as_json(), "machines": machines}
+
+
+def _label(woven: Woven) -> Label:
+    chart, made = woven.charted.chart, woven.loomed.design
+    return Label(chart.size, chart.quality, chart.knot, chart.yarns, made.params.pitch, made.cyclograms)
+
+
+def time_in_words(seconds: float) -> str:
+    """A weaving time in hours, short ones in minutes.
+
+    >>> time_in_words(270000.0), time_in_words(90.0)
+    ('75 h', '1.5 min')
+    """
+    return format_quantity(seconds, "h", 3) if seconds >= hour else format_quantity(seconds, "min", 3)
+
+
+def _page(woven: Woven) -> CarpetPage:
+    chart, programme, asked = woven.charted.chart, woven.loomed.programme, woven.asked
+    heads = "as the deadline needs" if asked.deadline is not None else f"{woven.loomed.design.heads_max} would fit"
+    facts = [
+        Fact("Heads", str(programme.heads), heads),
+        Fact("Weaving time", time_in_words(programme.duration), f"{programme.rows} rows"),
+    ]
+    if asked.deadline is not None:
+        facts.append(Fact("Deadline", time_in_words(asked.deadline), "met", "good"))
+    return CarpetPage(
+        title=woven.charted.order.picture.stem,
+        lead=f"{chart.size}, {chart.quality}, {chart.knot} knot",
+        chart=chart,
+        bill=woven.charted.bill,
+        symbols=symbols(len(chart.yarns)),
+        facts=tuple(facts),
+        reports=(loom_alone(woven.loom, woven.parts), *woven.parts),
+        checks=job_checks(asked, woven.loomed),
+        files=FILES,
+        warnings=woven.charted.notes,
+    )

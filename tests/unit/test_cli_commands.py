@@ -1,0 +1,227 @@
+"""The commands on a small carpet: what they print, the JSON they give, the files they make."""
+
+import csv
+import json
+import re
+import sqlite3
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+from PIL import Image
+
+from ilmek.cli import main
+from ilmek.io.programme_file import open_programme
+from ilmek.jobs.weave import FILES
+from ilmek.machines import MACHINES
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+MEDALLION = str(EXAMPLES / "medallion.png")
+SMALL = ("--size", "40x60cm", "--quality", "15x15/dm")
+
+
+def run(*arguments: str) -> Result:
+    result = CliRunner().invoke(main, arguments)
+    assert result.exit_code == 0, result.stderr
+    return result
+
+
+def data(*arguments: str) -> Any:
+    result = run(*arguments, "--json", "-")
+    return json.loads(result.stdout)
+
+
+@pytest.fixture(scope="module")
+def woven(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Any]:
+    """The folder and the JSON of one `weave`."""
+    folder = tmp_path_factory.mktemp("woven") / "deep" / "carpet"
+    return folder, data("weave", MEDALLION, *SMALL, "--heads", "2", "--out", str(folder))
+
+
+def test_weave_makes_its_files(woven: tuple[Path, Any]) -> None:
+    folder, found = woven
+    names = [file.name for file in FILES]
+    assert found["files"] == [str(folder / name) for name in names]
+    assert sorted(path.name for path in folder.iterdir()) == sorted([*names, ".ilmek"])
+    assert all((folder / name).stat().st_size > 200 for name in names)
+
+
+def test_weave_json_has_its_names(woven: tuple[Path, Any]) -> None:
+    folder, found = woven
+    assert found["knots"] == 60 * 90
+    assert found["heads"] == 2
+    assert found["weaving_time"] > found["knots"] / 2 * 1.5
+    assert {"name", "knots", "length", "mass"} <= found["yarn"][0].keys()
+    assert sum(yarn["knots"] for yarn in found["yarn"]) == found["knots"]
+    assert {"name", "value", "limit", "unit", "ok", "source"} <= found["checks"][0].keys()
+    assert json.loads((folder / "report.json").read_text()) == found
+    assert all(found[name] == value for name, value in found["results"].items())
+
+
+def test_checks_name_their_machine_once(woven: tuple[Path, Any]) -> None:
+    names = [check["name"] for check in woven[1]["checks"]]
+    assert len(names) == len(set(names))
+    assert {name.partition(":")[0] for name in names} >= {"weaver", "beat-up", "shedding", "warp-tension"}
+
+
+def test_programme_ties_the_chart(woven: tuple[Path, Any]) -> None:
+    folder, found = woven
+    with Image.open(folder / "chart.png") as image:
+        chart = np.asarray(image)
+    with open_programme(folder / "programme.ilmek") as programme:
+        tied = np.array([programme.row(number).colours for number in range(programme.rows)])
+        assert programme.totals.duration == found["weaving_time"]
+        assert programme.heads == 2
+    assert np.array_equal(tied[::-1], chart)
+
+
+def test_machine_json_has_every_machine(woven: tuple[Path, Any]) -> None:
+    machine = json.loads((woven[0] / "machine.json").read_text())
+    assert machine["machine"] == "automated-loom"
+    assert set(machine["machines"]) == {"weaver", "beat-up", "shedding", "warp-tension"}
+    assert "lengths" in machine["machines"]["beat-up"]["results"]
+    assert machine["parameters"]["width"] == 0.4
+
+
+def test_yarn_csv_adds_up(woven: tuple[Path, Any]) -> None:
+    folder, found = woven
+    with (folder / "yarn.csv").open(encoding="utf-8", newline="") as file:
+        lines = list(csv.DictReader(file))
+    grams = sum(float(line["mass [g]"]) for line in lines)
+    assert grams == pytest.approx(1000 * found["yarn_mass"], abs=0.05 * len(lines))
+    assert [line["use"] for line in lines[-3:]] == ["warp", "weft", "weft"]
+
+
+def test_report_needs_no_network(woven: tuple[Path, Any]) -> None:
+    text = (woven[0] / "report.html").read_text(encoding="utf-8")
+    assert not re.search(r"""(?:src|href)=["']?(?:https?:)?//""", text)
+    assert "<svg" in text
+    assert "medallion" in text
+
+
+def test_weave_shows_a_short_table_and_the_report(tmp_path: Path) -> None:
+    shown = run("weave", MEDALLION, *SMALL, "--out", str(tmp_path / "out")).stdout
+    for name in ("knots", "colours", "yarn", "weaving time", "heads", "checks", "report"):
+        assert re.search(rf"^{name} ", shown, re.MULTILINE), shown
+    assert str(tmp_path / "out" / "report.html") in shown.replace("\n", "")
+    assert len(shown.splitlines()) <= 12
+
+
+def test_deadline_finds_the_heads(tmp_path: Path, woven: tuple[Path, Any]) -> None:
+    # Half of what two heads need cannot be done by two.
+    deadline = 0.9 * woven[1]["weaving_time"] / 3600
+    found = data("weave", MEDALLION, "--size", "120x60cm", "--quality", "15x15/dm", "--deadline", f"{deadline:.4f}h",
+                 "--out", str(tmp_path / "out"))  # fmt: skip
+    assert found["weaving_time"] <= deadline * 3600
+    assert found["heads"] > 2
+    last = next(check for check in found["checks"] if check["name"] == "weaving time")
+    assert last["ok"]
+
+
+def test_fine_pitch_weaves_a_fine_quality(tmp_path: Path) -> None:
+    found = data("weave", MEDALLION, "--size", "30x20cm", "--quality", "40x40/dm", "--warp-pitch", "1.25mm",
+                 "--out", str(tmp_path / "out"))  # fmt: skip
+    assert found["warp_pitch"] == 0.00125
+    assert found["columns"] == 120
+
+
+def test_chart_json_has_its_names_and_makes_no_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    found = data("chart", MEDALLION, *SMALL, "--colours", "6")
+    assert (found["rows"], found["columns"], found["colours"]) == (90, 60, 6)
+    assert 0 < found["mean_delta_e"] < 20
+    assert found["lone_fraction"] < 0.001
+    assert 0 < found["changes_per_knot"] < 1
+    assert len(found["yarn"]) == 6
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_chart_keeps_lone_knots_where_asked(tmp_path: Path) -> None:
+    rgb = np.random.default_rng(1).integers(0, 256, (60, 40, 3), dtype=np.uint8)
+    Image.fromarray(rgb).save(tmp_path / "noise.png")
+    noise = str(tmp_path / "noise.png")
+    kept = data("chart", noise, *SMALL, "--keep-lone")
+    assert kept["lone_fraction"] > 10 * data("chart", noise, *SMALL)["lone_fraction"]
+
+
+def test_chart_without_a_folder_takes_a_free_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for _ in range(2):
+        run("chart", MEDALLION, *SMALL)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["medallion-chart", "medallion-chart-2"]
+    assert (tmp_path / "medallion-chart/chart.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_notes_tell_what_was_done_to_the_picture(tmp_path: Path) -> None:
+    Image.new("RGBA", (300, 100), (200, 30, 30, 128)).save(tmp_path / "a.png")
+    result = run("chart", str(tmp_path / "a.png"), *SMALL, "--json", "-")
+    assert "note: transparent parts laid on white" in result.stderr
+    assert "drawn 78% narrower" in result.stderr
+    assert len(json.loads(result.stdout)["notes"]) == 2
+
+
+def test_yarn_list_of_the_examples(tmp_path: Path) -> None:
+    found = data("chart", MEDALLION, *SMALL, "--yarns", str(EXAMPLES / "wool.toml"), "--out", str(tmp_path / "out"))
+    assert {yarn["name"] for yarn in found["yarn"]} <= set(found["parameters"]["yarns"])
+    assert "indigo" in found["parameters"]["yarns"]
+
+
+def test_machines_are_listed_with_their_parameters() -> None:
+    assert list(data("machines")["machines"]) == list(MACHINES)
+    assert all(name in run("machines").stdout for name in MACHINES)
+    for name, machine in MACHINES.items():
+        found = data("machines", name)
+        assert [parameter["name"] for parameter in found["parameters"]] == list(machine.params().as_dict())
+        assert run("machines", name).stdout.startswith(f"{name}: ")
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_design_gives_json_table_and_page(tmp_path: Path, name: str) -> None:
+    page, file = tmp_path / "page.html", tmp_path / "data.json"
+    shown = run("design", name, "--json", str(file), "--report", str(page)).stdout
+    found = json.loads(file.read_text())
+    assert found["machine"] == name
+    assert set(found) >= {"parameters", "results", "checks", "warnings"}
+    assert all(result in shown for result in found["results"])
+    assert re.search(r"checks: \d+ passed, \d+ failed", shown)
+    assert "<svg" in page.read_text(encoding="utf-8")
+
+
+def test_settings_in_one_go_or_one_by_one() -> None:
+    one = data("design", "beat-up", "--set", "swing=35deg", "--set", "beta=48deg")
+    assert one == data("design", "beat-up", "--set", "swing=35deg", "beta=48deg")
+    assert one["parameters"]["swing"] == pytest.approx(np.radians(35))
+
+
+def test_inspect_shows_a_row(woven: tuple[Path, Any]) -> None:
+    file = str(woven[0] / "programme.ilmek")
+    found = data("inspect", file, "--row", "7")
+    pairs = [pair for head in found["row"]["heads"] for pair in head["pairs"]]
+    assert sorted(pairs) == list(range(60))
+    assert found["row"]["number"] == 7
+    shown = run("inspect", file, "--row", "7").stdout
+    assert "row 7 of 0 to 89" in shown
+    assert 0 <= data("inspect", file)["row"]["number"] < 90
+    assert CliRunner().invoke(main, ["inspect", file, "--row", "90"]).exit_code == 2
+
+
+def test_damaged_programme_is_one_line(woven: tuple[Path, Any], tmp_path: Path) -> None:
+    whole = (woven[0] / "programme.ilmek").read_bytes()
+    (tmp_path / "cut.ilmek").write_bytes(whole[: len(whole) // 2])
+    result = CliRunner().invoke(main, ["inspect", str(tmp_path / "cut.ilmek")])
+    assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
+    assert "is cut short" in result.stderr
+
+
+@pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), sqlite3.OperationalError("disk is full")])
+def test_full_disk_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, failure: Exception) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise failure
+
+    monkeypatch.setattr("ilmek.jobs.weave.write_json", full)
+    result = CliRunner().invoke(main, ["weave", MEDALLION, *SMALL, "--out", str(tmp_path / "out")])
+    assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+    assert "cannot be written" in result.stderr
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,72 @@
+"""Orders, places and progress of the jobs."""
+
+from pathlib import Path
+
+import pytest
+
+from ilmek.errors import LoomError, ParameterError, YarnError
+from ilmek.jobs.chart import make_charted
+from ilmek.jobs.loom import make_loomed, read_loom_order
+from ilmek.jobs.order import read_order
+from ilmek.jobs.place import free_folder
+from ilmek.jobs.warm import warm
+from ilmek.jobs.weave import weave
+
+MEDALLION = Path(__file__).parents[2] / "examples" / "medallion.png"
+
+
+def test_order_reads_texts() -> None:
+    order = read_order(MEDALLION, size="kelle", quality="40 raj", knot="Senneh", pile_height="6mm", colours=5)
+    assert (order.size.width, order.size.length, order.knot) == (2.0, 3.0, "asymmetric")
+    assert order.quality.across == pytest.approx(40 / 0.07)
+    assert order.pile.pile_height == 0.006
+    assert order.as_dict()["colours"] == 5
+
+
+def test_order_is_judged_before_the_picture_is_opened() -> None:
+    with pytest.raises(YarnError):
+        read_order(Path("nowhere.png"), colours=17)
+    with pytest.raises(LoomError, match=r"1\.25 mm"):
+        read_loom_order(read_order(Path("nowhere.png"), quality="40x40/dm"), warp_pitch="2mm")
+    with pytest.raises(ParameterError, match="one of"):
+        read_loom_order(read_order(Path("nowhere.png")), heads=2, deadline="3h")
+
+
+def test_loom_follows_the_chart() -> None:
+    order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6)
+    charted = make_charted(order)
+    loomed = make_loomed(read_loom_order(order), order, charted.chart)
+    params = loomed.design.params
+    assert params.colours == charted.chart.colours <= 6
+    assert params.pitch == 0.0025
+    # A longer pile takes more yarn a knot, which the handler must draw.
+    deep = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6, pile_height="20mm")
+    assert make_loomed(read_loom_order(deep), deep, charted.chart).design.params.knot_yarn > params.knot_yarn + 0.02
+
+
+def test_heads_are_as_many_as_fit_where_few_fit() -> None:
+    order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm")
+    loomed = make_loomed(read_loom_order(order), order, make_charted(order).chart)
+    assert loomed.programme.heads == loomed.design.heads_max < 4
+
+
+def test_free_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert free_folder(Path("deep/my photo (1).jpg"), "carpet") == Path("my-photo-1-carpet")
+    (tmp_path / "a-carpet").mkdir()
+    assert free_folder(Path("a.png"), "carpet") == Path("a-carpet-2")
+    assert free_folder(Path("..."), "chart") == Path("picture-chart")
+
+
+def test_progress_ascends_to_the_end(tmp_path: Path) -> None:
+    order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
+    told: list[tuple[str, float]] = []
+    weave(order, read_loom_order(order), tmp_path / "out", told=lambda doing, share: told.append((doing, share)))
+    shares = [share for _, share in told]
+    assert shares == sorted(shares)
+    assert 0 <= shares[0] < shares[-1] <= 1
+    assert {"picture", "chart", "loom", "programme", "report"} <= {doing for doing, _ in told}
+
+
+def test_kernels_can_be_warmed() -> None:
+    assert warm() == 1
