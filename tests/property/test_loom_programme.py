@@ -1,6 +1,7 @@
 """Programmes against a plain account of the same rules, knot by knot."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 
 from ilmek.arrays import Indices
 from ilmek.loom.programme import Programme, Times, heads_for, least_time, make_programme, weaving_time
-from ilmek.loom.sharing import halves
+from ilmek.loom.sharing import halves, least_distance
 
 TIMES = Times(knot=2.0, colour_change=0.5, travel=0.03, weft=12.0)
 
@@ -106,3 +107,18 @@ def test_a_trial_is_given_up_above_the_deadline() -> None:
     knots = np.zeros((40, 30), np.uint8)
     assert weaving_time(knots, 1, 1, TIMES, 10.0) > 10.0
     assert weaving_time(knots, 1, 1, TIMES, math.inf) == pytest.approx(40 * (12 + 60))
+
+
+@given(charts())
+@settings(max_examples=80, deadline=None)
+def test_heads_keep_their_distance_in_both_halves(case: tuple[Indices, int, int]) -> None:
+    knots, yarns, heads = case
+    programme = make_programme(knots, yarns, heads, TIMES)
+    least = least_distance(programme.edges, heads, 1.0)
+    for number in range(programme.rows):
+        row = programme.row(number)
+        middles = row.edges[1::2]
+        for side in (True, False):
+            places = [t.pairs[(t.pairs < m) == side] for t, m in zip(row.ties(), middles, strict=False)]
+            for left, right in pairwise(places[: heads if heads > 1 else 0]):
+                assert right.min() - left.max() >= least

@@ -1,4 +1,4 @@
-"""The loom of the thesis (chapter 3): 600 warps at 2 mm, 15 N each, tube 140 x 5 mm, cams at 5 rpm, four steps of 90."""
+"""The loom of the thesis (chapter 3): 600 warps at 2 mm, 15 N each, tube 140 x 5 mm, cams at 5 rpm, four steps."""
 
 import pytest
 

@@ -6,7 +6,7 @@ neighbours are therefore never nearer than the half between them and one pitch m
 
     distance >= (n + 1) p,   n = floor(columns / (2 heads))   knots in the least half,   p   knot pitch
 
-Heads of width B then fit as long as (n + 1) p >= B.
+Heads of width B then fit as long as (n + 1) p >= B. When they go over, the head on the side they go to leaves first.
 """
 
 import math
