@@ -20,7 +20,7 @@ from ilmek.linkage.model import GROUND, Rotation, Slide
 from ilmek.linkage.structure import Plan
 from ilmek.units import deg
 
-TURN = 3 * deg
+TURN = 5 * deg
 """Longest step of a rotating input on the way from the pose."""
 
 SHIFT = 0.02

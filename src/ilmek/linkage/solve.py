@@ -37,7 +37,7 @@ def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Course
     Where there are several inputs: mappings from the input's name; a speed or acceleration left out is zero.
 
     Never fails for a sample: see `Motion.status` and `Motion.require`. Raises MechanismError for unknown or missing
-    inputs, values that are not finite, and arrays of different lengths.
+    inputs, values that are not finite, and arrays that are empty or of different lengths.
     """
     drives = _drives(plan, angle, speed, acceleration)
     size = NEWTON_BLOCK if any(isinstance(step, Block) for step in plan.steps) else BLOCK
@@ -135,4 +135,6 @@ def _samples(courses: list[RealField]) -> int:
     if len(shapes) > 1 or len(min(shapes)) != 1:
         said = " and ".join(str(shape) for shape in sorted(shapes))
         raise MechanismError(f"inputs have arrays of shapes {said}", allowed="one-dimensional arrays of one length")
-    return int(min(shapes)[0])
+    if (samples := int(min(shapes)[0])) == 0:
+        raise MechanismError("inputs have no samples", allowed="one or more")
+    return samples

@@ -37,4 +37,5 @@ def reciprocal_condition(matrix: Matrices) -> Float[np.ndarray, "*batch"]:
     """
     usable = np.isfinite(matrix).all(axis=(-2, -1))
     values = np.linalg.svd(np.where(usable[..., None, None], matrix, np.eye(matrix.shape[-1])), compute_uv=False)
-    return np.where(usable, values[..., -1] / values[..., 0], np.nan)
+    largest = np.where(values[..., 0] > 0, values[..., 0], 1.0)
+    return np.where(usable, values[..., -1] / largest, np.nan)
