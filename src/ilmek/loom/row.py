@@ -52,8 +52,8 @@ class Row:
         order = np.empty(len(self.colours), np.int64)
         colours = np.ascontiguousarray(self.colours)
         replay(colours, Layout(_ALL_COLOURS, self.heads, self.edges), self.forward, self.keys, order)
-        blocks = self.edges[:: halves(self.heads)]
-        return tuple(Ties(order[low:high], colours[order[low:high]]) for low, high in pairwise(blocks))
+        tied, blocks = colours[order], self.edges[:: halves(self.heads)].tolist()
+        return tuple(Ties(order[low:high], tied[low:high]) for low, high in pairwise(blocks))
 
     def ties_of(self, head: int) -> Ties:
         """What one head ties, in order. Raises LoomError for a head that is not there."""
