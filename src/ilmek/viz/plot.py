@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ilmek.report import Mark, Plot, Series
+from ilmek.units import parse_unit
 from ilmek.viz.ink import axes_in_points, sheet
 from ilmek.viz.scale import span, tick_labels, ticks
 from ilmek.viz.style import (
@@ -149,7 +150,7 @@ def _tiers(marks: tuple[Mark, ...], x_span: tuple[float, float], unit: str, widt
 
 def _draw_marks(axes: Axes, plot: Plot, tiers: list[int]) -> None:
     for mark, tier in zip(plot.marks, tiers, strict=True):
-        x = float(in_unit(np.array(mark.x), plot.x.unit))
+        x = mark.x / parse_unit(plot.x.unit).factor
         axes.axvline(x, color=INK, linewidth=0.7, linestyle=(0, (2, 2)), zorder=2)
         axes.annotate(
             mark.label,

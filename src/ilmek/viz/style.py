@@ -75,8 +75,10 @@ def with_unit(label: str, unit: str) -> str:
 
 
 def in_unit(values: FloatArray, unit: str) -> FloatArray:
-    """SI values in the unit of the axis, as floats."""
-    return np.asarray(values, dtype=float) / parse_unit(unit).factor
+    """SI values in the unit of the axis, as floats; what is not finite is a gap (NaN)."""
+    shown = np.array(values, dtype=float) / parse_unit(unit).factor
+    shown[~np.isfinite(shown)] = np.nan
+    return shown
 
 
 def colour(number: int) -> str:

@@ -20,7 +20,11 @@ from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.colour import LINEAR, encode
 
 Plane = Float32[np.ndarray, "rows columns"]
-Light = Float32[np.ndarray, "height width 3"]
+Light = Float32[np.ndarray, "rows columns 3"]
+"""The linear colours of knots."""
+
+Pixels = Float32[np.ndarray, "height width 3"]
+"""A picture in linear light."""
 
 _FOOT = (0.66, 0.74)
 _LEAN = 0.10
@@ -41,7 +45,7 @@ class _Tufts:
     colour: Float32[np.ndarray, "rows columns 3"]
 
 
-def encoded(light: Light) -> Rgb:
+def encoded(light: Pixels) -> Rgb:
     """Linear light as sRGB codes, clipped."""
     return np.asarray(_CODES[(np.clip(light, 0.0, 1.0) * np.float32(_FINE)).astype(np.uint16)])
 
@@ -68,7 +72,7 @@ def yarn_light(knots: Indices, srgb: Sequence[tuple[int, int, int]], rng: np.ran
     return np.asarray(light * (1.0 + grain * rng.standard_normal(knots.shape, dtype=np.float32))[:, :, np.newaxis])
 
 
-def tufted(light: Light, across: int, down: int, rng: np.random.Generator, fibre: float = 0.0) -> Light:
+def tufted(light: Light, across: int, down: int, rng: np.random.Generator, fibre: float = 0.0) -> Pixels:
     """The pile of knots with these linear colours, `across` x `down` pixels a knot.
 
     fibre  strength of single fibres: streaks in the light, frayed borders between tufts; for close-ups

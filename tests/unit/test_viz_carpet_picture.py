@@ -1,0 +1,71 @@
+"""The simulated carpet: right colours, right proportions, the same each time."""
+
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import Size
+from ilmek.carpet.yarn import Yarn
+from ilmek.viz.carpet_picture import carpet_picture, close_up
+
+RED, BLUE = (150, 30, 40), (20, 40, 110)
+
+
+def chart(rows: int, columns: int, across: float, along: float) -> Chart:
+    """Red above, blue below, in the size that the densities give."""
+    knots = np.zeros((rows, columns), dtype=np.uint8)
+    knots[rows // 2 :] = 1
+    yarns = tuple(Yarn(name, srgb, (0.0, 0.0, 0.0), 4.0, 2) for name, srgb in (("red", RED), ("blue", BLUE)))
+    return Chart(knots, yarns, Size(columns / across, rows / along), Quality(across, along), "symmetric", 0.0, 0.0)
+
+
+def opened(picture: bytes) -> Image.Image:
+    image = Image.open(io.BytesIO(picture))
+    image.load()
+    return image
+
+
+def mean(image: Image.Image, box: tuple[int, int, int, int]) -> list[float]:
+    return np.asarray(image.crop(box), dtype=float).mean(axis=(0, 1)).tolist()
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "across", "along"),
+    [(150, 100, 250.0, 250.0), (60, 40, 250.0, 250.0), (1800, 1600, 1800.0, 1800.0), (90, 120, 500.0, 250.0)],
+    ids=["tufts", "few", "more-knots-than-pixels", "not-square"],
+)
+def test_shows_the_yarns_where_they_lie(rows: int, columns: int, across: float, along: float) -> None:
+    made = chart(rows, columns, across, along)
+    image = opened(carpet_picture(made, longest=700))
+    assert max(image.size) <= 700
+    assert max(image.size) >= 500
+    width, height = image.size
+    upper = mean(image, (width // 4, height // 3, 3 * width // 4, height // 3 + 30))
+    lower = mean(image, (width // 4, 2 * height // 3 - 30, 3 * width // 4, 2 * height // 3))
+    assert upper == pytest.approx(RED, abs=22)
+    assert lower == pytest.approx(BLUE, abs=22)
+
+
+def test_keeps_the_proportions_of_the_carpet() -> None:
+    """Rows twice as high as knots are wide: a piece of 120 x 90 knots is 24 x 36 cm, with fringes 13.4 cm longer."""
+    width, height = opened(carpet_picture(chart(90, 120, 500.0, 250.0))).size
+    assert height / width == pytest.approx((0.36 + 2 * (0.055 + 0.012)) / (0.24 + 2 * 0.008), rel=0.01)
+
+
+def test_close_up_draws_knots_in_proportion() -> None:
+    assert opened(close_up(chart(90, 120, 500.0, 250.0))).size == (960, 30 * 48)
+    assert opened(close_up(chart(10, 12, 250.0, 250.0))).size == (12 * 24, 10 * 24)
+
+
+def test_a_seed_gives_one_picture() -> None:
+    made = chart(60, 40, 250.0, 250.0)
+    assert carpet_picture(made, 400) == carpet_picture(made, 400)
+    assert carpet_picture(made, 400) != carpet_picture(made, 400, seed=2)
+
+
+def test_the_smallest_carpet_is_one_too() -> None:
+    assert max(opened(carpet_picture(chart(3, 2, 20.0, 20.0), 300)).size) <= 300
