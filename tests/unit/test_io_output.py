@@ -163,5 +163,5 @@ def test_file_through_a_link_and_to_a_device(tmp_path: Path) -> None:
 def test_file_that_cannot_be_written(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="is a folder"):
         write_whole(tmp_path, "x")
-    with pytest.raises(OutputError, match="No such file"):
+    with pytest.raises(OutputError, match="there is no folder"):
         write_whole(tmp_path / "missing/a.json", "x")

@@ -58,7 +58,8 @@ def test_free_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert free_folder(Path("..."), "chart") == Path("picture-chart")
 
 
-def test_progress_ascends_to_the_end(tmp_path: Path) -> None:
+def test_progress_ascends_to_the_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page: page.title)
     order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
     told: list[tuple[str, float]] = []
     weave(order, read_loom_order(order), tmp_path / "out", told=lambda doing, share: told.append((doing, share)))

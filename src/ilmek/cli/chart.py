@@ -7,7 +7,7 @@ import click
 
 from ilmek.carpet.bill import YarnBill
 from ilmek.cli.options import carpet_options, force_option, json_option
-from ilmek.cli.terminal import console, give_json, note, progress_bar, show_pairs, show_table
+from ilmek.cli.terminal import check_json, console, give_json, note, progress_bar, show_pairs, show_table
 from ilmek.io.json_file import write_json
 from ilmek.io.output import check_free, output_folder
 from ilmek.jobs.chart import FILES, Charted, chart_results, job_json, make_charted, write_chart
@@ -33,6 +33,7 @@ def command(out: Path | None, force: bool, json_to: str | None, **order: Any) ->
     The output folder holds chart.png (a pixel a knot), chart.pdf (to weave from) and yarn.csv. With --json and without
     --out no folder is made.
     """
+    check_json(json_to)
     wanted = read_order(**order)
     folder = out or (None if json_to else free_folder(wanted.picture, "chart"))
     if folder is not None:

@@ -6,9 +6,9 @@ from pathlib import Path
 import click
 
 from ilmek.cli.options import json_option
-from ilmek.cli.terminal import console, give_json, note, passed, show_checks, show_table
+from ilmek.cli.terminal import check_json, console, give_json, note, passed, show_checks, show_table
 from ilmek.errors import ParameterError
-from ilmek.io.output import write_whole
+from ilmek.io.output import check_file, write_whole
 from ilmek.machines import find_machine
 from ilmek.report import Report, Result
 from ilmek.units import format_quantity
@@ -34,6 +34,9 @@ def command(
     name: str, more: tuple[str, ...], settings: tuple[str, ...], json_to: str | None, page_to: Path | None
 ) -> None:
     """Design MACHINE and report it: results, checks against limits, warnings."""
+    check_json(json_to)
+    if page_to is not None:
+        check_file(page_to)
     machine = find_machine(name)
     params = machine.params.read(read_settings((*settings, *more)))
     report = machine.report(machine.design(params))

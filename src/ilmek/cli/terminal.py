@@ -13,6 +13,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from ilmek.io.json_file import json_text, write_json
+from ilmek.io.output import check_file
 from ilmek.jobs.told import Told
 from ilmek.report import Check
 from ilmek.units import format_quantity
@@ -37,11 +38,10 @@ def show_table(headings: Sequence[str], rows: Sequence[Sequence[str]], *, right:
 
 
 def show_pairs(pairs: Sequence[tuple[str, str]]) -> None:
-    """Names and what they are, two columns."""
-    table = Table(box=None, show_header=False, pad_edge=False)
-    for pair in pairs:
-        table.add_row(*pair)
-    console().print(table)
+    """Names and what they are, a line each, never broken: a path can be copied."""
+    width = max(len(name) for name, _ in pairs)
+    for name, said in pairs:
+        click.echo(f"{name:<{width}}  {said}")
 
 
 def show_checks(checks: Sequence[Check]) -> None:
@@ -70,6 +70,12 @@ def passed(checks: Sequence[Check]) -> str:
 def note(text: str) -> None:
     """A remark on the error stream, one line."""
     click.echo(f"note: {' '.join(text.split())}", err=True)
+
+
+def check_json(to: str | None) -> None:
+    """Raise OutputError before any work where `--json` says a place that cannot be written."""
+    if to not in (None, "-"):
+        check_file(Path(str(to)))
 
 
 def give_json(to: str | None, data: Any) -> bool:

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from ilmek.cli.options import carpet_options, force_option, json_option
-from ilmek.cli.terminal import give_json, note, passed, progress_bar, show_pairs
+from ilmek.cli.terminal import check_json, give_json, note, passed, progress_bar, show_pairs
 from ilmek.io.output import check_free
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
@@ -43,6 +43,7 @@ def command(
 
     The output folder holds report.html, report.json, chart.png, chart.pdf, yarn.csv, programme.ilmek and machine.json.
     """
+    check_json(json_to)
     order = read_order(**carpet)
     asked = read_loom_order(order, heads=heads, deadline=deadline, warp_pitch=warp_pitch)
     folder = out or free_folder(order.picture, "carpet")

@@ -111,14 +111,24 @@ def _put(work: Path, place: Path) -> None:
     shutil.rmtree(aside, ignore_errors=True)
 
 
+def check_file(path: Path) -> None:
+    """Raise OutputError unless a file can be put at `path`; nothing is touched."""
+    folder = path.resolve().parent
+    if path.is_dir():
+        raise OutputError(f"{path} is a folder", do="give the name of a file")
+    if not folder.is_dir():
+        raise OutputError(f"{path} cannot be written: there is no folder {folder}", do="make the folder first")
+    if not os.access(path if path.exists() else folder, os.W_OK):
+        raise OutputError(f"{path} cannot be written: it is not writable", do="choose another place")
+
+
 def write_whole(path: Path, content: str | bytes) -> None:
     """Write a file by one rename at the end; an existing file is replaced only when the new one is complete.
 
     Raises OutputError where it cannot be written. A device or pipe is written to as it is.
     """
     data = content.encode("utf-8") if isinstance(content, str) else content
-    if path.is_dir():
-        raise OutputError(f"{path} is a folder", do="give the name of a file")
+    check_file(path)
     with _as_output_error(path):
         place = path.resolve()
         if place.exists() and not stat.S_ISREG(place.stat().st_mode):

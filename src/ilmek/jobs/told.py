@@ -11,6 +11,7 @@ def part(told: Told | None, doing: str, start: float, end: float) -> Callable[[f
     """A progress callback for one part of a job, from the share `start` to `end` of the whole.
 
     >>> part(lambda doing, share: print(doing, share), "chart", 0.2, 0.6)(0.5)
+    chart 0.2
     chart 0.4
     """
     if told is None:
