@@ -70,17 +70,20 @@ _UNITS: dict[str, tuple[float, Dimension]] = {
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$", re.DOTALL)
 _FACTOR = re.compile(r"([a-zA-Z%°]+|1)(?:\^?(-?\d+))?$")
-_SUPERSCRIPTS = str.maketrans({"²": "2", "³": "3", "·": "*", "µ": "u", "μ": "u"})
+POWERS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+_SIGNS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·µμ", "0123456789-*uu")
 
 
 def parse_unit(text: str) -> Unit:
-    """The unit written as products and quotients of known ones: `kg/m^3`, `N*m`, `rad/s`, `m/s²`; "" is 1.
+    """The unit written as products and quotients of known ones, `kg/m^3`, `N*m`, `m/s²`, `/dm`; "" is 1.
 
     Raises UnitError for an unknown unit, naming the nearest known one.
     """
-    factor, dimension = 1.0, _NONE
-    sign = 1
-    for part in re.split(r"\s*([*/])\s*", text.translate(_SUPERSCRIPTS).strip()) if text.strip() else ():
+    factor, dimension, sign = 1.0, _NONE, 1
+    written = text.translate(_SIGNS).strip()
+    if not written:
+        return Unit(text, factor, dimension)
+    for part in re.split(r"\s*([*/])\s*", f"1{written}" if written.startswith("/") else written):
         if part in ("*", "/"):
             sign = 1 if part == "*" else -1
             continue
@@ -115,6 +118,21 @@ def parse_quantity(text: str, unit: str) -> float:
     return value
 
 
+def printed_unit(unit: str) -> str:
+    """A unit with raised powers and the product's dot, as `parse_unit` reads it too; nothing for 1.
+
+    >>> printed_unit("kg/m^3"), printed_unit("N*m"), printed_unit("1")
+    ('kg/m³', 'N·m', '')
+    """
+    if unit in ("", "1"):
+        return ""
+    head, *powers = unit.split("^")
+    for power in powers:
+        digits = len(power) - len(power.lstrip("-0123456789"))
+        head += power[:digits].translate(POWERS) + power[digits:]
+    return head.replace("*", "·")
+
+
 def from_si(value: float, unit: str) -> float:
     """The SI value expressed in `unit`."""
     return value / parse_unit(unit).factor
@@ -127,7 +145,8 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     '59.74 mm'
     """
     number = format_number(from_si(value, unit), digits)
-    return number if unit in ("", "1") else f"{number} {unit}" if unit not in ("°", "%") else f"{number}{unit}"
+    printed = printed_unit(unit)
+    return f"{number}{'' if printed in ('', '°', '%') else ' '}{printed}"
 
 
 def format_number(value: float, digits: int = 4) -> str:

@@ -28,6 +28,8 @@ from ilmek.units import format_quantity, from_si, parse_quantity, parse_unit
         ("0.06", "mm", 0.06),
         ("-.5e1mm", "m", -0.005),
         ("72h", "s", 259200.0),
+        ("40/dm", "1/m", 400.0),
+        ("5N·m", "Nm", 5.0),
         ("12in", "mm", 0.3048),
     ],
 )

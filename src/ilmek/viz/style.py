@@ -12,7 +12,7 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.font_manager import FontProperties, findfont, get_font
 
 from ilmek.arrays import FloatArray
-from ilmek.units import parse_unit
+from ilmek.units import parse_unit, printed_unit
 
 INK = "#1f2933"
 MUTED = "#55626e"
@@ -45,8 +45,6 @@ RC: dict[Any, Any] = {
 }
 """Settings of matplotlib for every figure; names of fonts are put in afterwards, see `ink.FONTS`."""
 
-POWERS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
-
 
 def shown_unit(unit: str) -> str:
     """A unit as it is printed.
@@ -54,14 +52,8 @@ def shown_unit(unit: str) -> str:
     >>> shown_unit("kg/m^3"), shown_unit("N*m"), shown_unit("deg"), shown_unit("m/s^2"), shown_unit("1")
     ('kg/m³', 'N·m', '°', 'm/s²', '')
     """
-    if unit in ("", "1"):
-        return ""
     plain = {"deg": "°", "um": "µm", "rpm": "rev/min", "inch": "in", "Nm": "N·m"}.get(unit, unit)
-    head, *powers = plain.split("^")
-    for power in powers:
-        digits = len(power) - len(power.lstrip("-0123456789"))
-        head += power[:digits].translate(POWERS) + power[digits:]
-    return head.replace("*", "·")
+    return printed_unit(plain)
 
 
 def with_unit(label: str, unit: str) -> str:

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import TypeGuard
 
 from ilmek.report import Json, Table
-from ilmek.units import format_number, parse_unit
-from ilmek.viz.style import POWERS, shown_unit
+from ilmek.units import POWERS, format_number, parse_unit
+from ilmek.viz.style import shown_unit
 
 _MINUS = str.maketrans("-", "−")
 _SIGNS = {"<=": "≤", ">=": "≥", "==": "="}
