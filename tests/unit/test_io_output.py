@@ -60,6 +60,15 @@ def test_full_disk_is_one_sentence(tmp_path: Path, failure: Exception) -> None:
     assert listing(tmp_path) == []
 
 
+def test_a_file_in_the_folder_is_called_by_its_place(tmp_path: Path) -> None:
+    with (
+        pytest.raises(OutputError, match=r"^\S*/out/deep/a\.json cannot be written"),
+        output_folder(tmp_path / "out") as work,
+    ):
+        write_whole(work / "deep/a.json", "x")
+    assert listing(tmp_path) == []
+
+
 def test_existing_folder_is_refused_without_force(tmp_path: Path) -> None:
     make(tmp_path / "out", "a")
     with pytest.raises(OutputError, match="exists.*--force"), output_folder(tmp_path / "out"):

@@ -39,11 +39,14 @@ def output_folder(path: Path, *, force: bool = False) -> Iterator[Path]:
             _write_manifest(work)
             check_free(path, force=force)
             _put(work, place)
-    except BaseException:
+    except BaseException as error:
         shutil.rmtree(work, ignore_errors=True)
         for folder in made:
             with contextlib.suppress(OSError):
                 folder.rmdir()
+        if isinstance(error, OutputError):  # of a file in it: a person knows the folder by its own name
+            said = error.given.replace(str(work), str(path))
+            raise OutputError(said, allowed=error.allowed, do=error.do) from None
         raise
 
 
