@@ -9,15 +9,10 @@ import io
 import re
 from xml.sax.saxutils import escape, quoteattr
 
-from matplotlib.axes import Axes
-from matplotlib.backends.backend_svg import FigureCanvasSVG
-from matplotlib.figure import Figure
-
-from ilmek.viz.style import PAPER
+from ilmek.viz.sheet import Sheet
 
 FONTS = "'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 
-_POINTS = 72.0
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # no XML may hold these
 _DECIMALS = re.compile(r"-?\d+\.\d{3,}")
 _ID = re.compile(r'\sid="([^"]+)"')
@@ -33,21 +28,6 @@ _TIDY = (
 _SLUG = re.compile(r"[^A-Za-z0-9]+")
 
 
-def sheet(width: float, height: float) -> Figure:
-    """An empty figure of width x height [pt] with a canvas of its own."""
-    figure = Figure(figsize=(width / _POINTS, height / _POINTS), facecolor="none")
-    FigureCanvasSVG(figure)
-    return figure
-
-
-def axes_in_points(figure: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
-    """Axes at a place of the figure given in points from its lower left corner."""
-    whole, high = (float(side) * _POINTS for side in figure.get_size_inches())
-    axes = figure.add_axes((left / whole, bottom / high, width / whole, height / high))
-    axes.set_facecolor(PAPER)
-    return axes
-
-
 def slug(text: str) -> str:
     """The text as part of an id: letters, digits and single hyphens.
 
@@ -57,25 +37,24 @@ def slug(text: str) -> str:
     return _SLUG.sub("-", text).strip("-").lower() or "figure"
 
 
-def inline_svg(figure: Figure, title: str, prefix: str) -> str:
-    """The figure as an `<svg>` element with a title, ids that begin with `prefix`, and no fixed size.
+def inline_svg(sheet: Sheet, title: str, prefix: str) -> str:
+    """The sheet as an `<svg>` element with a title, ids that begin with `prefix`, and no fixed size.
 
-    >>> text = inline_svg(sheet(72, 36), "a < b", "one")
+    >>> text = inline_svg(Sheet(72, 36), "a < b", "one")
     >>> text.startswith('<svg') and "a &lt; b" in text
     True
     """
     stream = io.StringIO()
-    figure.savefig(stream, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
+    sheet.figure.savefig(stream, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
     text = _CONTROL.sub("", stream.getvalue())
     body = text[text.index(">", text.index("<svg")) + 1 :]
     for pattern, instead in _TIDY:
         body = pattern.sub(instead, body)
     body = _DECIMALS.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), _own_ids(body, prefix))
     shown = _CONTROL.sub("", title)
-    width, height = (float(side) * _POINTS for side in figure.get_size_inches())
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" role="img" '
-        f'viewBox="0 0 {width:.6g} {height:.6g}" style="stroke-linejoin:round;font-family:{FONTS}" '
+        f'viewBox="0 0 {sheet.width:.6g} {sheet.height:.6g}" style="stroke-linejoin:round;font-family:{FONTS}" '
         f"aria-label={quoteattr(shown)}>\n<title>{escape(shown)}</title>{body}"
     )
 

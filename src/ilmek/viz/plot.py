@@ -4,28 +4,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
+from ilmek.arrays import FloatArray
 from ilmek.report import Mark, Plot, Series
 from ilmek.units import parse_unit
-from ilmek.viz.ink import axes_in_points, sheet
+from ilmek.viz.frame import Box, grid, left_axis, lower_axis, paper
 from ilmek.viz.scale import span, tick_labels, ticks
-from ilmek.viz.style import (
-    AXIS,
-    DASHES,
-    GRID,
-    INK,
-    MUTED,
-    PALETTE,
-    SMALL,
-    TEXT,
-    colour,
-    in_unit,
-    text_width,
-    with_unit,
-)
+from ilmek.viz.sheet import Sheet
+from ilmek.viz.style import AXIS, DASHES, INK, MUTED, PALETTE, SMALL, TEXT, colour, in_unit, text_width, with_unit
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 WIDTH, HEIGHT = 420.0, 168.0
@@ -44,29 +30,51 @@ class _Entry:
     left: float
 
 
-def draw_plot(plot: Plot) -> Figure:
+def draw_plot(plot: Plot) -> Sheet:
     """The curves with a grid, units on the axes, the legend above the curves and the marks between the two."""
-    y_span = _padded(*span(np.concatenate([in_unit(one.y, plot.y.unit) for one in plot.series] or [np.empty(0)])))
-    x_span = span(np.concatenate([in_unit(one.x, plot.x.unit) for one in plot.series] or [np.empty(0)]))
-    y_ticks = ticks(*y_span, plot.y.unit, 6)
-    labels = tick_labels(y_ticks)
-    left = 26.0 + max((text_width(label, SMALL) for label in labels), default=0.0)
+    x_span = span(_all([in_unit(one.x, plot.x.unit) for one in plot.series]))
+    y_span = _padded(*span(_all([in_unit(one.y, plot.y.unit) for one in plot.series])))
+    x_ticks, y_ticks = ticks(*x_span, plot.x.unit, 9), ticks(*y_span, plot.y.unit, 6)
+    left = 26.0 + max((text_width(label, SMALL) for label in tick_labels(y_ticks)), default=0.0)
     entries = _legend(plot, left)
-    rows = 1 + max((entry.row for entry in entries), default=-1)
     tiers = _tiers(plot.marks, x_span, plot.x.unit, WIDTH - left - _RIGHT)
+    rows = 1 + max((entry.row for entry in entries), default=-1)
     top = 6.0 + _ROW * rows + _TIER * (1 + max(tiers, default=-1)) + (4.0 if tiers else 0.0)
-    figure = sheet(WIDTH, _BOTTOM + HEIGHT + top)
-    axes = axes_in_points(figure, left, _BOTTOM, WIDTH - left - _RIGHT, HEIGHT)
-    _frame(axes, plot, x_span, y_span)
-    axes.set_yticks(y_ticks, labels)
+    sheet = Sheet(WIDTH, _BOTTOM + HEIGHT + top)
+    box = Box(left, _BOTTOM, WIDTH - left - _RIGHT, HEIGHT)
+    scales = _Scales(box, x_span, y_span)
+    paper(sheet, box)
+    at_x, at_y = [scales.x(value) for value in x_ticks], [scales.y(value) for value in y_ticks]
+    grid(sheet, box, at_x, at_y)
+    lower_axis(sheet, box, at_x, x_ticks, with_unit(plot.x.label, plot.x.unit))
+    left_axis(sheet, box, at_y, y_ticks, with_unit(plot.y.label, plot.y.unit))
+    if y_span[0] < 0 < y_span[1]:
+        sheet.line(1j * scales.y(0.0) + np.array([box.left, box.right]), color=AXIS, linewidth=0.8, zorder=1.5)
     for number, one in enumerate(plot.series):
         x, y = thinned_curve(in_unit(one.x, plot.x.unit), in_unit(one.y, plot.y.unit))
-        across, up = (WIDTH - left - _RIGHT) / (x_span[1] - x_span[0]), HEIGHT / (y_span[1] - y_span[0])
-        points = thinned_line(across * x + 1j * up * y)
-        axes.add_line(Line2D(points.real / across, points.imag / up, zorder=3, **_line(one, number)))
-    _draw_marks(axes, plot, tiers)
-    _draw_legend(figure, entries)
-    return figure
+        sheet.line(thinned_line(scales.x(x) + 1j * scales.y(y)), zorder=3, **_line(one, number))
+    _draw_marks(sheet, box, scales, plot, tiers)
+    _draw_legend(sheet, entries)
+    return sheet
+
+
+@dataclass(frozen=True, slots=True)
+class _Scales:
+    """Values in the axes' units to places on the sheet [pt]."""
+
+    box: Box
+    x_span: tuple[float, float]
+    y_span: tuple[float, float]
+
+    def x(self, values: Any) -> Any:
+        return self.box.left + (values - self.x_span[0]) / (self.x_span[1] - self.x_span[0]) * self.box.width
+
+    def y(self, values: Any) -> Any:
+        return self.box.low + (values - self.y_span[0]) / (self.y_span[1] - self.y_span[0]) * self.box.height
+
+
+def _all(parts: list[FloatArray]) -> FloatArray:
+    return np.concatenate([np.empty(0), *parts])
 
 
 def _padded(low: float, high: float) -> tuple[float, float]:
@@ -86,30 +94,6 @@ def _line(series: Series, number: int) -> dict[str, Any]:
     return {"color": colour(number), "linewidth": 1.5, "linestyle": style}
 
 
-def _frame(axes: Axes, plot: Plot, x_span: tuple[float, float], y_span: tuple[float, float]) -> None:
-    axes.set_xlim(*x_span)
-    axes.set_ylim(*y_span)
-    x_ticks = ticks(*x_span, plot.x.unit, 9)
-    axes.set_xticks(x_ticks, tick_labels(x_ticks))
-    axes.grid(color=GRID, linewidth=0.6)
-    axes.set_axisbelow(True)
-    axes.tick_params(length=3, width=0.6, labelsize=SMALL, labelcolor=MUTED, pad=2.5)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
-    if y_span[0] < 0 < y_span[1]:
-        axes.axhline(0.0, color=AXIS, linewidth=0.8, zorder=1.5)
-    axes.set_xlabel(with_unit(plot.x.label, plot.x.unit), fontsize=TEXT, labelpad=3)
-    axes.figure.text(
-        9.0 / WIDTH,
-        axes.get_position().y0 + axes.get_position().height / 2,
-        with_unit(plot.y.label, plot.y.unit),
-        fontsize=TEXT,
-        rotation=90,
-        ha="center",
-        va="center",
-    )
-
-
 def _legend(plot: Plot, left: float) -> list[_Entry]:
     """Entries in rows above the curves; none where the axis says it already."""
     if len(plot.series) == 1 and plot.series[0].label in ("", plot.y.label, plot.title):
@@ -125,13 +109,11 @@ def _legend(plot: Plot, left: float) -> list[_Entry]:
     return entries
 
 
-def _draw_legend(figure: Figure, entries: list[_Entry]) -> None:
-    height = float(figure.get_size_inches()[1]) * 72.0
+def _draw_legend(sheet: Sheet, entries: list[_Entry]) -> None:
     for entry in entries:
-        y = height - 4.0 - _ROW * (entry.row + 0.5)
-        across = [entry.left / WIDTH, (entry.left + _KEY) / WIDTH]
-        figure.add_artist(Line2D(across, [y / height] * 2, **_line(entry.series, entry.number)))
-        figure.text((entry.left + _KEY + 4.0) / WIDTH, y / height, entry.series.label, fontsize=TEXT, va="center")
+        at = complex(entry.left, sheet.height - 4.0 - _ROW * (entry.row + 0.5))
+        sheet.line(np.array([at, at + _KEY]), **_line(entry.series, entry.number))
+        sheet.text(at + _KEY + 4.0, entry.series.label, fontsize=TEXT, va="center_baseline")
 
 
 def _tiers(marks: tuple[Mark, ...], x_span: tuple[float, float], unit: str, width: float) -> list[int]:
@@ -148,17 +130,12 @@ def _tiers(marks: tuple[Mark, ...], x_span: tuple[float, float], unit: str, widt
     return tiers
 
 
-def _draw_marks(axes: Axes, plot: Plot, tiers: list[int]) -> None:
+def _draw_marks(sheet: Sheet, box: Box, scales: _Scales, plot: Plot, tiers: list[int]) -> None:
     for mark, tier in zip(plot.marks, tiers, strict=True):
-        x = mark.x / parse_unit(plot.x.unit).factor
-        axes.axvline(x, color=INK, linewidth=0.7, linestyle=(0, (2, 2)), zorder=2)
-        axes.annotate(
-            mark.label,
-            (x, 1.0),
-            (0, 3.0 + _TIER * tier),
-            xycoords=("data", "axes fraction"),
-            textcoords="offset points",
-            ha="center",
-            fontsize=SMALL,
-            color=MUTED,
-        )
+        x = float(scales.x(mark.x / parse_unit(plot.x.unit).factor))
+        if not box.left - 1e-6 <= x <= box.right + 1e-6:
+            continue
+        line = x + 1j * np.array([box.low, box.top])
+        sheet.line(line, color=INK, linewidth=0.7, linestyle=(0, (2, 2)), zorder=2)
+        above = x + 1j * (box.top + 3.0 + _TIER * tier)
+        sheet.text(above, mark.label, ha="center", va="bottom", fontsize=SMALL, color=MUTED)

@@ -64,8 +64,8 @@ def thinned_line(points: ComplexArray, tolerance: float = TOLERANCE, limit: int 
 
 
 def _distances(points: ComplexArray, start: complex, end: complex) -> FloatArray:
-    """How far each point lies from the chord."""
+    """How far each point lies from the chord, its ends included: a line may turn back beyond them."""
     chord = end - start
-    if chord == 0:
-        return np.asarray(np.abs(points - start))
-    return np.asarray(np.abs((np.conj(chord) * (points - start)).imag) / abs(chord))
+    length = abs(chord) ** 2 or 1.0
+    share = np.clip(((points - start) * np.conj(chord)).real / length, 0.0, 1.0)
+    return np.asarray(np.abs(points - start - share * chord))

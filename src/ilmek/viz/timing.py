@@ -5,15 +5,14 @@ flat. The events of a track are ticks with names above its curve. The lower axis
 """
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ilmek.report import Lane, Timing
 from ilmek.units import deg
 from ilmek.viz.flags import Flag, flags
-from ilmek.viz.ink import axes_in_points, sheet
-from ilmek.viz.scale import tick_labels, ticks
-from ilmek.viz.style import AXIS, GRID, INK, MUTED, SMALL, STRONG, TEXT, colour, text_width, tint
+from ilmek.viz.frame import Box, grid, lower_axis, paper, upper_axis
+from ilmek.viz.scale import ticks
+from ilmek.viz.sheet import Sheet, circle
+from ilmek.viz.style import AXIS, INK, MUTED, SMALL, STRONG, colour, text_width, tint
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 WIDTH = 600.0
@@ -23,31 +22,27 @@ _STROKE, _GAP, _TIER = 26.0, 9.0, 9.5
 _TURN = 360.0
 
 
-def draw_timing(timing: Timing) -> Figure:
+def draw_timing(timing: Timing) -> Sheet:
     """The tracks stacked, the first on top."""
     names = [text_width(lane.name, STRONG, bold=True) for lane in timing.lanes]
     actuators = [text_width(lane.actuator, SMALL) for lane in timing.lanes]
     left = 18.0 + max([40.0, *names, *actuators])
-    width = WIDTH - left - _RIGHT
-    flown = [_flags(lane, width) for lane in timing.lanes]
+    flown = [_flags(lane, WIDTH - left - _RIGHT) for lane in timing.lanes]
     heights = [_STROKE + _GAP + _TIER * (1 + max((flag.tier for flag in lane), default=-1)) for lane in flown]
-    body = sum(heights) + 2.0
-    figure = sheet(WIDTH, _BOTTOM + body + _TOP)
-    axes = axes_in_points(figure, left, _BOTTOM, width, body)
-    axes.set_xlim(0.0, width)
-    axes.set_ylim(0.0, body)
-    ceiling = body - 1.0
+    box = Box(left, _BOTTOM, WIDTH - left - _RIGHT, sum(heights) + 2.0)
+    sheet = Sheet(WIDTH, box.top + _TOP)
+    paper(sheet, box)
+    _axes(sheet, box, timing.period)
+    ceiling = box.top - 1.0
     for number, (lane, lane_flags, height) in enumerate(zip(timing.lanes, flown, heights, strict=True)):
         ceiling -= height
-        floor = ceiling + _GAP / 2
-        _motion(axes, lane, floor, width, colour(number))
-        _events(axes, lane, lane_flags, floor)
-        _name(axes, lane, floor + _STROKE / 2)
+        floor = complex(left, ceiling + _GAP / 2)
+        _motion(sheet, lane, floor, box.width, colour(number))
+        _events(sheet, lane, lane_flags, floor)
+        _name(sheet, lane, floor + 1j * _STROKE / 2)
         if number + 1 < len(timing.lanes):
-            axes.axhline(ceiling, color=AXIS, linewidth=0.4)
-    _angle_axis(axes, width)
-    _time_axis(axes, timing.period)
-    return figure
+            sheet.line(1j * ceiling + np.array([box.left, box.right]), color=AXIS, linewidth=0.4)
+    return sheet
 
 
 def _flags(lane: Lane, width: float) -> list[Flag]:
@@ -55,51 +50,46 @@ def _flags(lane: Lane, width: float) -> list[Flag]:
     return flags(places, [text_width(event.label, SMALL) + 7.0 for event in lane.events], width)
 
 
-def _motion(axes: Axes, lane: Lane, floor: float, width: float, shade: str) -> None:
-    """The curve of the position over its baseline [pt]."""
+def _motion(sheet: Sheet, lane: Lane, floor: complex, width: float, shade: str) -> None:
+    """The curve of the position over its baseline, which begins at `floor`."""
     angle, position = thinned_curve(np.asarray(lane.angle, dtype=float), np.asarray(lane.position, dtype=float))
-    points = thinned_line(angle / deg / _TURN * width + 1j * (floor + _STROKE * position))
-    axes.fill_between(points.real, floor, points.imag, color=tint(shade, 0.16), linewidth=0, zorder=2)
-    axes.plot([0.0, width], [floor, floor], color=AXIS, linewidth=0.5, zorder=2.2)
-    axes.plot(points.real, points.imag, color=shade, linewidth=1.6, zorder=3)
+    points = thinned_line(floor + angle / deg / _TURN * width + 1j * _STROKE * position)
+    finite = points[np.isfinite(points)]
+    if len(finite):
+        feet = np.array([finite[-1].real, finite[0].real]) + 1j * floor.imag
+        sheet.area(np.concatenate([finite, feet]), facecolor=tint(shade, 0.16), linewidth=0, zorder=0.8)
+    sheet.line(floor + np.array([0, width]), color=AXIS, linewidth=0.5, zorder=2.2)
+    sheet.line(points, color=shade, linewidth=1.6, zorder=3)
 
 
-def _events(axes: Axes, lane: Lane, lane_flags: list[Flag], floor: float) -> None:
+def _events(sheet: Sheet, lane: Lane, lane_flags: list[Flag], floor: complex) -> None:
     """A tick from the baseline to the line of the name, a dot at its foot, the name beside its head."""
     for event, flag in zip(lane.events, lane_flags, strict=True):
-        low = floor + _STROKE + 1.5 + _TIER * flag.tier
-        axes.plot([flag.x, flag.x], [floor, low + 0.75 * _TIER], color=INK, linewidth=0.7, zorder=3.5)
-        axes.plot([flag.x], [floor], marker="o", markersize=2.6, color=INK, zorder=4)
+        foot = floor + flag.x
+        low = foot + 1j * (_STROKE + 1.5 + _TIER * flag.tier)
+        sheet.line(np.array([foot, low + 0.75j * _TIER]), color=INK, linewidth=0.7, zorder=3.5)
+        sheet.area(circle(foot, 1.4), facecolor=INK, linewidth=0, zorder=4)
         side, shift = ("right", -2.5) if flag.leftward else ("left", 2.5)
-        axes.text(flag.x + shift, low + 0.4, event.label, fontsize=SMALL, color=INK, ha=side, va="bottom", zorder=5)
+        sheet.text(low + shift + 2.2j, event.label, fontsize=SMALL, color=INK, ha=side, va="baseline", zorder=5)
 
 
-def _name(axes: Axes, lane: Lane, middle: float) -> None:
+def _name(sheet: Sheet, lane: Lane, middle: complex) -> None:
     """Name of the track and of its actuator, left of the axis."""
-    shift = 5.2 if lane.actuator else 0.0
-    axes.text(-8.0, middle + shift, lane.name, ha="right", va="center", fontsize=STRONG, weight="bold")
+    right = {"ha": "right", "va": "center_baseline"}
+    shift = 5.2j if lane.actuator else 0j
+    sheet.text(middle - 8.0 + shift, lane.name, fontsize=STRONG, weight="bold", **right)
     if lane.actuator:
-        axes.text(-8.0, middle - 5.4, lane.actuator, ha="right", va="center", fontsize=SMALL, color=MUTED)
+        sheet.text(middle - 8.0 - 5.6j, lane.actuator, fontsize=SMALL, color=MUTED, **right)
 
 
-def _angle_axis(axes: Axes, width: float) -> None:
-    places = [30.0 * step for step in range(13)]
-    axes.set_xticks([place / _TURN * width for place in places], tick_labels(places))
-    axes.set_yticks([])
-    axes.grid(axis="x", color=GRID, linewidth=0.6)
-    axes.set_axisbelow(True)
-    axes.tick_params(length=3, width=0.6, labelsize=SMALL, labelcolor=MUTED, pad=2.5)
-    axes.set_xlabel("master angle [°]", fontsize=TEXT, labelpad=3)
-
-
-def _time_axis(axes: Axes, period: float) -> None:
-    """The upper axis: seconds, or milliseconds for a quick turn."""
+def _axes(sheet: Sheet, box: Box, period: float) -> None:
+    """The master angle below with the grid, the time above: seconds, or milliseconds for a quick turn."""
+    angles = [30.0 * step for step in range(13)]
+    at = [box.left + angle / _TURN * box.width for angle in angles]
+    grid(sheet, box, at)
+    lower_axis(sheet, box, at, angles, "master angle [°]")
     factor, unit = (1.0, "s") if period >= 0.5 else (1e-3, "ms")
-    upper = axes.twiny()
-    upper.set_xlim(0.0, period / factor)
-    places = ticks(0.0, period / factor, "", 8)
-    upper.set_xticks(places, tick_labels(places))
-    upper.tick_params(length=3, width=0.6, labelsize=SMALL, labelcolor=MUTED, pad=2)
-    upper.set_xlabel(f"time [{unit}]", fontsize=TEXT, labelpad=3)
-    for side in ("left", "right", "bottom"):
-        upper.spines[side].set_visible(False)
+    times = ticks(0.0, period / factor, "", 8)
+    upper_axis(sheet, box, [box.left + t * factor / period * box.width for t in times], times, f"time [{unit}]")
+    for x in (box.left, box.right):
+        sheet.line(x + 1j * np.array([box.low, box.top]), color=AXIS, linewidth=0.7)

@@ -1,0 +1,89 @@
+"""The frame of a plot: grid, ticks and their numbers, the names of the axes."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.viz.scale import tick_labels
+from ilmek.viz.sheet import Sheet, places
+from ilmek.viz.style import AXIS, GRID, MUTED, PAPER, SMALL, TEXT
+
+_TICK = 3.0
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """Where a plot lies on its sheet [pt]: left and lower edge, width and height."""
+
+    left: float
+    low: float
+    width: float
+    height: float
+
+    @property
+    def right(self) -> float:
+        """The right edge."""
+        return self.left + self.width
+
+    @property
+    def top(self) -> float:
+        """The upper edge."""
+        return self.low + self.height
+
+    @property
+    def corners(self) -> ComplexArray:
+        """The four corners."""
+        lower, upper = 1j * self.low, 1j * self.top
+        return np.array([self.left + lower, self.right + lower, self.right + upper, self.left + upper])
+
+
+def paper(sheet: Sheet, box: Box) -> None:
+    """The white ground of a plot."""
+    sheet.area(box.corners, facecolor=PAPER, linewidth=0, zorder=0.5)
+
+
+def grid(sheet: Sheet, box: Box, x: Sequence[float] = (), y: Sequence[float] = ()) -> None:
+    """Grid lines at these places [pt]."""
+    upright, level = places(x), 1j * places(y)
+    look = {"color": GRID, "linewidth": 0.6, "zorder": 1.0}
+    if len(upright):
+        sheet.lines(upright + 1j * box.low, upright + 1j * box.top, **look)
+    if len(level):
+        sheet.lines(level + box.left, level + box.right, **look)
+
+
+def lower_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], name: str) -> None:
+    """The axis along the lower edge: ticks at places [pt] with their values, and its name."""
+    _edge(sheet, 1j * box.low + places([box.left, box.right]), 1j * box.low + places(at), -1j)
+    for x, words in zip(at, tick_labels(values), strict=True):
+        sheet.text(x + 1j * (box.low - _TICK - 2.5), words, ha="center", va="top", fontsize=SMALL, color=MUTED)
+    middle = (box.left + box.right) / 2
+    sheet.text(middle + 1j * (box.low - _TICK - 13.5), name, ha="center", va="top", fontsize=TEXT)
+
+
+def upper_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], name: str) -> None:
+    """The axis along the upper edge."""
+    _edge(sheet, 1j * box.top + places([box.left, box.right]), 1j * box.top + places(at), 1j)
+    for x, words in zip(at, tick_labels(values), strict=True):
+        sheet.text(x + 1j * (box.top + _TICK + 2.0), words, ha="center", va="bottom", fontsize=SMALL, color=MUTED)
+    middle = (box.left + box.right) / 2
+    sheet.text(middle + 1j * (box.top + _TICK + 13.0), name, ha="center", va="bottom", fontsize=TEXT)
+
+
+def left_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], name: str) -> None:
+    """The axis along the left edge; its name stands at the sheet's edge and is read from the right."""
+    _edge(sheet, box.left + 1j * places([box.low, box.top]), box.left + 1j * places(at), -1)
+    for y, words in zip(at, tick_labels(values), strict=True):
+        place = complex(box.left - _TICK - 2.5, y)
+        sheet.text(place, words, ha="right", va="center_baseline", fontsize=SMALL, color=MUTED)
+    middle = complex(12.0, (box.low + box.top) / 2)
+    sheet.text(middle, name, ha="center", va="baseline", fontsize=TEXT, rotation=90)
+
+
+def _edge(sheet: Sheet, edge: ComplexArray, ticks: ComplexArray, outward: complex) -> None:
+    """The line of an axis with its ticks."""
+    sheet.line(edge, color=AXIS, linewidth=0.7, zorder=2.5)
+    if len(ticks):
+        sheet.lines(ticks, ticks + _TICK * outward, color=AXIS, linewidth=0.6, zorder=2.5)

@@ -1,0 +1,166 @@
+"""How each role of `report.Stroke` and `report.Dot` is drawn: bars, hatched ground, pivots, dimensions."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.report import Stroke
+from ilmek.viz.sheet import Sheet, circle
+from ilmek.viz.style import INK, MUTED, PAPER, SMALL, STEEL, YARN, colour, text_width, tint
+from ilmek.viz.thinning import thinned_line
+
+
+@dataclass(frozen=True, slots=True)
+class Pen:
+    """Where to draw, how a place [m] becomes a place on the sheet [pt], and the next colour's number."""
+
+    sheet: Sheet
+    scale: float
+    origin: complex
+    numbers: Mapping[int, int]
+    unit: str
+
+    def __call__(self, points: ComplexArray) -> ComplexArray:
+        """Places on the sheet [pt] of points [m]."""
+        return (points - self.origin) * self.scale
+
+
+def _line(pen: Pen, stroke: Stroke, **look: Any) -> ComplexArray:
+    """The stroke as a line; returns its points on the sheet."""
+    points = thinned_line(pen(stroke.points))
+    if stroke.closed and len(points):
+        points = np.append(points, points[0])
+    pen.sheet.line(points, **look)
+    return points
+
+
+def _fill(pen: Pen, stroke: Stroke, shade: str, order: float) -> None:
+    points = pen(stroke.points)
+    pen.sheet.area(thinned_line(points[np.isfinite(points)]), facecolor=shade, linewidth=0, zorder=order)
+
+
+def _outline(pen: Pen, stroke: Stroke, _: int) -> None:
+    if stroke.filled:
+        _fill(pen, stroke, "#eef1f4", 1.8)
+    _line(pen, stroke, color=INK, linewidth=1.4, zorder=3)
+
+
+def _link(pen: Pen, stroke: Stroke, number: int) -> None:
+    """A bar: a wide line in a pale shade inside a slightly wider one in the full colour."""
+    shade = colour(pen.numbers[number])
+    if stroke.filled:
+        _fill(pen, stroke, tint(shade, 0.3), 3.8)
+    round_ends = {"solid_capstyle": "round", "solid_joinstyle": "round"}
+    _line(pen, stroke, color=shade, linewidth=7.0, zorder=4, **round_ends)
+    _line(pen, stroke, color=tint(shade, 0.45), linewidth=4.8, zorder=4.1, **round_ends)
+
+
+def _ground(pen: Pen, stroke: Stroke, _: int) -> None:
+    """A grey line with hatches on the right hand of its direction."""
+    points = _line(pen, stroke, color=STEEL, linewidth=1.4, zorder=2.5)
+    if stroke.filled:
+        _fill(pen, stroke, "#e4e8ec", 1.7)
+    _hatch(pen.sheet, points, 5.5)
+
+
+def _hatch(sheet: Sheet, points: ComplexArray, length: float) -> None:
+    steps = np.diff(points)
+    along = np.concatenate([[0.0], np.cumsum(np.abs(steps))])
+    if len(points) < 2 or along[-1] == 0:
+        return
+    places = np.arange(2.0, along[-1], 5.0)
+    where = np.clip(np.searchsorted(along, places, side="right") - 1, 0, len(steps) - 1)
+    ways = steps[where] / np.abs(steps[where])
+    starts = points[where] + ways * (places - along[where])
+    ends = starts + ways * length * np.exp(-1j * np.radians(135))
+    sheet.lines(starts, ends, color=STEEL, linewidth=0.7, zorder=2.4)
+
+
+def _path(pen: Pen, stroke: Stroke, number: int) -> None:
+    _line(pen, stroke, color=colour(pen.numbers[number]), linewidth=1.1, zorder=3.2)
+
+
+def _construction(pen: Pen, stroke: Stroke, _: int) -> None:
+    _line(pen, stroke, color=STEEL, linewidth=0.7, linestyle=(0, (4, 2.5)), zorder=2)
+
+
+def _yarn(pen: Pen, stroke: Stroke, _: int) -> None:
+    if stroke.filled:
+        _fill(pen, stroke, tint(YARN, 0.25), 2.0)
+    _line(pen, stroke, color=YARN, linewidth=2.0, zorder=3.5)
+
+
+def _dimension(pen: Pen, stroke: Stroke, _: int) -> None:
+    """A thin line with an arrow at both ends and its text on the line."""
+    points = _line(pen, stroke, color=MUTED, linewidth=0.7, zorder=5)
+    if len(points) < 2:
+        return
+    for tip, inner in ((points[0], points[1]), (points[-1], points[-2])):
+        way = (inner - tip) / (abs(inner - tip) or 1.0)
+        corners = tip + way * np.array([0, 6 + 1.6j, 6 - 1.6j])
+        pen.sheet.area(corners, facecolor=MUTED, linewidth=0, zorder=5)
+    if not stroke.label:
+        return
+    middle, way = _middle(points)
+    if text_width(stroke.label, SMALL) + 18.0 > float(np.abs(np.diff(points)).sum()):
+        middle += 7.0 * _upright(way) * 1j
+    pen.sheet.text(
+        middle,
+        stroke.label,
+        fontsize=SMALL,
+        color=INK,
+        ha="center",
+        va="center_baseline",
+        rotation=float(np.degrees(np.angle(_upright(way)))),
+        bbox={"facecolor": PAPER, "linewidth": 0, "pad": 1.0},
+        zorder=6,
+    )
+
+
+def _upright(way: complex) -> complex:
+    """The direction or its opposite, whichever lets a text be read from below or from the right."""
+    return -way if way.real < -1e-9 or (abs(way.real) <= 1e-9 and way.imag < 0) else way
+
+
+def _middle(points: ComplexArray) -> tuple[complex, complex]:
+    """The middle of a polyline by its length, and the unit direction there."""
+    steps = np.diff(points)
+    along = np.concatenate([[0.0], np.cumsum(np.abs(steps))])
+    place = int(np.clip(np.searchsorted(along, along[-1] / 2) - 1, 0, len(steps) - 1))
+    length = abs(steps[place]) or 1.0
+    return complex(points[place] + steps[place] * (along[-1] / 2 - along[place]) / length), complex(
+        steps[place] / length
+    )
+
+
+def _pin(pen: Pen, at: complex) -> None:
+    pen.sheet.area(circle(at, 3.4), facecolor=PAPER, edgecolor=INK, linewidth=1.1, zorder=7)
+
+
+def _pivot(pen: Pen, at: complex) -> None:
+    """A triangle on hatched ground with the pin at its tip."""
+    corners = at + np.array([0, -7.5 - 12j, 7.5 - 12j])
+    pen.sheet.area(corners, facecolor="#e4e8ec", edgecolor=INK, linewidth=1.0, zorder=3.6)
+    base = at + np.array([-10.5 - 12j, 10.5 - 12j])
+    pen.sheet.line(base, color=INK, linewidth=1.0, zorder=3.6)
+    _hatch(pen.sheet, base, 5.0)
+    _pin(pen, at)
+
+
+def _point(pen: Pen, at: complex) -> None:
+    pen.sheet.area(circle(at, 1.9), facecolor=INK, linewidth=0, zorder=7)
+
+
+STROKES: Mapping[str, Callable[[Pen, Stroke, int], None]] = {
+    "outline": _outline,
+    "link": _link,
+    "ground": _ground,
+    "path": _path,
+    "construction": _construction,
+    "dimension": _dimension,
+    "yarn": _yarn,
+}
+DOTS: Mapping[str, Callable[[Pen, complex], None]] = {"pin": _pin, "pivot": _pivot, "point": _point}
