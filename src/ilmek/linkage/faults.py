@@ -27,8 +27,7 @@ def first_fault(plan: Plan, drives: Mapping[str, Drive], status: Int8[np.ndarray
         for step in plan.steps:
             solved = step.solve(known, drives)
             found = np.zeros(np.count_nonzero(bad), dtype=np.int8)
-            if solved.margin is not None:
-                judge(step, known, solved.margin, found)
+            judge(step, known, solved, found)
             if found.any():
                 return _error(plan, step, _where(plan, drives, bad, found), step.shortfall(known), Status(found.max()))
             known.update(step.place(known, solved.columns))

@@ -5,8 +5,7 @@ from enum import IntEnum
 import numpy as np
 from jaxtyping import Int8
 
-from ilmek.arrays import RealField
-from ilmek.linkage.groups.group import Known, Step
+from ilmek.linkage.groups.group import Known, Solved, Step
 
 DEAD = 1e-7
 """A margin (sine of the transmission angle) this small leaves a velocity no digit: positions there are known to 1e-9,
@@ -31,12 +30,13 @@ class Status(IntEnum):
     NOT_CONVERGED = 3
 
 
-def judge(step: Step, known: Known, margin: RealField, status: Int8[np.ndarray, " samples"]) -> None:
+def judge(step: Step, known: Known, solved: Solved, status: Int8[np.ndarray, " samples"]) -> None:
     """Write into `status` what a step's margin says of the samples that were still OK."""
-    if np.min(np.abs(margin)) > DEAD:  # false for NaN too
+    margin, least = solved.margin, DEAD * solved.best
+    if margin is None or np.min(margin) > least or np.max(margin) < -least:  # never true with a NaN among them
         return
     lost = np.isnan(margin)
     touching = lost & (np.abs(step.gap(known)) <= TOUCHING * step.size)
-    dead = touching | (np.abs(margin) <= DEAD)
+    dead = touching | (np.abs(margin) <= least)
     found = np.where(dead, Status.DEAD_CENTRE, np.where(lost, Status[step.failure], Status.OK))
     np.copyto(status, found.astype(np.int8), where=status == Status.OK)

@@ -34,11 +34,13 @@ class Drive:
 class Solved:
     """A step's answer: the columns of each of its bodies, and how far from a dead centre it stands.
 
-    margin  1 at best, 0 at a dead centre, NaN where the step cannot be solved; either sign; None where it cannot fail
+    margin  `best` at best, 0 at a dead centre, NaN where the step cannot be solved; either sign; None where it cannot
+            fail
     """
 
     columns: Mapping[str, Columns]
     margin: RealField | None = None
+    best: float = 1.0
 
 
 class Step(ABC):

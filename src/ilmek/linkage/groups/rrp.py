@@ -125,7 +125,7 @@ class SliderDyad(Step):
             self.link: (u * (1 / self.arm), wa, link_rate(e, r, cosine)),
             self.slider: (s, ds, slider_rate(u, r, cosine)),
         }
-        return Solved(columns, cosine * (1 / self.a))
+        return Solved(columns, cosine, self.a)
 
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The link, anchored at the known pin, and the slider, anchored at the slide's point."""

@@ -121,7 +121,7 @@ class Dyad(Step):
             self.links[0]: (u * (1 / self.arms[0]), wa, first_rate(v, r, sine)),
             self.links[1]: (v * (1 / self.arms[1]), wb, second_rate(u, r, sine)),
         }
-        return Solved(columns, sine * (1 / (self.a * self.b)))
+        return Solved(columns, sine, self.a * self.b)
 
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The links, anchored at the known pins."""
