@@ -136,3 +136,17 @@ def test_a_terminal_without_the_signs_shows_question_marks() -> None:
     command = [sys.executable, "-m", "ilmek", "machines", "beat-up"]
     shown = subprocess.run(command, capture_output=True, env=environment, check=False)
     assert (shown.returncode, shown.stderr) == (0, b"")
+
+
+def test_ctrl_c_that_a_library_turns_into_its_own_error() -> None:
+    @click.command()
+    def command() -> None:
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt:
+            raise RuntimeError("no compiled object yet") from None
+
+    program = failing(KeyboardInterrupt())
+    program.get_command = lambda ctx, name: command  # type: ignore[method-assign,assignment] # noqa: ARG005
+    result = CliRunner().invoke(program, ["go"])
+    assert (result.exit_code, result.stderr) == (130, "ilmek: interrupted; nothing was written\n")

@@ -69,5 +69,6 @@ def test_progress_ascends_to_the_end(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert {"picture", "chart", "loom", "programme", "report"} <= {doing for doing, _ in told}
 
 
-def test_kernels_can_be_warmed() -> None:
-    assert warm() == 1
+def test_a_first_carpet_warms_everything() -> None:
+    # 256 knots of 2 s by one head, and 16 rows of wefts.
+    assert warm() > 512

@@ -76,11 +76,11 @@ class Frame(click.Group):
         if not standalone_mode:
             return run()
         _write_any_character()
-        with _terminable():
+        with _unwinding() as stopped:
             try:
                 status: object = run()
             except (KeyboardInterrupt, click.Abort):
-                _leave("interrupted; nothing was written", 130)
+                _leave(_INTERRUPTED, 130)
             except click.ClickException as error:
                 _leave(_usage(error), 2)
             except IlmekError as error:
@@ -89,7 +89,15 @@ class Frame(click.Group):
                 _leave("out of memory; try a smaller picture, size or quality", 2)
             except OSError as error:
                 _leave(f"{error.filename or 'a file'} cannot be read or written: {error.strerror or error}", 2)
+            except Exception:
+                # Ctrl-C inside a library's callback comes out as whatever error the library makes of it.
+                if not stopped:
+                    raise
+                _leave(_INTERRUPTED, 128 + stopped[0])
         sys.exit(status if isinstance(status, int) else 0)
+
+
+_INTERRUPTED = "interrupted; nothing was written"
 
 
 def _help_alone() -> None:
@@ -122,20 +130,23 @@ def _write_any_character() -> None:
             reconfigure(errors="replace")
 
 
-def _terminated(number: int, _frame: FrameType | None) -> NoReturn:
-    raise SystemExit(128 + number)
-
-
 @contextlib.contextmanager
-def _terminable() -> Iterator[None]:
-    """While inside, SIGTERM and SIGHUP unwind the stack, so that temporary files are removed."""
-    numbers = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+def _unwinding() -> Iterator[list[int]]:
+    """While inside, Ctrl-C, SIGTERM and SIGHUP unwind the stack, so that temporary files go; gives those that came."""
+    stopped: list[int] = []
+
+    def stop(number: int, _frame: FrameType | None) -> NoReturn:
+        stopped.append(number)
+        raise KeyboardInterrupt if number == signal.SIGINT else SystemExit(128 + number)
+
+    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    usual = (signal.SIG_DFL, signal.default_int_handler)
     try:
-        before = {n: signal.signal(n, _terminated) for n in numbers if signal.getsignal(n) is signal.SIG_DFL}
+        before = {n: signal.signal(n, stop) for n in numbers if signal.getsignal(n) in usual}
     except ValueError:  # not the main thread: the program around us handles signals
         before = {}
     try:
-        yield
+        yield stopped
         _flush()
     finally:
         for number, handler in before.items():

@@ -1,25 +1,33 @@
-"""Compile the kernels ahead of the first job: `python -m ilmek.jobs.warm`, once after installing.
+"""Make ready for the first job: `python -m ilmek.jobs.warm`, once after installing.
 
-A kernel is compiled when it is first called and kept in the user's cache folder (`ilmek.num.compiled`); this calls each
-one that a job needs on a carpet of a few knots, so that the first real job does not wait for the compiler.
+A kernel is compiled when it is first called and kept in the user's cache folder (`ilmek.num.compiled`); the drawing
+library makes its list of fonts on its first drawing. This weaves a carpet of a few knots into a folder that is thrown
+away, so that the first real job does not wait for either.
 """
 
+import tempfile
+from pathlib import Path
+
 import numpy as np
+from PIL import Image
 
-from ilmek.carpet.chart import make_chart
-from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
-from ilmek.io.yarn_file import default_yarns
-from ilmek.loom.programme import Times, heads_for, make_programme
+from ilmek.io.programme_file import open_programme
+from ilmek.jobs.loom import read_loom_order
+from ilmek.jobs.order import read_order
+from ilmek.jobs.weave import weave
 
 
-def warm() -> int:
-    """Chart and programme a carpet of 16 x 16 knots; the number of heads that its deadline needs."""
+def warm() -> float:
+    """Weave 16 x 16 knots of noise; the weaving time [s]."""
     noise = np.random.default_rng(1).integers(0, 256, (24, 24, 3), dtype=np.uint8)
-    chart = make_chart(noise, Size(0.16, 0.16), Quality(100.0, 100.0), default_yarns(), colours=8)
-    times = Times(knot=2.0, colour_change=0.5, travel=0.01, weft=10.0)
-    make_programme(chart.knots, len(chart.yarns), 2, times).row(0).ties()
-    return heads_for(chart.knots, len(chart.yarns), 1e6, times, 4)
+    with tempfile.TemporaryDirectory() as folder:
+        picture, out = Path(folder) / "noise.png", Path(folder) / "out"
+        Image.fromarray(noise).save(picture)
+        order = read_order(picture, size="16x16cm", quality="10x10/dm", colours=8)
+        weave(order, read_loom_order(order, deadline="100h"), out)
+        with open_programme(out / "programme.ilmek") as programme:
+            programme.row(0).ties()
+            return programme.totals.duration
 
 
 if __name__ == "__main__":
