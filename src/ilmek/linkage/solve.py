@@ -1,6 +1,7 @@
 """Moving a mechanism: a plan and the course of its inputs give its motion.
 
-The batch is worked off in blocks that stay in the processor's cache, each written into arrays made once. Nothing is carried from one sample to the next.
+The batch is worked off in blocks that stay in the processor's cache, each written into arrays made once.
+Nothing is carried from one sample to the next.
 """
 
 from collections.abc import Mapping
