@@ -33,4 +33,6 @@ def test_lock_names_no_host() -> None:
 
 def test_no_left_overs_in_the_sources() -> None:
     pattern = re.compile(r"\b(?:TODO|FIXME|XXX|NotImplementedError)\b")
-    assert [path.name for path in TEXTS if "src" in path.parts and pattern.search(path.read_text(encoding="utf-8"))] == []
+    assert [
+        path.name for path in TEXTS if "src" in path.parts and pattern.search(path.read_text(encoding="utf-8"))
+    ] == []

@@ -13,6 +13,9 @@ from ilmek.units import format_quantity
 _MOST_LINES = 40
 """Warps drawn; a real loom has more."""
 
+_LEADER = 0.1
+"""How far the leaders of the names reach beyond the frame [m]."""
+
 _WIDTH, _BOTTOM, _SPACER, _FELL, _HEADS, _COMB, _CAMS, _TOP = 0.05, 0.25, 0.60, 0.80, 0.95, 1.12, 1.50, 2.00
 """Heights over the floor [m]; chosen, as is every height of the drawing."""
 
@@ -35,7 +38,7 @@ def time_against_heads(loom: LoomDesign) -> Plot:
         Series("weaving time", heads.astype(float), total),
         Series("wefts and beats alone", heads.astype(float), wefts, dashed=True),
     )
-    note = f"at {loom.params.changes_per_knot:g} colour changes a knot; heads waiting for each other not counted"
+    note = f"at {loom.params.changes_per_knot:.2g} colour changes a knot; heads waiting for each other not counted"
     return Plot(
         "weaving-time",
         "Weaving time and number of heads",
@@ -55,11 +58,12 @@ def front(loom: LoomDesign) -> Drawing:
         *(_box(complex(x, 0), complex(0.06, _TOP + 0.15), "outline", filled=True) for x in (-0.06, wide)),
         *_cylinders(wide, loom.tube[0]),
         *_warps(loom, edge),
-        _box(complex(edge, _SPACER), complex(params.width, _FELL - _SPACER), "yarn", "carpet", filled=True),
-        Stroke(np.array([edge, edge + params.width]) + 1j * _COMB, "link", "comb of the beater"),
+        _box(complex(edge, _SPACER), complex(params.width, _FELL - _SPACER), "yarn", filled=True),
+        Stroke(np.array([edge, edge + params.width]) + 1j * _COMB, "link"),
         _cams(loom, edge, wide),
         *_heads(loom, edge),
         Stroke(np.array([edge, edge + params.width]) + 1j * _WIDTH, "dimension", format_quantity(params.width, "m")),
+        *_names(edge + params.width, wide),
     )
     note = f"{loom.warps} warps at {params.pitch * 1e3:.4g} mm, not all drawn; true across, heights chosen"
     return Drawing("loom-front", "The loom from the front", strokes, (), "m", note)
@@ -72,10 +76,25 @@ def _box(corner: complex, size: complex, role: str, label: str = "", *, filled: 
 
 
 def _cylinders(wide: float, diameter: float) -> tuple[Stroke, ...]:
-    named = ((_BOTTOM, "carpet cylinder"), (_SPACER, "spacer cylinder"), (_TOP, "warp cylinder"))
     return tuple(
-        _box(complex(0, height - diameter / 2), complex(wide, diameter), "outline", name) for height, name in named
+        _box(complex(0, height - diameter / 2), complex(wide, diameter), "outline")
+        for height in (_BOTTOM, _SPACER, _TOP)
     )
+
+
+def _names(edge: float, wide: float) -> tuple[Stroke, ...]:
+    """Leaders from the parts to their names beside the frame, where no warp runs through them."""
+    named = {
+        _BOTTOM: "carpet cylinder",
+        _SPACER: "spacer cylinder",
+        (_SPACER + _FELL) / 2: "carpet",
+        _HEADS: "knotting heads",
+        _COMB: "comb of the beater",
+        _CAMS: "shedding cams",
+        _TOP: "warp cylinder",
+    }
+    end = wide + 0.06 + _LEADER
+    return tuple(Stroke(np.array([end, edge]) + 1j * height, "construction", name) for height, name in named.items())
 
 
 def _warps(loom: LoomDesign, edge: float) -> tuple[Stroke, ...]:
@@ -97,7 +116,7 @@ def _cams(loom: LoomDesign, edge: float, wide: float) -> Stroke:
         complex(wide, _CAMS - shaft),
     ]
     upper = [complex(point.real, 2 * _CAMS - point.imag) for point in reversed(profile)]
-    return Stroke(np.array(profile + upper), "outline", "shedding cams", closed=True)
+    return Stroke(np.array(profile + upper), "outline", closed=True)
 
 
 def _heads(loom: LoomDesign, edge: float) -> tuple[Stroke, ...]:
@@ -110,7 +129,7 @@ def _heads(loom: LoomDesign, edge: float) -> tuple[Stroke, ...]:
         low, high, end = (float(edges[head * parts + k]) for k in (0, 1, parts))
         body = (low + high) / 2 + params.head_width * np.array([-0.5, 0.5])
         strokes += [
-            Stroke(body + 1j * _HEADS, "link", "" if head else "heads"),
+            Stroke(body + 1j * _HEADS, "link"),
             Stroke(np.array([low, end]) + 1j * (_FELL + 0.05), "dimension"),
         ]
     return tuple(strokes)

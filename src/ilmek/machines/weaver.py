@@ -63,8 +63,15 @@ def _results(weaver: Weaver) -> tuple[Result, ...]:
         Result("cycle_time_set_by", weaver.limiting, "", "the track that sets the shortest cycle"),
         Result("knots_per_minute", 60 / weaver.cycle, "", "knots of one head in a minute, without colour changes"),
         Result("cam_speed", weaver.cyclogram.speed, "rpm", "speed of the cam shaft"),
-        Result("speed_max", {name: peak.speed for name, peak in weaver.peaks.items()}, "m/s", "by track"),
-        Result("acceleration_max", {name: p.acceleration for name, p in weaver.peaks.items()}, "m/s^2", "by track"),
+        Result(
+            "speed_max", {name: peak.speed for name, peak in weaver.peaks.items()}, "m/s", "largest speed of each track"
+        ),
+        Result(
+            "acceleration_max",
+            {name: p.acceleration for name, p in weaver.peaks.items()},
+            "m/s^2",
+            "largest acceleration of each track",
+        ),
         Result("yarn_drawn", weaver.params.knot_yarn, "mm", "pile yarn drawn for a knot"),
         Result("handler_radius", weaver.handler_radius, "mm", "radius at which the handler draws that yarn"),
         Result("screw_lead", weaver.screw_lead, "mm", "advance of the side grippers' screw for a turn"),
@@ -111,7 +118,12 @@ def _accelerations(weaver: Weaver) -> Plot:
     )
     note = f"at {60 / weaver.cycle:.3g} knots a minute; the handler at its tip"
     return Plot(
-        "acceleration", "Acceleration of the tools", Axis("cam angle", "deg"), Axis("m/s²", "m/s^2"), series, note=note
+        "acceleration",
+        "Acceleration of the tools",
+        Axis("cam angle", "deg"),
+        Axis("acceleration", "m/s^2"),
+        series,
+        note=note,
     )
 
 
