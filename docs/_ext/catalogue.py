@@ -105,13 +105,14 @@ def package_page(package: str) -> str:
 def write_pages(_app: Any) -> None:
     """Write every generated page."""
     OUT.mkdir(parents=True, exist_ok=True)
+    commands = main.list_commands(click.Context(main))
     pages = {
         "machines": "\n\n".join(("# Machines", *(machine_section(machine) for machine in MACHINES.values()))),
         "command-line": "\n\n".join(
-            ("# Command line", command_section(()), *(command_section((name,)) for name in main.list_commands(click.Context(main))))
+            ("# Command line", command_section(()), *(command_section((c,)) for c in commands))
         ),
         **{f"api-{package}": package_page(package) for package in PACKAGES},
-    }  # fmt: skip
+    }
     for name, text in pages.items():
         (OUT / f"{name}.md").write_text(text + "\n", encoding="utf-8")
 
