@@ -3,7 +3,7 @@
 import pytest
 
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design, report
-from ilmek.machines.automated_loom_cyclogram import BEATER, EVEN, ODD, SHUTTLE
+from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD, SHUTTLE
 from ilmek.timing.cyclogram import Moment, moment_angle
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import deg, mm

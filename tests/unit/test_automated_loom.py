@@ -18,7 +18,7 @@ from ilmek.machines.automated_loom import (
     programme_for,
     report,
 )
-from ilmek.machines.automated_loom_cyclogram import BEATER, SHUTTLE
+from ilmek.machines.automated_loom.cyclogram import BEATER, SHUTTLE
 from ilmek.report import Drawing, Plot, Timing
 from ilmek.timing.track import peak_acceleration, peak_speed, sample
 from ilmek.units import deg, dm, hour, mm

@@ -8,8 +8,8 @@ import pytest
 from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
 from ilmek.machines.weaver import MACHINE, WeaverParams, design, report
-from ilmek.machines.weaver_cyclogram import DRAW_TURN, HANDLER
-from ilmek.machines.weaver_design import move_time
+from ilmek.machines.weaver.cyclogram import DRAW_TURN, HANDLER
+from ilmek.machines.weaver.design import move_time
 from ilmek.timing.track import sample
 from ilmek.units import deg
 

@@ -13,7 +13,7 @@ from ilmek.jobs.loom import Loomed, LoomOrder, make_loomed
 from ilmek.jobs.order import Order
 from ilmek.jobs.told import Told, part
 from ilmek.machines.automated_loom import report as loom_report
-from ilmek.machines.automated_loom_report import parts_of
+from ilmek.machines.automated_loom.report import parts_of
 from ilmek.report import Check, Report, at_most, check_as_json
 from ilmek.units import format_quantity, hour
 from ilmek.viz.page import CarpetPage, carpet_page

@@ -20,8 +20,8 @@ from ilmek.cams.programme import TURN, Programme, jumps
 from ilmek.elements import beams, shafts
 from ilmek.elements.motors import MOTORS
 from ilmek.machines.rounding import settled
-from ilmek.machines.shedding_design import SheddingDesign, lifting, turn_knots
-from ilmek.machines.shedding_figures import figures
+from ilmek.machines.shedding.design import SheddingDesign, lifting, turn_knots
+from ilmek.machines.shedding.figures import figures
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.units import deg, format_quantity, rpm
 

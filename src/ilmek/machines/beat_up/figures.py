@@ -7,7 +7,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
-from ilmek.machines.beat_up_design import BeatUp
+from ilmek.machines.beat_up.design import BeatUp
 from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.units import format_quantity, turn
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
-from ilmek.machines.weaver_cyclogram import CENTRE_MOTION, DRAW_TURN, HANDLER, SIDE_MOTION, SLEY, Steps, Strokes
-from ilmek.machines.weaver_cyclogram import cyclogram as knot_cyclogram
+from ilmek.machines.weaver.cyclogram import CENTRE_MOTION, DRAW_TURN, HANDLER, SIDE_MOTION, SLEY, Steps, Strokes
+from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.params import Params, param
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, peak_acceleration, peak_speed, shortest_period

@@ -7,10 +7,10 @@ import numpy as np
 
 from ilmek.elements.shafts import STOCK_SIDES
 from ilmek.machines import beat_up, shedding, warp_tension, weaver
-from ilmek.machines.automated_loom_cyclogram import SHUTTLE, relations
-from ilmek.machines.automated_loom_design import LoomDesign, warp_tension_of
-from ilmek.machines.automated_loom_figures import figures
-from ilmek.machines.automated_loom_time import estimated_time
+from ilmek.machines.automated_loom.cyclogram import SHUTTLE, relations
+from ilmek.machines.automated_loom.design import LoomDesign, warp_tension_of
+from ilmek.machines.automated_loom.figures import figures
+from ilmek.machines.automated_loom.time import estimated_time
 from ilmek.machines.rounding import settled
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.timing.cyclogram import check_all

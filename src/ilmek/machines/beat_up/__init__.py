@@ -8,9 +8,9 @@ The force given for the beater is the one the rocker pushes it with, m_E (a_E - 
 its bolts. It is greatest near the extended dead centre, where the beater turns back at the fell.
 """
 
-from ilmek.machines.beat_up_design import BeatUp, design
-from ilmek.machines.beat_up_params import BeatUpParams
-from ilmek.machines.beat_up_report import report
+from ilmek.machines.beat_up.design import BeatUp, design
+from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.machines.beat_up.report import report
 from ilmek.machines.machine import Machine
 
 __all__ = ["MACHINE", "BeatUp", "BeatUpParams", "design", "report"]

@@ -24,7 +24,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.beat_up_params import BeatUpParams
+from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.synthesis.crank_rocker import DeadCentres, Links, dead_centres, grashof_margin, transmission_angle_min
 from ilmek.synthesis.crank_rocker_selection import member
 from ilmek.units import format_quantity, turn

@@ -6,10 +6,10 @@ the carpet's width, length and quality; timed together by two cyclograms, of a k
 Source: thesis, chapters 2.2.3 and 3. How heads share a row: `ilmek.loom.sharing`.
 """
 
-from ilmek.machines.automated_loom_design import LoomDesign, design
-from ilmek.machines.automated_loom_params import AutomatedLoomParams
-from ilmek.machines.automated_loom_report import report
-from ilmek.machines.automated_loom_time import Production, estimated_time, production_time, programme_for
+from ilmek.machines.automated_loom.design import LoomDesign, design
+from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.automated_loom.report import report
+from ilmek.machines.automated_loom.time import Production, estimated_time, production_time, programme_for
 from ilmek.machines.machine import Machine
 
 __all__ = [

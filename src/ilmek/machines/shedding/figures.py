@@ -9,7 +9,7 @@ from ilmek.cams.limits import convex_radius_min, pressure_angle_max
 from ilmek.cams.programme import TURN, jumps
 from ilmek.elements import beams
 from ilmek.elements.figures import deflection_plot
-from ilmek.machines.shedding_design import SheddingDesign
+from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.report import Axis, Figure, Mark, Plot, Series
 from ilmek.units import format_quantity
 

@@ -4,8 +4,8 @@ import numpy as np
 
 from ilmek.loom.sharing import halves, share
 from ilmek.machines import weaver
-from ilmek.machines.automated_loom_design import LoomDesign, frame_width
-from ilmek.machines.automated_loom_time import estimated_time
+from ilmek.machines.automated_loom.design import LoomDesign, frame_width
+from ilmek.machines.automated_loom.time import estimated_time
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.timing.cyclogram import draw
 from ilmek.units import format_quantity

@@ -1,20 +1,13 @@
-"""The knotting head of the thesis, "the weaver": five cams on one shaft that tie a symmetric knot in one turn.
-
-Source: thesis, section 2.2.3 and Figures 2.11 to 2.16. The order of the motions is the thesis'; angles, strokes and
-limits are parameters, since the thesis prints none.
-"""
+"""What the design of the knotting head says: results, checks, tables and figures."""
 
 import numpy as np
 
-from ilmek.machines.machine import Machine
-from ilmek.machines.weaver_cyclogram import HANDLER, relations
-from ilmek.machines.weaver_design import HAND_KNOT, Weaver, WeaverParams, design
+from ilmek.machines.weaver.cyclogram import HANDLER, relations
+from ilmek.machines.weaver.design import HAND_KNOT, Weaver
 from ilmek.report import Axis, Check, Column, Plot, Report, Result, Series, Table, Timing, at_most
 from ilmek.timing.cyclogram import check_all, draw
 from ilmek.timing.track import sample
 from ilmek.units import turn
-
-__all__ = ["MACHINE", "Weaver", "WeaverParams", "design", "report"]
 
 
 def report(weaver: Weaver) -> Report:
@@ -133,8 +126,3 @@ def _warnings(weaver: Weaver) -> tuple[str, ...]:
         longer = f"a knot takes {weaver.cycle:.3g} s, not the {asked:.3g} s asked for"
         return (f"{longer}: the limits of the {weaver.limiting} allow no less",)
     return ()
-
-
-MACHINE = Machine(
-    "weaver", "knotting head: five cams on one shaft, one knot a turn (thesis, 2.2.3)", WeaverParams, design, report
-)

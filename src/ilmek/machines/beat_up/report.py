@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.machines.beat_up_design import PINS, BeatUp
-from ilmek.machines.beat_up_figures import figures
+from ilmek.machines.beat_up.design import PINS, BeatUp
+from ilmek.machines.beat_up.figures import figures
 from ilmek.machines.rounding import settled
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.synthesis.crank_rocker import grashof_margin

@@ -10,10 +10,10 @@ from ilmek.errors import LoomError
 from ilmek.loom.programme import Times
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import beat_up, shedding, warp_tension, weaver
-from ilmek.machines.automated_loom_cyclogram import RowTiming, cyclogram, shortest_row, take_up_time
-from ilmek.machines.automated_loom_params import AutomatedLoomParams
-from ilmek.machines.shedding_report import prime_radius_for_bore
-from ilmek.machines.warp_tension_design import WarpTensionDesign
+from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, shortest_row, take_up_time
+from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.shedding.report import prime_radius_for_bore
+from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.units import format_quantity, mm, turn
 

@@ -8,7 +8,7 @@ from ilmek.elements.bearings import BEARINGS, bearings_for
 from ilmek.elements.figures import deflection_plot, tube_drawing
 from ilmek.elements.motors import MOTORS
 from ilmek.machines.rounding import settled
-from ilmek.machines.warp_tension_design import WarpTensionDesign, outer_radii_min
+from ilmek.machines.warp_tension.design import WarpTensionDesign, outer_radii_min
 from ilmek.report import Check, Column, Figure, Report, Result, Table, at_most
 from ilmek.units import format_number, format_quantity, mm, turn
 

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from ilmek.arrays import Indices
 from ilmek.errors import LoomError
 from ilmek.loom.programme import Programme, heads_for, least_time, make_programme
-from ilmek.machines.automated_loom_design import LoomDesign, design
-from ilmek.machines.automated_loom_params import AutomatedLoomParams
-from ilmek.machines.weaver_design import HAND_KNOT
+from ilmek.machines.automated_loom.design import LoomDesign, design
+from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.weaver.design import HAND_KNOT
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,8 +9,8 @@ takes an efficiency of 0.9 where self-locking allows one half.
 """
 
 from ilmek.machines.machine import Machine
-from ilmek.machines.warp_tension_design import WarpTensionDesign, WarpTensionParams, design
-from ilmek.machines.warp_tension_report import report
+from ilmek.machines.warp_tension.design import WarpTensionDesign, WarpTensionParams, design
+from ilmek.machines.warp_tension.report import report
 
 __all__ = ["MACHINE", "WarpTensionDesign", "WarpTensionParams", "design", "report"]
 

@@ -1,0 +1,15 @@
+"""The knotting head of the thesis, "the weaver": five cams on one shaft that tie a symmetric knot in one turn.
+
+Source: thesis, section 2.2.3 and Figures 2.11 to 2.16. The order of the motions is the thesis'; angles, strokes and
+limits are parameters, since the thesis prints none.
+"""
+
+from ilmek.machines.machine import Machine
+from ilmek.machines.weaver.design import Weaver, WeaverParams, design
+from ilmek.machines.weaver.report import report, timing
+
+__all__ = ["MACHINE", "Weaver", "WeaverParams", "design", "report", "timing"]
+
+MACHINE = Machine(
+    "weaver", "knotting head: five cams on one shaft, one knot a turn (thesis, 2.2.3)", WeaverParams, design, report
+)
