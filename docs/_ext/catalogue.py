@@ -15,7 +15,7 @@ from ilmek.cli import main
 from ilmek.machines import MACHINES
 from ilmek.machines.machine import Machine
 from ilmek.params import Parameter, declared
-from ilmek.units import format_quantity
+from ilmek.units import format_quantity, printed_unit
 
 SOURCE = Path(__file__).parents[2] / "src" / "ilmek"
 OUT = Path(__file__).parents[1] / "reference" / "generated"
@@ -46,20 +46,25 @@ def default(parameter: Parameter) -> str:
     return value if isinstance(value, str) else format_quantity(value, parameter.unit, digits=6)
 
 
+def said(parameter: Parameter) -> str:
+    """A parameter's meaning, with its symbol where it has one."""
+    return f"{parameter.doc} ({parameter.symbol})" if parameter.symbol else parameter.doc
+
+
 def machine_section(machine: Machine) -> str:
     """One machine: its parameters and, from a run of its defaults, its results and checks."""
     parameters = [
-        (f"`{p.name}`", p.symbol or "", default(p), p.unit or "–", p.allowed().removeprefix("allowed: "), p.doc)
+        (f"`{p.name}`", default(p), printed_unit(p.unit) or "–", p.allowed().removeprefix("allowed: "), said(p))
         for p in declared(machine.params)
     ]
     report = machine.report(machine.design(machine.params()))
-    results = [(f"`{r.name}`", r.unit or "–", r.meaning) for r in report.results]
+    results = [(f"`{r.name}`", printed_unit(r.unit) or "–", r.meaning) for r in report.results]
     checks = [(c.name, c.relation, format_quantity(c.limit, c.unit), c.source) for c in report.checks]
     return "\n\n".join(
         (
             f"## {machine.name}",
             machine.summary,
-            table(("parameter", "symbol", "default", "unit", "allowed", "meaning"), parameters),
+            table(("parameter", "default", "unit", "allowed", "meaning"), parameters),
             "Results (JSON in SI and radians; the unit is the one a report shows):",
             table(("result", "unit", "meaning"), results),
             "Checks, with the limits of the default parameters:",

@@ -121,12 +121,10 @@ def parse_quantity(text: str, unit: str) -> float:
 def printed_unit(unit: str) -> str:
     """A unit with raised powers and the product's dot, as `parse_unit` reads it too; nothing for 1.
 
-    >>> printed_unit("kg/m^3"), printed_unit("N*m"), printed_unit("1")
-    ('kg/m³', 'N·m', '')
+    >>> printed_unit("kg/m^3"), printed_unit("N*m"), printed_unit("1/dm"), printed_unit("1")
+    ('kg/m³', 'N·m', '/dm', '')
     """
-    if unit in ("", "1"):
-        return ""
-    head, *powers = unit.split("^")
+    head, *powers = unit.removeprefix("1").split("^")
     for power in powers:
         digits = len(power) - len(power.lstrip("-0123456789"))
         head += power[:digits].translate(POWERS) + power[digits:]
@@ -146,7 +144,7 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     """
     number = format_number(from_si(value, unit), digits)
     printed = printed_unit(unit)
-    return f"{number}{'' if printed in ('', '°', '%') else ' '}{printed}"
+    return f"{number}{' ' if printed[:1].isalpha() else ''}{printed}"
 
 
 def format_number(value: float, digits: int = 4) -> str:
