@@ -1,7 +1,7 @@
 """Sphinx extension: the reference pages, generated from the code so that they cannot drift from it.
 
-Writes docs/reference/generated/: one page for the machines (parameters and results), one for the command line, one for
-each package (signatures and docstrings, shown as they stand in the source).
+Writes docs/reference/generated/: one page for the machines (parameters and results), one for the command line, the
+verdicts on the published papers, one for each package (signatures and docstrings, shown as they stand in the source).
 """
 
 import ast
@@ -21,7 +21,7 @@ SOURCE = Path(__file__).parents[2] / "src" / "ilmek"
 OUT = Path(__file__).parents[1] / "reference" / "generated"
 PACKAGES = (
     "units", "errors", "arrays", "params", "report", "num", "plane", "linkage", "carpet", "synthesis", "dynamics",
-    "cams", "elements", "timing", "loom", "machines", "io", "viz", "jobs",
+    "cams", "elements", "timing", "loom", "machines", "verification", "io", "viz", "jobs",
 )  # fmt: skip
 
 
@@ -107,6 +107,22 @@ def package_page(package: str) -> str:
     return "\n\n".join((f"# ilmek.{package}", *(module_section(path) for path in paths)))
 
 
+def verification_section(paper: str) -> str:
+    """A paper's claims, those that are not reproduced first."""
+    verdicts = reproduce([paper])
+    apart = [verdict for verdict in verdicts if verdict.verdict != "reproduced"]
+    return "\n\n".join(
+        (
+            f"## {paper}",
+            f"{TITLES[paper]}. {summary(verdicts)}.",
+            "### Not as printed",
+            table(HEADINGS, [row(verdict) for verdict in apart]),
+            "### All",
+            table(HEADINGS, [row(verdict) for verdict in verdicts]),
+        )
+    )
+
+
 def write_pages(_app: Any) -> None:
     """Write every generated page."""
     OUT.mkdir(parents=True, exist_ok=True)
@@ -116,6 +132,7 @@ def write_pages(_app: Any) -> None:
         "command-line": "\n\n".join(
             ("# Command line", command_section(()), *(command_section((c,)) for c in commands))
         ),
+        "verdicts": "\n\n".join(verification_section(paper) for paper in PAPERS),
         **{f"api-{package}": package_page(package) for package in PACKAGES},
     }
     for name, text in pages.items():

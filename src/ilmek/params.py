@@ -5,7 +5,8 @@
         swing: float = param(30 * deg, unit="deg", above=0.0, below=180 * deg, doc="swing of the rocker", symbol="psi")
 
 A parameter is a float (with a unit), an int, a bool or a str (with `choices`, if any). `| None` with default None makes
-it optional. Bounds are in SI. `above`/`below` exclude the bound, `at_least`/`at_most` include it.
+it optional. Bounds are in SI. `above`/`below` exclude the bound, `at_least`/`at_most` include it. An `alias` is a second
+name under which `Params.read` takes it, small and capital letters alike: the symbol that a paper gives it.
 """
 
 import difflib
@@ -39,6 +40,7 @@ class Parameter:
     choices: tuple[str, ...]
     doc: str
     symbol: str
+    alias: str
 
     def read(self, setting: Setting) -> Value:
         """The value of a setting: a number is SI, a text is read with its unit. Raises ParameterError."""
@@ -125,6 +127,7 @@ def param(
     choices: tuple[str, ...] = (),
     doc: str,
     symbol: str = "",
+    alias: str = "",
 ) -> Any:
     """Declare a parameter as the default of a dataclass field; bounds in SI."""
     return field(
@@ -138,6 +141,7 @@ def param(
             choices=choices,
             doc=doc,
             symbol=symbol,
+            alias=alias,
         ),
     )
 
@@ -156,14 +160,23 @@ class Params:
 
     @classmethod
     def read(cls: type[P], settings: Mapping[str, Setting]) -> P:
-        """Parameters from settings by name, texts with units allowed. Raises ParameterError for an unknown name."""
+        """Parameters from settings by name or alias, texts with units allowed.
+
+        Raises ParameterError for an unknown name, and for a parameter set by its name and by its alias.
+        """
         known = {parameter.name: parameter for parameter in declared(cls)}
-        for name in settings:
-            if name not in known:
-                near = difflib.get_close_matches(name, known, n=1)
+        aliases = {parameter.alias.casefold(): name for name, parameter in known.items() if parameter.alias}
+        said: dict[str, str] = {}
+        for given in settings:
+            name = given if given in known else aliases.get(given.casefold(), "")
+            if not name:
+                near = difflib.get_close_matches(given, (*known, *aliases), n=1)
                 hint = f"did you mean {near[0]}?" if near else ""
-                raise ParameterError(f"unknown parameter {name!r}", do=hint or f"known: {', '.join(known)}")
-        return cls(**{name: known[name].read(setting) for name, setting in settings.items()})
+                raise ParameterError(f"unknown parameter {given!r}", do=hint or f"known: {', '.join(known)}")
+            if name in said:
+                raise ParameterError(f"{name} is set twice, as {said[name]} and as {given}", do="set it once")
+            said[name] = given
+        return cls(**{name: known[name].read(settings[given]) for name, given in said.items()})
 
     def as_dict(self) -> dict[str, Value]:
         """Name to SI value, in order of declaration."""

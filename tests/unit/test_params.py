@@ -13,7 +13,7 @@ from ilmek.units import deg, mm
 @dataclass(frozen=True, slots=True)
 class Sample(Params):
     swing: float = param(30 * deg, unit="deg", above=0.0, below=math.pi, doc="swing")
-    lift: float = param(60 * mm, unit="mm", above=0.0, at_most=1.0, doc="lift")
+    lift: float = param(60 * mm, unit="mm", above=0.0, at_most=1.0, doc="lift", alias="H1")
     warps: int = param(600, at_least=2, doc="warps")
     law: str = param("harmonic", choices=("harmonic", "cycloidal"), doc="law")
     both: bool = param(False, doc="both")
@@ -32,6 +32,9 @@ def test_reads_units_and_keeps_defaults() -> None:
     ("settings", "said"),
     [
         ({"swnig": "30deg"}, "did you mean swing"),
+        ({"lift": "50mm", "h1": "60mm"}, "lift is set twice, as lift and as h1"),
+        ({"H1": "60kg"}, "lift: '60kg' has the wrong unit"),
+        ({"h12": "60mm"}, "did you mean h1"),
         ({"swing": "200deg"}, "below 180 deg"),
         ({"swing": "30"}, "did you mean 30deg"),
         ({"lift": "60"}, "did you mean 60mm"),
@@ -49,3 +52,8 @@ def test_reads_units_and_keeps_defaults() -> None:
 def test_says_what_is_wrong(settings: dict[str, str], said: str) -> None:
     with pytest.raises(ParameterError, match=said):
         Sample.read(settings)
+
+
+@pytest.mark.parametrize("name", ["lift", "H1", "h1"])
+def test_an_alias_sets_the_same_parameter(name: str) -> None:
+    assert Sample.read({name: "50mm"}).as_dict()["lift"] == 50 * mm

@@ -34,14 +34,15 @@ def command(name: str | None, json_to: str | None) -> None:
 
 def as_json(machine: Machine) -> dict[str, object]:
     """A machine's parameters: default and bounds in SI, and the unit they are shown in."""
-    names = ("name", "default", "unit", "above", "at_least", "below", "at_most", "choices", "doc", "symbol")
+    names = ("name", "default", "unit", "above", "at_least", "below", "at_most", "choices", "doc", "symbol", "alias")
     parameters = [{name: getattr(parameter, name) for name in names} for parameter in declared(machine.params)]
     return {"machine": machine.name, "summary": machine.summary, "parameters": parameters}
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str, str]:
     allowed = parameter.allowed().removeprefix("allowed: ")
-    return parameter.name, _default(parameter), parameter.unit, allowed, parameter.doc
+    name = f"{parameter.name} ({parameter.alias})" if parameter.alias else parameter.name
+    return name, _default(parameter), parameter.unit, allowed, parameter.doc
 
 
 def _default(parameter: Parameter) -> str:
