@@ -54,7 +54,7 @@ def said(parameter: Parameter) -> str:
 def machine_section(machine: Machine) -> str:
     """One machine: its parameters and, from a run of its defaults, its results and checks."""
     parameters = [
-        (f"`{p.name}`", default(p), printed_unit(p.unit) or "–", p.allowed().removeprefix("allowed: "), said(p))
+        (f"`{p.name}`" + (f", `{p.alias}`" if p.alias else ""), default(p), printed_unit(p.unit) or "–", p.allowed().removeprefix("allowed: "), said(p))
         for p in declared(machine.params)
     ]
     report = machine.report(machine.design(machine.params()))

@@ -1,0 +1,26 @@
+"""The verification manual: every number of the four papers that can be computed, computed and judged.
+
+A paper is one entry of `PAPERS`: the function that lists its claims. Nothing is computed before `reproduce` is called.
+"""
+
+from collections.abc import Callable, Iterable
+
+from ilmek.verification import beat_up
+from ilmek.verification.claim import VERDICTS, Claim, Verdict, judge
+
+__all__ = ["PAPERS", "TITLES", "VERDICTS", "Claim", "Verdict", "reproduce"]
+
+PAPERS: dict[str, Callable[[], tuple[Claim, ...]]] = {
+    "beat-up": beat_up.claims,
+}
+"""The claims of each paper, by the name it has here."""
+
+TITLES = {
+    "beat-up": "Topalbekiroglu and Celik, Kinematic analysis of beat-up mechanism used for handmade carpet looms",
+}
+"""The papers in words."""
+
+
+def reproduce(papers: Iterable[str] = tuple(PAPERS)) -> tuple[Verdict, ...]:
+    """Every claim of the papers, computed and judged, in the order of the papers and of their pages."""
+    return tuple(judge(claim) for paper in papers for claim in PAPERS[paper]())

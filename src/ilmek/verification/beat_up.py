@@ -1,0 +1,180 @@
+"""The beat-up paper beside its table: bounds, the choice, lengths, masses, and what the beater does."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache, partial
+
+import numpy as np
+
+from ilmek.dynamics.inertia import bar_moment
+from ilmek.machines.beat_up import BeatUp, BeatUpParams, design
+from ilmek.synthesis.crank_rocker import Links, beta_limits, dead_centres
+from ilmek.units import deg
+from ilmek.verification import beat_up_equations, beat_up_table
+from ilmek.verification.beat_up_table import SWING
+from ilmek.verification.claim import COUNT, Claim
+
+PAPER = "beat-up"
+
+GREAT = 0.75
+"""Share of the greatest acceleration above which a maximum is a peak of Fig 6 (c)."""
+
+
+def claims() -> tuple[Claim, ...]:
+    """Everything that the paper prints and a computation can reach, in the paper's order."""
+    return (
+        *beat_up_equations.claims(),
+        *_bounds(),
+        *beat_up_table.claims(),
+        *_choice(),
+        *_sizes(),
+        *_beat(),
+    )
+
+
+_claim = partial(Claim, PAPER)
+
+
+def _bounds() -> tuple[Claim, ...]:
+    """The betas that each case study allows."""
+
+    def end(phi: int, place: int) -> float:
+        return float(beta_limits(SWING, phi * deg)[place]) / deg
+
+    printed = {120: ("60", "75"), 160: ("20", "75"), 180: ("0", "75"), 200: ("0", "75")}
+    return tuple(
+        _claim(f"φ={phi}°: {side} β", text, "deg", partial(end, phi, place), f"Case study {beat_up_table.CASES[phi]}")
+        for phi, texts in printed.items()
+        for place, (side, text) in enumerate(zip(("least", "greatest"), texts, strict=True))
+    )
+
+
+def _choice() -> tuple[Claim, ...]:
+    """How many solutions there are, and which is taken."""
+    at = "3 Results and discussion"
+    return (
+        _claim(
+            "solutions in all", "32", COUNT, lambda: len(beat_up_table.rows()), "4 Conclusions", "Table 1 has 33 rows"
+        ),
+        _claim(
+            "crank rotation angles tried",
+            "4",
+            COUNT,
+            lambda: len(beat_up_table.PRINTED),
+            "Abstract",
+            "five: 120°, 160°, 180°, 200°, 210°, as sections 2.1.3 and 3 say",
+        ),
+        _claim("φ of the least deviation of μ_min from 90°", "180", "deg", lambda: _best_row()[0], at),
+        _claim("β chosen at φ=180° (r/l = 0.30, 90°-μ_min < 40°)", "48", "deg", lambda: _chosen_row()[1], at),
+        _claim(
+            "β of the least deviation of μ_min from 90°",
+            "48",
+            "deg",
+            lambda: _best_row()[1],
+            at,
+            "at φ=180° μ_min rises all the way to 75° as β falls to 0: 48° is the greatest r/l not above 0.3",
+        ),
+        _claim("swing of the chosen linkage", "30", "deg", _swing_of_chosen, "2.1.2, Table 1"),
+    )
+
+
+def _sizes() -> tuple[Claim, ...]:
+    """Lengths of the chosen linkage, and masses and moments of the lengths as printed."""
+    at = "2.1.4"
+    lengths = {"crank": ("DC", "0.0597"), "coupler": ("CB", "0.2007"), "beater": ("AE", "0.3001")}
+    masses = {"crank": ("DC", "0.129"), "coupler": ("CB", "0.434"), "rocker": ("AE", "0.649")}
+    moments = {"crank": ("DC", "4.073e-5"), "coupler": ("CB", "0.0015"), "rocker": ("AE", "0.0049")}
+    notes = {"crank": "m (L² + w²)/12; the printed one is m (L² + (w/2)²)/12"}
+    return (
+        *(_claim(f"length {sign}", text, "m", partial(_length, bar), at) for bar, (sign, text) in lengths.items()),
+        *(_claim(f"mass {sign}", text, "kg", partial(_mass, bar), at) for bar, (sign, text) in masses.items()),
+        *(
+            _claim(f"moment of inertia {sign}", text, "kg m²", partial(_moment, bar), at, notes.get(bar, ""))
+            for bar, (sign, text) in moments.items()
+        ),
+    )
+
+
+def _beat() -> tuple[Claim, ...]:
+    """What the beater does and suffers."""
+    return (
+        _claim("greatest acceleration of the beater", "25", "m/s²", _peak("beater_acceleration"), "Fig 6 (c), 3"),
+        _claim("force on the beater", "> 60", "N", _peak("beater_force"), "Abstract, Fig 6 (d)"),
+        _claim("peaks of acceleration in two turns", "2", COUNT, _great_peaks, "Fig 6 (c)"),
+        _claim(
+            "crank angle of the greatest speed, 'at about beating point'",
+            "48",
+            "deg",
+            lambda: _as_printed().peaks["beater_velocity"].angle / deg,
+            "3, Fig 6 (b)",
+            "the beat is the extended dead centre, where the beater stands still; it is fastest 69° before",
+        ),
+        _claim("acceleration of the beater at the beat", "25", "m/s²", _at_the_beat, "3, Fig 6 (c)"),
+        _claim("greatest forces in joints B and C", "curve", "N", lambda: None, "Fig 7", "a curve without numbers"),
+    )
+
+
+@cache
+def _as_printed() -> BeatUp:
+    """The mechanism with the lengths of section 2.1.4."""
+    lengths = {"crank": "59.7mm", "coupler": "200.7mm", "rocker": "230.8mm", "beater": "300.1mm"}
+    return design(BeatUpParams.read(lengths))
+
+
+@cache
+def _exact() -> BeatUp:
+    """The mechanism of phi = 180°, beta = 48°, not rounded."""
+    return design(BeatUpParams.read({"beta": "48deg"}))
+
+
+def _length(link: str) -> float:
+    return _exact().lengths[link]
+
+
+def _mass(link: str) -> float:
+    return _as_printed().masses[link]
+
+
+def _moment(link: str) -> float:
+    params = _as_printed().params
+    span = _as_printed().lengths["beater" if link == "rocker" else link]
+    return float(bar_moment(_mass(link), span, params.width))
+
+
+def _peak(name: str) -> Callable[[], float]:
+    return lambda: _as_printed().peaks[name].value
+
+
+def _at_the_beat() -> float:
+    found = _as_printed()
+    at = design(replace(found.params, crank_angle=found.beat_angle)).at
+    return float(np.abs(at.beater.acceleration)[0]) if at else math.nan
+
+
+def _great_peaks() -> int:
+    size = np.abs(_as_printed().state.beater.acceleration)[:-1]
+    tops = (size > np.roll(size, 1)) & (size >= np.roll(size, -1)) & (size > GREAT * np.max(size))
+    return 2 * int(np.count_nonzero(tops))
+
+
+def _row_values() -> list[tuple[int, int, beat_up_table.Row]]:
+    return [(phi, beta, beat_up_table.computed(phi, beta)) for phi, beta, _ in beat_up_table.rows()]
+
+
+def _best_row() -> tuple[int, int]:
+    phi, beta, _ = max(_row_values(), key=lambda row: row[2].mu_min)
+    return phi, beta
+
+
+def _chosen_row() -> tuple[int, int]:
+    """The row with the greatest r/l that is not above 0.3 as printed and whose transmission angle will do."""
+    good = [row for row in _row_values() if round(row[2].ratio, 2) <= 0.3 and row[2].mu_min > 50]
+    phi, beta, _ = max(good, key=lambda row: row[2].ratio)
+    return phi, beta
+
+
+def _swing_of_chosen() -> float:
+    """From the links as Table 1 prints them: 0.1991, 0.6691, 0.7694."""
+    texts = next(numbers for phi, beta, numbers in beat_up_table.rows() if (phi, beta) == (180, 48))
+    return float(dead_centres(Links(*(float(text) for text in texts[:3]))).swing) / deg

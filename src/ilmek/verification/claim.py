@@ -1,0 +1,165 @@
+"""A printed number or equation, and the verdict that a computation gives of it.
+
+A claim holds what a paper prints and the function that computes the same; nothing else is stored but a note, which is
+shown only where the computation disagrees. The verdict is formed when it is asked for:
+
+    reproduced        agrees to the last printed digit, by rounding or by truncation; a relation (> 60) holds; a count
+                      is the same; an equation as printed leaves no residual
+    rounding          off by at most 1.5 units of the last printed digit, or what the paper's own rounded numbers give
+    misprint          neither: the computed value is the right one; of an equation, the mended form leaves no residual
+    not reproducible  nothing can be computed, or the printed equation cannot be mended: the note says why
+
+Numbers are in the unit as printed, so that they can be laid beside the paper.
+"""
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import TypeAlias
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, RealField
+
+REPRODUCED, ROUNDING, MISPRINT, NOT_REPRODUCIBLE = VERDICTS = ("reproduced", "rounding", "misprint", "not reproducible")
+
+COUNT = "count"
+"""Unit of a number that is counted: one more or less is wrong."""
+
+RESIDUAL = "residual"
+"""Unit of an equation: the size of left side minus right side, relative to the larger."""
+
+NO_RESIDUAL = 1e-9
+"""An equation that leaves no more than this is right."""
+
+UNITS_OF_ROUNDING = 1.5
+"""Units of the last printed digit that rounding on the way to a number explains."""
+
+Computation: TypeAlias = Callable[[], float | int | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """What a paper prints, and how the same is computed.
+
+    paper, item   of PAPERS; what the number is          printed  as printed: the digits count; or an equation
+    unit          of printed and computed; COUNT, RESIDUAL of an equation, "" of a pure number
+    compute       the number, or the equation's residual; None where it cannot be had
+    source        section, equation, table              note     why it disagrees, with the right form of an equation
+    follows       the number from the paper's own rounded numbers, where they decide
+    mended        residual of the equation in its right form
+    """
+
+    paper: str
+    item: str
+    printed: str
+    unit: str
+    compute: Computation
+    source: str
+    note: str = ""
+    follows: Computation | None = None
+    mended: Computation | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """A claim, computed and judged; `difference` is computed minus printed, of an equation its residual."""
+
+    claim: Claim
+    computed: float | int | None
+    difference: float | None
+    verdict: str
+
+    @property
+    def note(self) -> str:
+        """The claim's note, where there is something to explain."""
+        return "" if self.verdict == REPRODUCED else self.claim.note
+
+    def as_json(self) -> dict[str, object]:
+        """Plain data: paper, item, printed (text), computed (in the printed unit), unit, difference, verdict, ..."""
+        said = self.claim
+        return {
+            "paper": said.paper,
+            "item": said.item,
+            "printed": said.printed,
+            "computed": self.computed,
+            "unit": said.unit,
+            "difference": self.difference,
+            "verdict": self.verdict,
+            "note": self.note,
+            "source": said.source,
+        }
+
+
+def residual(left: RealField | ComplexField, right: RealField | ComplexField) -> float:
+    """Greatest difference of two sides, relative to the greatest size of either; 0 where both vanish, NaN if one is."""
+    gap, size = np.max(np.abs(np.subtract(left, right))), np.max(np.maximum(np.abs(left), np.abs(right)))
+    return float(gap / size) if size != 0 else 0.0
+
+
+def judge(claim: Claim) -> Verdict:
+    """Compute a claim and say how it stands."""
+    value = claim.compute()
+    if value is None or not math.isfinite(value):
+        return Verdict(claim, None, None, NOT_REPRODUCIBLE)
+    if claim.unit == RESIDUAL:
+        return Verdict(claim, value, value, _of_equation(claim, value))
+    relation, number = read_printed(claim.printed)
+    difference = value - float(number)
+    if relation:
+        holds = difference > 0 if relation == ">" else difference < 0
+        return Verdict(claim, value, difference, REPRODUCED if holds else MISPRINT)
+    return Verdict(claim, value, difference, _of_number(claim, number, value))
+
+
+def read_printed(text: str) -> tuple[str, Decimal]:
+    """The relation (">", "<" or "") and the number of a printed text, its digits kept.
+
+    >>> read_printed("> 60"), read_printed("0.2340")
+    (('>', Decimal('60')), ('', Decimal('0.2340')))
+    """
+    matched = re.fullmatch(r"\s*([<>]?)\s*([+-]?\d[\d.]*(?:e[+-]?\d+)?)\s*", text)
+    if matched is None:
+        raise ValueError(f"no number: {text!r}")
+    return matched[1], Decimal(matched[2])
+
+
+def agrees(number: Decimal, value: float) -> bool:
+    """Whether a value rounds or truncates to the printed number.
+
+    >>> agrees(Decimal("7.38"), 7.3870), agrees(Decimal("7.39"), 7.3870), agrees(Decimal("7.37"), 7.3870)
+    (True, True, False)
+    """
+    unit, shown = last_digit(number), float(number)
+    if abs(value - shown) <= unit * (0.5 + 1e-6):
+        return True
+    return 0 <= abs(value) - abs(shown) < unit and (shown == 0 or value * shown > 0)
+
+
+def last_digit(number: Decimal) -> float:
+    """One unit of the last printed digit.
+
+    >>> last_digit(Decimal("4.073e-5"))
+    1e-08
+    """
+    return float(Decimal(1).scaleb(int(number.as_tuple().exponent)))
+
+
+def _of_equation(claim: Claim, residual: float) -> str:
+    if residual <= NO_RESIDUAL:
+        return REPRODUCED
+    mended = claim.mended() if claim.mended else None
+    return MISPRINT if mended is not None and mended <= NO_RESIDUAL else NOT_REPRODUCIBLE
+
+
+def _of_number(claim: Claim, number: Decimal, value: float) -> str:
+    if claim.unit == COUNT:
+        return REPRODUCED if value == number else MISPRINT
+    if agrees(number, value):
+        return REPRODUCED
+    if abs(value - float(number)) <= UNITS_OF_ROUNDING * last_digit(number):
+        return ROUNDING
+    carried = claim.follows() if claim.follows else None
+    return ROUNDING if carried is not None and agrees(number, carried) else MISPRINT

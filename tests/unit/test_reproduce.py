@@ -1,0 +1,130 @@
+"""`ilmek reproduce`: what it prints, the JSON it gives, and how a claim is judged."""
+
+import json
+import math
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from ilmek.cli import main
+from ilmek.verification import PAPERS, TITLES, VERDICTS
+from ilmek.verification.claim import COUNT, MISPRINT, NOT_REPRODUCIBLE, REPRODUCED, RESIDUAL, ROUNDING, Claim, judge
+from ilmek.verification.wording import computed_text
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(main, ["reproduce", *arguments])
+
+
+@pytest.fixture(scope="module")
+def everything() -> list[dict[str, Any]]:
+    result = run("--json", "-")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+def test_json_has_its_names_and_the_four_verdicts_only(everything: list[dict[str, Any]]) -> None:
+    names = ["paper", "item", "printed", "computed", "unit", "difference", "verdict", "note", "source"]
+    assert all(list(found) == names for found in everything)
+    assert {found["verdict"] for found in everything} == set(VERDICTS)
+    assert {found["paper"] for found in everything} == set(PAPERS) == set(TITLES)
+
+
+def test_every_claim_has_its_own_name_and_a_source(everything: list[dict[str, Any]]) -> None:
+    names = [(found["paper"], found["item"]) for found in everything]
+    assert len(set(names)) == len(names)
+    assert all(found["source"] and found["item"] for found in everything)
+
+
+def test_a_number_is_missing_only_where_it_is_said_why(everything: list[dict[str, Any]]) -> None:
+    for found in everything:
+        assert (found["computed"] is None) <= (found["verdict"] == "not reproducible")
+        if found["verdict"] in ("misprint", "not reproducible"):
+            assert found["note"], found["item"]
+        if found["verdict"] == "reproduced":
+            assert not found["note"]
+
+
+def test_the_difference_is_computed_minus_printed(everything: list[dict[str, Any]]) -> None:
+    numbers = [found for found in everything if found["computed"] is not None and found["unit"] != RESIDUAL]
+    assert len(numbers) > 165
+    for found in numbers:
+        printed = float(found["printed"].strip("<> "))
+        assert found["difference"] == pytest.approx(found["computed"] - printed, abs=1e-12 * max(1, abs(printed)))
+
+
+def test_one_paper_can_be_asked_for() -> None:
+    result = run("--paper", "beat-up", "--json", "-")
+    assert {found["paper"] for found in json.loads(result.stdout)} == {"beat-up"}
+
+
+def test_an_unknown_paper_is_one_line() -> None:
+    result = run("--paper", "beatup")
+    assert result.exit_code == 2
+    assert result.stderr.count("\n") == 1
+    assert "beat-up" in result.stderr
+
+
+def test_the_table_has_a_line_for_each_paper() -> None:
+    result = run()
+    assert result.exit_code == 0
+    for paper in PAPERS:
+        assert f"\n{paper}: " in f"\n{result.stdout}"
+        assert f"{paper}: {TITLES[paper]}"[:100] in result.stdout
+
+
+def claim(printed: str, value: float | None, unit: str = "", **more: Any) -> Claim:
+    return Claim("paper", "item", printed, unit, lambda: value, "source", "why", **more)
+
+
+@pytest.mark.parametrize(
+    ("printed", "value", "verdict"),
+    [
+        ("0.2340", 0.234049, REPRODUCED),
+        ("0.2340", 0.234099, REPRODUCED),  # truncated
+        ("0.2340", 0.233951, REPRODUCED),
+        ("0.2340", 0.233930, ROUNDING),
+        ("0.2340", 0.233849, MISPRINT),
+        ("-7.89", -7.6778, MISPRINT),
+        ("-0.585", 0.5867, MISPRINT),
+        ("0", 0.9, REPRODUCED),  # truncated
+        ("0.0", -0.09, REPRODUCED),
+        ("> 60", 63.5, REPRODUCED),
+        ("> 60", 59.9, MISPRINT),
+        ("< 5", 4.0, REPRODUCED),
+        ("1e-5", None, NOT_REPRODUCIBLE),
+        ("1e-5", math.nan, NOT_REPRODUCIBLE),
+        ("4.073e-5", 4.0734e-5, REPRODUCED),
+    ],
+)
+def test_numbers_are_judged_by_their_last_printed_digit(printed: str, value: float | None, verdict: str) -> None:
+    found = judge(claim(printed, value))
+    assert found.verdict == verdict
+    assert found.note == ("" if verdict == REPRODUCED else "why")
+
+
+def test_a_count_off_by_one_is_wrong() -> None:
+    assert judge(claim("32", 33, COUNT)).verdict == MISPRINT
+    assert judge(claim("33", 33, COUNT)).verdict == REPRODUCED
+
+
+def test_numbers_that_follow_from_rounded_ones_are_rounding() -> None:
+    assert judge(claim("192.524", 192.5859)).verdict == MISPRINT
+    assert judge(claim("192.524", 192.5859, follows=lambda: 192.52367)).verdict == ROUNDING
+    assert judge(claim("192.524", 192.5859, follows=lambda: 192.6)).verdict == MISPRINT
+
+
+def test_a_printed_equation_is_a_misprint_only_where_the_mended_one_holds() -> None:
+    assert judge(claim("a = b", 1e-15, RESIDUAL)).verdict == REPRODUCED
+    assert judge(claim("a = b", 0.5, RESIDUAL, mended=lambda: 1e-15)).verdict == MISPRINT
+    assert judge(claim("a = b", 0.5, RESIDUAL, mended=lambda: 0.1)).verdict == NOT_REPRODUCIBLE
+    assert judge(claim("a = b", 0.5, RESIDUAL)).verdict == NOT_REPRODUCIBLE
+
+
+@pytest.mark.parametrize(
+    ("printed", "value", "shown"),
+    [("0.2340", 0.23392952, "0.233930"), ("32", 33, "33.00"), ("4.073e-5", 4.80377e-5, "4.80377e-05")],
+)
+def test_computed_numbers_are_shown_with_two_digits_more(printed: str, value: float, shown: str) -> None:
+    assert computed_text(judge(claim(printed, value))) == shown
