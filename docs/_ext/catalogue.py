@@ -16,6 +16,8 @@ from ilmek.machines import MACHINES
 from ilmek.machines.machine import Machine
 from ilmek.params import Parameter, declared
 from ilmek.units import format_quantity, printed_unit
+from ilmek.verification import PAPERS, TITLES, reproduce
+from ilmek.verification.wording import HEADINGS, row, summary
 
 SOURCE = Path(__file__).parents[2] / "src" / "ilmek"
 OUT = Path(__file__).parents[1] / "reference" / "generated"
