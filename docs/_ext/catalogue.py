@@ -48,6 +48,11 @@ def default(parameter: Parameter) -> str:
     return value if isinstance(value, str) else format_quantity(value, parameter.unit, digits=6)
 
 
+def names(parameter: Parameter) -> str:
+    """A parameter's name, and its alias where it has one."""
+    return f"`{parameter.name}`, `{parameter.alias}`" if parameter.alias else f"`{parameter.name}`"
+
+
 def said(parameter: Parameter) -> str:
     """A parameter's meaning, with its symbol where it has one."""
     return f"{parameter.doc} ({parameter.symbol})" if parameter.symbol else parameter.doc
@@ -56,7 +61,7 @@ def said(parameter: Parameter) -> str:
 def machine_section(machine: Machine) -> str:
     """One machine: its parameters and, from a run of its defaults, its results and checks."""
     parameters = [
-        (f"`{p.name}`" + (f", `{p.alias}`" if p.alias else ""), default(p), printed_unit(p.unit) or "–", p.allowed().removeprefix("allowed: "), said(p))
+        (names(p), default(p), printed_unit(p.unit) or "–", p.allowed().removeprefix("allowed: "), said(p))
         for p in declared(machine.params)
     ]
     report = machine.report(machine.design(machine.params()))

@@ -5,8 +5,8 @@
         swing: float = param(30 * deg, unit="deg", above=0.0, below=180 * deg, doc="swing of the rocker", symbol="psi")
 
 A parameter is a float (with a unit), an int, a bool or a str (with `choices`, if any). `| None` with default None makes
-it optional. Bounds are in SI. `above`/`below` exclude the bound, `at_least`/`at_most` include it. An `alias` is a second
-name under which `Params.read` takes it, small and capital letters alike: the symbol that a paper gives it.
+it optional. Bounds are in SI. `above`/`below` exclude the bound, `at_least`/`at_most` include it. An `alias` is a
+second name under which `Params.read` takes it, small and capital letters alike: the symbol that a paper gives it.
 """
 
 import difflib

@@ -67,7 +67,7 @@ def peaks(curves: Curves, *, samples: int = 720, rounds: int = 4) -> dict[str, P
 def suprema(
     curves: SidedCurves, breaks: Iterable[float] = (), *, samples: int = 720, rounds: int = 4
 ) -> dict[str, Peak]:
-    """The supremum of each curve over a turn, to about 1e-12 of itself, the limits at the breaks [rad] among its values.
+    """The supremum of each curve over a turn, to about 1e-12 of itself, with its limits at the breaks [rad].
 
     Every local maximum of a piece's samples that rivals the greatest of all is bracketed by its neighbours; each round
     divides all brackets by 8 in one evaluation. A maximum is flat, so that its value converges with the square of its
