@@ -24,6 +24,15 @@ turns round a warp on the radius r = (D + d)/2. In the section across the warps,
 k is a calibration by the weaver's own carpet. By hand the figures published are 25 to 28 mm at 40 knots per dm and 30
 to 35 mm at 35, but 40 mm at 40 raj, where the waste of the hand cut seems to be in it (iran-carpet.com 1705;
 Azerbaijani Wikipedia). Fine carpets are shorn lower: give their own pile height.
+
+Whether the pile fits its ground: every knot sends two legs up through its cell, 1/a wide and 1/b long (a knots across
+and b along, per length; n = a b per area). A leg's section, fibre and the air between, is A = mu / (rho phi) (see
+`ground.yarn_diameter`), so of the ground's area the pile takes the share
+
+    F = 2 A n = 2 mu a b / (rho phi) <= 1
+
+Above 1 the yarn cannot stand there, however hard the rows are beaten; own derivation, by areas alone. It fits up to
+mu = rho phi / (2 n), which for a yarn of P strands is the metric count Nm = P / (1000 mu), or finer.
 """
 
 import difflib
@@ -120,3 +129,24 @@ def knot_length(knot: str, quality: Quality, linear_density: float, pile: PilePa
     yarn = yarn_diameter(linear_density, pile.fibre_density, pile.packing)
     leg = warp / 2 + yarn + pile.pile_height + pile.cut_waste
     return pile.calibration * (2 * leg + wrap(quality.warp_pitch, (warp + yarn) / 2))
+
+
+def pile_fill(quality: Quality, linear_density: float, pile: PileParams | None = None) -> float:
+    """Share of the ground's area that the legs of the pile take: F = 2 mu a b / (rho phi); above 1 they do not fit.
+
+    linear_density  mu of the pile yarn [kg/m]
+
+    >>> round(pile_fill(Quality(250.0, 250.0), 0.8e-3), 4), round(pile_fill(Quality(1000.0, 1000.0), 0.8e-3), 2)
+    (0.1696, 2.71)
+    """
+    pile = pile or PileParams()
+    return 2 * linear_density * quality.knots_per_area / (pile.fibre_density * pile.packing)
+
+
+def coarsest_count(quality: Quality, ply: int, pile: PileParams | None = None) -> float:
+    """The least metric count Nm [m/g] of the strands of a yarn of so many that fits its ground: F = 1.
+
+    >>> round(coarsest_count(Quality(1000.0, 1000.0), ply=2), 2)
+    6.79
+    """
+    return ply * pile_fill(quality, 1e-3, pile)

@@ -10,10 +10,10 @@ from ilmek.cli.options import carpet_options, force_option, json_option
 from ilmek.cli.terminal import check_json, console, give_json, note, progress_bar, show_pairs, show_table
 from ilmek.io.json_file import write_json
 from ilmek.io.output import check_free, output_folder
-from ilmek.jobs.chart import FILES, Charted, chart_results, job_json, make_charted, write_chart
+from ilmek.jobs.chart import Charted, chart_json, make_charted, write_chart
 from ilmek.jobs.order import read_order
 from ilmek.jobs.place import free_folder
-from ilmek.units import g
+from ilmek.units import format_quantity, g
 
 EXAMPLES = """\b
 Examples:
@@ -30,8 +30,8 @@ Examples:
 def command(out: Path | None, force: bool, json_to: str | None, **order: Any) -> None:
     """Make the knot chart of PICTURE and the bill of yarn.
 
-    The output folder holds chart.png (a pixel a knot), chart.pdf (to weave from) and yarn.csv. With --json and without
-    --out no folder is made.
+    The output folder holds chart.png (a pixel a knot), chart.pdf (to weave from; see --pdf), yarn.csv and chart.json.
+    With --json and without --out no folder is made.
     """
     check_json(json_to)
     wanted = read_order(**order)
@@ -41,23 +41,21 @@ def command(out: Path | None, force: bool, json_to: str | None, **order: Any) ->
     with progress_bar() as told:
         charted = make_charted(wanted, told)
         files = _write(charted, folder, force)
-    data = job_json("chart", wanted.as_dict(), chart_results(charted), notes=list(charted.notes), files=files)
-    if not give_json(json_to, data):
+    if not give_json(json_to, chart_json(charted, files)):
         show_chart(charted)
         if folder is not None:
-            console().print(f"files in {folder}: {', '.join(FILES)}")
-    for said in charted.notes:
+            console().print(f"files in {folder}: {', '.join(Path(file).name for file in files)}")
+    for said in (*charted.notes, *charted.warnings):
         note(said)
 
 
 def _write(charted: Charted, folder: Path | None, force: bool) -> list[str]:
     if folder is None:
         return []
-    files = [str(folder / name) for name in (*FILES, "chart.json")]
-    data = job_json("chart", charted.order.as_dict(), chart_results(charted), notes=list(charted.notes), files=files)
+    files = [str(folder / name) for name in (*charted.files, "chart.json")]
     with output_folder(folder, force=force) as work:
         write_chart(charted, work)
-        write_json(work / "chart.json", data)
+        write_json(work / "chart.json", chart_json(charted, files))
     return files
 
 
@@ -72,9 +70,18 @@ def show_chart(charted: Charted) -> None:
             ("colour difference", f"{chart.mean_delta_e:.2f} mean CIEDE2000 ({chart.least_delta_e:.2f} at best)"),
             ("lone knots", f"{chart.lone_fraction:.2%} ({chart.merged:,} merged)"),
             ("colour changes", f"{chart.changes_per_knot:.3f} a knot"),
+            ("pile", pile_in_words(charted)),
         ]
     )
     show_yarn(charted.bill)
+
+
+def pile_in_words(charted: Charted) -> str:
+    """The pile's mass, its mass per area, and how much of the ground it fills."""
+    mass, area = charted.bill.pile_mass, charted.chart.size.area
+    fill = charted.checks[0]
+    filled = f"{format_quantity(fill.value, fill.unit, 3)} of the ground filled"
+    return f"{format_quantity(mass, 'kg', 3)}, {format_quantity(mass / area, 'kg/m^2', 3)}, {filled}"
 
 
 def show_yarn(bill: YarnBill) -> None:

@@ -18,7 +18,7 @@ force_option = click.option("--force", is_flag=True, help="Replace an output fol
 
 
 def carpet_options(command: F) -> F:
-    """The options that say which carpet: picture, size, quality, knot, yarns, colours, lone knots, pile."""
+    """The options that say which carpet: picture, size, quality, knot, yarns, colours, lone knots, pile, printing."""
     for option in reversed(_CARPET):
         command = option(command)
     return command
@@ -41,6 +41,9 @@ _CARPET = (
     click.option("--colours", type=int, metavar="N", help="Use only the best N yarns of the list."),
     click.option("--keep-lone", is_flag=True, help="Leave knots unlike all four neighbours; else they are merged."),
     click.option("--pile-height", default="8mm", show_default=True, metavar="LENGTH", help="Height of the cut pile."),
+    click.option(
+        "--pdf/--no-pdf", default=None, help="Print the chart as PDF or not; without it up to 400 sheets are printed."
+    ),
     click.option(
         "--out", type=click.Path(path_type=Path), metavar="DIR", help="Output folder, made whole or not at all."
     ),

@@ -41,7 +41,8 @@ def command(
 ) -> None:
     """Take PICTURE to everything that weaves it: knot chart, yarn, loom with its machines, programme, report.
 
-    The output folder holds report.html, report.json, chart.png, chart.pdf, yarn.csv, programme.ilmek and machine.json.
+    The output folder holds report.html, report.json, chart.png, chart.pdf (see --pdf), yarn.csv, programme.ilmek and
+    machine.json.
     """
     check_json(json_to)
     order = read_order(**carpet)
@@ -52,7 +53,7 @@ def command(
         woven = weave(order, asked, folder, force=force, told=told)
     if not give_json(json_to, weave_json(woven)):
         show_woven(woven)
-    for said in woven.charted.notes:
+    for said in (*woven.charted.notes, *woven.warnings):
         note(said)
 
 

@@ -1,6 +1,7 @@
 """The carpet part: picture to knot chart and yarn bill, and their files."""
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,25 +10,64 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.design import LARGEST_DISTORTION, distortion
-from ilmek.io.chart_pdf import write_chart_pdf
+from ilmek.carpet.knots import coarsest_count, pile_fill
+from ilmek.carpet.yarn import Yarn
+from ilmek.io.chart_pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart_png import write_chart_png
 from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.order import Order
 from ilmek.jobs.told import Told, part
+from ilmek.report import Check, at_most, check_as_json
+from ilmek.units import format_quantity
 
-FILES = ("chart.png", "chart.pdf", "yarn.csv")
-"""What `write_chart` puts into a folder."""
+MOST_SHEETS = 400
+"""Sheets of a printed chart that are written without being asked for."""
 
 
 @dataclass(frozen=True, slots=True)
 class Charted:
-    """An order's chart and yarn bill; notes say what was done to the picture."""
+    """An order's chart and yarn bill; notes say what was done to the picture, and what was left out."""
 
     order: Order
     chart: Chart
     bill: YarnBill
     notes: tuple[str, ...]
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """What `write_chart` puts into a folder."""
+        return ("chart.png", "chart.pdf", "yarn.csv") if self._printed else ("chart.png", "yarn.csv")
+
+    @property
+    def _printed(self) -> bool:
+        """Whether there is a chart.pdf: as ordered, or else where it has no more than MOST_SHEETS."""
+        return chart_cut(self.chart).count <= MOST_SHEETS if self.order.pdf is None else self.order.pdf
+
+    @property
+    def thickest(self) -> Yarn:
+        """The thickest yarn that at least one knot has."""
+        used = (yarn for yarn, knots in zip(self.chart.yarns, self.chart.counts, strict=True) if knots)
+        return max(used, key=lambda yarn: yarn.linear_density)
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Whether the pile has room on the ground."""
+        fill = pile_fill(self.chart.quality, self.thickest.linear_density, self.order.pile)
+        source = "two legs a knot in the knot's cell, fibre packed as in the free yarn"
+        return (at_most("pile: share of the ground filled", fill, 1.0, "%", source),)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What would mend the checks that fail."""
+        if not (fails := [check for check in self.checks if not check.ok]):
+            return ()
+        yarn = self.thickest
+        # Rounded up: a count a little too fine fits, one a little too coarse does not.
+        fits = math.ceil(100 * coarsest_count(self.chart.quality, yarn.ply, self.order.pile)) / 100
+        said = f"{yarn.name!r} (Nm {yarn.metric_count:g}, ply {yarn.ply}) is too thick for {self.chart.quality}"
+        takes = f"its pile would take {format_quantity(fails[0].value, '%', 3)} of the ground"
+        return (f"{said}: {takes}; with ply {yarn.ply}, Nm {fits:g} or finer fits, or take a coarser quality",)
 
 
 def make_charted(order: Order, told: Told | None = None) -> Charted:
@@ -45,7 +85,15 @@ def make_charted(order: Order, told: Told | None = None) -> Charted:
         colours=order.colours,
         progress=part(told, "chart", 0.1, 1.0),
     )
-    return Charted(order, chart, yarn_bill(chart, order.pile), (*picture.notes, *_fit(picture.rgb, chart)))
+    notes = (*picture.notes, *_fit(picture.rgb, chart), *_left_out(order, chart))
+    return Charted(order, chart, yarn_bill(chart, order.pile), notes)
+
+
+def _left_out(order: Order, chart: Chart) -> tuple[str, ...]:
+    sheets = chart_cut(chart).count
+    if order.pdf is not None or sheets <= MOST_SHEETS:
+        return ()
+    return (f"chart.pdf would have {sheets:,} sheets and is left out; --pdf writes it all the same",)
 
 
 def _fit(rgb: Rgb, chart: Chart) -> tuple[str, ...]:
@@ -79,6 +127,7 @@ def chart_results(charted: Charted) -> dict[str, Any]:
         "yarn": [_need(need) for need in bill.pile],
         "ground": [_need(need) for need in bill.ground],
         "pile_mass": bill.pile_mass,
+        "pile_mass_per_area": bill.pile_mass / chart.size.area,
         "yarn_mass": bill.mass,
         "price": bill.price,
     }
@@ -91,10 +140,31 @@ def _need(need: YarnNeed) -> dict[str, Any]:
 def write_chart(charted: Charted, folder: Path, progress: Callable[[float], None] | None = None) -> None:
     """Write the chart's files into a folder. An OSError passes through."""
     write_chart_png(folder / "chart.png", charted.chart)
-    write_chart_pdf(folder / "chart.pdf", charted.chart, progress=progress)
+    if "chart.pdf" in charted.files:
+        write_chart_pdf(folder / "chart.pdf", charted.chart, progress=progress)
     write_yarn_csv(folder / "yarn.csv", charted.bill, charted.chart.yarns)
 
 
+def chart_json(charted: Charted, files: Sequence[str]) -> dict[str, Any]:
+    """The JSON of a chart and the files it was written to."""
+    return job_json(
+        "chart",
+        charted.order.as_dict(),
+        chart_results(charted),
+        checks=[check_as_json(check) for check in charted.checks],
+        notes=list(charted.notes),
+        warnings=list(charted.warnings),
+        files=list(files),
+    )
+
+
 def job_json(job: str, parameters: dict[str, Any], results: dict[str, Any], **more: Any) -> dict[str, Any]:
-    """The JSON of a job: like a machine's report (parameters, results), and each result under its own name too."""
-    return {"job": job, "parameters": parameters, "results": results, **more, **results}
+    """The JSON of any job, built here alone: `job`, `parameters`, `results`, and `more` (checks, notes, files ...).
+
+    Each result stands in two places, on purpose: under `results`, as in a machine's report, and at the top level under
+    its own name, so that a reader of one number need not know where it is kept. No name of a result may be one of the
+    others'.
+    """
+    around = {"job": job, "parameters": parameters, "results": results, **more}
+    assert not results.keys() & around.keys()
+    return {**around, **results}

@@ -16,7 +16,9 @@ from ilmek.params import Setting
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """Which carpet: picture file, size, quality, knot, yarn list, how many of its yarns, lone knots, pile."""
+    """Which carpet: picture file, size, quality, knot, yarn list, how many of its yarns, lone knots, pile; and whether
+    its chart is printed as PDF (None: where the sheets are not too many).
+    """
 
     picture: Path
     size: Size
@@ -26,6 +28,7 @@ class Order:
     colours: int | None
     keep_lone: bool
     pile: PileParams
+    pdf: bool | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """The order as plain data, SI."""
@@ -38,6 +41,7 @@ class Order:
             "colours": self.colours,
             "keep_lone": self.keep_lone,
             "pile": self.pile.as_dict(),
+            "pdf": self.pdf,
         }
 
 
@@ -51,6 +55,7 @@ def read_order(
     colours: int | None = None,
     keep_lone: bool = False,
     pile_height: Setting = "8mm",
+    pdf: bool | None = None,
 ) -> Order:
     """The order from texts. Raises CarpetError, YarnError or ParameterError; the picture is not opened yet."""
     kind, wide, fine = parse_knot(knot), parse_size(size), parse_quality(quality)
@@ -61,4 +66,4 @@ def read_order(
         raise YarnError(
             f"--colours {colours}", allowed=f"2 to {len(yarns)}, the yarns of the list", do="or leave it out"
         )
-    return Order(picture, wide, fine, kind, yarns, colours, keep_lone, pile)
+    return Order(picture, wide, fine, kind, yarns, colours, keep_lone, pile, pdf)

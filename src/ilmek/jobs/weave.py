@@ -28,7 +28,7 @@ FILES = (
     FileNote("programme.ilmek", "the loom programme; look into it with `ilmek inspect`"),
     FileNote("machine.json", "the loom and its machines: parameters, results, checks"),
 )
-"""What a woven folder holds."""
+"""What a woven folder holds, each file where it is made."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,12 +48,27 @@ class Woven:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Every check: of the whole, the loom and each of its machines, by whose name it begins."""
-        return (*job_checks(self.asked, self.loomed), *self.loom.checks)
+        return (*self.own_checks, *self.loom.checks)
+
+    @property
+    def own_checks(self) -> tuple[Check, ...]:
+        """Checks of the whole: of the carpet, and the deadline, where there is one."""
+        return (*self.charted.checks, *job_checks(self.asked, self.loomed))
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Every warning: of the carpet, the loom and its machines."""
+        return (*self.charted.warnings, *self.loom.warnings)
+
+    @property
+    def notes(self) -> tuple[FileNote, ...]:
+        """The files that are made."""
+        return tuple(file for file in FILES if file.name != "chart.pdf" or file.name in self.charted.files)
 
     @property
     def files(self) -> list[str]:
         """The paths of the files."""
-        return [str(self.folder / file.name) for file in FILES]
+        return [str(self.folder / file.name) for file in self.notes]
 
 
 def weave(order: Order, asked: LoomOrder, folder: Path, *, force: bool = False, told: Told | None = None) -> Woven:
@@ -96,7 +111,7 @@ def loom_alone(loom: Report, parts: tuple[Report, ...]) -> Report:
 
 
 def job_checks(asked: LoomOrder, loomed: Loomed) -> tuple[Check, ...]:
-    """Checks of the whole: the deadline, where there is one."""
+    """The deadline, where there is one."""
     if asked.deadline is None:
         return ()
     return (at_most("weaving time", loomed.programme.duration, asked.deadline, "h", "the deadline asked for"),)
@@ -126,7 +141,7 @@ def weave_json(woven: Woven) -> dict[str, Any]:
         weave_results(woven),
         checks=[check_as_json(check) for check in woven.checks],
         notes=list(woven.charted.notes),
-        warnings=list(woven.loom.warnings),
+        warnings=list(woven.warnings),
         files=woven.files,
     )
 
@@ -168,7 +183,7 @@ def _page(woven: Woven) -> CarpetPage:
         symbols=symbols(len(chart.yarns)),
         facts=tuple(facts),
         reports=(loom_alone(woven.loom, woven.parts), *woven.parts),
-        checks=job_checks(asked, woven.loomed),
-        files=FILES,
-        warnings=woven.charted.notes,
+        checks=woven.own_checks,
+        files=woven.notes,
+        warnings=(*woven.charted.warnings, *woven.charted.notes),
     )
