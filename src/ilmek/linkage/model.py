@@ -129,9 +129,10 @@ Named = TypeVar("Named", Body, Pin | Slide)
 class Mechanism:
     """Bodies, joints, inputs, and the way each group is put together.
 
-    branches  free pin's name -> +1 or -1. A group of two links hung on known pins closes in two ways; see `Pin` (two
-              links: side of the line between the known pins) and `groups.rrp` (link and slider: further along the
-              line, or less far).
+    branches  free pin's (or slide's) name -> +1 or -1. A group of two links hung on known pins closes in two ways; see
+              `Pin` (two links: side of the line between the known pins), `groups.rrp` (link and slider: further along
+              the line, or less far) and `groups.rpr` (two bodies that slide on one another: by the slide's name, the
+              sliding body's pin ahead of the guide's pin along the slide, or behind).
     name      said in messages
     pose      body -> (origin [m], angle [rad]) in some assembled position, roughly; needed only by groups without a
               closed form, which Newton's method follows from there. A body not named is taken as drawn in place.

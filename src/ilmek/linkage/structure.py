@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from ilmek.errors import MechanismError
-from ilmek.linkage.groups import block, rrp, rrr, shift, turn
+from ilmek.linkage.groups import block, prp, rpp, rpr, rrp, rrr, shift, turn
 from ilmek.linkage.groups.group import Group, Step
 from ilmek.linkage.model import GROUND, Mechanism
 
@@ -25,6 +25,9 @@ CLOSED_FORMS: tuple[Callable[[Group], Step | None], ...] = (
     shift.recognise,
     rrr.recognise,
     rrp.recognise,
+    rpr.recognise,
+    prp.recognise,
+    rpp.recognise,
 )
 """The groups solved in closed form; a further one is one more row."""
 

@@ -23,6 +23,17 @@ def cross(u: ComplexField, v: ComplexField) -> RealField:
     return np.real(u) * np.imag(v) - np.imag(u) * np.real(v)
 
 
+def oblique(v: ComplexField, e: ComplexField, f: ComplexField) -> RealField:
+    """Share x of v along e in oblique axes, v = x e + y f: (v x f) / (e x f); the share along f is `oblique(v, f, e)`.
+
+    Infinite or NaN where e and f are parallel.
+    >>> float(oblique(3 + 4j, 1 + 0j, 1 + 1j)), float(oblique(3 + 4j, 1 + 1j, 1 + 0j))
+    (-1.0, 4.0)
+    """
+    share: RealField = np.divide(v.real * f.imag - v.imag * f.real, e.real * f.imag - e.imag * f.real)
+    return share
+
+
 def unit(angle: RealField) -> ComplexField:
     """Unit vector e^{i angle} from an angle [rad]; twice as quick as `np.exp(1j * angle)`.
 

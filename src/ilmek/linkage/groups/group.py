@@ -118,6 +118,17 @@ class Group:
         touched = {body for joint in self.outer for body in joint.bodies} - set(self.bodies)
         return tuple(body.name for body in self.mechanism.bodies if body.name in touched)
 
+    @property
+    def is_dyad(self) -> bool:
+        """Whether it is two undriven bodies with a joint between them and one joint each to known bodies."""
+        hung = {body for joint in self.outer for body in joint.bodies} & set(self.bodies)
+        return len(self.bodies) == len(hung) == len(self.outer) == 2 and len(self.inner) == 1 and not self.inputs
+
+    @property
+    def reach(self) -> float:
+        """Largest coordinate of any body's point [m], the ground's too: the scale of its lengths; 1 if all are 0."""
+        return max(abs(point) for body in self.mechanism.bodies for point in body.points.values()) or 1.0
+
     def outer_of(self, body: str) -> tuple[Joint, ...]:
         """Joints between that body and known bodies."""
         return tuple(joint for joint in self.outer if body in joint.bodies)
@@ -138,7 +149,7 @@ class Group:
         return arm
 
     def branch(self, joint: str) -> int:
-        """The branch said for a free joint. Raises MechanismError where none is."""
+        """The branch said for a free pin. Raises MechanismError where none is."""
         branches = self.mechanism.branches
         if joint not in branches:
             raise MechanismError(

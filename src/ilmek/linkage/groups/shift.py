@@ -1,13 +1,19 @@
 """A body shifted by an input along a slide on a known body: P = G + s e, angle fixed against the known body."""
 
 import cmath
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ilmek.arrays import ComplexField
+import numpy as np
+
+from ilmek.arrays import ComplexField, RealField
+from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
 from ilmek.linkage.model import Displacement, Mechanism, Slide
+
+PARALLEL = 1e-12
+"""Sine of the angle between two lines that are parallel but for rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +52,17 @@ def track(mechanism: Mechanism, slide: Slide, body: str) -> Track:
     if body == slide.body:
         return Track(root=guide, lead=along, twist=turned, at=on_line)
     return Track(root=on_line, lead=-along * turned.conjugate(), twist=turned.conjugate(), at=guide)
+
+
+def refuse_parallel(mechanism: Mechanism, slides: Sequence[Slide], sine: RealField) -> None:
+    """Raise MechanismError where two slides of a group run in one direction, by the sine of the angle between them."""
+    if np.abs(sine) <= PARALLEL:
+        first, second = (slide.name for slide in slides)
+        raise MechanismError(
+            f"slides {first!r} and {second!r} of {mechanism.name} are parallel",
+            allowed="one hinders nothing that the other does not: what hangs on both can run along them",
+            do="turn one of them",
+        )
 
 
 @dataclass(frozen=True, slots=True)

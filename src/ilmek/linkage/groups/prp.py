@@ -1,0 +1,111 @@
+"""PRP dyad: two sliders on known guides, pinned to one another at C.
+
+    C = P + s e = Q + z f,    C' = P' + i w s e + s' e = Q' + i v z f + z' f,    and the same once more for C''
+
+P and Q are where C stands on either line at zero travel, e and f the lines' unit directions, w and v the rates of the
+guides, which may move: C is where the lines cross, so there is one way to close [Artobolevsky, Theory of Mechanisms and
+Machines: groups of class II, fourth kind]. Tangent mechanisms, wedges, pins led by two slots.
+The dyad stands at a dead centre where the lines are parallel: e x f = 0.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_motion import BodyMotion, PointMotion
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.shift import Track, refuse_parallel, track
+from ilmek.linkage.model import Pin, Slide
+from ilmek.plane.vectors import cross, oblique
+
+
+@dataclass(frozen=True, slots=True)
+class CrossedSliders(Step):
+    """Two sliders on known bodies joined by a pin.
+
+    reach  slide's point -> pin in the sliders' frames [m]         scale  of its lengths [m]
+    """
+
+    sliders: tuple[str, str]
+    on: tuple[str, str]
+    pin: str
+    reach: tuple[complex, complex]
+    tracks: tuple[Track, Track]
+    scale: float
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Both sliders."""
+        return self.sliders
+
+    @property
+    def parents(self) -> tuple[str, ...]:
+        """The guides."""
+        return self.on
+
+    @property
+    def words(self) -> str:
+        """What it is, for people."""
+        (p, q), (on_p, on_q) = self.sliders, self.on
+        return f"sliders {p} and {q} joined at {self.pin}, on {on_p} and {on_q}: PRP"
+
+    def line(self, known: Known, which: int) -> tuple[BodyMotion, PointMotion, ComplexField]:
+        """A guide, the motion of its line's zero for the pin, and the line's direction."""
+        guide, line = known[self.on[which]], self.tracks[which]
+        return guide, guide.carry(line.root + line.twist * self.reach[which]), guide.direction * line.lead
+
+    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
+        """Travel, speed and acceleration of both sliders."""
+        (one, P, e), (two, Q, f) = self.line(known, 0), self.line(known, 1)
+        w, v = one.omega, two.omega
+        r = Q.position - P.position
+        s, z = oblique(r, e, f), -oblique(r, f, e)
+        r = Q.velocity + 1j * (v * z) * f - P.velocity - 1j * (w * s) * e
+        ds, dz = oblique(r, e, f), -oblique(r, f, e)
+        r = Q.acceleration + (1j * (two.alpha * z + 2 * v * dz) - v * v * z) * f
+        r = r - P.acceleration - (1j * (one.alpha * s + 2 * w * ds) - w * w * s) * e
+        columns = {self.sliders[0]: (s, ds, oblique(r, e, f)), self.sliders[1]: (z, dz, -oblique(r, f, e))}
+        return Solved(columns, cross(e, f))
+
+    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+        """The sliders, anchored at their slides' points."""
+        return {
+            slider: line.place(known[on], columns[slider])
+            for slider, on, line in zip(self.sliders, self.on, self.tracks, strict=True)
+        }
+
+    @property
+    def size(self) -> float:
+        """The scale of its lengths [m]."""
+        return self.scale
+
+    def gap(self, known: Known) -> RealField:
+        """0: lines that are not parallel cross; NaN where what it hangs on is lost."""
+        (_, _, e), (_, _, f) = self.line(known, 0), self.line(known, 1)
+        return 0.0 * cross(e, f)
+
+
+def recognise(group: Group) -> CrossedSliders | None:
+    """The group as a PRP dyad, or None. Raises MechanismError where both lines are parallel lines of one guide."""
+    pin, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
+    if not isinstance(pin, Pin):
+        return None
+    first, second = pin.bodies
+    slides = [joint for body in pin.bodies for joint in group.outer_of(body) if isinstance(joint, Slide)]
+    if len(slides) != 2:
+        return None
+    on = group.beyond(slides[0], first), group.beyond(slides[1], second)
+    tracks = track(mechanism, slides[0], first), track(mechanism, slides[1], second)
+    if on[0] == on[1]:
+        refuse_parallel(mechanism, slides, cross(tracks[0].lead, tracks[1].lead))
+    return CrossedSliders(
+        sliders=(first, second),
+        on=on,
+        pin=pin.name,
+        reach=(
+            mechanism.point(first, pin.name) - mechanism.point(first, slides[0].name),
+            mechanism.point(second, pin.name) - mechanism.point(second, slides[1].name),
+        ),
+        tracks=tracks,
+        scale=group.reach,
+    )

@@ -1,0 +1,103 @@
+"""RPP dyad: a body hung on a known pin A slides on a slider, which slides on a known guide.
+
+    A = Q + s e + z f,    A' = Q' + i w (A - Q) + s' e + z' f,    and the same once more for A''
+
+e is the unit direction of the guide's line, f that of the line between the two bodies. Nothing in the dyad turns
+against the guide, so that w is the angular velocity of both bodies and the angle between e and f is fixed; Q stands
+where the known pin would be at zero travel of both slides. There is one way to close, and it always closes
+[Artobolevsky, Theory of Mechanisms and Machines: groups of class II, fifth kind]. Scotch yokes, Oldham couplings.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ilmek.linkage.body_motion import BodyMotion
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.shift import Track, refuse_parallel, track
+from ilmek.linkage.groups.turn import hung
+from ilmek.linkage.model import Pin, Slide
+from ilmek.plane.vectors import cross, oblique
+
+
+@dataclass(frozen=True, slots=True)
+class CrossSlide(Step):
+    """A body on a known pin and the slider between it and a guide.
+
+    hinge  known pin in the frame of the body that the link hangs on [m]     at   the same pin in the link's frame [m]
+    track  the slider on its guide         lead   direction f in the slider's frame      twist  link against slider
+    zero   A at s = z = 0 in the guide's frame [m]
+    """
+
+    link: str
+    slider: str
+    on: tuple[str, str]
+    hinge: complex
+    at: complex
+    track: Track
+    lead: complex
+    twist: complex
+    zero: complex
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Link and slider."""
+        return self.link, self.slider
+
+    @property
+    def parents(self) -> tuple[str, ...]:
+        """The body with the known pin, and the guide."""
+        return self.on
+
+    @property
+    def words(self) -> str:
+        """What it is, for people."""
+        return f"{self.link} on slider {self.slider}, hung on {self.on[0]} and {self.on[1]}: RPP"
+
+    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
+        """Direction and rates of the link, those of the guide; travel, speed and acceleration of the slider."""
+        A, guide = known[self.on[0]].carry(self.hinge), known[self.on[1]]
+        Q, w, alpha = guide.carry(self.zero), guide.omega, guide.alpha
+        e = guide.direction * self.track.lead
+        f = guide.direction * (self.track.twist * self.lead)
+        d = A.position - Q.position
+        sliding = A.velocity - Q.velocity - 1j * w * d
+        gain = A.acceleration - Q.acceleration - (1j * alpha - w * w) * d - 2j * w * sliding
+        columns = {
+            self.link: (guide.direction * (self.track.twist * self.twist), w, alpha),
+            self.slider: (oblique(d, e, f), oblique(sliding, e, f), oblique(gain, e, f)),
+        }
+        return Solved(columns)
+
+    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+        """The link, anchored at the known pin, and the slider, anchored at its point on the guide."""
+        return {
+            self.link: hung(known[self.on[0]], self.hinge, self.at, columns[self.link]),
+            self.slider: self.track.place(known[self.on[1]], columns[self.slider]),
+        }
+
+
+def recognise(group: Group) -> CrossSlide | None:
+    """The group as an RPP dyad, or None. Raises MechanismError where its slides are parallel."""
+    between, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
+    slide = next((joint for joint in group.outer if isinstance(joint, Slide)), None)
+    hinge = next((joint for joint in group.outer if isinstance(joint, Pin)), None)
+    if not isinstance(between, Slide) or slide is None or hinge is None:
+        return None
+    link = next(body for body in group.bodies if body in hinge.bodies)
+    slider = next(body for body in group.bodies if body in slide.bodies)
+    on = group.beyond(hinge, link), group.beyond(slide, slider)
+    outer, inner = track(mechanism, slide, slider), track(mechanism, between, link)
+    refuse_parallel(mechanism, (slide, between), cross(outer.lead, outer.twist * inner.lead))
+    at = mechanism.point(link, hinge.name)
+    from_slider = inner.root - outer.at + inner.twist * (at - inner.at)
+    return CrossSlide(
+        link=link,
+        slider=slider,
+        on=on,
+        hinge=mechanism.point(on[0], hinge.name),
+        at=at,
+        track=outer,
+        lead=inner.lead,
+        twist=inner.twist,
+        zero=outer.root + outer.twist * from_slider,
+    )

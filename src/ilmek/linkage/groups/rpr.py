@@ -1,0 +1,178 @@
+"""RPR dyad: two bodies that slide on one another, each hung on a known pin, A and B.
+
+    B - A = (t + i o) e,    t = branch sqrt(|B - A|^2 - o^2)
+    (B - A)' = t' e + i w (t + i o) e,    and the same once more for (B - A)''
+
+e is the unit direction of the slide, o the fixed distance of B from the line through A along e (left of it: above 0),
+t the way from A to the foot of B on that line. Both bodies turn alike: w is the angular velocity of both [Norton,
+Design of Machinery, sections 4.7, 6.7, 7.3: inverted slider-crank].
+Oscillating cylinders, quick-returns, slotted levers.
+The dyad stands at a dead centre where t = 0: the slide is square to A -> B, or B passes through A. There the rates are
+infinite.
+"""
+
+import cmath
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_motion import BodyMotion, PointMotion
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.shift import track
+from ilmek.linkage.groups.turn import hung
+from ilmek.linkage.model import Pin, Slide
+from ilmek.units import format_quantity
+
+
+def way(d: ComplexField, o: RealField, branch: RealField) -> RealField:
+    """Way t [m] along the slide from A to the foot of B, d = B - A; NaN where the pins are nearer than the offset.
+
+    branch  +1: B ahead of A in the slide's direction, -1: behind
+    >>> float(way(3 + 4j, 3.0, branch=-1))
+    -4.0
+    """
+    return branch * np.sqrt(d.real * d.real + d.imag * d.imag - o * o)
+
+
+def heading(d: ComplexField, o: RealField, t: RealField) -> ComplexField:
+    """Unit direction e of the slide: d / (t + i o).
+
+    >>> complex(heading(3 + 4j, 3.0, 4.0))
+    (0.96+0.28j)
+    """
+    return d * (t - 1j * o) * (1 / (d.real * d.real + d.imag * d.imag))
+
+
+def turn_rate(e: ComplexField, r: ComplexField, t: RealField) -> RealField:
+    """Angular velocity w [rad/s] of both bodies, from i w d + t' e = r.
+
+    For velocities r = d'; for accelerations r = d'' + w^2 d - 2 i w t' e and the answer is alpha.
+    >>> float(turn_rate(0.96 + 0.28j, 2j, 4.0)), float(way_rate(0.96 + 0.28j, 2j, 0.48, 3.0))
+    (0.48, 2.0)
+    """
+    return (e.real * r.imag - e.imag * r.real) / t
+
+
+def way_rate(e: ComplexField, r: ComplexField, w: RealField, o: RealField) -> RealField:
+    """Sliding speed t' [m/s], from i w d + t' e = r; see `turn_rate`, of which w is the answer."""
+    return e.real * r.real + e.imag * r.imag + w * o
+
+
+def shortness(d: ComplexField, o: RealField) -> RealField:
+    """By how much the known pins are too near for the offset [m], 0 where the dyad closes.
+
+    >>> float(shortness(3 + 4j, -7.0)), float(shortness(3 + 4j, 3.0))
+    (2.0, 0.0)
+    """
+    short: RealField = np.maximum(np.abs(o) - np.abs(d), 0)
+    return short
+
+
+@dataclass(frozen=True, slots=True)
+class SlidingDyad(Step):
+    """Two bodies on known pins, the second sliding on the first in direction `lead` of the first's frame.
+
+    hinges  known pins in the frames of the bodies in `on` [m]      at  the same pins in the bodies' own frames [m]
+    twist   direction of the second body against the first          offset  o [m]      scale  of its lengths [m]
+    """
+
+    links: tuple[str, str]
+    on: tuple[str, str]
+    slide: str
+    branch: int
+    hinges: tuple[complex, complex]
+    at: tuple[complex, complex]
+    lead: complex
+    twist: complex
+    offset: float
+    scale: float
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Both bodies."""
+        return self.links
+
+    @property
+    def parents(self) -> tuple[str, ...]:
+        """The bodies that they hang on."""
+        return self.on
+
+    @property
+    def words(self) -> str:
+        """What it is, for people."""
+        (p, q), (on_p, on_q) = self.links, self.on
+        return f"{p} and {q} joined by slide {self.slide} (branch {self.branch:+d}), hung on {on_p} and {on_q}: RPR"
+
+    def hung(self, known: Known) -> tuple[PointMotion, PointMotion]:
+        """Motions of the known pins."""
+        return known[self.on[0]].carry(self.hinges[0]), known[self.on[1]].carry(self.hinges[1])
+
+    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
+        """Directions of both bodies, their common angular velocity and acceleration."""
+        A, B = self.hung(known)
+        d = B.position - A.position
+        t = way(d, self.offset, self.branch)
+        e = heading(d, self.offset, t)
+        r = B.velocity - A.velocity
+        w = turn_rate(e, r, t)
+        r = B.acceleration - A.acceleration + w * w * d - 2j * (w * way_rate(e, r, w, self.offset)) * e
+        alpha = turn_rate(e, r, t)
+        direction = e * self.lead.conjugate()
+        columns = {self.links[0]: (direction, w, alpha), self.links[1]: (direction * self.twist, w, alpha)}
+        return Solved(columns, t, self.scale)
+
+    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+        """The bodies, anchored at the known pins."""
+        return {
+            link: hung(known[on], hinge, at, columns[link])
+            for link, on, hinge, at in zip(self.links, self.on, self.hinges, self.at, strict=True)
+        }
+
+    @property
+    def size(self) -> float:
+        """The scale of its lengths [m]."""
+        return self.scale
+
+    def gap(self, known: Known) -> RealField:
+        """How much too near the known pins are for the offset [m]."""
+        A, B = self.hung(known)
+        return shortness(B.position - A.position, self.offset)
+
+    def shortfall(self, known: Known) -> tuple[str, str]:
+        """The least distance of the known pins against the offset."""
+        gap = float(np.nanmax(self.gap(known)))
+        near, offset = format_quantity(abs(self.offset) - gap, "mm"), format_quantity(abs(self.offset), "mm")
+        pins = f"the pins that {self.links[0]} and {self.links[1]} hang on"
+        return (
+            f"{pins} come within {near}, slide {self.slide} keeps them {offset} apart",
+            f"make the offset of slide {self.slide} less by {format_quantity(gap, 'mm')}",
+        )
+
+
+def recognise(group: Group) -> SlidingDyad | None:
+    """The group as an RPR dyad, or None; None too where the slide has no branch: a pose must say how it closes."""
+    slide, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
+    if not isinstance(slide, Slide) or not all(isinstance(joint, Pin) for joint in group.outer):
+        return None
+    if slide.name not in mechanism.branches:
+        return None
+    guide, body = slide.guide, slide.body
+    hinges = [group.outer_of(link)[0] for link in (guide, body)]
+    on = [group.beyond(hinge, link) for hinge, link in zip(hinges, (guide, body), strict=True)]
+    at = [mechanism.point(link, hinge.name) for hinge, link in zip(hinges, (guide, body), strict=True)]
+    line = track(mechanism, slide, body)
+    to_b = line.root - at[0] + line.twist * (at[1] - line.at)  # from A to B at s = 0, in the guide's frame
+    return SlidingDyad(
+        links=(guide, body),
+        on=(on[0], on[1]),
+        slide=slide.name,
+        branch=group.branch(slide.name),
+        hinges=(mechanism.point(on[0], hinges[0].name), mechanism.point(on[1], hinges[1].name)),
+        at=(at[0], at[1]),
+        lead=line.lead,
+        twist=line.twist,
+        offset=(to_b * cmath.rect(1, -slide.along)).imag,
+        scale=group.reach,
+    )
