@@ -6,8 +6,17 @@ import pytest
 
 from ilmek.elements.bearings import BEARINGS, bearings_for
 from ilmek.elements.materials import MATERIALS
-from ilmek.elements.motors import MOTORS, Reducer, smallest_motor, worm_efficiency
-from ilmek.elements.shafts import STOCK_SIDES, stock_side
+from ilmek.elements.motors import MOTORS, Reducer, most_torque, smallest_motor, worm_efficiency
+from ilmek.elements.shafts import (
+    SQUARE_SHEAR,
+    SQUARE_TORSION,
+    STOCK_SIDES,
+    side_for_strength,
+    side_for_twist,
+    square_stress,
+    square_twist,
+    stock_side,
+)
 from ilmek.units import GPa, deg, mm, rpm
 
 
@@ -22,7 +31,7 @@ def test_smallest_motor_is_enough_and_none_smaller_is(torque) -> None:
     chosen = smallest_motor(torque)
     assert chosen is not None
     assert chosen.torque >= torque
-    assert not [motor for motor in MOTORS if torque <= motor.torque < chosen.torque]
+    assert not [motor for motor in MOTORS if torque <= motor.torque and motor.power < chosen.power]
 
 
 def test_motor_must_also_be_quick_enough() -> None:
@@ -44,6 +53,32 @@ def test_a_worm_that_locks_itself_wastes_more_than_half(friction) -> None:
     assert at_the_limit < 0.5
     assert Reducer(100.0, at_the_limit).self_locking
     assert not Reducer(100.0, worm_efficiency(3 * friction, friction)).self_locking
+
+
+def test_a_motor_is_taken_by_its_power_not_its_torque() -> None:
+    """9.4 N m at 230 rpm: a stepper of 12 N m (377 W), not the servo of 3000 W that has the nearer torque."""
+    assert smallest_motor(9.4, 230 * rpm).name == "stepper NEMA 34, 12 N m"
+    assert smallest_motor(7.0 * (1 + 1e-12)).torque == 7.0
+    assert most_torque(3000 * rpm) == max(m.torque for m in MOTORS if m.speed >= 3000 * rpm)
+    assert most_torque(4000 * rpm) == 0.0
+
+
+@pytest.mark.parametrize(("constant", "power"), [(SQUARE_TORSION, 1), (SQUARE_SHEAR, 2)])
+def test_torsion_of_a_square_bar_by_saint_venants_series(constant, power) -> None:
+    """J/B^4 = 1/3 - 64/pi^5 sum tanh(k pi/2)/k^5; tau B^3/T = J^-1 (1 - 8/pi^2 sum sech(k pi/2)/k^2); k odd."""
+    odd = range(1, 200, 2)
+    inertia = 1 / 3 - 64 / math.pi**5 * sum(math.tanh(k * math.pi / 2) / k**5 for k in odd)
+    sech = sum(2 * math.exp(-k * math.pi / 2) / (1 + math.exp(-k * math.pi)) / k**2 for k in odd)
+    expected = inertia if power == 1 else inertia / (1 - 8 / math.pi**2 * sech)
+    assert constant == pytest.approx(expected, abs=1e-6)
+
+
+def test_least_sides_keep_just_the_twist_and_the_strength() -> None:
+    side = side_for_twist(900.0, 6.0, 200 * GPa, 2 * deg)
+    assert square_twist(900.0, 6.0, 200 * GPa, side) == pytest.approx(2 * deg)
+    side = side_for_strength(2000.0, 900.0, 235e6)
+    assert square_stress(2000.0, 900.0, side) == pytest.approx(235e6)
+    assert square_stress(2000.0, 0.0, side) == pytest.approx(6 * 2000.0 / side**3)
 
 
 def test_stock_bars() -> None:

@@ -29,7 +29,7 @@ def failed(report: Report) -> list[str]:
 def test_the_thesis_loom_passes_its_checks() -> None:
     report = answer()
     assert failed(report) == []
-    assert len(report.checks) == 9
+    assert len(report.checks) == 11
     assert len(report.warnings) == 1
     assert "bridges the hollow" in report.warnings[0]
 
@@ -143,6 +143,49 @@ def test_shaft_beyond_the_stock_is_made_to_measure() -> None:
     design = made(shaft_load="2000kN/m")
     assert design.shaft.bar >= design.shaft.side
     assert design.shaft.bar * 100 == pytest.approx(round(design.shaft.bar * 100))
+
+
+def test_supports_between_shorten_the_span_not_the_shaft() -> None:
+    """l/2 over the same load per length: the side goes with l^(3/4) by slope and with l by deflection."""
+    one, two = made(shaft_load="14kN/m", shaft_length="2.4m"), made(shaft_load="14kN/m", shaft_length="2.4m", spans="2")
+    assert (one.shaft.load, one.shaft.length) == (two.shaft.load, two.shaft.length)
+    assert two.shaft.side_slope == pytest.approx(one.shaft.side_slope / 2**0.75)
+    assert two.shaft.side_deflection == pytest.approx(one.shaft.side_deflection / 2)
+    assert two.shaft.side_twist == one.shaft.side_twist
+
+
+def test_the_bar_of_the_thesis_is_judged() -> None:
+    """80 mm at 14 kN/m: 1.4766e-3 rad and 0.5537 mm; 50 mm would not do."""
+    thesis = made(shaft_load="14kN/m", shaft_bar="80mm", modulus="200GPa")
+    assert thesis.shaft.slope == pytest.approx(1.4766e-3, rel=1e-4)
+    assert thesis.shaft.deflection == pytest.approx(0.5537 * mm, rel=1e-4)
+    assert failed(answer(shaft_load="14kN/m", shaft_bar="50mm")) == ["slope of the shaft", "deflection of the shaft"]
+
+
+def test_a_long_thin_shaft_fails_by_twist_and_stress() -> None:
+    report = answer(shaft_bar="20mm", spans="60", warps="6000", warp_pitch="1mm", bore_wall="0mm")
+    assert failed(report) == ["twist of the shaft", "stress of the shaft"]
+    chosen = made(spans="60", warps="6000", warp_pitch="1mm").shaft
+    assert chosen.bar >= max(chosen.side_twist, chosen.side_strength) > chosen.side
+
+
+def test_the_window_is_found_where_the_other_parity_is_still_coming_down_at_the_top() -> None:
+    """Up from 60 to 210 deg while the odd warps come down until 90 deg and go up from 180 deg on."""
+    design = made(rise="60deg", dwell="150deg", shuttle_height="40mm")
+    first, last = design.shuttle_window
+    room = design.opening(np.array([first, last]))
+    assert room == pytest.approx([40 * mm, 40 * mm])
+    assert 60 * deg < first < 90 * deg
+    assert 180 * deg < last < 210 * deg
+    between = np.linspace(first, last, 1001)[1:-1]
+    assert design.opening(between).min() > 40 * mm
+
+
+def test_a_motor_that_no_one_makes_is_judged_against_the_largest() -> None:
+    check = next(check for check in answer(ratio="1", efficiency="1").failed)
+    assert (check.value, check.limit) == pytest.approx((180.0, 95.5), rel=1e-3)
+    too_quick = next(check for check in answer(ratio="1000").failed)
+    assert too_quick.limit == 0.0
 
 
 def test_report_is_whole() -> None:

@@ -32,14 +32,28 @@ def test_the_thesis_tube_comes_out_and_passes() -> None:
 def test_the_tube_chosen_keeps_the_limits_and_a_millimetre_less_does_not(warps, tension, width) -> None:
     params = WarpTensionParams(warps=warps, tension=tension, width=width)
     design = MACHINE.design(params)
-    assert design.slope <= params.slope_limit
-    assert design.deflection <= params.deflection_limit
+    assert design.slope < design.slope_loaded <= params.slope_limit
+    assert design.deflection < design.deflection_loaded <= params.deflection_limit
     assert design.deflection / design.slope == pytest.approx(5 * width / 16)
     assert design.outer_radius - design.inner_radius == pytest.approx(params.wall)
     if design.inner_radius > 65.5 * mm:
         less = dict(inner_radius=design.inner_radius - mm, outer_radius=design.outer_radius - mm)
         smaller = MACHINE.design(WarpTensionParams(warps=warps, tension=tension, width=width, **less))
-        assert smaller.deflection > params.deflection_limit or smaller.slope > params.slope_limit
+        assert smaller.deflection_loaded > params.deflection_limit or smaller.slope_loaded > params.slope_limit
+
+
+def test_own_weight_is_added_to_the_pull_where_limits_are_judged() -> None:
+    """A tube 610 x 30 mm over 8.1 m weighs half of what the warps pull: too much for the millimetre of sag."""
+    wide = dict(warps="4000", width="8.1m", outer_radius="305mm", inner_radius="275mm")
+    design, report = made(**wide), answer(**wide)
+    weight = math.pi * (0.305**2 - 0.275**2) * 7850 * 9.81
+    assert design.self_weight == pytest.approx(weight)
+    share = 1 + weight / design.load
+    assert share > 1.5
+    assert design.deflection_loaded == pytest.approx(design.deflection * share)
+    assert design.slope_loaded == pytest.approx(design.slope * share)
+    assert design.deflection < 1 * mm < design.deflection_loaded
+    assert [check.name for check in report.failed if check.name == "deflection"] == ["deflection"]
 
 
 @given(inner=st.floats(0.0, 0.2))
@@ -52,7 +66,11 @@ def test_least_outer_radius_has_just_the_slope_allowed(inner) -> None:
 def test_inner_radius_alone_takes_the_next_whole_millimetre_with_its_wall() -> None:
     assert made(inner_radius="50mm").outer_radius == pytest.approx(55 * mm)
     solid = made(inner_radius="0mm")
-    assert solid.outer_radius == pytest.approx(math.ceil(solid.outer_radius_min_deflection / mm) * mm)
+    least = math.ceil(solid.outer_radius_min_deflection / mm) * mm
+    assert least <= solid.outer_radius <= least + 2 * mm
+    assert solid.deflection_loaded <= 1 * mm
+    smaller = made(inner_radius="0mm", outer_radius=f"{solid.outer_radius / mm - 1}mm")
+    assert smaller.deflection_loaded > 1 * mm
 
 
 def test_outer_radius_alone_takes_the_wall_off() -> None:
@@ -70,10 +88,19 @@ def test_a_weak_tube_fails() -> None:
 
 
 def test_motor_is_the_smallest_behind_the_reducer() -> None:
-    design = made()
+    design = made(ratio="100")
     assert design.motor_torque == pytest.approx(630 / 45)
     assert design.motor.torque >= design.motor_torque
-    assert design.motor_speed == pytest.approx(100 * 4 / 70)
+    # The 3-4-5 law goes at 15/8 of the mean speed half way.
+    assert design.motor_speed == pytest.approx(100 * 15 / 8 * 4 / 70)
+
+
+def test_the_thesis_motor_is_enough_behind_a_reducer_of_200() -> None:
+    """7 N m x 200 x 0.45 = 630 N m: a stepper, where 1:100 asks for a servo of 2.9 kW to do 6 W of work a second."""
+    design = made()
+    assert (design.reducer.ratio, design.motor.name) == (200.0, "stepper NEMA 34, 7 N m")
+    assert answer().failed == ()
+    assert made(ratio="100").motor.power > 10 * design.motor.power
 
 
 def test_a_wide_loom_takes_a_larger_ratio_before_it_gives_up() -> None:
@@ -82,7 +109,7 @@ def test_a_wide_loom_takes_a_larger_ratio_before_it_gives_up() -> None:
     assert wide.motor is not None
     report = answer(warps="3200", width="4m", ratio="10")
     assert [check.name for check in report.failed] == ["motor torque"]
-    assert "set a larger ratio" in report.warnings[0]
+    assert "set another ratio" in report.warnings[0]
 
 
 def test_self_locking_or_efficient() -> None:
@@ -100,7 +127,7 @@ def test_carpet_wound_on_makes_the_torque_grow() -> None:
     assert design.torque_full / design.torque == pytest.approx(design.roll_radius / design.outer_radius)
     mean = (design.roll_radius + design.outer_radius) / 2
     assert design.take_up_turns * 2 * math.pi * mean == pytest.approx(10.0)
-    assert design.motor_torque == pytest.approx(design.torque_full / 45)
+    assert design.motor_torque == pytest.approx(design.torque_full / (0.45 * design.reducer.ratio))
 
 
 def test_thin_carpet_takes_the_turns_of_a_bare_cylinder() -> None:
@@ -109,7 +136,8 @@ def test_thin_carpet_takes_the_turns_of_a_bare_cylinder() -> None:
 
 
 def test_take_up_sets_the_motor_speed() -> None:
-    assert made(take_up_time="0.1s").motor_speed == pytest.approx(10 * made().motor_speed)
+    slow, quick = (made(take_up_time=time, ratio="100").motor_speed for time in ("1s", "0.1s"))
+    assert quick == pytest.approx(10 * slow)
     quick = made(take_up_time="1ms")
     assert quick.motor is None or quick.motor.speed >= quick.motor_speed > 1000 * rpm
 

@@ -1,6 +1,7 @@
 """The knotting head: order of motions, limits, cycle."""
 
 import math
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -81,9 +82,28 @@ def test_time_of_a_move(distance: float, expected: float) -> None:
     assert move_time(distance, 0.25, 2.0) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize(("tubes", "expected"), [(1, 0.0), (2, 2 * math.sqrt(0.012)), (16, 0.54)])
-def test_colour_change(tubes: int, expected: float) -> None:
-    assert design(WeaverParams(tubes=tubes)).colour_change == pytest.approx(expected)
+@pytest.mark.parametrize("tubes", [1, 2, 3, 16, 40])
+def test_colour_change_is_the_mean_over_all_pairs_of_tubes(tubes: int) -> None:
+    times = [move_time(0.012 * (j - i), 0.2, 1.0) for i, j in combinations(range(tubes), 2)]
+    assert design(WeaverParams(tubes=tubes)).colour_change == pytest.approx(sum(times) / max(len(times), 1))
+
+
+@pytest.mark.parametrize("cycle", [0.1, 0.28, 0.3, 0.35, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize(("pitch", "speed", "pull"), [(0.004, 0.25, 2.0), (0.0006, 1.0, 0.5), (0.008, 0.05, 40.0)])
+def test_no_move_takes_longer_than_the_window_and_its_further_pitches(cycle, pitch, speed, pull) -> None:
+    params = WeaverParams(
+        cycle=cycle,
+        speed_limit=100.0,
+        acceleration_limit=1e5,
+        knot_pitch=pitch,
+        carriage_speed=speed,
+        carriage_acceleration=pull,
+    )
+    head = design(params)
+    room = max(head.carriage_window, head.carriage_step)
+    excess = [move_time(d * pitch, speed, pull) - room - (d - 1) * head.travel for d in range(1, 3000)]
+    assert max(excess) <= 1e-12
+    assert head.travel >= pitch / speed
 
 
 def test_steps_must_follow_each_other() -> None:

@@ -50,6 +50,11 @@ class Motor:
     torque: float
     speed: float
 
+    @property
+    def power(self) -> float:
+        """Torque times speed [W]."""
+        return self.torque * self.speed
+
 
 def _stepper(frame: str, torque: float) -> Motor:
     return Motor(f"stepper {frame}, {torque:g} N m", "stepper", torque, 300 * rpm)
@@ -71,12 +76,25 @@ MOTORS = (
 speed, torque = power / speed."""
 
 
+_ROUNDING = 1e-9
+
+
 def smallest_motor(torque: float, speed: float = 0.0, kind: str | None = None) -> Motor | None:
-    """The motor of least torque in `MOTORS` that gives `torque` [N m] at `speed` [rad/s]; None where none does.
+    """The motor of least power in `MOTORS` that gives `torque` [N m] at `speed` [rad/s]; None where none does.
 
     kind  "stepper" or "servo"; None takes either
     >>> smallest_motor(6.5).name
     'stepper NEMA 34, 7 N m'
     """
-    enough = [m for m in MOTORS if m.torque >= torque and m.speed >= speed and kind in (None, m.kind)]
-    return min(enough, key=lambda motor: motor.torque, default=None)
+    least = torque * (1 - _ROUNDING), speed * (1 - _ROUNDING)
+    enough = [m for m in MOTORS if m.torque >= least[0] and m.speed >= least[1] and kind in (None, m.kind)]
+    return min(enough, key=lambda motor: motor.power, default=None)
+
+
+def most_torque(speed: float) -> float:
+    """The most torque that any motor in `MOTORS` gives at a speed [rad/s]; 0 where none is that quick [N m].
+
+    >>> most_torque(1e6)
+    0.0
+    """
+    return max((motor.torque for motor in MOTORS if motor.speed >= speed), default=0.0)

@@ -6,6 +6,8 @@ modulus E [Pa], slope theta [rad], deflection y [m].                            
 
 import math
 
+import numpy as np
+
 from ilmek.units import mm
 
 STOCK_SIDES = tuple(
@@ -41,3 +43,36 @@ def stock_side(side: float) -> float | None:
     0.07
     """
     return next((stock for stock in STOCK_SIDES if stock >= side * (1 - 1e-9)), None)
+
+
+POISSON = 0.3
+"""Poisson's ratio of steel: G = E / 2.6 [EN 1993-1-1, 3.2.6]."""
+
+SQUARE_TORSION, SQUARE_SHEAR = 0.140577, 0.208165
+"""Of a square bar of side B: J = 0.1406 B^4, largest shear stress T / (0.208 B^3).
+
+[Saint-Venant's series; Timoshenko and Goodier, Theory of Elasticity, torsion of rectangular bars]
+"""
+
+
+def square_twist(torque: float, length: float, modulus: float, side: float) -> float:
+    """Twist [rad] from end to end of a square bar driven at one end, its torque [N m] taken off evenly along it.
+
+    T l / (2 G J): half of what the same torque twists at the far end
+    """
+    return torque * length / (2 * modulus / (2 + 2 * POISSON) * SQUARE_TORSION * side**4)
+
+
+def side_for_twist(torque: float, length: float, modulus: float, twist: float) -> float:
+    """Least side [m] of the square bar that keeps such a twist [rad]."""
+    return math.sqrt(math.sqrt(square_twist(torque, length, modulus, 1.0) / twist))
+
+
+def square_stress(moment: float, torque: float, side: float) -> float:
+    """Equivalent stress [Pa] of a square bar in bending and torsion: sqrt(sigma^2 + 3 tau^2), von Mises."""
+    return math.hypot(6 * moment, math.sqrt(3) * torque / SQUARE_SHEAR) / side**3
+
+
+def side_for_strength(moment: float, torque: float, strength: float) -> float:
+    """Least side [m] of the square bar that keeps the strength [Pa]."""
+    return float(np.cbrt(square_stress(moment, torque, 1.0) / strength))

@@ -13,6 +13,7 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import LAWS
+from ilmek.machines.warp_tension.design import TAKE_UP_LAW
 from ilmek.timing.cyclogram import Cyclogram, Event, Moment, Relation, Segment, Track
 from ilmek.timing.track import MotionLaw, shortest_period
 from ilmek.units import deg, turn
@@ -134,7 +135,7 @@ def _beater(timing: RowTiming, period: float) -> Track:
 
 def _take_up(timing: RowTiming) -> Track:
     start = _HALF + timing.beat_end
-    part = Segment("take up", start, _HALF + timing.take_up_end, 0.0, timing.row_pitch, _law("3-4-5"))
+    part = Segment("take up", start, _HALF + timing.take_up_end, 0.0, timing.row_pitch, TAKE_UP_LAW)
     return Track(TAKE_UP, "warp cylinder", (part,), revolves=timing.row_pitch)
 
 

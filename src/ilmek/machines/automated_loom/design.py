@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.sizes import Size
-from ilmek.elements import beams
 from ilmek.errors import LoomError
 from ilmek.loom.programme import Times
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
@@ -13,7 +12,7 @@ from ilmek.machines import beat_up, shedding, warp_tension, weaver
 from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, shortest_row, take_up_time
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.shedding.report import prime_radius_for_bore
-from ilmek.machines.warp_tension.design import WarpTensionDesign
+from ilmek.machines.warp_tension.design import WarpTensionDesign, keeps_limits
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.units import format_quantity, mm, turn
 
@@ -43,6 +42,7 @@ STOCK_TUBES = tuple(
         (457, 20),
         (508, 25),
         (610, 30),
+        (711, 40),
     )
 )
 """Outer diameter and wall of tubes to choose from [m]: the thesis' 140 x 5, and sizes of EN 10210-2."""
@@ -55,6 +55,7 @@ class LoomDesign:
     rows, columns   of knots            warps  two for each knot of a row
     heads           that share a row          heads_max  the most that can share a row without meeting
     row_timing, row_cyclogram           of the wefts and beats of a row, one turn of the shedding cams
+    beat_up         one of `beaters` like crank-rockers on one crank shaft, which drive one comb across all warps
     tube            outer diameter and wall of the warp cylinder [m]
     """
 
@@ -80,6 +81,11 @@ class LoomDesign:
     def knot_pitch(self) -> float:
         """Distance of two neighbouring knots [m]."""
         return 2 * self.params.pitch
+
+    @property
+    def beaters(self) -> int:
+        """Crank-rockers that drive the beater."""
+        return beaters(self.params)
 
     @property
     def head_distance(self) -> float:
@@ -129,6 +135,15 @@ def frame_width(params: AutomatedLoomParams) -> float:
     return params.width + 2 * params.margin
 
 
+def beaters(params: AutomatedLoomParams) -> int:
+    """Crank-rockers that drive the beater, for none to have more than its width of it.
+
+    The paper's beat-up rides along the carpet on a slide, and its beater's width is not printed; here one comb strikes
+    the whole width at once [thesis 3.3], and its mass and force are shared by crank-rockers on one crank shaft.
+    """
+    return math.ceil(params.width / params.beater_width - 1e-9)
+
+
 def warp_tension_of(params: AutomatedLoomParams) -> float:
     """Tension of a warp [N]: as given, or the thesis' for the warp's mass."""
     return params.tension or TENSION * params.pitch / TENSION_PITCH
@@ -159,10 +174,11 @@ def _weaver_params(params: AutomatedLoomParams) -> weaver.WeaverParams:
 
 
 def _beat_up_params(params: AutomatedLoomParams) -> beat_up.BeatUpParams:
+    share_of_width = params.width / beaters(params)
     return beat_up.BeatUpParams(
         speed=params.beat_speed,
-        beater_mass=params.beater_density * params.width,
-        beat_force=params.beat_force * params.width,
+        beater_mass=params.beater_density * share_of_width,
+        beat_force=params.beat_force * share_of_width,
     )
 
 
@@ -177,6 +193,7 @@ def _shedding(params: AutomatedLoomParams, warps: int) -> shedding.SheddingDesig
         shuttle_height=params.shuttle_height,
         speed=params.shed_speed,
         shaft_length=frame_width(params),
+        spans=math.ceil(frame_width(params) / params.shaft_span - 1e-9),
     )
     made = shedding.design(asked)
     for _ in range(_TURNS):
@@ -233,7 +250,7 @@ def _row_period(params: AutomatedLoomParams, timing: RowTiming) -> float:
 def _cylinder(
     params: AutomatedLoomParams, warps: int, row_pitch: float, take_up: float
 ) -> tuple[tuple[float, float], WarpTensionDesign]:
-    """The lightest stock tube that carries the warps within slope and deflection, and the cylinder made of it."""
+    """The lightest stock tube that keeps slope and deflection under the warps and itself, and the cylinder of it."""
     asked = warp_tension.WarpTensionParams(
         warps=warps,
         tension=warp_tension_of(params),
@@ -242,14 +259,11 @@ def _cylinder(
         take_up_time=take_up,
         carpet_length=params.length,
     )
-    load = warps * asked.tension / asked.width
     for diameter, wall in sorted(STOCK_TUBES, key=lambda tube: tube[1] * (tube[0] - tube[1])):
         outer, inner = diameter / 2, diameter / 2 - wall
-        inertia = float(beams.tube_inertia(outer, inner))
-        slope = float(beams.slope_max(load, asked.width, asked.modulus, inertia))
-        sag = float(beams.deflection_max(load, asked.width, asked.modulus, inertia))
-        if slope <= asked.slope_limit and sag <= asked.deflection_limit:
+        if keeps_limits(asked, inner, outer):
             return (diameter, wall), warp_tension.design(replace(asked, outer_radius=outer, inner_radius=inner))
+    load = warps * asked.tension / asked.width
     pull, across = format_quantity(load, "kN/m"), format_quantity(asked.width, "m")
     raise LoomError(
         f"no stock tube carries {pull} of warps over {across}",

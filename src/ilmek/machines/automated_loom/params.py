@@ -39,30 +39,48 @@ class AutomatedLoomParams(Params):
     )
     head_width: float = param(80 * mm, unit="mm", above=0.0, at_most=1.0, doc="least distance of two heads")
     colours: int = param(16, at_least=1, at_most=255, doc="yarns, a tube for each in every head")
-    knot_cycle: float = param(2.0, unit="s", above=0.0, doc="time of a knot that is asked for")
+    knot_cycle: float = param(2.0, unit="s", at_least=1e-3, at_most=3600.0, doc="time of a knot that is asked for")
     knot_yarn: float = param(45 * mm, unit="mm", above=0.0, at_most=0.3, doc="pile yarn drawn for a knot")
     knot_law: str = param("modified-sine", choices=tuple(LAWS), doc="law of the heads' cams")
-    head_acceleration: float = param(20.0, unit="m/s^2", above=0.0, doc="allowed acceleration of a head's tools")
-    carriage_speed: float = param(0.25, unit="m/s", above=0.0, doc="speed of a head along the row")
+    head_acceleration: float = param(
+        20.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="allowed acceleration of a head's tools"
+    )
+    carriage_speed: float = param(0.25, unit="m/s", at_least=1e-3, at_most=100.0, doc="speed of a head along the row")
     changes_per_knot: float = param(
         0.06, at_least=0.0, at_most=1.0, doc="colour changes a knot, to estimate the time before there is a chart"
     )
     tension: float | None = param(
-        None, unit="N", above=0.0, at_most=1e3, doc="tension of a warp; none: 15 N at 2 mm pitch, as the warp's mass"
+        None,
+        unit="N",
+        at_least=1e-3,
+        at_most=1e3,
+        doc="tension of a warp; none: 15 N at 2 mm, as its mass",
     )
     margin: float = param(50 * mm, unit="mm", at_least=0.0, at_most=1.0, doc="from the carpet's edge to a bearing")
-    lift: float = param(60 * mm, unit="mm", above=0.0, at_most=0.5, doc="lift of the warps for the shed")
+    lift: float = param(60 * mm, unit="mm", at_least=1 * mm, at_most=0.5, doc="lift of the warps for the shed")
     half_span: float = param(
-        170 * mm, unit="mm", above=0.0, at_most=2.0, doc="shedding cams to the next hold of the warps"
+        170 * mm, unit="mm", at_least=1 * mm, at_most=2.0, doc="shedding cams to the next hold of the warps"
     )
-    shed_speed: float = param(5 * rpm, unit="rpm", above=0.0, at_most=60 * rpm, doc="speed of the shedding cams")
-    shuttle_height: float = param(40 * mm, unit="mm", above=0.0, at_most=0.3, doc="shed that the shuttle needs")
+    shed_speed: float = param(5 * rpm, unit="rpm", at_least=0.01 * rpm, at_most=60 * rpm, doc="speed of the cams")
+    shaft_span: float = param(
+        1.5, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the cam shaft between its supports"
+    )
+    shuttle_height: float = param(40 * mm, unit="mm", at_least=1 * mm, at_most=0.3, doc="shed that the shuttle needs")
     shuttle_run: float = param(150 * mm, unit="mm", above=0.0, at_most=1.0, doc="run of the shuttle beyond each edge")
-    shuttle_speed: float = param(3.0, unit="m/s", above=0.0, doc="allowed speed of the shuttle")
-    shuttle_acceleration: float = param(20.0, unit="m/s^2", above=0.0, doc="allowed acceleration of the shuttle")
-    beat_speed: float = param(15.5, unit="rad/s", above=0.0, doc="speed of the beat-up's crank")
-    beater_density: float = param(2.5 / 1.2, unit="kg/m", above=0.0, doc="mass of the beater over the width")
-    beat_force: float = param(50.0, unit="N/m", at_least=0.0, doc="force on the beater over the width that is wanted")
+    shuttle_speed: float = param(3.0, unit="m/s", at_least=0.01, at_most=100.0, doc="allowed speed of the shuttle")
+    shuttle_acceleration: float = param(
+        20.0, unit="m/s^2", at_least=0.01, at_most=1e5, doc="allowed acceleration of the shuttle"
+    )
+    beat_speed: float = param(15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the beat-up's crank")
+    beater_density: float = param(
+        2.5 / 1.2, unit="kg/m", at_least=0.0, at_most=1e3, doc="mass of the beater over the width"
+    )
+    beater_width: float = param(
+        1.5, unit="m", at_least=0.1, at_most=20.0, doc="most width of the beater for each of its crank-rockers"
+    )
+    beat_force: float = param(
+        50.0, unit="N/m", at_least=0.0, at_most=1e5, doc="force on the beater over the width that is wanted"
+    )
     beat_end: float = param(
         158 * deg, unit="deg", above=0.0, below=turn / 2, doc="cam angle at which the beater is back"
     )

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.elements.shafts import STOCK_SIDES
 from ilmek.machines import beat_up, shedding, warp_tension, weaver
 from ilmek.machines.automated_loom.cyclogram import SHUTTLE, relations
 from ilmek.machines.automated_loom.design import LoomDesign, warp_tension_of
@@ -71,15 +70,34 @@ def _results(loom: LoomDesign) -> tuple[Result, ...]:
         Result("warps", loom.warps, "1", "warps: two for each knot of a row"),
         Result("warp_pitch", params.pitch, "mm", "distance of two warps"),
         Result("tension", warp_tension_of(params), "N", "tension of a warp"),
+        *_beat_results(loom),
         Result("colour_change_time", times.colour_change, "s", "mean time to bring another yarn in line"),
         Result("tube", {"diameter": loom.tube[0], "wall": loom.tube[1]}, "mm", "stock tube of the warp cylinders"),
         Result("mass", _mass(loom), "kg", "cams with shaft, three cylinders, beat-up; frame and heads not counted"),
     )
 
 
+def _beat_results(loom: LoomDesign) -> tuple[Result, ...]:
+    """What the beat gives to the whole width, to a warp and to a knot."""
+    force = loom.beaters * loom.beat_up.peaks["beater_force"].value
+    return (
+        Result("beaters", loom.beaters, "1", "crank-rockers that drive the beater, all alike, on one crank shaft"),
+        Result("beat_force", force, "N", "greatest force on the whole beater; `beat_up` tells of one crank-rocker"),
+        Result("beat_force_width", force / loom.params.width, "N/m", "the same over the width"),
+        Result("beat_force_warp", force / loom.warps, "N", "the same for a warp"),
+        Result("beat_force_knot", force / loom.columns, "N", "the same for a knot"),
+        Result(
+            "beat_torque_max",
+            loom.beaters * loom.beat_up.peaks["drive_torque"].value,
+            "Nm",
+            "greatest torque on the crank shaft of all crank-rockers",
+        ),
+    )
+
+
 def _mass(loom: LoomDesign) -> float:
     beating = sum(loom.beat_up.masses.values()) + loom.beat_up.params.beater_mass
-    return loom.shedding.stack.mass + 3 * loom.warp_tension.mass + beating
+    return loom.shedding.stack.mass + 3 * loom.warp_tension.mass + loom.beaters * beating
 
 
 def _nested(part: Report) -> Result:
@@ -99,7 +117,11 @@ def _checks(loom: LoomDesign) -> tuple[Check, ...]:
     shed = loom.shedding.params.shuttle_height
     return (
         at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width"),
-        at_least("distance of two heads", loom.head_distance, params.head_width, "mm", "head_width"),
+        *(
+            (at_least("distance of two heads", loom.head_distance, params.head_width, "mm", "head_width"),)
+            if loom.heads > 1
+            else ()
+        ),
         at_most("shuttle: speed", settled(speed, params.shuttle_speed), params.shuttle_speed, "m/s", "shuttle_speed"),
         at_most("shuttle: acceleration", settled(acceleration, limit), limit, "m/s^2", "shuttle_acceleration"),
         at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
@@ -125,7 +147,7 @@ def _heads_table(loom: LoomDesign) -> Table:
 
 
 def _parts_table(loom: LoomDesign) -> Table:
-    tube, stack, cylinder = loom.tube, loom.shedding.stack, loom.warp_tension
+    tube, stack, cylinder, beating = loom.tube, loom.shedding.stack, loom.warp_tension, loom.beat_up
     outer, wall = (format_quantity(size, "mm") for size in tube)
     bar, prime = (format_quantity(size, "mm") for size in (loom.shedding.shaft.bar, loom.shedding.cam.prime_radius))
     rows = (
@@ -137,12 +159,35 @@ def _parts_table(loom: LoomDesign) -> Table:
             f"radius {stack.guide_radius * 1e3:.4g} mm",
             f"{loom.warps * stack.guide_mass:.4g} kg",
         ),
-        ("cam shaft", 1, f"square {bar}", "with the cams"),
+        ("cam shaft", 1, f"square {bar}, {loom.shedding.params.spans + 1} supports", "with the cams"),
         ("cylinder", 3, f"tube {outer} x {wall}", f"{3 * cylinder.mass:.4g} kg"),
-        ("beater", 1, "comb across the warps", f"{loom.beat_up.params.beater_mass:.4g} kg"),
+        ("beater", 1, "comb across all warps", f"{loom.beaters * beating.params.beater_mass:.4g} kg"),
+        ("crank-rocker", loom.beaters, "on one crank shaft", f"{loom.beaters * sum(beating.masses.values()):.4g} kg"),
+        *_motors(loom),
     )
     columns = (Column("part"), Column("number"), Column("what"), Column("mass, all"))
     return Table("loom-parts", "Parts of the loom", columns, rows)
+
+
+def _motors(loom: LoomDesign) -> tuple[tuple[str, int, str, str], ...]:
+    """The motors that the machines chose, and the power that the others ask."""
+    beat = loom.beaters * loom.beat_up.peaks["drive_torque"].value
+    cams, cylinder = loom.shedding.drive, loom.warp_tension
+    return (
+        (
+            "motor of the cam shaft",
+            1,
+            f"{cams.motor.name if cams.motor else 'none is enough'}, reducer {cams.reducer.ratio:g}:1",
+            "not weighed",
+        ),
+        (
+            "motor of a cylinder",
+            3,
+            f"{cylinder.motor.name if cylinder.motor else 'none is enough'}, reducer {cylinder.reducer.ratio:g}:1",
+            "not weighed",
+        ),
+        ("drive of the beat-up", 1, f"{format_quantity(beat, 'Nm')} at the crank", "not weighed"),
+    )
 
 
 def _row_table(loom: LoomDesign) -> Table:
@@ -166,7 +211,4 @@ def _warnings(loom: LoomDesign) -> tuple[str, ...]:
     if loom.times.weft > asked * (1 + 1e-9):
         slower = format_quantity(turn / loom.times.weft, "rpm")
         said.append(f"the shedding cams turn at {slower} only: shuttle and beat need that time at this width")
-    if loom.shedding.shaft.bar > STOCK_SIDES[-1]:
-        bar, largest = (format_quantity(side, "mm") for side in (loom.shedding.shaft.bar, STOCK_SIDES[-1]))
-        said.append(f"the cam shaft needs a bar of {bar}, beyond the {largest} of stock: give it bearings between")
     return tuple(said)

@@ -9,7 +9,8 @@ time, so that 600 x 10 N never act together.
 """
 
 from ilmek.machines.machine import Machine
-from ilmek.machines.shedding.design import SheddingDesign, SheddingParams, design
+from ilmek.machines.shedding.design import SheddingDesign, design
+from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.report import report
 
 __all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design", "report"]

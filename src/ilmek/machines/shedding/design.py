@@ -21,139 +21,9 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
 from ilmek.cams.pieces import Extremum, crossing, infimum, integral, supremum
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
-from ilmek.elements import shafts
-from ilmek.elements.materials import GRAVITY, MATERIALS
-from ilmek.elements.motors import Motor, Reducer, smallest_motor
-from ilmek.errors import ParameterError
-from ilmek.params import Params, param
-from ilmek.units import GPa, MPa, N, deg, format_quantity, mm, rpm
-
-_NO_DWELL = 1e-9
-
-
-@dataclass(frozen=True, slots=True)
-class SheddingParams(Params):
-    """What is asked of the shedding cams."""
-
-    lift: float = param(
-        60 * mm, unit="mm", at_least=0.01 * mm, at_most=1.0, doc="lift of a warp: the height of the shed"
-    )
-    rise: float = param(90 * deg, unit="deg", at_least=1 * deg, below=TURN, doc="cam angle of the rise", symbol="beta")
-    fall: float | None = param(
-        None, unit="deg", at_least=1 * deg, below=TURN, doc="cam angle of the return; none: as the rise"
-    )
-    dwell: float = param(0.0, unit="deg", at_least=0.0, below=TURN, doc="cam angle for which the warp stays lifted")
-    law: str = param("harmonic", choices=tuple(LAWS), doc="motion law of rise and return")
-    pressure_angle_limit: float = param(
-        30 * deg, unit="deg", at_least=1 * deg, below=90 * deg, doc="largest pressure angle", symbol="mu"
-    )
-    prime_radius: float | None = param(
-        None,
-        unit="mm",
-        at_least=0.1 * mm,
-        at_most=2.0,
-        doc="prime radius; none: the smallest for the pressure angle",
-        symbol="Rp",
-    )
-    roller_radius: float = param(
-        0.0, unit="mm", at_least=0.0, at_most=0.5, doc="radius of the warp or roller on the cam"
-    )
-    warps: int = param(600, at_least=2, at_most=100_000, doc="warps, one cam each")
-    warp_pitch: float = param(2 * mm, unit="mm", at_least=0.01 * mm, at_most=50 * mm, doc="distance between two warps")
-    cam_thickness: float | None = param(
-        None, unit="mm", at_least=0.001 * mm, at_most=50 * mm, doc="thickness of a cam; none: half the pitch"
-    )
-    guide_height: float = param(
-        10 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="height of the guide cams over the nose"
-    )
-    density: float = param(
-        MATERIALS["structural steel"].density,
-        unit="kg/m^3",
-        at_least=1.0,
-        at_most=25e3,
-        doc="density of cams and shaft",
-    )
-    warp_force: float = param(10 * N, unit="N", at_least=0.0, at_most=1e4, doc="force of a lifted warp across the cam")
-    tension: float | None = param(None, unit="N", at_least=1e-6, at_most=1e4, doc="tension of a warp, with half_span")
-    half_span: float | None = param(
-        None,
-        unit="mm",
-        at_least=0.1 * mm,
-        at_most=10.0,
-        doc="cam to the next hold of the warp: force from tension and lift",
-    )
-    shuttle_height: float = param(
-        40 * mm, unit="mm", at_least=0.01 * mm, at_most=1.0, doc="opening that the shuttle needs"
-    )
-    speed: float = param(5 * rpm, unit="rpm", at_least=1e-6 * rpm, at_most=600 * rpm, doc="speed of the cam shaft")
-    shaft_length: float | None = param(
-        None, unit="m", at_least=1 * mm, at_most=20.0, doc="shaft between its bearings; none: warps x pitch", symbol="l"
-    )
-    shaft_load: float | None = param(
-        None, unit="kN/m", at_least=1e-3, at_most=1e7, doc="load of the shaft; none: from cams and warps", symbol="w"
-    )
-    safety: float | None = param(
-        None, at_least=1.0, at_most=20.0, doc="factor on the load; none: 1 on a given load, 2 on one computed here"
-    )
-    modulus: float = param(
-        200 * GPa, unit="GPa", at_least=1 * MPa, at_most=1e13, doc="Young's modulus of the shaft", symbol="E"
-    )
-    slope_limit: float = param(0.004, unit="rad", at_least=1e-9, below=0.5, doc="largest slope at the bearings")
-    deflection_limit: float = param(
-        1 * mm, unit="mm", at_least=1e-9, at_most=0.1, doc="largest deflection of the shaft"
-    )
-    bore_wall: float = param(
-        5 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="least wall between square bore and surface"
-    )
-    ratio: float = param(100.0, at_least=1e-3, at_most=1e5, doc="ratio of the reducer on the shaft")
-    efficiency: float = param(0.85, at_least=0.01, at_most=1.0, doc="efficiency of the reducer")
-    motor_torque: float | None = param(
-        None, unit="Nm", at_least=1e-6, at_most=1e4, doc="torque of the motor; none: the smallest that is enough"
-    )
-
-    def check_together(self) -> None:
-        """Raise ParameterError where angles do not fit the turn, cams the pitch, or half of a pair is missing."""
-        if self.lifted_angle > TURN + _NO_DWELL:
-            given = f"rise + dwell + fall = {format_quantity(self.lifted_angle, 'deg')}"
-            raise ParameterError(given, allowed="they must fit one turn, 360 deg", do="shorten one of them")
-        if self.cam_thickness is not None and self.cam_thickness >= self.warp_pitch:
-            pitch = format_quantity(self.warp_pitch, "mm")
-            given = f"cam_thickness={format_quantity(self.cam_thickness, 'mm')} does not fit warp_pitch={pitch}"
-            raise ParameterError(given, allowed=f"below {pitch}", do="leave it out for half the pitch")
-        if (self.tension is None) != (self.half_span is None):
-            missing = "half_span" if self.half_span is None else "tension"
-            raise ParameterError(f"{missing} is missing", do="give tension and half_span together, or warp_force alone")
-
-    @property
-    def fall_angle(self) -> float:
-        """Cam angle of the return [rad]."""
-        return self.rise if self.fall is None else self.fall
-
-    @property
-    def lifted_angle(self) -> float:
-        """Cam angle for which a warp is off its line [rad]."""
-        return self.rise + self.dwell + self.fall_angle
-
-    @property
-    def opposed(self) -> bool:
-        """Whether one parity is down whenever the other is up."""
-        return self.lifted_angle <= TURN / 2 + _NO_DWELL
-
-
-@dataclass(frozen=True, slots=True)
-class Shaft:
-    """The square shaft: load [N/m], length [m], least sides for slope and deflection, side of the bar taken [m]."""
-
-    load: float
-    length: float
-    side_slope: float
-    side_deflection: float
-    bar: float
-
-    @property
-    def side(self) -> float:
-        """Least side [m] for both limits."""
-        return max(self.side_slope, self.side_deflection)
+from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor
+from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
+from ilmek.machines.shedding.shaft import Shaft, shaft_for
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,7 +40,10 @@ class Stack:
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """What turns the shaft: torque [N m] and its rms over the turn, motor torque needed [N m], motor and its limit."""
+    """What turns the shaft: torque [N m] and its rms over the turn, motor torque needed [N m], motor and its limit.
+
+    motor_limit  lasting torque of the motor; where none is strong enough, the most any gives at that speed
+    """
 
     torque_max: Extremum
     torque_min: Extremum
@@ -213,7 +86,7 @@ def lifting(params: SheddingParams, law: str | None = None) -> Programme:
         rise(params.rise, params.lift, motion),
         *([dwell(params.dwell)] if params.dwell > 0 else []),
         fall(params.fall_angle, params.lift, motion),
-        *([dwell(rest)] if rest > _NO_DWELL else []),
+        *([dwell(rest)] if rest > NO_DWELL else []),
     ]
     return Programme(tuple(segments))
 
@@ -250,7 +123,11 @@ def design(params: SheddingParams) -> SheddingDesign:
     guide_radius = cam.prime_radius + params.lift - params.roller_radius + params.guide_height
     areas = limits.area(cam), math.pi * guide_radius**2
     solid = areas[0] * thickness + areas[1] * (params.warp_pitch - thickness)
-    shaft = _shaft(params, solid * params.density)
+    drive = _drive(params, even, odd)
+    lifted = math.ceil(params.warps / 2) if params.opposed else params.warps
+    across = lifted * float(warp_force(params, np.array(params.lift)))
+    torque = max(drive.torque_max.value, -drive.torque_min.value)
+    shaft = shaft_for(params, params.warps * solid * params.density, across, torque)
     return SheddingDesign(
         params=params,
         cam=cam,
@@ -259,28 +136,9 @@ def design(params: SheddingParams) -> SheddingDesign:
         odd=odd,
         stack=_stack(params, areas, thickness, guide_radius, shaft.bar),
         shaft=shaft,
-        drive=_drive(params, even, odd),
+        drive=drive,
         shuttle_window=_shuttle_window(params, even, odd),
     )
-
-
-def _shaft(params: SheddingParams, mass_of_a_pitch: float) -> Shaft:
-    """The square shaft under its load; cams are weighed with their bores filled, which is the shaft's own weight."""
-    length = params.shaft_length or params.warps * params.warp_pitch
-    load, safety = params.shaft_load, params.safety or 1.0
-    if load is None:
-        lifted = math.ceil(params.warps / 2) if params.opposed else params.warps
-        across = lifted * float(warp_force(params, np.array(params.lift)))
-        weight = params.warps * mass_of_a_pitch * GRAVITY
-        load, safety = math.hypot(weight, across) / length, params.safety or 2.0
-    load *= safety
-    by_slope = shafts.square_side(shafts.inertia_for_slope(load, length, params.modulus, params.slope_limit))
-    by_deflection = shafts.square_side(
-        shafts.inertia_for_deflection(load, length, params.modulus, params.deflection_limit)
-    )
-    least = max(by_slope, by_deflection)
-    # Beyond the dealers' largest bar one is made to measure, in whole centimetres.
-    return Shaft(load, length, by_slope, by_deflection, shafts.stock_side(least) or math.ceil(least * 100) / 100)
 
 
 def _stack(
@@ -310,17 +168,31 @@ def _drive(params: SheddingParams, even: Programme, odd: Programme) -> Drive:
     needed = max(reducer.motor_torque(most.value), braking, 0.0)
     speed = params.speed * params.ratio
     motor = smallest_motor(needed, speed) if params.motor_torque is None else None
-    limit = params.motor_torque or (motor.torque if motor else math.nan)
+    limit = params.motor_torque or (motor.torque if motor else most_torque(speed))
     return Drive(most, least, rms, reducer, needed, speed, motor, limit)
 
 
 def _shuttle_window(params: SheddingParams, even: Programme, odd: Programme) -> tuple[float, float]:
-    """Shaft angles [rad] between which the even shed is open enough for the shuttle; equal where it never is."""
+    """Shaft angles [rad] between which the even shed is open enough for the shuttle, longest; equal where it never is.
+
+    At angle 0 the even warps are down, so that no shed runs over the end of the turn.
+    """
 
     def room(angle: FloatArray) -> FloatArray:
         return np.asarray(even.at(angle).s - odd.at(angle).s - params.shuttle_height)
 
-    first, last = params.rise, params.rise + params.dwell
-    if float(room(np.array(first))) < 0 or float(room(np.array(last))) < 0:
-        return first, first
-    return crossing(room, 0.0, first), crossing(room, params.lifted_angle, last)
+    angle = np.unique(np.concatenate([turn_knots(even, odd), np.linspace(0.0, TURN, _GRID)]))
+    edges = np.diff(np.concatenate([[False], room(angle) >= 0, [False]]).astype(np.int8))
+    begins, ends = np.flatnonzero(edges > 0), np.flatnonzero(edges < 0) - 1
+    if begins.size == 0:
+        return params.rise, params.rise
+    longest = int(np.argmax(angle[ends] - angle[begins]))
+    first, last = int(begins[longest]), int(ends[longest])
+    return (
+        crossing(room, float(angle[first - 1]), float(angle[first])),
+        crossing(room, float(angle[min(last + 1, angle.size - 1)]), float(angle[last])),
+    )
+
+
+_GRID = 2049
+"""Angles at which the shed is looked at, besides the ends of the motions; its edges are then found to rounding."""

@@ -27,7 +27,7 @@ def figures(design: SheddingDesign) -> tuple[Figure, ...]:
         torque_plot(design),
         deflection_plot(
             shaft.load,
-            shaft.length,
+            shaft.span,
             design.params.modulus,
             float(beams.square_inertia(shaft.bar)),
             design.params.deflection_limit,

@@ -17,8 +17,9 @@ from ilmek.cams.limits import (
 )
 from ilmek.cams.pieces import supremum
 from ilmek.cams.programme import TURN, Programme, jumps
-from ilmek.elements import beams, shafts
+from ilmek.elements import shafts
 from ilmek.elements.motors import MOTORS
+from ilmek.elements.shafts import STOCK_SIDES
 from ilmek.machines.rounding import settled
 from ilmek.machines.shedding.design import SheddingDesign, lifting, turn_knots
 from ilmek.machines.shedding.figures import figures
@@ -99,24 +100,24 @@ def _motion_results(design: SheddingDesign) -> tuple[Result, ...]:
 
 
 def _shaft_results(design: SheddingDesign) -> tuple[Result, ...]:
-    shaft, modulus = design.shaft, design.params.modulus
-    inertia = beams.square_inertia(shaft.bar)
+    shaft = design.shaft
     return (
         Result("shaft_load", shaft.load, "kN/m", "load of the shaft, with its safety"),
-        Result("shaft_length", shaft.length, "m", "length of the shaft between its bearings"),
+        Result("shaft_length", shaft.length, "m", "length of the shaft between its first and last support"),
+        Result("shaft_supports", design.params.spans + 1, "1", "supports of the shaft, both ends counted"),
+        Result("shaft_span", shaft.span, "m", "from one support to the next"),
         Result("shaft_side_slope", shaft.side_slope, "mm", "least side of the square shaft for the slope"),
         Result(
             "shaft_side_deflection", shaft.side_deflection, "mm", "least side of the square shaft for the deflection"
         ),
-        Result("shaft_side", shaft.side, "mm", "least side of the square shaft for both"),
-        Result("shaft_bar", shaft.bar, "mm", "side of the bar taken, from stock"),
-        Result("shaft_slope", float(beams.slope_max(shaft.load, shaft.length, modulus, inertia)), "rad", "its slope"),
-        Result(
-            "shaft_deflection",
-            float(beams.deflection_max(shaft.load, shaft.length, modulus, inertia)),
-            "mm",
-            "its deflection",
-        ),
+        Result("shaft_side", shaft.side, "mm", "least side of the square shaft for slope and deflection"),
+        Result("shaft_side_twist", shaft.side_twist, "mm", "least side of the square shaft for the twist"),
+        Result("shaft_side_strength", shaft.side_strength, "mm", "least side of the square shaft for its strength"),
+        Result("shaft_bar", shaft.bar, "mm", "side of the bar taken: as given, or from stock"),
+        Result("shaft_slope", shaft.slope, "rad", "its slope at the supports"),
+        Result("shaft_deflection", shaft.deflection, "mm", "its deflection between them"),
+        Result("shaft_twist", shaft.twist, "deg", "its twist from end to end under the largest torque"),
+        Result("shaft_stress", shaft.stress, "MPa", "its equivalent stress in bending and torsion, with the safety"),
     )
 
 
@@ -159,9 +160,6 @@ def _work_of_a_warp(design: SheddingDesign) -> float:
 
 def _checks(design: SheddingDesign) -> tuple[Check, ...]:
     params, cam, shaft, drive = design.params, design.cam, design.shaft, design.drive
-    inertia = float(beams.square_inertia(shaft.bar))
-    slope = float(beams.slope_max(shaft.load, shaft.length, params.modulus, inertia))
-    sag = float(beams.deflection_max(shaft.load, shaft.length, params.modulus, inertia))
     pressure = settled(pressure_angle_max(cam).value, params.pressure_angle_limit)
     lifted, width = settled(params.lifted_angle, TURN / 2), settled(params.warps * params.warp_pitch, shaft.length)
     opening = settled(_peak(design.opening, design), params.shuttle_height)
@@ -180,8 +178,12 @@ def _checks(design: SheddingDesign) -> tuple[Check, ...]:
         at_least("shed for the shuttle", opening, params.shuttle_height, "mm", "shuttle_height"),
         at_most("one parity down while the other is up", lifted, TURN / 2, "deg", f"{THESIS}, Fig. 3.19"),
         at_most("width of the cams on the shaft", width, shaft.length, "mm", "shaft_length"),
-        at_most("slope of the shaft", slope, params.slope_limit, "rad", f"{THESIS} and eq. 3.5"),
-        at_most("deflection of the shaft", sag, params.deflection_limit, "mm", f"{THESIS} and eq. 3.4, 1 mm"),
+        at_most("slope of the shaft", shaft.slope, params.slope_limit, "rad", f"{THESIS} and eq. 3.5"),
+        at_most(
+            "deflection of the shaft", shaft.deflection, params.deflection_limit, "mm", f"{THESIS} and eq. 3.4, 1 mm"
+        ),
+        at_most("twist of the shaft", shaft.twist, params.twist_limit, "deg", "twist_limit: the far cams lag by it"),
+        at_most("stress of the shaft", shaft.stress, params.strength, "MPa", "yield strength, von Mises"),
         at_most(
             "motor torque",
             settled(drive.motor_torque, drive.motor_limit),
@@ -239,9 +241,9 @@ def _side_table(design: SheddingDesign) -> Table:
         load = factor * shaft.load
         return (
             factor,
-            shafts.square_side(shafts.inertia_for_slope(load, shaft.length, params.modulus, params.slope_limit)),
+            shafts.square_side(shafts.inertia_for_slope(load, shaft.span, params.modulus, params.slope_limit)),
             shafts.square_side(
-                shafts.inertia_for_deflection(load, shaft.length, params.modulus, params.deflection_limit)
+                shafts.inertia_for_deflection(load, shaft.span, params.modulus, params.deflection_limit)
             ),
         )
 
@@ -287,6 +289,9 @@ def _warnings(design: SheddingDesign) -> tuple[str, ...]:
     if design.cam.prime_radius < prime_radius_for_bore(design):
         shown = format_quantity(prime_radius_for_bore(design), "mm")
         said.append(f"the square bore does not fit into the cam: set prime_radius={shown.replace(' ', '')} or more")
+    if params.shaft_bar is None and design.shaft.bar > STOCK_SIDES[-1]:
+        bar, largest = (format_quantity(side, "mm") for side in (design.shaft.bar, STOCK_SIDES[-1]))
+        said.append(f"the shaft needs a bar of {bar}, beyond the {largest} of stock: set more spans")
     if params.motor_torque is None and design.drive.motor is None:
         largest = max(MOTORS, key=lambda motor: motor.torque).name
         needed, speed = (

@@ -2,17 +2,19 @@
 
     w = T n / l,   slope = w l^3 / (24 E I),   deflection = 5 w l^4 / (384 E I),   M = n T R       [thesis, eq. 3.4-3.8]
 
-Every warp pulls the cylinder one way with its tension T; the weight of the tube (2 % of the pull) is left out, as in
-the thesis, and said. Carpet that is wound on the cylinder makes its radius, and so the torque, grow:
-pi (R^2 - Ro^2) = length x thickness.
+Every warp pulls the cylinder one way with its tension T. Slope and deflection are the thesis', of the pull alone; the
+tube's weight, 2 % of the pull on the thesis' loom but half of it on a wide one, is added where limits are judged and a
+tube is chosen: the upper cylinder of a loom with upright warps bears both. Carpet that is wound on the cylinder makes
+its radius, and so the torque, grow: pi (R^2 - Ro^2) = length x thickness.
 """
 
 import math
 from dataclasses import dataclass
 
+from ilmek.cams.laws import LAWS
 from ilmek.elements import beams, shafts
 from ilmek.elements.materials import GRAVITY, MATERIALS
-from ilmek.elements.motors import Motor, Reducer, smallest_motor
+from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor
 from ilmek.errors import ParameterError
 from ilmek.params import Params, param
 from ilmek.units import MPa, N, format_quantity, m, mm, ms, s, turn
@@ -21,6 +23,9 @@ STEEL = MATERIALS["structural steel"]
 
 INNER_RADIUS = 65 * mm
 """The thesis' tube, 140 x 5 mm."""
+
+TAKE_UP_LAW = LAWS["3-4-5"]
+"""How the cylinder turns on by a row: from rest to rest; its motor must reach 15/8 of the mean speed."""
 
 RATIOS = (100.0, 150.0, 200.0, 300.0, 500.0, 1000.0)
 """The thesis' reducer, and larger ones, a worm behind a first stage, for wide looms."""
@@ -62,7 +67,7 @@ class WarpTensionParams(Params):
     slope_limit: float = param(0.004, unit="rad", at_least=1e-9, below=0.5, doc="largest slope at the bearings")
     deflection_limit: float = param(1 * mm, unit="mm", at_least=1e-9, at_most=0.1, doc="largest deflection")
     ratio: float | None = param(
-        None, at_least=1e-3, at_most=1e5, doc="ratio of the reducer; none: 100, or more where no motor is strong enough"
+        None, at_least=1e-3, at_most=1e5, doc="ratio of the reducer; none: from 100 on, that with the least motor"
     )
     efficiency: float = param(0.45, at_least=0.01, at_most=1.0, doc="efficiency of the reducer")
     self_locking: bool = param(True, doc="the reducer must hold the warps by itself; no: a brake holds them")
@@ -92,9 +97,12 @@ class WarpTensionDesign:
 
     outer_radius_min             least outer radius for the slope with the inner radius given
     outer_radius_min_deflection  the same for the deflection
+    slope, deflection            under the pull of the warps alone
+    slope_loaded, deflection_loaded, stress    with the tube's own weight
     roll_radius                  radius with the whole carpet wound on; the outer radius where none is
     torque, torque_full          of all warps on the bare cylinder, and on the full one
-    motor_limit                  lasting torque of the motor; NaN where none is strong enough
+    motor_speed                  the largest, while a row is taken up
+    motor_limit                  lasting torque of the motor; where none is strong enough, the most of any so quick
     """
 
     params: WarpTensionParams
@@ -105,6 +113,8 @@ class WarpTensionDesign:
     outer_radius_min_deflection: float
     slope: float
     deflection: float
+    slope_loaded: float
+    deflection_loaded: float
     stress: float
     torque: float
     torque_full: float
@@ -133,8 +143,8 @@ class WarpTensionDesign:
 
     @property
     def self_weight(self) -> float:
-        """Weight of the tube per length [N/m], left out of slope and deflection."""
-        return self.mass * GRAVITY / self.params.width
+        """Weight of the tube per length [N/m]."""
+        return tube_weight(self.params, self.inner_radius, self.outer_radius)
 
     @property
     def take_up_turns(self) -> float:
@@ -151,8 +161,9 @@ def design(params: WarpTensionParams) -> WarpTensionDesign:
     inner, outer = _tube(params)
     for_slope, for_deflection = outer_radii_min(params, inner)
     inertia = float(beams.tube_inertia(outer, inner))
+    loaded = load + tube_weight(params, inner, outer)
     roll = math.sqrt(outer**2 + params.carpet_length * params.carpet_thickness / math.pi)
-    reducer, motor, speed = _drive(params, pull * roll, params.row_pitch / outer / params.take_up_time)
+    reducer, motor, speed = _drive(params, pull * roll, peak_rate(params, outer))
     return WarpTensionDesign(
         params=params,
         load=load,
@@ -162,7 +173,9 @@ def design(params: WarpTensionParams) -> WarpTensionDesign:
         outer_radius_min_deflection=for_deflection,
         slope=float(beams.slope_max(load, params.width, params.modulus, inertia)),
         deflection=float(beams.deflection_max(load, params.width, params.modulus, inertia)),
-        stress=float(beams.bending_stress(beams.moment_max(load, params.width), outer, inertia)),
+        slope_loaded=float(beams.slope_max(loaded, params.width, params.modulus, inertia)),
+        deflection_loaded=float(beams.deflection_max(loaded, params.width, params.modulus, inertia)),
+        stress=float(beams.bending_stress(beams.moment_max(loaded, params.width), outer, inertia)),
         torque=pull * outer,
         torque_full=pull * roll,
         roll_radius=roll,
@@ -170,8 +183,27 @@ def design(params: WarpTensionParams) -> WarpTensionDesign:
         motor_torque=reducer.motor_torque(pull * roll),
         motor_speed=speed,
         motor=motor,
-        motor_limit=params.motor_torque or (motor.torque if motor else math.nan),
+        motor_limit=params.motor_torque or (motor.torque if motor else most_torque(speed)),
     )
+
+
+def tube_weight(params: WarpTensionParams, inner: float, outer: float) -> float:
+    """Weight of a tube per length [N/m]."""
+    return math.pi * (outer**2 - inner**2) * params.density * GRAVITY
+
+
+def keeps_limits(params: WarpTensionParams, inner: float, outer: float) -> bool:
+    """Whether a tube [m] keeps slope and deflection under the warps and its own weight."""
+    loaded = params.warps * params.tension / params.width + tube_weight(params, inner, outer)
+    inertia = beams.tube_inertia(outer, inner)
+    slope = beams.slope_max(loaded, params.width, params.modulus, inertia)
+    sag = beams.deflection_max(loaded, params.width, params.modulus, inertia)
+    return bool(slope <= params.slope_limit and sag <= params.deflection_limit)
+
+
+def peak_rate(params: WarpTensionParams, outer: float) -> float:
+    """Largest speed of the cylinder [rad/s] while a row is taken up."""
+    return TAKE_UP_LAW.velocity_peak * params.row_pitch / outer / params.take_up_time
 
 
 def _tube(params: WarpTensionParams) -> tuple[float, float]:
@@ -179,28 +211,35 @@ def _tube(params: WarpTensionParams) -> tuple[float, float]:
     inner, outer, wall = params.inner_radius, params.outer_radius, params.wall
     if outer is not None:
         return (max(outer - wall, 0.0) if inner is None else inner), outer
+    steps = (step * mm for step in range(2000))
     if inner is not None:
-        return inner, _whole_millimetre(max(*outer_radii_min(params, inner), inner + wall))
-    # A wider tube with the same wall is stiffer; no cylinder is wider than the largest radius that can be given.
-    tried = (INNER_RADIUS + step * mm for step in range(2000))
-    found = next((radius for radius in tried if max(outer_radii_min(params, radius)) <= radius + wall), None)
+        least = _whole_millimetre(max(*outer_radii_min(params, inner), inner + wall))
+        tubes = ((inner, least + step) for step in steps)
+    else:
+        # A wider tube with the same wall is stiffer; no cylinder is wider than the largest radius that can be given.
+        tubes = ((INNER_RADIUS + step, INNER_RADIUS + step + wall) for step in steps)
+    found = next((tube for tube in tubes if keeps_limits(params, *tube)), None)
     if found is None:
         given = f"no tube with a wall of {format_quantity(wall, 'mm')} keeps slope and deflection"
         raise ParameterError(given, do="set a larger wall or inner_radius")
-    return found, found + wall
+    return found
 
 
 def _drive(params: WarpTensionParams, torque: float, rate: float) -> tuple[Reducer, Motor | None, float]:
-    """Reducer, the motor chosen and its speed [rad/s], for a torque [N m] and a speed [rad/s] at the cylinder."""
+    """Reducer, the motor chosen and its speed [rad/s], for a torque [N m] and a speed [rad/s] at the cylinder.
+
+    Where the ratio is free, it is the least of those with the motor of least power.
+    """
     ratios = RATIOS if params.ratio is None else (params.ratio,)
+    reducers = [Reducer(ratio, params.efficiency) for ratio in ratios]
     if params.motor_torque is not None:
-        return Reducer(ratios[0], params.efficiency), None, ratios[0] * rate
-    for ratio in ratios:
-        reducer, speed = Reducer(ratio, params.efficiency), ratio * rate
-        motor = smallest_motor(reducer.motor_torque(torque), speed)
-        if motor is not None:
-            break
-    return reducer, motor, speed
+        return reducers[0], None, reducers[0].ratio * rate
+    found = [(smallest_motor(by.motor_torque(torque), by.ratio * rate), by) for by in reducers]
+    motors = [(motor, by) for motor, by in found if motor is not None]
+    if not motors:
+        return reducers[-1], None, reducers[-1].ratio * rate
+    motor, reducer = min(motors, key=lambda pair: pair[0].power)
+    return reducer, motor, reducer.ratio * rate
 
 
 def outer_radii_min(params: WarpTensionParams, inner_radius: float) -> tuple[float, float]:

@@ -1,6 +1,5 @@
 """What a design of the warp tension cylinder says: results, checks against the thesis' limits, tables, figures."""
 
-import math
 from dataclasses import replace
 
 from ilmek.elements import beams
@@ -34,8 +33,10 @@ def report(design: WarpTensionDesign) -> Report:
 def _cylinder_results(design: WarpTensionDesign) -> tuple[Result, ...]:
     params = design.params
     return (
-        Result("slope", design.slope, "rad", "slope of the cylinder in its bearings"),
-        Result("deflection", design.deflection, "mm", "deflection at mid-width"),
+        Result("slope", design.slope, "rad", "slope of the cylinder in its bearings, under the warps alone"),
+        Result("deflection", design.deflection, "mm", "deflection at mid-width, under the warps alone"),
+        Result("slope_loaded", design.slope_loaded, "rad", "slope with the tube's own weight"),
+        Result("deflection_loaded", design.deflection_loaded, "mm", "deflection with the tube's own weight"),
         Result("torque", design.torque, "Nm", "torque of all warps on the bare cylinder"),
         Result("reaction", design.reaction, "N", "force on each bearing"),
         Result("outer_radius", design.outer_radius, "mm", "outer radius of the tube"),
@@ -49,10 +50,15 @@ def _cylinder_results(design: WarpTensionDesign) -> tuple[Result, ...]:
         ),
         Result("load", design.load, "kN/m", "pull of the warps along the cylinder"),
         Result("force", design.load * params.width, "kN", "pull of all warps"),
-        Result("stress", design.stress, "MPa", "bending stress at mid-width"),
-        Result("self_weight", design.self_weight, "N/m", "weight of the tube, left out of slope and deflection"),
+        Result("stress", design.stress, "MPa", "bending stress at mid-width, own weight included"),
+        Result("self_weight", design.self_weight, "N/m", "weight of the tube"),
         Result("mass", design.mass, "kg", "mass of the tube between its bearings"),
-        Result("bearings", [kind.name for kind in bearings_for(design.slope)], "", "kinds that bear the slope"),
+        Result(
+            "bearings",
+            [kind.name for kind in bearings_for(design.slope_loaded)],
+            "",
+            "kinds that bear the slope, own weight included",
+        ),
     )
 
 
@@ -67,7 +73,7 @@ def _drive_results(design: WarpTensionDesign) -> tuple[Result, ...]:
             "back_driving_efficiency", reducer.back_driving_efficiency, "1", "2 - 1/efficiency; locked at 0 and below"
         ),
         Result("motor_torque", design.motor_torque, "Nm", "torque that the motor must give"),
-        Result("motor_speed", design.motor_speed, "rpm", "speed of the motor while a row is taken up"),
+        Result("motor_speed", design.motor_speed, "rpm", "largest speed of the motor while a row is taken up"),
         Result("motor", design.motor.name if design.motor else None, "", "class of motor chosen"),
         Result(
             "take_up_angle", params.row_pitch / design.outer_radius, "deg", "turn of the cylinder for a row of knots"
@@ -90,8 +96,20 @@ def _checks(design: WarpTensionDesign) -> tuple[Check, ...]:
         ),
     )
     return (
-        at_most("slope in the bearings", design.slope, params.slope_limit, "rad", f"{THESIS}, eq. 3.5 and 3.7"),
-        at_most("deflection", design.deflection, params.deflection_limit, "mm", f"{THESIS}, eq. 3.4"),
+        at_most(
+            "slope in the bearings",
+            design.slope_loaded,
+            params.slope_limit,
+            "rad",
+            f"{THESIS}, eq. 3.5 and 3.7; own weight included",
+        ),
+        at_most(
+            "deflection",
+            design.deflection_loaded,
+            params.deflection_limit,
+            "mm",
+            f"{THESIS}, eq. 3.4; own weight included",
+        ),
         at_most("bending stress", design.stress, params.strength, "MPa", "yield strength of the tube"),
         *(locking if params.self_locking else ()),
         at_most(
@@ -106,9 +124,9 @@ def _checks(design: WarpTensionDesign) -> tuple[Check, ...]:
 
 def _bearing_table(design: WarpTensionDesign) -> Table:
     columns = (Column("bearing"), Column("largest slope", "mrad"), Column("slope here", "mrad"), Column("bears it"))
+    borne = bearings_for(design.slope_loaded)
     rows = tuple(
-        (kind.name, kind.slope_limit, design.slope, "yes" if design.slope <= kind.slope_limit else "no")
-        for kind in BEARINGS
+        (kind.name, kind.slope_limit, design.slope_loaded, "yes" if kind in borne else "no") for kind in BEARINGS
     )
     return Table("warp-tension-bearings", "Rolling bearings for the slope", columns, rows)
 
@@ -143,7 +161,9 @@ def _efficiency_table(design: WarpTensionDesign) -> Table:
 
 def _figures(design: WarpTensionDesign) -> tuple[Figure, ...]:
     params = design.params
-    line = deflection_plot(design.load, params.width, params.modulus, design.inertia, params.deflection_limit)
+    line = deflection_plot(
+        design.load + design.self_weight, params.width, params.modulus, design.inertia, params.deflection_limit
+    )
     section = tube_drawing(design.outer_radius, design.inner_radius, design.outer_radius_min)
     return tuple(replace(figure, name=f"warp-tension-{figure.name}") for figure in (line, section))
 
@@ -157,8 +177,8 @@ def _warnings(design: WarpTensionDesign) -> tuple[str, ...]:
             f"(at most {LOCKING:g}) asks {format_quantity(needed, 'Nm')} or more of the motor; or "
             "set self_locking=no and hold the warps by a brake"
         )
-    if math.isnan(design.motor_limit):
+    if params.motor_torque is None and design.motor is None:
         largest = max(MOTORS, key=lambda motor: motor.torque).name
-        shown = format_quantity(design.motor_torque, "Nm")
-        said.append(f"no motor gives {shown}; the largest is {largest}: set a larger ratio")
+        shown, speed = format_quantity(design.motor_torque, "Nm"), format_quantity(design.motor_speed, "rpm")
+        said.append(f"no motor gives {shown} at {speed}; the largest is {largest}: set another ratio")
     return tuple(said)

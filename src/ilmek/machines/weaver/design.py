@@ -25,7 +25,11 @@ class WeaverParams(Params):
     """What may be asked of a knotting head. Phases and strokes are choices of ours: the thesis prints none."""
 
     cycle: float = param(
-        2.0, unit="s", above=0.0, doc="time of a knot that is asked for; longer where limits demand it"
+        2.0,
+        unit="s",
+        at_least=1e-3,
+        at_most=3600.0,
+        doc="time of a knot that is asked for; longer where limits demand it",
     )
     law: str = param("modified-sine", choices=tuple(LAWS), doc="law of all motions")
     prepare_end: float = param(100 * deg, unit="deg", above=0.0, below=turn, doc="cam angle at which the pile is ready")
@@ -41,15 +45,23 @@ class WeaverParams(Params):
     centre_stroke: float = param(0.025, unit="mm", above=0.0, at_most=0.3, doc="centre gripper forward")
     sley_stroke: float = param(0.025, unit="mm", above=0.0, at_most=0.3, doc="sley down")
     knot_yarn: float = param(0.045, unit="mm", above=0.0, at_most=0.3, doc="pile yarn drawn for a knot, waste included")
-    speed_limit: float = param(1.0, unit="m/s", above=0.0, doc="allowed speed of grippers, sley and handler's tip")
-    acceleration_limit: float = param(20.0, unit="m/s^2", above=0.0, doc="allowed acceleration of the same")
-    knot_pitch: float = param(0.004, unit="mm", above=0.0, at_most=0.1, doc="distance of neighbouring knots")
-    carriage_speed: float = param(0.25, unit="m/s", above=0.0, doc="speed of the head along the row")
-    carriage_acceleration: float = param(2.0, unit="m/s^2", above=0.0, doc="acceleration of the head along the row")
+    speed_limit: float = param(
+        1.0, unit="m/s", at_least=1e-3, at_most=100.0, doc="allowed speed of grippers, sley and handler's tip"
+    )
+    acceleration_limit: float = param(
+        20.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="allowed acceleration of the same"
+    )
+    knot_pitch: float = param(0.004, unit="mm", at_least=1e-6, at_most=0.1, doc="distance of neighbouring knots")
+    carriage_speed: float = param(0.25, unit="m/s", at_least=1e-3, at_most=100.0, doc="speed of the head along the row")
+    carriage_acceleration: float = param(
+        2.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="acceleration of the head along the row"
+    )
     tubes: int = param(16, at_least=1, at_most=255, doc="yarn tubes, one for each colour")
-    tube_pitch: float = param(0.012, unit="mm", above=0.0, doc="distance of neighbouring tubes")
-    selector_speed: float = param(0.2, unit="m/s", above=0.0, doc="speed of the colour selector")
-    selector_acceleration: float = param(1.0, unit="m/s^2", above=0.0, doc="acceleration of the colour selector")
+    tube_pitch: float = param(0.012, unit="mm", at_least=1e-6, at_most=1.0, doc="distance of neighbouring tubes")
+    selector_speed: float = param(0.2, unit="m/s", at_least=1e-3, at_most=100.0, doc="speed of the colour selector")
+    selector_acceleration: float = param(
+        1.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="acceleration of the colour selector"
+    )
 
     def check_together(self) -> None:
         """The steps of the turn follow each other, each with angle enough."""
@@ -137,7 +149,7 @@ def design(params: WeaverParams) -> Weaver:
         radius,
         move_time(params.knot_pitch, params.carriage_speed, params.carriage_acceleration),
         carriage_window(kept),
-        params.knot_pitch / params.carriage_speed,
+        travel_time(params, carriage_window(kept)),
         colour_change_time(params),
     )
 
@@ -152,15 +164,28 @@ def move_time(distance: float, speed: float, acceleration: float) -> float:
     return 2 * math.sqrt(distance / acceleration)
 
 
-def colour_change_time(params: WeaverParams) -> float:
-    """Mean time to bring another tube in line [s].
+def travel_time(params: WeaverParams, window: float) -> float:
+    """Time t of each further pitch of a longer move [s], such that no move of d pitches p takes longer than reckoned:
 
-    The mean distance of two different tubes of n in a line is (n + 1)/3 pitches. None for a single tube.
+        move_time(d p) <= W + (d - 1) t   for every d,   W = max(window, move_time(p))
+
+    With a window [s] for start and stop, t is p / v; in a shorter one they take a part of it. Below the distance v^2/a
+    the greatest (2 sqrt(d p / a) - W) / (d - 1) is at sqrt d = c + sqrt(c^2 - 1), c = W / (2 sqrt(p / a)).
     """
-    if params.tubes == 1:
-        return 0.0
-    distance = (params.tubes + 1) / 3 * params.tube_pitch
-    return move_time(distance, params.selector_speed, params.selector_acceleration)
+    p, v, a = params.knot_pitch, params.carriage_speed, params.carriage_acceleration
+    room = max(window, move_time(p, v, a))
+    c = max(1.0, room / (2 * math.sqrt(p / a)))
+    worst = max(2.0, min((c + math.sqrt(c**2 - 1)) ** 2, v**2 / (a * p)))
+    return max(p / v, (move_time(worst * p, v, a) - room) / (worst - 1))
+
+
+def colour_change_time(params: WeaverParams) -> float:
+    """Mean time to bring another tube in line [s]; none for a single tube.
+
+    Of the n (n - 1) / 2 pairs of tubes in a line, n - d are d pitches apart.
+    """
+    n, p, v, a = params.tubes, params.tube_pitch, params.selector_speed, params.selector_acceleration
+    return sum((n - d) * move_time(d * p, v, a) for d in range(1, n)) / max(n * (n - 1) / 2, 1)
 
 
 def carriage_window(cyclogram: Cyclogram) -> float:
