@@ -120,11 +120,11 @@ def verification_section(paper: str) -> str:
     apart = [verdict for verdict in verdicts if verdict.verdict != "reproduced"]
     return "\n\n".join(
         (
-            f"## {paper}",
+            f"### {paper}",
             f"{TITLES[paper]}. {summary(verdicts)}.",
-            "### Not as printed",
+            "#### Not as printed",
             table(HEADINGS, [row(verdict) for verdict in apart]),
-            "### All",
+            "#### All",
             table(HEADINGS, [row(verdict) for verdict in verdicts]),
         )
     )

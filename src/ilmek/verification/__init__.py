@@ -5,18 +5,20 @@ A paper is one entry of `PAPERS`: the function that lists its claims. Nothing is
 
 from collections.abc import Callable, Iterable
 
-from ilmek.verification import beat_up
+from ilmek.verification import beat_up, thesis_cams, thesis_dyad, thesis_loom
 from ilmek.verification.claim import VERDICTS, Claim, Verdict, judge
 
 __all__ = ["PAPERS", "TITLES", "VERDICTS", "Claim", "Verdict", "reproduce"]
 
 PAPERS: dict[str, Callable[[], tuple[Claim, ...]]] = {
     "beat-up": beat_up.claims,
+    "thesis": lambda: (*thesis_dyad.claims(), *thesis_cams.claims(), *thesis_loom.claims()),
 }
 """The claims of each paper, by the name it has here."""
 
 TITLES = {
     "beat-up": "Topalbekiroglu and Celik, Kinematic analysis of beat-up mechanism used for handmade carpet looms",
+    "thesis": "Design of parallel micromechanisms for knotting operation (thesis, Izmir 2009)",
 }
 """The papers in words."""
 

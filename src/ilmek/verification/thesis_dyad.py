@@ -1,0 +1,123 @@
+"""Thesis 2.1.3: the equations of the two-link arm through four timed points, tried on a planted arm.
+
+The thesis mixes two choices of lam1, lam2. With lam1 = P1 P4 and lam2 = P1 P5 its Eqs 2.38 to 2.42 are right as
+printed; the 1/2 of the later ones belongs to lam1 = P2, lam2 = P3.
+"""
+
+import numpy as np
+
+from ilmek.verification import thesis_arm as arm
+from ilmek.verification.claim import COUNT, RESIDUAL, Claim, Computation, residual
+from ilmek.verification.thesis_arm import HALF_TOO_MUCH, WHOLE
+
+
+def claims() -> tuple[Claim, ...]:
+    """The equations, in the thesis' order."""
+    return (*_loop(), *_error_function(), *_superposition(), *_elimination())
+
+
+def _equation(
+    number: str, printed: str, compute: Computation, note: str = "", mended: Computation | None = None
+) -> Claim:
+    return Claim("thesis", f"Eq {number}", printed, RESIDUAL, compute, f"2.1.3, Eq {number}", note, mended=mended)
+
+
+def _loop() -> tuple[Claim, ...]:
+    return (
+        _equation("2.24, 2.25", "ρ e^{jα} = a0 e^{jθ0} + a1 e^{jθ1} + a2 e^{jθ2}", arm.eq_2_24),
+        _equation(
+            "2.26, 2.27",
+            "a2 e^{jθ2} = a0 e^{jθ0} + a1 e^{jθ1} - ρ e^{jα}",
+            lambda: residual(arm.second(), -arm.remainder()),
+            "the right side has the other sign; harmless, it is squared next",
+            lambda: residual(arm.second(), arm.remainder()),
+        ),
+        _equation(
+            "2.28",
+            "a2² = ρ² + a0² + a1² - 2 a0 ρ·e0 - 2 a1 ρ·e1 + 2 a0 a1 e0·e1",
+            lambda: residual(arm.a2_squared(), arm.ARM.second**2),
+        ),
+        _equation(
+            "2.29, 2.30",
+            "a2²/(2 a1) = ρ²/(2 a1) + (a0²+a1²)/(2 a1) - a0 ρ·e0/a1 + a0 e0·e1 - ρ cos(α-θ1)",
+            lambda: residual(arm.ARM.second**2 / (2 * arm.ARM.first), arm.a2_squared() / (2 * arm.ARM.first)),
+        ),
+    )
+
+
+def _error_function() -> tuple[Claim, ...]:
+    """Eqs 2.32 to 2.36 with second links a2 that are wanted beside the ã2 that the arm has."""
+    wanted, had = np.array([0.5, 0.6, 0.7]), arm.ARM.second
+    delta = wanted - had
+    return (
+        _equation(
+            "2.32",
+            "Δ (a2+ã2) = (a2-ã2) + (a2+ã2)",
+            lambda: residual(delta * (wanted + had), (wanted - had) + (wanted + had)),
+            "the two brackets are multiplied: Δ (a2+ã2) = (a2-ã2)(a2+ã2)",
+            lambda: residual(delta * (wanted + had), (wanted - had) * (wanted + had)),
+        ),
+        _equation(
+            "2.34 with 2.35",
+            "Δq = a2² - ã2² and Δq = P0 f0 + ... - F",
+            lambda: residual(wanted**2 - had**2, arm.objective(wanted)),
+            "Eq 2.35 is (ã2² - a2²)/(2 a1): other sign and scale; the zeros are the same",
+            lambda: residual((had**2 - wanted**2) / (2 * arm.ARM.first), arm.objective(wanted)),
+        ),
+        _equation("2.36", "P0 f0 + P1 f1 + P2 f2 + P3 f3 + P4 f4 + P5 f5 - F = 0", arm.eq_2_36),
+    )
+
+
+def _superposition() -> tuple[Claim, ...]:
+    return (
+        _equation("2.37", "P2 = 2 P1 P4,  P3 = 2 P1 P5", arm.eq_2_37),
+        _equation(
+            "2.37 f., text",
+            "P2 = λ1,  P3 = λ2",
+            lambda: arm.against_lambda(1),
+            "printed as P2 = λ2, P3 = λ3, later P2 = λ1, P2 = λ2; with the λ of Eqs 2.38 to 2.42 P2 = 2 λ1, P3 = 2 λ2",
+            lambda: arm.against_lambda(2),
+        ),
+        _equation("2.38", "Σ (l + λ1 m + λ2 n) f = F - 2 λ1 f2 - 2 λ2 f3", arm.eq_2_38),
+        _equation("2.39, 2.40", "P = l + λ1 m + λ2 n from three systems of one 4x4 matrix", arm.eq_2_40),
+        _equation("2.41, 2.42", "λ1 = P1 P4,  λ2 = P1 P5 in l, m, n", arm.eq_2_41),
+    )
+
+
+def _elimination() -> tuple[Claim, ...]:
+    note = "of 1/2 only 1 is consistent with Eqs 2.38 to 2.42: {}"
+    return (
+        _equation(
+            "2.43",
+            "... + λ1 (l1 m4 + l4 m1 - 1/2) + ... = 0",
+            lambda: arm.eq_2_43(4, HALF_TOO_MUCH),
+            note.format("l1 m4 + l4 m1 - 1"),
+            lambda: arm.eq_2_43(4, WHOLE),
+        ),
+        _equation(
+            "2.44",
+            "... + λ2 (l1 n5 + l5 n1 - 1/2) + ... = 0",
+            lambda: arm.eq_2_43(5, HALF_TOO_MUCH),
+            note.format("l1 n5 + l5 n1 - 1"),
+            lambda: arm.eq_2_43(5, WHOLE),
+        ),
+        _equation("2.45, A1 to A5", "Eq 2.43 - n4/n5 Eq 2.44 has no λ2²", arm.eq_2_45),
+        _equation(
+            "2.46",
+            "λ2 = -(A1 λ1² + A3 λ1 + A5)/(A4 + A2 λ1)",
+            lambda: arm.eq_2_46(HALF_TOO_MUCH),
+            note.format("... - 1 in A3 and n4/n5 in A4"),
+            lambda: arm.eq_2_46(WHOLE),
+        ),
+        _equation("2.46 f., text", "the coefficient of λ1⁴ becomes zero", arm.quartic),
+        Claim("thesis", "solutions of the third-order equation", "3", COUNT, arm.solutions, "2.1.3, text"),
+        Claim(
+            "thesis",
+            "precision points and lengths of the knotting arm",
+            "figure",
+            "mm",
+            lambda: None,
+            "Fig 2.3",
+            "no points are printed",
+        ),
+    )
