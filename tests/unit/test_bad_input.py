@@ -1,5 +1,6 @@
 """Bad input through the real command line: exit 2, one line that says what to do, nothing written."""
 
+import os
 import re
 import struct
 import zlib
@@ -55,12 +56,29 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "nothing.toml": b"\n",
         "latin.csv": b"name,srgb,nm\nk\xfdrm\xfdz\xfd,#800000,2\n",
         "wool.xlsx": b"PK",
+        "utf16.csv": "name,srgb,nm\nred,#800000,2\n".encode("utf-16"),
+        "columns.csv": b"name,srgb,nm,nm\nred,#800000,2,2\nblue,#000080,2,3\n",
+        "nan.csv": yarns("red,#800000,nan", "blue,#000080,2"),
+        "escape.csv": yarns("re\x1b[31md,#800000,2", "blue,#000080,2"),
+        "lines.csv": yarns('"re\nd",#800000,2', "blue,#000080,2"),
+        "quote.csv": yarns('"red,#800000,2', "blue,#000080,2"),
+        "cells.csv": yarns("red,#800000,2,5", "blue,#000080,2"),
+        "void.csv": b"\n\n# nothing\n",
+        "limit.csv": yarns(*(f"y{i},#800000,2" for i in range(256))),
+        "deep.toml": b"yarn = " + b"[" * 5000 + b"]" * 5000,
+        "digits.toml": b"[[yarn]]\nname = 'x'\nsrgb = '#800000'\nnm = " + b"9" * 5000,
+        "long.toml": b"#" * 1_000_001,
         "programme.ilmek": b"SQLite format 3\0" + b"\0" * 200,
         "notes.ilmek": b"a note",
         "void.ilmek": b"",
     }
     for name, data in contents.items():
         (folder / name).write_bytes(data)
+    (folder / "loop.png").symlink_to("loop.png")
+    (folder / "lost.png").symlink_to("nowhere.png")
+    os.mkfifo(folder / "pipe.png")
+    os.mkfifo(folder / "pipe.csv")
+    os.mkfifo(folder / "pipe.ilmek")
     return folder
 
 
@@ -75,6 +93,9 @@ PICTURE = {
     "decompression bomb": ("bomb.png", "at most 150 megapixels"),
     "postscript": ("eps.png", "format EPS"),
     "folder as picture": ("taken", "is a folder"),
+    "links in a circle as picture": ("loop.png", "is a link that leads to no file"),
+    "link to no picture": ("lost.png", "is a link that leads to no file"),
+    "pipe as picture": ("pipe.png", "is not a file"),
     "device as picture": ("/dev/null", "is not a file"),
     "name too long": ("x" * 400, "cannot be read"),
 }
@@ -120,6 +141,20 @@ YARNS = {
     "yarn list in another encoding": ("latin.csv", "line 2 is not UTF-8"),
     "spreadsheet": ("wool.xlsx", "'.xlsx'; a yarn list is a .toml or .csv file"),
     "folder as yarn list": ("taken", "is a folder"),
+    "pipe as yarn list": ("pipe.csv", "is not a file"),
+    "endless yarn list": ("/dev/zero", "is not a file"),
+    "yarn list in 16 bits": ("utf16.csv", "line 1 is not UTF-8"),
+    "column twice": ("columns.csv", "column 'nm' comes twice"),
+    "Nm that is no number": ("nan.csv", "nm nan cannot be used"),
+    "escape sequence in a name": ("escape.csv", "letters, digits and signs on one line"),
+    "line end in a name": ("lines.csv", "letters, digits and signs on one line"),
+    "quote without end": ("quote.csv", "line 3: unexpected end"),
+    "more cells than columns": ("cells.csv", "line 2 has 4 cells; 3 columns"),
+    "nothing but comments": ("void.csv", "no yarn"),
+    "256 yarns": ("limit.csv", "256 yarns; 2 to 255"),
+    "brackets in brackets": ("deep.toml", r"\[\[yarn\]\] table"),
+    "thousands of digits": ("digits.toml", r"\[\[yarn\]\] table"),
+    "yarn list of a megabyte": ("long.toml", "at most 1000 kB"),
 }
 
 OTHER = {
@@ -135,6 +170,16 @@ OTHER = {
     "folder below a file": ("chart good.png --out good.png/out", "is not a folder"),
     "folder below a device": ("chart good.png --out /dev/null/out", "is not a folder"),
     "folder in no file system": ("chart good.png --out /proc/ilmek/out", "cannot be (written|made)"),
+    "folder of links in a circle": ("chart good.png --out loop.png", "lead in a circle|is not a folder"),
+    "JSON to links in a circle": ("chart good.png --out new --json loop.png", "lead in a circle|cannot be written"),
+    "the folder one is in": ("chart good.png --out . --force", "is the folder you are in"),
+    "the root with force": ("chart good.png --out / --force", "is the folder you are in"),
+    "name of an output too long": (f"chart good.png --out {'x' * 300}", "File name too long"),
+    "JSON on a full device": ("design beat-up --json /dev/full", "No space left"),
+    "page on a full device": ("design beat-up --report /dev/full", "No space left"),
+    "pipe as programme": ("inspect pipe.ilmek", "Is a pipe"),
+    "folder as programme": ("inspect taken", "Is a directory"),
+    "row in words": ("inspect notes.ilmek --row first", "not a valid integer"),
     "unknown machine": ("design beat-pu", "did you mean beat-up"),
     "unknown machine to list": ("machines hammer", "machines: automated-loom, weaver, beat-up"),
     "unknown parameter": ("design beat-up --set swimg=30deg", "did you mean swing"),

@@ -115,7 +115,7 @@ def test_nothing_is_half_written_after_a_signal(tmp_path: Path, number: signal.S
         process.send_signal(number)
         said = process.communicate(timeout=30)[1]
     assert process.returncode == status
-    assert "Traceback" not in said
+    assert said == "ilmek: interrupted; nothing was written\n"
     assert list(tmp_path.iterdir()) == []
 
 
@@ -143,7 +143,7 @@ def test_ctrl_c_that_a_library_turns_into_its_own_error() -> None:
     def command() -> None:
         try:
             signal.raise_signal(signal.SIGINT)
-        except KeyboardInterrupt:
+        except BaseException:
             raise RuntimeError("no compiled object yet") from None
 
     program = failing(KeyboardInterrupt())

@@ -10,6 +10,7 @@ import pytest
 
 from ilmek.errors import OutputError
 from ilmek.io.output import MANIFEST, check_free, output_folder, write_whole
+from ilmek.io.work_folder import clean_up, locked
 
 
 def listing(folder: Path) -> list[str]:
@@ -174,3 +175,66 @@ def test_file_that_cannot_be_written(tmp_path: Path) -> None:
         write_whole(tmp_path, "x")
     with pytest.raises(OutputError, match="there is no folder"):
         write_whole(tmp_path / "missing/a.json", "x")
+
+
+def leave(place: Path, name: str) -> Path:
+    """A folder as a killed run leaves it."""
+    folder = place.parent / name
+    folder.mkdir(parents=True)
+    (folder / "half").write_text("half")
+    return folder
+
+
+def test_what_a_killed_run_left_is_removed_by_the_next(tmp_path: Path) -> None:
+    leave(tmp_path / "out", ".out.0123abcd.part")
+    make(tmp_path / "out", "a")
+    leave(tmp_path / "out", ".out.4567abcd.old")
+    make(tmp_path / "out", "b", force=True)
+    assert listing(tmp_path) == ["out", f"out/{MANIFEST}", "out/b"]
+
+
+def test_the_longest_names_are_taken(tmp_path: Path) -> None:
+    for name in ("x" * 255, "ç" * 127):
+        make(tmp_path / name, "a")
+        make(tmp_path / name, "b", force=True)
+        assert (tmp_path / name / "b").read_text() == "b"
+
+
+def test_a_run_that_lives_keeps_its_folder(tmp_path: Path) -> None:
+    with output_folder(tmp_path / "out") as work:
+        (work / "a").write_text("a")
+        clean_up(tmp_path / "out")
+        assert (work / "a").read_text() == "a"
+    assert (tmp_path / "out/a").read_text() == "a"
+
+
+def test_only_what_is_surely_left_over_is_removed(tmp_path: Path) -> None:
+    kept = [
+        leave(tmp_path / "out", name)
+        for name in (".out.part", ".out.0123abcd.part.bak", ".other.0123abcd.part", ".out.0123ABCD.part", "out.0.part")
+    ]
+    kept.append(leave(tmp_path / "out", ".out.0123abcd.old"))  # the only copy, as long as there is no `out`
+    (tmp_path / ".out.99999999.part").write_text("a file")
+    (tmp_path / ".out.88888888.part").symlink_to(kept[0])
+    clean_up(tmp_path / "out")
+    assert all((folder / "half").exists() for folder in kept)
+    assert (tmp_path / ".out.99999999.part").exists()
+    assert (tmp_path / ".out.88888888.part").is_symlink()
+
+
+def test_the_lock_tells_a_folder_that_is_gone(tmp_path: Path) -> None:
+    (tmp_path / "a").mkdir()
+    with locked(tmp_path / "a") as mine, locked(tmp_path / "a") as twice, locked(tmp_path / "gone") as gone:
+        assert (mine, twice, gone) == (True, False, False)
+    with locked(tmp_path / "a") as again:
+        assert again
+
+
+def test_links_in_a_circle(tmp_path: Path) -> None:
+    (tmp_path / "loop").symlink_to(tmp_path / "loop")
+    for path in (tmp_path / "loop", tmp_path / "loop/out"):
+        with pytest.raises(OutputError, match=r"circle|is not a folder"):
+            check_free(path)
+        with pytest.raises(OutputError, match=r"circle|no folder"):
+            write_whole(path, "x")
+    assert listing(tmp_path) == ["loop"]

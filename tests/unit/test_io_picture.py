@@ -92,11 +92,12 @@ def test_cmyk_says_so(tmp_path: Path) -> None:
     assert "CMYK" in picture.notes[0]
 
 
-def test_exif_rotation_is_applied(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["a.png", "a.tif"])
+def test_exif_rotation_is_applied(tmp_path: Path, name: str) -> None:
     exif = Image.Exif()
     exif[0x0112] = 6
-    IMAGE.save(tmp_path / "a.png", exif=exif)
-    picture = read_picture(tmp_path / "a.png")
+    IMAGE.save(tmp_path / name, exif=exif)
+    picture = read_picture(tmp_path / name)
     assert np.array_equal(picture.rgb, np.rot90(RGB, -1))
     assert "EXIF" in picture.notes[0]
 

@@ -25,6 +25,8 @@ CSV = {
     "semicolons": "name;srgb;lab;nm;ply;price\nred;#93272c;;2,5;2;20\nwhite;;90 1 12;4;;\n",
     "tabs": "Name\tsRGB\tlab\tNm\tply\tprice\nred\t93272C\t\t2.5\t2\t20\n\nwhite\t\t[90 1 12]\t4\t\t\n",
     "byte order mark": "\ufeffname,srgb,lab,nm,ply,price\r\nred,#93272c,,2.5,2,20\r\nwhite,,90/1/12,4,,\r\n",
+    "old line ends": "name,srgb,lab,nm,ply,price\rred,#93272c,,2.5,2,20\rwhite,,90/1/12,4,,",
+    "remarks": "\n# my wool\nname,srgb,lab,nm,ply,price\n#\nred,#93272c,,2.5,2,20\n\n# pale\nwhite,,90 1 12,4,,\n\n",
 }
 
 
@@ -43,6 +45,11 @@ def test_values_as_written(tmp_path: Path) -> None:
     red, white = read_yarns(write(tmp_path, "a.toml", TOML))
     assert (red.name, red.srgb, red.metric_count, red.ply, red.price) == ("red", (0x93, 0x27, 0x2C), 2.5, 2, 20.0)
     assert (white.lab, white.ply, white.price) == ((90.0, 1.0, 12.0), 1, None)
+
+
+def test_short_colours_double_each_digit(tmp_path: Path) -> None:
+    short = write(tmp_path, "short.csv", "name,srgb,nm\nred,#93c,2\nwhite,#FFF,2\n")
+    assert [yarn.hex for yarn in read_yarns(short)] == ["#9933cc", "#ffffff"]
 
 
 def test_default_list_has_sixteen_wools() -> None:

@@ -85,6 +85,8 @@ def _yarn(record: Mapping[str, object], place: int) -> Yarn:
             )
     if not name:
         raise YarnError(f"{called} has no name", do='give it one, like name = "madder red"')
+    if not name.isprintable():
+        raise YarnError(f"yarn {place} has the name {name!r}", allowed="letters, digits and signs on one line")
     srgb, lab = _colour(record, called)
     count = _number(record, "nm", called)
     if count is None:
@@ -141,7 +143,9 @@ def _colour(record: Mapping[str, object], called: str) -> tuple[_Srgb, _Lab]:
 
 
 def _srgb(given: object, called: str) -> _Srgb:
-    matched = re.fullmatch(r"#?([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})", str(given).strip())
+    """`#8b1a1a`, also without its #, or short, `#811`: each digit twice."""
+    written = re.sub(r"^#(.)(.)(.)$", r"#\1\1\2\2\3\3", str(given).strip())
+    matched = re.fullmatch(r"#?([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})", written)
     if matched is None:
         raise YarnError(f"{called}: srgb {given!r} is no colour", allowed="six hexadecimal digits", do='like "#8b1a1a"')
     return int(matched[1], 16), int(matched[2], 16), int(matched[3], 16)

@@ -3,7 +3,7 @@
     exit 0    done
     exit 1    the reader of the output went away
     exit 2    bad input, or an output that cannot be written: one line on the error stream, nothing written
-    exit 130  Ctrl-C (143: terminated): nothing half-written
+    exit 130  Ctrl-C (129: the terminal closed; 143: terminated): one line, nothing half-written
 
 Errors of ours (IlmekError) and click's are shown alike; a defect of the program keeps its traceback.
 """
@@ -11,9 +11,11 @@ Errors of ours (IlmekError) and click's are shown alike; a defect of the program
 import contextlib
 import difflib
 import importlib
+import math
 import os
 import signal
 import sys
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from types import FrameType
@@ -79,8 +81,8 @@ class Frame(click.Group):
         with _unwinding() as stopped:
             try:
                 status: object = run()
-            except (KeyboardInterrupt, click.Abort):
-                _leave(_INTERRUPTED, 130)
+            except (_Stopped, KeyboardInterrupt, click.Abort):
+                _leave(_INTERRUPTED, 128 + (stopped or [signal.SIGINT])[0])
             except click.ClickException as error:
                 _leave(_usage(error), 2)
             except IlmekError as error:
@@ -98,6 +100,12 @@ class Frame(click.Group):
 
 
 _INTERRUPTED = "interrupted; nothing was written"
+_IMPATIENCE = 2.0
+"""Signals so soon after the first [s] are left aside: the temporary files are being removed."""
+
+
+class _Stopped(BaseException):
+    """A signal that ends the program has come. No KeyboardInterrupt: click would answer that with an empty line."""
 
 
 def _help_alone() -> None:
@@ -118,6 +126,8 @@ def _leave(message: str, status: int) -> NoReturn:
     """Say one line on the error stream and end with `status`; a file name cannot smuggle in lines or escapes."""
     line = "".join(letter if letter.isprintable() else " " for letter in message)
     with contextlib.suppress(OSError):
+        if message is _INTERRUPTED and sys.stderr.isatty():
+            click.echo(err=True)  # behind the ^C that the terminal shows
         click.echo(f"ilmek: {' '.join(line.split())}", err=True)
     sys.exit(status)
 
@@ -134,21 +144,33 @@ def _write_any_character() -> None:
 def _unwinding() -> Iterator[list[int]]:
     """While inside, Ctrl-C, SIGTERM and SIGHUP unwind the stack, so that temporary files go; gives those that came."""
     stopped: list[int] = []
+    since = -math.inf
 
-    def stop(number: int, _frame: FrameType | None) -> NoReturn:
-        stopped.append(number)
-        raise KeyboardInterrupt if number == signal.SIGINT else SystemExit(128 + number)
+    def stop(number: int, _frame: FrameType | None) -> None:
+        nonlocal since
+        now, last = time.monotonic(), since
+        since = now
+        if now - last > _IMPATIENCE:
+            stopped.append(number)
+            raise _Stopped
 
+    def unraisable(found: Any) -> None:
+        if not isinstance(found.exc_value, _Stopped):  # a library's callback swallows even those, and says so
+            said(found)
+
+    said = sys.unraisablehook
     numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
     usual = (signal.SIG_DFL, signal.default_int_handler)
     try:
         before = {n: signal.signal(n, stop) for n in numbers if signal.getsignal(n) in usual}
     except ValueError:  # not the main thread: the program around us handles signals
         before = {}
+    sys.unraisablehook = unraisable
     try:
         yield stopped
         _flush()
     finally:
+        sys.unraisablehook = said
         for number, handler in before.items():
             signal.signal(number, handler)
 

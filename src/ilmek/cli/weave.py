@@ -53,7 +53,7 @@ def command(
         woven = weave(order, asked, folder, force=force, told=told)
     if not give_json(json_to, weave_json(woven)):
         show_woven(woven)
-    for said in (*woven.charted.notes, *woven.warnings):
+    for said in (*woven.charted.notes, *woven.charted.warnings):
         note(said)
 
 
@@ -63,6 +63,7 @@ def show_woven(woven: Woven) -> None:
     heads = f"{programme.heads} (of {woven.loomed.design.heads_max} that fit)"
     if woven.asked.deadline is not None:
         heads = f"{programme.heads} needed for the deadline of {time_in_words(woven.asked.deadline)}"
+    warnings = [("warnings", f"{len(woven.warnings)}, in the report")] if woven.warnings else []
     show_pairs(
         [
             ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
@@ -72,6 +73,7 @@ def show_woven(woven: Woven) -> None:
             ("weaving time", time_in_words(programme.duration)),
             ("heads", heads),
             ("checks", passed(woven.checks)),
+            *warnings,
             ("report", str(woven.folder / "report.html")),
         ]
     )

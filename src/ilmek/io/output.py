@@ -1,7 +1,8 @@
 """Files out, whole or not at all.
 
 A folder is filled under a temporary name beside its place and put there by one rename at the end; a single file too.
-Whatever goes wrong before (an error, a full disk, Ctrl-C), the place is left as it was.
+Whatever goes wrong before (an error, a full disk, Ctrl-C), the place is left as it was. What a run that was killed
+outright leaves beside it, the next run to the same place removes (see `work_folder`).
 """
 
 import contextlib
@@ -14,6 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ilmek.errors import OutputError
+from ilmek.io.work_folder import clean_up, work_folder
 
 MANIFEST = ".ilmek"
 """A file in each output folder that lists what ilmek put there: only such a folder is ever replaced."""
@@ -27,32 +29,39 @@ def output_folder(path: Path, *, force: bool = False) -> Iterator[Path]:
     Raises OutputError where `path` is taken or cannot be written; an OSError inside becomes one too.
     """
     check_free(path, force=force)
-    place = path.resolve()
+    place = _resolved(path)
     made: tuple[Path, ...] = ()
-    with _as_output_error(path):
-        made = _make_parents(place.parent)
-    work = place.parent / f".{place.name}.{secrets.token_hex(4)}.part"
+    clean_up(place)
     try:
         with _as_output_error(path):
-            work.mkdir()
-            yield work
-            _write_manifest(work)
-            check_free(path, force=force)
-            _put(work, place)
-    except BaseException as error:
-        shutil.rmtree(work, ignore_errors=True)
+            made = _make_parents(place.parent)
+            with work_folder(place) as work:
+                try:
+                    yield work
+                except OutputError as error:  # of a file in it: a person knows the folder by its own name
+                    said = error.given.replace(str(work), str(path))
+                    raise OutputError(said, allowed=error.allowed, do=error.do) from None
+                _write_manifest(work)
+                check_free(path, force=force)
+                _put(work, place)
+    except BaseException:
         for folder in made:
             with contextlib.suppress(OSError):
                 folder.rmdir()
-        if isinstance(error, OutputError):  # of a file in it: a person knows the folder by its own name
-            said = error.given.replace(str(work), str(path))
-            raise OutputError(said, allowed=error.allowed, do=error.do) from None
         raise
+
+
+def _resolved(path: Path) -> Path:
+    """The path without links. Raises OutputError where links lead in a circle."""
+    try:
+        return path.resolve()
+    except (OSError, RuntimeError):
+        raise OutputError(f"{path} cannot be followed: its links lead in a circle", do="choose another place") from None
 
 
 def check_free(path: Path, *, force: bool = False) -> None:
     """Raise OutputError unless a folder may be put at `path`; nothing is touched."""
-    place = path.resolve()
+    place = _resolved(path)
     if place.is_dir():
         _check_replaceable(path, place, force)
     elif os.path.lexists(place):
@@ -116,7 +125,7 @@ def _put(work: Path, place: Path) -> None:
 
 def check_file(path: Path) -> None:
     """Raise OutputError unless a file can be put at `path`; nothing is touched."""
-    folder = path.resolve().parent
+    folder = _resolved(path).parent
     if path.is_dir():
         raise OutputError(f"{path} is a folder", do="give the name of a file")
     if not folder.is_dir():
@@ -133,7 +142,7 @@ def write_whole(path: Path, content: str | bytes) -> None:
     data = content.encode("utf-8") if isinstance(content, str) else content
     check_file(path)
     with _as_output_error(path):
-        place = path.resolve()
+        place = _resolved(path)
         if place.exists() and not stat.S_ISREG(place.stat().st_mode):
             path.write_bytes(data)
             return

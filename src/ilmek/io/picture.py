@@ -92,6 +92,8 @@ def _not_a_file(path: Path) -> str:
         return f"{path} is a folder, not a picture"
     if path.exists():
         return f"{path} is not a file"
+    if path.is_symlink():
+        return f"{path} is a link that leads to no file"
     folder = path.parent
     near = difflib.get_close_matches(path.name, [p.name for p in folder.iterdir()], 1) if folder.is_dir() else []
     return f"{path} does not exist" + (f" (did you mean {folder / near[0]}?)" if near else "")
@@ -100,7 +102,7 @@ def _not_a_file(path: Path) -> str:
 def _words(error: Exception) -> str:
     """What a library said, in few words."""
     said = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-    return said.split("\n")[0][:120] or type(error).__name__
+    return re.sub(r"\s*\(.*\)$", "", said.split("\n")[0])[:120] or "its decoder fails"
 
 
 def _check_size(path: Path, width: int, height: int) -> None:
@@ -122,17 +124,23 @@ def _decoded(opened: Image.Image) -> Picture:
 def _first_frame(image: Image.Image) -> _Step:
     frames = getattr(image, "n_frames", 1)
     deep = _SIXTEEN_BITS.search(str(getattr(image, "tile", "")))
-    notes = (f"the first of {frames} frames is used",) if frames > 1 else ()
+    notes = [f"the first of {frames} frames is used"] if frames > 1 else []
     if frames > 1:
         image.seek(0)
+    if _is_turned(image):  # asked before loading, which turns a TIFF at once and forgets that it did
+        notes.append("turned upright as its EXIF data say")
     image.load()
-    return image, (*notes, *(("16 bits a channel brought to 8",) if deep else ()))
+    if deep:
+        notes.append("16 bits a channel brought to 8")
+    return image, tuple(notes)
 
 
 def _upright(image: Image.Image) -> _Step:
-    if image.getexif().get(_ORIENTATION, 1) not in range(2, 9):
-        return image, ()
-    return ImageOps.exif_transpose(image), ("turned upright as its EXIF data say",)
+    return ImageOps.exif_transpose(image) if _is_turned(image) else image, ()
+
+
+def _is_turned(image: Image.Image) -> bool:
+    return image.getexif().get(_ORIENTATION, 1) in range(2, 9)
 
 
 def _eight_bits(image: Image.Image) -> _Step:

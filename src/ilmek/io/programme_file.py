@@ -287,6 +287,8 @@ def _cyclogram_from(record: Mapping[str, Any]) -> Cyclogram:
 def _check_header(path: Path) -> None:
     """Raise LoomError unless the file is there, a programme of a known version, and of its full length."""
     try:
+        if path.is_fifo():  # it would be waited for
+            raise LoomError(f"{path} cannot be read: Is a pipe", allowed="a programme written by ilmek")
         with path.open("rb") as file:
             header = file.read(100)
             length = os.fstat(file.fileno()).st_size

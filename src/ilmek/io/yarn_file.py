@@ -8,12 +8,12 @@
     price = 14.5              # a kilogram; may be left out
 
 A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price; commas, semicolons or tabs between them.
+Empty lines, and lines that begin with #, are left out.
 Here only the file is read; `ilmek.carpet.yarn` judges the values.
 """
 
 import csv
 import difflib
-import io
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -76,6 +76,8 @@ def _toml_records(text: str) -> Sequence[Record]:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise YarnError(f"not TOML: {error}", do="mend that line") from None
+    except (RecursionError, ValueError):  # brackets in brackets, or a number of thousands of digits
+        raise YarnError("not a yarn list, though it may be TOML", do="write each yarn as a [[yarn]] table") from None
     strangers = [key for key in data if key != "yarn"]
     if strangers:
         raise YarnError(f"unknown entry {strangers[0]!r}", do="write each yarn as a [[yarn]] table")
@@ -85,24 +87,26 @@ def _toml_records(text: str) -> Sequence[Record]:
     return records
 
 
-def _check_columns(names: Sequence[str]) -> None:
+def _check_columns(names: Sequence[str], line: int) -> None:
     for place, name in enumerate(names):
         if name not in FIELDS:
             near = difflib.get_close_matches(name, FIELDS, n=1)
             hint = f"did you mean {near[0]!r}?" if near else "the first line names the columns"
-            raise YarnError(f"line 1: unknown column {name!r}", allowed=f"columns: {', '.join(FIELDS)}", do=hint)
+            raise YarnError(f"line {line}: unknown column {name!r}", allowed=f"columns: {', '.join(FIELDS)}", do=hint)
         if name in names[:place]:
-            raise YarnError(f"line 1: the column {name!r} comes twice", do="give each column once")
+            raise YarnError(f"line {line}: the column {name!r} comes twice", do="give each column once")
 
 
 def _csv_records(text: str) -> Sequence[Record]:
-    header, _, _ = text.partition("\n")
+    said = ["" if line.startswith("#") else f"{line}\n" for line in re.split(r"\r\n?|\n", text.rstrip())]
+    header = next((line for line in said if line.strip()), "")
     delimiter = max(",;\t", key=header.count)
-    lines = csv.reader(io.StringIO(text), delimiter=delimiter, skipinitialspace=True, strict=True)
+    lines = csv.reader(said, delimiter=delimiter, skipinitialspace=True, strict=True)
     try:
-        names = [name.strip().lower() for name in next(lines)]
-        _check_columns(names)
-        return [_csv_record(names, cells, lines.line_num, delimiter) for cells in lines if "".join(cells).strip()]
+        filled = (cells for cells in lines if "".join(cells).strip())
+        names = [name.strip().lower() for name in next(filled, [])]
+        _check_columns(names, lines.line_num)
+        return [_csv_record(names, cells, lines.line_num, delimiter) for cells in filled]
     except csv.Error as error:
         raise YarnError(f"line {lines.line_num}: {error}", do="mend that line") from None
 
