@@ -1,5 +1,7 @@
 """Figures of the automated loom: cyclogram of a row, weaving time against heads, and the front of the loom."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ilmek.loom.sharing import halves, share
@@ -13,11 +15,38 @@ from ilmek.units import format_quantity
 _MOST_LINES = 40
 """Warps drawn; a real loom has more."""
 
-_LEADER = 0.1
-"""How far the leaders of the names reach beyond the frame [m]."""
+_NAMES = 0.3
+"""How far the leaders of the names reach beyond the frame, in its widths; the names stand on them."""
 
-_WIDTH, _BOTTOM, _SPACER, _FELL, _HEADS, _COMB, _CAMS, _TOP = 0.05, 0.25, 0.60, 0.80, 0.95, 1.12, 1.50, 2.00
-"""Heights over the floor [m]; chosen, as is every height of the drawing."""
+_KINK, _APART = 0.05, 0.06
+"""Where a leader turns level beyond the frame, and the least distance of two names, in widths of the frame."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Heights:
+    """Heights over the floor [m]; chosen, as is every height of the drawing, but never less than the parts need."""
+
+    bottom: float
+    spacer: float
+    fell: float
+    heads: float
+    comb: float
+    cams: float
+    top: float
+
+
+_WIDTH = 0.05
+"""Height of the dimension of the width [m]."""
+
+
+def _heights(loom: LoomDesign) -> _Heights:
+    tube, guide = loom.tube[0], loom.shedding.stack.guide_radius
+    bottom = max(0.25, 0.10 + tube / 2)
+    spacer = max(bottom + 0.35, bottom + 1.1 * tube)
+    fell = spacer + max(0.20, tube / 2 + 0.08)
+    comb = fell + 0.32
+    cams = max(fell + 0.70, comb + guide + 0.08)
+    return _Heights(bottom, spacer, fell, fell + 0.15, comb, cams, cams + max(0.50, guide + tube / 2 + 0.08))
 
 
 def figures(loom: LoomDesign) -> tuple[Figure, ...]:
@@ -53,17 +82,20 @@ def time_against_heads(loom: LoomDesign) -> Plot:
 def front(loom: LoomDesign) -> Drawing:
     """The loom from the front, true across; heights chosen."""
     params = loom.params
-    edge, wide = params.margin, frame_width(params)
+    edge, wide, at = params.margin, frame_width(params), _heights(loom)
     strokes = (
-        *(_box(complex(x, 0), complex(0.06, _TOP + 0.15), "outline", filled=True) for x in (-0.06, wide)),
-        *_cylinders(wide, loom.tube[0]),
-        *_warps(loom, edge),
-        _box(complex(edge, _SPACER), complex(params.width, _FELL - _SPACER), "yarn", filled=True),
-        Stroke(np.array([edge, edge + params.width]) + 1j * _COMB, "link"),
-        _cams(loom, edge, wide),
-        *_heads(loom, edge),
+        *(
+            _box(complex(x, 0), complex(0.06, at.top + loom.tube[0] / 2 + 0.08), "outline", filled=True)
+            for x in (-0.06, wide)
+        ),
+        *_cylinders(wide, loom.tube[0], at),
+        *_warps(loom, edge, at),
+        _box(complex(edge, at.spacer), complex(params.width, at.fell - at.spacer), "yarn", filled=True),
+        Stroke(np.array([edge, edge + params.width]) + 1j * at.comb, "link"),
+        _cams(loom, edge, wide, at.cams),
+        *_heads(loom, edge, at),
         Stroke(np.array([edge, edge + params.width]) + 1j * _WIDTH, "dimension", format_quantity(params.width, "m")),
-        *_names(edge + params.width, wide),
+        *_names(edge + params.width, wide, at),
     )
     note = f"{loom.warps} warps at {params.pitch * 1e3:.4g} mm, not all drawn; true across, heights chosen"
     return Drawing("loom-front", "The loom from the front", strokes, (), "m", note)
@@ -75,51 +107,63 @@ def _box(corner: complex, size: complex, role: str, label: str = "", *, filled: 
     return Stroke(corners, role, label, closed=True, filled=filled)
 
 
-def _cylinders(wide: float, diameter: float) -> tuple[Stroke, ...]:
+def _cylinders(wide: float, diameter: float, at: _Heights) -> tuple[Stroke, ...]:
     return tuple(
         _box(complex(0, height - diameter / 2), complex(wide, diameter), "outline")
-        for height in (_BOTTOM, _SPACER, _TOP)
+        for height in (at.bottom, at.spacer, at.top)
     )
 
 
-def _names(edge: float, wide: float) -> tuple[Stroke, ...]:
+def _names(edge: float, wide: float, at: _Heights) -> tuple[Stroke, ...]:
     """Leaders from the parts to their names beside the frame, where no warp runs through them."""
     named = {
-        _BOTTOM: "carpet cylinder",
-        _SPACER: "spacer cylinder",
-        (_SPACER + _FELL) / 2: "carpet",
-        _HEADS: "knotting heads",
-        _COMB: "comb of the beater",
-        _CAMS: "shedding cams",
-        _TOP: "warp cylinder",
+        at.bottom: "carpet cylinder",
+        at.spacer: "spacer cylinder",
+        (at.spacer + at.fell) / 2: "carpet",
+        at.heads: "knotting heads",
+        at.comb: "comb of the beater",
+        at.cams: "shedding cams",
+        at.top: "warp cylinder",
     }
-    end = wide + 0.06 + _LEADER
-    return tuple(Stroke(np.array([end, edge]) + 1j * height, "construction", name) for height, name in named.items())
+    end, kink = wide + 0.06 + _NAMES * wide, wide + 0.06 + _KINK * wide
+    return tuple(
+        Stroke(np.array([end + 1j * stands, kink + 1j * stands, edge + 1j * height]), "construction", name)
+        for stands, (height, name) in zip(_spread(list(named), _APART * wide), named.items(), strict=True)
+    )
 
 
-def _warps(loom: LoomDesign, edge: float) -> tuple[Stroke, ...]:
+def _spread(heights: list[float], apart: float) -> list[float]:
+    """Heights in ascending order, at least `apart` from each other, near those given in that order."""
+    spread = [heights[0]]
+    for height in heights[1:]:
+        spread.append(max(height, spread[-1] + apart))
+    lower = (spread[-1] - heights[-1]) / 2
+    return [height - lower for height in spread]
+
+
+def _warps(loom: LoomDesign, edge: float, at: _Heights) -> tuple[Stroke, ...]:
     number = min(loom.warps, _MOST_LINES)
     places = edge + loom.params.width * (np.arange(number) + 0.5) / number
-    return tuple(Stroke(np.array([x + 1j * _FELL, x + 1j * _TOP]), "construction") for x in places.tolist())
+    return tuple(Stroke(np.array([x + 1j * at.fell, x + 1j * at.top]), "construction") for x in places.tolist())
 
 
-def _cams(loom: LoomDesign, edge: float, wide: float) -> Stroke:
+def _cams(loom: LoomDesign, edge: float, wide: float, height: float) -> Stroke:
     radius = loom.shedding.stack.guide_radius
     shaft = loom.shedding.shaft.bar / 2
     ends = edge, wide - edge
     profile = [
-        complex(0, _CAMS - shaft),
-        complex(ends[0], _CAMS - shaft),
-        complex(ends[0], _CAMS - radius),
-        complex(ends[1], _CAMS - radius),
-        complex(ends[1], _CAMS - shaft),
-        complex(wide, _CAMS - shaft),
+        complex(0, height - shaft),
+        complex(ends[0], height - shaft),
+        complex(ends[0], height - radius),
+        complex(ends[1], height - radius),
+        complex(ends[1], height - shaft),
+        complex(wide, height - shaft),
     ]
-    upper = [complex(point.real, 2 * _CAMS - point.imag) for point in reversed(profile)]
+    upper = [complex(point.real, 2 * height - point.imag) for point in reversed(profile)]
     return Stroke(np.array(profile + upper), "outline", closed=True)
 
 
-def _heads(loom: LoomDesign, edge: float) -> tuple[Stroke, ...]:
+def _heads(loom: LoomDesign, edge: float, at: _Heights) -> tuple[Stroke, ...]:
     """Each head in the middle of the half it works first, and its block of the row under it."""
     params = loom.params
     parts = halves(loom.heads)
@@ -129,7 +173,7 @@ def _heads(loom: LoomDesign, edge: float) -> tuple[Stroke, ...]:
         low, high, end = (float(edges[head * parts + k]) for k in (0, 1, parts))
         body = (low + high) / 2 + params.head_width * np.array([-0.5, 0.5])
         strokes += [
-            Stroke(body + 1j * _HEADS, "link"),
-            Stroke(np.array([low, end]) + 1j * (_FELL + 0.05), "dimension"),
+            Stroke(body + 1j * at.heads, "link"),
+            Stroke(np.array([low, end]) + 1j * (at.fell + 0.05), "dimension"),
         ]
     return tuple(strokes)
