@@ -7,8 +7,8 @@ from jaxtyping import Bool, Float, Int8
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
-from ilmek.linkage.groups.group import Drive, Step
-from ilmek.linkage.model import GROUND, Rotation
+from ilmek.linkage.groups.group import Drive, Known, Step
+from ilmek.linkage.model import GROUND, Input, Rotation
 from ilmek.linkage.newton import starts
 from ilmek.linkage.status import Status, judge
 from ilmek.linkage.structure import Plan
@@ -21,6 +21,7 @@ SHOWN = 3
 def first_fault(plan: Plan, drives: Mapping[str, Drive], status: Int8[np.ndarray, " samples"]) -> MechanismError:
     """The error for the first step that fails anywhere: the failing samples are solved once more, step by step."""
     bad = status != Status.OK
+    moving = _moving(plan, drives)
     drives = {name: _chosen(drive, bad) for name, drive in drives.items()}
     known: dict[str, BodyMotion] = {GROUND: STILL, **starts(plan, drives)}
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
@@ -29,13 +30,21 @@ def first_fault(plan: Plan, drives: Mapping[str, Drive], status: Int8[np.ndarray
             found = np.zeros(np.count_nonzero(bad), dtype=np.int8)
             judge(step, known, solved, found)
             if found.any():
-                return _error(plan, step, _where(plan, drives, bad, found), step.shortfall(known), Status(found.max()))
+                said = _where(moving, drives, bad, found), " or ".join(entry.name for entry in moving)
+                return _error(plan, step, said, known, Status(found.max()))
             known.update(step.place(known, solved.columns))
     raise AssertionError("a sample that failed fails again")
 
 
-def _error(plan: Plan, step: Step, where: str, shortfall: tuple[str, str], status: Status) -> MechanismError:
-    name, bodies = plan.mechanism.name, " and ".join(step.bodies)
+def _moving(plan: Plan, drives: Mapping[str, Drive]) -> tuple[Input, ...]:
+    """The inputs whose value varies over the samples; all, where none does. The others are held, and not to blame."""
+    varied = tuple(entry for entry in plan.mechanism.inputs if np.ptp(np.asarray(drives[entry.name].value)) > 0)
+    return varied or plan.mechanism.inputs
+
+
+def _error(plan: Plan, step: Step, said: tuple[str, str], known: Known, status: Status) -> MechanismError:
+    """The error, from where it fails and the names of the inputs to limit."""
+    (where, limit), name, bodies = said, plan.mechanism.name, " and ".join(step.bodies)
     if status is Status.DEAD_CENTRE:
         return MechanismError(
             f"{name} stands at a dead centre for {where}",
@@ -48,8 +57,8 @@ def _error(plan: Plan, step: Step, where: str, shortfall: tuple[str, str], statu
             allowed="Newton's method follows them from the mechanism's pose",
             do="give a pose nearer to an assembled one, or limit the input",
         )
-    limit = " or ".join(entry.name for entry in plan.mechanism.inputs)
-    return MechanismError(f"{name} cannot close for {where}: {shortfall[0]}", do=f"{shortfall[1]} or limit the {limit}")
+    missing, remedy = step.shortfall(known)
+    return MechanismError(f"{name} cannot close for {where}: {missing}", do=f"{remedy} or limit the {limit}")
 
 
 def _chosen(drive: Drive, bad: Bool[np.ndarray, " samples"]) -> Drive:
@@ -58,16 +67,16 @@ def _chosen(drive: Drive, bad: Bool[np.ndarray, " samples"]) -> Drive:
 
 
 def _where(
-    plan: Plan,
+    moving: tuple[Input, ...],
     drives: Mapping[str, Drive],
     bad: Bool[np.ndarray, " samples"],
     found: Int8[np.ndarray, " bad"],
 ) -> str:
-    """The failing samples as ranges of the input, or of sample numbers where there are several inputs."""
+    """The failing samples as ranges of the input, or of sample numbers where several inputs move."""
     samples = np.flatnonzero(bad)[found != Status.OK]
     runs = np.split(np.arange(len(samples)), np.flatnonzero(np.diff(samples) > 1) + 1)
-    if len(drives) == 1:
-        entry = plan.mechanism.inputs[0]
+    if len(moving) == 1:
+        entry = moving[0]
         value = np.asarray(drives[entry.name].value)[found != Status.OK]
         return f"{entry.name} {_ranges(value, runs, isinstance(entry, Rotation))}"
     first, last = samples[runs[0][0]], samples[runs[0][-1]]
