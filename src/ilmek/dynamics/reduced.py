@@ -1,0 +1,131 @@
+"""A mechanism of one freedom, reduced to its input: what the drive feels of all masses and loads.
+
+    T = J(q) q'^2 / 2,    J(q) q'' + J'(q) q'^2 / 2 = Q(q, q') + M
+    J = Σ (m |dG/dq|^2 + I (dθ/dq)^2),    Q = Σ (F · dP/dq + T dθ/dq)        [Eksergian, Dynamical Analysis of Machines]
+
+q is the input [rad, or m for a displacement], M the effort of the drive, G the mass centres. Solved at unit speed the
+engine's velocities are d/dq and its accelerations d²/dq², so J, its slope and Q are exact: nothing is differenced.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from jaxtyping import Float, Int8
+
+from ilmek.arrays import FloatArray
+from ilmek.dynamics.attached import attached, passing
+from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.loads import Gravity, Load, PointForce, Torque
+from ilmek.errors import MechanismError
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import Plan
+from ilmek.plane.vectors import dot
+
+Samples: TypeAlias = Float[np.ndarray, " samples"]
+
+
+@dataclass(frozen=True, slots=True)
+class Terms:
+    """The reduced equation's terms at input values; NaN where the mechanism does not close.
+
+    inertia  J [kg m², or kg]      slope  dJ/dq      status  of each sample
+    weight   Q of the weights [N m, or N]            push    Q of the other steady loads
+    """
+
+    inertia: Samples
+    slope: Samples
+    weight: Samples
+    push: Samples
+    status: Int8[np.ndarray, " samples"]
+
+
+@dataclass(frozen=True, slots=True)
+class Reduced:
+    """A mechanism of one input with its masses and loads; made by `reduce`.
+
+    weights   gravity
+    steady    other loads that follow from the pose alone      live  loads that may follow from the speed too
+    flywheel  inertia that turns with the input, the motor's rotor among it [kg m²; kg for a displacement]
+    """
+
+    plan: Plan
+    inertias: Mapping[str, Inertia]
+    weights: tuple[Gravity, ...]
+    steady: tuple[Load, ...]
+    live: tuple[Load, ...]
+    flywheel: float
+
+    def terms(self, position: FloatArray) -> Terms:
+        """J, dJ/dq and Q at input values."""
+        unit = solve(self.plan, position, 1.0)
+        inertia, slope = np.full(len(unit), self.flywheel), np.zeros(len(unit))
+        for body, weighed in self.inertias.items():
+            centre, omega = attached(unit, body, weighed.centre), unit.omega(body)
+            inertia = inertia + weighed.mass * np.abs(centre.velocity) ** 2 + weighed.moment * omega**2
+            turning = weighed.moment * omega * unit.alpha(body)
+            slope = slope + 2 * (weighed.mass * dot(centre.velocity, centre.acceleration) + turning)
+        weight, push = (self._force(unit, unit, loads) for loads in (self.weights, self.steady))
+        return Terms(inertia, slope, weight, push, unit.status)
+
+    def live_force(self, position: Samples, speed: Samples) -> Samples:
+        """Q of the loads that may follow from the motion [N m, or N]; they see no acceleration."""
+        if not self.live:
+            return np.zeros(len(position))
+        return self._force(solve(self.plan, position, 1.0), solve(self.plan, position, speed), self.live)
+
+    def potential(self, position: Samples) -> Samples:
+        """Potential energy of the weights [J], against the world's origin."""
+        motion = solve(self.plan, position)
+        energy = np.zeros(len(motion))
+        for load in self.weights:
+            for body, weighed in self.inertias.items():
+                place = attached(motion, body, weighed.centre).position
+                energy = energy - weighed.mass * dot(complex(load.acceleration), place)
+        return energy
+
+    def _force(self, unit: Motion, motion: Motion, loads: Iterable[Load]) -> Samples:
+        force = np.zeros(len(unit))
+        for load in loads:
+            for wrench in load.wrenches(motion, self.inertias):
+                sliding = passing(unit, wrench.body, wrench.at.position)
+                force = force + dot(wrench.force, sliding) + wrench.torque * unit.omega(wrench.body)
+        return force
+
+
+def reduce(
+    plan: Plan, inertias: Mapping[str, Inertia], loads: Sequence[Load] = (), *, flywheel: float = 0.0
+) -> Reduced:
+    """The mechanism reduced to its only input.
+
+    inertias  body -> inertia; a body not named is massless      loads  such as `Gravity`; see `Reduced.live_force`
+
+    Raises MechanismError for several inputs, an unknown body, a negative flywheel, a load that is given by sample, and
+    where no mass moves with the input.
+    """
+    mechanism = plan.mechanism
+    if len(mechanism.inputs) != 1:
+        raise MechanismError(
+            f"{mechanism.name} has {len(mechanism.inputs)} inputs", allowed="a reduced equation is for one freedom"
+        )
+    for body in inertias:
+        mechanism.body(body)
+    if not (np.isfinite(flywheel) and flywheel >= 0):
+        raise MechanismError(f"flywheel of {mechanism.name} is {flywheel:g}", allowed="finite and not negative")
+    moving = {body: inertia for body, inertia in inertias.items() if body in mechanism.moving}
+    if flywheel == 0 and not any(inertia.mass or inertia.moment for inertia in moving.values()):
+        raise MechanismError(f"no body of {mechanism.name} has a mass", do="give inertias, or a flywheel")
+    weights = tuple(load for load in loads if isinstance(load, Gravity))
+    others = [load for load in loads if not isinstance(load, Gravity)]
+    steady, live = ([load for load in others if _steady(load) is kind] for kind in (True, False))
+    return Reduced(plan, moving, weights, tuple(steady), tuple(live), flywheel)
+
+
+def _steady(load: Load) -> bool:
+    """Whether a load follows from the pose alone, as far as its kind says."""
+    law = load.force if isinstance(load, PointForce) else load.torque if isinstance(load, Torque) else None
+    if np.ndim(law if not callable(law) else 0):  # type: ignore[arg-type]
+        raise MechanismError(f"a load on {getattr(load, 'body', '?')!r} is given by sample", do="give it as a function")
+    return law is not None and not callable(law)
