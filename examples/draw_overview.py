@@ -5,7 +5,6 @@ Run it as `python examples/draw_overview.py`.
 
 import base64
 import io
-import re
 from pathlib import Path
 
 import numpy as np
@@ -65,8 +64,8 @@ def picture(x: float, y: float, width: float, height: float, address: str) -> st
 
 def figure(drawn: Figure, x: float, y: float, width: float, height: float) -> str:
     """A figure of the report in its place, its proportions kept."""
-    inner = re.sub(r"<svg ", f'<svg x="{x}" y="{y}" width="{width}" height="{height}" ', svg(drawn, drawn.name), count=1)
-    return inner
+    place = f'<svg x="{x}" y="{y}" width="{width}" height="{height}" '
+    return svg(drawn, drawn.name).replace("<svg ", place, 1)
 
 
 def arrow(x: float, y: float) -> str:
@@ -105,7 +104,7 @@ def draw() -> str:
         figure(figures["knot"], 715, 470, 500, 290),
     ]
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 {WIDTH} {HEIGHT}"'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}"'
         f' font-family="Helvetica Neue, Arial, Liberation Sans, DejaVu Sans, sans-serif">'
         f'<rect width="{WIDTH}" height="{HEIGHT}" fill="#ffffff"/>{"".join(parts)}</svg>\n'
     )
