@@ -17,6 +17,7 @@ from ilmek.elements.shafts import (
     square_twist,
     stock_side,
 )
+from ilmek.machines import warp_tension
 from ilmek.units import GPa, deg, mm, rpm
 
 
@@ -79,6 +80,17 @@ def test_least_sides_keep_just_the_twist_and_the_strength() -> None:
     side = side_for_strength(2000.0, 900.0, 235e6)
     assert square_stress(2000.0, 900.0, side) == pytest.approx(235e6)
     assert square_stress(2000.0, 0.0, side) == pytest.approx(6 * 2000.0 / side**3)
+
+
+def test_a_reducer_that_locks_in_theory_only_is_warned_of() -> None:
+    said = [warp_tension.MACHINE.report(made).warnings for made in map(cylinder, (0.45, 0.48, 0.55))]
+    assert [len(warnings) for warnings in said] == [0, 1, 1]
+    assert "in theory only" in said[1][0]
+    assert "does not lock itself" in said[2][0]
+
+
+def cylinder(efficiency: float) -> warp_tension.WarpTensionDesign:
+    return warp_tension.MACHINE.design(warp_tension.WarpTensionParams(efficiency=efficiency))
 
 
 def test_stock_bars() -> None:

@@ -26,12 +26,12 @@ class Material:
 MATERIALS: dict[str, Material] = {
     material.name: material
     for material in (
-        Material("structural steel", 210 * GPa, 7850.0, 235 * MPa, "EN 1993-1-1, 3.2.6 and EN 10025-2, S235 to 16 mm"),
+        Material("structural steel", 210 * GPa, 7850.0, 235 * MPa, "EN 1993-1-1; EN 10025-2, S235 up to 16 mm thick"),
         Material(
-            "heat-treatable steel", 210 * GPa, 7850.0, 490 * MPa, "EN ISO 683-1, C45 quenched and tempered, 16 mm"
+            "heat-treatable steel", 210 * GPa, 7850.0, 490 * MPa, "EN 10083-2, C45 +QT up to 16 mm (430 to 40 mm)"
         ),
         Material("stainless steel", 200 * GPa, 7900.0, 210 * MPa, "EN 10088-1 and -2, 1.4301"),
-        Material("grey cast iron", 110 * GPa, 7200.0, 250 * MPa, "EN 1561, EN-GJL-250 (modulus 103 to 118 GPa)"),
-        Material("aluminium alloy", 70 * GPa, 2700.0, 250 * MPa, "EN 1999-1-1, 3.2.5 and EN 755-2, EN AW-6082 T6"),
+        Material("grey cast iron", 110 * GPa, 7200.0, 250 * MPa, "EN 1561, EN-GJL-250; modulus 103 to 118 GPa"),
+        Material("aluminium alloy", 70 * GPa, 2700.0, 250 * MPa, "EN 755-2, EN AW-6082 T6, profiles up to 5 mm thick"),
     )
 }

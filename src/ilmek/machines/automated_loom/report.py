@@ -16,6 +16,9 @@ from ilmek.timing.cyclogram import check_all
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
 
+HEAVY = 0.25
+"""Weight of a cylinder over the pull of its warps from which it is said; a judgement of ours."""
+
 
 def report(loom: LoomDesign) -> Report:
     """Everything that the loom's design says; checks of a machine carry its name."""
@@ -207,6 +210,10 @@ def _warnings(loom: LoomDesign) -> tuple[str, ...]:
         said.append(
             f"the head of the thesis ties symmetric knots; {params.knot} ones need other motions of its grippers"
         )
+    share = loom.warp_tension.self_weight / loom.warp_tension.load
+    if share > HEAVY:
+        mass, part = format_quantity(loom.warp_tension.mass, "kg", 3), format_quantity(share, "%", 2)
+        said.append(f"a cylinder weighs {mass}, {part} of what the warps pull: weave narrower, or support it between")
     asked = turn / params.shed_speed
     if loom.times.weft > asked * (1 + 1e-9):
         slower = format_quantity(turn / loom.times.weft, "rpm")

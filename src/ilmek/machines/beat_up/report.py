@@ -78,7 +78,6 @@ def _motion(design: BeatUp) -> tuple[Result, ...]:
 
 def _loads(design: BeatUp) -> tuple[Result, ...]:
     peaks = design.peaks
-    torque = design.state.torque[:-1]
     return (
         Result(
             "beater_force_max",
@@ -88,7 +87,7 @@ def _loads(design: BeatUp) -> tuple[Result, ...]:
         ),
         Result("pin_force_max", {pin: peaks[pin].value for pin in PINS}, "N", "greatest force in each pin"),
         Result("drive_torque_max", peaks["drive_torque"].value, "N*m", "greatest size of the torque on the crank"),
-        Result("drive_torque_rms", math.sqrt(float(np.mean(torque**2))), "N*m", "root mean square of the torque"),
+        Result("drive_torque_rms", design.torque_rms, "N*m", "root mean square of the torque"),
         Result(
             "drive_power_max",
             peaks["drive_torque"].value * design.params.speed,
@@ -160,11 +159,11 @@ def _link_table(design: BeatUp) -> Table:
 
 
 def _dead_centre_table(design: BeatUp) -> Table:
-    turned = design.state.motion.angle("rocker")
+    at_beat, back = design.rocker_angles
     columns = (Column("dead centre"), Column("crank angle", "deg"), Column("rocker angle", "deg"), Column("time", "s"))
     rows = (
-        ("extended: the beat", design.beat_angle, float(np.min(turned)), design.beat_angle / design.params.speed),
-        ("folded: farthest back", design.back_angle, float(np.max(turned)), design.back_angle / design.params.speed),
+        ("extended: the beat", design.beat_angle, at_beat, design.beat_angle / design.params.speed),
+        ("folded: farthest back", design.back_angle, back, design.back_angle / design.params.speed),
     )
     return Table("beat-up-dead-centres", "Dead centres", columns, rows)
 

@@ -90,7 +90,7 @@ class SheddingParams(Params):
         2 * deg, unit="deg", at_least=1e-6, below=TURN / 4, doc="largest twist of the shaft from end to end"
     )
     strength: float = param(
-        STEEL.strength, unit="MPa", at_least=1 * MPa, at_most=1e10, doc="yield strength of the shaft"
+        195 * MPa, unit="MPa", at_least=1 * MPa, at_most=1e10, doc="yield strength of the shaft; S235 to 150 mm"
     )
     bore_wall: float = param(
         5 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="least wall between square bore and surface"

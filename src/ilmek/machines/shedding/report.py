@@ -24,9 +24,12 @@ from ilmek.machines.rounding import settled
 from ilmek.machines.shedding.design import SheddingDesign, lifting, turn_knots
 from ilmek.machines.shedding.figures import figures
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
-from ilmek.units import deg, format_quantity, rpm
+from ilmek.units import deg, format_quantity, mm, rpm
 
 THESIS = "thesis, 3.2"
+FOIL = 0.4 * mm
+"""Thickness below which no sheet of a hand's radius stands upright [m]; a judgement of ours."""
+
 SPEED_LIMIT = 5 * rpm
 """What the thesis allows the cam shaft, so that no warp breaks."""
 
@@ -280,6 +283,9 @@ def _warnings(design: SheddingDesign) -> tuple[str, ...]:
     if design.params.speed > SPEED_LIMIT * (1 + 1e-9):
         shown = format_quantity(params.speed, "rpm")
         said.append(f"the cam shaft turns at {shown}; the thesis allows {format_quantity(SPEED_LIMIT, 'rpm')}")
+    if design.stack.thickness < FOIL:
+        thin, foil = (format_quantity(value, "mm") for value in (design.stack.thickness, FOIL))
+        said.append(f"cams {thin} thick are foil and buckle: below {foil} spread the warps over several cam shafts")
     if hollow is not None and params.roller_radius == 0:
         shown, where = format_quantity(hollow.value, "mm"), format_quantity(hollow.at, "deg")
         said.append(

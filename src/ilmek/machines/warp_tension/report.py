@@ -12,8 +12,8 @@ from ilmek.report import Check, Column, Figure, Report, Result, Table, at_most
 from ilmek.units import format_number, format_quantity, mm, turn
 
 THESIS = "thesis, 3.1"
-LOCKING = 0.5
-"""Largest efficiency of a reducer that locks itself."""
+LOCKING, SURE = 0.5, 0.45
+"""Largest efficiency of a reducer that locks itself, and that up to which makers count on it (to 0.55 it is unsure)."""
 
 
 def report(design: WarpTensionDesign) -> Report:
@@ -92,7 +92,11 @@ def _checks(design: WarpTensionDesign) -> tuple[Check, ...]:
     params = design.params
     locking = (
         at_most(
-            "efficiency, to lock itself", params.efficiency, LOCKING, "1", "Shigley, Mechanical Engineering Design, 13"
+            "efficiency, to lock itself",
+            params.efficiency,
+            LOCKING,
+            "1",
+            "nothing comes back: 2 - 1/efficiency <= 0",
         ),
     )
     return (
@@ -176,6 +180,11 @@ def _warnings(design: WarpTensionDesign) -> tuple[str, ...]:
             f"a reducer of efficiency {format_number(params.efficiency)} does not lock itself: one that does "
             f"(at most {LOCKING:g}) asks {format_quantity(needed, 'Nm')} or more of the motor; or "
             "set self_locking=no and hold the warps by a brake"
+        )
+    if params.self_locking and SURE < params.efficiency <= LOCKING:
+        said.append(
+            f"a reducer of efficiency {format_number(params.efficiency)} locks itself in theory only: "
+            f"makers count on it below {SURE:g}"
         )
     if params.motor_torque is None and design.motor is None:
         largest = max(MOTORS, key=lambda motor: motor.torque).name
