@@ -5,7 +5,7 @@ A paper is one entry of `PAPERS`: the function that lists its claims. Nothing is
 
 from collections.abc import Callable, Iterable
 
-from ilmek.verification import beat_up, thesis_cams, thesis_dyad, thesis_loom
+from ilmek.verification import beat_up, knotting_synthesis, thesis_cams, thesis_dyad, thesis_loom, tufting
 from ilmek.verification.claim import VERDICTS, Claim, Verdict, judge
 
 __all__ = ["PAPERS", "TITLES", "VERDICTS", "Claim", "Verdict", "reproduce"]
@@ -13,12 +13,16 @@ __all__ = ["PAPERS", "TITLES", "VERDICTS", "Claim", "Verdict", "reproduce"]
 PAPERS: dict[str, Callable[[], tuple[Claim, ...]]] = {
     "beat-up": beat_up.claims,
     "thesis": lambda: (*thesis_dyad.claims(), *thesis_cams.claims(), *thesis_loom.claims()),
+    "tufting": tufting.claims,
+    "knotting": knotting_synthesis.claims,
 }
 """The claims of each paper, by the name it has here."""
 
 TITLES = {
     "beat-up": "Topalbekiroglu and Celik, Kinematic analysis of beat-up mechanism used for handmade carpet looms",
     "thesis": "Design of parallel micromechanisms for knotting operation (thesis, Izmir 2009)",
+    "tufting": "Xu et al., Dynamic characteristic analysis of the needle multi-linkage mechanism in a tufting machine",
+    "knotting": "Planar knotting mechanisms for Turkish hand woven carpet (student report, theory of machines)",
 }
 """The papers in words."""
 

@@ -1,0 +1,239 @@
+"""Knotting report, section 2: three poses of the gripper, step by step.
+
+The steps are taken as the report takes them (superposition with one Lagrange factor), from exact numbers; the lengths
+at their end are those of `ilmek.synthesis.dyad`, which knows nothing of the steps. Lengths in mm, as in the report.
+"""
+
+from functools import cache, partial
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from jaxtyping import Float
+
+from ilmek.synthesis.dyad import Dyad, Lengths, dyads_through_poses, four_bar
+from ilmek.units import deg
+from ilmek.verification.claim import RESIDUAL, Claim, Computation, residual
+
+Three: TypeAlias = Float[np.ndarray, "3"]
+
+POINTS = np.array([0, 25 + 15j, 30 + 1j])
+TH2 = np.array([10.0, 3.0, -25.0]) * deg
+TH0 = 275 * deg
+_claim = partial(Claim, "knotting")
+
+
+class Steps(NamedTuple):
+    """f2, f3, F of the poses; l (here L) and M of P1, P2, P3; the quadratic and its roots, the larger first."""
+
+    f2: Three
+    f3: Three
+    F: Three
+    L: Three
+    M: Three
+    quadratic: tuple[float, float, float]
+    factors: tuple[float, float]
+
+
+def claims() -> tuple[Claim, ...]:
+    """The steps, in the report's order."""
+    return (*_equations(), *_given(), *_systems(), *_quadratic(), *_cases(), *_results())
+
+
+@cache
+def steps() -> Steps:
+    """The report's steps with exact numbers and the right sign of rho²."""
+    e0, e2, rho = np.exp(1j * TH0), np.exp(1j * TH2), np.abs(POINTS)
+    f2, f3 = 2 * (POINTS * np.conj(e0)).real, 2 * (POINTS * np.conj(e2)).real
+    F = 2 * np.cos(TH2 - TH0)
+    matrix = np.array([np.ones(3), f2, f3]).T
+    L, M = np.linalg.solve(matrix, F), np.linalg.solve(matrix, rho**2)
+    p, q, r = M[1] * M[2], L[1] * M[2] + L[2] * M[1] - 1, L[1] * L[2]
+    small, large = np.sort(np.roots([p, q, r]).real)
+    return Steps(f2, f3, F, L, M, (float(p), float(q), float(r)), (float(large), float(small)))
+
+
+@cache
+def dyads() -> tuple[Dyad, Dyad]:
+    """The two arms of the example: that of the larger factor 1/(a0 a2), which is the report's case 1, first."""
+    one, other = dyads_through_poses(POINTS, TH2, TH0)
+    return (one, other) if one.ground * one.second < other.ground * other.second else (other, one)
+
+
+def mechanism() -> Lengths:
+    """The four-bar of both arms [mm]."""
+    return four_bar(*dyads())
+
+
+def _residual_of_poses(F: Three, square: int = -1) -> float:
+    """Residual of P1 + P2 f2 + P3 f3 + square lam rho² = F for both arms."""
+    found = steps()
+    worst = []
+    for arm in dyads():
+        P1 = (arm.first**2 - arm.ground**2 - arm.second**2) / (arm.ground * arm.second)
+        factor = 1 / (arm.ground * arm.second)
+        left = P1 + found.f2 / arm.second + found.f3 / arm.ground + square * factor * np.abs(POINTS) ** 2
+        worst.append(residual(left, F))
+    return max(worst)
+
+
+def _equations() -> tuple[Claim, ...]:
+    def equation(
+        item: str, printed: str, compute: Computation, note: str = "", mended: Computation | None = None
+    ) -> Claim:
+        return _claim(item, printed, RESIDUAL, compute, "2, synthesis", note, mended=mended)
+
+    def of_quadratic() -> float:
+        p, q, r = steps().quadratic
+        factor = np.array([1 / (arm.ground * arm.second) for arm in dyads()])
+        return residual(p * factor**2 + r, -q * factor)
+
+    def of_first() -> float:
+        found = steps()
+        P = [found.L + factor * found.M for factor in found.factors]
+        return residual(
+            np.array([np.sqrt(P1 / (P2 * P3) + P2**-2 + P3**-2) for P1, P2, P3 in P]),
+            np.array([arm.first for arm in dyads()]),
+        )
+
+    return (
+        equation(
+            "objective function",
+            "P1 f1 + P2 f2 + P3 f3 = F - λ f4,  f4 = -ρ²",
+            lambda: _residual_of_poses(steps().F),
+        ),
+        equation(
+            "F",
+            "F = 2 (cos θ2 - θ0)",
+            lambda: _residual_of_poses(2 * (np.cos(TH2) - TH0)),
+            "F = 2 cos(θ2 - θ0), as the numbers have it",
+            lambda: _residual_of_poses(2 * np.cos(TH2 - TH0)),
+        ),
+        equation(
+            "numeric form",
+            "... + [-ρ]²/(a0 a2) - 2 cos(θ2 - θ0) = 0",
+            lambda: _residual_of_poses(steps().F, square=1),
+            "f4 = -ρ², not (-ρ)²: this slip of a sign spoils all that follows",
+            lambda: _residual_of_poses(steps().F, square=-1),
+        ),
+        equation("quadratic", "M2 M3 λ² + (l2 M3 + l3 M2 - 1) λ + l2 l3 = 0", of_quadratic),
+        equation("first link", "a1 = (P1/(P2 P3) + P2⁻² + P3⁻²)^0.5", of_first),
+    )
+
+
+def _given() -> tuple[Claim, ...]:
+    """The table of poses and the functions of the given."""
+    at = "2, calculation"
+    wrong_sign = "f4 = -ρ²: the sign was lost"
+    typed = "typing: 51.502"
+
+    def of(name: str, pose: int) -> Computation:
+        return lambda: float(getattr(steps(), name)[pose])
+
+    return (
+        *(
+            _claim(f"ρ{k + 1}", text, "mm", partial(_rho, k), f"{at}, table")
+            for k, text in enumerate(("0", "29.154", "30.016"))
+        ),
+        _claim("f2 of pose 2", "-25.528", "mm", of("f2", 1), at),
+        _claim("f2 of pose 3", "3.236", "mm", of("f2", 2), at),
+        _claim("f3 of pose 2", "51.49", "mm", of("f3", 1), at, typed),
+        _claim("f3 of pose 2, written again", "51.499", "mm", of("f3", 1), at, typed),
+        _claim("f3 of pose 3", "53.534", "mm", of("f3", 2), at),
+        _claim(
+            "x of pose 3 in f3", "10", "mm", lambda: float(POINTS[2].real), at, "30 cos(-25°), as the result has it"
+        ),
+        _claim("f4 of pose 2", "849.955", "mm²", lambda: -(_rho(1) ** 2), at, wrong_sign),
+        _claim("f4 of pose 3", "900.96", "mm²", lambda: -(_rho(2) ** 2), at, wrong_sign),
+        _claim("F of pose 1, first written", "0.174", "", of("F", 0), at, "the sign; -0.174 in the next lines"),
+        _claim("F of pose 1", "-0.174", "", of("F", 0), at),
+        _claim("F of pose 2", "0.069", "", of("F", 1), at),
+        _claim("F of pose 3", "1", "", of("F", 2), at),
+    )
+
+
+def _rho(pose: int) -> float:
+    return float(np.abs(POINTS[pose]))
+
+
+def _systems() -> tuple[Claim, ...]:
+    """The two linear systems."""
+    at = "2, matrix equation"
+    return (
+        *(
+            _claim(f"l{k + 1}", text, "", partial(_of_system, "L", k), at)
+            for k, text in enumerate(("-0.174", "0.0309", "0.02"))
+        ),
+        *(
+            _claim(f"m{k + 1}", text, "", partial(_of_system, "M", k), at, "the sign of ρ²")
+            for k, text in enumerate(("0", "-0.585", "-16.79"))
+        ),
+    )
+
+
+def _of_system(name: str, place: int) -> float:
+    found = float(getattr(steps(), name)[place])
+    return 0.0 if abs(found) < 1e-12 else found
+
+
+def _quadratic() -> tuple[Claim, ...]:
+    at, note = "2, quadratic", "from m2, m3 with the wrong sign"
+
+    def discriminant() -> float:
+        p, q, r = steps().quadratic
+        return q**2 - 4 * p * r
+
+    return (
+        _claim("p", "9.822", "", lambda: steps().quadratic[0], at, "from m2, m3 of ρ² cut to 849.955 and 900.96"),
+        _claim("q", "-1.5305", "", lambda: steps().quadratic[1], at, note),
+        _claim("r", "6.18e-4", "", lambda: steps().quadratic[2], at, "0.0309 x 0.02", lambda: 0.0309 * 0.02),
+        _claim("Δ", "2.317", "", discriminant, at, note),
+        _claim("λ1", "0.155", "", lambda: steps().factors[0], at, note),
+        _claim("λ2", "0.000432", "", lambda: steps().factors[1], at, f"{note}; its own quadratic gives 0.000405"),
+    )
+
+
+def _cases() -> tuple[Claim, ...]:
+    """The two arms; the printed ones miss the poses 2 and 3 by 10 to 29 mm."""
+    printed = {
+        1: {"p1": "-0.174", "p2": "-0.059", "p3": "-2.582", "a0": "-0.387", "a2": "-16.949", "a1": "16.919"},
+        2: {"p1": "-0.174", "p2": "0.03064", "p3": "0.01274", "a0": "78.492", "a2": "32.637", "a1": "82.345"},
+    }
+    notes = {
+        1: "from the wrong λ1; the printed arm misses the poses 2 and 3 by 28 and 29 mm",
+        2: "from the wrong λ2; the printed arm misses the poses 2 and 3 by 10 and 11 mm",
+    }
+    return tuple(
+        _claim(
+            f"case {case}: {name}", text, "mm" if name[0] == "a" else "", partial(_of_arm, case, name), "2", notes[case]
+        )
+        for case, texts in printed.items()
+        for name, text in texts.items()
+    )
+
+
+def _of_arm(case: int, name: str) -> float:
+    arm = dyads()[case - 1]
+    squares = arm.first**2 - arm.ground**2 - arm.second**2
+    values = {"a0": arm.ground, "a1": arm.first, "a2": arm.second, "p2": 1 / arm.second, "p3": 1 / arm.ground}
+    return {**values, "p1": squares / (arm.ground * arm.second)}[name]
+
+
+def _results() -> tuple[Claim, ...]:
+    """The superposition of both arms; as one four-bar they have two cranks, and their ends one coupler."""
+    at, note = (
+        "2, results",
+        "ground of the four-bar of both arms, |a0 - a0'| of the right ones; the linkage closes in all poses",
+    )
+    return (
+        _claim("a0'", "78.879", "mm", lambda: mechanism().ground, at, note),
+        _claim("a0', as used from section 4 on", "78.105", "mm", lambda: mechanism().ground, "4", note),
+        _claim(
+            "a1'",
+            "65.426",
+            "mm",
+            lambda: None,
+            at,
+            "no such link: the first links of the arms, 17.166 and 37.525 mm, are crank and rocker",
+        ),
+        _claim("a2'", "15.688", "mm", lambda: mechanism().coupler, at, "coupler of the four-bar of both right arms"),
+    )

@@ -1,0 +1,122 @@
+"""The tufting paper: ranges, stroke, crank angles, times, and what is said of torques and forces."""
+
+from functools import cache, partial
+
+from scipy.optimize import brentq
+
+from ilmek.machines.tufting import Tufting, TuftingParams, design
+from ilmek.units import deg, mm, rpm, turn
+from ilmek.verification import tufting_equations
+from ilmek.verification.claim import Claim
+
+TEXT = "Dynamic analysis"
+_claim = partial(Claim, "tufting")
+
+
+def claims() -> tuple[Claim, ...]:
+    """Everything that the paper prints and a computation can reach."""
+    return (*tufting_equations.claims(), *_ranges(), *_needle(), *_times(), *_torques(), *_unsettled())
+
+
+@cache
+def _made(**settings: str) -> Tufting:
+    return design(TuftingParams.read(settings))
+
+
+def _ranges() -> tuple[Claim, ...]:
+    """Angles of the links over a turn."""
+    printed = {"2": ("101.7", "114.3"), "3": ("184.3", "199.4"), "4": ("-7.89", "7.38"), "5": ("257.9", "258.5")}
+    note = {("4", 0): "θ3 - 192° = -7.68°; the paper's own 184.3° gives -7.7°"}
+
+    def end(link: str, place: int) -> float:
+        return _made().ranges[f"theta{link}"][place] / deg
+
+    return tuple(
+        _claim(f"{side} θ{link}", text, "deg", partial(end, link, place), f"{TEXT}, Fig 7", note.get((link, place), ""))
+        for link, texts in printed.items()
+        for place, (side, text) in enumerate(zip(("least", "greatest"), texts, strict=True))
+    )
+
+
+def _needle() -> tuple[Claim, ...]:
+    """The needle's way; the backing lies where 22° and 194° have it, at half of the stroke."""
+    flat = "off by a degree, within which the needle moves 3 µm: crank and coupler are in line at the computed angle"
+    return (
+        _claim("stroke of the needle, 'about'", "33", "mm", lambda: _made().stroke / mm, TEXT),
+        _claim("crank angle of the lowest point", "108", "deg", lambda: _made().lowest / deg, TEXT, flat),
+        _claim("crank angle of the highest point", "287", "deg", lambda: _made().highest / deg, TEXT, flat),
+        _claim("entry, at half of the stroke", "22", "deg", partial(_half_way, 5, 60), TEXT),
+        _claim("exit, at half of the stroke", "194", "deg", partial(_half_way, 150, 230), TEXT),
+    )
+
+
+def _half_way(low: float, high: float) -> float:
+    """Crank angle [deg] between two at which the needle is half its stroke above its lowest point."""
+    found = _made()
+    return float(brentq(lambda at: found.height(at) - found.stroke / 2, low * deg, high * deg, xtol=1e-12)) / deg
+
+
+def _times() -> tuple[Claim, ...]:
+    """Experiment: one turn at 160 rpm, which begins 0.375 s before 14.375 s."""
+    period = turn / (160 * rpm)
+
+    def at(angle: float) -> float:
+        return 14.375 - period + angle * deg / (160 * rpm)
+
+    times = {"22": "14.02", "108": "14.11", "194": "14.20", "287": "14.30"}
+    return (
+        _claim("time of a turn", "0.375", "s", lambda: period, "Experiment"),
+        *(
+            _claim(f"time of {angle}°", text, "s", partial(at, float(angle)), "Experiment, Fig 9")
+            for angle, text in times.items()
+        ),
+    )
+
+
+def _torques() -> tuple[Claim, ...]:
+    """Driven shaft against main shaft: peaks, with all loads and of inertia alone."""
+    still = {"gravity": "0m/s^2", "friction_force": "0N"}
+
+    def ratio(over: str, under: str, settings: dict[str, str]) -> float:
+        peaks = _made(**settings).peaks
+        return peaks[over].value / peaks[under].value
+
+    torques = "driven_torque", "main_torque"
+    return (
+        _claim("torque of driven shaft by main shaft, 'far greater'", "> 1", "", partial(ratio, *torques, {}), TEXT),
+        _claim(
+            "inertia torque of driven shaft by main shaft", "> 1", "", partial(ratio, *torques, still), "Conclusions"
+        ),
+        _claim(
+            "inertia force on driven shaft by main shaft",
+            "> 1",
+            "",
+            partial(ratio, "C", "O", still),
+            "Conclusions",
+            "at 160 rpm inertia alone loads the main shaft's bearing more: 47 N against 30 N",
+        ),
+    )
+
+
+def _unsettled() -> tuple[Claim, ...]:
+    drawn = "curves without numbers"
+    return (
+        _claim(
+            "where the friction of 1000 N acts",
+            "on and under the backing",
+            "N",
+            lambda: None,
+            TEXT,
+            "two readings, from entry to exit or always: ilmek design tufting has both, with the same peaks",
+        ),
+        _claim("velocity and acceleration of the needle", "curve", "m/s", lambda: None, "Fig 7", drawn),
+        _claim("forces in the joints", "curve", "N", lambda: None, "Fig 8", drawn),
+        _claim(
+            "measured torque",
+            "curve",
+            "N m",
+            lambda: None,
+            "Fig 9",
+            "no data; the friction force was chosen by experience",
+        ),
+    )
