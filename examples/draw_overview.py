@@ -43,7 +43,7 @@ def chart_pixels(chart: Chart) -> np.ndarray:
     """A corner of the chart, a grid between the knots."""
     colours = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)
     cell = 12
-    cells = colours[chart.knots[:84, :56]].repeat(cell, axis=0).repeat(cell, axis=1)
+    cells: np.ndarray = colours[chart.knots[:84, :56]].repeat(cell, axis=0).repeat(cell, axis=1)
     cells[::cell] = cells[:, ::cell] = 90
     cells[:: 10 * cell] = cells[:, :: 10 * cell] = 15
     return cells
