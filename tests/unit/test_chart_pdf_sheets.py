@@ -1,6 +1,7 @@
 """The printed chart, read back: pages, titles, legend, symbols, overlap."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -42,7 +43,7 @@ def test_pages_and_titles(tmp_path: Path) -> None:
     assert (plan.sheet_columns, plan.sheet_rows, plan.count) == (40, 70, 4)
     assert len(reader.pages) == 2 + 4
     assert "Knot chart: seccade" in text_of(reader, 0)
-    assert "70 knots × 130 rows = 9100 knots in 5 colours on 4 sheets" in text_of(reader, 0)
+    assert "70 knots × 130 rows = 9\u202f100 knots in 5 colours on 4 sheets" in text_of(reader, 0)
     titles = [text_of(reader, page) for page in range(2, 6)]
     for number, title in enumerate(
         ("rows 1–70, knots 1–40", "rows 1–70, knots 41–70", "rows 71–130, knots 1–40", "rows 71–130, knots 41–70"), 1
@@ -62,8 +63,27 @@ def test_legend_counts_are_the_charts(tmp_path: Path) -> None:
     reader = written(tmp_path, made)
     legend = text_of(reader, 1) + "\n" + text_of(reader, 2)
     for place, count in enumerate(made.counts):
-        assert re.search(rf"{count} {100 * count / 3600:.1f} %\s+yarn-{place}\b", legend), place
+        assert re.search(rf"\n{100 * count / 3600:.1f} %\n{count}\s+yarn-{place}\b", legend), place
     assert len(reader.pages) == 1 + 2 + chart_cut(made).count
+
+
+def test_long_names_keep_their_ends(tmp_path: Path) -> None:
+    made = chart(20, 20, 80)
+    names = [f"a name of {'very ' * 30}many words, the {place}th" for place in range(80)]
+    named = replace(made, yarns=tuple(replace(yarn, name=name) for yarn, name in zip(made.yarns, names, strict=True)))
+    legend = text_of(written(tmp_path, named), 1)
+    assert all(f"the {place}th" in legend for place in range(40))
+    assert "…" in legend
+    assert "< 0.1 %" not in legend
+
+
+def test_a_yarn_of_few_knots_has_a_share(tmp_path: Path) -> None:
+    made = chart(60, 60, 2)
+    knots = np.zeros_like(made.knots)
+    knots[0, 0] = 1
+    legend = text_of(written(tmp_path, replace(made, knots=knots)), 1)
+    assert "< 0.1 %" in legend
+    assert "100.0 %" in legend
 
 
 def test_legend_leaves_out_yarns_without_knots(tmp_path: Path) -> None:

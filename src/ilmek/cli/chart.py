@@ -87,8 +87,13 @@ def pile_in_words(charted: Charted) -> str:
 def show_yarn(bill: YarnBill) -> None:
     """The yarn bill as a table."""
     rows = [
-        (need.name, need.use, f"{need.knots:,}" if need.knots else "", f"{need.length:,.0f}", f"{need.mass / g:,.0f}",
+        (need.name, need.use, f"{need.knots:,}" if need.knots else "", _amount(need.length), _amount(need.mass / g),
          "" if need.price is None else f"{need.price:,.2f}")
         for need in bill.needs
     ]  # fmt: skip
     show_table(("yarn", "use", "knots", "metres", "grams", "price"), rows, right=(2, 3, 4, 5))
+
+
+def _amount(value: float) -> str:
+    """A whole number, or one decimal below 10."""
+    return f"{value:,.{0 if value >= 10 else 1}f}"

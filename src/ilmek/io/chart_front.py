@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 from PIL import Image
-from reportlab.lib.utils import ImageReader
+from reportlab.lib.utils import ImageReader, simpleSplit
 
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart_grid import Inks
@@ -16,6 +16,8 @@ _LEFT, _TOP, _WIDTH, _HEIGHT = 54.0, 800.0, 487.0, 620.0
 _GREY = (0.36, 0.40, 0.44)
 _LINE, _LINES = 19.0, 36
 """Height of a legend entry [pt], and how many stand in a column; two columns a page."""
+_SMALL = 6.5
+"""Size of a long name's letters [pt]."""
 
 
 def draw_overview(canvas: Any, chart: Chart, plan: Cut, name: str) -> None:
@@ -43,12 +45,19 @@ def _facts(chart: Chart, plan: Cut) -> tuple[str, ...]:
     size, quality = chart.size, chart.quality
     lengths = f"{format_number(size.width * 100)} × {format_number(size.length * 100)} cm (width × length)"
     density = f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} knots per dm"
-    knots = f"{chart.columns} knots × {chart.rows} rows = {chart.knots.size} knots in {chart.colours} colours"
+    knots = f"{chart.columns} knots × {chart.rows} rows = {_count(chart.knots.size)} knots in {chart.colours} colours"
+    sheets = f" on {_count(plan.count)} sheets of {plan.sheet_columns} knots × {plan.sheet_rows} rows"
+    counted = "Rows are counted from the bottom, knots from the left."
     return (
         f"{lengths}, {density}, {chart.knot} knots",
-        f"{knots} on {plan.count} sheets of {plan.sheet_columns} knots × {plan.sheet_rows} rows",
-        "Rows are counted from the bottom, knots from the left. Shaded knots belong to the next sheet.",
+        knots + (sheets if plan.count > 1 else " on one sheet"),
+        counted + (" Shaded knots belong to the next sheet." if plan.count > 1 else ""),
     )
+
+
+def _count(number: int) -> str:
+    """A whole number with its thousands apart."""
+    return f"{number:,}".replace(",", "\u202f")
 
 
 def _thumbnail(chart: Chart) -> Image.Image:
@@ -87,7 +96,7 @@ def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
     for first in range(0, len(used), 2 * _LINES):
         canvas.setFillColorRGB(0.1, 0.1, 0.1)
         canvas.setFont(STRONG, 13)
-        canvas.drawString(_LEFT, _TOP, f"Legend: {len(used)} colours, {chart.knots.size} knots")
+        canvas.drawString(_LEFT, _TOP, f"Legend: {len(used)} colours, {_count(chart.knots.size)} knots")
         columns = 1 if len(used) <= _LINES else 2
         for line, place in enumerate(used[first : first + 2 * _LINES]):
             column, down = divmod(line, _LINES)
@@ -110,16 +119,29 @@ def _entry(canvas: Any, chart: Chart, inks: Inks, place: int, box: tuple[float, 
     canvas.drawCentredString(x + 38.0, y, inks.symbols[place])
     canvas.setFont(TEXT, 9)
     count = chart.counts[place]
-    right = f"{count}   {100 * count / chart.knots.size:.1f} %"
-    canvas.drawRightString(x + width, y, right)
-    room = width - 62.0 - canvas.stringWidth(right, TEXT, 9)
-    canvas.drawString(x + 52.0, y, _fitted(canvas, chart.yarns[place].name, room))
+    share = 100 * count / chart.knots.size
+    canvas.drawRightString(x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")
+    counted = _count(count)
+    canvas.drawRightString(x + width - 44.0, y, counted)
+    _write_name(canvas, chart.yarns[place].name, (x + 52.0, y), width - 106.0 - canvas.stringWidth(counted, TEXT, 9))
+
+
+def _write_name(canvas: Any, name: str, at: tuple[float, float], room: float) -> None:
+    """A name in one line, or smaller in two."""
+    x, y = at
+    if canvas.stringWidth(name, TEXT, 9) <= room:
+        canvas.drawString(x, y, name)
+        return
+    first, *more = simpleSplit(name, TEXT, _SMALL, room)
+    canvas.setFont(TEXT, _SMALL)
+    canvas.drawString(x, y + 4.0 if more else y, _fitted(canvas, first, room))
+    canvas.drawString(x, y - 3.5, _fitted(canvas, " ".join(more), room))
 
 
 def _fitted(canvas: Any, text: str, room: float) -> str:
-    """The text, cut with an ellipsis where it is too long."""
-    if canvas.stringWidth(text, TEXT, 9) <= room:
-        return text
-    while text and canvas.stringWidth(text + "…", TEXT, 9) > room:
-        text = text[:-1]
-    return text + "…"
+    """The text in small letters, its middle cut out where it is too long: names often differ at the end."""
+    half = len(text) // 2
+    head, tail = text[:half], text[half:]
+    while canvas.stringWidth(shown := f"{head}…{tail}" if len(head + tail) < len(text) else text, TEXT, _SMALL) > room:
+        head, tail = head[:-1], tail[1:]
+    return shown

@@ -102,8 +102,9 @@ def _fit(rgb: Rgb, chart: Chart) -> tuple[str, ...]:
     stretch = distortion(rgb, chart.size)
     notes = []
     if abs(stretch) > LARGEST_DISTORTION:
-        wider = f"{abs(stretch):.0%} {'wider' if stretch > 0 else 'narrower'}"
-        notes.append(f"the picture ({width} x {height} pixels) is drawn {wider} to fill {chart.size}")
+        wider = f"{1 + stretch:.3g} times as wide as it is" if stretch >= 1 else f"{stretch:.0%} wider"
+        drawn = wider if stretch > 0 else f"{-stretch:.0%} narrower"
+        notes.append(f"the picture ({width} x {height} pixels) is drawn {drawn} to fill {chart.size}")
     if width < chart.columns or height < chart.rows:
         knots = f"{chart.columns} x {chart.rows} knots"
         notes.append(

@@ -19,7 +19,7 @@ from ilmek.report import Check, Figure, Report, Timing
 from ilmek.viz.page_parts import Fact, FileNote, carpet_facts, pictures, yarn_lines
 from ilmek.viz.style import shown_unit, with_unit
 from ilmek.viz.svg import svg
-from ilmek.viz.writing import cells, count, fixed, number, quantity, sign, words
+from ilmek.viz.writing import amount, cells, count, fixed, number, quantity, sign, words
 
 _TEMPLATES = Path(__file__).parent / "templates"
 
@@ -143,6 +143,7 @@ def _environment() -> Environment:
         "quantity": quantity,
         "count": count,
         "fixed": fixed,
+        "amount": amount,
         "words": words,
         "sign": sign,
         "cells": cells,

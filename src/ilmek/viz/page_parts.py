@@ -14,10 +14,14 @@ from ilmek.carpet.colour import LINEAR
 from ilmek.report import Check
 from ilmek.units import format_number
 from ilmek.viz.carpet_picture import carpet_picture, close_up
-from ilmek.viz.writing import count, fixed
+from ilmek.viz.writing import count, fixed, share
 
 _LARGEST = 1600
 """Pixels along the longer side of the chart's picture on the page, at most."""
+
+
+_TALLEST = 960
+"""Height of a picture on the page [px], at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +56,11 @@ class Picture:
     wide: bool = False
     times: float = 1.0
 
+    @property
+    def widest(self) -> int:
+        """Greatest width on the page [px]: a runner is not to be taller than a screen."""
+        return max(1, round(_TALLEST * self.width / self.height))
+
 
 @dataclass(frozen=True, slots=True)
 class YarnLine:
@@ -78,13 +87,17 @@ def carpet_facts(chart: Chart, bill: YarnBill, more: Sequence[Fact], checks: Seq
             f"{chart.knot} knot",
         ),
         Fact("Colours", str(chart.colours), f"mean ΔE {chart.mean_delta_e:.1f} to the picture"),
-        Fact("Yarn", f"{fixed(bill.mass, 1, 2)} kg", f"pile {fixed(bill.pile_mass, 1, 2)} kg"),
+        Fact("Yarn", f"{fixed(bill.mass, 1, 2)} kg", _pile(bill.pile_mass, size.area)),
         *more,
     ]
     if checks:
         mood, note = ("bad", f"{held} of {len(checks)} hold") if failed else ("good", "none fails")
         facts.append(Fact("Checks", f"{failed} failed" if failed else f"{held} passed", note, mood))
     return facts
+
+
+def _pile(mass: float, area: float) -> str:
+    return f"pile {fixed(mass, 1, 2)} kg, {fixed(mass / area, 1, 2)} kg/m²"
 
 
 def _cm(length: float) -> str:
@@ -141,7 +154,7 @@ def yarn_lines(chart: Chart, bill: YarnBill, symbols: str) -> list[YarnLine]:
         srgb = chart.yarns[place].srgb
         light = float(LINEAR[list(srgb)] @ np.array([0.2126, 0.7152, 0.0722]))
         letter = "#ffffff" if light < 0.179 else "#000000"
-        share = f"{100 * need.knots / chart.knots.size:.1f} %"
         symbol = symbols[place] if place < len(symbols) else ""
-        lines.append(YarnLine(need, symbol, "#{:02x}{:02x}{:02x}".format(*srgb), letter, share))
+        colour, of_all = "#{:02x}{:02x}{:02x}".format(*srgb), share(need.knots, int(chart.knots.size))
+        lines.append(YarnLine(need, symbol, colour, letter, of_all))
     return lines + [YarnLine(need, "", "", "", "") for need in bill.ground]

@@ -98,6 +98,24 @@ def fixed(value: float, factor: float, decimals: int) -> str:
     return f"{value / factor:,.{decimals}f}".replace(",", NARROW_SPACE).translate(_MINUS)
 
 
+def amount(value: float, factor: float) -> str:
+    """The value divided by a factor: whole, or with one decimal below 10, where nothing is a dash.
+
+    >>> amount(0.1234, 0.001), amount(0.0024, 0.001), amount(0.0, 1.0)
+    ('123', '2.4', '–')
+    """
+    return fixed(value, factor, 0 if value >= 10 * factor else 1) if value else "–"
+
+
+def share(part: int, whole: int) -> str:
+    """A part of a whole in per cent; one that is there is never 0.
+
+    >>> share(1, 3), share(1, 5000)
+    ('33.3 %', '< 0.1 %')
+    """
+    return "< 0.1 %" if 0 < part / whole < 0.0005 else f"{100 * part / whole:.1f} %"
+
+
 def words(name: str) -> str:
     """A name of the programme as words.
 
