@@ -5,6 +5,7 @@ import difflib
 from ilmek.errors import ParameterError
 from ilmek.machines.automated_loom import MACHINE as AUTOMATED_LOOM
 from ilmek.machines.beat_up import MACHINE as BEAT_UP
+from ilmek.machines.knotting_four_bar import MACHINE as KNOTTING_FOUR_BAR
 from ilmek.machines.machine import Machine
 from ilmek.machines.shedding import MACHINE as SHEDDING
 from ilmek.machines.tufting import MACHINE as TUFTING
@@ -12,7 +13,8 @@ from ilmek.machines.warp_tension import MACHINE as WARP_TENSION
 from ilmek.machines.weaver import MACHINE as WEAVER
 
 MACHINES: dict[str, Machine] = {
-    machine.name: machine for machine in (AUTOMATED_LOOM, WEAVER, BEAT_UP, SHEDDING, WARP_TENSION, TUFTING)
+    machine.name: machine
+    for machine in (AUTOMATED_LOOM, WEAVER, BEAT_UP, SHEDDING, WARP_TENSION, TUFTING, KNOTTING_FOUR_BAR)
 }
 """Every machine by its name, in the order of the catalogue."""
 

@@ -1,0 +1,23 @@
+"""The planar knotting four-bar: a crank swings a coupler whose end, the hand, carries holder and gripper.
+
+After the student report "Planar knotting mechanisms for Turkish hand woven carpet" (ME 332), whose model has a freedom
+too many: it chooses both crank and coupler angle. Here the coupler follows from the crank, and the ground link points
+as closure at the stated pose demands, to 74.34 deg; with the report's -95 deg the loop misses by 155.5 mm. That pose is
+0.0107 deg from a dead point, and the report's r3 is a difference of two separate links, which means nothing: `instead`
+is the four-bar of both arms of its own synthesis.
+"""
+
+from ilmek.machines.knotting_four_bar.design import KnottingFourBar, design
+from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
+from ilmek.machines.knotting_four_bar.report import report
+from ilmek.machines.machine import Machine
+
+__all__ = ["MACHINE", "KnottingFourBar", "KnottingFourBarParams", "design", "report"]
+
+MACHINE = Machine(
+    name="knotting-four-bar",
+    summary="four-bar with a gripper on its coupler, to tie knots: motion, forces, servo, and the one to use instead",
+    params=KnottingFourBarParams,
+    design=design,
+    report=report,
+)

@@ -1,0 +1,131 @@
+"""The knotting four-bar's figures: to scale at its pose, the one to use instead, and curves over the crank's range."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.dynamics.attached import attached
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.quality import transmission_angle
+from ilmek.linkage.solve import solve
+from ilmek.machines.knotting_four_bar.design import KnottingFourBar
+from ilmek.machines.knotting_four_bar.instead import POINTS
+from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
+from ilmek.units import format_quantity, turn
+
+PLACES = (("ground", "O1'"), ("crank", "O2"), ("coupler", "O2'"), ("coupler", "H"))
+
+
+def figures(design: KnottingFourBar) -> tuple[Figure, ...]:
+    """Two drawings and four plots."""
+    plots = (angles, transmission, torque, pins)
+    return (drawing(design), replacement(design), *(plot(design) for plot in plots))
+
+
+def drawing(design: KnottingFourBar) -> Drawing:
+    """The mechanism to scale at the crank angle asked for, and the path of its hand."""
+    pose = {point: complex(places[0]) for point, places in _places(design.at.motion).items()}
+    path = _path(design)
+    strokes = (Stroke(path, "path", "path of the hand"), *_links(pose, _said(design)))
+    note = f"At {format_quantity(design.params.crank_angle, 'deg')} of the crank"
+    if np.isfinite(design.dead_point_distance):
+        note += f", {format_quantity(design.dead_point_distance, 'deg')} from a dead point"
+    return Drawing("knotting-four-bar", "Knotting four-bar to scale", strokes, _dots(pose), note=f"{note}.")
+
+
+def _path(design: KnottingFourBar) -> ComplexArray:
+    """Path of the hand over the whole range, to the dead points."""
+    start, end = design.range or (0.0, turn)
+    path = _places(solve(design.plan, np.linspace(start, end, 721)))["H"]
+    closed: ComplexArray = path[np.isfinite(path)]
+    return closed
+
+
+def replacement(design: KnottingFourBar) -> Drawing:
+    """The four-bar of both arms at its first pose, the others dashed, in the frame of the poses."""
+    instead = design.instead
+    moved = _places(instead.state.motion, instead.origin)
+    poses = [
+        {"O1": instead.origin, **{point: complex(places[at]) for point, places in moved.items()}} for at in range(3)
+    ]
+    others = [
+        Stroke(np.array([pose[name] for name in ("O1", "O2", "H", "O2'", "O1'")]), "construction") for pose in poses[1:]
+    ]
+    made = instead.params
+    lengths = (("ground", made.ground), ("crank", made.crank), ("coupler", made.coupler), ("rocker", made.rocker))
+    said = {name: f"{name} {format_quantity(length, 'mm')}" for name, length in lengths}
+    dots = (*_dots(poses[0]), *(Dot(complex(POINTS[at]), f"pose {at + 1}", "point") for at in (1, 2)))
+    title = "Four-bar through the report's three poses, to scale"
+    note = "Both arms of the three poses side by side; at the first pose, the others dashed."
+    return Drawing("knotting-four-bar-instead", title, (*others, *_links(poses[0], said)), dots, note=note)
+
+
+def _places(motion: Motion, origin: complex = 0j) -> dict[str, ComplexArray]:
+    """All points over the samples [m], the pivot O1 at `origin`."""
+    local = motion.plan.mechanism.point
+    return {point: np.asarray(origin + attached(motion, body, local(body, point)).position) for body, point in PLACES}
+
+
+def _said(design: KnottingFourBar) -> dict[str, str]:
+    names = ("ground", "crank", "coupler", "rocker")
+    return {name: f"{name} {format_quantity(getattr(design.params, name), 'mm')}" for name in names}
+
+
+def _links(pose: Mapping[str, complex], said: Mapping[str, str]) -> tuple[Stroke, ...]:
+    O1 = pose.get("O1", 0j)
+    return (
+        Stroke(np.array([O1, pose["O1'"]]), "ground", said["ground"]),
+        Stroke(np.array([pose["O1'"], pose["O2'"]]), "link", said["rocker"]),
+        Stroke(np.array([pose["O2"], pose["O2'"]]), "link", said["coupler"]),
+        Stroke(np.array([O1, pose["O2"]]), "link", said["crank"]),
+        Stroke(np.array([pose["O2"], pose["H"]]), "outline"),
+    )
+
+
+def _dots(pose: Mapping[str, complex]) -> tuple[Dot, ...]:
+    return (
+        Dot(pose.get("O1", 0j), "O1", "pivot"),
+        Dot(pose["O1'"], "O1'", "pivot"),
+        Dot(pose["O2"], "O2"),
+        Dot(pose["O2'"], "O2'"),
+        Dot(pose["H"], "H, hand", "point"),
+    )
+
+
+def angles(design: KnottingFourBar) -> Plot:
+    """Angles of coupler and rocker."""
+    motion = design.course.motion
+    curves = {"coupler": motion.angle("coupler"), "rocker": motion.angle("rocker")}
+    return _plot(design, "knotting-angles", "Angles of coupler and rocker", Axis("angle", "deg"), curves)
+
+
+def transmission(design: KnottingFourBar) -> Plot:
+    """Acute angle between coupler and rocker."""
+    angle = transmission_angle(design.course.motion, "O2'")
+    curves = {"acute angle between coupler and rocker": np.minimum(angle, np.pi - angle)}
+    return _plot(design, "knotting-transmission", "Transmission angle", Axis("angle", "deg"), curves)
+
+
+def torque(design: KnottingFourBar) -> Plot:
+    """Torque of the drive on the crank."""
+    curves = {"drive": design.course.torque}
+    return _plot(design, "knotting-drive-torque", "Torque of the drive on the crank", Axis("torque", "N*m"), curves)
+
+
+def pins(design: KnottingFourBar) -> Plot:
+    """Sizes of the forces in the pins."""
+    curves = {pin: np.abs(force) for pin, force in design.course.pins.items()}
+    return _plot(design, "knotting-pin-forces", "Forces in the pins", Axis("force", "N"), curves)
+
+
+def _plot(design: KnottingFourBar, name: str, title: str, y: Axis, curves: Mapping[str, FloatArray]) -> Plot:
+    series = tuple(
+        Series(said, design.course.angle, values, dashed=place > 0 and len(curves) == 2)
+        for place, (said, values) in enumerate(curves.items())
+    )
+    asked = design.params.crank_angle
+    inside = design.course.angle[0] <= asked <= design.course.angle[-1]
+    marks = (Mark(asked, "asked for"),) if inside else ()
+    note = "Without the edges at the dead points." if design.range else ""
+    return Plot(name, title, Axis("crank angle", "deg"), y, series, marks, note=note)

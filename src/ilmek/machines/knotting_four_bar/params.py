@@ -1,0 +1,77 @@
+"""What may be asked of a knotting four-bar."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from ilmek.errors import ParameterError
+from ilmek.params import Params, param
+from ilmek.units import deg, mm, turn
+
+SMALL, LARGE = 1e-4, 5.0
+"""Lengths that are taken for meant [m]."""
+
+
+def _length(default: float, doc: str, alias: str = "") -> Any:
+    return param(default, unit="mm", at_least=SMALL, at_most=LARGE, doc=doc, symbol=alias, alias=alias)
+
+
+@dataclass(frozen=True, slots=True)
+class KnottingFourBarParams(Params):
+    """What may be asked of a knotting four-bar; the defaults are the report's, the aliases its symbols."""
+
+    ground: float = _length(78.105 * mm, "distance of the pivots O1 and O1'", "r0")
+    crank: float = _length(82.345 * mm, "driven link, O1 to O2", "r1")
+    coupler: float = _length(15.688 * mm, "coupler between its pins, O2 to O2'", "r2")
+    rocker: float = _length(65.426 * mm, "link O1' to O2'", "r3")
+    ground_angle: float | None = param(
+        None,
+        unit="deg",
+        at_least=-turn,
+        at_most=turn,
+        doc="direction from O1 to O1'; unsaid: as it must be for the loop to close at the stated pose",
+        symbol="θg",
+    )
+    stated_crank_angle: float = param(
+        135 * deg, unit="deg", at_least=-turn, at_most=turn, doc="crank angle of the stated pose"
+    )
+    stated_coupler_angle: float = param(
+        10 * deg, unit="deg", at_least=-turn, at_most=turn, doc="coupler angle of the stated pose"
+    )
+    branch: int = param(-1, at_least=-1, at_most=1, doc="+1: pin O2' on the left of the line O2-O1', -1: on the right")
+    crank_angle: float = param(
+        135 * deg, unit="deg", at_least=-2 * turn, at_most=2 * turn, doc="crank angle to report", symbol="θ1"
+    )
+    speed: float = param(1.0, unit="rad/s", at_least=-1e4, at_most=1e4, doc="speed of the crank", symbol="ω1")
+    acceleration: float = param(
+        0.0, unit="rad/s^2", at_least=-1e7, at_most=1e7, doc="angular acceleration of the crank", symbol="α1"
+    )
+    hand: float = param(
+        32.637 * mm,
+        unit="mm",
+        at_least=-LARGE,
+        at_most=LARGE,
+        doc="gripping point on the coupler, from O2 towards O2'; below 0: on the other side of O2",
+        symbol="a2",
+        alias="a2",
+    )
+    grip_force: float = param(15.0, unit="N", at_least=0.0, at_most=1e5, doc="force of the yarn on the gripping point")
+    grip_angle: float = param(
+        90 * deg, unit="deg", at_least=-turn, at_most=turn, doc="direction of the force of the yarn, from x"
+    )
+    density: float = param(
+        1415.9, unit="kg/m^3", above=0.0, at_most=1e5, doc="density of all parts; acetal", symbol="ρ"
+    )
+    width: float = _length(6 * mm, "width of the links, in the plane of motion")
+    thickness: float = _length(5 * mm, "thickness of links, holder and gripper")
+    holder_length: float = _length(2 * mm, "holder beyond the coupler's end, along it")
+    holder_width: float = _length(8 * mm, "holder, across the coupler")
+    gripper_length: float = _length(5 * mm, "gripper beyond the holder, along the coupler")
+    gripper_width: float = _length(4 * mm, "both jaws of the gripper, across the coupler")
+    gravity: float = param(9.81, unit="m/s^2", at_least=0.0, at_most=1e3, doc="free fall, towards -y", symbol="g")
+    gear_ratio: float = param(1.0, above=0.0, at_most=1e4, doc="turns of the servo for one of the crank")
+    gear_efficiency: float = param(0.9, above=0.0, at_most=1.0, doc="efficiency of the gears", symbol="η")
+
+    def check_together(self) -> None:
+        """A branch has a side."""
+        if self.branch == 0:
+            raise ParameterError("branch=0 is no side", allowed="+1: O2' left of the line O2-O1', -1: right")
