@@ -124,7 +124,7 @@ def test_a_printed_equation_is_a_misprint_only_where_the_mended_one_holds() -> N
 
 @pytest.mark.parametrize(
     ("printed", "value", "shown"),
-    [("0.2340", 0.23392952, "0.233930"), ("32", 33, "33.00"), ("4.073e-5", 4.80377e-5, "4.80377e-05")],
+    [("0.2340", 0.23392952, "0.233930"), ("32", 33, "33.00"), ("4.073e-5", 4.80377e-5, "4.80377e-5")],
 )
 def test_computed_numbers_are_shown_with_two_digits_more(printed: str, value: float, shown: str) -> None:
     assert computed_text(judge(claim(printed, value))) == shown

@@ -5,7 +5,17 @@ A paper is one entry of `PAPERS`: the function that lists its claims. Nothing is
 
 from collections.abc import Callable, Iterable
 
-from ilmek.verification import beat_up, knotting_synthesis, thesis_cams, thesis_dyad, thesis_loom, tufting
+from ilmek.verification import (
+    beat_up,
+    knotting_forces,
+    knotting_masses,
+    knotting_pose,
+    knotting_synthesis,
+    thesis_cams,
+    thesis_dyad,
+    thesis_loom,
+    tufting,
+)
 from ilmek.verification.claim import VERDICTS, Claim, Verdict, judge
 
 __all__ = ["PAPERS", "TITLES", "VERDICTS", "Claim", "Verdict", "reproduce"]
@@ -14,7 +24,12 @@ PAPERS: dict[str, Callable[[], tuple[Claim, ...]]] = {
     "beat-up": beat_up.claims,
     "thesis": lambda: (*thesis_dyad.claims(), *thesis_cams.claims(), *thesis_loom.claims()),
     "tufting": tufting.claims,
-    "knotting": knotting_synthesis.claims,
+    "knotting": lambda: (
+        *knotting_synthesis.claims(),
+        *knotting_pose.claims(),
+        *knotting_masses.claims(),
+        *knotting_forces.claims(),
+    ),
 }
 """The claims of each paper, by the name it has here."""
 

@@ -18,9 +18,9 @@ def computed_text(verdict: Verdict) -> str:
     if claim.unit == COUNT:
         return f"{value:g}"
     exponent = int(read_printed(claim.printed)[1].as_tuple().exponent)
-    if "e" in claim.printed:
-        mantissa = claim.printed.partition("e")[0]
-        return f"{value:.{len(mantissa.partition('.')[2]) + MORE_DIGITS}e}"
+    mantissa, power, ten = claim.printed.partition("e")
+    if power:
+        return f"{value / float(f'1e{ten}'):.{len(mantissa.partition('.')[2]) + MORE_DIGITS}f}e{ten}"
     return f"{value:.{max(0, -exponent) + MORE_DIGITS}f}"
 
 

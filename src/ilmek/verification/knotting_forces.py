@@ -1,0 +1,65 @@
+"""Knotting report, section 5: joint forces and drive torque, at rest and what w1² multiplies, against the machine.
+
+The report's signs, as its Fig 5 has them: F2' = (x, -y) on link 2, F2 = (-x, -y) on link 2, F1' = (x, y) on link 3,
+F1 = (-x, y) on link 1.
+"""
+
+from collections.abc import Callable
+from functools import partial
+
+from ilmek.machines.knotting_four_bar.model import State
+from ilmek.units import mm
+from ilmek.verification.claim import Claim
+from ilmek.verification.knotting_pose import quoted, vector
+
+_claim = partial(Claim, "knotting")
+
+
+def claims() -> tuple[Claim, ...]:
+    """The forces, joint by joint, and the torque."""
+    note = (
+        "mN added to N, +F2'y for -F2'y in the moment of link 2, m2 a_G2 left out of it, and the wrong α2; "
+        "the pose is at a dead point, where any load asks for large forces"
+    )
+
+    def joint(pin: str, sign: complex) -> Callable[[State], complex]:
+        def turned(state: State) -> complex:
+            force = complex(state.pins[pin][0])
+            return complex(sign.real * force.real, sign.imag * force.imag)
+
+        return turned
+
+    signs = {"F2'": ("O2'", 1 - 1j), "F2": ("O2", -1 - 1j), "F1'": ("O1'", 1 + 1j), "F1": ("O1", -1 + 1j)}
+    static = {"F2'": ("78.34", "-17.4"), "F2": ("78.34", "32.4"), "F1'": ("-78.34", "17.4"), "F1": ("78.34", "-32.36")}
+    moving = {
+        "F2'": ("7888.8", "1378.7"),
+        "F2": ("7851.37", "394.43"),
+        "F1'": ("6606.2", "4624.2"),
+        "F1": ("7851.27", "-394.53"),
+    }
+    at = "5, forces"
+
+    def rest(of: Callable[[State], complex]) -> complex:
+        return of(quoted().static)
+
+    def swing(of: Callable[[State], complex]) -> complex:
+        return of(quoted().unit) - of(quoted().static)
+
+    def torque(state: State) -> complex:
+        return complex(state.torque[0]) / mm
+
+    joints = {name: joint(pin, sign) for name, (pin, sign) in signs.items()}
+    return (
+        *(
+            c
+            for name, of in joints.items()
+            for c in vector(f"{name} at rest", static[name], "N", partial(rest, of), at, note=note)
+        ),
+        *(
+            c
+            for name, of in joints.items()
+            for c in vector(f"{name} by ω1²", moving[name], "N s²", partial(swing, of), at, note=note)
+        ),
+        _claim("M1 at rest", "6448.4", "N mm", lambda: rest(torque).real, at, note),
+        _claim("M1 by ω1²", "484714.7", "N mm s²", lambda: swing(torque).real, at, note),
+    )
