@@ -2,6 +2,7 @@
 
 import errno
 import importlib
+import json
 import os
 import signal
 import subprocess
@@ -129,6 +130,26 @@ def test_a_reader_that_goes_away_is_no_traceback() -> None:
         os.close(write)
     assert shown.returncode == 1
     assert shown.stderr == ""
+
+
+@pytest.mark.parametrize("closed", [(1,), (2,), (0, 1, 2)])
+def test_closed_streams_are_no_traceback(tmp_path: Path, closed: tuple[int, ...]) -> None:
+    shut = "".join(f"os.close({number});" for number in closed)
+    start = (
+        f"import os, sys; {shut} os.execv(sys.executable, [sys.executable, '-m', 'ilmek', 'machines', '--json', 'a'])"
+    )
+    shown = subprocess.run([sys.executable, "-c", start], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert shown.returncode == 0
+    assert shown.stderr == ""
+    assert json.loads((tmp_path / "a").read_text())["machines"]
+
+
+def test_a_full_output_is_one_line() -> None:
+    with Path("/dev/full").open("w") as full:
+        command = [sys.executable, "-m", "ilmek", "machines"]
+        shown = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert shown.returncode == 2
+    assert shown.stderr == "ilmek: the output cannot be read or written: No space left on device\n"
 
 
 def test_a_terminal_without_the_signs_shows_question_marks() -> None:

@@ -77,6 +77,7 @@ class Frame(click.Group):
         run = partial(super().main, args, prog_name or "ilmek", standalone_mode=False, **settings)
         if not standalone_mode:
             return run()
+        _open_streams()
         _write_any_character()
         with _unwinding() as stopped:
             try:
@@ -90,7 +91,7 @@ class Frame(click.Group):
             except MemoryError:
                 _leave("out of memory; try a smaller picture, size or quality", 2)
             except OSError as error:
-                _leave(f"{error.filename or 'a file'} cannot be read or written: {error.strerror or error}", 2)
+                _leave(f"{error.filename or 'the output'} cannot be read or written: {error.strerror or error}", 2)
             except Exception:
                 # Ctrl-C inside a library's callback comes out as whatever error the library makes of it.
                 if not stopped:
@@ -130,6 +131,17 @@ def _leave(message: str, status: int) -> NoReturn:
             click.echo(err=True)  # behind the ^C that the terminal shows
         click.echo(f"ilmek: {' '.join(line.split())}", err=True)
     sys.exit(status)
+
+
+def _open_streams() -> None:
+    """Streams that were closed before the start (`>&-`) lead nowhere, lest a file of ours take their place."""
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            nowhere = os.open(os.devnull, os.O_RDWR)
+            if nowhere != number:  # for want of the number itself
+                os.dup2(nowhere, number)
+                os.close(nowhere)
+            setattr(sys, name, os.fdopen(number, "w" if number else "r", encoding="utf-8", closefd=False))
 
 
 def _write_any_character() -> None:
