@@ -17,4 +17,4 @@ html_static_path = ["_static"]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_docstring_signature = False
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "reference/generated/verdicts.md"]  # included by verification.md

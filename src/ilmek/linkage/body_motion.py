@@ -11,6 +11,26 @@ from dataclasses import dataclass
 from ilmek.arrays import ComplexField, RealField
 
 
+def carried_velocity(velocity: ComplexField, arm: ComplexField, omega: RealField) -> ComplexField:
+    """Velocity p' = a' + i w r [m/s] of a body's point at `arm` r [m] from one with the velocity a'.
+
+    >>> carried_velocity(1j, 2 + 0j, 3.0)
+    7j
+    """
+    return velocity + 1j * omega * arm
+
+
+def carried_acceleration(
+    acceleration: ComplexField, arm: ComplexField, omega: RealField, alpha: RealField
+) -> ComplexField:
+    """Acceleration p'' = a'' + (i alpha - w^2) r [m/s^2] of a body's point at `arm` r [m] from one with a''.
+
+    >>> carried_acceleration(1j, 2 + 0j, 3.0, 4.0)
+    (-18+9j)
+    """
+    return acceleration + (1j * alpha - omega * omega) * arm
+
+
 @dataclass(frozen=True, slots=True)
 class PointMotion:
     """A point's position [m], velocity [m/s] and acceleration [m/s^2]: complex, one value or one a sample."""
@@ -41,11 +61,10 @@ class BodyMotion:
 
     def reach(self, arm: ComplexField) -> PointMotion:
         """Motion of the body's point that stands at `arm` [m] from the anchor, in the world's directions."""
-        spin = 1j * self.omega
         return PointMotion(
             self.anchor.position + arm,
-            self.anchor.velocity + spin * arm,
-            self.anchor.acceleration + (1j * self.alpha - self.omega * self.omega) * arm,
+            carried_velocity(self.anchor.velocity, arm, self.omega),
+            carried_acceleration(self.anchor.acceleration, arm, self.omega, self.alpha),
         )
 
 

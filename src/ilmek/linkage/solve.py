@@ -40,7 +40,7 @@ def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Course
     Never fails for a sample: see `Motion.status` and `Motion.require`. Raises MechanismError for unknown or missing
     inputs, values that are not finite, and arrays that are empty or of different lengths.
     """
-    drives = _drives(plan, angle, speed, acceleration)
+    drives = drives_of(plan, angle, speed, acceleration)
     size = NEWTON_BLOCK if any(isinstance(step, Block) for step in plan.steps) else BLOCK
     samples = np.size(drives[plan.mechanism.inputs[0].name].value)
     status = np.zeros(samples, dtype=np.int8)
@@ -86,7 +86,8 @@ def _part(drive: Drive, part: slice) -> Drive:
     return Drive(*(value[part] if isinstance(value, np.ndarray) else value for value in fields))
 
 
-def _drives(plan: Plan, angle: Courses, speed: Courses, acceleration: Courses) -> dict[str, Drive]:
+def drives_of(plan: Plan, angle: Courses, speed: Courses, acceleration: Courses) -> dict[str, Drive]:
+    """The inputs' courses by name, checked, their values spread over the samples; for the errors see `solve`."""
     names = [entry.name for entry in plan.mechanism.inputs]
     values, speeds, accelerations = (
         _by_name(names, courses, what)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
-from ilmek.linkage.groups.shift import Track, refuse_parallel, track
+from ilmek.linkage.groups.shift import Track, refuse_parallel, slid_acceleration, slid_velocity, track
 from ilmek.linkage.model import Pin, Slide
 from ilmek.plane.vectors import cross, oblique
 
@@ -60,10 +60,10 @@ class CrossedSliders(Step):
         w, v = one.omega, two.omega
         r = Q.position - P.position
         s, z = oblique(r, e, f), -oblique(r, f, e)
-        r = Q.velocity + 1j * (v * z) * f - P.velocity - 1j * (w * s) * e
+        r = Q.velocity + slid_velocity(f, v, z, 0.0) - P.velocity - slid_velocity(e, w, s, 0.0)
         ds, dz = oblique(r, e, f), -oblique(r, f, e)
-        r = Q.acceleration + (1j * (two.alpha * z + 2 * v * dz) - v * v * z) * f
-        r = r - P.acceleration - (1j * (one.alpha * s + 2 * w * ds) - w * w * s) * e
+        r = Q.acceleration + slid_acceleration(f, v, two.alpha, z, dz, 0.0)
+        r = r - P.acceleration - slid_acceleration(e, w, one.alpha, s, ds, 0.0)
         columns = {self.sliders[0]: (s, ds, oblique(r, e, f)), self.sliders[1]: (z, dz, -oblique(r, f, e))}
         return Solved(columns, cross(e, f))
 

@@ -16,7 +16,7 @@ import numpy as np
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
-from ilmek.linkage.groups.shift import Track, track
+from ilmek.linkage.groups.shift import Track, slid_acceleration, slid_velocity, track
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin, Slide
 from ilmek.units import format_quantity
@@ -44,8 +44,7 @@ def turning(u: ComplexField, e: ComplexField) -> RealField:
 def link_rate(e: ComplexField, r: ComplexField, cosine: RealField) -> RealField:
     """Angular velocity wa [rad/s] of the link, from i wa u - s' e = r with cosine = u . e.
 
-    For velocities r = Q' + i w s e - A'; for accelerations r = Q'' + (i alpha - w^2) s e + 2 i w s' e - A'' + wa^2 u,
-    and the answers are alpha_a and s''.
+    For velocities r = Q' + i w s e - A'; for accelerations r is what `parting` gives, the answers are alpha_a and s''.
     >>> float(link_rate(1 + 0j, 8j, 4.0)), float(slider_rate(4 - 3j, 8j, 4.0))
     (2.0, 6.0)
     """
@@ -55,6 +54,16 @@ def link_rate(e: ComplexField, r: ComplexField, cosine: RealField) -> RealField:
 def slider_rate(u: ComplexField, r: ComplexField, cosine: RealField) -> RealField:
     """Speed s' [m/s] of the slider along its line, from i wa u - s' e = r with cosine = u . e; see `link_rate`."""
     return -(u.real * r.real + u.imag * r.imag) / cosine
+
+
+def parting(A2: ComplexField, C2: ComplexField, u: ComplexField, wa: RealField) -> ComplexField:
+    """What alpha_a and s'' must make good: r = C2 - (A'' - wa^2 u) [m/s^2]; see `link_rate`.
+
+    C2  acceleration of the slider's pin, were s'' = 0: Q'' + (i alpha - w^2) s e + 2 i w s' e
+    >>> parting(1 + 0j, 5 + 0j, 3j, 2.0)
+    (4+12j)
+    """
+    return C2 - (A2 - wa * wa * u)
 
 
 def shortness(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField) -> RealField:
@@ -118,9 +127,9 @@ class SliderDyad(Step):
         s = position(A.position, Q.position, e, self.a, self.branch)
         u = Q.position + s * e - A.position
         cosine = turning(u, e)
-        r = Q.velocity + 1j * (w * s) * e - A.velocity
+        r = Q.velocity + slid_velocity(e, w, s, 0.0) - A.velocity
         wa, ds = link_rate(e, r, cosine), slider_rate(u, r, cosine)
-        r = Q.acceleration + (1j * (alpha * s + 2 * w * ds) - w * w * s) * e - A.acceleration + wa * wa * u
+        r = parting(A.acceleration, Q.acceleration + slid_acceleration(e, w, alpha, s, ds, 0.0), u, wa)
         columns = {
             self.link: (u * (1 / self.arm), wa, link_rate(e, r, cosine)),
             self.slider: (s, ds, slider_rate(u, r, cosine)),

@@ -46,7 +46,7 @@ def turning(u: ComplexField, v: ComplexField) -> RealField:
 def first_rate(v: ComplexField, r: ComplexField, sine: RealField) -> RealField:
     """Angular velocity wa [rad/s] of the link on A, from i wa u - i wb v = r with sine = u x v.
 
-    For velocities r = B' - A'; for accelerations r = (B'' - wb^2 v) - (A'' - wa^2 u) and the answer is alpha_a.
+    For velocities r = B' - A'; for accelerations r is what `parting` gives and the answer is alpha_a.
     >>> float(first_rate(-4 + 3j, -2 + 0j, 12.0)), float(second_rate(3j, -2 + 0j, 12.0))
     (0.6666666666666666, 0.0)
     """
@@ -56,6 +56,17 @@ def first_rate(v: ComplexField, r: ComplexField, sine: RealField) -> RealField:
 def second_rate(u: ComplexField, r: ComplexField, sine: RealField) -> RealField:
     """Angular velocity wb [rad/s] of the link on B, from i wa u - i wb v = r with sine = u x v; see `first_rate`."""
     return (u.real * r.real + u.imag * r.imag) / sine
+
+
+def parting(  # noqa: PLR0917 - a leaf takes its symbols in the equation's order
+    A2: ComplexField, B2: ComplexField, u: ComplexField, v: ComplexField, wa: RealField, wb: RealField
+) -> ComplexField:
+    """What the angular accelerations must make good: r = (B'' - wb^2 v) - (A'' - wa^2 u) [m/s^2]; see `first_rate`.
+
+    >>> parting(1 + 0j, 5 + 0j, 3j, -4 + 3j, 2.0, 1.0)
+    (8+9j)
+    """
+    return (B2 - wb * wb * v) - (A2 - wa * wa * u)
 
 
 def misfit(A: ComplexField, B: ComplexField, a: RealField, b: RealField) -> RealField:
@@ -116,7 +127,7 @@ class Dyad(Step):
         sine = turning(u, v)
         r = B.velocity - A.velocity
         wa, wb = first_rate(v, r, sine), second_rate(u, r, sine)
-        r = (B.acceleration - wb * wb * v) - (A.acceleration - wa * wa * u)
+        r = parting(A.acceleration, B.acceleration, u, v, wa, wb)
         columns = {
             self.links[0]: (u * (1 / self.arms[0]), wa, first_rate(v, r, sine)),
             self.links[1]: (v * (1 / self.arms[1]), wb, second_rate(u, r, sine)),

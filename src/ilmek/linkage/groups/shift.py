@@ -16,6 +16,26 @@ PARALLEL = 1e-12
 """Sine of the angle between two lines that are parallel but for rounding."""
 
 
+def slid_velocity(e: ComplexField, omega: RealField, s: RealField, ds: RealField) -> ComplexField:
+    """Rate (s e)' = (s' + i w s) e [m/s] of the way s [m] along the unit direction e of a guide that turns at w.
+
+    >>> slid_velocity(1j, 3.0, 2.0, 5.0)
+    (-6+5j)
+    """
+    return (ds + 1j * (omega * s)) * e
+
+
+def slid_acceleration(  # noqa: PLR0917 - a leaf takes its symbols in the equation's order
+    e: ComplexField, omega: RealField, alpha: RealField, s: RealField, ds: RealField, dds: RealField
+) -> ComplexField:
+    """Second rate (s e)'' = (s'' - w^2 s + i (alpha s + 2 w s')) e [m/s^2]; see `slid_velocity`.
+
+    >>> slid_acceleration(1j, 3.0, 4.0, 2.0, 5.0, 7.0)
+    (-38-11j)
+    """
+    return (dds - omega * omega * s + 1j * (alpha * s + 2 * omega * ds)) * e
+
+
 @dataclass(frozen=True, slots=True)
 class Track:
     """A slide seen from its known body, whichever of the two that is.
@@ -39,8 +59,8 @@ class Track:
         e, w = on.direction * self.lead, on.omega
         anchor = PointMotion(
             root.position + s * e,
-            root.velocity + (ds + 1j * (w * s)) * e,
-            root.acceleration + (dds - w * w * s + 1j * (on.alpha * s + 2 * w * ds)) * e,
+            root.velocity + slid_velocity(e, w, s, ds),
+            root.acceleration + slid_acceleration(e, w, on.alpha, s, ds, dds),
         )
         return BodyMotion(anchor, self.at, on.direction * self.twist, w, on.alpha)
 
