@@ -113,6 +113,11 @@ def test_a_shaft_without_supports_between_would_grow_without_end() -> None:
     assert held.as_json()["results"]["mass"] < 0.4 * free.as_json()["results"]["mass"]
 
 
+def test_cylinders_that_weigh_on_the_warps_are_said() -> None:
+    assert any("what the warps pull" in said for said in report(design(AutomatedLoomParams(width=6.0))).warnings)
+    assert not any("what the warps pull" in said for said in report(design(AutomatedLoomParams(width=2.0))).warnings)
+
+
 def test_one_head_has_no_neighbour_to_check() -> None:
     made = report(design(AutomatedLoomParams(heads=1)))
     assert "distance of two heads" not in [check.name for check in made.checks]

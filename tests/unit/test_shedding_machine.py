@@ -135,6 +135,11 @@ def test_motor_is_chosen_or_judged() -> None:
     assert "no motor gives 180 Nm at 5 rpm" in report.warnings[-1]
 
 
+def test_foil_cams_are_warned_of() -> None:
+    assert any("0.15 mm thick are foil" in said for said in answer(warp_pitch="0.3mm", warps="4000").warnings)
+    assert not any("foil" in said for said in answer(warp_pitch="1mm", warps="1200").warnings)
+
+
 def test_a_quick_shaft_is_warned_of() -> None:
     assert any("the thesis allows 5 rpm" in warning for warning in answer(speed="10rpm").warnings)
 

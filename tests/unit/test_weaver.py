@@ -11,6 +11,7 @@ from ilmek.errors import ParameterError
 from ilmek.machines.weaver import MACHINE, WeaverParams, design, report
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, HANDLER
 from ilmek.machines.weaver.design import move_time
+from ilmek.machines.weaver.drive import inertia_torque
 from ilmek.timing.track import sample
 from ilmek.units import deg
 
@@ -114,4 +115,37 @@ def test_steps_must_follow_each_other() -> None:
 def test_the_machine_reads_its_parameters() -> None:
     made = MACHINE.report(MACHINE.design(WeaverParams.read({"cycle": "2.2s", "law": "cycloidal", "tubes": "8"})))
     assert made.as_json()["results"]["knots_per_minute"] == pytest.approx(60 / 2.2)
-    assert {figure.name for figure in made.figures} == {"knot", "acceleration"}
+    assert {figure.name for figure in made.figures} == {"knot", "acceleration", "cam-torque"}
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_the_torque_of_the_tools_is_the_change_of_their_energy(law: str) -> None:
+    """M dq = dE with E = m v^2 / 2 of all tools: so its mean over the turn is 0, and its greatest is met."""
+    head = design(WeaverParams(law=law, tool_mass=0.2))
+    angle = np.linspace(0, 2 * math.pi, 40_001)
+    energy, speed = np.zeros(angle.shape), head.cyclogram.speed
+    for track in head.cyclogram.tracks:
+        arm = head.handler_radius if track.name == HANDLER else 1.0
+        energy += 0.5 * 0.2 * (sample(track, angle).slope * arm * speed) ** 2
+    torque = inertia_torque(head.cyclogram, {HANDLER: head.handler_radius}, 0.2, angle)
+    done = np.concatenate([[0.0], np.cumsum((torque[1:] + torque[:-1]) / 2 * np.diff(angle))])
+    assert np.abs(done - energy).max() < 5e-3 * energy.max()
+    assert head.drive.torque_max == pytest.approx(np.abs(torque).max(), rel=2e-3)
+    assert head.drive.torque_rms == pytest.approx(math.sqrt(float(np.mean(torque**2))), rel=2e-3)
+    assert head.drive.motor is not None
+    assert head.drive.motor.torque >= head.drive.torque_max
+
+
+def test_the_selector_has_time_for_the_longest_way_while_a_knot_is_tied() -> None:
+    """From the cut at 62 deg to the next grasp at 28.5 deg: 1.81 s of 2 s, where the longest way takes 1.1 s."""
+    head = design(WeaverParams())
+    assert head.selector_window == pytest.approx(2 * (360 - 62 + 28.5) / 360)
+    assert head.colour_change < head.colour_change_longest == pytest.approx(0.18 / 0.2 + 0.2)
+    assert head.colour_change_longest < head.selector_window
+
+
+def test_tools_too_heavy_for_a_motor_on_the_shaft_are_said() -> None:
+    heavy = report(design(WeaverParams(tool_mass=50.0)))
+    assert heavy.as_json()["results"]["motor"] is None
+    assert any("no stepper gives 72 Nm at 30 rpm" in said for said in heavy.warnings)
+    assert not report(design(WeaverParams())).warnings

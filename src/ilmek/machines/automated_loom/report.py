@@ -176,7 +176,9 @@ def _motors(loom: LoomDesign) -> tuple[tuple[str, int, str, str], ...]:
     """The motors that the machines chose, and the power that the others ask."""
     beat = loom.beaters * loom.beat_up.peaks["drive_torque"].value
     cams, cylinder = loom.shedding.drive, loom.warp_tension
+    head = loom.weaver.drive.motor
     return (
+        ("motor of a head", loom.heads, head.name if head else "none is enough", "not weighed"),
         (
             "motor of the cam shaft",
             1,

@@ -8,6 +8,7 @@ from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
 from ilmek.machines.weaver.cyclogram import CENTRE_MOTION, DRAW_TURN, HANDLER, SIDE_MOTION, SLEY, Steps, Strokes
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
+from ilmek.machines.weaver.drive import Drive, drive_for
 from ilmek.params import Params, param
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, peak_acceleration, peak_speed, shortest_period
@@ -51,6 +52,7 @@ class WeaverParams(Params):
     acceleration_limit: float = param(
         20.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="allowed acceleration of the same"
     )
+    tool_mass: float = param(0.15, unit="kg", at_least=0.0, at_most=100.0, doc="mass that each cam moves")
     knot_pitch: float = param(0.004, unit="mm", at_least=1e-6, at_most=0.1, doc="distance of neighbouring knots")
     carriage_speed: float = param(0.25, unit="m/s", at_least=1e-3, at_most=100.0, doc="speed of the head along the row")
     carriage_acceleration: float = param(
@@ -97,6 +99,7 @@ class Weaver:
     handler_radius   of the handler's tip [m], such that it draws the pile yarn of a knot
     carriage_step    time of a step to the next knot [s]      carriage_window  time in which no gripper is in the warps
     travel           time of each further pitch [s]           colour_change    mean time to bring another tube in line
+    drive            of the cam shaft, by the tools' inertia
     """
 
     params: WeaverParams
@@ -108,6 +111,20 @@ class Weaver:
     carriage_window: float
     travel: float
     colour_change: float
+    drive: Drive
+
+    @property
+    def colour_change_longest(self) -> float:
+        """Time to bring the last tube in line after the first [s]; none for a single tube."""
+        params = self.params
+        distance = (params.tubes - 1) * params.tube_pitch
+        return move_time(distance, params.selector_speed, params.selector_acceleration)
+
+    @property
+    def selector_window(self) -> float:
+        """Time from the cut of a pile to the grasp of the next [s], in which the selector could go ahead."""
+        events = {event.name: event.angle for event in self.cyclogram.track(HANDLER).events}
+        return (turn - events["cut"] + events["grasp"]) / self.cyclogram.speed
 
     @property
     def limiting(self) -> str:
@@ -151,6 +168,7 @@ def design(params: WeaverParams) -> Weaver:
         carriage_window(kept),
         travel_time(params, carriage_window(kept)),
         colour_change_time(params),
+        drive_for(kept, {HANDLER: radius}, params.tool_mass),
     )
 
 

@@ -4,10 +4,11 @@ import numpy as np
 
 from ilmek.machines.weaver.cyclogram import HANDLER, relations
 from ilmek.machines.weaver.design import HAND_KNOT, Weaver
+from ilmek.machines.weaver.drive import inertia_torque
 from ilmek.report import Axis, Check, Column, Plot, Report, Result, Series, Table, Timing, at_most
 from ilmek.timing.cyclogram import check_all, draw
 from ilmek.timing.track import sample
-from ilmek.units import turn
+from ilmek.units import rpm, turn
 
 
 def report(weaver: Weaver) -> Report:
@@ -19,7 +20,7 @@ def report(weaver: Weaver) -> Report:
         _results(weaver),
         checks(weaver),
         (_peaks_table(weaver), _motions_table(weaver)),
-        (timing(weaver), _accelerations(weaver)),
+        (timing(weaver), _accelerations(weaver), _torque(weaver)),
         _warnings(weaver),
     )
 
@@ -50,6 +51,7 @@ def timing(weaver: Weaver) -> Timing:
 
 
 def _results(weaver: Weaver) -> tuple[Result, ...]:
+    drive = weaver.drive
     return (
         Result("cycle_time_knot", weaver.cycle, "s", "time of a knot"),
         Result("cycle_time_shortest", weaver.shortest, "s", "the shortest that speeds and accelerations allow"),
@@ -69,9 +71,20 @@ def _results(weaver: Weaver) -> tuple[Result, ...]:
         Result("handler_radius", weaver.handler_radius, "mm", "radius at which the handler draws that yarn"),
         Result("screw_lead", weaver.screw_lead, "mm", "advance of the side grippers' screw for a turn"),
         Result("colour_change_time", weaver.colour_change, "s", "mean time to bring another tube in line"),
+        Result("colour_change_longest", weaver.colour_change_longest, "s", "time from the first tube to the last"),
+        Result(
+            "selector_window",
+            weaver.selector_window,
+            "s",
+            "from cut to next grasp: a selector that knows the next colour could move in it; not counted on",
+        ),
         Result("carriage_step_time", weaver.carriage_step, "s", "time of the step to the next knot"),
         Result("carriage_window", weaver.carriage_window, "s", "time in which no tool is in the warps"),
         Result("carriage_travel_time", weaver.travel, "s", "time of each further pitch"),
+        Result("cam_torque_max", drive.torque_max, "Nm", "greatest torque on the cam shaft, of the tools' inertia"),
+        Result("cam_torque_rms", drive.torque_rms, "Nm", "root mean square of the same"),
+        Result("cam_power_max", drive.power_max, "W", "greatest power of the same, to and fro"),
+        Result("motor", drive.motor.name if drive.motor else None, "", "class of motor that gives it without a gear"),
     )
 
 
@@ -120,9 +133,21 @@ def _accelerations(weaver: Weaver) -> Plot:
     )
 
 
+def _torque(weaver: Weaver) -> Plot:
+    angle = np.linspace(0, turn, 1441)
+    torque = inertia_torque(weaver.cyclogram, {HANDLER: weaver.handler_radius}, weaver.params.tool_mass, angle)
+    note = "of the tools' inertia alone; friction, springs and the pull of the yarn come on top"
+    axes = Axis("cam angle", "deg"), Axis("torque", "Nm")
+    return Plot("cam-torque", "Torque on the head's cam shaft", *axes, (Series("tools", angle, torque),), note=note)
+
+
 def _warnings(weaver: Weaver) -> tuple[str, ...]:
-    asked = weaver.params.cycle
+    asked, drive = weaver.params.cycle, weaver.drive
+    said = []
     if weaver.cycle > asked:
         longer = f"a knot takes {weaver.cycle:.3g} s, not the {asked:.3g} s asked for"
-        return (f"{longer}: the limits of the {weaver.limiting} allow no less",)
-    return ()
+        said.append(f"{longer}: the limits of the {weaver.limiting} allow no less")
+    if drive.motor is None:
+        needed = f"{drive.torque_max:.3g} Nm at {weaver.cyclogram.speed / rpm:.3g} rpm"
+        said.append(f"no stepper gives {needed} on the cam shaft itself: lighter tools, a longer cycle, or a gear")
+    return tuple(said)
