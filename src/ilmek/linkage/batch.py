@@ -1,0 +1,226 @@
+"""Large batches and searches: the same motions as `solve` gives, by compiled code.
+
+`solve_batch` answers as `solve` does, for one mechanism at very many samples. `sweep` moves very many mechanisms of one
+plan, whose points are arrays, over one course of the inputs: the inner loop of a search for dimensions.
+
+Importing this module imports the compiler (a quarter of a second; the kernels themselves are kept on disk after their
+first run), which is worth it from about 10^5 samples on; nothing else of the package imports it. So the choice between
+the two executors is the caller's and never the batch's: results do not change in their last digit with its length.
+
+Bodies driven by inputs, RRR and RRP dyads have compiled forms; `solve_batch` leaves other plans to `solve`.
+
+>>> from ilmek.linkage.fourbar import four_bar
+>>> from ilmek.linkage.structure import plan
+>>> rockers = {("rocker", "B"): np.array([0.22, 0.23, 0.24])}
+>>> swept = sweep(plan(four_bar(0.3, 0.06, 0.2, 0.23, branch=+1)), rockers, np.linspace(0, 6, 100), bodies=["rocker"])
+>>> np.ptp(np.angle(swept.bodies["rocker"].direction), axis=1).round(3)
+array([0.554, 0.528, 0.506])
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Complex, Float, Int8
+
+from ilmek.arrays import ComplexArray, FloatArray, RealField
+from ilmek.errors import MechanismError
+from ilmek.linkage.body_motion import PointMotion
+from ilmek.linkage.groups.group import Columns, Drive, Step
+from ilmek.linkage.groups.shift import Shift
+from ilmek.linkage.groups.turn import Turn
+from ilmek.linkage.kernels import run
+from ilmek.linkage.model import GROUND
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.solve import Courses, drives_of, solve
+from ilmek.linkage.structure import Plan
+from ilmek.linkage.tape import ALPHA, DIRECTION, OMEGA, Dimensions, Tape, is_compiled, tape
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """A body's turning, (variants, samples): direction e^{i theta}, omega [rad/s], alpha [rad/s^2]."""
+
+    direction: Complex[np.ndarray, "variants samples"]
+    omega: Float[np.ndarray, "variants samples"]
+    alpha: Float[np.ndarray, "variants samples"]
+
+
+@dataclass(frozen=True, slots=True)
+class Sweep:
+    """The motions of many variants of one mechanism.
+
+    bodies  the bodies asked for, by name              points  those asked for, by (body, point): (variants, samples)
+    status  Status of each variant and sample (int8)
+    margin  sine of the worst transmission angle of any dyad over the samples, one a variant: 1 at best, 0 at a dead
+            centre; samples that cannot close are left out, see `status`
+    """
+
+    bodies: Mapping[str, Turning]
+    points: Mapping[tuple[str, str], PointMotion]
+    status: Int8[np.ndarray, "variants samples"]
+    margin: Float[np.ndarray, " variants"]
+
+
+def solve_batch(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Courses = 0.0) -> Motion:
+    """Motion of the mechanism for a large batch of input values: `solve`, by compiled code.
+
+    Arguments, answer and errors are those of `solve`; the numbers agree with its to 1e-13 of their size, and to what
+    rounding of the angle itself does beyond 1e6 rad.
+    """
+    if not is_compiled(plan):
+        return solve(plan, angle, speed, acceleration)
+    drives = drives_of(plan, angle, speed, acceleration)
+    written = tape(plan, {}, {})
+    kept = [_kept(written, step, body) for step in plan.steps for body in step.bodies]
+    pairs, singles = ([row for rows in kept for row in rows[which]] for which in (0, 1))
+    answer = _run(written, drives, (pairs, singles))
+    columns = {body: _columns(written, step, body, drives, answer) for step in plan.steps for body in step.bodies}
+    return Motion(plan, drives, columns, answer.status[0])
+
+
+def sweep(
+    plan: Plan,
+    dimensions: Dimensions,
+    angle: Courses,
+    speed: Courses = 0.0,
+    acceleration: Courses = 0.0,
+    *,
+    branches: Mapping[str, RealField] | None = None,
+    bodies: Iterable[str] = (),
+    points: Iterable[tuple[str, str]] = (),
+) -> Sweep:
+    """Motion of many variants of a mechanism over one course of its inputs.
+
+    dimensions  (body, point) -> the point's place in the body's frame [m] in each variant: arrays of one length, or
+                numbers; points left out stand as in the plan's mechanism, and so do the angles of its slides
+    branches    free pin's name -> +1 or -1 in each variant; likewise
+    bodies, points  what is wanted of the motion, see `Sweep`
+    The inputs' courses are those of `solve`.
+
+    Raises MechanismError for what the mechanism does not have, lengths that differ, places that are not finite, links
+    of zero length, a plan with a group that is not compiled, and as `solve`.
+    """
+    drives, bodies, points = drives_of(plan, angle, speed, acceleration), tuple(bodies), tuple(points)
+    branches = branches or {}
+    variants = _variants(plan, dimensions, branches)
+    written = tape(plan, dimensions, branches)
+    rows = [written.rows[plan.mechanism.body(body).name] for body in bodies]
+    pairs, singles = [row + DIRECTION for row in rows], [row + rate for row in rows for rate in (OMEGA, ALPHA)]
+    for body, point in points:
+        plan.mechanism.point(body, point)
+        to = written.room(6)
+        written.carry(body, written.point(body, point), to)
+        pairs += [to, to + 2, to + 4]
+    answer = _run(written, drives, (pairs, singles), variants, judged=True)
+    turning = {
+        body: Turning(answer.pair(row + DIRECTION), answer.single(row + OMEGA), answer.single(row + ALPHA))
+        for body, row in zip(bodies, rows, strict=True)
+    }
+    moved = {
+        one: PointMotion(*(answer.pair(pairs[len(rows) + 3 * k + order]) for order in range(3)))
+        for k, one in enumerate(points)
+    }
+    return Sweep(turning, moved, answer.status, answer.margin)
+
+
+@dataclass(frozen=True, slots=True)
+class _Answer:
+    """The rows wanted, by their numbers, each (variants, samples); no margin where none is wanted."""
+
+    pairs: Mapping[int, int]
+    singles: Mapping[int, int]
+    points: ComplexArray
+    reals: FloatArray
+    status: Int8[np.ndarray, "variants samples"]
+    margin: FloatArray
+
+    def pair(self, row: int) -> Complex[np.ndarray, "variants samples"]:
+        return self.points[:, self.pairs[row]]
+
+    def single(self, row: int) -> Float[np.ndarray, "variants samples"]:
+        return self.reals[:, self.singles[row]]
+
+
+def _run(
+    written: Tape,
+    drives: Mapping[str, Drive],
+    wanted: tuple[list[int], list[int]],
+    variants: int = 1,
+    *,
+    judged: bool = False,
+) -> _Answer:
+    """The tape run for all variants and samples."""
+    pairs, singles = ({row: k for k, row in enumerate(dict.fromkeys(rows))} for rows in wanted)
+    courses = list(drives.values())
+    values = courses[0].value if len(courses) == 1 else np.stack([np.asarray(one.value) for one in courses])
+    values = np.ascontiguousarray(values, dtype=float).reshape(len(courses), -1)
+    fields = [np.atleast_1d(rate) for one in courses for rate in (one.speed, one.acceleration)]
+    rates = np.stack(np.broadcast_arrays(*fields)).astype(float).reshape(len(courses), 2, -1)
+    samples = values.shape[1]
+    answer = _Answer(
+        pairs,
+        singles,
+        np.empty((variants, len(pairs), samples), dtype=complex),
+        np.empty((variants, len(singles), samples)),
+        np.zeros((variants, samples), dtype=np.int8),
+        np.full(variants if judged else 0, np.inf),
+    )
+    lists = np.array(list(pairs), dtype=np.int64), np.array(list(singles), dtype=np.int64)
+    run(
+        written.height,
+        *written.stack(variants),
+        values,
+        rates,
+        *lists,
+        answer.points,
+        answer.reals,
+        answer.status,
+        answer.margin,
+    )
+    return answer
+
+
+def _kept(written: Tape, step: Step, body: str) -> tuple[list[int], list[int]]:
+    """The rows of a body's columns, complex and real, that are not the inputs' own."""
+    row = written.rows[body]
+    if isinstance(step, Shift):
+        return [], []
+    if body in written.travel:
+        return [], [written.travel[body] + order for order in range(3)]
+    return [row + DIRECTION], [] if _is_free(step) else [row + OMEGA, row + ALPHA]
+
+
+def _columns(written: Tape, step: Step, body: str, drives: Mapping[str, Drive], answer: _Answer) -> Columns:
+    """A body's columns, as its step would give them."""
+    if isinstance(step, Shift):
+        drive = drives[step.entry]
+        return drive.value, drive.speed, drive.acceleration
+    pairs, singles = _kept(written, step, body)
+    columns = (*(answer.pair(row)[0] for row in pairs), *(answer.single(row)[0] for row in singles))
+    if isinstance(step, Turn) and _is_free(step):
+        drive = drives[step.entry]
+        return (*columns, step.sign * drive.speed, step.sign * drive.acceleration)
+    return columns
+
+
+def _is_free(step: Step) -> bool:
+    """Whether a body is driven against the ground, so that its rates are the input's."""
+    return isinstance(step, Turn) and step.carrier == GROUND
+
+
+def _variants(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField]) -> int:
+    """The one length of all arrays, everything checked."""
+    for (body, point), places in dimensions.items():
+        plan.mechanism.point(body, point)
+        if not np.isfinite(places).all():
+            raise MechanismError(f"point {point!r} of body {body!r} is not finite in every variant")
+    for pin, signs in branches.items():
+        plan.mechanism.joint(pin)
+        if not np.isin(signs, (-1, 1)).all():
+            raise MechanismError(f"branch of {pin!r} is not +1 or -1 in every variant", allowed="+1 or -1")
+    shapes = {np.shape(one) for one in (*dimensions.values(), *branches.values()) if np.ndim(one)} or {(1,)}
+    if len(shapes) > 1 or len(min(shapes)) != 1:
+        said = " and ".join(str(shape) for shape in sorted(shapes))
+        raise MechanismError(f"dimensions have arrays of shapes {said}", allowed="one-dimensional arrays of one length")
+    return int(min(shapes)[0])
