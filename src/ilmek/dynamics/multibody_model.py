@@ -1,0 +1,239 @@
+"""What a general planar system is, and how it becomes the arrays of the compiled kernels."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import reverse_cuthill_mckee
+
+from ilmek.dynamics.attached import attached
+from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.multibody_kernel import Model
+from ilmek.errors import MechanismError
+from ilmek.linkage.model import GROUND, Body, Joint, Pin, Slide
+from ilmek.linkage.motion import Motion
+from ilmek.plane.vectors import unit
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """Where a body's frame is and how it moves: origin [m], angle [rad], the origin's velocity [m/s], omega [rad/s]."""
+
+    origin: complex
+    angle: float = 0.0
+    velocity: complex = 0j
+    omega: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Spring:
+    """A straight spring and damper between points of two bodies: stiffness [N/m], free length [m], damping [N s/m]."""
+
+    first: str
+    first_point: str
+    second: str
+    second_point: str
+    stiffness: float
+    length: float
+    damping: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Push:
+    """A constant force [N], in the world's directions, at a point of a body."""
+
+    body: str
+    point: str
+    force: complex
+
+
+@dataclass(frozen=True, slots=True)
+class Twist:
+    """A torque on a body that falls with its speed: torque - drag omega [N m, N m s]; a motor's straight curve."""
+
+    body: str
+    torque: float
+    drag: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """Bodies with masses, the joints between them, the loads, and the start.
+
+    bodies    with the ground among them, as in `Mechanism`      joints  pins and slides; they may be redundant
+    inertias  of every moving body, mass and moment above 0      poses   of every moving body at the start
+    gravity   free fall [m/s²], such as -9.81j                   loads   springs, pushes, twists
+
+    Raises MechanismError for names that are unknown or missing, a body without mass or moment, and numbers that are
+    not finite.
+    """
+
+    bodies: tuple[Body, ...]
+    joints: tuple[Joint, ...]
+    inertias: Mapping[str, Inertia]
+    poses: Mapping[str, Pose]
+    gravity: complex = 0j
+    loads: Sequence[Spring | Push | Twist] = ()
+    name: str = "system"
+    order: tuple[str, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        moving = [body.name for body in self.bodies if body.name != GROUND]
+        if len(set(moving)) < len(moving) or not moving:
+            raise MechanismError(f"{self.name} has bodies {', '.join(moving) or 'none'}", allowed="each name once")
+        for name in moving:
+            self._check(name)
+        object.__setattr__(self, "order", _ordered(moving, self.joints))
+        for joint in self.joints:
+            for body in joint.bodies:
+                self.point(body, joint.name)
+
+    def _check(self, name: str) -> None:
+        inertia, pose = self.inertias.get(name), self.poses.get(name)
+        if inertia is None or pose is None:
+            raise MechanismError(f"body {name!r} of {self.name} has no {'pose' if inertia else 'inertia'}")
+        if not (inertia.mass > 0 and inertia.moment > 0):
+            raise MechanismError(
+                f"body {name!r} of {self.name} has mass {inertia.mass:g} kg, moment {inertia.moment:g} kg m²",
+                allowed="both above 0",
+                do="give it some, or join it to its neighbour as one body",
+            )
+        if not np.all(np.isfinite([pose.origin, pose.angle, pose.velocity, pose.omega])):
+            raise MechanismError(f"the pose of body {name!r} of {self.name} is {pose}", allowed="finite numbers")
+
+    def point(self, body: str, point: str) -> complex:
+        """A point of a body in the body's frame [m]."""
+        points = {one.name: one.points for one in self.bodies}
+        if body not in points:
+            raise MechanismError(f"{self.name} has no body {body!r}", allowed=f"it has {', '.join(points)}")
+        if point not in points[body]:
+            raise MechanismError(
+                f"body {body!r} of {self.name} has no point {point!r}", allowed=f"it has {', '.join(points[body])}"
+            )
+        return points[body][point]
+
+    def arm(self, body: str, point: str) -> complex:
+        """A point of a body from its mass centre [m]; of the ground, its place in the world."""
+        return self.point(body, point) - (0j if body == GROUND else self.inertias[body].centre)
+
+
+def from_motion(
+    motion: Motion,
+    inertias: Mapping[str, Inertia],
+    *,
+    gravity: complex = 0j,
+    loads: Sequence[Spring | Push | Twist] = (),
+) -> System:
+    """The system that a mechanism is with its inputs let go, starting from the first sample of a motion."""
+    mechanism = motion.require().plan.mechanism
+    poses = {}
+    for body in mechanism.moving:
+        origin = attached(motion, body, 0j)
+        angle, omega = float(motion.angle(body)[0]), float(motion.omega(body)[0])
+        poses[body] = Pose(complex(origin.position[0]), angle, complex(origin.velocity[0]), omega)
+    return System(mechanism.bodies, mechanism.joints, inertias, poses, gravity, loads, mechanism.name)
+
+
+def _ordered(moving: Sequence[str], joints: Sequence[Joint]) -> tuple[str, ...]:
+    """Bodies in an order that keeps neighbours close, for a narrow band [reverse Cuthill-McKee]."""
+    place = {name: k for k, name in enumerate(moving)}
+    pairs = [
+        (place[a], place[b]) for joint in joints for a, b in [joint.bodies, joint.bodies[::-1]] if {a, b} <= set(place)
+    ]
+    rows, columns = np.array(pairs, dtype=int).reshape(-1, 2).T
+    graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(moving), len(moving))).tocsr()
+    return tuple(moving[k] for k in reverse_cuthill_mckee(graph, symmetric_mode=True))
+
+
+def modelled(system: System) -> Model:
+    """The system as arrays."""
+    place = {name: k for k, name in enumerate(system.order)} | {GROUND: -1}
+    pins = [joint for joint in system.joints if isinstance(joint, Pin)]
+    slides = [joint for joint in system.joints if isinstance(joint, Slide)]
+    springs = [load for load in system.loads if isinstance(load, Spring)]
+    pushes = [load for load in system.loads if isinstance(load, Push)]
+    for load in system.loads:
+        _known(system, *((load.first, load.second) if isinstance(load, Spring) else (load.body,)))
+    touched = [[place[body] for body in joint.bodies] for joint in (*pins, *slides) for _ in range(2)]
+    apart = [abs(a - b) for a, b in touched if min(a, b) >= 0]
+    inertias = [system.inertias[name] for name in system.order]
+    held = [(joint.name, joint.name) for joint in (*pins, *slides)]
+    bodies = [joint.bodies for joint in (*pins, *slides)]
+    for load in (*springs, *pushes):
+        first, second = _ends(load)
+        bodies.append((first[0], second[0]))
+        held.append((first[1], second[1]))
+    numbers = [(0.0, 0.0, 0.0) for _ in pins] + [(slide.along, _held(system, slide), 0.0) for slide in slides]
+    numbers += [(spring.stiffness, spring.length, spring.damping) for spring in springs]
+    numbers += [(complex(push.force).real, complex(push.force).imag, 0.0) for push in pushes]
+    arms = [
+        [system.arm(b, p) for b, p in zip(pair, points, strict=True)] for pair, points in zip(bodies, held, strict=True)
+    ]
+    return Model(
+        weights=np.array([value for one in inertias for value in (one.mass, one.mass, one.moment)]),
+        gravity=complex(system.gravity),
+        ends=_pairs([[place[body] for body in pair] for pair in bodies]),
+        arms=np.array(arms, dtype=complex).reshape(-1, 2),
+        numbers=np.array(numbers, dtype=float).reshape(-1, 3),
+        pins=len(pins),
+        slides=len(slides),
+        springs=len(springs),
+        pushes=len(pushes),
+        twists=_twists(system),
+        touched=_pairs(touched),
+        length=_length(system),
+        band=min(3 * max(apart, default=0) + 2, 3 * len(system.order) - 1),
+    )
+
+
+def start_of(system: System) -> np.ndarray:
+    """Positions and velocities of the mass centres at the start, and no work."""
+    row = np.zeros(6 * len(system.order) + 1)
+    half = 3 * len(system.order)
+    for k, name in enumerate(system.order):
+        pose, arm = system.poses[name], system.inertias[name].centre * unit(system.poses[name].angle)
+        centre, velocity = complex(pose.origin + arm), complex(pose.velocity + 1j * pose.omega * arm)
+        row[3 * k : 3 * k + 3] = centre.real, centre.imag, pose.angle
+        row[half + 3 * k : half + 3 * k + 3] = velocity.real, velocity.imag, pose.omega
+    return row
+
+
+def _ends(load: Spring | Push) -> tuple[tuple[str, str], tuple[str, str]]:
+    """The two body points of a load; a push comes from the point itself, to the kernel a pair of one body."""
+    if isinstance(load, Spring):
+        return (load.first, load.first_point), (load.second, load.second_point)
+    return (load.body, load.point), (load.body, load.point)
+
+
+def _known(system: System, *bodies: str) -> None:
+    for body in bodies:
+        if body != GROUND and body not in system.order:
+            raise MechanismError(
+                f"a load of {system.name} acts on {body!r}", allowed=f"it has {', '.join(system.order)}"
+            )
+
+
+def _held(system: System, slide: Slide) -> float:
+    """The angle that a slide holds, in the turn in which the poses are."""
+    body, guide = (system.poses[name].angle if name != GROUND else 0.0 for name in slide.bodies)
+    turns = round((body - guide - slide.turned) / (2 * np.pi))
+    return slide.turned + turns * 2 * np.pi
+
+
+def _twists(system: System) -> np.ndarray:
+    twists = np.zeros((len(system.order), 2))
+    for load in system.loads:
+        if isinstance(load, Twist):
+            twists[system.order.index(load.body)] += load.torque, load.drag
+    return twists
+
+
+def _length(system: System) -> float:
+    """Greatest distance of a joint from its body's mass centre [m]; 1 where there is none."""
+    arms = [abs(system.arm(body, joint.name)) for joint in system.joints for body in joint.bodies if body != GROUND]
+    return max(arms, default=1.0) or 1.0
+
+
+def _pairs(found: Sequence[Sequence[int]]) -> np.ndarray:
+    return np.array(found, dtype=np.int64).reshape(-1, 2)
