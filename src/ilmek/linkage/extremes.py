@@ -1,0 +1,133 @@
+"""Where an output turns back, or its speed is greatest: dead centres and toggle positions of any mechanism.
+
+    y' = 0 (extremes of the value)        y'' = 0 (extremes of the rate)        rates by the input
+
+Found between samples by their signs and polished to rounding. Two roots of y' between neighbouring samples are not
+missed: the roots of y'' are made samples too.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from ilmek.errors import MechanismError
+from ilmek.linkage.dimensions import Dimension
+from ilmek.linkage.one_input import OneInput
+from ilmek.linkage.outputs import Followed, Output, followed
+from ilmek.linkage.sensitivity import derivatives
+from ilmek.num.brackets import bracketed_roots
+
+
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """A local extreme of an output.
+
+    input     value of the input there [rad, m]         value   of the output, or of its rate by the input
+    greatest  a local greatest value; else a least one
+    """
+
+    input: float
+    value: float
+    greatest: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ExtremeDerivatives:
+    """Derivatives by each dimension of an extreme's value, and of the input at which it stands."""
+
+    dimensions: tuple[Dimension, ...]
+    value: Float[np.ndarray, " dimensions"]
+    input: Float[np.ndarray, " dimensions"]
+
+
+def extremes(moved: OneInput, output: Output, start: float, stop: float, *, samples: int = 720) -> tuple[Extreme, ...]:
+    """Local extremes of an output for inputs between start and stop, in order: the output's dead centres.
+
+    Samples that do not close are left out; see `circuits` for what happens at the ends of the input's range.
+    Raises MechanismError where start is not below stop.
+
+    >>> from ilmek.linkage.fourbar import slider_crank
+    >>> from ilmek.linkage.one_input import one_input
+    >>> from ilmek.linkage.outputs import Travel
+    >>> from ilmek.linkage.structure import plan
+    >>> crank = one_input(plan(slider_crank(0.1, 0.3, branch=+1)))
+    >>> [(round(one.input, 6), round(one.value, 6)) for one in extremes(crank, Travel("line"), -1, 5)]
+    [(0.0, 0.4), (3.141593, 0.2)]
+    """
+    nodes = _nodes(start, stop, samples)
+    nodes = np.unique(np.concatenate([nodes, _roots(moved, output, nodes, _second_rate)]))
+    at = _roots(moved, output, nodes, _rate)
+    if not len(at):
+        return ()
+    there = followed(moved.motion(at), output)
+    return tuple(
+        Extreme(float(q), float(y), bool(yy < 0)) for q, y, yy in zip(at, there.value, there.second_rate, strict=True)
+    )
+
+
+def rate_extremes(
+    moved: OneInput, output: Output, start: float, stop: float, *, samples: int = 720
+) -> tuple[Extreme, ...]:
+    """Local extremes of an output's rate by the input, in order; else as `extremes`."""
+    nodes = _nodes(start, stop, samples)
+    at = _roots(moved, output, nodes, _second_rate)
+    if not len(at):
+        return ()
+    there = followed(moved.motion(at), output)
+    step = 0.25 * (stop - start) / samples
+    before = followed(moved.motion(at - step), output).second_rate
+    return tuple(Extreme(float(q), float(y), bool(yy > 0)) for q, y, yy in zip(at, there.rate, before, strict=True))
+
+
+def extreme_derivatives(
+    moved: OneInput, output: Output, extreme: Extreme, dimensions: Sequence[Dimension]
+) -> ExtremeDerivatives:
+    """Exact derivatives of a local extreme of an output, of its value and its input, by dimensions.
+
+    value: that of y at the extreme's input held fast;   input: -(dy'/dp) / y''
+    """
+    motion = moved.motion(np.array([extreme.input])).require()
+    found = derivatives(motion, output, dimensions)
+    curvature = followed(motion, output).second_rate
+    return ExtremeDerivatives(tuple(dimensions), found.value[:, 0], (-found.rate / curvature)[:, 0])
+
+
+def rate_extreme_derivatives(
+    moved: OneInput, output: Output, extreme: Extreme, dimensions: Sequence[Dimension]
+) -> Float[np.ndarray, " dimensions"]:
+    """Exact derivatives of a local extreme of an output's rate (see `rate_extremes`) by dimensions."""
+    motion = moved.motion(np.array([extreme.input])).require()
+    value: Float[np.ndarray, " dimensions"] = derivatives(motion, output, dimensions).rate[:, 0]
+    return value
+
+
+def _nodes(start: float, stop: float, samples: int) -> Float[np.ndarray, " nodes"]:
+    if not (np.isfinite(start) and np.isfinite(stop) and start < stop):
+        raise MechanismError(f"from {start} to {stop}", allowed="a start below the stop, both finite")
+    return np.linspace(start, stop, samples + 1)
+
+
+def _rate(course: Followed) -> Float[np.ndarray, " samples"]:
+    return course.rate
+
+
+def _second_rate(course: Followed) -> Float[np.ndarray, " samples"]:
+    return course.second_rate
+
+
+def _roots(
+    moved: OneInput, output: Output, nodes: Float[np.ndarray, " nodes"], part: Callable[[Followed], np.ndarray]
+) -> Float[np.ndarray, " roots"]:
+    """Inputs between neighbouring nodes at which a part of the output's course changes its sign, polished."""
+
+    def f(values: np.ndarray) -> np.ndarray:
+        return part(followed(moved.motion(values), output))
+
+    value = f(nodes)
+    changed = np.flatnonzero((np.sign(value[:-1]) * np.sign(value[1:]) < 0) | (value[:-1] == 0))
+    if not len(changed):
+        return np.empty(0)
+    found = bracketed_roots(f, nodes[changed], nodes[changed + 1])
+    return np.unique(found[np.isfinite(found)])

@@ -1,0 +1,73 @@
+"""All loop equations of a mechanism at once, joint by joint, and the moves that their derivatives allow.
+
+    J dx = right side        x: the poses (x, y, theta) of all moving bodies
+
+Angles are measured in lengths (times the mechanism's size), so that the condition of J is free of units.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.linkage.equations import Equation
+from ilmek.linkage.groups.block import Block
+from ilmek.linkage.groups.group import Drive, Group, Known
+from ilmek.linkage.model import Mechanism
+from ilmek.linkage.moves import Moves
+
+
+@dataclass(frozen=True, slots=True)
+class Loops:
+    """The loop equations of a whole mechanism: each joint and input as a block of its own, by the joint's name."""
+
+    mechanism: Mechanism
+    scale: float
+    held: tuple[tuple[str, Block], ...]
+
+    def equations(self, seen: Callable[[str], Known], drives: Mapping[str, Drive]) -> list[Equation]:
+        """Every equation, in the poses in which its joint sees the bodies (anchored at their origins)."""
+        return [equation for joint, block in self.held for equation in block.equations(seen(joint), drives)]
+
+    @property
+    def joints(self) -> list[str]:
+        """The joint of each equation, two a joint, one an input."""
+        inputs = len(self.mechanism.inputs)
+        joints = [name for name, _ in self.held]
+        return [name for name in joints[: len(joints) - inputs] for _ in range(2)] + joints[len(joints) - inputs :]
+
+    def matrix(self, held: list[Equation], samples: tuple[int, ...]) -> FloatArray:
+        """J: derivatives by x, y and (scale theta) of all moving bodies."""
+        moving = self.mechanism.moving
+        matrix = np.zeros((*samples, len(held), 3 * len(moving)))
+        for i, one in enumerate(held):
+            for k, body in enumerate(moving):
+                for j, slope in enumerate(one.row.get(body, ())):
+                    matrix[..., i, 3 * k + j] = slope * (self.unit(one) / (1 if j < 2 else self.scale))
+        return matrix
+
+    def column(self, held: list[Equation], values: list[RealField], samples: tuple[int, ...]) -> FloatArray:
+        """A right side, its angles measured in lengths like those of J."""
+        scaled = [np.broadcast_to(value * self.unit(one), samples) for one, value in zip(held, values, strict=True)]
+        return np.stack(scaled, axis=-1)
+
+    def moves(self, x: FloatArray) -> Moves:
+        """Body by body, from a solution of J x = right side."""
+        return {
+            body: (x[..., 3 * k] + 1j * x[..., 3 * k + 1], x[..., 3 * k + 2] / self.scale)
+            for k, body in enumerate(self.mechanism.moving)
+        }
+
+    def unit(self, one: Equation) -> float:
+        """What an equation is multiplied by: 1 for a length, the mechanism's size for an angle."""
+        return 1.0 if one.length else self.scale
+
+
+def loops(mechanism: Mechanism) -> Loops:
+    """The loop equations of a mechanism."""
+    whole = Group(mechanism, mechanism.moving, mechanism.joints, mechanism.inputs)
+    scale = whole.reach
+    joints = [(one.name, Group(mechanism, mechanism.moving, (one,), ())) for one in mechanism.joints]
+    inputs = [(one.joint, Group(mechanism, mechanism.moving, (), (one,))) for one in mechanism.inputs]
+    return Loops(mechanism, scale, tuple((name, Block(group, scale)) for name, group in joints + inputs))

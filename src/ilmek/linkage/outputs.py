@@ -1,0 +1,122 @@
+"""What is asked of a mechanism: a scalar that its bodies' poses determine, with its exact rates.
+
+    y = y(poses),    y' = sum over bodies (y_x x' + y_y y' + y_theta theta'),    y'' = the same sum of x'' + bias
+
+An output has the form of a loop equation (see `equations`), so that whatever is done with those is done with it.
+
+>>> from ilmek.linkage.fourbar import slider_crank
+>>> from ilmek.linkage.solve import solve
+>>> from ilmek.linkage.structure import plan
+>>> motion = solve(plan(slider_crank(0.1, 0.3, branch=+1)), np.array([0.0, np.pi / 2]), 1.0)
+>>> followed(motion, Travel("line")).rate.round(6)
+array([ 0. , -0.1])
+"""
+
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from jaxtyping import Float
+
+from ilmek.errors import MechanismError
+from ilmek.linkage.equations import Equation, Row, displacement_equation
+from ilmek.linkage.groups.group import Drive, Known
+from ilmek.linkage.model import GROUND, Mechanism, Slide
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.moves import at_origins, contracted
+from ilmek.plane.vectors import dot, unit
+
+
+@runtime_checkable
+class Output(Protocol):
+    """A scalar of a mechanism's poses."""
+
+    @property
+    def place(self) -> str:
+        """The point or slide at which it is taken, "" where it is none: dimensions there act on it directly."""
+
+    def equation(self, mechanism: Mechanism, bodies: Known) -> Equation:
+        """Its value, derivatives by the bodies' poses and bias; `bodies` are anchored at their origins."""
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """The angle [rad] of a body's frame against another's, in (-pi, pi]."""
+
+    body: str
+    against: str = GROUND
+
+    @property
+    def place(self) -> str:
+        """Nowhere: a body turns as a whole."""
+        return ""
+
+    def equation(self, mechanism: Mechanism, bodies: Known) -> Equation:
+        """theta_body - theta_against."""
+        for name in (self.body, self.against):
+            mechanism.body(name)
+        turned = np.angle(bodies[self.body].direction * np.conj(bodies[self.against].direction))
+        return Equation(turned, {self.body: (0, 0, 1), self.against: (0, 0, -1)}, 0.0, length=0)
+
+
+@dataclass(frozen=True, slots=True)
+class Coordinate:
+    """The world coordinate [m] of a body's point in the direction `along` [rad]: 0 for x, pi/2 for y."""
+
+    body: str
+    point: str
+    along: float = 0.0
+
+    @property
+    def place(self) -> str:
+        """The point."""
+        return self.point
+
+    def equation(self, mechanism: Mechanism, bodies: Known) -> Equation:
+        """The share u . (a + r) of the point's place in the unit direction u."""
+        body, u = bodies[self.body], unit(self.along)
+        r = body.direction * mechanism.point(self.body, self.point)
+        row: Row = {self.body: (u.real, u.imag, dot(u, 1j * r))}
+        return Equation(dot(u, body.anchor.position + r), row, -(body.omega**2) * dot(u, r))
+
+
+@dataclass(frozen=True, slots=True)
+class Travel:
+    """The displacement s [m] of a slide, from the guide's point along the line."""
+
+    slide: str
+
+    @property
+    def place(self) -> str:
+        """The slide."""
+        return self.slide
+
+    def equation(self, mechanism: Mechanism, bodies: Known) -> Equation:
+        """D . f, as of a driven slide. Raises MechanismError where the joint is a pin."""
+        joint = mechanism.joint(self.slide)
+        if not isinstance(joint, Slide):
+            raise MechanismError(f"{self.slide!r} is not a slide", allowed="a travel is that of a slide")
+        return displacement_equation(mechanism, joint, Drive(0.0, 0.0, 0.0), bodies)
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """An output along a motion: value, rate and second rate, one a sample; an angle's value is unwrapped."""
+
+    value: Float[np.ndarray, " samples"]
+    rate: Float[np.ndarray, " samples"]
+    second_rate: Float[np.ndarray, " samples"]
+
+
+def followed(motion: Motion, output: Output) -> Followed:
+    """The course of an output over a motion; NaN where the mechanism does not close."""
+    bodies = at_origins({body.name: motion.body(body.name) for body in motion.plan.mechanism.bodies})
+    equation = output.equation(motion.plan.mechanism, bodies)
+    value = np.array(np.broadcast_to(equation.value, motion.status.shape), dtype=float)
+    rates = {name: (body.anchor.velocity, body.omega) for name, body in bodies.items()}
+    seconds = {name: (body.anchor.acceleration, body.alpha) for name, body in bodies.items()}
+    if not equation.length:
+        closed = np.isfinite(value)
+        value[closed] = np.unwrap(value[closed])
+    rate = np.broadcast_to(contracted(equation.row, rates), value.shape)
+    return Followed(value, rate + 0.0, contracted(equation.row, seconds) + equation.bias + 0.0 * value)

@@ -1,0 +1,51 @@
+"""Roots between two places of opposite sign, many at once, to the last digit."""
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+Reals: TypeAlias = Float[np.ndarray, " brackets"]
+
+
+def bracketed_roots(f: Callable[[Reals], Reals], low: Reals, high: Reals, *, steps: int = 200) -> Reals:
+    """Root of f within each bracket, to rounding; NaN where f has one sign at both ends, or is not finite there.
+
+    f(low) and f(high) of opposite signs, or one of them zero      low may lie above high
+    Inverse quadratic interpolation where it is safe, else halving [Chandrupatla, A new hybrid quadratic / bisection
+    algorithm for finding the zero of a nonlinear function without using derivatives, 1997].
+
+    >>> bracketed_roots(lambda x: x * x - 2, np.array([0.0, 2.0]), np.array([2.0, 3.0]))
+    array([1.41421356,        nan])
+    """
+    x1, x2 = np.array(low, dtype=float), np.array(high, dtype=float)
+    f1, f2 = f(x1), f(x2)
+    usable: Bool[np.ndarray, " brackets"] = np.sign(f1) * np.sign(f2) <= 0
+    x3, f3, share = x1, f1, np.full(x1.shape, 0.5)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        for _ in range(steps):
+            best = np.where(np.abs(f1) < np.abs(f2), x1, x2)
+            width = np.abs(x2 - x1)
+            least = 2 * np.finfo(float).eps * np.maximum(np.abs(best), np.finfo(float).tiny) / width
+            done = (np.minimum(np.abs(f1), np.abs(f2)) == 0) | ~(least <= 0.5) | ~usable
+            if done.all():
+                break
+            share = np.where(done, 0.0, np.clip(share, least, 1 - least))
+            x = x1 + share * (x2 - x1)
+            value = f(x)
+            same = np.sign(value) == np.sign(f1)
+            x3, f3 = np.where(done, x3, np.where(same, x1, x2)), np.where(done, f3, np.where(same, f1, f2))
+            x2, f2 = np.where(done | same, x2, x1), np.where(done | same, f2, f1)
+            x1, f1 = np.where(done, x1, x), np.where(done, f1, value)
+            share = _next_share(x1, x2, x3, f1, f2, f3)
+    return np.where(usable, np.where(np.abs(f1) < np.abs(f2), x1, x2), np.nan)
+
+
+def _next_share(x1: Reals, x2: Reals, x3: Reals, f1: Reals, f2: Reals, f3: Reals) -> Reals:  # noqa: PLR0917
+    """Where between x1 and x2 to look next: by the inverse parabola through all three where it is monotone there."""
+    xi, phi = (x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2)
+    smooth = (phi * phi < xi) & ((1 - phi) ** 2 < 1 - xi)
+    parabola = f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
+    share: Reals = np.where(smooth & np.isfinite(parabola), parabola, 0.5)
+    return share

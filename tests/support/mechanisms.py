@@ -1,0 +1,105 @@
+"""Mechanisms of many kinds for the tests of what is judged on any of them."""
+
+import numpy as np
+
+from ilmek.linkage.fourbar import four_bar, slider_crank
+from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide
+
+BEAT_UP = (0.300, 0.0597, 0.2007, 0.2308)
+
+
+def six_bar_with_moving_guide() -> Mechanism:
+    """A crank-rocker whose coupler drives a link and a block on a slanting line of the rocker, set at an angle."""
+    ground, crank, coupler, rocker = 1.0, 0.3, 0.9, 0.8
+    base = four_bar(ground, crank, coupler, rocker, branch=+1, points={"coupler": {"C": 0.36 + 0.54j}})
+    return Mechanism(
+        bodies=(
+            *base.bodies[:3],
+            Body("rocker", {**base.body("rocker").points, "s": 0.24 - 0.16j}),
+            Body("link", {"C": 0.1j, "D": 9.0}),
+            Body("block", {"D": 0.1 + 0.2j, "s": -0.3j}),
+        ),
+        joints=(
+            *base.joints,
+            Slide("s", "block", "rocker", along=0.7, turned=-0.4),
+            Pin("C", "coupler", "link"),
+            Pin("D", "link", "block"),
+        ),
+        inputs=base.inputs,
+        branches={"B": +1, "D": -1},
+        name="six-bar",
+    )
+
+
+def quick_return() -> Mechanism:
+    """A crank's block slides in a lever; a slider on the lever is pinned to one on a slanting line of the ground."""
+    return Mechanism(
+        bodies=(
+            Body(GROUND, {"A0": 0, "B": -3, "u": 0.4 + 0.3j}),
+            Body("crank", {"A0": 0, "A": 1}),
+            Body("block", {"A": 0, "slot": 0}),
+            Body("lever", {"B": 0, "slot": 0, "t": 0.1 + 0.2j}),
+            Body("on_lever", {"t": 0.2j, "C": 0.1}),
+            Body("on_ground", {"u": 0.05j, "C": 0.3}),
+        ),
+        joints=(
+            Pin("A0", GROUND, "crank"),
+            Pin("A", "crank", "block"),
+            Slide("slot", "block", "lever"),
+            Pin("B", GROUND, "lever"),
+            Slide("t", "on_lever", "lever", 0.0, 0.4),
+            Pin("C", "on_lever", "on_ground"),
+            Slide("u", "on_ground", GROUND, 1.2, 0.2),
+        ),
+        inputs=(Rotation("crank", "A0"),),
+        branches={"slot": +1},
+        name="quick return",
+    )
+
+
+def two_motors() -> Mechanism:
+    """Two cranks, each with its motor, carry a dyad."""
+    return Mechanism(
+        bodies=(
+            Body(GROUND, {"A0": 0, "B0": 1.0}),
+            Body("left", {"A0": 0, "A": 0.4}),
+            Body("right", {"B0": 0, "B": 0.3}),
+            Body("one", {"A": 0, "C": 0.9}),
+            Body("two", {"B": 0, "C": 0.8}),
+        ),
+        joints=(
+            Pin("A0", GROUND, "left"),
+            Pin("B0", GROUND, "right"),
+            Pin("A", "left", "one"),
+            Pin("B", "right", "two"),
+            Pin("C", "one", "two"),
+        ),
+        inputs=(Rotation("left", "A0"), Rotation("right", "B0")),
+        branches={"C": +1},
+        name="two motors",
+    )
+
+
+def pushed_slider_crank() -> Mechanism:
+    """A slider-crank driven by its slider."""
+    base = slider_crank(0.1, 0.3, branch=+1, offset=0.02)
+    return Mechanism(base.bodies, base.joints, (Displacement("line"),), {"A": +1}, "pump")
+
+
+def chebychev(branch: int = +1) -> Mechanism:
+    """Chebychev's straight line: ground 2, equal crossed arms 2.5, coupler 1 with its tracing point in the middle."""
+    points = {"coupler": {"M": 0.5}}
+    return four_bar(2.0, 2.5, 1.0, 2.5, branch=branch, points=points, name="Chebychev")
+
+
+def watt_six_bar() -> Mechanism:
+    """A crank-rocker and a second four-bar from a ternary rocker, which the crank drives through it."""
+    base = four_bar(1.0, 0.35, 0.9, 0.8, branch=+1, points={"rocker": {"C": 0.7 * np.exp(0.6j)}})
+    ground = Body(GROUND, {"A0": 0, "B0": 1.0, "D0": 2.1 - 0.1j})
+    return Mechanism(
+        bodies=(ground, *base.bodies[1:], Body("link", {"C": 0, "D": 1.3}), Body("out", {"D0": 0, "D": 1.0})),
+        joints=(*base.joints, Pin("C", "rocker", "link"), Pin("D", "link", "out"), Pin("D0", GROUND, "out")),
+        inputs=base.inputs,
+        branches={"B": +1, "D": +1},
+        name="Watt",
+    )
