@@ -38,7 +38,15 @@ class ParameterError(IlmekError):
 
 
 class MechanismError(IlmekError):
-    """A mechanism that cannot close, cannot be solved, or stands at a dead centre."""
+    """A mechanism that cannot close, cannot be solved, or stands at a dead centre.
+
+    about  the entry of the model that is meant, as a path like ("joints", "A0"); empty where it is the whole, or a
+           motion. A file's reader finds its line by it
+    """
+
+    def __init__(self, given: str, *, allowed: str = "", do: str = "", about: tuple[str, ...] = ()) -> None:
+        self.about = about
+        super().__init__(given, allowed=allowed, do=do)
 
 
 class PictureError(IlmekError):

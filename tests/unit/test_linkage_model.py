@@ -38,9 +38,18 @@ def refused(bodies=BODIES, joints=PINS, inputs=DRIVE, branches=(("B", 1),)):
         (dict(joints=(*PINS[:3], Pin("B1", GROUND, "rocker"))), "has no point 'B1'"),
         (dict(joints=(*PINS[:3], Pin("B0", "rocker", "rocker"))), "to itself"),
         (dict(bodies=(*BODIES, Body("spare", {}))), "no joint of mechanism holds body 'spare'"),
-        (dict(joints=PINS[:3]), "under-constrained; 3 moving bodies and 3 joints have 3·3 - 2·3 = 3 freedoms"),
-        (dict(inputs=()), "1 freedom, and 0 are driven; add 1 inputs"),
-        (dict(inputs=(*DRIVE, Rotation("rocker", "B0"))), "over-constrained"),
+        (
+            dict(joints=PINS[:3]),
+            "under-constrained at coupler, rocker; 2 bodies and the 2 joints A, B have 3·2 - 2·2 = 2 freedoms",
+        ),
+        (
+            dict(inputs=()),
+            "at crank, coupler, rocker; 3 bodies and the 4 joints A0, A, B, B0 have 3·3 - 2·4 = 1 freedom, and 0",
+        ),
+        (
+            dict(inputs=(*DRIVE, Rotation("rocker", "B0"))),
+            "once too often: the inputs crank, rocker drive 1 freedom; take 1 of the inputs away",
+        ),
         (dict(inputs=(*DRIVE, Rotation("ground", "A0"))), "two inputs of mechanism drive joint 'A0'"),
         (dict(inputs=(Rotation("rocker", "A0"),)), "that pin joins ground and crank"),
         (dict(inputs=(Displacement("A0"),)), "a displacement needs a slide"),

@@ -23,11 +23,14 @@ from typing import TypeAlias
 
 from ilmek.carpet.yarn import FIELDS, Yarn, yarns_from_records
 from ilmek.errors import YarnError
+from ilmek.io.text_file import read_text
 
 LARGEST = 1_000_000
 """Most bytes of a yarn list; 255 yarns need far less."""
 
 Record: TypeAlias = Mapping[str, object]
+
+_MISSING = "check the path, or leave --yarns out for the wool list that is built in"
 
 
 def read_yarns(path: Path) -> tuple[Yarn, ...]:
@@ -37,7 +40,7 @@ def read_yarns(path: Path) -> tuple[Yarn, ...]:
     try:
         if reader is None and path.is_file():
             raise YarnError(f"ends in {path.suffix!r}", allowed="a yarn list is a .toml or .csv file")
-        text = _read_text(path)
+        text = read_text(path, noun="yarn list, .toml or .csv", largest=LARGEST, error=YarnError, do=_MISSING)
         return yarns_from_records((reader or _toml_records)(text))
     except YarnError as error:
         raise YarnError(f"yarn list {path}: {error.given}", allowed=error.allowed, do=error.do) from None
@@ -47,28 +50,6 @@ def default_yarns() -> tuple[Yarn, ...]:
     """The sixteen wool yarns that come with ilmek."""
     text = resources.files("ilmek.data").joinpath("wool16.toml").read_text(encoding="utf-8")
     return yarns_from_records(_toml_records(text))
-
-
-def _read_text(path: Path) -> str:
-    if path.is_dir():
-        raise YarnError("is a folder", do="give a .toml or .csv file")
-    if not path.exists():
-        raise YarnError("does not exist", do="check the path, or leave --yarns out for the wool list that is built in")
-    if not path.is_file():
-        raise YarnError("is not a file", do="give a .toml or .csv file")
-    try:
-        data = path.read_bytes() if path.stat().st_size <= LARGEST else None
-    except OSError as error:
-        raise YarnError(f"cannot be read ({error.strerror})") from None
-    if data is None:
-        raise YarnError("is too large for a yarn list", allowed=f"at most {LARGEST // 1000} kB")
-    if not data.strip():
-        raise YarnError("is empty", do="list at least two yarns")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        raise YarnError(f"line {line} is not UTF-8 text", do="save the file as UTF-8") from None
 
 
 def _toml_records(text: str) -> Sequence[Record]:

@@ -14,7 +14,8 @@ import cmath
 import difflib
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TypeAlias, TypeVar
 
@@ -39,7 +40,8 @@ class Body:
         points = {name: complex(point) for name, point in self.points.items()}
         for name, point in points.items():
             if not cmath.isfinite(point):
-                raise MechanismError(f"point {name!r} of body {self.name!r} is {point}", allowed="finite coordinates")
+                given = f"point {name!r} of body {self.name!r} is {point}"
+                raise MechanismError(given, allowed="finite coordinates", about=("bodies", self.name, "points", name))
         object.__setattr__(self, "points", points)
 
 
@@ -138,7 +140,8 @@ class Mechanism:
               closed form, which Newton's method follows from there. A body not named is taken as drawn in place.
 
     Raises MechanismError for a name used twice or unknown, a body that no joint holds, a link of zero length, a
-    branch that is neither +1 nor -1, and where joints and inputs do not leave exactly no freedom.
+    branch that is neither +1 nor -1, a pose that is not finite. Whether joints and inputs leave exactly no freedom is
+    for `structure.plan` to say: a mechanism that is held too often can be looked at too (`mobility`).
     """
 
     bodies: tuple[Body, ...]
@@ -194,13 +197,30 @@ def _find(name: str, among: Iterable[Named], kind: str, of: str) -> Named:
 def _check(mechanism: Mechanism) -> None:
     _check_names(mechanism)
     for joint in mechanism.joints:
-        _check_joint(mechanism, joint)
+        with _about("joints", joint.name):
+            _check_joint(mechanism, joint)
     for entry in mechanism.inputs:
-        _check_input(mechanism, entry)
+        with _about("inputs", entry.joint):
+            _check_input(mechanism, entry)
     for name in mechanism.moving:
-        _check_held(mechanism, name)
-    _check_branches(mechanism)
-    _check_freedom(mechanism)
+        with _about("bodies", name):
+            _check_held(mechanism, name)
+    for name, branch in mechanism.branches.items():
+        with _about("branches", name):
+            _check_branch(mechanism, name, branch)
+    for name, (origin, angle) in mechanism.pose.items():
+        with _about("pose", name):
+            _check_pose(mechanism, name, origin, angle)
+
+
+@contextmanager
+def _about(*path: str) -> Iterator[None]:
+    """While inside, an error that does not say which entry it is about is about this one."""
+    try:
+        yield
+    except MechanismError as error:
+        error.about = error.about or path
+        raise
 
 
 def _check_names(mechanism: Mechanism) -> None:
@@ -209,9 +229,8 @@ def _check_names(mechanism: Mechanism) -> None:
             if times > 1:
                 raise MechanismError(f"{mechanism.name} has {times} {kind} named {name!r}", do="give each its own name")
     if GROUND not in {body.name for body in mechanism.bodies}:
-        raise MechanismError(f"{mechanism.name} has no body named {GROUND!r}", do="one body must stand still")
-    for name in mechanism.pose:
-        mechanism.body(name)
+        given = f"{mechanism.name} has no body named {GROUND!r}"
+        raise MechanismError(given, do="one body must stand still", about=("bodies",))
 
 
 def _check_joint(mechanism: Mechanism, joint: Joint) -> None:
@@ -250,22 +269,14 @@ def _check_held(mechanism: Mechanism, body: str) -> None:
         raise MechanismError(f"link {body!r} has zero length: its pins {pins} coincide", do="give it a length above 0")
 
 
-def _check_branches(mechanism: Mechanism) -> None:
-    for name, branch in mechanism.branches.items():
-        mechanism.joint(name)
-        if branch not in (+1, -1):
-            raise MechanismError(f"branch of {name!r} in {mechanism.name} is {branch!r}", allowed="+1 or -1")
+def _check_branch(mechanism: Mechanism, name: str, branch: int) -> None:
+    mechanism.joint(name)
+    if branch not in (+1, -1):
+        raise MechanismError(f"branch of {name!r} in {mechanism.name} is {branch!r}", allowed="+1 or -1")
 
 
-def _check_freedom(mechanism: Mechanism) -> None:
-    free, driven = freedom(mechanism), len(mechanism.inputs)
-    if free == driven:
-        return
-    bodies, joints = len(mechanism.moving), len(mechanism.joints)
-    slack = free - driven
-    raise MechanismError(
-        f"{mechanism.name} is {'under' if slack > 0 else 'over'}-constrained",
-        allowed=f"{bodies} moving bodies and {joints} joints have 3·{bodies} - 2·{joints} = {free} "
-        f"{'freedom' if free == 1 else 'freedoms'}, and {driven} {'is' if driven == 1 else 'are'} driven",
-        do=f"add {slack} inputs, or joints" if slack > 0 else f"take away {-slack} inputs, or joints",
-    )
+def _check_pose(mechanism: Mechanism, name: str, origin: complex, angle: float) -> None:
+    mechanism.body(name)
+    if not (cmath.isfinite(origin) and math.isfinite(angle)):
+        given = f"pose of {name!r} in {mechanism.name} is {origin}, {angle}"
+        raise MechanismError(given, allowed="a finite origin [m] and angle [rad]")

@@ -2,7 +2,8 @@
 
 Assur's principle: a mechanism with its inputs held falls apart into groups of bodies that have no freedom of their own
 once what they hang on is known. `plan` always takes the smallest such group next; a group that one of the closed forms
-recognises is solved by it, any other by Newton's method on the same loop equations.
+recognises is solved by it, any other by Newton's method on the same loop equations. Bodies that are held too often, and
+those that nothing holds, are named with their joints.
 
 >>> from ilmek.linkage.fourbar import four_bar
 >>> for step in plan(four_bar(0.300, 0.060, 0.200, 0.230, branch=+1)).steps:
@@ -18,7 +19,7 @@ from itertools import combinations
 from ilmek.errors import MechanismError
 from ilmek.linkage.groups import block, prp, rpp, rpr, rrp, rrr, shift, turn
 from ilmek.linkage.groups.group import Group, Step
-from ilmek.linkage.model import GROUND, Mechanism
+from ilmek.linkage.model import GROUND, Mechanism, freedom
 
 CLOSED_FORMS: tuple[Callable[[Group], Step | None], ...] = (
     turn.recognise,
@@ -47,8 +48,8 @@ class Plan:
 def plan(mechanism: Mechanism, *, closed_forms: bool = True) -> Plan:
     """The steps that solve `mechanism`; with `closed_forms=False` all groups are left to Newton's method.
 
-    Raises MechanismError where a part is over-constrained while another is loose, naming its bodies and joints, and
-    where a group lacks its branch.
+    Raises MechanismError where a part is over-constrained or under-constrained, naming its bodies, joints and inputs,
+    and where a group lacks its branch.
     """
     known, steps = {GROUND}, []
     while len(known) <= len(mechanism.moving):
@@ -65,12 +66,11 @@ def _next_group(mechanism: Mechanism, known: set[str]) -> Group:
     for size in range(1, len(left) + 1):
         for bodies in combinations(left, size):
             group = _group(mechanism, bodies, known)
-            free = 3 * len(bodies) - 2 * len(group.joints) - len(group.inputs)
-            if free < 0:
+            if group.freedom < 0:
                 raise _over_constrained(group)
-            if free == 0:
+            if group.freedom == 0:
                 return group
-    raise AssertionError("a mechanism whose freedoms are all driven has a group left")
+    raise _under_constrained(_group(mechanism, left, known))
 
 
 def _group(mechanism: Mechanism, bodies: Iterable[str], known: set[str]) -> Group:
@@ -84,11 +84,32 @@ def _group(mechanism: Mechanism, bodies: Iterable[str], known: set[str]) -> Grou
 
 
 def _over_constrained(group: Group) -> MechanismError:
-    bodies, joints = ", ".join(group.bodies), ", ".join(joint.name for joint in group.joints)
+    """A group that is held too often: by more inputs than the whole has freedoms, or by joints."""
+    whole = group.mechanism
+    free, driven = freedom(whole), [entry.name for entry in whole.inputs]
+    held = f"joints {', '.join(joint.name for joint in group.joints)} hold it {_times(-group.freedom)} too often"
+    if 0 <= free < len(driven):
+        held += f": the inputs {', '.join(driven)} drive {free} {'freedom' if free == 1 else 'freedoms'}"
+        do = f"take {len(driven) - free} of the inputs away"
+    else:
+        do = "take one away, or leave out a body that only repeats what others hold"
+    given = f"{whole.name} is over-constrained at {', '.join(group.bodies)}"
+    return MechanismError(given, allowed=held, do=do, about=("joints", group.joints[-1].name))
+
+
+def _times(count: int) -> str:
+    return "once" if count == 1 else f"{count} times"
+
+
+def _under_constrained(group: Group) -> MechanismError:
+    """Nothing more can be solved: the bodies left, and what holds them."""
+    bodies, joints, slack = len(group.bodies), len(group.joints), group.freedom
+    names = ", ".join(joint.name for joint in group.joints)
+    free, driven = slack + len(group.inputs), len(group.inputs)
     return MechanismError(
-        f"{group.mechanism.name} is over-constrained at {bodies}",
-        allowed=f"joints {joints}"
-        + (f" and {len(group.inputs)} inputs" if group.inputs else "")
-        + " hold it too often",
-        do="take one away; another part has a freedom too many",
+        f"{group.mechanism.name} is under-constrained at {', '.join(group.bodies)}",
+        allowed=f"{bodies} bodies and the {joints} joints {names} have 3·{bodies} - 2·{joints} = "
+        f"{free} {'freedom' if free == 1 else 'freedoms'}, and {driven} {'is' if driven == 1 else 'are'} driven",
+        do=f"drive {slack} more of these joints, or join the bodies further",
+        about=("bodies", group.bodies[0]),
     )

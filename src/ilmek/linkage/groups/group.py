@@ -103,6 +103,11 @@ class Group:
     inputs: tuple[Input, ...]
 
     @property
+    def freedom(self) -> int:
+        """Freedoms by count that joints and inputs leave: 3 a body less 2 a joint and 1 an input [Gruebler's count]."""
+        return 3 * len(self.bodies) - 2 * len(self.joints) - len(self.inputs)
+
+    @property
     def inner(self) -> tuple[Joint, ...]:
         """Joints between two of its bodies."""
         return tuple(joint for joint in self.joints if set(joint.bodies) <= set(self.bodies))
@@ -145,6 +150,7 @@ class Group:
             raise MechanismError(
                 f"link {body!r} of {self.mechanism.name} has zero length: {start} and {end} coincide",
                 do="give it a length above 0",
+                about=("bodies", body, "points", end),
             )
         return arm
 
@@ -156,5 +162,6 @@ class Group:
                 f"{self.mechanism.name} has no branch for the free pin {joint!r} of {' and '.join(self.bodies)}",
                 allowed="+1 or -1",
                 do=f"say branches={{{joint!r}: +1}}",
+                about=("joints", joint),
             )
         return branches[joint]

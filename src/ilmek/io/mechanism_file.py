@@ -1,0 +1,226 @@
+"""Mechanisms in and out, as TOML or JSON: the same keys, the same schema (`ilmek.data/mechanism.schema.json`).
+
+    name = "needle drive"
+
+    [bodies.ground]
+    points = { O = [0, 0], guide = ["80mm", 0] }
+
+    [bodies.crank]
+    points = { O = [0, 0], A = ["40mm", 0] }
+    mass = "0.2kg"                              # with centre and moment: what dynamics needs
+
+    [joints]
+    O = { pin = ["ground", "crank"] }
+    guide = { slide = ["needle", "ground"], along = "-90deg" }
+
+    [inputs]
+    O = "crank"                                 # the joint that is driven, and the body that it turns
+
+    [branches]
+    B = 1
+
+Numbers are SI and radians; text takes its unit. What is written is read again without loss: every number to its last
+bit, every name, every order.
+"""
+
+import json
+import tomllib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import lru_cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from ilmek.dynamics.inertia import Inertia
+from ilmek.errors import IlmekError, MechanismError
+from ilmek.io.output import write_whole
+from ilmek.io.places import Places, json_places, toml_places
+from ilmek.io.schema import Reader, Schema, Sheet
+from ilmek.io.text_file import read_text
+from ilmek.io.toml_text import toml_text
+from ilmek.linkage.model import Body, Displacement, Input, Joint, Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.structure import Plan, plan
+
+LARGEST = 1_000_000
+"""Most bytes of a mechanism file."""
+
+
+@dataclass(frozen=True, slots=True)
+class MechanismFile:
+    """What a file holds: the mechanism, and the inertias of the bodies that have some."""
+
+    mechanism: Mechanism
+    inertias: Mapping[str, Inertia] = field(default_factory=dict)
+    sheet: Sheet = field(default_factory=lambda: Sheet("mechanism", {(): 1}), compare=False, repr=False)
+
+    def plan(self) -> Plan:
+        """The mechanism's plan. Raises MechanismError, naming the file, the line and the key, where it has none."""
+        with _blamed(self.sheet):
+            return plan(self.mechanism)
+
+
+def read_mechanism(path: Path) -> MechanismFile:
+    """The mechanism of a .toml or .json file.
+
+    Raises MechanismError, naming the file, the line and the key, for whatever is wrong with it.
+    """
+    try:
+        text = read_text(
+            path, noun="mechanism file, .toml or .json", largest=LARGEST, error=MechanismError, do="check the path"
+        )
+        if path.suffix.lower() not in (".toml", ".json"):
+            raise MechanismError(f"ends in {path.suffix!r}", allowed="a mechanism file is .toml or .json")
+    except MechanismError as error:
+        raise MechanismError(f"mechanism file {path} {error.given}", allowed=error.allowed, do=error.do) from None
+    return parse_mechanism(text, name=str(path), toml=path.suffix.lower() == ".toml")
+
+
+def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) -> MechanismFile:
+    """The mechanism of a TOML or JSON text; `name` is what messages call the text. Raises as `read_mechanism`."""
+    data, places = _toml(text, name) if toml else _json(text, name)
+    sheet = Sheet(name, places)
+    read = Reader(schema(), sheet).read(data)
+    return _built(read, sheet)
+
+
+def write_mechanism(path: Path, mechanism: Mechanism, inertias: Mapping[str, Inertia] | None = None) -> None:
+    """Write a .toml or .json file, whole or not at all. Raises OutputError; MechanismError for another ending."""
+    writers = {".toml": mechanism_toml, ".json": mechanism_json}
+    writer = writers.get(path.suffix.lower())
+    if writer is None:
+        raise MechanismError(f"mechanism file {path} ends in {path.suffix!r}", allowed=".toml or .json")
+    write_whole(path, writer(mechanism, inertias or {}))
+
+
+def mechanism_toml(mechanism: Mechanism, inertias: Mapping[str, Inertia]) -> str:
+    """The mechanism as TOML text."""
+    return toml_text(_data(mechanism, inertias))
+
+
+def mechanism_json(mechanism: Mechanism, inertias: Mapping[str, Inertia]) -> str:
+    """The mechanism as JSON text."""
+    return json.dumps(_data(mechanism, inertias), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+@lru_cache(maxsize=1)
+def schema() -> Schema:
+    """The JSON schema of both kinds of file."""
+    text = resources.files("ilmek.data").joinpath("mechanism.schema.json").read_text(encoding="utf-8")
+    found: Schema = json.loads(text)
+    return found
+
+
+def _toml(text: str, name: str) -> tuple[Any, Places]:
+    try:
+        return tomllib.loads(text), toml_places(text)
+    except tomllib.TOMLDecodeError as error:
+        said, _, place = str(error).removesuffix(")").rpartition(" (at ")
+        raise MechanismError(f"{name}, {place or 'end'}: {said[:1].lower()}{said[1:]}", do="mend that line") from None
+    except (RecursionError, ValueError):  # brackets in brackets, or a number of thousands of digits
+        raise MechanismError(f"{name} is no mechanism, though it may be TOML") from None
+
+
+def _json(text: str, name: str) -> tuple[Any, Places]:
+    try:
+        return json.loads(text), json_places(text)
+    except json.JSONDecodeError as error:
+        said = f"{error.msg[:1].lower()}{error.msg[1:]}"
+        raise MechanismError(
+            f"{name}, line {error.lineno}, column {error.colno}: {said}", do="mend that line"
+        ) from None
+    except IlmekError as error:
+        raise MechanismError(f"{name}, {error.given}", allowed=error.allowed, do="give each its own name") from None
+    except (RecursionError, ValueError):
+        raise MechanismError(f"{name} is no mechanism, though it may be JSON") from None
+
+
+@contextmanager
+def _blamed(sheet: Sheet, *path: str) -> Iterator[None]:
+    """While inside, an error of the model gets the line of what it is about, or of `path`."""
+    try:
+        yield
+    except IlmekError as error:
+        sheet.refuse(getattr(error, "about", ()) or path, error)
+
+
+def _built(data: Mapping[str, Any], sheet: Sheet) -> MechanismFile:
+    """The records from data that fit the schema."""
+    bodies, inertias = [], {}
+    for name, table in data["bodies"].items():
+        with _blamed(sheet, "bodies", name):
+            bodies.append(Body(name, {point: complex(*place) for point, place in table["points"].items()}))
+            if table.keys() & {"mass", "centre", "moment"}:
+                centre = complex(*table.get("centre", (0, 0)))
+                inertias[name] = Inertia(table.get("mass", 0.0), centre, table.get("moment", 0.0))
+    joints = tuple(_joint(name, table) for name, table in data["joints"].items())
+    sliding = {joint.name for joint in joints if isinstance(joint, Slide)}
+    with _blamed(sheet):
+        mechanism = Mechanism(
+            bodies=tuple(bodies),
+            joints=joints,
+            inputs=tuple(_input(name, body, name in sliding) for name, body in data["inputs"].items()),
+            branches=data.get("branches", {}),
+            name=data.get("name", "mechanism"),
+            pose={body: (complex(*pose["origin"]), pose["angle"]) for body, pose in data.get("pose", {}).items()},
+        )
+        for entry in mechanism.inputs:
+            _check_driven(mechanism, entry, data["inputs"][entry.joint])
+    return MechanismFile(mechanism, inertias, sheet)
+
+
+def _joint(name: str, table: Mapping[str, Any]) -> Joint:
+    if "pin" in table:
+        first, second = table["pin"]
+        return Pin(name, first, second)
+    body, guide = table["slide"]
+    return Slide(name, body, guide, along=table.get("along", 0.0), turned=table.get("turned", 0.0))
+
+
+def _input(joint: str, body: str, slides: bool) -> Input:
+    return Displacement(joint) if slides else Rotation(body, joint)
+
+
+def _check_driven(mechanism: Mechanism, entry: Input, body: str) -> None:
+    """Raise MechanismError where an input at a slide names another body than the sliding one."""
+    joint = mechanism.joint(entry.joint)
+    if isinstance(joint, Slide) and body != joint.body:
+        given = f"slide {joint.name!r} is driven by {body!r}"
+        raise MechanismError(given, allowed=f"its sliding body is {joint.body!r}", about=("inputs", joint.name))
+
+
+def _data(mechanism: Mechanism, inertias: Mapping[str, Inertia]) -> dict[str, Any]:
+    """The records as data that fit the schema."""
+    joined = {entry.joint: _driven(mechanism, entry) for entry in mechanism.inputs}
+    data: dict[str, Any] = {
+        "name": mechanism.name,
+        "bodies": {body.name: _body_data(body, inertias.get(body.name)) for body in mechanism.bodies},
+        "joints": {joint.name: _joint_data(joint) for joint in mechanism.joints},
+        "inputs": joined,
+        "branches": dict(mechanism.branches),
+        "pose": {body: {"origin": _place(at), "angle": float(angle)} for body, (at, angle) in mechanism.pose.items()},
+    }
+    return {key: value for key, value in data.items() if value != {} or key in schema()["required"]}
+
+
+def _driven(mechanism: Mechanism, entry: Input) -> str:
+    joint = mechanism.joint(entry.joint)
+    return joint.body if isinstance(joint, Slide) else entry.name
+
+
+def _body_data(body: Body, inertia: Inertia | None) -> dict[str, Any]:
+    data: dict[str, Any] = {"points": {name: _place(point) for name, point in body.points.items()}}
+    if inertia is not None:
+        data |= {"mass": float(inertia.mass), "centre": _place(inertia.centre), "moment": float(inertia.moment)}
+    return data
+
+
+def _joint_data(joint: Joint) -> dict[str, Any]:
+    if isinstance(joint, Pin):
+        return {"pin": list(joint.bodies)}
+    return {"slide": list(joint.bodies), "along": float(joint.along), "turned": float(joint.turned)}
+
+
+def _place(point: complex) -> list[float]:
+    return [float(point.real), float(point.imag)]

@@ -1,0 +1,161 @@
+r"""Where each key of a TOML or JSON text stands: its line.
+
+The readers of the standard library give values without places; this one gives places without values, for texts that
+those readers accept. A value's path is the keys that lead to it, a list's entries counted from 0:
+
+>>> toml_places('name = "arm"\n[bodies.ground.points]\nA = [0,\n 1]')[("bodies", "ground", "points", "A", 1)]
+4
+>>> json_places('{"bodies":\n {"ground": {}}}')[("bodies", "ground")]
+2
+"""
+
+import json
+import re
+import tomllib
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from ilmek.errors import IlmekError
+
+Path: TypeAlias = tuple[str | int, ...]
+Places: TypeAlias = dict[Path, int]
+"""Path of a key or a list's entry -> line, counted from 1; the whole, (), stands in line 1."""
+
+_TOKEN = re.compile(
+    r'''(?P<string>"""(?:\\.|[^\\])*?"{3,5}|\'\'\'.*?\'{3,5}|"(?:\\.|[^"\\])*"|'[^']*')'''
+    r"|(?P<comment>\#[^\n]*)|(?P<newline>\n)|(?P<mark>[\[\]{}=:,.])|(?P<word>[^\s\[\]{}=:,.\"'#]+)",
+    re.DOTALL,
+)
+
+
+def toml_places(text: str) -> Places:
+    """The line of every key of a TOML text that `tomllib` accepts."""
+    scan = _Scan(_tokens(text), lambda word: str(tomllib.loads(f"key = {word}")["key"]))
+    prefix: Path = ()
+    while scan.skip_newlines():
+        line = scan.line
+        if scan.take_if("["):
+            many = scan.take_if("[")
+            prefix = scan.opened(scan.keys("]"), many)
+            scan.put(prefix, line)
+            if many:
+                scan.take()
+        else:
+            path = prefix + scan.keys("=")
+            scan.put(path, line)
+            scan.value(path)
+    return scan.places
+
+
+def json_places(text: str) -> Places:
+    """The line of every key of a JSON text that `json` accepts. Raises IlmekError for a key that comes twice."""
+    scan = _Scan(_tokens(text), json.loads, once=True)
+    scan.value(())
+    return scan.places
+
+
+def _tokens(text: str) -> deque[tuple[str, str, int]]:
+    """Kind, text and line of every token but comments."""
+    found: deque[tuple[str, str, int]] = deque()
+    line, at = 1, 0
+    for token in _TOKEN.finditer(text):
+        line += text.count("\n", at, token.start())
+        at = token.start()
+        if token.lastgroup != "comment":
+            found.append((token.lastgroup or "", token[0], line))
+    return found
+
+
+@dataclass(slots=True)
+class _Scan:
+    """What is left of the tokens, and the places found so far.
+
+    once  a path may be put only once: JSON's own reader lets a key come twice
+    """
+
+    left: deque[tuple[str, str, int]]
+    decode: Callable[[str], str]
+    once: bool = False
+    places: Places = field(default_factory=lambda: {(): 1})
+    arrays: dict[Path, int] = field(default_factory=dict)
+
+    @property
+    def line(self) -> int:
+        """Line of the next token."""
+        return self.left[0][2]
+
+    def take(self) -> tuple[str, str, int]:
+        """The next token."""
+        return self.left.popleft()
+
+    def take_if(self, mark: str) -> bool:
+        """Whether the next token was this mark, which is then gone."""
+        if self.left and self.left[0][:2] == ("mark", mark):
+            self.take()
+            return True
+        return False
+
+    def skip_newlines(self) -> bool:
+        """Whether anything is left behind the newlines, which are then gone."""
+        while self.left and self.left[0][0] == "newline":
+            self.take()
+        return bool(self.left)
+
+    def put(self, path: Path, line: int) -> None:
+        """Note a path and those that lead to it."""
+        if self.once and path in self.places:
+            key = ".".join(str(key) for key in path)
+            raise IlmekError(f"line {line}, {key}: comes twice", allowed=f"it stands in line {self.places[path]} too")
+        for size in range(1, len(path) + 1):
+            self.places.setdefault(path[:size], line)
+
+    def keys(self, end: str) -> Path:
+        """The dotted keys before a mark, which is taken too."""
+        found: list[str] = []
+        while not self.take_if(end):
+            kind, text, _ = self.take()
+            if kind != "mark":
+                found.append(self.decode(text) if kind == "string" else text)
+        return tuple(found)
+
+    def opened(self, keys: Path, many: bool) -> Path:
+        """The path of a table's heading, with the number of the entry for each list of tables on the way."""
+        path: Path = ()
+        for place, key in enumerate(keys):
+            path += (key,)
+            if many and place == len(keys) - 1:
+                self.arrays[path] = self.arrays.get(path, -1) + 1
+            if path in self.arrays:
+                path += (self.arrays[path],)
+        return path
+
+    def value(self, path: Path) -> None:
+        """A value: what a list or table holds is noted, the rest passed over."""
+        self.skip_newlines()
+        if self.take_if("["):
+            self._entries(path)
+        elif self.take_if("{"):
+            self._table(path)
+        else:
+            while self.left and self.left[0][0] != "newline" and self.left[0][1] not in (",", "]", "}"):
+                self.take()
+
+    def _entries(self, path: Path) -> None:
+        number = 0
+        while self.skip_newlines() and not self.take_if("]"):
+            self.put((*path, number), self.line)
+            self.value((*path, number))
+            self.skip_newlines()
+            self.take_if(",")
+            number += 1
+
+    def _table(self, path: Path) -> None:
+        while self.skip_newlines() and not self.take_if("}"):
+            line = self.line
+            inner = path + self.keys(":" if self.once else "=")
+            self.put(inner, line)
+            self.value(inner)
+            self.skip_newlines()
+            self.take_if(",")

@@ -1,0 +1,68 @@
+"""TOML out: tables of tables of plain values, laid out for people, every number exact.
+
+>>> print(toml_text({"name": "arm", "joints": {"A0": {"pin": ["ground", "arm"]}}, "bodies": {"arm": {"points": {}}}}))
+name = "arm"
+<BLANKLINE>
+[joints]
+A0 = { pin = ["ground", "arm"] }
+<BLANKLINE>
+[bodies.arm]
+points = {}
+<BLANKLINE>
+"""
+
+import json
+import re
+from collections.abc import Mapping
+from typing import Any
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def toml_text(data: Mapping[str, Any]) -> str:
+    """The data as TOML text: text, whole and real numbers, lists, and tables, nested to any depth.
+
+    An entry of a table of tables has a heading of its own where it holds a table again, else one line. Reals are
+    written with as many digits as it takes to read the same number again.
+    """
+    plain = [_line(key, value) for key, value in data.items() if not isinstance(value, Mapping)]
+    parts = ["\n".join(plain)] if plain else []
+    for key, table in data.items():
+        if isinstance(table, Mapping):
+            parts += _tables(_key(key), table)
+    return "\n\n".join(parts) + "\n"
+
+
+def _tables(heading: str, table: Mapping[str, Any]) -> list[str]:
+    """A table under its heading; entries that hold tables stand behind it, each under its own."""
+    deep = {
+        key: value
+        for key, value in table.items()
+        if isinstance(value, Mapping) and any(isinstance(inner, Mapping) for inner in value.values())
+    }
+    if deep and len(deep) == len(table):
+        lines = [(f"{heading}.{_key(key)}", entry) for key, entry in table.items()]
+        return ["\n".join([f"[{own}]", *(_line(key, value) for key, value in entry.items())]) for own, entry in lines]
+    return ["\n".join([f"[{heading}]", *(_line(key, value) for key, value in table.items())])]
+
+
+def _line(key: str, value: Any) -> str:
+    return f"{_key(key)} = {_value(value)}"
+
+
+def _key(key: str) -> str:
+    return key if _BARE.fullmatch(key) else _text(key)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, Mapping):
+        inside = ", ".join(_line(key, inner) for key, inner in value.items())
+        return f"{{ {inside} }}" if inside else "{}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(_value(inner) for inner in value)}]"
+    return _text(value) if isinstance(value, str) else repr(value)
+
+
+def _text(text: str) -> str:
+    """A string between quotes, escaped as TOML and JSON both know it."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,0 +1,124 @@
+"""A mechanism written is read again to the last bit, as TOML and as JSON, and the places of its keys are right."""
+
+import json
+import math
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ilmek.dynamics.inertia import Inertia
+from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, parse_mechanism
+from ilmek.io.places import json_places, toml_places
+from ilmek.io.toml_text import toml_text
+from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide
+
+REAL = st.floats(allow_nan=False, allow_infinity=False)
+POSITIVE = st.floats(0, 1e300)
+PLACE = st.builds(complex, REAL, REAL)
+NAME = st.text(max_size=8)
+
+
+@st.composite
+def parts(draw):
+    """Points, joints, driven bodies, branches, name and pose of a chain from the ground on, any names and numbers."""
+    names = [GROUND, *draw(st.lists(NAME.filter(lambda name: name != GROUND), min_size=1, max_size=5, unique=True))]
+    joined = draw(st.lists(NAME, min_size=len(names) - 1, max_size=len(names) - 1, unique=True))
+    points = {name: draw(st.dictionaries(NAME, PLACE, max_size=2)) for name in names}
+    joints = []
+    for k, joint in enumerate(joined):
+        first, second = names[k], names[k + 1]
+        for body in (first, second):
+            points[body][joint] = draw(PLACE)
+        slide = (draw(REAL), draw(REAL)) if draw(st.booleans()) else ()
+        driven = draw(st.sampled_from([first, second])) if k % 2 == 0 else None
+        joints.append((joint, second, first, slide, driven))
+    for k, name in enumerate(names[1:-1]):  # a link whose two pins coincide is refused
+        for place, joint in enumerate(joined[k : k + 2]):
+            points[name][joint] = complex(place, draw(REAL))
+    pose = draw(st.dictionaries(st.sampled_from(names), st.tuples(PLACE, REAL), max_size=2))
+    branches = draw(st.dictionaries(st.sampled_from(joined), st.sampled_from([1, -1])))
+    return points, joints, branches, draw(NAME), pose
+
+
+def built(points, joints, branches, name, pose) -> Mechanism:
+    """The mechanism of the parts; of two inputs of one name the last counts."""
+    inputs = {}
+    for joint, _, _, slide, driven in joints:
+        if driven is not None:
+            entry = Displacement(joint) if slide else Rotation(driven, joint)
+            inputs[entry.name] = entry
+    return Mechanism(
+        tuple(Body(body, places) for body, places in points.items()),
+        tuple(
+            Slide(joint, second, first, *slide) if slide else Pin(joint, first, second)
+            for joint, second, first, slide, _ in joints
+        ),
+        tuple(inputs.values()),
+        branches,
+        name,
+        pose,
+    )
+
+
+WEIGHT = st.tuples(POSITIVE, PLACE, POSITIVE)
+
+
+@settings(max_examples=60, deadline=None)
+@given(parts(), st.dictionaries(st.integers(0, 4), WEIGHT, max_size=2))
+def test_what_is_written_is_read_again(said, weights):
+    mechanism = built(*said)
+    inertias = {mechanism.moving[k % len(mechanism.moving)]: Inertia(*numbers) for k, numbers in weights.items()}
+    for write, toml in ((mechanism_toml, True), (mechanism_json, False)):
+        text = write(mechanism, inertias)
+        found = parse_mechanism(text, toml=toml)
+        assert found.mechanism == mechanism
+        assert [body.name for body in found.mechanism.bodies] == [body.name for body in mechanism.bodies]
+        assert found.inertias == inertias
+        assert write(found.mechanism, found.inertias) == text  # the order and the sign of zero too
+
+
+TREE = st.recursive(
+    st.one_of(st.text(max_size=6), st.integers(-9, 9), REAL, st.lists(REAL, max_size=2)),
+    lambda inner: st.dictionaries(NAME, inner, max_size=3),
+    max_leaves=12,
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(NAME, min_size=1, max_size=6, unique=True))
+def test_json_keys_are_found_in_their_lines(names):
+    data = {names[0]: {name: [0, {"x": "]}"}] for name in names[1:]}}
+    text = json.dumps(data, indent=1)
+    found = json_places(text)
+    lines = text.split("\n")
+    for place, name in enumerate(names[1:]):
+        line = found[(names[0], name)]
+        assert line == 3 + 6 * place
+        assert lines[line - 1].strip().startswith(json.dumps(name))
+        assert found[(names[0], name, 1, "x")] == line + 3
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.dictionaries(NAME, TREE, max_size=4))
+def test_every_key_of_a_toml_text_has_a_place(data):
+    text = toml_text(data)
+    found, count = toml_places(text), len(text.split("\n"))
+
+    def look(value, path):
+        assert 1 <= found[path] <= count
+        for name, inner in value.items() if isinstance(value, dict) else ():
+            look(inner, (*path, name))
+
+    look(data, ())
+    assert len(found) >= 1
+
+
+def test_smallest_and_greatest_numbers_survive():
+    numbers = [5e-324, -0.0, 1.7976931348623157e308, 0.1 + 0.2, 1e22, 1e-7]
+    ground = Body(GROUND, {"A": 0, **{str(n): complex(x, -x) for n, x in enumerate(numbers)}})
+    mechanism = Mechanism((ground, Body("arm", {"A": 0})), (Pin("A", GROUND, "arm"),), (Rotation("arm", "A"),))
+    for write, toml in ((mechanism_toml, True), (mechanism_json, False)):
+        points = parse_mechanism(write(mechanism, {}), toml=toml).mechanism.body(GROUND).points
+        for n, x in enumerate(numbers):
+            assert points[str(n)] == complex(x, -x)
+            assert math.copysign(1, points[str(n)].real) == math.copysign(1, x)

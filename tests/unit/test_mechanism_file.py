@@ -1,0 +1,206 @@
+"""What a mechanism file may say, and how each mistake in one is told: file, line, key."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from ilmek.errors import MechanismError, OutputError
+from ilmek.io.mechanism_file import parse_mechanism, read_mechanism, schema, write_mechanism
+from ilmek.linkage.fourbar import four_bar, slider_crank
+
+FOUR_BAR = """\
+name = "four-bar"
+
+[bodies.ground]
+points = { A0 = [0, 0], B0 = ["300mm", 0] }
+[bodies.crank]
+points = { A0 = [0, 0], A = ["60mm", 0] }
+mass = "200g"
+centre = ["30mm", 0]
+[bodies.coupler]
+points = { A = [0, 0], B = ["20cm", 0] }
+[bodies.rocker]
+points = { B0 = [0, 0], B = [0.23, 0] }
+
+[joints]
+A0 = { pin = ["ground", "crank"] }
+A = { pin = ["crank", "coupler"] }
+B = { pin = ["coupler", "rocker"] }
+B0 = { pin = ["ground", "rocker"] }
+
+[inputs]
+A0 = "crank"
+
+[branches]
+B = 1
+"""
+
+
+def test_units_at_the_edge():
+    found = parse_mechanism(FOUR_BAR)
+    assert found.mechanism == four_bar(0.3, 0.06, 0.2, 0.23, branch=+1)
+    assert found.inertias["crank"].mass == 0.2
+    assert found.inertias["crank"].centre == 0.03
+    assert len(found.plan().steps) == 2
+
+
+def test_slides_angles_and_pose():
+    text = """
+    [bodies]
+    ground.points = { O = [0, 0], way = [0, 0] }
+    bar.points.way = [0, 0]
+    [joints]
+    way = { slide = ["bar", "ground"], along = "90deg", turned = "-0.5turn" }
+    [inputs]
+    way = "bar"
+    [pose.bar]
+    origin = ["1cm", 0]
+    angle = "180deg"
+    """
+    mechanism = parse_mechanism(text).mechanism
+    slide = mechanism.joint("way")
+    assert slide == type(slide)("way", "bar", "ground", 1.5707963267948966, -3.141592653589793)
+    assert mechanism.pose == {"bar": (0.01, 3.141592653589793)}
+
+
+MISTAKES = {
+    "wrong type": (
+        'A0 = [0, 0], B0 = ["300mm", 0]',
+        "A0 = 3, B0 = [1, 0]",
+        "line 4, bodies.ground.points.A0: 3 is not a list",
+    ),
+    "wrong unit": (
+        'B0 = ["300mm", 0]',
+        'B0 = ["300deg", 0]',
+        "line 4, bodies.ground.points.B0.0: '300deg' has the wrong",
+    ),
+    "no number": ('"60mm"', "true", "line 6, bodies.crank.points.A.0: true is not a quantity"),
+    "not finite": ('"60mm"', "nan", "line 6, bodies.crank.points.A.0: nan is not a finite number"),
+    "infinite": ('"60mm"', "-inf", "line 6, bodies.crank.points.A.0: -inf is not a finite number"),
+    "one coordinate": ('["60mm", 0]', '["60mm"]', "line 6, bodies.crank.points.A: has 1 entries; it is 2: x and y"),
+    "negative mass": ('"200g"', "-1", "line 5, bodies.crank: mass of a body is -1"),
+    "zero length": ('["20cm", 0]', "[0, 0]", "line 9, bodies.coupler: link 'coupler' has zero length"),
+    "unknown key": ("mass =", "weight =", "line 7, bodies.crank.weight: unknown key 'weight'; keys: points, mass"),
+    "unknown table": ("[branches]", "[brnches]", "line 23, brnches: unknown key 'brnches'; keys: $schema"),
+    "missing table": ("[inputs]", "[inputs2]", "line 1: has no 'inputs'"),
+    "unknown body": ('["ground", "rocker"]', '["ground", "rockr"]', "line 18, joints.B0: four-bar has no body 'rockr'"),
+    "unknown point": (
+        "B0 = [0, 0], B =",
+        "C0 = [0, 0], B =",
+        "line 18, joints.B0: body 'rocker' of four-bar has no point",
+    ),
+    "unknown joint": ('A0 = "crank"', 'C = "crank"', "line 21, inputs.C: four-bar has no joint 'C'"),
+    "wrong body driven": ('A0 = "crank"', 'A0 = "rocker"', "line 21, inputs.A0: input turns 'rocker' about 'A0'"),
+    "no joint": ('{ pin = ["crank", "coupler"] }', '["crank"]', "line 16, joints.A: ['crank'] is not a table"),
+    "neither": ('pin = ["crank"', 'pn = ["crank"', "line 16, joints.A: says none of pin, slide"),
+    "joined to itself": (
+        '["crank", "coupler"]',
+        '["crank", "crank"]',
+        "line 16, joints.A: joint 'A' of four-bar joins",
+    ),
+    "three bodies": ('["crank", "coupler"]', '["crank", "coupler", "rocker"]', "line 16, joints.A.pin: has 3 entries"),
+    "branch 2": ("B = 1\n", "B = 2\n", "line 24, branches.B: is 2; allowed: 1, -1"),
+    "branch true": ("B = 1\n", "B = true\n", "line 24, branches.B: is true; allowed: 1, -1"),
+    "body twice": ("[bodies.rocker]", "[bodies.crank]", "line 11, column 14: cannot declare"),
+    "joint twice": ("A = { pin", "A0 = { pin", "line 16, column 36: cannot overwrite a value"),
+    "not TOML": ('name = "four-bar"', "name = four", "line 1, column 8: invalid value"),
+    "number of many digits": ("0.23", "9" * 400, "line 12, bodies.rocker.points.B.0: 999"),
+}
+
+
+@pytest.mark.parametrize(("before", "after", "said"), MISTAKES.values(), ids=MISTAKES.keys())
+def test_a_mistake_is_told_with_its_line_and_key(before, after, said):
+    assert before in FOUR_BAR
+    with pytest.raises(MechanismError) as caught:
+        parse_mechanism(FOUR_BAR.replace(before, after), name="beat.toml")
+    assert f"beat.toml, {said}" in str(caught.value)
+
+
+PLANLESS = {
+    "no branch": ("B = 1\n", "", "line 17, joints.B: four-bar has no branch for the free pin 'B'"),
+    "two inputs": ('A0 = "crank"', 'A0 = "crank"\nB0 = "rocker"', "the inputs crank, rocker drive 1 freedom"),
+    "no input": ('A0 = "crank"', "", "line 5, bodies.crank: four-bar is under-constrained at crank, coupler, rocker"),
+    "zero dyad link": (
+        'B = ["20cm", 0]',
+        "B = [0, 0], C = [1, 0]",
+        "line 9, bodies.coupler: link 'coupler' has zero length",
+    ),
+}
+
+
+@pytest.mark.parametrize(("before", "after", "said"), PLANLESS.values(), ids=PLANLESS.keys())
+def test_what_cannot_be_solved_is_told_with_its_line(before, after, said):
+    with pytest.raises(MechanismError) as caught:
+        parse_mechanism(FOUR_BAR.replace(before, after), name="beat.toml").plan()
+    assert str(caught.value).startswith("beat.toml, line ")
+    assert said in str(caught.value)
+
+
+def test_json_tells_line_and_key_too():
+    text = '{"bodies": {"ground": {"points": {}},\n "ground": {"points": {}}},\n"joints": {}, "inputs": {}}'
+    with pytest.raises(MechanismError, match=r"^m.json, line 2, bodies.ground: comes twice; it stands in line 1 too"):
+        parse_mechanism(text, name="m.json", toml=False)
+    with pytest.raises(MechanismError, match=r"^m.json, line 2, joints.A: says none of pin, slide"):
+        parse_mechanism('{"bodies": {},\n"joints": {"A": {}}, "inputs": {}}', name="m.json", toml=False)
+    with pytest.raises(MechanismError, match=r"^m.json, line 1, column 2: expecting property name"):
+        parse_mechanism("{", name="m.json", toml=False)
+    with pytest.raises(MechanismError, match=r"^m.json, line 1: \[\] is not a table"):
+        parse_mechanism("[]", name="m.json", toml=False)
+    with pytest.raises(MechanismError, match=r"may be JSON|not a table"):
+        parse_mechanism("[" * 100_000 + "]" * 100_000, name="m.json", toml=False)
+
+
+FILES = {
+    "gone.toml": (None, "does not exist"),
+    "empty.toml": (b" \n", "is empty"),
+    "latin.toml": (b"name = 'a'\n# \xff", "line 2 is not UTF-8"),
+    "huge.json": (b" " * 1_000_001, "too large"),
+    "other.yaml": (b"name: a", "ends in '.yaml'; a mechanism file is .toml or .json"),
+}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_file_that_is_no_mechanism_file_is_refused(name: str, tmp_path: Path):
+    content, said = FILES[name]
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    with pytest.raises(MechanismError, match=said) as caught:
+        read_mechanism(tmp_path / name)
+    assert str(caught.value).startswith(f"mechanism file {tmp_path / name} ")
+
+
+@pytest.mark.parametrize("ending", ["toml", "json"])
+def test_a_file_is_written_and_read_again(ending: str, tmp_path: Path):
+    path = tmp_path / f"m.{ending}"
+    mechanism = slider_crank(0.05, 0.2, offset=0.01, branch=-1)
+    write_mechanism(path, mechanism)
+    assert read_mechanism(path).mechanism == mechanism
+    with pytest.raises(OutputError):
+        write_mechanism(tmp_path / "gone" / "m.toml", mechanism)
+    with pytest.raises(MechanismError, match="ends in '.txt'"):
+        write_mechanism(tmp_path / "m.txt", mechanism)
+
+
+def test_a_file_may_name_its_schema():
+    data = {"$schema": "x.json", "bodies": {"ground": {"points": {}}}, "joints": {}, "inputs": {}}
+    assert parse_mechanism(json.dumps(data), toml=False).mechanism.moving == ()
+
+
+def look(part, at="#"):
+    yield at, part
+    for key, inner in part.items() if isinstance(part, dict) else enumerate(part) if isinstance(part, list) else ():
+        yield from look(inner, f"{at}/{key}")
+
+
+def test_the_schema_holds_only_words_that_its_reader_knows():
+    words = {
+        *("$schema", "$id", "$defs", "$ref", "title", "description", "type", "required", "additionalProperties"),
+        *("properties", "items", "minItems", "maxItems", "enum", "oneOf", "unit"),
+    }
+    places = dict(look(schema()))
+    for at, part in places.items():
+        if isinstance(part, dict) and not at.endswith(("/properties", "/$defs")):
+            assert set(part) <= words, at
+            if "$ref" in part:
+                assert part["$ref"] in places
