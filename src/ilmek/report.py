@@ -110,8 +110,8 @@ class Plot:
 class Stroke:
     """A polyline of a drawing [m]. Its role sets how it is drawn.
 
-    role  outline (thick), link (thick, coloured), ground (hatched grey), path (thin, coloured), construction (thin
-          dashed), dimension (thin with arrows at both ends), yarn
+    role  outline (thick), link (thick, coloured), ground (hatched grey), guide (hatched beside a slider), path (thin,
+          coloured), construction (thin dashed), dimension (thin with arrows at both ends), yarn
     """
 
     points: ComplexArray
@@ -143,6 +143,76 @@ class Drawing:
 
 
 @dataclass(frozen=True, slots=True)
+class MovingStroke:
+    """A line that moves: its points [m] at every frame, (frames, points); roles as of `Stroke`, link or outline."""
+
+    points: ComplexArray
+    role: str
+    label: str = ""
+    closed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class MovingDot:
+    """A point that moves [m], (frames).
+
+    role   pin, point, or block: a slider, drawn along its guide
+    along  unit directions of the guide, (frames), of a block
+    """
+
+    at: ComplexArray
+    label: str
+    role: str = "pin"
+    along: ComplexArray | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A number shown beside a machine that moves: its SI values at the frames, shown in `unit`."""
+
+    label: str
+    values: FloatArray
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Animation:
+    """A machine in motion, to scale: what stands still, and what moves over the frames of one run.
+
+    still    name, title, and all that does not move: ground, pivots, traced paths
+    drive    what a person turns: label and unit      at  its value at the frames [SI], ascending, evenly apart
+    closes   the frame after the last is the first again, a step later; otherwise the machine goes to and fro
+    start    the frame shown first, and alone where nothing can move
+    period   time of a run of the real machine [s]; None: it has no speed of its own
+    """
+
+    still: Drawing
+    drive: Axis
+    at: FloatArray
+    strokes: tuple[MovingStroke, ...]
+    dots: tuple[MovingDot, ...]
+    closes: bool = True
+    start: int = 0
+    period: float | None = None
+    readings: tuple[Reading, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The drawing's name."""
+        return self.still.name
+
+    @property
+    def title(self) -> str:
+        """The drawing's title."""
+        return self.still.title
+
+    @property
+    def note(self) -> str:
+        """The drawing's note."""
+        return self.still.note
+
+
+@dataclass(frozen=True, slots=True)
 class Lane:
     """One track of a cyclogram: position of an actuator over the master angle.
 
@@ -168,7 +238,7 @@ class Timing:
     note: str = ""
 
 
-Figure: TypeAlias = Plot | Drawing | Timing
+Figure: TypeAlias = Plot | Drawing | Animation | Timing
 
 
 @dataclass(frozen=True, slots=True)

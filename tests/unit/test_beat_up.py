@@ -10,7 +10,7 @@ from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up import MACHINE, BeatUpParams, design, report
 from ilmek.machines.beat_up.design import _bars, _inertias, evaluate
-from ilmek.report import Drawing, Plot, Report
+from ilmek.report import Animation, Drawing, Plot, Report
 from ilmek.units import deg
 
 
@@ -104,8 +104,9 @@ def test_refuses_in_words(settings: dict[str, str], error: type[IlmekError], sai
 
 def test_figures_are_a_drawing_of_the_beat_and_curves_over_a_turn() -> None:
     said = answer()
-    drawing, *plots = said.figures
+    drawing, moving, *plots = said.figures
     assert isinstance(drawing, Drawing)
+    assert isinstance(moving, Animation)
     places = {dot.label: dot.at for dot in drawing.dots}
     made = design(BeatUpParams())
     # The beat is the extended dead centre: D, C and B in line, and the beater at the end of its path.

@@ -10,7 +10,7 @@ from ilmek.dynamics.attached import attached
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.machines import MACHINES
 from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBarParams, design, report
-from ilmek.report import Drawing, Plot, Report
+from ilmek.report import Animation, Drawing, Plot, Report
 from ilmek.units import deg, mm
 
 GOOD = {
@@ -89,7 +89,9 @@ def test_the_hand_on_the_other_side_moves_the_mass_there() -> None:
 
 def test_figures_are_two_drawings_and_curves_over_the_range() -> None:
     made = design(KnottingFourBarParams())
-    quoted, instead, *plots = report(made).figures
+    quoted, moving, instead, replaced, *plots = report(made).figures
+    assert isinstance(moving, Animation)
+    assert isinstance(replaced, Animation)
     assert isinstance(quoted, Drawing)
     assert isinstance(instead, Drawing)
     assert {"O1", "O1'", "O2", "O2'"} < {dot.label for dot in quoted.dots}

@@ -12,7 +12,7 @@ from ilmek.units import deg, mm
 from ilmek.viz.svg import svg
 
 TURN = np.linspace(0.0, 2 * np.pi, 5000)
-ROLES = ("outline", "link", "ground", "path", "construction", "dimension", "yarn")
+ROLES = ("outline", "link", "ground", "guide", "path", "construction", "dimension", "yarn")
 
 PLOT = Plot(
     "torque",

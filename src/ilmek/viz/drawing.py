@@ -4,6 +4,7 @@ The drawing is laid out in points, so that names, hatches and arrows keep their 
 scale bar tells the size.
 """
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -19,31 +20,49 @@ from ilmek.viz.style import INK, MUTED, SMALL, STRONG, TEXT, YARN, colour, shown
 from ilmek.viz.thinning import thinned_line
 
 WIDTH = 420.0
-_MARGIN, _FOOT = 26.0, 30.0
+FOOT = 30.0
+"""Height of the room for the scale bar [pt]."""
+
+_MARGIN = 26.0
 _LEAST, _MOST = 90.0, 330.0
 """Height of the drawn part [pt], at least and at most."""
 
 
 def draw_drawing(drawing: Drawing) -> Sheet:
     """The drawing as large as the sheet allows, equal in both directions, with a scale bar below."""
-    everything = np.concatenate(
-        [np.empty(0, complex), *(s.points for s in drawing.strokes), np.array([d.at for d in drawing.dots], complex)]
-    )
-    finite = everything[np.isfinite(everything)]
+    pen = pen_for(extent(drawing), colours(drawing.strokes), drawing.unit)
+    draw_still(pen, drawing)
+    names(pen, drawing, obstacles(pen, drawing))
+    return pen.sheet
+
+
+def extent(drawing: Drawing) -> ComplexArray:
+    """All points of the drawing."""
+    dots = np.array([dot.at for dot in drawing.dots], complex)
+    return np.concatenate([*(stroke.points for stroke in drawing.strokes), dots])
+
+
+def pen_for(points: ComplexArray, numbers: Mapping[int, int], unit: str, foot: float = FOOT) -> Pen:
+    """A pen on a sheet that holds all points [m], with room below for the scale bar.
+
+    numbers  the colour of each stroke, by place      unit  of the scale bar      foot  height of the room below [pt]
+    """
+    finite = points[np.isfinite(points)]
     lower, upper = _corners(finite) if len(finite) else (0j, 1 + 1j)
     size = upper - lower
     scale = min((WIDTH - 2 * _MARGIN) / max(size.real, 1e-12), (_MOST - 2 * _MARGIN) / max(size.imag, 1e-12))
     high = max(size.imag * scale + 2 * _MARGIN, _LEAST)
-    sheet = Sheet(WIDTH, high + _FOOT)
-    centre = complex(WIDTH / 2, _FOOT + high / 2)
-    pen = Pen(sheet, scale, (lower + upper) / 2 - centre / scale, _colours(drawing.strokes), drawing.unit)
+    centre = complex(WIDTH / 2, foot + high / 2)
+    return Pen(Sheet(WIDTH, high + foot), scale, (lower + upper) / 2 - centre / scale, numbers, unit)
+
+
+def draw_still(pen: Pen, drawing: Drawing) -> None:
+    """Strokes, dots and the scale bar; no names."""
     for number, stroke in enumerate(drawing.strokes):
         STROKES[stroke.role](pen, stroke, number)
     for dot in drawing.dots:
         DOTS[dot.role](pen, complex(pen(np.array([dot.at]))[0]))
-    _names(pen, drawing, complex(WIDTH, high + _FOOT))
     _scale_bar(pen)
-    return sheet
 
 
 def _corners(points: ComplexArray) -> tuple[complex, complex]:
@@ -53,7 +72,7 @@ def _corners(points: ComplexArray) -> tuple[complex, complex]:
     )
 
 
-def _colours(strokes: tuple[Stroke, ...]) -> dict[int, int]:
+def colours(strokes: tuple[Stroke, ...]) -> dict[int, int]:
     """A colour number for each coloured stroke, by place: links first, then paths; paths of a link's name share it."""
     numbers: dict[int, int] = {}
     names: dict[str, int] = {}
@@ -78,8 +97,11 @@ def _beside(points: ComplexArray, closed: bool) -> ComplexArray:
     return np.asarray(places[np.argsort(np.abs(turned), kind="stable")])
 
 
-def _names(pen: Pen, drawing: Drawing, corner: complex) -> None:
-    """Names of dots in bold, names of strokes in the stroke's colour, all clear of the lines."""
+def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT) -> list[tuple[complex, complex]]:
+    """Names of dots in bold, names of strokes in the stroke's colour, all clear of the points `covered` [pt].
+
+    Returns the middle of each name and half its size [pt].
+    """
     wanted: list[Wanted] = []
     looks: list[dict[str, Any]] = []
     for dot in drawing.dots:
@@ -93,9 +115,11 @@ def _names(pen: Pen, drawing: Drawing, corner: complex) -> None:
             places = _beside(thinned_line(pen(stroke.points)), stroke.closed)
             wanted.append(Wanted(places, stroke.label, TEXT, 7.0 if stroke.role == "link" else 4.5))
             looks.append({"color": _shade(pen, stroke, number), "fontsize": TEXT})
-    centres = placed(wanted, _obstacles(pen, drawing), complex(2.0, _FOOT), corner - (2 + 2j))
+    corner = complex(pen.sheet.width, pen.sheet.height)
+    centres = placed(wanted, covered, complex(2.0, foot), corner - (2 + 2j))
     for one, centre, look in zip(wanted, centres, looks, strict=True):
         pen.sheet.text(centre, one.text, ha="center", va="center_baseline", zorder=8, **look)
+    return [(centre, one.half) for one, centre in zip(wanted, centres, strict=True)]
 
 
 def _shade(pen: Pen, stroke: Stroke, number: int) -> str:
@@ -104,17 +128,12 @@ def _shade(pen: Pen, stroke: Stroke, number: int) -> str:
     return {"yarn": YARN, "outline": INK}.get(stroke.role, MUTED)
 
 
-def _obstacles(pen: Pen, drawing: Drawing) -> ComplexArray:
+def obstacles(pen: Pen, drawing: Drawing) -> ComplexArray:
     """Points each 3 pt along every stroke, and rings around the dots, which no name should cover."""
     parts: list[ComplexArray] = [np.empty(0, complex)]
     for stroke in drawing.strokes:
         points = thinned_line(pen(stroke.points))
-        if stroke.closed and len(points):
-            points = np.append(points, points[0])
-        if len(points) > 1:
-            along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
-            places = np.linspace(0.0, along[-1], max(2, int(along[-1] / 3.0)))
-            parts.append(np.interp(places, along, points.real) + 1j * np.interp(places, along, points.imag))
+        parts.append(dotted(np.append(points, points[:1]) if stroke.closed else points))
     ring = 4.0 * np.exp(2j * np.pi * np.arange(8) / 8)
     parts += [pen(np.array([dot.at])) + ring for dot in drawing.dots]
     parts += [
@@ -122,6 +141,15 @@ def _obstacles(pen: Pen, drawing: Drawing) -> ComplexArray:
     ]
     points = np.concatenate(parts)
     return np.asarray(points[np.isfinite(points)])
+
+
+def dotted(points: ComplexArray) -> ComplexArray:
+    """Points each 3 pt along a line [pt]."""
+    if len(points) < 2:
+        return np.empty(0, complex)
+    along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
+    places = np.linspace(0.0, along[-1], max(2, int(along[-1] / 3.0)))
+    return np.asarray(np.interp(places, along, points.real) + 1j * np.interp(places, along, points.imag))
 
 
 def _scale_bar(pen: Pen) -> None:

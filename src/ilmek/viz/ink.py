@@ -37,8 +37,10 @@ def slug(text: str) -> str:
     return _SLUG.sub("-", text).strip("-").lower() or "figure"
 
 
-def inline_svg(sheet: Sheet, title: str, prefix: str) -> str:
+def inline_svg(sheet: Sheet, title: str, prefix: str, over: str = "") -> str:
     """The sheet as an `<svg>` element with a title, ids that begin with `prefix`, and no fixed size.
+
+    over  SVG that is laid over the sheet
 
     >>> text = inline_svg(Sheet(72, 36), "a < b", "one")
     >>> text.startswith('<svg') and "a &lt; b" in text
@@ -51,6 +53,7 @@ def inline_svg(sheet: Sheet, title: str, prefix: str) -> str:
     for pattern, instead in _TIDY:
         body = pattern.sub(instead, body)
     body = _DECIMALS.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), _own_ids(body, prefix))
+    body = f"{body[: body.rindex('</svg>')]}{_CONTROL.sub('', over)}</svg>"
     shown = _CONTROL.sub("", title)
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" role="img" '

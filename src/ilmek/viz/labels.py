@@ -45,7 +45,7 @@ def placed(wanted: list[Wanted], obstacles: ComplexArray, lower: complex, upper:
         least, most = lower + half, upper - half
         out = (candidates.real < least.real) | (candidates.real > most.real)
         out |= (candidates.imag < least.imag) | (candidates.imag > most.imag)
-        cost += 400.0 * out + _covered(candidates, half, obstacles)
+        cost += 400.0 * out + covered(candidates, half, obstacles)
         for centre, other in boxes:
             apart = np.abs((candidates - centre).real) < (half + other).real
             cost += 200.0 * (apart & (np.abs((candidates - centre).imag) < (half + other).imag))
@@ -65,7 +65,7 @@ def _candidates(one: Wanted) -> tuple[ComplexArray, FloatArray]:
     return (one.anchors[:, np.newaxis] + offsets).ravel(), (dearness[:, np.newaxis] + cost).ravel()
 
 
-def _covered(centres: ComplexArray, half: complex, obstacles: ComplexArray) -> FloatArray:
+def covered(centres: ComplexArray, half: complex, obstacles: ComplexArray) -> FloatArray:
     """How many obstacle points each box covers, up to 12."""
     if not len(obstacles):
         return np.zeros(len(centres))

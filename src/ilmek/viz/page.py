@@ -15,12 +15,14 @@ from markupsafe import Markup
 import ilmek
 from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
-from ilmek.report import Check, Figure, Report, Timing
+from ilmek.report import Animation, Check, Figure, Report, Timing
+from ilmek.viz.animation import SECONDS
 from ilmek.viz.page_parts import Fact, FileNote, carpet_facts, pictures, yarn_lines
 from ilmek.viz.style import shown_unit, with_unit
 from ilmek.viz.svg import svg
 from ilmek.viz.writing import amount, cells, count, fixed, number, quantity, sign, words
 
+_KINDS: Mapping[type, str] = {Timing: "wide", Animation: "moves"}
 _TEMPLATES = Path(__file__).parent / "templates"
 
 
@@ -52,11 +54,11 @@ class CarpetPage:
 
 @dataclass(frozen=True, slots=True)
 class _Drawn:
-    """A figure with its drawing; a wide one takes the whole width of the page."""
+    """A figure with its drawing; of the kind "wide" it takes the whole width of the page, "moves" is driven."""
 
     figure: Figure
     svg: Markup
-    wide: bool
+    kind: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +97,7 @@ def carpet_page(page: CarpetPage) -> str:
         length=sum(need.length for need in page.bill.needs),
         priced=any(need.price is not None for need in page.bill.needs),
         sections=sections,
+        moves=any(map(_moves, sections)),
         checks=_failures_first(judged),
         files=page.files,
     )
@@ -102,22 +105,28 @@ def carpet_page(page: CarpetPage) -> str:
 
 def machine_page(report: Report) -> str:
     """The text of a machine's page: HTML, complete in itself."""
+    section = _section(1, report)
     return _render(
         "machine.html.j2",
         title=report.title,
         lead=f"{len(report.checks) - len(report.failed)} of {len(report.checks)} checks hold" if report.checks else "",
         failed=report.failed,
-        section=_section(1, report),
+        section=section,
+        moves=_moves(section),
         checks=_failures_first([_Judged(report.title, check) for check in report.checks]),
     )
 
 
 def _section(place: int, report: Report) -> _Section:
     drawn = tuple(
-        _Drawn(figure, Markup(svg(figure, f"m{place}-{order}")), isinstance(figure, Timing))
+        _Drawn(figure, Markup(svg(figure, f"m{place}-{order}")), _KINDS.get(type(figure), ""))
         for order, figure in enumerate(report.figures, 1)
     )
     return _Section(f"m{place}", report, drawn)
+
+
+def _moves(section: _Section) -> bool:
+    return any(drawn.kind == "moves" for drawn in section.figures)
 
 
 def _failures_first(judged: Sequence[_Judged]) -> list[_Judged]:
@@ -151,4 +160,5 @@ def _environment() -> Environment:
         "with_unit": with_unit,
     }
     environment.filters.update(filters)
+    environment.globals["seconds"] = SECONDS
     return environment

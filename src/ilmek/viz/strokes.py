@@ -12,6 +12,9 @@ from ilmek.viz.sheet import Sheet, circle
 from ilmek.viz.style import INK, MUTED, PAPER, SMALL, STEEL, YARN, colour, text_width, tint
 from ilmek.viz.thinning import thinned_line
 
+BLOCK = 10 + 6.5j
+"""Half the length and half the height of a slider's block [pt]."""
+
 
 @dataclass(frozen=True, slots=True)
 class Pen:
@@ -64,6 +67,15 @@ def _ground(pen: Pen, stroke: Stroke, _: int) -> None:
     if stroke.filled:
         _fill(pen, stroke, "#e4e8ec", 1.7)
     _hatch(pen.sheet, points, 5.5)
+
+
+def _guide(pen: Pen, stroke: Stroke, _: int) -> None:
+    """The wall that a slider runs along, hatched, on the right hand of its direction and clear of the block."""
+    points = pen(stroke.points)
+    way = (points[-1] - points[0]) / (abs(points[-1] - points[0]) or 1.0)
+    wall = points + way * (BLOCK.real * np.linspace(-1, 1, len(points)) - 1j * (BLOCK.imag + 0.8))
+    pen.sheet.line(wall, color=STEEL, linewidth=1.4, zorder=2.5)
+    _hatch(pen.sheet, wall, 5.5)
 
 
 def _hatch(sheet: Sheet, points: ComplexArray, length: float) -> None:
@@ -158,6 +170,7 @@ STROKES: Mapping[str, Callable[[Pen, Stroke, int], None]] = {
     "outline": _outline,
     "link": _link,
     "ground": _ground,
+    "guide": _guide,
     "path": _path,
     "construction": _construction,
     "dimension": _dimension,

@@ -1,13 +1,14 @@
 """Figures of a report as inline SVG.
 
-The look is `style`, the three kinds of figure are `plot`, `drawing` and `timing`, the text is made in `ink`.
+The look is `style`, the kinds of figure are `plot`, `drawing`, `animation` and `timing`, the text is made in `ink`.
 """
 
 import warnings
 
 from matplotlib import rc_context
 
-from ilmek.report import Drawing, Figure, Plot
+from ilmek.report import Animation, Drawing, Figure, Plot
+from ilmek.viz.animation import draw_animation
 from ilmek.viz.drawing import draw_drawing
 from ilmek.viz.ink import inline_svg, slug
 from ilmek.viz.plot import draw_plot
@@ -22,10 +23,13 @@ def svg(figure: Figure, prefix: str = "") -> str:
     """
     with rc_context(RC), warnings.catch_warnings():
         warnings.filterwarnings("ignore", r"Glyph .* missing from font")  # the reader's fonts may have it
+        over = ""
         if isinstance(figure, Plot):
             sheet = draw_plot(figure)
         elif isinstance(figure, Drawing):
             sheet = draw_drawing(figure)
+        elif isinstance(figure, Animation):
+            sheet, over = draw_animation(figure)
         else:
             sheet = draw_timing(figure)
-        return inline_svg(sheet, figure.title, slug(f"{prefix}-{figure.name}"))
+        return inline_svg(sheet, figure.title, slug(f"{prefix}-{figure.name}"), over)

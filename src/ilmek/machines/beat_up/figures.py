@@ -7,8 +7,9 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
+from ilmek.machines.animation import animated, frames
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
+from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
 
 CARPET = 0.35
@@ -16,8 +17,12 @@ CARPET = 0.35
 
 
 def figures(design: BeatUp) -> tuple[Figure, ...]:
-    """The drawing and six plots."""
-    return (drawing(design), *(plot(design) for plot in (travel, velocity, acceleration, pins, torque, transmission)))
+    """The drawing, the same in motion, and six plots."""
+    return (
+        drawing(design),
+        moving(design),
+        *(plot(design) for plot in (travel, velocity, acceleration, pins, torque, transmission)),
+    )
 
 
 def drawing(design: BeatUp) -> Drawing:
@@ -47,6 +52,31 @@ def drawing(design: BeatUp) -> Drawing:
     reach = format_quantity(design.lengths["beater"], "mm")
     note = f"Side view at the beat: the beater E, {reach} from A, drives weft and knots to the fell."
     return Drawing("beat-up", "Beat-up mechanism to scale", strokes, dots, note=note)
+
+
+def moving(design: BeatUp) -> Animation:
+    """The mechanism over a turn of the crank, from the beat on."""
+    at = frames()
+    motion = solve(design.plan, at)
+    names = {name: _labelled(design, name) for name in ("crank", "coupler", "rocker")}
+    distance = motion.angle("rocker") - np.min(design.state.motion.angle("rocker"))
+    readings = (
+        Reading("beater from the fell", distance * design.lengths["beater"], "mm"),
+        Reading("drive torque", np.interp(at, design.state.angle, design.state.torque), "N*m"),
+    )
+    drawing = Drawing(
+        "beat-up-moving", "Beat-up mechanism in motion", _cloth(design, _pose(design, design.beat_angle)["E"])
+    )
+    return animated(
+        motion,
+        at,
+        drawing,
+        traces=(("rocker", "E"),),
+        names=names,
+        start=design.beat_angle,
+        period=turn / design.params.speed,
+        readings=readings,
+    )
 
 
 def _pose(design: BeatUp, angle: float) -> dict[str, complex]:

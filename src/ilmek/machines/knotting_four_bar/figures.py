@@ -9,25 +9,29 @@ from ilmek.dynamics.attached import attached
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
+from ilmek.machines.animation import animated, frames
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.instead import POINTS
-from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
+from ilmek.machines.knotting_four_bar.model import State, evaluate
+from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
+from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
 
 PLACES = (("ground", "O1'"), ("crank", "O2"), ("coupler", "O2'"), ("coupler", "H"))
 
 
 def figures(design: KnottingFourBar) -> tuple[Figure, ...]:
-    """Two drawings and four plots."""
+    """The mechanism to scale and in motion, the one to use instead likewise, and four plots."""
     plots = (angles, transmission, torque, pins)
-    return (drawing(design), replacement(design), *(plot(design) for plot in plots))
+    drawings = (drawing(design), moving(design), replacement(design), moving_replacement(design))
+    return (*drawings, *(plot(design) for plot in plots))
 
 
 def drawing(design: KnottingFourBar) -> Drawing:
     """The mechanism to scale at the crank angle asked for, and the path of its hand."""
     pose = {point: complex(places[0]) for point, places in _places(design.at.motion).items()}
     path = _path(design)
-    strokes = (Stroke(path, "path", "path of the hand"), *_links(pose, _said(design)))
+    strokes = (Stroke(path, "path", "path of the hand"), *_links(pose, _said(design.params)))
     note = f"At {format_quantity(design.params.crank_angle, 'deg')} of the crank"
     if np.isfinite(design.dead_point_distance):
         note += f", {format_quantity(design.dead_point_distance, 'deg')} from a dead point"
@@ -52,13 +56,45 @@ def replacement(design: KnottingFourBar) -> Drawing:
     others = [
         Stroke(np.array([pose[name] for name in ("O1", "O2", "H", "O2'", "O1'")]), "construction") for pose in poses[1:]
     ]
-    made = instead.params
-    lengths = (("ground", made.ground), ("crank", made.crank), ("coupler", made.coupler), ("rocker", made.rocker))
-    said = {name: f"{name} {format_quantity(length, 'mm')}" for name, length in lengths}
+    said = _said(instead.params)
     dots = (*_dots(poses[0]), *(Dot(complex(POINTS[at]), f"pose {at + 1}", "point") for at in (1, 2)))
     title = "Four-bar through the report's three poses, to scale"
     note = "Both arms of the three poses side by side; at the first pose, the others dashed."
     return Drawing("knotting-four-bar-instead", title, (*others, *_links(poses[0], said)), dots, note=note)
+
+
+def moving(design: KnottingFourBar) -> Animation:
+    """The mechanism over its crank's range, to the edges that the curves leave out."""
+    course, asked = design.course.angle, design.params.crank_angle
+    at = frames(course[0], course[-1]) if design.range else frames(asked)
+    state = evaluate(design.params, design.plan, at, design.params.speed, design.params.acceleration)
+    title, note = "Knotting four-bar in motion", "The hand H is on the coupler's line."
+    if design.range:
+        note = f"From one dead point nearly to the other. {note}"
+    return _moving(state, Drawing("knotting-four-bar-moving", title, (), note=note), _said(design.params), asked)
+
+
+def moving_replacement(design: KnottingFourBar) -> Animation:
+    """The four-bar of both arms from its first pose to its last, and the three places its hand goes through."""
+    made = design.instead
+    first, last = sorted(made.crank_angles[[0, -1]])
+    state = evaluate(made.params, made.state.motion.plan, frames(first, last), design.params.speed)
+    poses = tuple(Dot(complex(at - made.origin), f"{place}", "point") for place, at in enumerate(POINTS, 1))
+    title, note = (
+        "Four-bar through the report's three poses, in motion",
+        "1, 2, 3: the places that the hand H goes through.",
+    )
+    drawing = Drawing("knotting-four-bar-instead-moving", title, (), poses, note=note)
+    return _moving(state, drawing, _said(made.params), float(made.crank_angles[0]))
+
+
+def _moving(state: State, drawing: Drawing, said: Mapping[str, str], start: float) -> Animation:
+    readings = (
+        Reading("drive torque", state.torque, "N*m"),
+        Reading("coupler", np.mod(state.motion.angle("coupler") + np.pi, turn) - np.pi, "deg"),
+    )
+    traces = (("coupler", "H"),)
+    return animated(state.motion, state.angle, drawing, traces=traces, names=said, start=start, readings=readings)
 
 
 def _places(motion: Motion, origin: complex = 0j) -> dict[str, ComplexArray]:
@@ -67,9 +103,9 @@ def _places(motion: Motion, origin: complex = 0j) -> dict[str, ComplexArray]:
     return {point: np.asarray(origin + attached(motion, body, local(body, point)).position) for body, point in PLACES}
 
 
-def _said(design: KnottingFourBar) -> dict[str, str]:
+def _said(params: KnottingFourBarParams) -> dict[str, str]:
     names = ("ground", "crank", "coupler", "rocker")
-    return {name: f"{name} {format_quantity(getattr(design.params, name), 'mm')}" for name in names}
+    return {name: f"{name} {format_quantity(getattr(params, name), 'mm')}" for name in names}
 
 
 def _links(pose: Mapping[str, complex], said: Mapping[str, str]) -> tuple[Stroke, ...]:

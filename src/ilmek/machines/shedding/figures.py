@@ -10,14 +10,14 @@ from ilmek.cams.programme import TURN, jumps
 from ilmek.elements import beams
 from ilmek.elements.figures import deflection_plot
 from ilmek.machines.shedding.design import SheddingDesign
-from ilmek.report import Axis, Figure, Mark, Plot, Series
+from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series
 from ilmek.units import format_quantity
 
 
 def figures(design: SheddingDesign) -> tuple[Figure, ...]:
     """The cam to scale and the plots, in the order of the report."""
     cam, shaft = design.cam, design.shaft
-    drawn: tuple[Figure, ...] = (
+    drawn: tuple[Drawing | Plot, ...] = (
         cam_figures.cam_drawing(cam, shaft.bar, design.stack.guide_radius),
         *cam_figures.motion_plots(
             {"even": design.even, "odd": design.odd}, design.params.speed, shuttle_marks(design), jump_note(design)

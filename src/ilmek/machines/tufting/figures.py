@@ -6,10 +6,11 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.linkage.quality import transmission_angle
+from ilmek.machines.animation import animated, frames
 from ilmek.machines.tufting.bars import all_breaks
 from ilmek.machines.tufting.design import Tufting, course, shaft
-from ilmek.machines.tufting.model import PINS, move
-from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
+from ilmek.machines.tufting.model import PINS, evaluate, move
+from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
 
 BACKING = 0.5
@@ -17,10 +18,10 @@ BACKING = 0.5
 
 
 def figures(design: Tufting) -> tuple[Figure, ...]:
-    """The drawing and seven plots; an eighth where there are several bars."""
+    """The drawing, the same in motion, and seven plots; an eighth where there are several bars."""
     plots = (angles, height, velocity, acceleration, torques, pins, transmission)
     several = (shaft_torque(design),) if design.params.bars > 1 else ()
-    return (drawing(design), *(plot(design) for plot in plots), *several)
+    return (drawing(design), moving(design), *(plot(design) for plot in plots), *several)
 
 
 def drawing(design: Tufting) -> Drawing:
@@ -51,6 +52,28 @@ def drawing(design: Tufting) -> Drawing:
     )
     note = f"Side view, needle lowest at {format_quantity(design.lowest, 'deg')} of the crank; highest dashed."
     return Drawing("tufting", "Needle mechanism to scale", strokes, dots, note=note)
+
+
+def moving(design: Tufting) -> Animation:
+    """The mechanism over a turn of the crank, from the needle's highest place on."""
+    at = frames()
+    state = evaluate(design.params, design.plan, at)
+    low = _pose(design, design.lowest)
+    names = {name: _labelled(design, name) for name in ("crank", "coupler", "rocker", "arm", "rod")}
+    readings = (
+        Reading("needle above its lowest place", state.height - np.min(design.state.height), "mm"),
+        Reading("main shaft", state.main_torque, "N*m"),
+    )
+    return animated(
+        state.motion,
+        at,
+        Drawing("tufting-moving", "Needle mechanism in motion", _backing(design, low["F"])),
+        traces=(("needle", "F"),),
+        names=names,
+        start=design.highest,
+        period=turn / design.params.speed,
+        readings=readings,
+    )
 
 
 def _pose(design: Tufting, angle: float) -> dict[str, complex]:

@@ -1,0 +1,164 @@
+"""A mechanism of the engine in motion, as a figure: bodies as bars, joints as their symbols, points as paths.
+
+A machine solves its plan at `frames()` and hands the motion over; what stands beside the mechanism (cloth, fell) comes
+in its drawing.
+"""
+
+import dataclasses
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.dynamics.attached import attached
+from ilmek.linkage.model import GROUND, Pin, Slide
+from ilmek.linkage.motion import Motion
+from ilmek.plane.vectors import cross, dot, unit
+from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
+from ilmek.units import turn
+
+FRAMES = 60
+SAME = 1e-9
+"""Places nearer than this are one [m]; angles, [rad]."""
+
+BEYOND = 0.15
+"""How far a guide reaches beyond the way of its slider, over that way."""
+
+CRANK = Axis("crank angle", "deg")
+
+Naming = Callable[[str], str]
+
+
+def frames(start: float = 0.0, end: float | None = None) -> FloatArray:
+    """Values of the drive to solve at: a whole turn from `start` [rad], or from `start` to `end`, both included.
+
+    >>> frames().size, round(float(np.degrees(frames()[1])), 9), float(frames(1.0, 3.0)[-1])
+    (60, 6.0, 3.0)
+    """
+    if end is None:
+        return np.asarray(start + np.arange(FRAMES) * (turn / FRAMES))
+    return np.linspace(start, end, FRAMES)
+
+
+def animated(
+    motion: Motion,
+    at: FloatArray,
+    drawing: Drawing,
+    *,
+    traces: Sequence[tuple[str, str]] = (),
+    names: Mapping[str, str] | None = None,
+    start: float | None = None,
+    period: float | None = None,
+    readings: tuple[Reading, ...] = (),
+    drive: Axis = CRANK,
+) -> Animation:
+    """The mechanism over its frames; it goes to and fro where they are no whole turn.
+
+    motion   solved at the values `at` of the drive [SI], ascending and evenly apart
+    drawing  name, title and note, and what stands still beside the mechanism
+    traces   bodies and their points whose paths are drawn
+    names    what to write for a body, joint or point instead of its own name; "" for nothing
+    start    value of the drive that is shown first            period  of a run of the real machine [s]
+    """
+    named: Naming = lambda name: (names or {}).get(name, name)  # noqa: E731
+    closes = bool(abs(at[-1] + at[1] - 2 * at[0] - turn) < SAME)
+    pivots = _pivots(motion, named)
+    paths = tuple(Stroke(_track(motion, *one), "path", named(one[0]), closed=closes) for one in traces)
+    still = dataclasses.replace(
+        drawing, strokes=(*_guides(motion), *paths, *drawing.strokes), dots=(*pivots, *drawing.dots)
+    )
+    points = (MovingDot(_track(motion, *one), named(one[1]), "point") for one in traces)
+    first = 0 if start is None else int(np.argmin(np.abs(unit(at) - unit(start)) if closes else np.abs(at - start)))
+    bars = tuple(_bars(motion, named, traces))
+    dots = (*_blocks(motion, named), *_pins(motion, named, pivots), *points)
+    return Animation(still, drive, at, bars, dots, closes, first, period, readings)
+
+
+def _track(motion: Motion, body: str, point: str) -> ComplexArray:
+    return attached(motion, body, motion.plan.mechanism.point(body, point)).position
+
+
+def _pivots(motion: Motion, named: Naming) -> tuple[Dot, ...]:
+    """The pins on the ground."""
+    mechanism = motion.plan.mechanism
+    pins = (joint for joint in mechanism.joints if isinstance(joint, Pin) and GROUND in joint.bodies)
+    return tuple(Dot(mechanism.point(GROUND, pin.name), named(pin.name), "pivot") for pin in pins)
+
+
+def _pins(motion: Motion, named: Naming, pivots: tuple[Dot, ...]) -> Iterator[MovingDot]:
+    """The pins that move; one that stays on a pivot is not drawn again."""
+    for joint in motion.plan.mechanism.joints:
+        if isinstance(joint, Pin) and GROUND not in joint.bodies:
+            at = _track(motion, joint.first, joint.name)
+            if all(np.max(np.abs(at - pivot.at)) > SAME for pivot in pivots):
+                yield MovingDot(at, named(joint.name))
+
+
+@dataclass(frozen=True, slots=True)
+class _Way:
+    """The way of a slider on its guide: least and greatest distance from the guide's point, in the guide's frame."""
+
+    slide: Slide
+    least: complex
+    most: complex
+
+
+def _ways(motion: Motion) -> Iterator[_Way]:
+    mechanism = motion.plan.mechanism
+    for slide in mechanism.joints:
+        if isinstance(slide, Slide):
+            point = mechanism.point(slide.guide, slide.name)
+            away = _track(motion, slide.body, slide.name) - attached(motion, slide.guide, point).position
+            along = complex(unit(slide.along))
+            shift = np.asarray(dot(motion.direction(slide.guide) * along, away))
+            more = BEYOND * (shift.max() - shift.min())
+            yield _Way(slide, point + along * (shift.min() - more), point + along * (shift.max() + more))
+
+
+def _guides(motion: Motion) -> tuple[Stroke, ...]:
+    """The guides on the ground, as far as their sliders go."""
+    return tuple(Stroke(np.array([way.least, way.most]), "guide") for way in _ways(motion) if way.slide.guide == GROUND)
+
+
+def _blocks(motion: Motion, named: Naming) -> Iterator[MovingDot]:
+    """The sliders, along their guides; only a renamed one has a name."""
+    for way in _ways(motion):
+        slide = way.slide
+        label = named(slide.name)
+        along = np.asarray(motion.direction(slide.guide) * complex(unit(slide.along)))
+        at = _track(motion, slide.body, slide.name)
+        yield MovingDot(at, "" if label == slide.name else label, "block", along)
+
+
+def _bars(motion: Motion, named: Naming, traces: Sequence[tuple[str, str]]) -> Iterator[MovingStroke]:
+    """Every body through its joints, traced points and the way of what slides on it, the driven ones on top; what
+    slides itself is a plain rod.
+    """
+    mechanism = motion.plan.mechanism
+    ways = list(_ways(motion))
+    sliding = {way.slide.body for way in ways}
+    for body in reversed(mechanism.moving):
+        joints = (joint.name for joint in mechanism.joints if body in joint.bodies)
+        local = [mechanism.point(body, name) for name in (*joints, *(point for of, point in traces if of == body))]
+        local += [end for way in ways if way.slide.guide == body for end in (way.least, way.most)]
+        corners = _corners(np.array(local))
+        if len(corners) > 1:
+            points = np.column_stack([attached(motion, body, complex(corner)).position for corner in corners])
+            role = "outline" if body in sliding else "link"
+            yield MovingStroke(points, role, named(body), closed=len(corners) > 2)
+
+
+def _corners(points: ComplexArray) -> ComplexArray:
+    """The ends of points in a line, the others round their middle; each place once."""
+    farthest = points[np.argmax(np.abs(points - points[0]))]
+    along = farthest - points[0]
+    if abs(along) < SAME:
+        return points[:1]
+    off = np.asarray(cross(along / abs(along), points - points[0]))
+    if np.abs(off).max() < SAME:
+        share = np.asarray(dot(along, points))
+        return np.asarray(points[[np.argmin(share), np.argmax(share)]])
+    _, once = np.unique(np.round(points / SAME), return_index=True)
+    kept = points[np.sort(once)]
+    return np.asarray(kept[np.argsort(np.angle(kept - kept.mean()))])

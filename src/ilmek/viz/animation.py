@@ -1,0 +1,176 @@
+"""Machines in motion: a drawing to scale whose bars and joints a short script of the page moves (`animate.js`).
+
+What stands still is drawn as in any drawing; what moves is written as SVG of its own at the frame shown first, and
+refers to a list of places at every frame that stands in the figure's metadata. Without the script it is a drawing.
+"""
+
+import dataclasses
+import json
+from collections.abc import Iterator
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.report import Animation, Stroke
+from ilmek.units import parse_unit
+from ilmek.viz.drawing import FOOT, WIDTH, colours, dotted, draw_still, extent, names, obstacles, pen_for
+from ilmek.viz.labels import Wanted
+from ilmek.viz.moving_names import named
+from ilmek.viz.moving_parts import Course, block, dot, line, name
+from ilmek.viz.sheet import Sheet
+from ilmek.viz.strokes import Pen
+from ilmek.viz.style import INK, STRONG, TEXT, colour, shown_unit, text_width, tint
+
+SECONDS = 5.0
+"""Time of a run on the page [s]."""
+
+_MOVING, _STILL = 0.4, 1e6
+"""What it costs a name to go round its point."""
+
+_ROW, _LEFT = 13.0, 14.0
+
+
+def draw_animation(animation: Animation) -> tuple[Sheet, str]:
+    """The sheet with all that stands still, and the SVG of what moves, to stand behind it in the same element."""
+    still, start = animation.still, animation.start
+    moving = tuple(Stroke(one.points[start], one.role, one.label, one.closed) for one in animation.strokes)
+    numbers = colours((*still.strokes, *moving))
+    rows = list(_rows(animation))
+    foot = FOOT + _ROW * len(rows)
+    points = [extent(still), *(one.points.ravel() for one in animation.strokes), *(one.at for one in animation.dots)]
+    pen = pen_for(np.concatenate(points), numbers, still.unit, foot)
+    draw_still(pen, still)
+    _legend(pen, rows)
+    bars = _bars(pen, animation)
+    unnamed = tuple(dataclasses.replace(one, label="") if one.role == "path" else one for one in still.strokes)
+    quiet = dataclasses.replace(still, strokes=unnamed, dots=())
+    boxes = names(pen, quiet, np.concatenate([obstacles(pen, still), *bars]), foot)
+    course = Course(pen.sheet.height, start)
+    parts = [*_lines(pen, animation, course), *_dots(pen, animation, course)]
+    met = [np.concatenate([at, obstacles(pen, still), *(_filled(*box) for box in boxes)]) for at in bars]
+    parts += _names(pen, animation, course, met, foot)
+    return pen.sheet, "\n".join((*parts, f"<metadata>{escape(_run(animation, course))}</metadata>"))
+
+
+def _lines(pen: Pen, animation: Animation, course: Course) -> Iterator[str]:
+    """Bars as wide lines in a pale shade inside slightly wider ones in the full colour, others as plain lines."""
+    first = len(animation.still.strokes)
+    for number, one in enumerate(animation.strokes, first):
+        track = [pen(points) for points in one.points.T]
+        if one.role != "link":
+            yield line(course, track, INK, 1.6, closed=one.closed)
+            continue
+        shade = colour(pen.numbers[number])
+        if one.closed:
+            yield line(course, track, "none", 0.0, closed=True, fill=tint(shade, 0.3))
+        yield line(course, track, shade, 7.0, closed=one.closed)
+        yield line(course, track, tint(shade, 0.45), 4.8, closed=one.closed)
+
+
+def _dots(pen: Pen, animation: Animation, course: Course) -> Iterator[str]:
+    """Blocks below the pins; the pins of the pivots once more, for bars pass over them."""
+    for one in animation.dots:
+        if one.role == "block" and one.along is not None:
+            yield block(course, pen(one.at), one.along)
+    frames = len(animation.at)
+    for pivot in animation.still.dots:
+        if pivot.role == "pivot":
+            yield dot(course, np.full(frames, pen(np.array([pivot.at]))[0]), "pin")
+    for one in animation.dots:
+        if one.role != "block":
+            yield dot(course, pen(one.at), one.role)
+
+
+def _bars(pen: Pen, animation: Animation) -> list[ComplexArray]:
+    """At every frame, points along all that moves [pt]."""
+    ring = 4.0 * np.exp(2j * np.pi * np.arange(8) / 8)
+    found = []
+    for frame in range(len(animation.at)):
+        lines = [dotted(pen(one.points[frame])) for one in animation.strokes]
+        found.append(np.concatenate([*lines, *(pen(one.at)[frame] + ring for one in animation.dots)]))
+    return found
+
+
+def _filled(centre: complex, half: complex) -> ComplexArray:
+    across, up = np.linspace(-1, 1, 7) * half.real, np.linspace(-1, 1, 3) * half.imag
+    return np.asarray((centre + across[:, np.newaxis] + 1j * up).ravel())
+
+
+def _names(pen: Pen, animation: Animation, course: Course, met: list[ComplexArray], foot: float) -> Iterator[str]:
+    """Names of all dots; those of still ones stand still."""
+    frames = len(animation.at)
+    fixed = [(np.full(frames, one.at), one.label, _STILL) for one in animation.still.dots]
+    wanted = [
+        Wanted(pen(at), label, STRONG, 6.0, pull)
+        for at, label, pull in (*fixed, *((one.at, one.label, _MOVING) for one in animation.dots))
+        if label
+    ]
+    corner = complex(pen.sheet.width, pen.sheet.height) - (2 + 2j)
+    middles = named(wanted, met, complex(2, foot), corner, closes=animation.closes)
+    for one, middle in zip(wanted, middles, strict=True):
+        yield name(course, middle, one.text)
+
+
+def _rows(animation: Animation) -> Iterator[list[tuple[float, int, str]]]:
+    """The legend in rows: left edge [pt], place among all strokes, and name of each coloured line."""
+    row: list[tuple[float, int, str]] = []
+    left, first, seen = _LEFT, len(animation.still.strokes), {""}
+    for place, one in enumerate(animation.strokes, first):
+        width = 20.0 + text_width(one.label, TEXT) + 12.0
+        if one.role != "link" or one.label in seen:
+            continue
+        seen.add(one.label)
+        if row and left + width > WIDTH:
+            yield row
+            row, left = [], _LEFT
+        row.append((left, place, one.label))
+        left += width
+    if row:
+        yield row
+
+
+def _legend(pen: Pen, rows: list[list[tuple[float, int, str]]]) -> None:
+    for at, row in enumerate(rows):
+        height = FOOT + _ROW * (len(rows) - 1 - at) - 1.0
+        for left, place, label in row:
+            shade = colour(pen.numbers[place])
+            swatch = np.array([left, left + 14.0]) + 1j * height
+            pen.sheet.line(swatch, color=shade, linewidth=6.0)
+            pen.sheet.line(swatch, color=tint(shade, 0.45), linewidth=3.8)
+            pen.sheet.text(complex(left + 21.0, height), label, fontsize=TEXT, color=INK, va="center_baseline")
+
+
+def _run(animation: Animation, course: Course) -> str:
+    """What the script needs, as JSON."""
+    factor = parse_unit(animation.drive.unit).factor
+    at = animation.at / factor
+    readings = [
+        {
+            "values": [float(f"{value:.4g}") for value in one.values / parse_unit(one.unit).factor],
+            "digits": digits(float(np.max(np.abs(one.values))) / parse_unit(one.unit).factor),
+            "unit": shown_unit(one.unit),
+        }
+        for one in animation.readings
+    ]
+    run = {
+        "places": course.places,
+        "closes": animation.closes,
+        "start": animation.start,
+        "seconds": SECONDS,
+        "first": round(float(at[0]), 6),
+        "step": round(float(at[1] - at[0]), 9),
+        "digits": 0 if at[-1] - at[0] > 50 else 1,
+        "unit": shown_unit(animation.drive.unit),
+        "readings": readings,
+    }
+    return json.dumps(run, separators=(",", ":"), ensure_ascii=False)
+
+
+def digits(most: float) -> int:
+    """Decimals with which the greatest value shows three digits.
+
+    >>> digits(123.4), digits(1.5), digits(0.02)
+    (0, 2, 4)
+    """
+    return int(np.clip(2 - np.floor(np.log10(most)), 0, 6)) if most > 0 else 1
