@@ -134,17 +134,22 @@ def transmission_extremes(ground: float, crank: float, coupler: float, rocker: f
     return least, greatest
 
 
-def transmission_angle(motion: Motion, pin: str) -> Float[np.ndarray, " samples"]:
+def transmission_angle(
+    motion: Motion, pin: str, *, taken_from: tuple[str, str] | None = None
+) -> Float[np.ndarray, " samples"]:
     """Angle [rad], 0 to pi, at a pin between the two links that it joins, at each sample; NaN where they do not close.
 
-    Each link is taken from its other joint (the one named first in the mechanism) to the pin: for the free pin of an
-    RRR dyad that is the transmission angle; best at pi/2, dead at 0 and pi.
-    Raises MechanismError for an unknown pin, a slide, or a link with no other pin.
+    Each link is taken from its other pin to this one: for the free pin of an RRR dyad that is the transmission angle;
+    best at pi/2, dead at 0 and pi.
+    taken_from  a point of each link, in the order in which the pin names them; the other pin that the mechanism names
+                first, if it is not said: say it for links with three pins or more
+    Raises MechanismError for an unknown pin or point, a slide, or a link with no other pin.
     """
     joint = motion.plan.mechanism.joint(pin)
     if not isinstance(joint, Pin):
         raise MechanismError(f"{pin!r} is a slide", allowed="a transmission angle is at a pin between two links")
-    first, second = (_link(motion, body, pin) for body in joint.bodies)
+    starts = taken_from or tuple(_other_pin(motion, body, pin) for body in joint.bodies)
+    first, second = (_link(motion, body, start, pin) for body, start in zip(joint.bodies, starts, strict=True))
     return np.arctan2(np.abs(cross(first, second)), dot(first, second))
 
 
@@ -154,12 +159,17 @@ def least_transmission_angle(motion: Motion, pin: str) -> float:
     return float(np.min(np.minimum(mu, np.pi - mu)))
 
 
-def _link(motion: Motion, body: str, pin: str) -> np.ndarray:
-    """From a body's other pin to this one, in the world [m]."""
+def _other_pin(motion: Motion, body: str, pin: str) -> str:
+    """The pin of a body, but this one, that its mechanism names first."""
     mechanism = motion.plan.mechanism
     others = [j.name for j in mechanism.joints if isinstance(j, Pin) and body in j.bodies and j.name != pin]
     if not others:
         raise MechanismError(f"body {body!r} of {mechanism.name} has no pin but {pin!r}", do="choose another pin")
-    arm = mechanism.point(body, pin) - mechanism.point(body, others[0])
-    link: np.ndarray = motion.direction(body) * arm
+    return others[0]
+
+
+def _link(motion: Motion, body: str, start: str, pin: str) -> np.ndarray:
+    """From a body's point to its pin, in the world [m]."""
+    mechanism = motion.plan.mechanism
+    link: np.ndarray = motion.direction(body) * (mechanism.point(body, pin) - mechanism.point(body, start))
     return link
