@@ -11,6 +11,7 @@ from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
+from ilmek.linkage.status import Status
 from ilmek.linkage.structure import plan
 
 ANGLES = np.arange(128) * (2 * np.pi / 128)
@@ -91,3 +92,12 @@ def test_names_that_do_not_exist_are_refused() -> None:
         forces.effort("rocker")
     with pytest.raises(MechanismError, match="it joins crank and coupler"):
         forces.pin("A", on="rocker")
+
+
+def test_at_a_dead_centre_forces_are_nan_and_beside_it_they_are_not() -> None:
+    folds = plan(four_bar(0.3, 0.1, 0.3, 0.1, branch=+1))
+    motion = solve(folds, np.array([0.0, 0.1, np.pi / 2]), 1.0)
+    forces = inverse(motion, {"rocker": Inertia(1.0, 0.1 + 0j, 0.01)})
+    assert [Status(one) for one in motion.status] == [Status.DEAD_CENTRE, Status.OK, Status.OK]
+    assert np.isnan(forces.pin("B")).tolist() == [True, False, False]
+    assert np.isnan(forces.effort("crank")).tolist() == [True, False, False]

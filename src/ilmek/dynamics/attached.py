@@ -22,13 +22,6 @@ def attached(motion: Motion, body: str, local: complex) -> Place:
     return Place(_over(moved.position, motion), _over(moved.velocity, motion), _over(moved.acceleration, motion))
 
 
-def passing(motion: Motion, body: str, position: ComplexArray) -> ComplexArray:
-    """Velocity of the material of a body that is at a position of the world [m, m/s]: v_O + i omega (p - O)."""
-    origin = attached(motion, body, 0j)
-    velocity: ComplexArray = origin.velocity + 1j * motion.omega(body) * (position - origin.position)
-    return velocity
-
-
 def _over(value: ComplexField, motion: Motion) -> ComplexArray:
     """The value as an array over the samples: what stands still is one number in the motion."""
     return np.broadcast_to(np.asarray(value, dtype=np.complex128), motion.status.shape)

@@ -1,166 +1,142 @@
-"""The equations of Newton and Euler for a planar mechanism, assembled and solved for every sample.
+"""The equations of Newton and Euler for a planar mechanism, solved group by group.
 
     Σ f = m a_G        Σ (p - G) x f + Σ t = J alpha        for each moving body, G its mass centre
 
-Every unknown is a unit wrench between two bodies, times a number: two forces for a pin, a force across the line and
-a couple for a slide, a torque or a force along the line for an input. A mechanism whose inputs leave no freedom has
-as many unknowns as equations, three a moving body.
+A group of the plan has three equations a body for just as many unknowns: what its joints bear, two numbers each, and
+the efforts of its inputs. The groups are solved from the last to the first; each hands what it finds to the bodies that
+it hangs on [Assur's principle]. A joint bears nothing that would do work on its own motion, its `play`:
+
+    one body, one driven joint   the joint gives all that the body needs
+    a dyad                       with w the pull of the inner joint on the first body:  play_A(need_1 - w) = 0,
+                                 play_B(need_2 + w) = 0, two equations for the two numbers of w, all kinds alike
+    any other                    all equations of the group at once
 """
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import BoolArray, ComplexArray, ComplexField, FloatArray
-from ilmek.dynamics.attached import Place, attached, passing
+from ilmek.arrays import ComplexField, FloatArray
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Wrench
-from ilmek.linkage.model import GROUND, Displacement, Input, Joint, Mechanism, Pin, Slide
-from ilmek.linkage.motion import Motion
-from ilmek.plane.vectors import cross, unit
+from ilmek.dynamics.posed import Held, Posed, Pull
+from ilmek.linkage.groups.group import Step
+from ilmek.linkage.model import GROUND
+from ilmek.num.linear import solve_many
+from ilmek.plane.vectors import cross
 
-BLOCK = 4096
-"""Samples solved at a time: more would leave the processor's cache."""
+Needs = dict[str, Pull]
+"""What its joints must give to each body, its moment about the mass centre."""
 
-Sizes = Float[np.ndarray, "unknowns samples"]
-Sides = Float[np.ndarray, "equations samples"]
-
-
-@dataclass(frozen=True, slots=True)
-class Unknown:
-    """A wrench of unknown size between two bodies: this force and torque on `on`, the opposite on `by`.
-
-    joint  whose reaction it is, or of the input whose effort it is (`effort`)
-    """
-
-    joint: str
-    on: str
-    by: str
-    force: ComplexField
-    at: ComplexArray
-    torque: float
-    effort: str = ""
+Pulls = dict[str, Pull]
+"""What each joint gives to its `on` body, its moment about the joint's point."""
 
 
-def receiver(joint: Joint) -> str:
-    """The body on which a joint's force is counted: the second of a pin, the sliding one of a slide."""
-    return joint.second if isinstance(joint, Pin) else joint.body
+def needs(posed: Posed, inertias: Mapping[str, Inertia], wrenches: Iterable[Wrench]) -> Needs:
+    """The terms m a_G and J alpha of each moving body, less its loads."""
+    found = {
+        body: Pull(inertia.mass * posed.centres[body].acceleration, inertia.moment * posed.bodies[body].alpha)
+        for body, inertia in inertias.items()
+    }
+    for wrench in wrenches:
+        at = posed.place(wrench.body, wrench.at).position
+        add(found, posed, wrench.body, Pull(-wrench.force, -wrench.torque), at)
+    return found
 
 
-def unknowns(mechanism: Mechanism, motion: Motion) -> tuple[Unknown, ...]:
-    """All unknown unit wrenches: two a joint, in the order of the joints, then one an input."""
-    reactions = [unknown for joint in mechanism.joints for unknown in _of_joint(joint, motion)]
-    return (*reactions, *(_of_input(mechanism, entry, motion) for entry in mechanism.inputs))
+def add(to: Needs, posed: Posed, body: str, pull: Pull, at: ComplexField) -> None:
+    """Add to a body's needs a pull whose moment is about the point `at` [m]; the ground needs nothing."""
+    if body != GROUND:
+        moment = pull.moment + cross(at - posed.centres[body].position, pull.force)
+        to[body] = Pull(to[body].force + pull.force, to[body].moment + moment)
 
 
-def _of_joint(joint: Joint, motion: Motion) -> Iterator[Unknown]:
-    on = receiver(joint)
-    by = _other(joint, on)
-    at = _place(motion, on, joint.name)
-    if isinstance(joint, Pin):
-        yield Unknown(joint.name, on, by, 1.0 + 0j, at, 0.0)
-        yield Unknown(joint.name, on, by, 1j, at, 0.0)
-    else:
-        yield Unknown(joint.name, on, by, 1j * _line(joint, motion), at, 0.0)
-        yield Unknown(joint.name, on, by, 0j, at, 1.0)
+def joint_pulls(posed: Posed, needed: Needs) -> Pulls:
+    """What the joints give, drives' efforts among it; infinite or NaN at samples whose equations are singular."""
+    needed = dict(needed)
+    found: Pulls = {}
+    driven = {entry.joint for entry in posed.motion.plan.mechanism.inputs}
+    for step in reversed(posed.motion.plan.steps):
+        own = [
+            joint
+            for name, joint in posed.joints.items()
+            if name not in found and {joint.on, joint.by} & set(step.bodies)
+        ]
+        found |= _group(posed, needed, step, own, driven)
+        for joint in own:
+            for body, sign in ((joint.on, -1), (joint.by, +1)):
+                if body not in step.bodies:
+                    pull = found[joint.name]
+                    add(needed, posed, body, Pull(sign * pull.force, sign * pull.moment), joint.at)
+    return found
 
 
-def _of_input(mechanism: Mechanism, entry: Input, motion: Motion) -> Unknown:
-    joint = mechanism.joint(entry.joint)
-    if isinstance(entry, Displacement) and isinstance(joint, Slide):
-        at = _place(motion, joint.body, joint.name)
-        return Unknown(joint.name, joint.body, joint.guide, _line(joint, motion), at, 0.0, effort=entry.name)
-    at = _place(motion, entry.name, joint.name)
-    return Unknown(joint.name, entry.name, _other(joint, entry.name), 0j, at, 1.0, effort=entry.name)
+def _group(posed: Posed, needed: Needs, step: Step, own: Sequence[Held], driven: set[str]) -> Pulls:
+    """What a group's own joints give."""
+    if len(step.bodies) == len(own) == 1:
+        return {own[0].name: _seen(own[0], step.bodies[0], needed[step.bodies[0]], posed)}
+    inner = [joint for joint in own if {joint.on, joint.by} <= set(step.bodies)]
+    if len(step.bodies) == 2 and len(own) == 3 and len(inner) == 1 and not any(joint.name in driven for joint in own):
+        return _dyad(posed, needed, inner[0], [joint for joint in own if joint is not inner[0]])
+    return _any(posed, needed, step, own, driven)
 
 
-def _place(motion: Motion, body: str, point: str) -> ComplexArray:
-    return attached(motion, body, motion.plan.mechanism.point(body, point)).position
+def _seen(joint: Held, body: str, pull: Pull, posed: Posed) -> Pull:
+    """A pull on a body, its moment about the mass centre, as the joint gives it to `on`, its moment about the joint."""
+    moment = pull.moment + cross(posed.centres[body].position - joint.at, pull.force)
+    return Pull(pull.force, moment) if body == joint.on else Pull(-pull.force, -moment)
 
 
-def _line(slide: Slide, motion: Motion) -> ComplexArray:
-    direction: ComplexArray = motion.direction(slide.guide) * unit(slide.along)
-    return direction
+def _dyad(posed: Posed, needed: Needs, inner: Held, outer: Sequence[Held]) -> Pulls:
+    """Two bodies, the joint between them and one of each to known bodies: two equations; see the module."""
+    first, second = inner.on, inner.by
+    a, b = sorted(outer, key=lambda joint: first not in (joint.on, joint.by))
+    u, v = inner.bears
+    au, av, bu, bv = (joint.play(pull, inner.at) for joint in (a, b) for pull in (u, v))
+    ca = a.play(needed[first], posed.centres[first].position)
+    cb = -b.play(needed[second], posed.centres[second].position)
+    det = au * bv - av * bu
+    x, y = np.divide(ca * bv - av * cb, det), np.divide(au * cb - ca * bu, det)
+    between = Pull(x * u.force + y * v.force, x * u.moment + y * v.moment)
+    left = dict(needed)
+    add(left, posed, first, Pull(-between.force, -between.moment), inner.at)
+    add(left, posed, second, between, inner.at)
+    return {
+        inner.name: between,
+        a.name: _seen(a, first, left[first], posed),
+        b.name: _seen(b, second, left[second], posed),
+    }
 
 
-def _other(joint: Joint, body: str) -> str:
-    first, second = joint.bodies
-    return second if body == first else first
+def _any(posed: Posed, needed: Needs, step: Step, own: Sequence[Held], driven: set[str]) -> Pulls:
+    """All equations of a group at once, three a body, their moments over the mechanism's length."""
+    units = [(joint, pull) for joint in own for pull in _units(joint, driven, posed.length)]
+    samples = posed.motion.status.shape[0]
+    matrix = np.zeros((samples, 3 * len(step.bodies), len(units)))
+    right = np.zeros((samples, 3 * len(step.bodies)))
+    for row, body in enumerate(step.bodies):
+        right[:, 3 * row : 3 * row + 3] = _rows(needed[body], posed.length, samples)
+        for column, (joint, pull) in enumerate(units):
+            if body in (joint.on, joint.by):
+                sign = 1 if body == joint.on else -1
+                moment = pull.moment + cross(joint.at - posed.centres[body].position, pull.force)
+                seen = Pull(sign * pull.force, sign * moment)
+                matrix[:, 3 * row : 3 * row + 3, column] = _rows(seen, posed.length, samples)
+    sizes = solve_many(matrix, right)
+    found = {joint.name: Pull(0j, 0.0) for joint in own}
+    for column, (joint, pull) in enumerate(units):
+        so_far, size = found[joint.name], sizes[:, column]
+        found[joint.name] = Pull(so_far.force + size * pull.force, so_far.moment + size * pull.moment)
+    return found
 
 
-def right_side(
-    motion: Motion,
-    inertias: Mapping[str, Inertia],
-    centres: Mapping[str, Place],
-    wrenches: Sequence[Wrench],
-    length: float,
-) -> Sides:
-    """What the unknown wrenches must come to: three rows a body, x, y, and moment about its centre over `length`."""
-    rows = []
-    for body, inertia in inertias.items():
-        force: ComplexArray = inertia.mass * centres[body].acceleration
-        moment: FloatArray = inertia.moment * motion.alpha(body)
-        for wrench in wrenches:
-            if wrench.body == body:
-                force = force - wrench.force
-                arm = wrench.at.position - centres[body].position
-                moment = moment - cross(arm, wrench.force) - wrench.torque
-        rows += [force.real, force.imag, moment / length]
-    return np.stack(rows)
+def _units(joint: Held, driven: set[str], length: float) -> Iterable[Pull]:
+    """What a joint may give, as pulls of the size of a force."""
+    for pull in (*joint.bears, *([joint.drive] if joint.name in driven else [])):
+        yield Pull(pull.force, pull.moment * length)
 
 
-def solve_sizes(
-    wrenches: Sequence[Unknown], centres: Mapping[str, Place], right: Sides, length: float, usable: BoolArray
-) -> Sizes:
-    """Size of every unknown wrench; NaN at samples that are not usable, or whose equations are singular.
-
-    length  a length of the mechanism [m]: moments are divided by it, so that they weigh like forces
-    """
-    sizes = np.full((len(wrenches), right.shape[1]), np.nan)
-    for start in range(0, right.shape[1], BLOCK):
-        block = np.arange(start, min(start + BLOCK, right.shape[1]))
-        block = block[usable[block]]
-        matrix = _matrix(wrenches, centres, length, block)
-        try:
-            solved = np.linalg.solve(matrix, right.T[block, :, None])
-        except np.linalg.LinAlgError:
-            regular = np.linalg.slogdet(matrix).sign != 0
-            block = block[regular]
-            solved = np.linalg.solve(matrix[regular], right.T[block, :, None])
-        sizes[:, block] = solved[..., 0].T
-    torques = np.array([wrench.torque * length if wrench.torque else 1.0 for wrench in wrenches])
-    scaled: Sizes = sizes * torques[:, None]
-    return scaled
-
-
-def _matrix(
-    wrenches: Sequence[Unknown], centres: Mapping[str, Place], length: float, block: np.ndarray
-) -> Float[np.ndarray, "samples equations unknowns"]:
-    row = {body: 3 * place for place, body in enumerate(centres)}
-    matrix = np.zeros((block.size, 3 * len(row), len(wrenches)))
-    for column, wrench in enumerate(wrenches):
-        force = wrench.force[block] if isinstance(wrench.force, np.ndarray) else wrench.force
-        for body, sign in ((wrench.on, +1), (wrench.by, -1)):
-            if body == GROUND:
-                continue
-            top = row[body]
-            arm = wrench.at[block] - centres[body].position[block]
-            matrix[:, top, column] = sign * np.real(force)
-            matrix[:, top + 1, column] = sign * np.imag(force)
-            matrix[:, top + 2, column] = sign * (cross(arm, force) / length + wrench.torque)
-    return matrix
-
-
-def characteristic_length(mechanism: Mechanism) -> float:
-    """Greatest distance of a joint from its body's origin [m]; 1 where there is none."""
-    return max((abs(point) for body in mechanism.bodies for point in body.points.values()), default=1.0) or 1.0
-
-
-def speed_of(wrench: Unknown, motion: Motion) -> FloatArray:
-    """Power of a unit of the wrench: how fast `on` moves against `by` along it [m/s or rad/s]."""
-    sliding = passing(motion, wrench.on, wrench.at) - passing(motion, wrench.by, wrench.at)
-    turning = motion.omega(wrench.on) - motion.omega(wrench.by)
-    speed: FloatArray = np.real(np.conj(wrench.force) * sliding) + wrench.torque * turning
-    return speed
+def _rows(pull: Pull, length: float, samples: int) -> FloatArray:
+    """x, y and moment over a length as the last axis, one row a sample."""
+    parts = (np.real(pull.force), np.imag(pull.force), pull.moment / length)
+    return np.stack([np.broadcast_to(part, samples) for part in parts], axis=-1)

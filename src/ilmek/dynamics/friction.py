@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, RealField
-from ilmek.dynamics.attached import Place, attached
+from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Wrench
 from ilmek.errors import MechanismError
@@ -68,7 +68,8 @@ class Friction:
             raise MechanismError(
                 f"friction on {self.body!r} has no direction: {self.paced} does not move", do="give the input a speed"
             )
-        velocity = self._place(motion).velocity + MOMENT * self.side / speed * self._place(motion).acceleration
+        place = attached(motion, self.body, self._local(motion))
+        velocity = place.velocity + MOMENT * self.side / speed * place.acceleration
         pace = np.abs(velocity)
         direction = np.divide(velocity, pace, out=np.zeros_like(velocity), where=pace > 0)
         size: FloatArray = np.asarray(self.size, dtype=float)
@@ -79,8 +80,7 @@ class Friction:
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench."""
-        yield Wrench(self.body, self.force(motion), self._place(motion), 0.0)
+        yield Wrench(self.body, self.force(motion), self._local(motion))
 
-    def _place(self, motion: Motion) -> Place:
-        local = motion.plan.mechanism.point(self.body, self.point) if isinstance(self.point, str) else self.point
-        return attached(motion, self.body, local)
+    def _local(self, motion: Motion) -> complex:
+        return motion.plan.mechanism.point(self.body, self.point) if isinstance(self.point, str) else self.point

@@ -11,22 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.attached import Place, attached
-from ilmek.dynamics.equations import (
-    Sizes,
-    Unknown,
-    characteristic_length,
-    receiver,
-    right_side,
-    solve_sizes,
-    speed_of,
-    unknowns,
-)
+from ilmek.arrays import ComplexArray, FloatArray, RealField
+from ilmek.dynamics.equations import joint_pulls, needs
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Load, Wrench
+from ilmek.dynamics.posed import BLOCK, Posed, Pull, part_of, posed, receiver
 from ilmek.errors import MechanismError
-from ilmek.linkage.model import GROUND, Mechanism
+from ilmek.linkage.model import GROUND, Mechanism, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.status import Status
 from ilmek.plane.vectors import dot
@@ -96,56 +87,60 @@ def inverse(motion: Motion, inertias: Mapping[str, Inertia], loads: Sequence[Loa
         mechanism.body(body)
     bodies = {body: inertias.get(body, MASSLESS) for body in mechanism.moving}
     wrenches = [wrench for load in loads for wrench in load.wrenches(motion, bodies) if wrench.body != GROUND]
-    centres = {body: attached(motion, body, inertia.centre) for body, inertia in bodies.items()}
-    length = characteristic_length(mechanism)
-    asked = unknowns(mechanism, motion)
-    right = right_side(motion, bodies, centres, wrenches, length)
-    sizes = solve_sizes(asked, centres, right, length, motion.status == Status.OK)
+    forces = _room(mechanism, len(motion))
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        for start in range(0, len(motion), BLOCK):
+            part = slice(start, start + BLOCK)
+            poses = posed(part_of(motion, part), bodies)
+            _fill(forces, part, poses, bodies, [wrench.part(part) for wrench in wrenches])
+    return forces
+
+
+def _room(mechanism: Mechanism, samples: int) -> Forces:
+    """Forces yet to be filled in."""
     return Forces(
         mechanism,
-        *_by_name(asked, sizes),
-        input_power=_input_power(motion, asked, sizes),
-        load_power=_load_power(motion, wrenches),
-        kinetic_rate=_kinetic_rate(motion, bodies, centres),
+        reactions={joint.name: np.empty(samples, complex) for joint in mechanism.joints},
+        couples={joint.name: np.empty(samples) for joint in mechanism.joints if isinstance(joint, Slide)},
+        efforts={entry.name: np.empty(samples) for entry in mechanism.inputs},
+        input_power=np.zeros(samples),
+        load_power=np.zeros(samples),
+        kinetic_rate=np.zeros(samples),
     )
 
 
-def _by_name(
-    asked: Sequence[Unknown], sizes: Sizes
-) -> tuple[dict[str, ComplexArray], dict[str, FloatArray], dict[str, FloatArray]]:
-    """Reactions, couples and efforts by the names of joints and inputs."""
-    reactions: dict[str, ComplexArray] = {}
-    couples: dict[str, FloatArray] = {}
-    efforts: dict[str, FloatArray] = {}
-    for unknown, size in zip(asked, sizes, strict=True):
-        if unknown.effort:
-            efforts[unknown.effort] = size
-        elif unknown.torque:
-            couples[unknown.joint] = size
-        else:
-            reactions[unknown.joint] = reactions.get(unknown.joint, 0) + size * unknown.force
-    return reactions, couples, efforts
+def _fill(forces: Forces, part: slice, poses: Posed, bodies: Mapping[str, Inertia], wrenches: Sequence[Wrench]) -> None:
+    """Solve a block of samples and write it into the forces."""
+    pulls = joint_pulls(poses, needs(poses, bodies, wrenches))
+    lost = poses.motion.status != Status.OK
+    for entry in forces.mechanism.inputs:
+        joint = poses.joints[entry.joint]
+        pull = pulls[entry.joint]
+        effort = np.where(lost, np.nan, joint.play(pull, joint.at))
+        forces.efforts[entry.name][part] = effort if entry.name in (joint.on, joint.name) else -effort
+        forces.input_power[part] += effort * poses.rate(joint)
+        pulls[entry.joint] = Pull(pull.force - effort * joint.drive.force, pull.moment)
+    for name, pull in pulls.items():
+        forces.reactions[name][part] = np.where(lost, np.nan, pull.force)
+        if name in forces.couples:
+            forces.couples[name][part] = np.where(lost, np.nan, pull.moment)
+    forces.load_power[part] = _load_power(poses, wrenches)
+    forces.kinetic_rate[part] = _kinetic_rate(poses, bodies)
 
 
-def _input_power(motion: Motion, asked: Sequence[Unknown], sizes: Sizes) -> FloatArray:
-    power = np.zeros(motion.status.shape)
-    for unknown, size in zip(asked, sizes, strict=True):
-        if unknown.effort:
-            power = power + size * speed_of(unknown, motion)
-    return power
-
-
-def _load_power(motion: Motion, wrenches: Sequence[Wrench]) -> FloatArray:
-    power = np.zeros(motion.status.shape)
+def _load_power(poses: Posed, wrenches: Sequence[Wrench]) -> RealField:
+    power: RealField = 0.0
     for wrench in wrenches:
-        power = power + dot(wrench.force, wrench.at.velocity) + wrench.torque * motion.omega(wrench.body)
+        velocity = poses.place(wrench.body, wrench.at).velocity
+        power = power + dot(wrench.force, velocity) + wrench.torque * poses.bodies[wrench.body].omega
     return power
 
 
-def _kinetic_rate(motion: Motion, inertias: Mapping[str, Inertia], centres: Mapping[str, Place]) -> FloatArray:
+def _kinetic_rate(poses: Posed, bodies: Mapping[str, Inertia]) -> RealField:
     """d/dt Σ (m |v|² + J omega²) / 2 = Σ (m v · a + J omega alpha)."""
-    rate = np.zeros(motion.status.shape)
-    for body, inertia in inertias.items():
-        moving = inertia.mass * dot(centres[body].velocity, centres[body].acceleration)
-        rate = rate + moving + inertia.moment * motion.omega(body) * motion.alpha(body)
+    rate: RealField = 0.0
+    for body, inertia in bodies.items():
+        moved, centre = poses.bodies[body], poses.centres[body]
+        rate = rate + inertia.mass * dot(centre.velocity, centre.acceleration)
+        rate = rate + inertia.moment * moved.omega * moved.alpha
     return rate

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import Protocol, TypeAlias, runtime_checkable
 
 from ilmek.arrays import ComplexField, RealField
-from ilmek.dynamics.attached import Place, attached
 from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.posed import cut
 from ilmek.linkage.motion import Motion
 
 ForceLaw: TypeAlias = ComplexField | Callable[[Motion], ComplexField]
@@ -23,12 +23,16 @@ TorqueLaw: TypeAlias = RealField | Callable[[Motion], RealField]
 
 @dataclass(frozen=True, slots=True)
 class Wrench:
-    """A force at a moving point of a body, and a torque on that body: one load, resolved for every sample."""
+    """A force [N] at a point of a body's frame [m], and a torque [N m] on that body: one number, or one a sample."""
 
     body: str
     force: ComplexField
-    at: Place
-    torque: RealField
+    at: complex
+    torque: RealField = 0.0
+
+    def part(self, part: slice) -> "Wrench":
+        """The same over some of the samples."""
+        return Wrench(self.body, cut(self.force, part), self.at, cut(self.torque, part))
 
 
 @runtime_checkable
@@ -45,10 +49,10 @@ class Gravity:
 
     acceleration: complex
 
-    def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:
+    def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench a body."""
         for body, inertia in inertias.items():
-            yield Wrench(body, inertia.mass * self.acceleration, attached(motion, body, inertia.centre), 0.0)
+            yield Wrench(body, inertia.mass * self.acceleration, inertia.centre)
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +67,7 @@ class PointForce:
         """One wrench."""
         force = self.force(motion) if callable(self.force) else self.force
         local = motion.plan.mechanism.point(self.body, self.point) if isinstance(self.point, str) else self.point
-        yield Wrench(self.body, force, attached(motion, self.body, local), 0.0)
+        yield Wrench(self.body, force, local)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,4 +80,4 @@ class Torque:
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench."""
         torque = self.torque(motion) if callable(self.torque) else self.torque
-        yield Wrench(self.body, 0j, attached(motion, self.body, 0j), torque)
+        yield Wrench(self.body, 0j, 0j, torque)

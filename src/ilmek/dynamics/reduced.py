@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Float, Int8
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.attached import attached, passing
+from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity, Load, PointForce, Torque
 from ilmek.errors import MechanismError
@@ -90,7 +90,7 @@ class Reduced:
         force = np.zeros(len(unit))
         for load in loads:
             for wrench in load.wrenches(motion, self.inertias):
-                sliding = passing(unit, wrench.body, wrench.at.position)
+                sliding = attached(unit, wrench.body, wrench.at).velocity
                 force = force + dot(wrench.force, sliding) + wrench.torque * unit.omega(wrench.body)
         return force
 

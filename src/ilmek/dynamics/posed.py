@@ -1,0 +1,139 @@
+"""A mechanism in its poses over a block of samples: what the equations of its forces are made of."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, RealField
+from ilmek.dynamics.inertia import Inertia
+from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion, carried_velocity
+from ilmek.linkage.groups.group import Drive
+from ilmek.linkage.model import GROUND, Joint, Mechanism, Pin
+from ilmek.linkage.motion import Motion
+from ilmek.plane.vectors import cross, dot, unit
+
+BLOCK = 4096
+"""Samples worked off at a time: more would leave the processor's cache."""
+
+
+class Pull(NamedTuple):
+    """A force [N] and its moment [N m] about a point that is said where it is used: numbers, or one a sample."""
+
+    force: ComplexField
+    moment: RealField
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A joint in its poses: its point [m] and, of a slide, the direction of its line; `on` one body, `by` the other."""
+
+    name: str
+    on: str
+    by: str
+    at: ComplexField
+    line: ComplexField | None
+
+    def play(self, pull: Pull, about: ComplexField) -> RealField:
+        """Work of a pull, its moment about a given point, on the joint's own motion: nothing but its drive resists it.
+
+        The moment about a pin [N m], the force along a slide's line [N].
+        """
+        if self.line is None:
+            return pull.moment + cross(about - self.at, pull.force)
+        return dot(self.line, pull.force)
+
+    @property
+    def drive(self) -> Pull:
+        """A unit of the effort that drives the joint: a torque, or a force along the line."""
+        return Pull(0j, 1.0) if self.line is None else Pull(self.line, 0.0)
+
+    @property
+    def bears(self) -> tuple[Pull, Pull]:
+        """Units of what the joint bears by itself: two forces of a pin; across a line a force, and a couple."""
+        return (Pull(1 + 0j, 0.0), Pull(1j, 0.0)) if self.line is None else (Pull(1j * self.line, 0.0), Pull(0j, 1.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Posed:
+    """The bodies' motions, those of their mass centres, and the joints, by name.
+
+    length   of the mechanism [m]: where forces and moments meet in one equation, moments are divided by it
+    carried  the places computed so far
+    """
+
+    motion: Motion
+    bodies: Mapping[str, BodyMotion]
+    centres: Mapping[str, PointMotion]
+    joints: Mapping[str, Held]
+    length: float
+    carried: dict[tuple[str, complex], PointMotion] = field(default_factory=dict)
+
+    def place(self, body: str, local: complex) -> PointMotion:
+        """Motion of the place at `local` [m] in a body's frame; computed once."""
+        if (body, local) not in self.carried:
+            self.carried[body, local] = self.bodies[body].carry(local)
+        return self.carried[body, local]
+
+    def velocity(self, body: str, position: ComplexField) -> ComplexField:
+        """Velocity [m/s] of the material of a body that is at a position of the world [m]."""
+        moved = self.bodies[body]
+        return carried_velocity(moved.anchor.velocity, position - moved.anchor.position, moved.omega)
+
+    def rate(self, joint: Held) -> RealField:
+        """How fast `on` moves against `by` in the joint's own motion [rad/s, or m/s along the line]."""
+        if joint.line is None:
+            return self.bodies[joint.on].omega - self.bodies[joint.by].omega
+        return dot(joint.line, self.velocity(joint.on, joint.at) - self.velocity(joint.by, joint.at))
+
+
+def posed(motion: Motion, inertias: Mapping[str, Inertia]) -> Posed:
+    """The mechanism in the poses of a motion."""
+    bodies: dict[str, BodyMotion] = {GROUND: STILL}
+    for step in motion.plan.steps:
+        bodies.update(step.place(bodies, {body: motion.columns[body] for body in step.bodies}))
+    mechanism = motion.plan.mechanism
+    centres = {body: bodies[body].carry(inertia.centre) for body, inertia in inertias.items()}
+    return Posed(
+        motion,
+        bodies,
+        centres,
+        {joint.name: _held(mechanism, joint, bodies) for joint in mechanism.joints},
+        characteristic_length(mechanism),
+        {(body, inertias[body].centre): centre for body, centre in centres.items()},
+    )
+
+
+def _held(mechanism: Mechanism, joint: Joint, bodies: Mapping[str, BodyMotion]) -> Held:
+    on = receiver(joint)
+    by = next(body for body in joint.bodies if body != on)
+    moved = bodies[on]
+    at = moved.anchor.position + moved.direction * (mechanism.point(on, joint.name) - moved.at)
+    line = None if isinstance(joint, Pin) else bodies[by].direction * unit(joint.along)
+    return Held(joint.name, on, by, at, line)
+
+
+def receiver(joint: Joint) -> str:
+    """The body on which a joint's force is counted: the second of a pin, the sliding one of a slide."""
+    return joint.second if isinstance(joint, Pin) else joint.body
+
+
+def characteristic_length(mechanism: Mechanism) -> float:
+    """Greatest distance of a joint from its body's origin [m]; 1 where there is none."""
+    return max((abs(point) for body in mechanism.bodies for point in body.points.values()), default=1.0) or 1.0
+
+
+def part_of(motion: Motion, part: slice) -> Motion:
+    """Some samples of a motion, as views."""
+    drives = {
+        name: Drive(cut(drive.value, part), cut(drive.speed, part), cut(drive.acceleration, part))
+        for name, drive in motion.drives.items()
+    }
+    columns = {body: tuple(cut(field, part) for field in fields) for body, fields in motion.columns.items()}
+    return Motion(motion.plan, drives, columns, motion.status[part])
+
+
+def cut(value: Any, part: slice) -> Any:
+    """Some samples of a value given by sample; a lone number is that of every sample."""
+    return value[part] if np.ndim(value) else value
