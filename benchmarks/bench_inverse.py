@@ -32,14 +32,15 @@ LOADS = (Gravity(-1j * PARAMS.gravity), friction(PARAMS, 1.0))
 
 
 def by_numpy(motion: Motion) -> FloatArray:
-    """Sizes of the 18 unknowns of every state: the joints' forces in x and y, in the guide's place force and couple, and
-    both torques.
-    """
+    """Sizes of every state's unknowns: the joints' forces in x and y (force and couple of the guide), both torques."""
     six_bar = motion.plan.mechanism
     row = {body: 3 * place for place, body in enumerate(six_bar.moving)}
-    points = {joint.name: motion.point(joint.bodies[0], joint.name).position for joint in six_bar.joints}
+    points = {
+        joint.name: attached(motion, joint.bodies[0], six_bar.point(joint.bodies[0], joint.name)).position
+        for joint in six_bar.joints
+    }
     rubbing = LOADS[1].force(motion)
-    tip = motion.point("needle", "F").position
+    tip = attached(motion, "needle", six_bar.point("needle", "F")).position
     right = np.empty((len(motion), 18))
     for body, inertia in inertias(PARAMS).items():
         centre = attached(motion, body, inertia.centre)
