@@ -1,5 +1,7 @@
 """The compiled executor: the same motions as `solve` gives, the same statuses, and what a sweep refuses."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -71,7 +73,43 @@ def two_motors() -> Mechanism:
     )
 
 
+def press(guided_by_lever: bool = True) -> Mechanism:
+    """A block on the crank's pin leads a lever (RPR); sliders on lever and ground cross (PRP); a cross slide (RPP).
+
+    The last is hung on the ground slider and slides on the crank. All lines are offset and turned.
+    """
+    lever = ("slot", "lever", "block") if guided_by_lever else ("slot", "block", "lever")
+    return Mechanism(
+        bodies=(
+            Body(GROUND, {"O": 0, "B": -3 + 0.2j, "u": 0.1 + 0.1j}),
+            Body("crank", {"O": 0, "A": 1, "v": 0.2j}),
+            Body("block", {"A": 0.1j, "slot": 0.1}),
+            Body("lever", {"B": 0.05, "slot": 0.1j, "t": 0.3}),
+            Body("on_lever", {"t": 0.1, "C": 0.2j}),
+            Body("on_ground", {"C": 0.1, "u": 0.2, "D": 0.3 + 0.1j}),
+            Body("middle", {"v": 0.1, "w": 0.2j}),
+            Body("out", {"w": 0.05, "D": 0.3j}),
+        ),
+        joints=(
+            Pin("O", GROUND, "crank"),
+            Pin("A", "crank", "block"),
+            Slide(*lever, 0.2, -0.3),
+            Pin("B", GROUND, "lever"),
+            Slide("t", "on_lever", "lever", 0.4, 0.1),
+            Pin("C", "on_lever", "on_ground"),
+            Slide("u", "on_ground", GROUND, 2.0, 0.5),
+            Slide("v", "middle", "crank", 0.3, 0.6),
+            Slide("w", "middle", "out", 1.1, -0.2),
+            Pin("D", "out", "on_ground"),
+        ),
+        inputs=(Rotation("crank", "O"),),
+        branches={"slot": +1},
+    )
+
+
 MOVED = {
+    "RPR, PRP, RPP": (plan(press()), TIME),
+    "RPR of the other guide": (plan(press(guided_by_lever=False)), TIME),
     "RRR": (BEAT_UP, TIME),
     "RRP": (plan(slider_crank(0.1, 0.3, offset=0.04, branch=-1)), TIME),
     "driven bodies and dyads on moving ones": (plan(gantry()), {"x": 0.1 * np.sin(TIME), "carriage": -TIME}),
@@ -108,6 +146,45 @@ def test_any_number_of_samples(samples):
     assert apart(solve_batch(BEAT_UP, angle, 1.0), solve(BEAT_UP, angle, 1.0)) <= 1e-13
 
 
+def swinging_block(pivot: float, offset: float) -> Mechanism:
+    """A lever on `pivot` led by a block on the crank's pin, which comes to the pivot."""
+    return Mechanism(
+        bodies=(
+            Body(GROUND, {"O": 0, "B": pivot}),
+            Body("crank", {"O": 0, "A": 0.3}),
+            Body("block", {"A": 0, "s": 0}),
+            Body("lever", {"B": 0, "s": 1j * offset}),
+        ),
+        joints=(
+            Pin("O", GROUND, "crank"),
+            Pin("A", "crank", "block"),
+            Slide("s", "block", "lever"),
+            Pin("B", GROUND, "lever"),
+        ),
+        inputs=(Rotation("crank", "O"),),
+        branches={"s": +1},
+    )
+
+
+def square() -> Mechanism:
+    """Two sliders pinned to one another on a line of the crank and one of the ground, parallel at 0 and pi."""
+    return Mechanism(
+        bodies=(
+            Body(GROUND, {"O": 0, "g": 0.3j}),
+            Body("crank", {"O": 0, "c": 0.1j}),
+            Body("one", {"c": 0, "C": 0}),
+            Body("two", {"g": 0, "C": 0}),
+        ),
+        joints=(
+            Pin("O", GROUND, "crank"),
+            Slide("c", "one", "crank"),
+            Pin("C", "one", "two"),
+            Slide("g", "two", GROUND),
+        ),
+        inputs=(Rotation("crank", "O"),),
+    )
+
+
 NEAR = 3 * 10.0 ** -np.arange(2.0, 16.0)
 
 
@@ -117,8 +194,11 @@ NEAR = 3 * 10.0 ** -np.arange(2.0, 16.0)
         four_bar(0.3, 0.1, 0.3, 0.1, branch=+1),
         four_bar(0.3, 0.2, 0.2, 0.23, branch=-1),
         slider_crank(0.3, 0.2, branch=1),
+        swinging_block(0.3, offset=0.1),
+        swinging_block(0.3, offset=0.0),
+        square(),
     ],
-    ids=["parallel four-bar", "four-bar that cannot turn", "rod too short"],
+    ids=["parallel four-bar", "four-bar that cannot turn", "rod too short", "pins too near", "through the pin", "PRP"],
 )
 def test_statuses_agree_across_and_beside_dead_centres(near):
     limit = np.arccos((0.3**2 + 0.2**2 - 0.43**2) / (2 * 0.3 * 0.2))
@@ -129,6 +209,7 @@ def test_statuses_agree_across_and_beside_dead_centres(near):
     same = ours.status == theirs.status
     assert (same | (ours.status * theirs.status == Status.CANNOT_CLOSE * Status.DEAD_CENTRE)).all()
     assert same[np.min([np.abs(angle - place) for place in places], axis=0) >= 1e-13].all()
+    assert (np.isnan(ours.origin(near.moving[-1])) == np.isnan(theirs.origin(near.moving[-1])))[same].all()
     assert len(set(theirs.status)) > 1
 
 
@@ -172,6 +253,30 @@ def test_a_sweep_gives_every_variant_its_own_motion():
                 )
         sine = (motion.direction("coupler") * np.conj(motion.direction("rocker"))).imag
         assert swept.margin[k] == pytest.approx(np.abs(sine).min(), rel=1e-12)
+
+
+@pytest.mark.parametrize("mechanism", [gantry(), press()], ids=["RRR, RRP", "RPR, PRP, RPP"])
+def test_every_point_may_vary(mechanism):
+    rng = np.random.default_rng(3)
+    places = {
+        (body.name, point): place + 0.02 * (rng.uniform(-1, 1, 4) + 1j * rng.uniform(-1, 1, 4))
+        for body in mechanism.bodies
+        for point, place in body.points.items()
+    }
+    course = {entry.name: 0.1 * TIME for entry in mechanism.inputs}
+    swept = sweep(plan(mechanism), places, course, dict.fromkeys(course, 1.0), points=list(places))
+    for k in range(4):
+        bodies = tuple(
+            Body(body.name, {point: complex(places[body.name, point][k]) for point in body.points})
+            for body in mechanism.bodies
+        )
+        motion = solve(
+            plan(dataclasses.replace(mechanism, bodies=bodies)), course, dict.fromkeys(course, 1.0)
+        ).require()
+        for (body, point), moved in swept.points.items():
+            for field in ("position", "velocity", "acceleration"):
+                theirs = getattr(motion.point(body, point), field)
+                assert np.abs(getattr(moved, field)[k] - theirs).max() <= 1e-13 * max(1.0, np.abs(theirs).max())
 
 
 def test_variants_that_cannot_close_are_told_apart():

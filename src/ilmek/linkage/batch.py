@@ -7,7 +7,7 @@ Importing this module imports the compiler (a quarter of a second; the kernels t
 first run), which is worth it from about 10^5 samples on; nothing else of the package imports it. So the choice between
 the two executors is the caller's and never the batch's: results do not change in their last digit with its length.
 
-Bodies driven by inputs, RRR and RRP dyads have compiled forms; `solve_batch` leaves other plans to `solve`.
+Driven bodies and all dyads with closed forms are compiled; `solve_batch` leaves plans with other groups to `solve`.
 
 >>> from ilmek.linkage.fourbar import four_bar
 >>> from ilmek.linkage.structure import plan
@@ -26,10 +26,10 @@ from jaxtyping import Complex, Float, Int8
 from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import PointMotion
+from ilmek.linkage.executor import run
 from ilmek.linkage.groups.group import Columns, Drive, Step
 from ilmek.linkage.groups.shift import Shift
 from ilmek.linkage.groups.turn import Turn
-from ilmek.linkage.kernels import run
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import Courses, drives_of, solve
@@ -52,8 +52,9 @@ class Sweep:
 
     bodies  the bodies asked for, by name              points  those asked for, by (body, point): (variants, samples)
     status  Status of each variant and sample (int8)
-    margin  sine of the worst transmission angle of any dyad over the samples, one a variant: 1 at best, 0 at a dead
-            centre; samples that cannot close are left out, see `status`
+    margin  how far from a dead centre, over the samples and dyads the worst: 0 there. Sine of the transmission angle
+            (RRR, RRP), way along the slide by the mechanism's size (RPR), sine of the lines' angle (PRP). Samples that
+            cannot close are left out, see `status`
     """
 
     bodies: Mapping[str, Turning]

@@ -51,7 +51,8 @@ class Motion:
         self.plan.mechanism.body(name)
         step = self.plan.step_of(name)
         known = {parent: self.body(parent) for parent in step.parents}
-        return step.place(known, {body: self.columns[body] for body in step.bodies})[name]
+        with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
+            return step.place(known, {body: self.columns[body] for body in step.bodies})[name]
 
     def point(self, body: str, point: str) -> PointMotion:
         """Motion of a body's named point: position [m], velocity [m/s], acceleration [m/s^2]."""
@@ -98,7 +99,8 @@ class Motion:
         raise first_fault(self.plan, self.drives, self.status)
 
     def _carried(self, body: str, local: complex) -> PointMotion:
-        point = self.body(body).carry(local)
+        with np.errstate(invalid="ignore", over="ignore"):
+            point = self.body(body).carry(local)
         return PointMotion(*(self._points(one) for one in (point.position, point.velocity, point.acceleration)))
 
     def _points(self, value: ComplexField) -> Points:

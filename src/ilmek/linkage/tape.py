@@ -6,6 +6,7 @@ on, reading the body at row `of`; its numbers, one complex row a variant, come f
 bodies, any of which may be an array over the variants.
 """
 
+import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -14,7 +15,11 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, ComplexField, IntArray, RealField
 from ilmek.errors import MechanismError
+from ilmek.linkage.groups import rpp, rpr
 from ilmek.linkage.groups.group import Step
+from ilmek.linkage.groups.prp import CrossedSliders
+from ilmek.linkage.groups.rpp import CrossSlide
+from ilmek.linkage.groups.rpr import SlidingDyad
 from ilmek.linkage.groups.rrp import SliderDyad
 from ilmek.linkage.groups.rrr import Dyad
 from ilmek.linkage.groups.shift import Shift, Track
@@ -22,8 +27,8 @@ from ilmek.linkage.groups.turn import Turn
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.structure import Plan
 
-CARRY, TURN, RRR, RRP, SLIP = range(5)
-"""Instructions: carry a point of a body; turn a driven body; the two dyads; place a slider on its guide."""
+CARRY, TURN, SLIP, RRR, RRP, RPR, PRP, RPP = range(8)
+"""Instructions: carry a point of a body; turn a driven body; place a slider on its guide; the dyads."""
 
 BODY, DRIVE = 10, 3
 """Rows of a body, and of an input: value, speed, acceleration."""
@@ -31,8 +36,9 @@ BODY, DRIVE = 10, 3
 DIRECTION, OMEGA, ALPHA = 6, 8, 9
 """Rows of a body after its anchor's six."""
 
-SECOND, MARGIN, ZERO, TRAVEL = 10, 20, 21, 27
-"""Rows of a dyad: its second body, its margin; of RRP also the line's zero and the slider's travel, speed, gain."""
+SECOND, MARGIN, ZERO, TRAVEL, LINE = 10, 20, 21, 27, 9
+"""Rows of a dyad: its second body, its margin; of one with sliders also its line's zero and the travel, speed and gain
+along it; a second line's stand so many rows further on."""
 
 NUMBERS = 6
 """Most complex numbers an instruction takes."""
@@ -77,6 +83,14 @@ class Tape:
         """Motion of the place `local` [m] of a body into six rows."""
         self.add(CARRY, to, self.rows[body], numbers=(local - self.at[body],))
 
+    @property
+    def reach(self) -> RealField:
+        """Largest coordinate of any body's point [m], one a variant where it varies; 1 if all are 0."""
+        bodies = self.mechanism.bodies
+        lengths = [np.abs(self.point(body.name, point)) for body in bodies for point in body.points]
+        reach = functools.reduce(np.maximum, lengths)
+        return np.where(reach == 0, 1.0, reach)
+
     def stack(self, variants: int) -> tuple[IntArray, ComplexArray]:
         """Instructions and numbers as arrays: (instructions, 4) and (variants, instructions, NUMBERS)."""
         table = np.zeros((variants, len(self.codes), NUMBERS), dtype=complex)
@@ -98,7 +112,7 @@ def tape(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField]) 
         if write is None:
             raise MechanismError(
                 f"{step.words}: not among the compiled groups",
-                allowed="driven bodies, RRR and RRP dyads",
+                allowed="driven bodies and the dyads that have closed forms",
                 do="use solve",
             )
         write(written, step, inputs)
@@ -137,14 +151,62 @@ def _dyad(tape: Tape, step: Dyad, inputs: list[str]) -> None:  # noqa: ARG001 - 
 def _slider_dyad(tape: Tape, step: SliderDyad, inputs: list[str]) -> None:  # noqa: ARG001 - all writers alike
     to = tape.room(TRAVEL + 3)
     link, slider, (on, guide), track = step.link, step.slider, step.on, step.track
-    hinge, slide = _between(tape.mechanism, link, on), _between(tape.mechanism, slider, guide)
+    hinge = _between(tape.mechanism, link, on)
     tape.carry(on, tape.point(on, hinge), to)
     tape.rows[link], tape.at[link] = to, tape.point(link, hinge)
-    reach = tape.point(slider, step.pin) - tape.point(slider, slide)
-    tape.carry(guide, tape.point(guide, slide) + track.twist * reach, to + ZERO)
+    line = _line(tape, (slider, guide, step.pin), track, to + ZERO)
     arm, branch = _arm(tape, link, hinge, step.pin), tape.branches.get(step.pin, step.branch)
     tape.add(RRP, to, tape.rows[guide], numbers=(np.abs(arm), branch, 1 / arm, track.lead))
-    _slip(tape, (slider, guide, slide), track, to + SECOND, to + TRAVEL)
+    _slip(tape, line, track, to + SECOND, to + TRAVEL)
+
+
+def _sliding_dyad(tape: Tape, step: SlidingDyad, inputs: list[str]) -> None:  # noqa: ARG001 - all writers alike
+    to = tape.room(MARGIN + 1)
+    (guide, body), mechanism = step.links, tape.mechanism
+    hinges = [_between(mechanism, link, on) for link, on in zip(step.links, step.on, strict=True)]
+    for link, on, hinge, row in zip(step.links, step.on, hinges, (to, to + SECOND), strict=True):
+        tape.carry(on, tape.point(on, hinge), row)
+        tape.rows[link], tape.at[link] = row, tape.point(link, hinge)
+    root, at = tape.point(guide, step.slide), tape.point(body, step.slide)
+    off = rpr.offset(tape.at[guide], root, tape.at[body], at, step.track)
+    branch = tape.branches.get(step.slide, step.branch)
+    tape.add(RPR, to, numbers=(off, branch, step.track.lead.conjugate(), step.track.twist, tape.reach))
+
+
+def _crossed_sliders(tape: Tape, step: CrossedSliders, inputs: list[str]) -> None:  # noqa: ARG001 - all writers alike
+    to = tape.room(TRAVEL + LINE + 3)
+    one, two = (
+        _line(tape, (slider, on, step.pin), track, to + ZERO + k * LINE)
+        for k, (slider, on, track) in enumerate(zip(step.sliders, step.on, step.tracks, strict=True))
+    )
+    first, second = (tape.rows[guide] for guide in step.on)
+    tape.add(PRP, to, first, second, tuple(track.lead for track in step.tracks))
+    _slip(tape, one, step.tracks[0], to, to + TRAVEL)
+    _slip(tape, two, step.tracks[1], to + SECOND, to + TRAVEL + LINE)
+
+
+def _cross_slide(tape: Tape, step: CrossSlide, inputs: list[str]) -> None:  # noqa: ARG001 - all writers alike
+    to = tape.room(TRAVEL + 3)
+    (link, slider), (on, guide), mechanism = step.bodies, step.on, tape.mechanism
+    hinge, slide, between = (_between(mechanism, *two) for two in ((link, on), (slider, guide), (link, slider)))
+    at = tape.point(link, hinge)
+    tape.carry(on, tape.point(on, hinge), to)
+    tape.rows[link], tape.at[link] = to, at
+    outer = tape.point(guide, slide), tape.point(slider, slide)
+    inner = tape.point(slider, between), tape.point(link, between)
+    tape.carry(guide, rpp.zero(outer, inner, at, (step.track.twist, step.twist)), to + ZERO)
+    turned = step.track.twist
+    tape.add(RPP, to, tape.rows[guide], numbers=(step.track.lead, turned * step.lead, turned * step.twist))
+    _slip(tape, (slider, guide, slide), step.track, to + SECOND, to + TRAVEL)
+
+
+def _line(tape: Tape, names: tuple[str, str, str], track: Track, zero: int) -> tuple[str, str, str]:
+    """The place of a slider's pin at zero travel, carried by the guide; slider, guide and slide."""
+    slider, guide, pin = names
+    slide = _between(tape.mechanism, slider, guide)
+    reach = tape.point(slider, pin) - tape.point(slider, slide)
+    tape.carry(guide, tape.point(guide, slide) + track.twist * reach, zero)
+    return slider, guide, slide
 
 
 def _slip(tape: Tape, names: tuple[str, str, str], track: Track, to: int, travel: int) -> None:
@@ -175,5 +237,8 @@ WRITERS: dict[type[Step], Callable[[Tape, Any, list[str]], None]] = {
     Shift: _shift,
     Dyad: _dyad,
     SliderDyad: _slider_dyad,
+    SlidingDyad: _sliding_dyad,
+    CrossedSliders: _crossed_sliders,
+    CrossSlide: _cross_slide,
 }
 """The steps that have a compiled form, and how each is written."""

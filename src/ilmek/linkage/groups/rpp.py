@@ -11,12 +11,40 @@ where the known pin would be at zero travel of both slides. There is one way to 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ilmek.linkage.body_motion import BodyMotion
+from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_motion import BodyMotion, carried_acceleration, carried_velocity
 from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
 from ilmek.linkage.groups.shift import Track, refuse_parallel, track
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin, Slide
 from ilmek.plane.vectors import cross, oblique
+
+
+def gain(r: ComplexField, sliding: ComplexField, w: RealField) -> ComplexField:
+    """What s'' and z'' must make good: s'' e + z'' f = r - 2 i w (s' e + z' f) [m/s^2].
+
+    r  acceleration of A less that of the guide's point where A stands        sliding  s' e + z' f [m/s]
+    >>> gain(5 + 0j, 3j, 2.0)
+    (17+0j)
+    """
+    return r - 2j * w * sliding
+
+
+def zero(
+    outer: tuple[ComplexField, ComplexField],
+    inner: tuple[ComplexField, ComplexField],
+    at: ComplexField,
+    twists: tuple[complex, complex],
+) -> ComplexField:
+    """Where the known pin stands at s = z = 0, in the guide's frame [m].
+
+    outer, inner  a slide's points in the frames of the body nearer the guide and of the other [m]: guide and slider,
+                  slider and link           at  the pin in the link's frame [m]        twists  of slider, and link on it
+    >>> zero((5, 1), (3, 1j), 2 + 1j, (1j, 1))
+    (5+4j)
+    """
+    from_slider = inner[0] - outer[1] + twists[1] * (at - inner[1])
+    return outer[0] + twists[0] * from_slider
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,11 +88,11 @@ class CrossSlide(Step):
         e = guide.direction * self.track.lead
         f = guide.direction * (self.track.twist * self.lead)
         d = A.position - Q.position
-        sliding = A.velocity - Q.velocity - 1j * w * d
-        gain = A.acceleration - Q.acceleration - (1j * alpha - w * w) * d - 2j * w * sliding
+        ds = A.velocity - carried_velocity(Q.velocity, d, w)
+        dds = gain(A.acceleration - carried_acceleration(Q.acceleration, d, w, alpha), ds, w)
         columns = {
             self.link: (guide.direction * (self.track.twist * self.twist), w, alpha),
-            self.slider: (oblique(d, e, f), oblique(sliding, e, f), oblique(gain, e, f)),
+            self.slider: (oblique(d, e, f), oblique(ds, e, f), oblique(dds, e, f)),
         }
         return Solved(columns)
 
@@ -89,7 +117,6 @@ def recognise(group: Group) -> CrossSlide | None:
     outer, inner = track(mechanism, slide, slider), track(mechanism, between, link)
     refuse_parallel(mechanism, (slide, between), cross(outer.lead, outer.twist * inner.lead))
     at = mechanism.point(link, hinge.name)
-    from_slider = inner.root - outer.at + inner.twist * (at - inner.at)
     return CrossSlide(
         link=link,
         slider=slider,
@@ -99,5 +126,5 @@ def recognise(group: Group) -> CrossSlide | None:
         track=outer,
         lead=inner.lead,
         twist=inner.twist,
-        zero=outer.root + outer.twist * from_slider,
+        zero=complex(zero((outer.root, outer.at), (inner.root, inner.at), at, (outer.twist, inner.twist))),
     )

@@ -11,7 +11,6 @@ The dyad stands at a dead centre where t = 0: the slide is square to A -> B, or 
 infinite.
 """
 
-import cmath
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -20,7 +19,7 @@ import numpy as np
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
-from ilmek.linkage.groups.shift import track
+from ilmek.linkage.groups.shift import Track, track
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin, Slide
 from ilmek.units import format_quantity
@@ -48,7 +47,7 @@ def heading(d: ComplexField, o: RealField, t: RealField) -> ComplexField:
 def turn_rate(e: ComplexField, r: ComplexField, t: RealField) -> RealField:
     """Angular velocity w [rad/s] of both bodies, from i w d + t' e = r.
 
-    For velocities r = d'; for accelerations r = d'' + w^2 d - 2 i w t' e and the answer is alpha.
+    For velocities r = d'; for accelerations r is what `parting` gives and the answer is alpha.
     >>> float(turn_rate(0.96 + 0.28j, 2j, 4.0)), float(way_rate(0.96 + 0.28j, 2j, 0.48, 3.0))
     (0.48, 2.0)
     """
@@ -58,6 +57,26 @@ def turn_rate(e: ComplexField, r: ComplexField, t: RealField) -> RealField:
 def way_rate(e: ComplexField, r: ComplexField, w: RealField, o: RealField) -> RealField:
     """Sliding speed t' [m/s], from i w d + t' e = r; see `turn_rate`, of which w is the answer."""
     return e.real * r.real + e.imag * r.imag + w * o
+
+
+def parting(d2: ComplexField, d: ComplexField, e: ComplexField, w: RealField, dt: RealField) -> ComplexField:
+    """What alpha and t'' must make good: r = d'' + w^2 d - 2 i w t' e [m/s^2]; see `turn_rate`.
+
+    >>> complex(parting(1 + 0j, 3 + 4j, 1j, 2.0, 5.0))
+    (33+16j)
+    """
+    return d2 + w * w * d - 2j * (w * dt) * e
+
+
+def offset(first: ComplexField, root: ComplexField, second: ComplexField, at: ComplexField, line: Track) -> RealField:
+    """Offset o [m] of the second body's known pin from the line through the first's along the slide; the same always.
+
+    first, root   the known pin and the slide's point of the guide, in its frame [m]
+    second, at    those of the other body, in its frame [m]
+    """
+    to_b = root - first + line.twist * (second - at)  # from A to B at s = 0, in the guide's frame
+    o: RealField = (to_b * line.lead.conjugate()).imag
+    return o
 
 
 def shortness(d: ComplexField, o: RealField) -> RealField:
@@ -72,10 +91,10 @@ def shortness(d: ComplexField, o: RealField) -> RealField:
 
 @dataclass(frozen=True, slots=True)
 class SlidingDyad(Step):
-    """Two bodies on known pins, the second sliding on the first in direction `lead` of the first's frame.
+    """Two bodies on known pins, the second sliding on the first.
 
     hinges  known pins in the frames of the bodies in `on` [m]      at  the same pins in the bodies' own frames [m]
-    twist   direction of the second body against the first          offset  o [m]      scale  of its lengths [m]
+    track   the second body on the first                            offset  o [m]      scale  of its lengths [m]
     """
 
     links: tuple[str, str]
@@ -84,8 +103,7 @@ class SlidingDyad(Step):
     branch: int
     hinges: tuple[complex, complex]
     at: tuple[complex, complex]
-    lead: complex
-    twist: complex
+    track: Track
     offset: float
     scale: float
 
@@ -117,10 +135,10 @@ class SlidingDyad(Step):
         e = heading(d, self.offset, t)
         r = B.velocity - A.velocity
         w = turn_rate(e, r, t)
-        r = B.acceleration - A.acceleration + w * w * d - 2j * (w * way_rate(e, r, w, self.offset)) * e
+        r = parting(B.acceleration - A.acceleration, d, e, w, way_rate(e, r, w, self.offset))
         alpha = turn_rate(e, r, t)
-        direction = e * self.lead.conjugate()
-        columns = {self.links[0]: (direction, w, alpha), self.links[1]: (direction * self.twist, w, alpha)}
+        direction = e * self.track.lead.conjugate()
+        columns = {self.links[0]: (direction, w, alpha), self.links[1]: (direction * self.track.twist, w, alpha)}
         return Solved(columns, t, self.scale)
 
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
@@ -163,7 +181,6 @@ def recognise(group: Group) -> SlidingDyad | None:
     on = [group.beyond(hinge, link) for hinge, link in zip(hinges, (guide, body), strict=True)]
     at = [mechanism.point(link, hinge.name) for hinge, link in zip(hinges, (guide, body), strict=True)]
     line = track(mechanism, slide, body)
-    to_b = line.root - at[0] + line.twist * (at[1] - line.at)  # from A to B at s = 0, in the guide's frame
     return SlidingDyad(
         links=(guide, body),
         on=(on[0], on[1]),
@@ -171,8 +188,7 @@ def recognise(group: Group) -> SlidingDyad | None:
         branch=group.branch(slide.name),
         hinges=(mechanism.point(on[0], hinges[0].name), mechanism.point(on[1], hinges[1].name)),
         at=(at[0], at[1]),
-        lead=line.lead,
-        twist=line.twist,
-        offset=(to_b * cmath.rect(1, -slide.along)).imag,
+        track=line,
+        offset=float(offset(at[0], line.root, at[1], line.at, line)),
         scale=group.reach,
     )

@@ -1,0 +1,189 @@
+# ruff: noqa: PLR0917 - compiled functions take their arguments by position
+"""The compiled executor: a tape's instructions in order, block by block, variant by variant."""
+
+import math
+from typing import TypeAlias
+
+import numpy as np
+from jaxtyping import Int8
+
+from ilmek.arrays import ComplexArray, FloatArray, IntArray
+from ilmek.linkage.groups import rpr as rpr_group
+from ilmek.linkage.groups import rrp as rrp_group
+from ilmek.linkage.groups import rrr as rrr_group
+from ilmek.linkage.kernels import BLOCK, carry, pair, prp, rpp, rpr, rrp, rrr, slip, turn
+from ilmek.linkage.status import DEAD, TOUCHING, Status
+from ilmek.linkage.tape import BODY, CARRY, DIRECTION, DRIVE, MARGIN, PRP, RPP, RPR, RRP, RRR, SECOND, SLIP, TURN, ZERO
+from ilmek.num.compiled import compiled
+
+Statuses: TypeAlias = Int8[np.ndarray, "..."]
+
+OK, CANNOT_CLOSE, DEAD_CENTRE = int(Status.OK), int(Status.CANNOT_CLOSE), int(Status.DEAD_CENTRE)
+
+misfit, too_short, too_near = compiled(rrr_group.misfit), compiled(rrp_group.shortness), compiled(rpr_group.shortness)
+
+
+@compiled
+def _best(code: int, numbers: ComplexArray) -> tuple[float, float]:
+    """The margin at best and the largest length of a dyad, as its step has them."""
+    a, b = numbers[0].real, numbers[1].real
+    if code == RRR:
+        return a * b, max(a, b)
+    if code == RRP:
+        return a, a
+    if code == RPR:
+        return numbers[4].real, numbers[4].real
+    return 1.0, 1.0
+
+
+@compiled
+def _gap(code: int, dyad: FloatArray, guide: FloatArray, numbers: ComplexArray, i: int) -> float:
+    """By how much a dyad without a real margin fails to close in sample i; lines that do not cross are parallel."""
+    A, a, b = pair(dyad, i), numbers[0].real, numbers[1].real
+    if code == RRR:
+        return float(misfit(A, pair(dyad, SECOND * BLOCK + i), a, b))
+    if code == RRP:
+        return float(too_short(A, pair(dyad, ZERO * BLOCK + i), pair(guide, DIRECTION * BLOCK + i) * numbers[3], a))
+    if code == RPR:
+        return float(too_near(pair(dyad, SECOND * BLOCK + i) - A, a))
+    return math.nan
+
+
+@compiled
+def _doubtful(margin: FloatArray, count: int, least: float) -> int:
+    """How many samples are near a dead centre or lost."""
+    found = 0
+    for i in range(count):
+        found += not abs(margin[i]) > least  # true of a NaN
+    return found
+
+
+@compiled
+def _judge(code: int, dyad: FloatArray, guide: FloatArray, count: int, numbers: ComplexArray, status: Statuses) -> None:
+    """What `status.judge` says of a dyad's samples that were still OK."""
+    best, size = _best(code, numbers)
+    if _doubtful(dyad[MARGIN * BLOCK :], count, DEAD * best) == 0:
+        return
+    for i in range(count):
+        margin = dyad[MARGIN * BLOCK + i]
+        if status[i] != OK or abs(margin) > DEAD * best:
+            continue
+        lost = math.isnan(margin) and not abs(_gap(code, dyad, guide, numbers, i)) <= TOUCHING * size
+        status[i] = CANNOT_CLOSE if lost else DEAD_CENTRE
+
+
+@compiled
+def _least(margin: FloatArray, count: int, best: float, least: float) -> float:
+    """The least margin, of the best there is, so far."""
+    for i in range(count):
+        least = min(least, abs(margin[i]) / best)
+    return least
+
+
+@compiled
+def _instruction(rows: FloatArray, code: IntArray, numbers: ComplexArray, count: int, status: Statuses) -> None:
+    """One instruction of the tape."""
+    kind, to, of, also = code[0], rows[code[1] * BLOCK :], rows[code[2] * BLOCK :], rows[code[3] * BLOCK :]
+    if kind == CARRY:
+        carry(to, of, count, numbers[0])
+    elif kind == TURN:
+        turn(to, of, also, count, numbers[0].real)
+    elif kind == SLIP:
+        slip(to, of, also, count, numbers[0], numbers[1])
+    elif kind == RRR:
+        rrr(to, count, numbers[0].real, numbers[1].real, numbers[2].real, numbers[3], numbers[4])
+    elif kind == RRP:
+        rrp(to, of, count, numbers[0].real, numbers[1].real, numbers[2], numbers[3])
+    elif kind == RPR:
+        rpr(to, count, numbers[0].real, numbers[1].real, numbers[2], numbers[3])
+    elif kind == PRP:
+        prp(to, of, also, count, numbers[0], numbers[1])
+    elif kind == RPP:
+        rpp(to, of, count, numbers[0], numbers[1], numbers[2])
+    if _can_fail(kind):
+        _judge(kind, to, of, count, numbers, status)
+
+
+@compiled
+def _can_fail(kind: int) -> bool:
+    """Whether an instruction is a dyad with a margin."""
+    return kind == RRR or kind == RRP or kind == RPR or kind == PRP  # noqa: PLR1714 - for the compiler
+
+
+@compiled
+def _drive(rows: FloatArray, values: FloatArray, rates: FloatArray, start: int, count: int) -> None:
+    """The inputs' rows for the samples from `start` on; rates of one sample hold for all."""
+    for k in range(len(values)):
+        to, value = rows[(BODY + DRIVE * k) * BLOCK :], values[k, start : start + count]
+        for i in range(min(count, BLOCK)):
+            to[i] = value[i]
+        for order in range(2):
+            to = to[BLOCK:]
+            if rates.shape[2] == 1:
+                for i in range(min(count, BLOCK)):
+                    to[i] = rates[k, order, 0]
+            else:
+                rate = rates[k, order, start : start + count]
+                for i in range(min(count, BLOCK)):
+                    to[i] = rate[i]
+
+
+@compiled
+def _copy_out(
+    rows: FloatArray,
+    pairs: IntArray,
+    singles: IntArray,
+    points: ComplexArray,
+    reals: FloatArray,
+    start: int,
+    count: int,
+) -> None:
+    """The rows wanted into the answer's arrays, from sample `start` on."""
+    for k in range(len(pairs)):
+        to, row = points[k, start : start + count], rows[pairs[k] * BLOCK :]
+        for i in range(min(count, BLOCK)):
+            to[i] = pair(row, i)
+    for k in range(len(singles)):
+        real, row = reals[k, start : start + count], rows[singles[k] * BLOCK :]
+        for i in range(min(count, BLOCK)):
+            real[i] = row[i]
+
+
+@compiled
+def run(
+    height: int,
+    codes: IntArray,
+    numbers: ComplexArray,
+    values: FloatArray,
+    rates: FloatArray,
+    pairs: IntArray,
+    singles: IntArray,
+    points: ComplexArray,
+    reals: FloatArray,
+    status: Statuses,
+    margin: FloatArray,
+) -> None:
+    """Every variant and sample through the tape.
+
+    height   rows in all                                codes, numbers  the tape, see `tape.Tape.stack`
+    values   (inputs, samples)                          rates   (inputs, 2, samples or 1)
+    pairs    rows wanted as complex fields              points  (variants, pairs, samples), written
+    singles  rows wanted as real fields                 reals   (variants, singles, samples), written
+    status   (variants, samples), written; zero before
+    margin   (variants,), the least margin of all dyads, written; infinite before; of no length where not wanted
+    """
+    rows = np.zeros(height * BLOCK)
+    for i in range(BLOCK):
+        rows[DIRECTION * BLOCK + i] = 1.0  # the ground's
+    variants, samples = status.shape
+    for v in range(variants):
+        for start in range(0, samples, BLOCK):
+            end = min(start + BLOCK, samples)
+            _drive(rows, values, rates, start, end - start)
+            for k in range(len(codes)):
+                _instruction(rows, codes[k], numbers[v, k], end - start, status[v, start:end])
+                if len(margin) and _can_fail(codes[k, 0]):
+                    best, _ = _best(codes[k, 0], numbers[v, k])
+                    row = (codes[k, 1] + MARGIN) * BLOCK
+                    margin[v] = _least(rows[row:], end - start, best, margin[v])
+            _copy_out(rows, pairs, singles, points[v], reals[v], start, end - start)
