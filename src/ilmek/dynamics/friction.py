@@ -12,7 +12,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, RealField
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.loads import Wrench
+from ilmek.dynamics.loads import Load, Wrench
 from ilmek.errors import MechanismError
 from ilmek.linkage.motion import Motion
 from ilmek.units import turn
@@ -37,6 +37,26 @@ class Window:
         span = self.end - self.start
         inside = np.mod(np.asarray(angle) - self.start, turn) < np.mod(span, turn)
         return np.asarray(inside | (abs(span) >= turn))
+
+
+@dataclass(frozen=True, slots=True)
+class During:
+    """A load that acts only while an input is in a window: the backing's resistance, a knife's cut, a beat.
+
+    paced   the input whose angle opens the window
+    side    at the window's ends: +1 what acts further on in the input, -1 further back, one number or one a sample
+    """
+
+    load: Load
+    paced: str
+    window: Window
+    side: RealField = 1.0
+
+    def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:
+        """The load's wrenches, nothing outside the window."""
+        open_ = self.window.holds(motion.drives[self.paced].value + MOMENT * np.asarray(self.side))
+        for wrench in self.load.wrenches(motion, inertias):
+            yield Wrench(wrench.body, wrench.force * open_, wrench.at, wrench.torque * open_)
 
 
 @dataclass(frozen=True, slots=True)
