@@ -1,0 +1,128 @@
+"""`ilmek mechanism`: a mechanism from a file, taken apart, moved, tabled and drawn."""
+
+from pathlib import Path
+
+import click
+
+from ilmek.cli.options import json_option
+from ilmek.cli.terminal import check_json, console, give_json, note, show_table
+from ilmek.errors import MechanismError
+from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism
+from ilmek.io.output import check_file, write_whole
+from ilmek.io.table_csv import csv_text
+from ilmek.jobs.mechanism import Course, Run, run
+from ilmek.jobs.mechanism_report import as_json, columns, report
+from ilmek.report import Report
+from ilmek.units import format_quantity
+from ilmek.viz.page import machine_page
+
+EXAMPLES = """\b
+Examples:
+  ilmek mechanism examples/tufting_needle.toml
+  ilmek mechanism examples/peaucellier.toml --over -40deg..40deg --report peaucellier.html
+  ilmek mechanism examples/jansen_leg.toml --speed 60rpm --steps 360 --csv motion.csv
+  ilmek mechanism examples/tufting_needle.toml --at 30deg --json -
+  ilmek mechanism mine.toml --as json
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--at", "held", multiple=True, metavar="[NAME=]VALUE", help="Hold an input; with all held, one pose.")
+@click.option("--over", default="", metavar="FROM..TO", help="Range of the input that runs; a full turn if not given.")
+@click.option("--speed", default="", metavar="SPEED", help="Its speed, like 60rpm; 1 rad/s (or 1 m/s) if not given.")
+@click.option("--steps", type=click.IntRange(1, 1_000_000), default=72, show_default=True, help="Steps of the range.")
+@click.option(
+    "--csv", "csv_to", metavar="-|FILE", help="Write the motion as CSV, SI and radians; - is standard output."
+)
+@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a page to read.")
+@click.option("--as", "kind", type=click.Choice(("toml", "json")), help="Only give the file again, in this form.")
+@json_option
+def command(
+    *,
+    file: Path,
+    held: tuple[str, ...],
+    over: str,
+    speed: str,
+    steps: int,
+    csv_to: str | None,
+    page_to: Path | None,
+    kind: str | None,
+    json_to: str | None,
+) -> None:
+    """Read the mechanism in FILE (TOML or JSON), say how it is built, and move it."""
+    _check_places(csv_to, page_to, json_to)
+    found = read_mechanism(file)
+    if kind is not None:
+        write = mechanism_toml if kind == "toml" else mechanism_json
+        click.echo(write(found.mechanism, found.inertias), nl=False)
+        return
+    moved = run(found, Course(_held(held), over, speed, steps))
+    said = report(moved)
+    if page_to is not None:
+        write_whole(page_to, machine_page(said))
+    quiet = give_json(json_to, as_json(moved)) if json_to else False
+    quiet = _give_csv(csv_to, moved) or quiet
+    if not quiet:
+        show(said)
+        for kind_of, place in (("report", page_to), ("table", csv_to)):
+            if place is not None:
+                console().print(f"{kind_of}: {place}")
+    for warning in said.warnings:
+        note(warning)
+
+
+def _check_places(csv_to: str | None, page_to: Path | None, json_to: str | None) -> None:
+    """Raise before any work where an output has no place, or two have the same."""
+    check_json(json_to)
+    if csv_to == json_to == "-":
+        raise MechanismError("both --csv and --json go to standard output", do="give one of them a file")
+    for place in (page_to, Path(csv_to) if csv_to not in (None, "-") else None):
+        if place is not None:
+            check_file(place)
+
+
+def _held(said: tuple[str, ...]) -> dict[str, str]:
+    """Values by input, "" for the only one. Raises MechanismError for an input held twice."""
+    held: dict[str, str] = {}
+    for one in said:
+        name, equals, value = one.rpartition("=")
+        if name.strip() in held:
+            raise MechanismError(f"--at holds {name.strip() or 'the input'} twice", do="hold it once")
+        held[name.strip() if equals else ""] = value.strip()
+    return held
+
+
+def _give_csv(to: str | None, moved: Run) -> bool:
+    """Write the table where `--csv` says; whether it went to standard output."""
+    if to is None:
+        return False
+    if to == "-":
+        click.echo(csv_text(columns(moved)), nl=False)
+        return True
+    write_whole(Path(to), csv_text(columns(moved)))
+    return False
+
+
+def show(said: Report) -> None:
+    """How it is built, and its points and bodies."""
+    console().print(said.title)
+    for result in said.results:
+        for value in result.value if isinstance(result.value, list) else [result.value]:
+            console().print(f"  {result.name}: {_shown(value, result.unit)}")
+    for table in said.tables:
+        headings = [f"{c.heading} [{c.unit}]" if c.unit else c.heading for c in table.columns]
+        rows = [
+            tuple(
+                cell if isinstance(cell, str) else format_quantity(cell, column.unit).split(" ")[0]
+                for cell, column in zip(row, table.columns, strict=True)
+            )
+            for row in table.rows
+        ]
+        show_table(headings, rows, right=range(1, len(headings)))
+
+
+def _shown(value: object, unit: str) -> str:
+    if isinstance(value, list | tuple):
+        return " .. ".join(_shown(one, unit) for one in value)
+    return format_quantity(value, unit) if isinstance(value, float) else str(value)

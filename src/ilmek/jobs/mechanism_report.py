@@ -1,0 +1,178 @@
+"""What a mechanism is made of and how it moves: tables, figures, JSON, columns of numbers."""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.errors import MechanismError
+from ilmek.jobs.mechanism import Run
+from ilmek.linkage.body_motion import PointMotion
+from ilmek.linkage.model import GROUND, Pin, Rotation, freedom
+from ilmek.linkage.motion import Status
+from ilmek.linkage.solve import solve
+from ilmek.machines.animation import FRAMES, animated
+from ilmek.report import Axis, Column, Drawing, Figure, Plot, Report, Result, Series, Table
+from ilmek.units import turn
+
+CURVES = 4
+"""Curves of a plot, at most, that a person can tell apart."""
+
+
+def places(run: Run) -> tuple[tuple[str, str], ...]:
+    """The named points that move, each once: body and point; a joint's by the first body that carries it."""
+    mechanism = run.plan.mechanism
+    pins = {joint.name for joint in mechanism.joints if isinstance(joint, Pin)}
+    seen = {joint.name for joint in mechanism.joints if isinstance(joint, Pin) and GROUND in joint.bodies}
+    found = []
+    for body in mechanism.moving:
+        for point in mechanism.body(body).points:
+            if point not in seen:
+                found.append((body, point))
+                seen |= {point} & pins
+    return tuple(found)
+
+
+def report(run: Run) -> Report:
+    """What the mechanism is and how it moves; lengths in mm, angles in degrees where shown."""
+    mechanism = run.plan.mechanism
+    results = (
+        Result("freedoms", freedom(mechanism), "1", "by count, the inputs left free"),
+        Result("inputs", [entry.name for entry in mechanism.inputs], "", "what is driven"),
+        Result("groups", [step.words for step in run.plan.steps], "", "in the order in which they are solved"),
+        Result("closes", [list(ends) for ends in run.closing], run.unit, "ranges of the running input that can be had"),
+    )
+    return Report(
+        machine="mechanism",
+        title=f"Mechanism {run.name}",
+        parameters={"running": run.running.name if run.running else None, "speed": run.speed},
+        results=results if run.running else results[:3],
+        checks=(),
+        tables=(_points_table(run), _bodies_table(run)),
+        figures=_figures(run),
+        warnings=_warnings(run),
+    )
+
+
+def _warnings(run: Run) -> tuple[str, ...]:
+    try:
+        run.motion.require()
+    except MechanismError as error:
+        return (str(error),)
+    return ()
+
+
+def _points_table(run: Run) -> Table:
+    columns = (Column("point"), Column("x from", "mm"), Column("x to", "mm"))
+    columns += (Column("y from", "mm"), Column("y to", "mm"))
+    columns += (Column("speed up to", "m/s"), Column("acceleration up to", "m/s^2"))
+    rows = []
+    for body, point in places(run):
+        moved = run.motion.point(body, point)
+        x, y = np.real(moved.position), np.imag(moved.position)
+        ends = [f(part) for part in (x, y) for f in (np.nanmin, np.nanmax)]
+        tops = [np.nanmax(np.abs(rate)) for rate in (moved.velocity, moved.acceleration)]
+        rows.append((f"{point} of {body}", *(float(value) for value in (*ends, *tops))))
+    return Table("points", "Points that move", columns, tuple(rows))
+
+
+def _bodies_table(run: Run) -> Table:
+    columns = (Column("body"), Column("angle from", "deg"), Column("angle to", "deg"))
+    columns += (Column("speed up to", "rad/s"), Column("acceleration up to", "rad/s^2"))
+    rows = []
+    for body in run.plan.mechanism.moving:
+        angle = _angle(run, body)
+        tops = [np.nanmax(np.abs(rate)) for rate in (run.motion.omega(body), run.motion.alpha(body))]
+        rows.append((body, *(float(value) for value in (np.nanmin(angle), np.nanmax(angle), *tops))))
+    return Table("bodies", "Bodies", columns, tuple(rows))
+
+
+def _figures(run: Run) -> tuple[Figure, ...]:
+    """The mechanism in motion over its longest range that closes, and the bodies' angles and speeds."""
+    if run.running is None:
+        return ()
+    x = Axis(run.running.name, run.unit)
+    turning = [body for body in run.plan.mechanism.moving if np.nanmax(np.abs(run.motion.omega(body))) > 0]
+    curves = (
+        ("angles", "Angles of the bodies", Axis("angle", "deg"), _angle),
+        ("speeds", "Angular velocities", Axis("angular velocity", "rad/s"), _omega),
+    )
+    plots = (
+        Plot(f"{name}-{start // CURVES + 1}", title, x, y, _series(run, turning[start : start + CURVES], course))
+        for name, title, y, course in curves
+        for start in range(0, len(turning), CURVES)
+    )
+    return (*_moving(run, x), *plots)
+
+
+def _moving(run: Run, drive: Axis) -> Iterator[Figure]:
+    """The mechanism in motion, the paths of its free points drawn."""
+    at = _frames(run)
+    moved = solve(run.plan, run.at(at), {run.running.name: run.speed} if run.running else {})
+    if moved.ok:
+        joints = {joint.name for joint in run.plan.mechanism.joints}
+        traces = [one for one in places(run) if one[1] not in joints]
+        period = abs(at[-1] - at[0]) / abs(run.speed) if run.speed else None
+        drawn = Drawing("mechanism", f"{run.name} in motion", ())
+        yield animated(moved, at, drawn, traces=traces, period=period, drive=drive)
+
+
+def _frames(run: Run) -> FloatArray:
+    """Values of the running input to draw at: the longest range that closes; of a full turn not the end again."""
+    first, last = sorted(max(run.closing, key=lambda ends: abs(ends[1] - ends[0])))
+    whole = isinstance(run.running, Rotation) and abs(last - first - turn) < 1e-9
+    return np.linspace(first, last, FRAMES, endpoint=not whole)
+
+
+def _angle(run: Run, body: str) -> FloatArray:
+    """The body's angle [rad], unwrapped over the samples that closed."""
+    direction = run.motion.direction(body)
+    angle = np.full(len(direction), np.nan)
+    good = np.isfinite(direction)
+    angle[good] = np.unwrap(np.angle(direction[good]))
+    return angle
+
+
+def _omega(run: Run, body: str) -> FloatArray:
+    return run.motion.omega(body)
+
+
+def _series(run: Run, bodies: list[str], course: Callable[[Run, str], FloatArray]) -> tuple[Series, ...]:
+    return tuple(Series(body, run.values, course(run, body)) for body in bodies)
+
+
+def as_json(run: Run) -> dict[str, object]:
+    """The report and, sample by sample, everything that moves: SI and radians, points as [x, y]."""
+    said = report(run).as_json()
+    motion = run.motion
+    bodies = {
+        body: {"angle": _angle(run, body), "omega": motion.omega(body), "alpha": motion.alpha(body)}
+        for body in run.plan.mechanism.moving
+    }
+    points: dict[str, dict[str, object]] = {}
+    for body, point in places(run):
+        moved = motion.point(body, point)
+        rates = {"position": moved.position, "velocity": moved.velocity, "acceleration": moved.acceleration}
+        points.setdefault(body, {})[point] = rates
+    status = [Status(code).name for code in motion.status]
+    return {**said, "values": run.values, "status": status, "bodies": bodies, "points": points}
+
+
+def columns(run: Run) -> dict[str, FloatArray]:
+    """Every number of the motion as a column of a table, by its heading with the unit: SI and radians."""
+    unit = "rad" if run.unit == "deg" else "m"
+    found = {f"{run.running.name} [{unit}]": run.values} if run.running else {}
+    for body in run.plan.mechanism.moving:
+        found[f"{body} angle [rad]"] = _angle(run, body)
+        found[f"{body} omega [rad/s]"] = run.motion.omega(body)
+        found[f"{body} alpha [rad/s^2]"] = run.motion.alpha(body)
+    for body, point in places(run):
+        moved = run.motion.point(body, point)
+        for what, vector, per in _vectors(moved):
+            for axis, part in (("x", np.real(vector)), ("y", np.imag(vector))):
+                found[f"{body}.{point} {what}{axis} [{per}]"] = part
+    return found
+
+
+def _vectors(moved: PointMotion) -> tuple[tuple[str, ComplexArray, str], ...]:
+    return ("", moved.position, "m"), ("v", moved.velocity, "m/s"), ("a", moved.acceleration, "m/s^2")
