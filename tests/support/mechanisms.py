@@ -103,3 +103,18 @@ def watt_six_bar() -> Mechanism:
         branches={"B": +1, "D": +1},
         name="Watt",
     )
+
+
+def triad() -> Mechanism:
+    """A plate on three links, two hung on the ground, one on the crank: class III, no dyad in it. Drawn in place."""
+    outer, corners = (1j, 3 + 0j, -1.2 - 1j), (0.6 + 1.2j, 2.2 + 0.8j, 1 + 0.1j)
+    crank_pin = 0.2 - 0.8j
+    names = ("left", "right", "low")
+    starts = (outer[0], outer[1], crank_pin)
+    links = [Body(n, {f"{n}0": s, f"{n}1": c}) for n, s, c in zip(names, starts, corners, strict=True)]
+    plate = Body("plate", {f"{n}1": c for n, c in zip(names, corners, strict=True)} | {"P": 1.3 + 1j})
+    ground = Body(GROUND, {"left0": outer[0], "right0": outer[1], "A0": 0.1 - 1j})
+    crank = Body("crank", {"A0": 0.1 - 1j, "low0": crank_pin})
+    joints = [Pin("A0", GROUND, "crank"), Pin("low0", "crank", "low")]
+    joints += [Pin(f"{n}0", GROUND, n) for n in ("left", "right")] + [Pin(f"{n}1", n, "plate") for n in names]
+    return Mechanism((ground, crank, *links, plate), tuple(joints), (Rotation("crank", "A0"),), name="triad")

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
+from ilmek.linkage.body_motion import STILL
 from ilmek.linkage.equations import Equation
 from ilmek.linkage.groups.block import Block
 from ilmek.linkage.groups.group import Drive, Group, Known
@@ -20,22 +21,19 @@ from ilmek.linkage.moves import Moves
 
 @dataclass(frozen=True, slots=True)
 class Loops:
-    """The loop equations of a whole mechanism: each joint and input as a block of its own, by the joint's name."""
+    """The loop equations of a whole mechanism: each joint and input as a block of its own, by the joint's name.
+
+    scale  the mechanism's size [m]      joints  the joint of each equation
+    """
 
     mechanism: Mechanism
     scale: float
     held: tuple[tuple[str, Block], ...]
+    joints: tuple[str, ...]
 
     def equations(self, seen: Callable[[str], Known], drives: Mapping[str, Drive]) -> list[Equation]:
         """Every equation, in the poses in which its joint sees the bodies (anchored at their origins)."""
         return [equation for joint, block in self.held for equation in block.equations(seen(joint), drives)]
-
-    @property
-    def joints(self) -> list[str]:
-        """The joint of each equation, two a joint, one an input."""
-        inputs = len(self.mechanism.inputs)
-        joints = [name for name, _ in self.held]
-        return [name for name in joints[: len(joints) - inputs] for _ in range(2)] + joints[len(joints) - inputs :]
 
     def matrix(self, held: list[Equation], samples: tuple[int, ...]) -> FloatArray:
         """J: derivatives by x, y and (scale theta) of all moving bodies."""
@@ -70,4 +68,8 @@ def loops(mechanism: Mechanism) -> Loops:
     scale = whole.reach
     joints = [(one.name, Group(mechanism, mechanism.moving, (one,), ())) for one in mechanism.joints]
     inputs = [(one.joint, Group(mechanism, mechanism.moving, (), (one,))) for one in mechanism.inputs]
-    return Loops(mechanism, scale, tuple((name, Block(group, scale)) for name, group in joints + inputs))
+    held = tuple((name, Block(group, scale)) for name, group in joints + inputs)
+    drawn = {body.name: STILL for body in mechanism.bodies}
+    drives = {entry.name: Drive(0.0, 0.0, 0.0) for entry in mechanism.inputs}
+    counted = tuple(name for name, block in held for _ in block.equations(drawn, drives))
+    return Loops(mechanism, scale, held, counted)

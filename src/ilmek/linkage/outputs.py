@@ -110,13 +110,22 @@ class Followed:
 
 def followed(motion: Motion, output: Output) -> Followed:
     """The course of an output over a motion; NaN where the mechanism does not close."""
-    bodies = at_origins({body.name: motion.body(body.name) for body in motion.plan.mechanism.bodies})
-    equation = output.equation(motion.plan.mechanism, bodies)
-    value = np.array(np.broadcast_to(equation.value, motion.status.shape), dtype=float)
+    mechanism = motion.plan.mechanism
+    return followed_bodies(mechanism, {body.name: motion.body(body.name) for body in mechanism.bodies}, output)
+
+
+def followed_bodies(mechanism: Mechanism, bodies: Known, output: Output) -> Followed:
+    """The course of an output over the bodies' motions, all of one length; rates are by what theirs are."""
+    bodies = at_origins(bodies)
+    equation = output.equation(mechanism, bodies)
     rates = {name: (body.anchor.velocity, body.omega) for name, body in bodies.items()}
     seconds = {name: (body.anchor.acceleration, body.alpha) for name, body in bodies.items()}
+    shape = np.broadcast_shapes(*(np.shape(body.direction) for body in bodies.values()))
+    value, rate, second = (
+        np.array(np.broadcast_to(one, shape), dtype=float)
+        for one in (equation.value, contracted(equation.row, rates), contracted(equation.row, seconds) + equation.bias)
+    )
     if not equation.length:
         closed = np.isfinite(value)
         value[closed] = np.unwrap(value[closed])
-    rate = np.broadcast_to(contracted(equation.row, rates), value.shape)
-    return Followed(value, rate + 0.0, contracted(equation.row, seconds) + equation.bias + 0.0 * value)
+    return Followed(value, rate, second)

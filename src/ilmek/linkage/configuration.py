@@ -1,0 +1,152 @@
+"""All configurations of a mechanism with one input set free: a curve, smooth where the input turns back too.
+
+    F(x, q) = 0        A t = [F_x  F_q] t = 0        t: the unit tangent, in lengths (angles times the size)
+
+Along its length the curve has no dead centres: those of the input are where t has no part along q. Where A loses rank
+two curves cross, and the mechanism may leave by either [Allgower, Georg: Numerical Continuation Methods, chapters 2
+and 8].
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Complex, Float
+
+from ilmek.arrays import FloatArray
+from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
+from ilmek.linkage.equations import Equation
+from ilmek.linkage.groups.group import Drive
+from ilmek.linkage.loops import Loops, loops
+from ilmek.linkage.model import GROUND
+from ilmek.linkage.moves import moving
+from ilmek.linkage.one_input import OneInput
+from ilmek.num.linear import solve_many
+
+CORRECTIONS = 12
+"""Newton steps on the way back to the curve; from a step of a few hundredths of the size three are enough."""
+
+LAST = 1e-9
+"""Last correction, of the mechanism's size; by quadratic convergence it leaves an error at rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Configurations:
+    """Poses of all moving bodies and the free input's value, one row each: origins [m], unit directions, [rad or m]."""
+
+    origins: Complex[np.ndarray, "rows bodies"]
+    directions: Complex[np.ndarray, "rows bodies"]
+    inputs: Float[np.ndarray, " rows"]
+
+    def __len__(self) -> int:
+        return len(self.inputs)
+
+    def __getitem__(self, rows: "slice | np.ndarray") -> "Configurations":
+        return Configurations(self.origins[rows], self.directions[rows], self.inputs[rows])
+
+
+@dataclass(frozen=True, slots=True)
+class Freed:
+    """A mechanism one of whose inputs is free, the others held; a step of it is a row of 3 a body, then the input."""
+
+    moved: OneInput
+    loops: Loops
+
+    @property
+    def size(self) -> float:
+        """The mechanism's size [m]."""
+        return self.loops.scale
+
+    @property
+    def per_input(self) -> float:
+        """What the input is multiplied by to be a length."""
+        return self.size if self.moved.turns else 1.0
+
+    def posed(self, values: FloatArray) -> Configurations:
+        """The configurations in which the plan itself puts the mechanism at values of the input."""
+        motion = self.moved.motion(values)
+        names = self.moved.plan.mechanism.moving
+        origins = np.stack([motion.origin(name) for name in names], axis=-1)
+        directions = np.stack([motion.direction(name) for name in names], axis=-1)
+        return Configurations(origins, directions, np.asarray(values, dtype=float))
+
+    def bodies(self, at: Configurations) -> dict[str, BodyMotion]:
+        """Every body at rest, anchored at its origin."""
+        bodies = {
+            name: BodyMotion(PointMotion(at.origins[:, k], 0j, 0j), 0j, at.directions[:, k], 0.0, 0.0)
+            for k, name in enumerate(self.moved.plan.mechanism.moving)
+        }
+        return {GROUND: STILL, **bodies}
+
+    def stepped(self, at: Configurations, step: FloatArray) -> Configurations:
+        """The configurations a step away, off the curve unless corrected."""
+        shift, turn = step[:, 0:-1:3] + 1j * step[:, 1:-1:3], step[:, 2:-1:3] / self.size
+        inputs = at.inputs + step[:, -1] / self.per_input
+        return Configurations(at.origins + shift, at.directions * np.exp(1j * turn), inputs)
+
+    def between(self, first: Configurations, second: Configurations) -> FloatArray:
+        """The step from the first to the second, without the input's part."""
+        shift = second.origins - first.origins
+        turn = np.angle(second.directions * np.conj(first.directions)) * self.size
+        step = np.stack([shift.real, shift.imag, turn], axis=-1).reshape(len(first), -1)
+        return np.concatenate([step, np.zeros((len(first), 1))], axis=1)
+
+    def slope(self, at: Configurations) -> tuple[FloatArray, FloatArray]:
+        """A = [F_x F_q] and F, row by row."""
+        held = self._equations(at)
+        rows = (len(at),)
+        by_input = np.zeros((*rows, len(held), 1))
+        by_input[:, self._driven, 0] = -self.loops.unit(held[self._driven]) / self.per_input
+        matrix = np.concatenate([self.loops.matrix(held, rows), by_input], axis=-1)
+        return matrix, self.loops.column(held, [one.value for one in held], rows)
+
+    def tangents(self, at: Configurations, along: FloatArray) -> FloatArray:
+        """Unit tangents, on the side of `along`."""
+        t: FloatArray = np.linalg.svd(self.slope(at)[0])[2][:, -1, :]
+        return t * np.where(np.sum(t * along, axis=1) < 0, -1.0, 1.0)[:, None]
+
+    def corrected(self, at: Configurations, across: FloatArray) -> Configurations:
+        """Back on the curve, square to the directions `across`; NaN where Newton's method does not get there."""
+        last = np.full(len(at), np.inf)
+        for _ in range(CORRECTIONS):
+            matrix, value = self.slope(at)
+            square = np.concatenate([matrix, across[:, None, :]], axis=1)
+            step = solve_many(square, np.concatenate([-value, np.zeros((len(at), 1))], axis=1))
+            at, last = self.stepped(at, step), np.max(np.abs(step), axis=1)
+            if not (last > LAST * self.size).any():
+                break
+        at.inputs[~(last <= LAST * self.size)] = np.nan
+        return at
+
+    def moving(self, at: Configurations, tangents: FloatArray, across: FloatArray) -> dict[str, BodyMotion]:
+        """Every body with its first and second rates by the way along the directions `across`, a coordinate."""
+        still = self.bodies(at)
+        first = tangents / np.sum(tangents * across, axis=1)[:, None]
+        rates = self.loops.moves(first[:, :-1])
+        bias = self.loops.column(held := self._equations(at, first), [one.bias for one in held], (len(at),))
+        square = np.concatenate([self.slope(at)[0], across[:, None, :]], axis=1)
+        seconds = self.loops.moves(solve_many(square, np.concatenate([-bias, np.zeros((len(at), 1))], axis=1))[:, :-1])
+        moved = {}
+        for name, body in moving(still, rates).items():
+            gain, alpha = seconds.get(name, (0j, 0.0))
+            anchor = PointMotion(body.anchor.position, body.anchor.velocity, gain)
+            moved[name] = BodyMotion(anchor, 0j, body.direction, body.omega, alpha)
+        return moved
+
+    @property
+    def _driven(self) -> int:
+        """The free input's equation, by its place among all."""
+        names = [entry.name for entry in self.moved.plan.mechanism.inputs]
+        return names.index(self.moved.name) - len(names) + len(self.loops.joints)
+
+    def _equations(self, at: Configurations, tangents: FloatArray | None = None) -> list[Equation]:
+        drives = {name: Drive(value, 0.0, 0.0) for name, value in self.moved.held.items()}
+        drives[self.moved.name] = Drive(at.inputs, 0.0, 0.0)
+        bodies = self.bodies(at)
+        if tangents is not None:
+            bodies = moving(bodies, self.loops.moves(tangents[:, :-1]))
+        return self.loops.equations(lambda _: bodies, drives)
+
+
+def freed(moved: OneInput) -> Freed:
+    """The mechanism with the input that moves set free."""
+    return Freed(moved, loops(moved.plan.mechanism))

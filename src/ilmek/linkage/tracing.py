@@ -1,0 +1,145 @@
+"""Following a mechanism's configuration curve from one configuration until it closes.
+
+Predictor along the tangent, corrector square to it; the step is fitted to how far the tangent turns.
+[Allgower, Georg: Numerical Continuation Methods, chapter 6.]
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from ilmek.arrays import FloatArray
+from ilmek.linkage.configuration import Configurations, Freed
+from ilmek.num.brackets import bracketed_roots
+
+TURN = 0.2
+"""Most that the tangent may turn in a step [rad]; a step that turns it less than half is followed by a longer one."""
+
+LONGEST, SHORTEST = 0.25, 1e-7
+"""Bounds of a step, of the mechanism's size."""
+
+STEPS = 20_000
+"""Steps after which a curve is given up as open."""
+
+REACH = 100.0
+"""Distance from the origin, of the mechanism's size, at which a curve is taken to run to infinity."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """A configuration curve: nodes on it, their unit tangents, and lengths from the first (measured by the chords).
+
+    crossings  inputs near which another curve is crossed
+    """
+
+    freed: Freed
+    at_nodes: Configurations
+    tangents: Float[np.ndarray, "nodes unknowns"]
+    lengths: Float[np.ndarray, " nodes"]
+    closed: bool
+    crossings: tuple[float, ...]
+
+    def at(self, places: FloatArray) -> tuple[Configurations, FloatArray, FloatArray]:
+        """Exact configurations at places along the curve, taken round if it is closed.
+
+        With them, the unit tangents there, and the directions along which the places are measured (the last node's).
+        """
+        places = np.atleast_1d(np.asarray(places, dtype=float))
+        if self.closed:
+            places = np.where(places == self.lengths[-1], places, np.mod(places, self.lengths[-1]))
+        node = np.clip(np.searchsorted(self.lengths, places, side="right") - 1, 0, len(self.lengths) - 2)
+        return self._from(places, node)
+
+    def folds(self) -> Float[np.ndarray, " folds"]:
+        """Places at which the input turns back: where the tangent has no part along it."""
+        part = self.tangents[:, -1]
+        (changed,) = np.nonzero(np.sign(part[:-1]) * np.sign(part[1:]) < 0)
+        if not len(changed):
+            return np.empty(0)
+
+        def along_input(places: FloatArray) -> FloatArray:
+            along: FloatArray = self._from(places, changed)[1][:, -1]
+            return along
+
+        return bracketed_roots(along_input, self.lengths[changed], self.lengths[changed + 1])
+
+    def _from(self, places: FloatArray, node: np.ndarray) -> tuple[Configurations, FloatArray, FloatArray]:
+        """As `at`, from given nodes."""
+        across = self.tangents[node]
+        near = self.freed.stepped(self.at_nodes[node], across * (places - self.lengths[node])[:, None])
+        found = self.freed.corrected(near, across)
+        return found, self.freed.tangents(found, across), across
+
+
+def trace(freed: Freed, seed: Configurations) -> Trace:
+    """The curve through a configuration: followed until it closes; else to both ends, where it leaves the reach."""
+    ahead = np.zeros((1, 3 * len(freed.moved.plan.mechanism.moving) + 1))
+    ahead[0, -1] = 1.0
+    first = freed.tangents(seed, ahead)
+    nodes, tangents, closed = _followed(freed, seed, first)
+    if not closed:
+        back, against, _ = _followed(freed, seed, -first)
+        nodes, tangents = back[:0:-1] + nodes, [-t for t in against[:0:-1]] + tangents
+    at_nodes = Configurations(
+        np.concatenate([one.origins for one in nodes]),
+        np.concatenate([one.directions for one in nodes]),
+        np.concatenate([one.inputs for one in nodes]),
+    )
+    stacked = np.concatenate(tangents)
+    chords = freed.between(at_nodes[:-1], at_nodes[1:])
+    chords[:, -1] = np.diff(at_nodes.inputs) * freed.per_input
+    along = np.sum(chords * stacked[:-1], axis=1)
+    lengths = np.concatenate([[0.0], np.cumsum(along)])
+    return Trace(freed, at_nodes, stacked, lengths, closed, _crossings(freed, at_nodes, stacked))
+
+
+def _followed(
+    freed: Freed, seed: Configurations, first: FloatArray
+) -> tuple[list[Configurations], list[FloatArray], bool]:
+    """Nodes and tangents from the seed on, the seed repeated at the end if the curve closes."""
+    nodes, tangents = [seed], [first]
+    step, gone = 0.2 * LONGEST * freed.size, 0.0
+    for _ in range(STEPS):
+        at, t = nodes[-1], tangents[-1]
+        home = freed.between(at, seed)
+        if gone > 3 * step and _is_home(home, t, first, step):
+            end = Configurations(seed.origins, seed.directions, at.inputs + _input_left(freed, at, seed))
+            return [*nodes, end], [*tangents, first], True
+        new = freed.corrected(freed.stepped(at, step * t), t)
+        new_t = freed.tangents(new, t) if np.isfinite(new.inputs).all() else np.full(t.shape, np.nan)
+        bend = float(np.arccos(np.clip(np.sum(t * new_t), -1, 1)))
+        if not bend <= TURN and step > SHORTEST * freed.size:
+            step *= 0.5
+            continue
+        if not np.isfinite(new_t).all() or np.max(np.abs(new.origins)) > REACH * freed.size:
+            break
+        gone += step
+        nodes.append(new)
+        tangents.append(new_t)
+        step = min(step * (1.6 if bend < 0.5 * TURN else 1.0), LONGEST * freed.size)
+    return nodes, tangents, False
+
+
+def _is_home(home: FloatArray, t: FloatArray, first: FloatArray, step: float) -> bool:
+    """Whether the seed is the next node: within a step, ahead, on the tangent but for its bend, passed the same way."""
+    shadow = float(np.sum(home[:, :-1] * t[:, :-1]))
+    own = float(np.sum(t[:, :-1] ** 2))
+    aside = float(np.linalg.norm(home[:, :-1] - t[:, :-1] * (shadow / max(own, 1e-12))))
+    far = float(np.linalg.norm(home[:, :-1]))
+    return far <= 1.05 * step and shadow >= 0 and aside <= 2 * TURN * max(far, 1e-12) and float(np.sum(t * first)) > 0.9
+
+
+def _input_left(freed: Freed, at: Configurations, seed: Configurations) -> FloatArray:
+    """What the input has still to go to the seed's value, up to whole turns."""
+    left = seed.inputs - at.inputs
+    shortest: FloatArray = (left + np.pi) % (2 * np.pi) - np.pi if freed.moved.turns else left
+    return shortest
+
+
+def _crossings(freed: Freed, nodes: Configurations, tangents: FloatArray) -> tuple[float, ...]:
+    """Inputs midway of the steps in which the curve passes another: the determinant of [A; t] changes its sign."""
+    square = np.concatenate([freed.slope(nodes)[0], tangents[:, None, :]], axis=1)
+    sign = np.linalg.slogdet(square)[0]
+    (changed,) = np.nonzero(sign[:-1] * sign[1:] < 0)
+    return tuple(float(0.5 * (nodes.inputs[k] + nodes.inputs[k + 1])) for k in changed)
