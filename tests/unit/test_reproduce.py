@@ -128,3 +128,14 @@ def test_a_printed_equation_is_a_misprint_only_where_the_mended_one_holds() -> N
 )
 def test_computed_numbers_are_shown_with_two_digits_more(printed: str, value: float, shown: str) -> None:
     assert computed_text(judge(claim(printed, value))) == shown
+
+
+def test_the_table_has_what_is_not_reproduced_first_and_counts_at_its_end(everything: list[dict[str, Any]]) -> None:
+    said = run("--paper", "tufting", "--paper", "thesis").stdout
+    tufting = said[said.index("tufting: Xu") :]
+    places = [tufting.index(f"  {verdict}  ") for verdict in ("misprint", "not reproducible", "rounding", "reproduced")]
+    assert places == sorted(places)
+    counted = {paper: sum(found["paper"] == paper for found in everything) for paper in ("thesis", "tufting")}
+    rows = [line.split()[:2] for line in said.splitlines() if line.split()[:1] in (["thesis"], ["tufting"], ["all"])]
+    total = ["all", str(sum(counted.values()))]
+    assert rows == [["thesis", str(counted["thesis"])], ["tufting", str(counted["tufting"])], total]

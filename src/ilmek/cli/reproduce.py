@@ -1,11 +1,20 @@
 """`ilmek reproduce`: the verification manual, computed anew."""
 
+import time
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
 import click
 
 from ilmek.cli.options import json_option
-from ilmek.cli.terminal import check_json, console, give_json, show_table
-from ilmek.verification import PAPERS, TITLES, Verdict, reproduce
+from ilmek.cli.terminal import check_json, console, give_json, progress_bar, show_table
+from ilmek.jobs.told import Told
+from ilmek.verification import PAPERS, TITLES, VERDICTS, Verdict, reproduce
+from ilmek.verification.claim import MISPRINT, NOT_REPRODUCIBLE, REPRODUCED, ROUNDING
 from ilmek.verification.wording import HEADINGS, row, summary
+
+ORDER = (MISPRINT, NOT_REPRODUCIBLE, ROUNDING, REPRODUCED)
+"""The verdicts, worst first."""
 
 EXAMPLES = """\b
 Examples:
@@ -28,20 +37,44 @@ not reproducible  the note says why
 def command(papers: tuple[str, ...], json_to: str | None) -> None:
     """Compute every number that the four papers print, and say which are reproduced.
 
-    Numbers are in the unit as printed, so that they can be laid beside the paper; so they are in the JSON.
+    Of each paper first what is not reproduced, then the rest in the order of its pages. Numbers are in the unit as
+    printed, so that they can be laid beside the paper; so they are in the JSON.
     """
     check_json(json_to)
     wanted = tuple(paper for paper in PAPERS if paper in papers or not papers)
-    verdicts = reproduce(wanted)
-    if not give_json(json_to, [verdict.as_json() for verdict in verdicts]):
-        for paper in wanted:
-            show_paper(paper, [verdict for verdict in verdicts if verdict.claim.paper == paper])
-        if len(wanted) > 1:
-            console().print(f"all: {summary(verdicts)}")
+    begun = time.perf_counter()
+    with progress_bar() as told:
+        verdicts = _computed(wanted, told)
+    took = time.perf_counter() - begun
+    if give_json(json_to, [verdict.as_json() for of_paper in verdicts.values() for verdict in of_paper]):
+        return
+    for paper, of_paper in verdicts.items():
+        show_paper(paper, of_paper)
+    show_summary(verdicts)
+    console().print(f"computed in {took:.1f} s")
 
 
-def show_paper(paper: str, verdicts: list[Verdict]) -> None:
-    """One paper: its claims, and how many have which verdict."""
+def _computed(papers: Sequence[str], told: Told | None) -> dict[str, tuple[Verdict, ...]]:
+    verdicts = {}
+    for place, paper in enumerate(papers):
+        if told:
+            told(paper, place / len(papers))
+        verdicts[paper] = reproduce([paper])
+    return verdicts
+
+
+def show_paper(paper: str, verdicts: Sequence[Verdict]) -> None:
+    """One paper: its claims, those that are not reproduced first, verdict by verdict."""
     console().print(f"{paper}: {TITLES[paper]}")
-    show_table(HEADINGS, [row(verdict) for verdict in verdicts], right=(2,))
+    groups = [[row(verdict) for verdict in verdicts if verdict.verdict == name] for name in ORDER]
+    show_table(HEADINGS, *filter(None, groups), right=(2,), wide=(1, 2, 3))
     console().print(f"{paper}: {summary(verdicts)}\n")
+
+
+def show_summary(verdicts: Mapping[str, Sequence[Verdict]]) -> None:
+    """How many claims of each paper have which verdict."""
+    counted = {paper: Counter(verdict.verdict for verdict in of_paper) for paper, of_paper in verdicts.items()}
+    if len(counted) > 1:
+        counted["all"] = sum(counted.values(), Counter())
+    rows = [(paper, str(count.total()), *(str(count[name]) for name in VERDICTS)) for paper, count in counted.items()]
+    show_table(("paper", "claims", *VERDICTS), rows[:-1], rows[-1:], right=range(1, 6))

@@ -27,13 +27,20 @@ def console() -> Console:
     return Console(file=sys.stdout, width=width, markup=False, highlight=False, emoji=False)
 
 
-def show_table(headings: Sequence[str], rows: Sequence[Sequence[str]], *, right: Sequence[int] = ()) -> None:
-    """A table; the columns numbered in `right` are aligned to the right."""
+def show_table(
+    headings: Sequence[str], *groups: Sequence[Sequence[str]], right: Sequence[int] = (), wide: Sequence[int] = ()
+) -> None:
+    """A table, its groups of rows divided by lines.
+
+    right  columns aligned to the right      wide  columns that are never broken
+    """
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for place, heading in enumerate(headings):
-        table.add_column(heading, justify="right" if place in right else "left")
-    for row in rows:
-        table.add_row(*row)
+        table.add_column(heading, justify="right" if place in right else "left", no_wrap=place in wide)
+    for rows in groups:
+        for row in rows:
+            table.add_row(*row)
+        table.add_section()
     console().print(table)
 
 

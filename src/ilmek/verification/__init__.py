@@ -10,6 +10,7 @@ from ilmek.verification import (
     knotting_forces,
     knotting_masses,
     knotting_pose,
+    knotting_steps,
     knotting_synthesis,
     thesis_cams,
     thesis_dyad,
@@ -29,6 +30,7 @@ PAPERS: dict[str, Callable[[], tuple[Claim, ...]]] = {
         *knotting_pose.claims(),
         *knotting_masses.claims(),
         *knotting_forces.claims(),
+        *knotting_steps.claims(),
     ),
 }
 """The claims of each paper, by the name it has here."""

@@ -75,6 +75,9 @@ def _choice() -> tuple[Claim, ...]:
             at,
             "at φ=180° μ_min rises all the way to 75° as β falls to 0: 48° is the greatest r/l not above 0.3",
         ),
+        _claim(
+            "90°-μ_min of the chosen linkage", "< 40", "deg", lambda: 90 - beat_up_table.computed(180, 48).mu_min, at
+        ),
         _claim("swing of the chosen linkage", "30", "deg", _swing_of_chosen, "2.1.2, Table 1"),
     )
 
@@ -109,6 +112,21 @@ def _beat() -> tuple[Claim, ...]:
             lambda: _as_printed().peaks["beater_velocity"].angle / deg,
             "3, Fig 6 (b)",
             "the beat is the extended dead centre, where the beater stands still; it is fastest 69° before",
+        ),
+        _claim(
+            "speed of the beater at the dead centres, by its greatest",
+            "0",
+            "",
+            _speed_at_dead_centres,
+            "3, Fig 6 (b)",
+        ),
+        _claim(
+            "crank angle of the greatest force in joint B, 'at the beat-up position'",
+            "48",
+            "deg",
+            partial(_greatest_force_at, "B"),
+            "3, Fig 7",
+            "the beater is slowed most, and the joints loaded most, some degrees of the crank before it stops",
         ),
         _claim("acceleration of the beater at the beat", "25", "m/s²", _at_the_beat, "3, Fig 6 (c)"),
         _claim("greatest forces in joints B and C", "curve", "N", lambda: None, "Fig 7", "a curve without numbers"),
@@ -150,6 +168,19 @@ def _at_the_beat() -> float:
     found = _as_printed()
     at = design(replace(found.params, crank_angle=found.beat_angle)).at
     return float(np.abs(at.beater.acceleration)[0]) if at else math.nan
+
+
+def _speed_at_dead_centres() -> float:
+    found = _as_printed()
+    speeds = [design(replace(found.params, crank_angle=at)).at for at in (found.beat_angle, found.back_angle)]
+    most = found.peaks["beater_velocity"].value
+    return max(float(np.abs(at.beater.velocity)[0]) for at in speeds if at) / most
+
+
+def _greatest_force_at(pin: str) -> float:
+    """Crank angle of the greatest force in a pin [deg]."""
+    found = _as_printed()
+    return float(found.state.angle[np.argmax(np.abs(found.state.pins[pin]))]) / deg
 
 
 def _great_peaks() -> int:

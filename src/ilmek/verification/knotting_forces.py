@@ -12,7 +12,31 @@ from ilmek.units import mm
 from ilmek.verification.claim import Claim
 from ilmek.verification.knotting_pose import quoted, vector
 
+SIGNS = {"F2'": ("O2'", 1 - 1j), "F2": ("O2", -1 - 1j), "F1'": ("O1'", 1 + 1j), "F1": ("O1", -1 + 1j)}
+"""The machine's pin and the signs of x and y, by the report's name."""
+
 _claim = partial(Claim, "knotting")
+
+
+def rest(of: Callable[[State], complex]) -> complex:
+    """What there is at rest."""
+    return of(quoted().static)
+
+
+def swing(of: Callable[[State], complex]) -> complex:
+    """What ω1² multiplies."""
+    return of(quoted().unit) - of(quoted().static)
+
+
+def joint(name: str) -> Callable[[State], complex]:
+    """A joint's force [N] with the report's signs."""
+    pin, sign = SIGNS[name]
+
+    def turned(state: State) -> complex:
+        force = complex(state.pins[pin][0])
+        return complex(sign.real * force.real, sign.imag * force.imag)
+
+    return turned
 
 
 def claims() -> tuple[Claim, ...]:
@@ -22,14 +46,6 @@ def claims() -> tuple[Claim, ...]:
         "the pose is at a dead point, where any load asks for large forces"
     )
 
-    def joint(pin: str, sign: complex) -> Callable[[State], complex]:
-        def turned(state: State) -> complex:
-            force = complex(state.pins[pin][0])
-            return complex(sign.real * force.real, sign.imag * force.imag)
-
-        return turned
-
-    signs = {"F2'": ("O2'", 1 - 1j), "F2": ("O2", -1 - 1j), "F1'": ("O1'", 1 + 1j), "F1": ("O1", -1 + 1j)}
     static = {"F2'": ("78.34", "-17.4"), "F2": ("78.34", "32.4"), "F1'": ("-78.34", "17.4"), "F1": ("78.34", "-32.36")}
     moving = {
         "F2'": ("7888.8", "1378.7"),
@@ -39,16 +55,10 @@ def claims() -> tuple[Claim, ...]:
     }
     at = "5, forces"
 
-    def rest(of: Callable[[State], complex]) -> complex:
-        return of(quoted().static)
-
-    def swing(of: Callable[[State], complex]) -> complex:
-        return of(quoted().unit) - of(quoted().static)
-
     def torque(state: State) -> complex:
         return complex(state.torque[0]) / mm
 
-    joints = {name: joint(pin, sign) for name, (pin, sign) in signs.items()}
+    joints = {name: joint(name) for name in SIGNS}
     return (
         *(
             c

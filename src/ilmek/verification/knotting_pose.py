@@ -34,7 +34,8 @@ def quoted() -> KnottingFourBar:
     return design(KnottingFourBarParams())
 
 
-def _motion() -> Motion:
+def motion() -> Motion:
+    """The quoted pose at 1 rad/s."""
     return quoted().unit.motion
 
 
@@ -43,13 +44,14 @@ def _first(values: ComplexField) -> complex:
     return complex(np.ravel(values)[0])
 
 
-def _angle(body: str) -> float:
-    return float(_motion().angle(body)[0])
+def angle(body: str) -> float:
+    """Angle of a body in the quoted pose [rad]."""
+    return float(motion().angle(body)[0])
 
 
 def _far() -> complex:
     """O2' from O1 [mm]."""
-    return _first(_motion().point("coupler", "O2'").position) / mm
+    return _first(motion().point("coupler", "O2'").position) / mm
 
 
 def _pose() -> tuple[Claim, ...]:
@@ -74,7 +76,7 @@ def _pose() -> tuple[Claim, ...]:
         _claim(
             "2 s r3", "9743.763", "mm²", lambda: 2 * abs(_far()) * r3, at, "from the rounded s", lambda: 2 * 74.464 * r3
         ),
-        _claim("θ3", "192.524", "deg", lambda: _angle("rocker") % (2 * np.pi) / deg, at, early, from_rounded),
+        _claim("θ3", "192.524", "deg", lambda: angle("rocker") % (2 * np.pi) / deg, at, early, from_rounded),
         _claim(
             "direction of the ground, 180° - θ0",
             "-95",
@@ -94,7 +96,7 @@ def _speeds() -> tuple[Claim, ...]:
     near = "θ3 was rounded, 0.01° from a dead point"
 
     def of(what: str, body: str) -> Computation:
-        return lambda: float(getattr(_motion(), what)(body)[0])
+        return lambda: float(getattr(motion(), what)(body)[0])
 
     def rounded(place: int) -> Computation:
         return lambda: knotting_equations.speeds_by_report(ROUNDED_TH3)[place]
@@ -133,7 +135,7 @@ def _places() -> tuple[Claim, ...]:
     params = KnottingFourBarParams()
 
     def arm(body: str, length: float) -> Callable[[], complex]:
-        return lambda: length * _first(_motion().direction(body)) / mm
+        return lambda: length * _first(motion().direction(body)) / mm
 
     def third(part: float) -> complex:
         return complex(part * params.rocker / mm * np.exp(1j * ROUNDED_TH3))
@@ -201,10 +203,10 @@ def _accelerations() -> tuple[Claim, ...]:
     at, wrong = "4, accelerations", "with the wrong α2 and G2 at mid-length"
 
     def centre(body: str) -> Callable[[], complex]:
-        return lambda: _first(attached(_motion(), body, quoted().inertias[body].centre).acceleration) / mm
+        return lambda: _first(attached(motion(), body, quoted().inertias[body].centre).acceleration) / mm
 
     def pin() -> complex:
-        return _first(_motion().point("crank", "O2").acceleration) / mm
+        return _first(motion().point("crank", "O2").acceleration) / mm
 
     half, sharp = "half of the rounded 58.23", "α3 and ω3 from the rounded θ3, 0.01° from a dead point"
     return (
@@ -213,5 +215,13 @@ def _accelerations() -> tuple[Claim, ...]:
         ),
         *vector("a of O2", ("58.23", "-58.23"), "mm/s²", pin, at),
         *vector("a of G2", ("22820.67", "-1080517"), "mm/s²", centre("coupler"), at, note=wrong),
-        *vector("a of G3", ("-461371.06", "2159320"), "mm/s²", centre("rocker"), at, note=sharp),
+        *vector(
+            "a of G3",
+            ("-461371.06", "2159320"),
+            "mm/s²",
+            centre("rocker"),
+            at,
+            note=sharp,
+            follows=lambda: -478872.34 + 17501.28 + 1j * (2155431.75 + 3888.26),
+        ),
     )

@@ -63,7 +63,7 @@ def _times() -> tuple[Claim, ...]:
     def at(angle: float) -> float:
         return 14.375 - period + angle * deg / (160 * rpm)
 
-    times = {"22": "14.02", "108": "14.11", "194": "14.20", "287": "14.30"}
+    times = {"22": "14.02", "108": "14.11", "194": "14.20", "287": "14.30", "360": "14.375"}
     return (
         _claim("time of a turn", "0.375", "s", lambda: period, "Experiment"),
         *(
@@ -108,6 +108,14 @@ def _unsettled() -> tuple[Claim, ...]:
             lambda: None,
             TEXT,
             "two readings, from entry to exit or always: ilmek design tufting has both, with the same peaks",
+        ),
+        _claim(
+            "moments of inertia of l1 to l6",
+            "4.34 ... 19.15",
+            "10⁻³ kg m²",
+            lambda: None,
+            "Table 1",
+            "the shapes are not printed; bars of these masses and lengths would have 0.06, 6.0, 3.3, 2.3, 0.4, 23.7",
         ),
         _claim("velocity and acceleration of the needle", "curve", "m/s", lambda: None, "Fig 7", drawn),
         _claim("forces in the joints", "curve", "N", lambda: None, "Fig 8", drawn),

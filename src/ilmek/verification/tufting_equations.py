@@ -39,7 +39,7 @@ class Sample:
 
 def claims() -> tuple[Claim, ...]:
     """The equations in the paper's order."""
-    return (*_kinematics(), *_centres(), *_balances(), *_matrices())
+    return (*_kinematics(), *_centres(), *_forces(), *_balances(), *_matrices())
 
 
 def _equation(
@@ -80,6 +80,7 @@ def _kinematics() -> tuple[Claim, ...]:
         _equation("10, 11", "ω2 = -l1 ω1 sin(θ1-θ3)/(l2 sin(θ2-θ3)),  ω3 = l1 ω1 sin(θ1-θ2)/(l3 sin(θ3-θ2))", _eq_10),
         _equation("12, 13", "α2, α3 from l3 ω3², l1 ω1², l2 ω2²", _eq_12),
         _equation("14", "cos θ5 = (x2 - l4 cos θ4)/l5", _eq_14),
+        _equation("14, second line", "l_CF' = l6 - l4 sin θ4 - l5 sin θ5", _eq_14_height),
         _equation("15", "θ4 = θ3 + β1 - 2π", _eq_15),
         _equation("16, 17", "ω5 = -l4 ω4 sin θ4/(l5 sin θ5),  v = -l4 ω4 cos θ4 - l5 ω5 cos θ5", _eq_16),
         _equation("18", "α5 = -(l4 α4 sin θ4 + l4 ω4² cos θ4 + l5 ω5² cos θ5)/(l5 sin θ5)", _eq_18),
@@ -126,6 +127,11 @@ def _eq_12() -> float:
 def _eq_14() -> float:
     p = sample().params
     return residual(_unit(5).real, (p.needle_distance - p.arm * _unit(4).real) / p.rod)
+
+
+def _eq_14_height() -> float:
+    p = sample().params
+    return residual(-sample().state.height, p.needle - p.arm * _unit(4).imag - p.rod * _unit(5).imag)
 
 
 def _eq_15() -> float:
@@ -191,6 +197,37 @@ def _centres() -> tuple[Claim, ...]:
             "a_s5 = l4 (jα4 - ω4²) e^{jθ4} + l5/2 (jα5 - ω5²) e^{jθ5}",
             lambda: residual(p.arm * _turned(4) + p.rod / 2 * _turned(5), sample().acceleration[5]),
         ),
+    )
+
+
+def _forces() -> tuple[Claim, ...]:
+    """Rows of forces: what the joints give a link, less its weight, is its mass by its acceleration."""
+    rows = {
+        "22": (1, "F_21 + F_O - m1 g = -F_1", ("A", "O")),
+        "25": (2, "F_32 - F_21 - m2 g = -F_2", ("A", "B")),
+        "28": (3, "F_C - F_32 - m3 g = -F_3", ("B", "C", "shaft")),
+        "35": (4, "F_54 + F_C - m4 g = -F_4", ("D", "shaft")),
+        "38": (5, "F_65 - F_54 - m5 g = -F_5", ("D", "E")),
+    }
+
+    def row(k: int, joints: tuple[str, ...]) -> float:
+        body, p = BODIES[k - 1], sample().params
+        mass = inertias(p)[body].mass
+        given = sum(sample().state.forces.pin(joint, on=body) for joint in joints) - 1j * mass * p.gravity
+        # By the force in C, the greatest: the link's own sum nearly vanishes.
+        return float(
+            np.max(np.abs(given - mass * sample().acceleration[k])) / np.max(np.abs(sample().state.joints["C"]))
+        )
+
+    def across() -> float:
+        return residual(sample().state.forces.pin("E", on="rod").real, sample().state.joints["guide"].real)
+
+    return (
+        *(
+            _equation(f"{number}, forces", printed, partial(row, k, joints))
+            for number, (k, printed, joints) in rows.items()
+        ),
+        _equation("39, across", "F_65,x - F_F,x = -F_6,x = 0", across),
     )
 
 

@@ -29,6 +29,8 @@ def printed_text(verdict: Verdict) -> str:
     unit, printed = verdict.claim.unit, verdict.claim.printed
     if unit == RESIDUAL:
         return ""
+    if not any(sign.isdigit() for sign in printed):
+        return printed
     return f"{printed}°" if unit == "deg" else f"{printed} {'' if unit == COUNT else unit}".strip()
 
 
