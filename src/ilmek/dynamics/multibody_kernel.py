@@ -34,7 +34,9 @@ class Model(NamedTuple):
     weights   of the coordinates [kg, kg, kg m²]      gravity  free fall [m/s²]
     ends      bodies of each element, arms their points from the mass centres [m], numbers what else it needs:
               pins, slides (line's direction, angle held), springs (stiffness, free length, damping), pushes (force);
-              pins, slides, springs, pushes: how many there are, in this order
+              pins, slides, springs, pushes: how many there are, in this order, clearance pins last
+    contacts  of each clearance pin: stiffness, exponent, hysteresis, journal's radius, clearance, friction, slip, and
+              the two bodies' masses in series
     twists    torque [N m] and viscous drag [N m s] on each body
     touched   bodies of each joint equation           length  of the system [m]      band  of M + J^T W J
     """
@@ -48,6 +50,7 @@ class Model(NamedTuple):
     slides: int
     springs: int
     pushes: int
+    contacts: np.ndarray
     twists: np.ndarray
     touched: np.ndarray
     length: float
@@ -55,7 +58,7 @@ class Model(NamedTuple):
 
 
 @compiled
-def _arm(model: Model, q: np.ndarray, v: np.ndarray, at: int, side: int) -> tuple[complex, complex, complex, complex]:
+def arm_of(model: Model, q: np.ndarray, v: np.ndarray, at: int, side: int) -> tuple[complex, complex, complex, complex]:
     """World arm, position and velocity of one side of an element, and its bias -w² r."""
     body, arm = model.ends[at, side], model.arms[at, side]
     if body < 0:
@@ -68,7 +71,8 @@ def _arm(model: Model, q: np.ndarray, v: np.ndarray, at: int, side: int) -> tupl
 
 
 @compiled
-def _dot(a: complex, b: complex) -> float:
+def dot(a: complex, b: complex) -> float:
+    """Scalar product of two plane vectors."""
     return a.real * b.real + a.imag * b.imag
 
 
@@ -82,8 +86,8 @@ def _row(rows: np.ndarray, at: int, first: complex, turned: float, second: compl
 def joints(model: Model, q: np.ndarray, v: np.ndarray, gap: np.ndarray, rows: np.ndarray, bias: np.ndarray) -> None:
     """Gaps c, Jacobian rows (x, y, theta of the first body, then of the second) and bias b of all joints."""
     for k in range(model.pins):
-        r, p, _, first = _arm(model, q, v, k, 0)
-        s, g, _, second = _arm(model, q, v, k, 1)
+        r, p, _, first = arm_of(model, q, v, k, 0)
+        s, g, _, second = arm_of(model, q, v, k, 1)
         apart, extra = p - g, first - second
         _row(rows, 2 * k, 1 + 0j, -r.imag, -1 + 0j, s.imag)
         _row(rows, 2 * k + 1, 1j, r.real, -1j, -s.real)
@@ -91,16 +95,16 @@ def joints(model: Model, q: np.ndarray, v: np.ndarray, gap: np.ndarray, rows: np
         bias[2 * k], bias[2 * k + 1] = extra.real, extra.imag
     for k in range(model.pins, model.pins + model.slides):
         body, guide = model.ends[k, 0], model.ends[k, 1]
-        r, p, pv, first = _arm(model, q, v, k, 0)
-        s, g, gv, second = _arm(model, q, v, k, 1)
+        r, p, pv, first = arm_of(model, q, v, k, 0)
+        s, g, gv, second = arm_of(model, q, v, k, 1)
         theta, spin = (q[3 * guide + 2], v[3 * guide + 2]) if guide >= 0 else (0.0, 0.0)
         own = q[3 * body + 2] if body >= 0 else 0.0
         line = theta + model.numbers[k, 0]
         f = 1j * complex(np.cos(line), np.sin(line))
         apart, turned = p - g, 1j * f
-        gap[2 * k] = _dot(f, apart)
-        _row(rows, 2 * k, f, _dot(f, 1j * r), -f, _dot(turned, apart) - _dot(f, 1j * s))
-        bias[2 * k] = _dot(f, first - second) + 2 * spin * _dot(turned, pv - gv) - spin * spin * gap[2 * k]
+        gap[2 * k] = dot(f, apart)
+        _row(rows, 2 * k, f, dot(f, 1j * r), -f, dot(turned, apart) - dot(f, 1j * s))
+        bias[2 * k] = dot(f, first - second) + 2 * spin * dot(turned, pv - gv) - spin * spin * gap[2 * k]
         gap[2 * k + 1] = model.length * (own - theta - model.numbers[k, 1])
         _row(rows, 2 * k + 1, 0j, model.length, 0j, -model.length)
         bias[2 * k + 1] = 0.0
@@ -117,26 +121,27 @@ def applied(model: Model, q: np.ndarray, v: np.ndarray, out: np.ndarray) -> floa
         power += out[3 * k + 2] * v[3 * k + 2]
     start = model.pins + model.slides
     for k in range(start, start + model.springs):
-        r, p, pv, _ = _arm(model, q, v, k, 0)
-        s, g, gv, _ = _arm(model, q, v, k, 1)
+        r, p, pv, _ = arm_of(model, q, v, k, 0)
+        s, g, gv, _ = arm_of(model, q, v, k, 1)
         size = abs(p - g)
         along = (p - g) / size if size > 0 else 0j
-        rate = _dot(along, pv - gv)
+        rate = dot(along, pv - gv)
         force = -(model.numbers[k, 0] * (size - model.numbers[k, 1]) + model.numbers[k, 2] * rate) * along
         power -= model.numbers[k, 2] * rate * rate
-        _push(out, model.ends[k, 0], r, force)
-        _push(out, model.ends[k, 1], s, -force)
+        push(out, model.ends[k, 0], r, force)
+        push(out, model.ends[k, 1], s, -force)
     start += model.springs
     for k in range(start, start + model.pushes):
-        r, _, pv, _ = _arm(model, q, v, k, 0)
+        r, _, pv, _ = arm_of(model, q, v, k, 0)
         force = complex(model.numbers[k, 0], model.numbers[k, 1])
-        _push(out, model.ends[k, 0], r, force)
-        power += _dot(force, pv)
+        push(out, model.ends[k, 0], r, force)
+        power += dot(force, pv)
     return power
 
 
 @compiled
-def _push(out: np.ndarray, body: int, arm: complex, force: complex) -> None:
+def push(out: np.ndarray, body: int, arm: complex, force: complex) -> None:
+    """Add a force at an arm to the forces on a body's mass centre."""
     if body >= 0:
         out[3 * body] += force.real
         out[3 * body + 1] += force.imag

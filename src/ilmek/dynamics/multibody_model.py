@@ -1,14 +1,16 @@
 """What a general planar system is, and how it becomes the arrays of the compiled kernels."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from ilmek.dynamics.attached import attached
+from ilmek.dynamics.clearance import ClearancePin
 from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.multibody_contact import FLIGHT
 from ilmek.dynamics.multibody_kernel import Model
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body, Joint, Pin, Slide
@@ -61,7 +63,8 @@ class Twist:
 class System:
     """Bodies with masses, the joints between them, the loads, and the start.
 
-    bodies    with the ground among them, as in `Mechanism`      joints  pins and slides; they may be redundant
+    bodies    with the ground among them, as in `Mechanism`
+    joints    pins, slides, pins with clearance; they may be redundant
     inertias  of every moving body, mass and moment above 0      poses   of every moving body at the start
     gravity   free fall [m/s²], such as -9.81j                   loads   springs, pushes, twists
 
@@ -70,7 +73,7 @@ class System:
     """
 
     bodies: tuple[Body, ...]
-    joints: tuple[Joint, ...]
+    joints: tuple[Joint | ClearancePin, ...]
     inertias: Mapping[str, Inertia]
     poses: Mapping[str, Pose]
     gravity: complex = 0j
@@ -86,8 +89,42 @@ class System:
             self._check(name)
         object.__setattr__(self, "order", _ordered(moving, self.joints))
         for joint in self.joints:
+            if joint.bodies[0] == joint.bodies[1]:
+                raise MechanismError(f"joint {joint.name!r} of {self.name} joins {joint.bodies[0]!r} to itself")
             for body in joint.bodies:
                 self.point(body, joint.name)
+        if not np.isfinite(self.gravity):
+            raise MechanismError(f"gravity of {self.name} is {self.gravity}", allowed="a finite free fall in m/s²")
+        for load in self.loads:
+            _check_load(self, load)
+
+    @property
+    def pins(self) -> tuple[Pin, ...]:
+        """Its pins without clearance."""
+        return tuple(joint for joint in self.joints if isinstance(joint, Pin))
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """Its slides."""
+        return tuple(joint for joint in self.joints if isinstance(joint, Slide))
+
+    @property
+    def rigid(self) -> tuple[Joint, ...]:
+        """Its joints without clearance in the order of their equations: pins, then slides."""
+        return (*self.pins, *self.slides)
+
+    @property
+    def clearances(self) -> tuple[ClearancePin, ...]:
+        """Its pins with clearance."""
+        return tuple(joint for joint in self.joints if isinstance(joint, ClearancePin))
+
+    def clearance(self, name: str) -> ClearancePin:
+        """The pin with clearance of that name."""
+        found = {pin.name: pin for pin in self.clearances}
+        if name not in found:
+            known = ", ".join(found) or "none"
+            raise MechanismError(f"{self.name} has no pin with clearance {name!r}", allowed=f"it has {known}")
+        return found[name]
 
     def _check(self, name: str) -> None:
         inertia, pose = self.inertias.get(name), self.poses.get(name)
@@ -118,6 +155,18 @@ class System:
         return self.point(body, point) - (0j if body == GROUND else self.inertias[body].centre)
 
 
+def loosened(system: System, *clearances: ClearancePin) -> System:
+    """The system with some of its pins replaced by pins with clearance of the same names."""
+    names = [pin.name for pin in system.pins]
+    for pin in clearances:
+        if pin.name not in names:
+            raise MechanismError(
+                f"{system.name} has no pin {pin.name!r}", allowed=f"it has {', '.join(names) or 'none'}"
+            )
+    by_name = {pin.name: pin for pin in clearances}
+    return replace(system, joints=tuple(by_name.get(joint.name, joint) for joint in system.joints))
+
+
 def from_motion(
     motion: Motion,
     inertias: Mapping[str, Inertia],
@@ -135,7 +184,7 @@ def from_motion(
     return System(mechanism.bodies, mechanism.joints, inertias, poses, gravity, loads, mechanism.name)
 
 
-def _ordered(moving: Sequence[str], joints: Sequence[Joint]) -> tuple[str, ...]:
+def _ordered(moving: Sequence[str], joints: Sequence[Joint | ClearancePin]) -> tuple[str, ...]:
     """Bodies in an order that keeps neighbours close, for a narrow band [reverse Cuthill-McKee]."""
     place = {name: k for k, name in enumerate(moving)}
     pairs = [
@@ -149,37 +198,32 @@ def _ordered(moving: Sequence[str], joints: Sequence[Joint]) -> tuple[str, ...]:
 def modelled(system: System) -> Model:
     """The system as arrays."""
     place = {name: k for k, name in enumerate(system.order)} | {GROUND: -1}
-    pins = [joint for joint in system.joints if isinstance(joint, Pin)]
-    slides = [joint for joint in system.joints if isinstance(joint, Slide)]
+    loose = system.clearances
     springs = [load for load in system.loads if isinstance(load, Spring)]
     pushes = [load for load in system.loads if isinstance(load, Push)]
-    for load in system.loads:
-        _known(system, *((load.first, load.second) if isinstance(load, Spring) else (load.body,)))
-    touched = [[place[body] for body in joint.bodies] for joint in (*pins, *slides) for _ in range(2)]
+    touched = [[place[body] for body in joint.bodies] for joint in system.rigid for _ in range(2)]
     apart = [abs(a - b) for a, b in touched if min(a, b) >= 0]
     inertias = [system.inertias[name] for name in system.order]
-    held = [(joint.name, joint.name) for joint in (*pins, *slides)]
-    bodies = [joint.bodies for joint in (*pins, *slides)]
-    for load in (*springs, *pushes):
-        first, second = _ends(load)
-        bodies.append((first[0], second[0]))
-        held.append((first[1], second[1]))
-    numbers = [(0.0, 0.0, 0.0) for _ in pins] + [(slide.along, _held(system, slide), 0.0) for slide in slides]
+    ends = [[(body, joint.name) for body in joint.bodies] for joint in system.rigid]
+    ends += [[(one.first, one.first_point), (one.second, one.second_point)] for one in springs]
+    ends += [[(one.body, one.point)] * 2 for one in pushes]
+    ends += [[(body, pin.name) for body in pin.bodies] for pin in loose]
+    numbers = [(0.0, 0.0, 0.0) for _ in system.pins] + [
+        (slide.along, _held(system, slide), 0.0) for slide in system.slides
+    ]
     numbers += [(spring.stiffness, spring.length, spring.damping) for spring in springs]
     numbers += [(complex(push.force).real, complex(push.force).imag, 0.0) for push in pushes]
-    arms = [
-        [system.arm(b, p) for b, p in zip(pair, points, strict=True)] for pair, points in zip(bodies, held, strict=True)
-    ]
     return Model(
         weights=np.array([value for one in inertias for value in (one.mass, one.mass, one.moment)]),
         gravity=complex(system.gravity),
-        ends=_pairs([[place[body] for body in pair] for pair in bodies]),
-        arms=np.array(arms, dtype=complex).reshape(-1, 2),
+        ends=_pairs([[place[body] for body, _ in pair] for pair in ends]),
+        arms=np.array([[system.arm(*end) for end in pair] for pair in ends], dtype=complex).reshape(-1, 2),
         numbers=np.array(numbers, dtype=float).reshape(-1, 3),
-        pins=len(pins),
-        slides=len(slides),
+        pins=len(system.pins),
+        slides=len(system.slides),
         springs=len(springs),
         pushes=len(pushes),
+        contacts=np.array([_contact(system, pin) for pin in loose], dtype=float).reshape(-1, 8),
         twists=_twists(system),
         touched=_pairs(touched),
         length=_length(system),
@@ -188,8 +232,9 @@ def modelled(system: System) -> Model:
 
 
 def start_of(system: System) -> np.ndarray:
-    """Positions and velocities of the mass centres at the start, and no work."""
-    row = np.zeros(6 * len(system.order) + 1)
+    """Positions and velocities of the mass centres at the start, no work, and no contact yet."""
+    row = np.full(6 * len(system.order) + 1 + len(system.clearances), FLIGHT)
+    row[6 * len(system.order)] = 0.0
     half = 3 * len(system.order)
     for k, name in enumerate(system.order):
         pose, arm = system.poses[name], system.inertias[name].centre * unit(system.poses[name].angle)
@@ -199,19 +244,31 @@ def start_of(system: System) -> np.ndarray:
     return row
 
 
-def _ends(load: Spring | Push) -> tuple[tuple[str, str], tuple[str, str]]:
-    """The two body points of a load; a push comes from the point itself, to the kernel a pair of one body."""
+def _contact(system: System, pin: ClearancePin) -> tuple[float, ...]:
+    series = 1 / sum(1 / system.inertias[body].mass for body in pin.bodies if body != GROUND)
+    law = pin.stiffness, pin.exponent, pin.hysteresis
+    return *law, pin.radius, pin.clearance, pin.friction, pin.slip, series
+
+
+def _check_load(system: System, load: Spring | Push | Twist) -> None:
+    """Refuse a load on a body or point that is not there, or whose numbers are not finite."""
     if isinstance(load, Spring):
-        return (load.first, load.first_point), (load.second, load.second_point)
-    return (load.body, load.point), (load.body, load.point)
-
-
-def _known(system: System, *bodies: str) -> None:
-    for body in bodies:
-        if body != GROUND and body not in system.order:
-            raise MechanismError(
-                f"a load of {system.name} acts on {body!r}", allowed=f"it has {', '.join(system.order)}"
-            )
+        ends, numbers = (
+            [(load.first, load.first_point), (load.second, load.second_point)],
+            [load.stiffness, load.length],
+        )
+        numbers.append(load.damping)
+    elif isinstance(load, Push):
+        ends, numbers = [(load.body, load.point)], [abs(load.force)]
+    else:
+        ends, numbers = [], [load.torque, load.drag]
+        if load.body not in system.order:
+            known = ", ".join(system.order)
+            raise MechanismError(f"a torque of {system.name} acts on {load.body!r}", allowed=f"it has {known}")
+    for end in ends:
+        system.point(*end)
+    if not np.all(np.isfinite(numbers)):
+        raise MechanismError(f"a load of {system.name} is {load}", allowed="finite numbers")
 
 
 def _held(system: System, slide: Slide) -> float:

@@ -1,13 +1,28 @@
 # ruff: noqa: PLR0917 - compiled functions take their arguments by position
-"""Compiled integration of a planar multibody system: right-hand side, projection, steps of order 8."""
+"""Compiled integration of a planar multibody system: right-hand side, projection, steps of order 8.
+
+A state is positions, velocities, work, and one number a clearance pin (see `multibody_contact`).
+"""
+
+from typing import TypeAlias
 
 import numpy as np
 
+from ilmek.dynamics.multibody_contact import contacts, settle, stride, until_touch
 from ilmek.dynamics.multibody_kernel import Model, along, applied, factor, grips, held, joints
 from ilmek.num.compiled import compiled
 
-DONE, TOO_SMALL, TOO_MANY = 0, 1, 2
-"""How an integration ended: at its last time, at a step below rounding, at the most steps."""
+DONE, TOO_SMALL, TOO_MANY, STEPPED = 0, 1, 2, 3
+"""How an integration ended: at its last time, at a step below rounding, at the most steps, after one step."""
+
+TIME, NEXT, TAKEN, DONE_TO, FASTEST, SPUN, PEAKS = 0, 1, 2, 3, 4, 5, 6
+"""Places in the clock of a run, see `advance`."""
+
+Method: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Coefficients: stages and, last, the step; error of third order; of fifth."""
+
+Kept: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""States, slopes and reactions at the times, to be filled."""
 
 STAGES = 12
 """Stages of the method; one more evaluation, at the step's end, serves the error and the next step."""
@@ -15,18 +30,20 @@ STAGES = 12
 
 @compiled
 def rates(model: Model, y: np.ndarray, out: np.ndarray, reaction: np.ndarray) -> None:
-    """Derivative of positions, velocities, work; and the joints' reactions (forces f of J^T f on the left side)."""
-    count, size = reaction.shape[0], model.weights.shape[0]
+    """Derivative of a state; the joints' reactions (forces f of J^T f on the left side), forces on the journals."""
+    count, size = model.touched.shape[0], model.weights.shape[0]
     q, v = y[:size], y[size : 2 * size]
     gap, bias, rows = np.empty(count), np.empty(count), np.empty((count, 6))
     force, root, grip = np.empty(size), np.empty((size, model.band + 1)), np.empty((count // 2, 3))
     joints(model, q, v, gap, rows, bias)
-    out[2 * size] = applied(model, q, v, force)
+    out[2 * size] = applied(model, q, v, force) + contacts(model, y, force, reaction[count:])
+    for i in range(2 * size + 1, out.shape[0]):
+        out[i] = 0.0
     grips(model, rows, grip)
     factor(model, rows, grip, root)
     for k in range(count):
         bias[k] = -bias[k]
-    held(model, rows, grip, root, force, bias, out[size : 2 * size], reaction)
+    held(model, rows, grip, root, force, bias, out[size : 2 * size], reaction[:count])
     for i in range(size):
         out[i] = v[i]
 
@@ -64,10 +81,10 @@ def project(model: Model, y: np.ndarray) -> float:
 
 
 @compiled
-def _sizes(model: Model, y: np.ndarray, slope: np.ndarray, h: float, out: np.ndarray) -> None:
-    """What each number's error is small against: the mechanism's length, a radian, the fastest body, the energy."""
+def _sizes(model: Model, clock: np.ndarray, y: np.ndarray, slope: np.ndarray, h: float, out: np.ndarray) -> None:
+    """What each number's error is small against: the mechanism's length, a radian, the fastest so far, the energy."""
     size = model.weights.shape[0]
-    fast, spin, energy = 0.0, 0.0, 0.0
+    fast, spin, energy = clock[FASTEST], clock[SPUN], 0.0
     for i in range(size):
         v, reach = abs(y[size + i]), abs(slope[size + i]) * h
         energy += 0.5 * model.weights[i] * (v * v + reach * reach)
@@ -80,6 +97,8 @@ def _sizes(model: Model, y: np.ndarray, slope: np.ndarray, h: float, out: np.nda
         out[i] = 1.0 if turning else model.length
         out[size + i] = (spin if turning else fast) + 1e-12
     out[2 * size] = energy + abs(slope[2 * size]) * h + 1e-300
+    for i in range(2 * size + 1, out.shape[0]):
+        out[i] = 1.0
 
 
 @compiled
@@ -95,14 +114,20 @@ def _error(k: np.ndarray, h: float, scale: np.ndarray, e3: np.ndarray, e5: np.nd
         third += (b / scale[i]) ** 2
     if fifth == 0.0 and third == 0.0:
         return 0.0
-    return h * fifth / np.sqrt((fifth + 0.01 * third) * scale.shape[0])
+    estimate: float = h * fifth / np.sqrt((fifth + 0.01 * third) * scale.shape[0])
+    return estimate
+
+
+@compiled
+def _copy(source: np.ndarray, target: np.ndarray) -> None:
+    for i in range(source.shape[0]):
+        target[i] = source[i]
 
 
 @compiled
 def _combined(y: np.ndarray, h: float, shares: np.ndarray, k: np.ndarray, count: int, out: np.ndarray) -> None:
     """Into out goes y + h Σ shares k."""
-    for i in range(y.shape[0]):
-        out[i] = y[i]
+    _copy(y, out)
     for j in range(count):
         if shares[j] != 0.0:
             for i in range(y.shape[0]):
@@ -110,64 +135,121 @@ def _combined(y: np.ndarray, h: float, shares: np.ndarray, k: np.ndarray, count:
 
 
 @compiled
-def _keep(
-    at: int, y: np.ndarray, slope: np.ndarray, f: np.ndarray, states: np.ndarray, slopes: np.ndarray, kept: np.ndarray
+def _attempt(
+    model: Model, y: np.ndarray, h: float, a: np.ndarray, k: np.ndarray, f: np.ndarray, new: np.ndarray
 ) -> None:
-    """Write a sample."""
-    for i in range(y.shape[0]):
-        states[at, i], slopes[at, i] = y[i], slope[i]
-    for i in range(f.shape[0]):
-        kept[at, i] = f[i]
+    """All stages of a step from y, whose slope is k[0]; into `new` goes its end, not yet on the joints."""
+    for s in range(1, STAGES + 1):
+        _combined(y, h, a[s], k, s, new)
+        rates(model, new, k[s], f)
+
+
+@compiled
+def leap(
+    model: Model,
+    y: np.ndarray,
+    slope: np.ndarray,
+    h: float,
+    method: Method,
+    new: np.ndarray,
+    end: np.ndarray,
+    f: np.ndarray,
+) -> None:
+    """One step of h, its error not asked for: state, slope and reactions at its end."""
+    k = np.empty((STAGES + 1, y.shape[0]))
+    _copy(slope, k[0])
+    _attempt(model, y, h, method[0], k, f, new)
+    project(model, new)
+    rates(model, new, end, f)
 
 
 @compiled
 def advance(
     model: Model,
+    clock: np.ndarray,
     y: np.ndarray,
+    slope: np.ndarray,
+    f: np.ndarray,
     times: np.ndarray,
     rtol: float,
     most: int,
-    method: tuple[np.ndarray, np.ndarray, np.ndarray],
-    states: np.ndarray,
-    slopes: np.ndarray,
-    reactions: np.ndarray,
-) -> tuple[int, int, int, float]:
-    """States, derivatives, reactions at the times, the first being the start's; ending, times reached, steps, time."""
+    single: bool,
+    method: Method,
+    kept: Kept,
+) -> int:
+    """Steps to the last of the times, or one step where `single`; how it ended.
+
+    clock   time [s], next step [s], steps taken, times reached, greatest speed and spin, greatest contact forces [N]
+    y, slope, f   state, its derivative, reactions there: changed in place; at the times a copy goes to `kept`
+    """
     a, e3, e5 = method
-    size = y.shape[0]
+    size, last = y.shape[0], times.shape[0] - 1
     k, new, scale, sizes = np.empty((STAGES + 1, size)), np.empty(size), np.empty(size), np.empty(size)
-    f = np.empty(reactions.shape[1])
-    t, steps, done = times[0], 0, 0
-    rates(model, y, k[0], f)
-    _keep(0, y, k[0], f, states, slopes, reactions)
-    h = 1e-4 * (times[-1] - times[0])
-    while done < times.shape[0] - 1:
-        steps += 1
-        if steps > most:
-            return TOO_MANY, done, steps, t
-        left = times[done + 1] - t
-        last = h >= left * (1 - 1e-10)
-        now = left if last else h
-        if not now > 1e-14 * max(abs(t), 1e-300):
-            return TOO_SMALL, done, steps, t
-        for s in range(1, STAGES + 1):
-            _combined(y, now, a[s], k, s, new)
-            rates(model, new, k[s], f)
-        _sizes(model, y, k[0], now, sizes)
+    _copy(slope, k[0])
+    while clock[DONE_TO] < last:
+        clock[TAKEN] += 1
+        if clock[TAKEN] > most:
+            return TOO_MANY
+        left = times[int(clock[DONE_TO]) + 1] - clock[TIME]
+        wish = min(clock[NEXT], stride(model, y, k[0]))
+        ends = wish >= left * (1 - 1e-10)
+        now = left if ends else wish
+        if not now > 1e-14 * max(abs(clock[TIME]), 1e-300):
+            return TOO_SMALL
+        _attempt(model, y, now, a, k, f, new)
+        _sizes(model, clock, y, k[0], now, sizes)
         for i in range(size):
             scale[i] = rtol * (sizes[i] + max(abs(y[i]), abs(new[i])))
         error = _error(k, now, scale, e3, e5)
         if not error < 1.0:
-            h = now * (max(0.2, 0.9 * error**-0.125) if error < 1e300 else 0.2)
+            clock[NEXT] = now * (max(0.2, 0.9 * error**-0.125) if error < 1e300 else 0.2)
             continue
-        wish = now * (min(6.0, 0.9 * error**-0.125) if error > 0.0 else 6.0)
-        h = max(h, wish) if last else wish
-        for i in range(size):
-            y[i] = new[i]
-        t = times[done + 1] if last else t + now
-        project(model, y)
-        rates(model, y, k[0], f)
-        if last:
-            done += 1
-            _keep(done, y, k[0], f, states, slopes, reactions)
-    return DONE, done, steps, t
+        touch = until_touch(model, y, new, now)
+        if touch < now:
+            clock[NEXT] = touch
+            continue
+        grown = now * (min(6.0, 0.9 * error**-0.125) if error > 0.0 else 6.0)
+        clock[NEXT] = max(clock[NEXT], grown) if ends else grown
+        clock[TIME] = times[int(clock[DONE_TO]) + 1] if ends else clock[TIME] + now
+        _land(model, clock, y, new, k, f)
+        if ends:
+            clock[DONE_TO] += 1
+            _keep(int(clock[DONE_TO]), y, k[0], f, kept)
+        if single:
+            _copy(k[0], slope)
+            return STEPPED
+    _copy(k[0], slope)
+    return DONE
+
+
+@compiled
+def _land(model: Model, clock: np.ndarray, y: np.ndarray, new: np.ndarray, k: np.ndarray, f: np.ndarray) -> None:
+    """Take a step's end: onto the joints, contacts settled, slope and reactions there, greatest forces."""
+    _copy(new, y)
+    project(model, y)
+    settle(model, y)
+    rates(model, y, k[0], f)
+    held_by, size = model.touched.shape[0], model.weights.shape[0]
+    for i in range(size):
+        greatest = SPUN if i % 3 == 2 else FASTEST
+        clock[greatest] = max(clock[greatest], abs(y[size + i]))
+    for c in range(model.contacts.shape[0]):
+        clock[PEAKS + c] = max(clock[PEAKS + c], np.hypot(f[held_by + 2 * c], f[held_by + 2 * c + 1]))
+
+
+@compiled
+def _keep(at: int, y: np.ndarray, slope: np.ndarray, f: np.ndarray, kept: Kept) -> None:
+    """Write a sample."""
+    states, slopes, reactions = kept
+    _copy(y, states[at])
+    _copy(slope, slopes[at])
+    _copy(f, reactions[at])
+
+
+@compiled
+def begin(model: Model, y: np.ndarray, slope: np.ndarray, f: np.ndarray, kept: Kept) -> None:
+    """Close the joints, see which pins touch, and write the first sample."""
+    project(model, y)
+    settle(model, y)
+    rates(model, y, slope, f)
+    _keep(0, y, slope, f, kept)

@@ -1,0 +1,51 @@
+"""Events of a forward run: a value that goes through zero on the way, found to rounding.
+
+An event is any function of the run's state. Ends of travel are events of a position, standstill one of a speed, the
+closing of a gap one of a distance.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from scipy.optimize import brentq
+
+At = TypeVar("At")
+Seen = TypeVar("Seen")
+
+
+# Without slots: a slotted frozen class cannot be made through an alias such as Event[State] before Python 3.13.
+@dataclass(frozen=True)
+class Event(Generic[At]):
+    """Something that happens where `value` goes through zero: upward (direction +1), downward (-1), either way (0).
+
+    terminal  whether the run ends there
+    """
+
+    name: str
+    value: Callable[[At], float]
+    direction: int = 0
+    terminal: bool = True
+
+    def crossed(self, old: float, new: float) -> bool:
+        """Whether a step from one value to another goes through zero in the direction that is meant."""
+        # A start on zero is not a crossing; nor is the step after an end on zero, whose old value is that zero.
+        through = old * new < 0 or (new == 0 and old != 0)
+        return through and self.direction * old <= 0
+
+
+@dataclass(frozen=True)
+class Happening(Generic[At]):
+    """An event that was met: its name, the time [s], the state there."""
+
+    name: str
+    time: float
+    state: At
+    terminal: bool
+
+
+def located(value: Callable[[float], float], early: float, late: float) -> float:
+    """Where a value changes its sign between two times; the later one where rounding hides the change."""
+    if value(early) * value(late) >= 0:
+        return late
+    return float(brentq(value, early, late, xtol=4e-16 * max(abs(late), 1e-300), rtol=1e-15))
