@@ -77,7 +77,22 @@ def test_gears_share_the_torque_and_choose_the_servo() -> None:
     assert geared["servo_torque"] == pytest.approx(direct["servo_torque"] / 10)
     assert geared["servo_speed"] == pytest.approx(10 * direct["servo_speed"])
     assert geared["servo"].startswith("servo 100 W")
-    assert answer(grip_force="3000N").as_json()["results"]["servo"].startswith("none")
+    assert answer(grip_force="3000N", gear_ratio="1").as_json()["results"]["servo"].startswith("none")
+
+
+def test_gears_are_chosen_for_the_smallest_servo() -> None:
+    """46.4 Nm at rest in the quoted pose: 200 W give 0.637 Nm; 1:100 with an efficiency of 0.9 does, 1:70 not."""
+    said = answer().as_json()["results"]
+    assert said["gear_ratio"] == 100.0
+    assert said["servo"].startswith("servo 200 W")
+    assert said["servo_torque"] == pytest.approx(abs(said["drive_torque_static"]) / (100 * 0.9))
+    assert said["servo_speed"] == pytest.approx(100.0)
+    assert said["instead"]["gear_ratio"] == 3.0
+    quick = answer(speed="10rad/s", grip_force="1500N").as_json()["results"]
+    assert quick["servo"] != said["servo"]
+    none = answer(speed="1000rad/s")
+    assert none.as_json()["results"]["servo"].startswith("none")
+    assert any("no servo of the catalogue gives" in said for said in none.warnings)
 
 
 def test_the_hand_on_the_other_side_moves_the_mass_there() -> None:

@@ -7,6 +7,7 @@ speed, lubricant and warmth.                                           [inclined
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ilmek.units import rpm
@@ -90,6 +91,21 @@ def smallest_motor(torque: float, speed: float = 0.0, kind: str | None = None) -
     least = torque * (1 - _ROUNDING), speed * (1 - _ROUNDING)
     enough = [m for m in MOTORS if m.torque >= least[0] and m.speed >= least[1] and kind in (None, m.kind)]
     return min(enough, key=lambda motor: motor.power, default=None)
+
+
+def geared_motor(
+    torque: float, speed: float, reducers: Sequence[Reducer], kind: str | None = None
+) -> tuple[Motor, Reducer] | None:
+    """The motor of least power that gives `torque` [N m] at `speed` [rad/s] behind one of the reducers, and the first
+    of them with which it does; None where no motor does.
+
+    >>> motor, gear = geared_motor(20.0, 1.0, [Reducer(ratio, 0.9) for ratio in (10, 50, 100)], "servo")
+    >>> motor.name, gear.ratio
+    ('servo 100 W, 3000 rpm, 0.318 N m', 100)
+    """
+    found = [(smallest_motor(by.motor_torque(torque), by.ratio * speed, kind), by) for by in reducers]
+    pairs = [(motor, by) for motor, by in found if motor is not None]
+    return min(pairs, key=lambda pair: pair[0].power, default=None)
 
 
 def most_torque(speed: float) -> float:

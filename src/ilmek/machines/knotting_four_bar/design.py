@@ -8,10 +8,10 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.inertia import Inertia
-from ilmek.elements.motors import Motor, Reducer, smallest_motor
 from ilmek.linkage.quality import Grashof, grashof, input_range, transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
+from ilmek.machines.knotting_four_bar.drive import Drive, drive_for
 from ilmek.machines.knotting_four_bar.instead import Instead, instead
 from ilmek.machines.knotting_four_bar.model import State, closing_ground, evaluate, inertias, mechanism, parts
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
@@ -60,19 +60,14 @@ class KnottingFourBar:
         return min(angle, math.pi - angle)
 
     @property
-    def reducer(self) -> Reducer:
-        """The gears between servo and crank."""
-        return Reducer(self.params.gear_ratio, self.params.gear_efficiency)
+    def drive(self) -> Drive:
+        """The drive for the torque at the crank angle asked for, moving or at rest, whichever is greater."""
+        return drive_for(self.params, max(abs(float(state.torque[0])) for state in (self.at, self.static)))
 
     @property
-    def servo_torque(self) -> float:
-        """Torque of the servo at the crank angle asked for [N m]."""
-        return self.reducer.motor_torque(abs(float(self.at.torque[0])))
-
-    @property
-    def servo(self) -> Motor | None:
-        """The smallest servo of the catalogue for that torque and speed; None where none is enough."""
-        return smallest_motor(self.servo_torque, abs(self.params.speed) * self.params.gear_ratio, "servo")
+    def drive_instead(self) -> Drive:
+        """The drive for the greatest torque of the four-bar to use instead at the report's poses."""
+        return drive_for(self.params, float(np.max(np.abs(self.instead.state.torque))))
 
 
 def design(params: KnottingFourBarParams) -> KnottingFourBar:

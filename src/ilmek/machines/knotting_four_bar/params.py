@@ -68,7 +68,12 @@ class KnottingFourBarParams(Params):
     gripper_length: float = _length(5 * mm, "gripper beyond the holder, along the coupler")
     gripper_width: float = _length(4 * mm, "both jaws of the gripper, across the coupler")
     gravity: float = param(9.81, unit="m/s^2", at_least=0.0, at_most=1e3, doc="free fall, towards -y", symbol="g")
-    gear_ratio: float = param(1.0, above=0.0, at_most=1e4, doc="turns of the servo for one of the crank")
+    gear_ratio: float | None = param(
+        None,
+        above=0.0,
+        at_most=1e4,
+        doc="turns of the servo for one of the crank; unsaid: the least with which the smallest servo will do",
+    )
     gear_efficiency: float = param(0.9, above=0.0, at_most=1.0, doc="efficiency of the gears", symbol="η")
 
     def check_together(self) -> None:

@@ -4,6 +4,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
+from ilmek.machines.knotting_four_bar.drive import Drive
 from ilmek.machines.knotting_four_bar.figures import figures
 from ilmek.machines.knotting_four_bar.instead import Instead
 from ilmek.machines.knotting_four_bar.model import State
@@ -86,13 +87,17 @@ def _torques(design: KnottingFourBar) -> tuple[float, float]:
 
 
 def _drive(design: KnottingFourBar) -> tuple[Result, ...]:
-    servo = design.servo
-    said = servo.name if servo else "none of the catalogue is enough"
+    drive = design.drive
     return (
-        Result("servo_torque", design.servo_torque, "N*m", "torque of the servo at crank_angle, through the gears"),
-        Result("servo_speed", abs(design.params.speed) * design.params.gear_ratio, "rad/s", "speed of the servo"),
-        Result("servo", said, "", "smallest servo that gives both"),
+        Result("servo_torque", drive.torque, "N*m", "torque of the servo at crank_angle, moving or at rest"),
+        Result("servo_speed", drive.speed, "rad/s", "speed of the servo"),
+        Result("gear_ratio", drive.reducer.ratio, "", "turns of the servo for one of the crank"),
+        Result("servo", _servo(drive), "", "smallest servo that gives both"),
     )
+
+
+def _servo(drive: Drive) -> str:
+    return drive.servo.name if drive.servo else "none of the catalogue is enough"
 
 
 def _mass(design: KnottingFourBar) -> Result:
@@ -117,11 +122,14 @@ def _instead(design: KnottingFourBar) -> Result:
         "crank_angles": made.crank_angles.tolist(),
         "drive_torques": made.state.torque.tolist(),
         "transmission_angle_min": _least_transmission(made),
+        "gear_ratio": design.drive_instead.reducer.ratio,
+        "servo": _servo(design.drive_instead),
     }
     meaning = (
-        "four-bar whose coupler takes the report's three poses: parameters to set, and at the poses crank and torque"
+        "four-bar whose coupler takes the report's three poses: parameters to set; crank and torque at the poses, "
+        "gears and servo for the greatest; SI"
     )
-    return Result("instead", answer, "", f"{meaning}; SI")
+    return Result("instead", answer, "", meaning)
 
 
 def _least_transmission(made: Instead) -> float:
@@ -138,6 +146,18 @@ def _checks(design: KnottingFourBar) -> tuple[Check, ...]:
 
 
 def _warnings(design: KnottingFourBar) -> tuple[str, ...]:
+    return (*_near_dead_point(design), *_too_weak(design))
+
+
+def _too_weak(design: KnottingFourBar) -> tuple[str, ...]:
+    drive = design.drive
+    if drive.servo:
+        return ()
+    torque, speed = format_quantity(drive.torque, "N*m"), format_quantity(drive.speed, "rad/s")
+    return (f"no servo of the catalogue gives {torque} at {speed}, behind any of the gears",)
+
+
+def _near_dead_point(design: KnottingFourBar) -> tuple[str, ...]:
     if design.dead_point_distance >= DISTANCE:
         return ()
     distance = format_quantity(design.dead_point_distance, "deg")

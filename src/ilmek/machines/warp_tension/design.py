@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from ilmek.cams.laws import LAWS
 from ilmek.elements import beams, shafts
 from ilmek.elements.materials import GRAVITY, MATERIALS
-from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor
+from ilmek.elements.motors import Motor, Reducer, geared_motor, most_torque
 from ilmek.errors import ParameterError
 from ilmek.params import Params, param
 from ilmek.units import MPa, N, format_quantity, m, mm, ms, s, turn
@@ -234,11 +234,7 @@ def _drive(params: WarpTensionParams, torque: float, rate: float) -> tuple[Reduc
     reducers = [Reducer(ratio, params.efficiency) for ratio in ratios]
     if params.motor_torque is not None:
         return reducers[0], None, reducers[0].ratio * rate
-    found = [(smallest_motor(by.motor_torque(torque), by.ratio * rate), by) for by in reducers]
-    motors = [(motor, by) for motor, by in found if motor is not None]
-    if not motors:
-        return reducers[-1], None, reducers[-1].ratio * rate
-    motor, reducer = min(motors, key=lambda pair: pair[0].power)
+    motor, reducer = geared_motor(torque, rate, reducers) or (None, reducers[-1])
     return reducer, motor, reducer.ratio * rate
 
 
