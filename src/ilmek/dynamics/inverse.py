@@ -10,17 +10,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Int8
 
-from ilmek.arrays import ComplexArray, FloatArray, RealField
-from ilmek.dynamics.equations import joint_pulls, needs
+from ilmek.arrays import BoolArray, ComplexArray, FloatArray, RealField
+from ilmek.dynamics.equations import Needs, joint_pulls, needs
 from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.joint_friction import JointFriction, check_joints, frictions, loaded
 from ilmek.dynamics.loads import Load, Wrench
-from ilmek.dynamics.posed import BLOCK, Posed, Pull, part_of, posed, receiver
+from ilmek.dynamics.posed import BLOCK, Posed, Pull, cut, part_of, posed, receiver
 from ilmek.errors import MechanismError
-from ilmek.linkage.model import GROUND, Mechanism, Slide
+from ilmek.linkage.model import GROUND, Mechanism, Rotation, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.status import Status
 from ilmek.plane.vectors import dot
+from ilmek.units import format_quantity
 
 MASSLESS = Inertia(0.0, 0j, 0.0)
 
@@ -29,21 +32,49 @@ MASSLESS = Inertia(0.0, 0j, 0.0)
 class Forces:
     """Forces over a motion, one a sample; NaN where the motion does not close or stands at a dead centre.
 
+    motion        whose forces they are
+    status        Status of each sample: the motion's, and NOT_CONVERGED where friction locks the mechanism
     reactions     joint -> force on the second body of the pin, or across the line on the slide's body [N], complex
     couples       slide -> couple on the slide's body [N m]
     efforts       input -> torque [N m] or force along the line [N] on the driven body
     input_power   Σ effort times speed of the drive [W]
-    load_power    power of the loads, weight among them [W]
+    frictions     joint that rubs -> torque [N m] or force along the line [N] on the same body as its reaction
+    load_power    power of the loads, weight and friction among them [W]
     kinetic_rate  time derivative of the kinetic energy [W]
     """
 
-    mechanism: Mechanism
+    motion: Motion
+    status: Int8[np.ndarray, " samples"]
     reactions: Mapping[str, ComplexArray]
     couples: Mapping[str, FloatArray]
     efforts: Mapping[str, FloatArray]
+    frictions: Mapping[str, FloatArray]
     input_power: FloatArray
     load_power: FloatArray
     kinetic_rate: FloatArray
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism."""
+        return self.motion.plan.mechanism
+
+    def require(self) -> "Forces":
+        """The forces themselves, if every sample has them.
+
+        Raises MechanismError that says where the mechanism does not close, or where friction locks it.
+        """
+        self.motion.require()
+        if not self.status.any():
+            return self
+        locked, entry = self.status != Status.OK, self.mechanism.inputs[0]
+        unit = "deg" if isinstance(entry, Rotation) else "mm"
+        values = np.asarray(self.motion.drives[entry.name].value)[locked]
+        first, last = (format_quantity(float(value), unit) for value in (values.min(), values.max()))
+        raise MechanismError(
+            f"{self.mechanism.name} locks itself by friction at {int(locked.sum())} of {locked.size} samples, "
+            f"{entry.name} from {first} to {last}: no drive keeps up the motion",
+            do="lower the friction, lengthen the guidance, or better the transmission angle there",
+        )
 
     def pin(self, name: str, on: str | None = None) -> ComplexArray:
         """Force in a joint [N] on body `on`; unsaid: on the second body of a pin, the sliding body of a slide."""
@@ -77,42 +108,77 @@ class Forces:
         return float(np.max(np.abs(self.power_residual[usable]), initial=0.0)) / top if top else 0.0
 
 
-def inverse(motion: Motion, inertias: Mapping[str, Inertia], loads: Sequence[Load] = ()) -> Forces:
-    """Joint forces and efforts of a motion, under inertia and loads.
+def inverse(
+    motion: Motion,
+    inertias: Mapping[str, Inertia],
+    loads: Sequence[Load] = (),
+    rubbing: Sequence[JointFriction] = (),
+    *,
+    side: RealField = 1.0,
+) -> Forces:
+    """Joint forces and efforts of a motion, under inertia, loads and friction in the joints.
 
-    inertias  body -> inertia; a body not named is massless. Raises MechanismError for an unknown body.
+    inertias  body -> inertia; a body not named is massless
+    rubbing   joints with friction, consistent with the forces that it changes; see `joint_friction`
+    side      where a joint that rubs turns round: +1 the forces just after in time, -1 just before, one or one a sample
+
+    Raises MechanismError for an unknown body or joint, and for friction where no input moves. Never fails for a sample:
+    see `Forces.status` and `Forces.require`.
     """
     mechanism = motion.plan.mechanism
     for body in inertias:
         mechanism.body(body)
+    check_joints(mechanism, rubbing)
     bodies = {body: inertias.get(body, MASSLESS) for body in mechanism.moving}
     wrenches = [wrench for load in loads for wrench in load.wrenches(motion, bodies) if wrench.body != GROUND]
-    forces = _room(mechanism, len(motion))
+    forces = _room(motion, rubbing)
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         for start in range(0, len(motion), BLOCK):
             part = slice(start, start + BLOCK)
             poses = posed(part_of(motion, part), bodies)
-            _fill(forces, part, poses, bodies, [wrench.part(part) for wrench in wrenches])
+            acting = [wrench.part(part) for wrench in wrenches]
+            needed = needs(poses, bodies, acting)
+            forces.load_power[part] += _load_power(poses, acting)
+            if rubbing:
+                found, locked = frictions(poses, needed, rubbing, cut(side, part))
+                needed = loaded(poses, needed, found)
+                _note_friction(forces, part, poses, found, locked)
+            forces.kinetic_rate[part] = _kinetic_rate(poses, bodies)
+            _fill(forces, part, poses, needed)
     return forces
 
 
-def _room(mechanism: Mechanism, samples: int) -> Forces:
+def _room(motion: Motion, rubbing: Sequence[JointFriction]) -> Forces:
     """Forces yet to be filled in."""
+    mechanism, samples = motion.plan.mechanism, len(motion)
     return Forces(
-        mechanism,
+        motion,
+        motion.status.copy(),
         reactions={joint.name: np.empty(samples, complex) for joint in mechanism.joints},
         couples={joint.name: np.empty(samples) for joint in mechanism.joints if isinstance(joint, Slide)},
         efforts={entry.name: np.empty(samples) for entry in mechanism.inputs},
+        frictions={one.joint: np.empty(samples) for one in rubbing},
         input_power=np.zeros(samples),
         load_power=np.zeros(samples),
         kinetic_rate=np.zeros(samples),
     )
 
 
-def _fill(forces: Forces, part: slice, poses: Posed, bodies: Mapping[str, Inertia], wrenches: Sequence[Wrench]) -> None:
+def _note_friction(
+    forces: Forces, part: slice, poses: Posed, found: Mapping[str, FloatArray], locked: BoolArray
+) -> None:
+    """Write the friction of a block of samples into the forces."""
+    status = forces.status[part]
+    status[locked & (status == Status.OK)] = Status.NOT_CONVERGED
+    for name, friction in found.items():
+        forces.frictions[name][part] = friction
+        forces.load_power[part] += friction * poses.rate(poses.joints[name])
+
+
+def _fill(forces: Forces, part: slice, poses: Posed, needed: Needs) -> None:
     """Solve a block of samples and write it into the forces."""
-    pulls = joint_pulls(poses, needs(poses, bodies, wrenches))
-    lost = poses.motion.status != Status.OK
+    pulls = joint_pulls(poses, needed)
+    lost = forces.status[part] != Status.OK
     for entry in forces.mechanism.inputs:
         joint = poses.joints[entry.joint]
         pull = pulls[entry.joint]
@@ -124,8 +190,6 @@ def _fill(forces: Forces, part: slice, poses: Posed, bodies: Mapping[str, Inerti
         forces.reactions[name][part] = np.where(lost, np.nan, pull.force)
         if name in forces.couples:
             forces.couples[name][part] = np.where(lost, np.nan, pull.moment)
-    forces.load_power[part] = _load_power(poses, wrenches)
-    forces.kinetic_rate[part] = _kinetic_rate(poses, bodies)
 
 
 def _load_power(poses: Posed, wrenches: Sequence[Wrench]) -> RealField:
