@@ -10,7 +10,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, parse_mechanism
 from ilmek.io.places import json_places, toml_places
 from ilmek.io.toml_text import toml_text
-from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.model import GROUND, Body, Coupling, Displacement, Mechanism, Pin, Rotation, Slide
 
 REAL = st.floats(allow_nan=False, allow_infinity=False)
 POSITIVE = st.floats(0, 1e300)
@@ -111,6 +111,21 @@ def test_every_key_of_a_toml_text_has_a_place(data):
 
     look(data, ())
     assert len(found) >= 1
+
+
+def test_couplings_round_trip():
+    wheels = {name: Body(name, {name: 0}) for name in ("a", "b", "c")}
+    slide = Slide("s", "c", "b", 0.1, 0.2)
+    bodies = (Body(GROUND, {"a": 0, "b": 1}), wheels["a"], Body("b", {"b": 0, "s": 0}), Body("c", {"s": 1, "c": 0}))
+    couplings = (
+        Coupling("one", "gears", ("a", "a"), ("b", "b"), -1 / 3, 0.1 + 0.2, 1e-300),
+        Coupling("two", "belt", (GROUND, "a"), ("b", "b"), 2 / 3, -0.0, 1.0, "a"),
+        Coupling("three", "rack", ("a", "a"), ("c", "s"), -0.1, 0.7, 5e-324, "b"),
+    )
+    joints = (Pin("a", GROUND, "a"), Pin("b", GROUND, "b"), slide)
+    mechanism = Mechanism(bodies, joints, (Rotation("a", "a"),), couplings=couplings)
+    for write, toml in ((mechanism_toml, True), (mechanism_json, False)):
+        assert parse_mechanism(write(mechanism, {}), toml=toml).mechanism == mechanism
 
 
 def test_smallest_and_greatest_numbers_survive():

@@ -8,6 +8,7 @@ import pytest
 from ilmek.errors import MechanismError, OutputError
 from ilmek.io.mechanism_file import parse_mechanism, read_mechanism, schema, write_mechanism
 from ilmek.linkage.fourbar import four_bar, slider_crank
+from ilmek.linkage.model import Coupling
 
 FOUR_BAR = """\
 name = "four-bar"
@@ -204,3 +205,30 @@ def test_the_schema_holds_only_words_that_its_reader_knows():
             assert set(part) <= words, at
             if "$ref" in part:
                 assert part["$ref"] in places
+
+
+def test_couplings_are_read_with_their_units():
+    text = """
+    [bodies]
+    ground.points = { O = [0, 0], way = [0, "-20mm"] }
+    pinion.points.O = [0, 0]
+    rack.points.way = [0, 0]
+    [joints]
+    O = { pin = ["ground", "pinion"] }
+    way = { slide = ["rack", "ground"] }
+    [couplings]
+    teeth = { rack = [["pinion", "O"], ["rack", "way"]], ratio = "20mm/rad", first_at = "90deg", second_at = "1cm" }
+    [inputs]
+    O = "pinion"
+    """
+    (coupling,) = parse_mechanism(text).mechanism.couplings
+    assert coupling == Coupling("teeth", "rack", ("pinion", "O"), ("rack", "way"), 0.02, 1.5707963267948966, 0.01)
+    mistakes = {
+        '"20mm/rad"': ('"20mm"', "line 10, couplings.teeth.ratio: '20mm' has the wrong unit"),
+        '["rack", "way"]': ('["rack", "O"]', "line 10, couplings.teeth: body 'rack' of mechanism has no point 'O'"),
+        'second_at = "1cm"': ("second = 1", "line 10, couplings.teeth: has no 'second_at'"),
+    }
+    for before, (after, said) in mistakes.items():
+        with pytest.raises(MechanismError) as caught:
+            parse_mechanism(text.replace(before, after))
+        assert said in str(caught.value)

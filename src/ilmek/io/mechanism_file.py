@@ -40,7 +40,19 @@ from ilmek.io.places import Places, json_places, toml_places
 from ilmek.io.schema import Reader, Schema, Sheet
 from ilmek.io.text_file import read_text
 from ilmek.io.toml_text import toml_text
-from ilmek.linkage.model import Body, Displacement, Input, Joint, Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.model import (
+    GROUND,
+    KINDS,
+    Body,
+    Coupling,
+    Displacement,
+    Input,
+    Joint,
+    Mechanism,
+    Pin,
+    Rotation,
+    Slide,
+)
 from ilmek.linkage.structure import Plan, plan
 
 LARGEST = 1_000_000
@@ -163,6 +175,7 @@ def _built(data: Mapping[str, Any], sheet: Sheet) -> MechanismFile:
             inputs=tuple(_input(name, body, name in sliding) for name, body in data["inputs"].items()),
             branches=data.get("branches", {}),
             name=data.get("name", "mechanism"),
+            couplings=tuple(_coupling(name, table) for name, table in data.get("couplings", {}).items()),
             pose={body: (complex(*pose["origin"]), pose["angle"]) for body, pose in data.get("pose", {}).items()},
         )
         for entry in mechanism.inputs:
@@ -176,6 +189,13 @@ def _joint(name: str, table: Mapping[str, Any]) -> Joint:
         return Pin(name, first, second)
     body, guide = table["slide"]
     return Slide(name, body, guide, along=table.get("along", 0.0), turned=table.get("turned", 0.0))
+
+
+def _coupling(name: str, table: Mapping[str, Any]) -> Coupling:
+    kind = next(kind for kind in KINDS if kind in table)
+    first, second = (tuple(end) for end in table[kind])
+    carrier = table.get("carrier", GROUND)
+    return Coupling(name, kind, first, second, table["ratio"], table["first_at"], table["second_at"], carrier)
 
 
 def _input(joint: str, body: str, slides: bool) -> Input:
@@ -197,6 +217,7 @@ def _data(mechanism: Mechanism, inertias: Mapping[str, Inertia]) -> dict[str, An
         "name": mechanism.name,
         "bodies": {body.name: _body_data(body, inertias.get(body.name)) for body in mechanism.bodies},
         "joints": {joint.name: _joint_data(joint) for joint in mechanism.joints},
+        "couplings": {coupling.name: _coupling_data(coupling) for coupling in mechanism.couplings},
         "inputs": joined,
         "branches": dict(mechanism.branches),
         "pose": {body: {"origin": _place(at), "angle": float(angle)} for body, (at, angle) in mechanism.pose.items()},
@@ -220,6 +241,11 @@ def _joint_data(joint: Joint) -> dict[str, Any]:
     if isinstance(joint, Pin):
         return {"pin": list(joint.bodies)}
     return {"slide": list(joint.bodies), "along": float(joint.along), "turned": float(joint.turned)}
+
+
+def _coupling_data(one: Coupling) -> dict[str, Any]:
+    numbers = {name: float(getattr(one, name)) for name in ("ratio", "first_at", "second_at")}
+    return {one.kind: [list(one.first), list(one.second)], "carrier": one.carrier, **numbers}
 
 
 def _place(point: complex) -> list[float]:

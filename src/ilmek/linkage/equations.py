@@ -17,7 +17,7 @@ import numpy as np
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.groups.group import Drive, Known
-from ilmek.linkage.model import Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.model import Coupling, Mechanism, Pin, Rotation, Slide
 from ilmek.plane.vectors import dot
 
 Row: TypeAlias = dict[str, tuple[RealField, RealField, RealField]]
@@ -69,6 +69,31 @@ def rotation_equation(mechanism: Mechanism, entry: Rotation, drive: Drive, bodie
     carrier = second if entry.body == first else first
     held = _angle(entry.body, carrier, drive.value, bodies)
     return Equation(held.value, held.row, held.bias, drive.speed, drive.acceleration, length=0)
+
+
+def coupling_equation(mechanism: Mechanism, coupling: Coupling, near: RealField, bodies: Known) -> Equation:
+    """q_second - second_at - ratio (q_first - first_at) = 0; near: q_first [rad] within half a turn."""
+    (first, _), (second, point) = coupling.first, coupling.second
+    turned = angle_near(bodies[first].direction, bodies[coupling.carrier].direction, near) - coupling.first_at
+    wanted = coupling.second_at + coupling.ratio * turned
+    joint = mechanism.joint(point) if coupling.kind == "rack" else None
+    share: RealField = 1.0
+    if isinstance(joint, Slide):
+        held = _along(mechanism, joint, bodies, 1)
+        value, length = held.value - wanted, 1
+    else:
+        held = _angle(second, coupling.carrier, wanted, bodies)
+        share, value, length = held.row[second][2], held.value, 0
+    row, geared = dict(held.row), share * coupling.ratio
+    x, y, spin = row[coupling.carrier]
+    row |= {first: (0, 0, -geared), coupling.carrier: (x, y, spin + geared)}
+    return Equation(value, row, held.bias if length else 0.0, length=length)
+
+
+def angle_near(direction: ComplexField, against: ComplexField, near: RealField) -> RealField:
+    """Angle [rad] from one direction to another, within half a turn of `near`."""
+    turned: RealField = near + np.angle(direction * np.conj(against) * np.exp(-1j * np.asarray(near)))
+    return turned
 
 
 def travel(mechanism: Mechanism, slide: Slide, bodies: Known) -> RealField:

@@ -14,6 +14,7 @@ from ilmek.arrays import FloatArray, RealField
 from ilmek.linkage.body_motion import STILL
 from ilmek.linkage.equations import Equation
 from ilmek.linkage.groups.block import Block
+from ilmek.linkage.groups.course import angles
 from ilmek.linkage.groups.group import Drive, Group, Known
 from ilmek.linkage.model import Mechanism
 from ilmek.linkage.moves import Moves
@@ -68,7 +69,9 @@ def loops(mechanism: Mechanism) -> Loops:
     scale = whole.reach
     joints = [(one.name, Group(mechanism, mechanism.moving, (one,), ())) for one in mechanism.joints]
     inputs = [(one.joint, Group(mechanism, mechanism.moving, (), (one,))) for one in mechanism.inputs]
-    held = tuple((name, Block(group, scale)) for name, group in joints + inputs)
+    couplings = [(one.name, Group(mechanism, mechanism.moving, (), (), (one,))) for one in mechanism.couplings]
+    known = angles(mechanism) if couplings else {}
+    held = tuple((name, Block(group, scale, known)) for name, group in joints + couplings + inputs)
     drawn = {body.name: STILL for body in mechanism.bodies}
     drives = {entry.name: Drive(0.0, 0.0, 0.0) for entry in mechanism.inputs}
     counted = tuple(name for name, block in held for _ in block.equations(drawn, drives))

@@ -122,6 +122,42 @@ class Displacement:
         return self.slide
 
 
+@dataclass(frozen=True, slots=True)
+class Coupling:
+    """A fixed ratio between the motions of two bodies on one carrier: gears, a belt or chain, a rack and its pinion.
+
+        q_second - second_at = ratio (q_first - first_at)
+
+    kind     "gears", "belt" or "rack"
+    first    body and its point in the middle of the wheel; q is its angle against the carrier [rad]
+    second   the same of the other wheel; for a rack the sliding body and its slide, q the slide's displacement s [m]
+    ratio    gears outside one another -z1/z2, one inside the other z1/z2; an open belt r1/r2, a crossed one -r1/r2;
+             rack: way for a radian of the pinion [m/rad], its pitch radius with a sign
+    first_at, second_at   both as assembled: which teeth meet is said, never guessed
+    carrier  the body that both are hung on; it may move (planetary gears); for a rack the slide's guide
+
+    Nothing is lost between inputs and wheels: angles that inputs and ratios alone determine count full turns. Any other
+    `first` (or `second`) is taken within half a turn of `first_at` (`second_at`).
+    """
+
+    name: str
+    kind: str
+    first: tuple[str, str]
+    second: tuple[str, str]
+    ratio: float
+    first_at: float
+    second_at: float
+    carrier: str = GROUND
+
+    @property
+    def bodies(self) -> tuple[str, str, str]:
+        """First, second, carrier."""
+        return self.first[0], self.second[0], self.carrier
+
+
+KINDS = ("gears", "belt", "rack")
+"""Kinds of couplings."""
+
 Joint: TypeAlias = Pin | Slide
 Input: TypeAlias = Rotation | Displacement
 Named = TypeVar("Named", Body, Pin | Slide)
@@ -138,6 +174,7 @@ class Mechanism:
     name      said in messages
     pose      body -> (origin [m], angle [rad]) in some assembled position, roughly; needed only by groups without a
               closed form, which Newton's method follows from there. A body not named is taken as drawn in place.
+    couplings  gears, belts, racks
 
     Raises MechanismError for a name used twice or unknown, a body that no joint holds, a link of zero length, a
     branch that is neither +1 nor -1, a pose that is not finite. Whether joints and inputs leave exactly no freedom is
@@ -150,9 +187,10 @@ class Mechanism:
     branches: Mapping[str, int] = field(default_factory=dict)
     name: str = "mechanism"
     pose: Mapping[str, tuple[complex, float]] = field(default_factory=dict)
+    couplings: tuple[Coupling, ...] = ()
 
     def __post_init__(self) -> None:
-        for one in ("bodies", "joints", "inputs"):
+        for one in ("bodies", "joints", "inputs", "couplings"):
             object.__setattr__(self, one, tuple(getattr(self, one)))
         object.__setattr__(self, "branches", dict(self.branches))
         object.__setattr__(self, "pose", dict(self.pose))
@@ -181,8 +219,8 @@ class Mechanism:
 
 
 def freedom(mechanism: Mechanism) -> int:
-    """Degrees of freedom by count, the inputs left free: 3 a moving body less 2 a joint [Gruebler's count]."""
-    return 3 * len(mechanism.moving) - 2 * len(mechanism.joints)
+    """Freedoms by count, the inputs left free: 3 a moving body less 2 a joint, 1 a coupling [Gruebler's count]."""
+    return 3 * len(mechanism.moving) - 2 * len(mechanism.joints) - len(mechanism.couplings)
 
 
 def _find(name: str, among: Iterable[Named], kind: str, of: str) -> Named:
@@ -199,6 +237,9 @@ def _check(mechanism: Mechanism) -> None:
     for joint in mechanism.joints:
         with _about("joints", joint.name):
             _check_joint(mechanism, joint)
+    for coupling in mechanism.couplings:
+        with _about("couplings", coupling.name):
+            _check_coupling(mechanism, coupling)
     for entry in mechanism.inputs:
         with _about("inputs", entry.joint):
             _check_input(mechanism, entry)
@@ -224,7 +265,8 @@ def _about(*path: str) -> Iterator[None]:
 
 
 def _check_names(mechanism: Mechanism) -> None:
-    for kind, named in (("bodies", mechanism.bodies), ("joints", mechanism.joints), ("inputs", mechanism.inputs)):
+    for kind in ("bodies", "joints", "inputs", "couplings"):
+        named = getattr(mechanism, kind)
         for name, times in Counter(one.name for one in named).items():
             if times > 1:
                 raise MechanismError(f"{mechanism.name} has {times} {kind} named {name!r}", do="give each its own name")
@@ -240,6 +282,26 @@ def _check_joint(mechanism: Mechanism, joint: Joint) -> None:
         mechanism.point(body, joint.name)
     if isinstance(joint, Slide) and not (math.isfinite(joint.along) and math.isfinite(joint.turned)):
         raise MechanismError(f"slide {joint.name!r} has along={joint.along}, turned={joint.turned}: angles in radians")
+
+
+def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
+    said = f"coupling {coupling.name!r} of {mechanism.name}"
+    if coupling.kind not in KINDS:
+        raise MechanismError(f"{said} is of kind {coupling.kind!r}", allowed=", ".join(KINDS))
+    if len(set(coupling.bodies)) < 3:
+        raise MechanismError(f"{said} joins {', '.join(coupling.bodies)}", allowed="three different bodies")
+    for body, point in (coupling.first, coupling.second):
+        mechanism.point(body, point)
+    mechanism.body(coupling.carrier)
+    numbers = (coupling.ratio, coupling.first_at, coupling.second_at)
+    if not all(math.isfinite(number) for number in numbers) or coupling.ratio == 0:
+        given = f"{said} has ratio {coupling.ratio:g}, assembled at {coupling.first_at:g} and {coupling.second_at:g}"
+        raise MechanismError(given, allowed="finite numbers, the ratio not 0")
+    if coupling.kind == "rack":
+        slide = mechanism.joint(coupling.second[1])
+        if not isinstance(slide, Slide) or slide.bodies != (coupling.second[0], coupling.carrier):
+            given = f"{said} wants a slide {coupling.second[1]!r} of {coupling.second[0]!r} on {coupling.carrier!r}"
+            raise MechanismError(given, allowed=f"it is a {type(slide).__name__.lower()} of {', '.join(slide.bodies)}")
 
 
 def _check_input(mechanism: Mechanism, entry: Input) -> None:

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from ilmek.errors import MechanismError
-from ilmek.linkage.groups import block, prp, rpp, rpr, rrp, rrr, shift, turn
+from ilmek.linkage.groups import block, follower, geared, prp, rpp, rpr, rrp, rrr, shift, turn
 from ilmek.linkage.groups.group import Group, Step
 from ilmek.linkage.model import GROUND, Mechanism, freedom
 
@@ -29,6 +29,8 @@ CLOSED_FORMS: tuple[Callable[[Group], Step | None], ...] = (
     rpr.recognise,
     prp.recognise,
     rpp.recognise,
+    geared.recognise,
+    follower.recognise,
 )
 """The groups solved in closed form; a further one is one more row."""
 
@@ -80,14 +82,19 @@ def _group(mechanism: Mechanism, bodies: Iterable[str], known: set[str]) -> Grou
     )
     driven = {joint.name for joint in joints}
     inputs = tuple(entry for entry in mechanism.inputs if entry.joint in driven)
-    return Group(mechanism, tuple(bodies), joints, inputs)
+    couplings = tuple(
+        coupling
+        for coupling in mechanism.couplings
+        if chosen & set(coupling.bodies) and set(coupling.bodies) <= chosen | known
+    )
+    return Group(mechanism, tuple(bodies), joints, inputs, couplings)
 
 
 def _over_constrained(group: Group) -> MechanismError:
     """A group that is held too often: by more inputs than the whole has freedoms, or by joints."""
     whole = group.mechanism
     free, driven = freedom(whole), [entry.name for entry in whole.inputs]
-    held = f"joints {', '.join(joint.name for joint in group.joints)} hold it {_times(-group.freedom)} too often"
+    held = f"{_holding(group)} hold it {_times(-group.freedom)} too often"
     if 0 <= free < len(driven):
         held += f": the inputs {', '.join(driven)} drive {free} {'freedom' if free == 1 else 'freedoms'}"
         do = f"take {len(driven) - free} of the inputs away"
@@ -97,6 +104,11 @@ def _over_constrained(group: Group) -> MechanismError:
     return MechanismError(given, allowed=held, do=do, about=("joints", group.joints[-1].name))
 
 
+def _holding(group: Group) -> str:
+    held = f"joints {', '.join(joint.name for joint in group.joints)}"
+    return held + (f" and couplings {', '.join(one.name for one in group.couplings)}" if group.couplings else "")
+
+
 def _times(count: int) -> str:
     return "once" if count == 1 else f"{count} times"
 
@@ -104,11 +116,11 @@ def _times(count: int) -> str:
 def _under_constrained(group: Group) -> MechanismError:
     """Nothing more can be solved: the bodies left, and what holds them."""
     bodies, joints, slack = len(group.bodies), len(group.joints), group.freedom
-    names = ", ".join(joint.name for joint in group.joints)
     free, driven = slack + len(group.inputs), len(group.inputs)
+    geared = f" - {len(group.couplings)}" if group.couplings else ""
     return MechanismError(
         f"{group.mechanism.name} is under-constrained at {', '.join(group.bodies)}",
-        allowed=f"{bodies} bodies and the {joints} joints {names} have 3·{bodies} - 2·{joints} = "
+        allowed=f"{bodies} bodies and the {joints} {_holding(group)} have 3·{bodies} - 2·{joints}{geared} = "
         f"{free} {'freedom' if free == 1 else 'freedoms'}, and {driven} {'is' if driven == 1 else 'are'} driven",
         do=f"drive {slack} more of these joints, or join the bodies further",
         about=("bodies", group.bodies[0]),

@@ -7,7 +7,7 @@ Angles are measured in lengths (times the group's size), so that the condition o
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ilmek.arrays import FloatArray, RealField
 from ilmek.linkage import equations
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.equations import Equation
+from ilmek.linkage.groups.course import Course, angles, first_angle
 from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
 from ilmek.linkage.model import Pin, Rotation, Slide
 from ilmek.num.linear import reciprocal_condition, solve_many
@@ -26,10 +27,15 @@ TOLERANCE = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Block(Step):
-    """A group of any class, its loop equations solved together; `scale` is its size [m]."""
+    """A group of any class, its loop equations solved together.
+
+    scale    its size [m]
+    courses  of the bodies whose angles inputs and couplings alone determine
+    """
 
     group: Group
     scale: float
+    courses: Mapping[str, Course] = field(default_factory=dict)
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -93,6 +99,9 @@ class Block(Step):
                 held.append(equations.rotation_equation(mechanism, entry, drive, bodies))
             elif isinstance(joint, Slide):
                 held.append(equations.displacement_equation(mechanism, joint, drive, bodies))
+        for coupling in self.group.couplings:
+            near = first_angle(coupling, self.courses, drives)
+            held.append(equations.coupling_equation(mechanism, coupling, near, bodies))
         return held
 
     def _rates(self, known: Known, posed: Known, drives: Mapping[str, Drive], matrix: FloatArray) -> Solved:
@@ -149,7 +158,7 @@ def of(group: Group) -> Block:
     """The group as a block for Newton's method."""
     points = [abs(point) for body in group.bodies for point in group.mechanism.body(body).points.values()]
     reach = max([*points, *(abs(p) for p in group.mechanism.body("ground").points.values())])
-    return Block(group, reach or 1.0)
+    return Block(group, reach or 1.0, angles(group.mechanism) if group.couplings else {})
 
 
 def _known_part(one: Equation, bodies: Known, parents: tuple[str, ...], order: int) -> RealField:

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.model import Input, Joint, Mechanism
+from ilmek.linkage.model import Coupling, Input, Joint, Mechanism
 
 Columns: TypeAlias = tuple[Any, ...]
 """What is kept of a body's motion, real and complex fields: enough for `Step.place` to give all of it back."""
@@ -101,11 +101,12 @@ class Group:
     bodies: tuple[str, ...]
     joints: tuple[Joint, ...]
     inputs: tuple[Input, ...]
+    couplings: tuple[Coupling, ...] = ()
 
     @property
     def freedom(self) -> int:
-        """Freedoms by count that joints and inputs leave: 3 a body less 2 a joint and 1 an input [Gruebler's count]."""
-        return 3 * len(self.bodies) - 2 * len(self.joints) - len(self.inputs)
+        """Freedoms that joints, couplings and inputs leave by count: 3 a body less 2, 1 and 1 [Gruebler's count]."""
+        return 3 * len(self.bodies) - 2 * len(self.joints) - len(self.inputs) - len(self.couplings)
 
     @property
     def inner(self) -> tuple[Joint, ...]:
@@ -120,7 +121,7 @@ class Group:
     @property
     def parents(self) -> tuple[str, ...]:
         """The known bodies it hangs on, in the mechanism's order."""
-        touched = {body for joint in self.outer for body in joint.bodies} - set(self.bodies)
+        touched = {body for held in (*self.outer, *self.couplings) for body in held.bodies} - set(self.bodies)
         return tuple(body.name for body in self.mechanism.bodies if body.name in touched)
 
     @property

@@ -1,0 +1,123 @@
+"""Angles and displacements that inputs and couplings alone determine, as numbers of turns and not only as directions.
+
+Every angle theta of a body and displacement s of a slide is an unknown of one linear system:
+
+    slide        theta_body - theta_guide = turned
+    input        theta_body - theta_other = q,  or  s = q
+    gears, belt  theta_2 - theta_c - second_at = ratio (theta_1 - theta_c - first_at)
+    rack         s - second_at = ratio (theta_1 - theta_c - first_at)
+
+Where it determines an unknown, that is  constant + sum of factor times input  [Willis, Principles of Mechanism:
+epicyclic trains by their relative angles].
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.linkage.groups.group import Drive
+from ilmek.linkage.model import GROUND, Coupling, Mechanism, Rotation, Slide
+
+FREE = 1e-9
+"""A share of an unknown this large in what the system leaves free: it is not determined."""
+
+ROUNDING = 2e-15
+"""A factor this near to a number of twelve decimals is that number."""
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """constant + sum of factor times input [rad or m]; shares: input -> factor."""
+
+    constant: float
+    shares: Mapping[str, float]
+
+    def drive(self, drives: Mapping[str, Drive]) -> Drive:
+        """Value, speed and acceleration at the inputs' courses."""
+        value: RealField = self.constant
+        speed: RealField = 0.0
+        acceleration: RealField = 0.0
+        for name, factor in self.shares.items():
+            value = value + factor * drives[name].value
+            speed = speed + factor * drives[name].speed
+            acceleration = acceleration + factor * drives[name].acceleration
+        return Drive(value, speed, acceleration)
+
+
+def angles(mechanism: Mechanism) -> dict[str, Course]:
+    """Body -> course of its angle [rad] in the world, for the bodies that have one."""
+    return {name: course for (kind, name), course in courses(mechanism).items() if kind == "angle"}
+
+
+def courses(mechanism: Mechanism) -> dict[tuple[str, str], Course]:
+    """("angle", body) or ("travel", slide) -> its course, for those that inputs and couplings determine."""
+    unknown = [("angle", body) for body in mechanism.moving]
+    unknown += [("travel", joint.name) for joint in mechanism.joints if isinstance(joint, Slide)]
+    place = {one: k for k, one in enumerate(unknown)}
+    names = [entry.name for entry in mechanism.inputs]
+    rows = list(_rows(mechanism))
+    left, right = np.zeros((len(rows), len(unknown))), np.zeros((len(rows), 1 + len(names)))
+    for k, (terms, constant, entry) in enumerate(rows):
+        for one, factor in terms:
+            if one in place:
+                left[k, place[one]] += factor
+        right[k, 0] = constant
+        if entry:
+            right[k, 1 + names.index(entry)] = 1.0
+    found: dict[tuple[str, str], Course] = {("angle", GROUND): Course(0.0, {})}
+    if rows:
+        for one, (constant, *factors) in _determined(unknown, left, right):
+            shares = {name: factor for name, factor in zip(names, factors, strict=True) if factor}
+            found[one] = Course(constant, shares)
+    return found
+
+
+def _determined(
+    unknown: list[tuple[str, str]], left: FloatArray, right: FloatArray
+) -> Iterator[tuple[tuple[str, str], list[float]]]:
+    """The unknowns that the system determines, with what they come to: constant and factors."""
+    _, values, rows = np.linalg.svd(left, full_matrices=True)
+    rank = int(np.sum(values > FREE * values[0]))
+    loose = np.linalg.norm(rows[rank:], axis=0)
+    solved = np.linalg.lstsq(left, right, rcond=FREE)[0]
+    whole = np.round(solved, 12)
+    solved = np.where(np.abs(solved - whole) < ROUNDING * np.maximum(1, np.abs(solved)), whole, solved)
+    for k, one in enumerate(unknown):
+        if loose[k] < FREE:
+            yield one, [float(number) for number in solved[k]]
+
+
+Row = tuple[tuple[tuple[tuple[str, str], float], ...], float, str]
+
+
+def _rows(mechanism: Mechanism) -> Iterator[Row]:
+    """The linear equations: terms, constant, and the input that is added to the constant."""
+    for joint in mechanism.joints:
+        if isinstance(joint, Slide):
+            yield ((("angle", joint.body), 1.0), (("angle", joint.guide), -1.0)), joint.turned, ""
+    for entry in mechanism.inputs:
+        if isinstance(entry, Rotation):
+            first, second = mechanism.joint(entry.about).bodies
+            other = second if entry.body == first else first
+            yield ((("angle", entry.body), 1.0), (("angle", other), -1.0)), 0.0, entry.name
+        else:
+            yield ((("travel", entry.slide), 1.0),), 0.0, entry.name
+    for one in mechanism.couplings:
+        yield _coupled(one), one.second_at - one.ratio * one.first_at, ""
+
+
+def _coupled(one: Coupling) -> tuple[tuple[tuple[str, str], float], ...]:
+    first, carrier = (("angle", one.first[0]), -one.ratio), ("angle", one.carrier)
+    if one.kind == "rack":
+        return (("travel", one.second[1]), 1.0), first, (carrier, one.ratio)
+    return (("angle", one.second[0]), 1.0), first, (carrier, one.ratio - 1)
+
+
+def first_angle(coupling: Coupling, known: Mapping[str, Course], drives: Mapping[str, Drive]) -> RealField:
+    """Angle of a coupling's first body against the carrier [rad], to half a turn: of its course, else as assembled."""
+    first, carrier = known.get(coupling.first[0]), known.get(coupling.carrier)
+    if first is None or carrier is None:
+        return coupling.first_at
+    return first.drive(drives).value - carrier.drive(drives).value

@@ -1,0 +1,112 @@
+"""A body that a coupling drives from bodies which no input determines alone: a wheel on a rocker, a rack's pinion.
+
+    q = at + scale (q_source - source_at)
+
+q is an angle against the carrier, of a rack the displacement of its slide; a source's angle is taken within half a turn
+of `source_at`.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.linkage.body_motion import BodyMotion
+from ilmek.linkage.equations import angle_near
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.hang import Hang, hangs
+from ilmek.linkage.model import Coupling, Slide
+from ilmek.plane.vectors import unit
+
+
+@dataclass(frozen=True, slots=True)
+class Follower(Step):
+    """A body on one joint that follows a source through a coupling.
+
+    source  the body that drives it
+    slide   where that is a rack: its point in its own frame; the slide's point and direction in the guide's
+    """
+
+    hang: Hang
+    carrier: str
+    source: str
+    slide: tuple[complex, complex, complex] | None
+    source_at: float
+    at: float
+    scale: float
+    coupling: str
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """The driven body."""
+        return (self.hang.body,)
+
+    @property
+    def parents(self) -> tuple[str, ...]:
+        """What it hangs on, the carrier and the source."""
+        return tuple(dict.fromkeys((self.hang.on, self.carrier, self.source)))
+
+    @property
+    def words(self) -> str:
+        """What it is, for people."""
+        return f"{self.hang.body} driven by {self.source} through {self.coupling}"
+
+    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - follows bodies only
+        """Direction, angular velocity and acceleration; on a slide way, speed and acceleration."""
+        source, carrier = self._source(known), known[self.carrier]
+        value = self.at + self.scale * (source.value - self.source_at)
+        speed, acceleration = self.scale * source.speed, self.scale * source.acceleration
+        if self.hang.track is not None:
+            return Solved({self.hang.body: (value, speed, acceleration)})
+        direction = carrier.direction * unit(value)
+        return Solved({self.hang.body: (direction, carrier.omega + speed, carrier.alpha + acceleration)})
+
+    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+        """The body on its joint."""
+        return {self.hang.body: self.hang.place(known[self.hang.on], columns[self.hang.body])}
+
+    def _source(self, known: Known) -> Drive:
+        """The source's angle against the carrier, or the displacement of its slide, with its rates."""
+        source, carrier = known[self.source], known[self.carrier]
+        if self.slide is None:
+            angle = angle_near(source.direction, carrier.direction, self.source_at)
+            return Drive(angle, source.omega - carrier.omega, source.alpha - carrier.alpha)
+        point, root, lead = self.slide
+        p, g, w = source.carry(point), carrier.carry(root), carrier.omega
+        back = np.conj(carrier.direction * lead)
+        way, gain = p.position - g.position, p.velocity - g.velocity
+        spin = (1j * carrier.alpha + w * w) * way
+        return Drive(
+            np.real(way * back),
+            np.real((gain - 1j * w * way) * back),
+            np.real((p.acceleration - g.acceleration - 2j * w * gain - spin) * back),
+        )
+
+
+def recognise(group: Group) -> Follower | None:
+    """The group as one body that follows another through a coupling, or None: a carrier that follows is not one."""
+    hung = hangs(group) if len(group.couplings) == 1 and not group.inputs else None
+    if hung is None or len(hung) != 1:
+        return None
+    (one,), (coupling,) = hung, group.couplings
+    (first, _), (second, _) = coupling.first, coupling.second
+    if one.body == second:
+        if (coupling.kind == "rack") != (one.track is not None):
+            return None
+        ends = coupling.first_at, coupling.second_at
+        return Follower(one, coupling.carrier, first, None, *ends, coupling.ratio, coupling.name)
+    if one.body == first and one.track is None:
+        ends = coupling.second_at, coupling.first_at
+        line = _line(group, coupling)
+        return Follower(one, coupling.carrier, second, line, *ends, 1 / coupling.ratio, coupling.name)
+    return None
+
+
+def _line(group: Group, coupling: Coupling) -> tuple[complex, complex, complex] | None:
+    """A rack's point in its own frame, and its slide's point and direction in the guide's; None for wheels."""
+    body, name = coupling.second
+    joint = group.mechanism.joint(name) if coupling.kind == "rack" else None
+    if not isinstance(joint, Slide):
+        return None
+    points = group.mechanism.point(body, name), group.mechanism.point(joint.guide, name)
+    return (*points, complex(unit(joint.along)))
