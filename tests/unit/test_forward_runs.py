@@ -1,4 +1,4 @@
-"""Forward runs: start-up, coasting, stops, limits of the range, and what is refused."""
+"""Forward runs: start-up, coasting, events, limits of the range, and what is refused."""
 
 import math
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ilmek.dynamics import forward as module
-from ilmek.dynamics.forward import Drive, Ending, State, Stop, at_angle, at_rest, at_speed, forward
+from ilmek.dynamics.forward import Drive, Ending, RunEvent, State, at_angle, at_rest, at_speed, forward
 from ilmek.dynamics.inertia import Inertia, bar
 from ilmek.dynamics.loads import Gravity, Torque
 from ilmek.dynamics.reduced import Reduced, reduce
@@ -44,31 +44,39 @@ def test_a_motor_of_straight_curve_starts_a_rotor_exponentially() -> None:
     assert run.end.kind is Ending.TIME
 
 
-def test_a_stop_is_met_to_rounding() -> None:
-    run = forward(rotor(), State(0.0), 9.0, drive=motor, stops=(at_speed(25.0),))
-    assert run.end.kind is Ending.STOP
+def test_an_event_is_met_to_rounding() -> None:
+    run = forward(rotor(), State(0.0), 9.0, drive=motor, events=(at_speed(25.0),))
+    assert run.end.kind is Ending.EVENT
     assert run.end.words == "speed 25 reached"
     assert math.isclose(run.end.state.time, math.log(2) * J * 50 / 2.0, rel_tol=1e-9)
     assert math.isclose(run.end.state.speed, 25.0, rel_tol=1e-12)
 
 
-def test_the_earliest_of_several_stops_ends_the_run() -> None:
-    stops = (at_speed(49.0), at_angle(2.0), Stop("clock", lambda time, _q, _w: time - 5.0))
-    run = forward(rotor(), State(0.0), 9.0, drive=motor, stops=stops)
+def test_the_earliest_of_several_events_ends_the_run() -> None:
+    events = (at_speed(49.0), at_angle(2.0), RunEvent("clock", lambda state: state.time - 5.0))
+    run = forward(rotor(), State(0.0), 9.0, drive=motor, events=events)
     assert run.end.words == "position 2 reached"
     assert math.isclose(run.position[-1], 2.0, rel_tol=1e-12)
 
 
-def test_a_stop_minds_its_direction() -> None:
-    falling = Stop("slow", lambda _t, _q, speed: speed - 10.0, direction=-1)
-    started = forward(rotor(), State(0.0), 0.5, drive=motor, stops=(falling,))
+def test_an_event_minds_its_direction() -> None:
+    falling = RunEvent("slow", lambda state: state.speed - 10.0, direction=-1)
+    started = forward(rotor(), State(0.0), 0.5, drive=motor, events=(falling,))
     assert started.end.kind is Ending.TIME
-    braked = forward(rotor(), started.end.state, 5.0, drive=lambda _t, _q, _w: -1.0, stops=(falling,))
+    braked = forward(rotor(), started.end.state, 5.0, drive=lambda _t, _q, _w: -1.0, events=(falling,))
     assert braked.end.words == "slow"
 
 
+def test_events_that_do_not_end_the_run_are_told_in_their_order() -> None:
+    turns = RunEvent("half turn", lambda state: math.sin(state.position), terminal=False)
+    run = forward(machine(), State(0.1, 20.0), 1.0, events=(turns, at_angle(8.0)))
+    assert [one.name for one in run.events] == ["half turn", "half turn", "position 8 reached"]
+    assert np.allclose([one.state.position for one in run.events], [math.pi, 2 * math.pi, 8.0], rtol=1e-13)
+    assert run.events[-1].state == run.end.state
+
+
 def test_coasting_against_dry_friction_comes_to_rest_when_its_momentum_is_spent() -> None:
-    run = forward(rotor(), State(0.0, 30.0, 1.0), 9.0, drive=lambda _t, _q, _w: -0.4, stops=(at_rest(),))
+    run = forward(rotor(), State(0.0, 30.0, 1.0), 9.0, drive=lambda _t, _q, _w: -0.4, events=(at_rest(),))
     assert math.isclose(run.end.state.time, 1.0 + J * 30.0 / 0.4, rel_tol=1e-9)
     assert math.isclose(run.drive_work[-1], -J * 30.0**2 / 2, rel_tol=1e-9)
 
@@ -130,7 +138,7 @@ def test_a_run_stops_where_its_linkage_cannot_go_on() -> None:
 
 
 def test_a_motor_too_weak_is_told_so() -> None:
-    run = forward(machine(), State(0.0), 1.0, drive=lambda _t, _q, _w: 0.2, stops=(at_rest(),))
+    run = forward(machine(), State(0.0), 1.0, drive=lambda _t, _q, _w: 0.2, events=(at_rest(),))
     with pytest.raises(MechanismError, match="came 0.*of 1 turns.*at rest.*stronger drive"):
         run.require_turns()
     assert forward(machine(), State(0.0), 1.0, drive=lambda _t, _q, _w: 0.5).require_turns(3)

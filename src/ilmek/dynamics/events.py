@@ -1,7 +1,8 @@
 """Events of a forward run: a value that goes through zero on the way, found to rounding.
 
 An event is any function of the run's state. Ends of travel are events of a position, standstill one of a speed, the
-closing of a gap one of a distance.
+closing of a gap one of a distance. A value is looked at after each step of the integrator: two crossings in one step
+cancel, as in a value that swings faster than the machine moves.
 """
 
 from collections.abc import Callable
@@ -11,7 +12,6 @@ from typing import Generic, TypeVar
 from scipy.optimize import brentq
 
 At = TypeVar("At")
-Seen = TypeVar("Seen")
 
 
 # Without slots: a slotted frozen class cannot be made through an alias such as Event[State] before Python 3.13.
@@ -31,7 +31,7 @@ class Event(Generic[At]):
         """Whether a step from one value to another goes through zero in the direction that is meant."""
         # A start on zero is not a crossing; nor is the step after an end on zero, whose old value is that zero.
         through = old * new < 0 or (new == 0 and old != 0)
-        return through and self.direction * old <= 0
+        return bool(through and self.direction * old <= 0)
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,13 @@ class Happening(Generic[At]):
     time: float
     state: At
     terminal: bool
+
+
+def until_terminal(met: list[Happening[At]]) -> list[Happening[At]]:
+    """What was met in one step, in its order, up to the first that ends the run."""
+    met = sorted(met, key=lambda one: one.time)
+    last = next((k for k, one in enumerate(met) if one.terminal), len(met))
+    return met[: last + 1]
 
 
 def located(value: Callable[[float], float], early: float, late: float) -> float:

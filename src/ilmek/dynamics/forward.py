@@ -5,7 +5,7 @@
 p = √J q' has p^2 / 2 for its energy, needs no slope of J, and stays finite where J does not: at a dead centre.
 
 Start-up, running, coasting and stopping are runs one after the other, each from the last one's end. A run ends at its
-time, at a stop, or where the mechanism comes to a dead centre or cannot close: there, with time, state and reason.
+time, at an event, or where the mechanism comes to a dead centre or cannot close: there, with time, state and reason.
 Integrated by the Dormand-Prince pair of order 8 with error control [Hairer, Norsett and Wanner, Solving Ordinary
 Differential Equations I, section II.10]; the work of drive and loads is integrated along, for the energy balance.
 """
@@ -18,8 +18,8 @@ from typing import TypeAlias
 import numpy as np
 from jaxtyping import Float
 from scipy.integrate import DOP853
-from scipy.optimize import brentq
 
+from ilmek.dynamics.events import Event, Happening, located, until_terminal
 from ilmek.dynamics.forward_run import Drive, End, Ending, Run, State, energies
 from ilmek.dynamics.reduced import Reduced
 from ilmek.dynamics.table import Table, tabulate
@@ -27,34 +27,29 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 
-__all__ = ["Drive", "End", "Ending", "Run", "State", "Stop", "at_angle", "at_rest", "at_speed", "forward"]
+__all__ = ["Drive", "End", "Ending", "Run", "RunEvent", "State", "at_angle", "at_rest", "at_speed", "forward"]
 
 Row: TypeAlias = Float[np.ndarray, " 4"]
 """What is integrated: position, p, work of the drive, work of the loads other than weight and constants."""
 
 
-@dataclass(frozen=True, slots=True)
-class Stop:
-    """Ends a run where `value(t, q, q')` goes through zero: upward (direction +1), downward (-1) or either way (0)."""
-
-    name: str
-    value: Callable[[float, float, float], float]
-    direction: int = 0
+RunEvent: TypeAlias = Event[State]
+"""An event of a run: its value is a function of the input's state: position, speed, time."""
 
 
-def at_speed(speed: float) -> Stop:
-    """Stop where the input reaches a speed [rad/s, m/s]."""
-    return Stop(f"speed {speed:g} reached", lambda _t, _q, now: now - speed)
+def at_speed(speed: float) -> RunEvent:
+    """End where the input reaches a speed [rad/s, m/s]."""
+    return RunEvent(f"speed {speed:g} reached", lambda state: state.speed - speed)
 
 
-def at_angle(position: float) -> Stop:
-    """Stop where the input comes to a position [rad, m], counted through all turns."""
-    return Stop(f"position {position:g} reached", lambda _t, now, _speed: now - position)
+def at_angle(position: float) -> RunEvent:
+    """End where the input comes to a position [rad, m], counted through all turns: an end of travel."""
+    return RunEvent(f"position {position:g} reached", lambda state: state.position - position)
 
 
-def at_rest() -> Stop:
-    """Stop where the input comes to rest; a start from rest is not meant."""
-    return Stop("at rest", lambda _t, _q, speed: speed)
+def at_rest() -> RunEvent:
+    """End where the input comes to rest; a start from rest is not meant."""
+    return RunEvent("at rest", lambda state: state.speed)
 
 
 def forward(
@@ -63,13 +58,14 @@ def forward(
     duration: float,
     *,
     drive: Drive | None = None,
-    stops: Sequence[Stop] = (),
+    events: Sequence[RunEvent] = (),
     every: float | None = None,
     rtol: float = 1e-9,
 ) -> Run:
     """A run of the machine from a state, for a time [s].
 
     drive  effort on the input [N m, or N] of (t, q, q'): a motor's torque-speed curve, for example; None: coasting
+    events looked for at each step of the integrator; a terminal one ends the run
     every  time between the samples of the answer [s]; None: the integrator's own steps
     rtol   relative error of a step in angle (against 1 rad), speed and work
 
@@ -81,8 +77,7 @@ def forward(
     course = _Course(reduced, tabulate(reduced), drive)
     first, scale = _first(course, start)
     solver = DOP853(course.rates, start.time, first, start.time + duration, rtol=rtol, atol=rtol * scale)
-    rows, end = _advance(solver, course, tuple(stops), every)
-    return _told(course, rows, end)
+    return _run(course, _advance(solver, course, tuple(events), every))
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +124,15 @@ class _Course:
         return State(position, float(row[1]) / math.sqrt(self.terms(position)[0]), time)
 
 
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """What the integration found: samples (time and row), events met, the end."""
+
+    samples: list[tuple[float, Row]]
+    happened: list[Happening[State]]
+    end: End
+
+
 def _check(duration: float, every: float | None, rtol: float) -> None:
     if not (np.isfinite(duration) and duration > 0):
         raise MechanismError(f"duration of a run is {duration:g} s", allowed="finite and above 0")
@@ -156,28 +160,28 @@ def _first(course: _Course, start: State) -> tuple[Row, Row]:
     return np.array([start.position, momentum, 0.0, 0.0]), np.array([1.0, math.sqrt(2 * energy), energy, energy])
 
 
-def _advance(
-    solver: DOP853, course: _Course, stops: tuple[Stop, ...], every: float | None
-) -> tuple[list[tuple[float, Row]], End]:
-    """Step to the end; the samples wanted, the last of them the end, and why it ended."""
-    samples = [(float(solver.t), np.array(solver.y))]
-    before = _values(stops, course.state(solver.t, solver.y))
+def _advance(solver: DOP853, course: _Course, events: tuple[RunEvent, ...], every: float | None) -> _Told:
+    """Step to the end; the samples wanted, the last of them the end, and what happened."""
+    samples: list[tuple[float, Row]] = [(float(solver.t), np.array(solver.y))]
+    happened: list[Happening[State]] = []
+    before = _values(events, course.state(solver.t, solver.y))
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         while solver.status == "running":
             solver.step()
             if solver.status == "failed" or _arrested(solver, course):
-                return [*samples, (float(solver.t), np.array(solver.y))], _failure(solver, course)
-            now = _values(stops, course.state(solver.t, solver.y)) if stops else []
-            hit = _first_stop(solver, course, stops, before, now)
-            until = float(solver.t) if hit is None else hit[0]
+                return _Told([*samples, (float(solver.t), np.array(solver.y))], happened, _failure(solver, course))
+            now = _values(events, course.state(solver.t, solver.y)) if events else []
+            happened += _met(solver, course, events, before, now)
+            hit = happened[-1] if happened and happened[-1].terminal else None
+            until = float(solver.t) if hit is None else hit.time
             if every is None:
                 samples.append((until, solver.dense_output()(until) if hit else np.array(solver.y)))
             else:
                 samples += _between(solver, every, samples[0][0], until, last=bool(hit) or solver.status == "finished")
             if hit is not None:
-                return samples, End(Ending.STOP, course.state(*samples[-1]), hit[1].name)
-            before = [new if new else old for old, new in zip(before, now, strict=True)]
-    return samples, End(Ending.TIME, course.state(*samples[-1]), "its time was over")
+                return _Told(samples, happened, End(Ending.EVENT, hit.state, hit.name))
+            before = now
+    return _Told(samples, happened, End(Ending.TIME, course.state(*samples[-1]), "its time was over"))
 
 
 def _between(solver: DOP853, every: float, start: float, until: float, *, last: bool) -> list[tuple[float, Row]]:
@@ -193,33 +197,25 @@ def _between(solver: DOP853, every: float, start: float, until: float, *, last: 
     return [(time, dense(time)) for time in at]
 
 
-def _first_stop(
-    solver: DOP853, course: _Course, stops: tuple[Stop, ...], before: list[float], now: list[float]
-) -> tuple[float, Stop] | None:
-    """The earliest stop met in the last step, and when."""
-    met = []
-    for stop, old, new in zip(stops, before, now, strict=True):
-        if old * new < 0 or (new == 0 and old):
-            if stop.direction * old > 0:
-                continue
+def _met(
+    solver: DOP853, course: _Course, events: tuple[RunEvent, ...], before: list[float], now: list[float]
+) -> list[Happening[State]]:
+    """What happened in the last step, in its order, up to the first terminal event."""
+    met: list[Happening[State]] = []
+    for event, old, new in zip(events, before, now, strict=True):
+        if event.crossed(old, new):
             dense = solver.dense_output()
 
-            def value(time: float, stop: Stop = stop, dense: Callable[[float], Row] = dense) -> float:
-                return _values((stop,), course.state(time, dense(time)))[0]
+            def at(time: float, dense: Callable[[float], Row] = dense) -> State:
+                return course.state(time, dense(time))
 
-            met.append((_crossing(value, solver.t_old, solver.t), stop))
-    return min(met, key=lambda one: one[0], default=None)
-
-
-def _crossing(value: Callable[[float], float], early: float, late: float) -> float:
-    """Where the value changes its sign; the later end where rounding hides the change."""
-    if value(early) * value(late) >= 0:
-        return late
-    return float(brentq(value, early, late, xtol=4e-16 * max(abs(late), 1e-300), rtol=1e-15))
+            time = located(lambda time, event=event, at=at: event.value(at(time)), solver.t_old, solver.t)  # type: ignore[misc]
+            met.append(Happening(event.name, time, at(time), event.terminal))
+    return until_terminal(met)
 
 
-def _values(stops: tuple[Stop, ...], state: State) -> list[float]:
-    return [stop.value(state.time, state.position, state.speed) for stop in stops]
+def _values(events: tuple[RunEvent, ...], state: State) -> list[float]:
+    return [event.value(state) for event in events]
 
 
 ARREST = 1e-9
@@ -256,10 +252,10 @@ def _failure(solver: DOP853, course: _Course) -> End:
     return End(Ending[Status(beyond).name], last, words)
 
 
-def _told(course: _Course, samples: list[tuple[float, Row]], end: End) -> Run:
+def _run(course: _Course, told: _Told) -> Run:
     """The samples as arrays, with accelerations, efforts and energies from the engine."""
-    time = np.array([sample[0] for sample in samples])
-    position, momentum, drive_work, load_work = np.stack([sample[1] for sample in samples], axis=1)
+    time = np.array([sample[0] for sample in told.samples])
+    position, momentum, drive_work, load_work = np.stack([sample[1] for sample in told.samples], axis=1)
     found = course.reduced.terms(position)
     speed = momentum / np.sqrt(found.inertia)
     efforts = [course.efforts(*state) for state in zip(time, position, speed, strict=True)]
@@ -277,6 +273,7 @@ def _told(course: _Course, samples: list[tuple[float, Row]], end: End) -> Run:
         potential,
         drive_work,
         load_work,
-        end,
+        told.end,
+        tuple(told.happened),
         course.table.error if course.table else None,
     )

@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ilmek.dynamics.events import Happening
 from ilmek.dynamics.reduced import Reduced, Samples
 from ilmek.errors import MechanismError
 from ilmek.linkage.motion import Motion
@@ -29,14 +30,14 @@ class State:
 class Ending(Enum):
     """Why a run ended.
 
-    TIME           its time was over               STOP  a stop was met
+    TIME           its time was over               EVENT  a terminal event was met
     DEAD_CENTRE    links in line: the drive has no definite hold on them
     CANNOT_CLOSE   the input's range ends there    NOT_CONVERGED  Newton's method found no pose beyond
     STEP           an effort that is not finite, or too rough for the error asked
     """
 
     TIME = "time"
-    STOP = "stop"
+    EVENT = "event"
     DEAD_CENTRE = "dead centre"
     CANNOT_CLOSE = "cannot close"
     NOT_CONVERGED = "not converged"
@@ -59,6 +60,7 @@ class Run:
     position, speed, acceleration  of the input [rad, m; per s; per s²]      effort  of the drive [N m, N]
     kinetic, potential             energies, from the engine [J]; the weights' potential against the world's origin
     drive_work, load_work          done since the start [J]: by the drive; by the loads that are not weights
+    end, events                    why it ended; the events met on the way, the ending one last
     table_error                    of the Fourier table, of the greatest value; None where the engine itself was run
     """
 
@@ -73,6 +75,7 @@ class Run:
     drive_work: Samples
     load_work: Samples
     end: End
+    events: tuple[Happening[State], ...]
     table_error: float | None
 
     @property

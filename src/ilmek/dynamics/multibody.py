@@ -14,7 +14,7 @@ import numpy as np
 from scipy.integrate import DOP853
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.events import Event, Happening, located
+from ilmek.dynamics.events import Event, Happening, located, until_terminal
 from ilmek.dynamics.multibody_kernel import Model, joints
 from ilmek.dynamics.multibody_model import Pose, Push, Spring, System, Twist, from_motion, loosened, modelled, start_of
 from ilmek.dynamics.multibody_run import Course, SystemRun
@@ -131,9 +131,7 @@ class _Simulation:
             if event.crossed(old, new):
                 part = located(lambda part, event=event: event.value(at(part)), 0.0, length)  # type: ignore[misc]
                 found.append(Happening(event.name, time + part, at(part), event.terminal))
-        found.sort(key=lambda one: one.time)
-        ends = next((k for k, one in enumerate(found) if one.terminal), len(found))
-        return found[: ends + 1]
+        return until_terminal(found)
 
     def _told(self, met: list[Happening[Course]]) -> SystemRun:
         """The samples up to the end."""

@@ -102,8 +102,9 @@ def _sizes(model: Model, clock: np.ndarray, y: np.ndarray, slope: np.ndarray, h:
 
 
 @compiled
-def _error(k: np.ndarray, h: float, scale: np.ndarray, e3: np.ndarray, e5: np.ndarray) -> float:
+def _error(k: np.ndarray, h: float, scale: np.ndarray, method: Method) -> float:
     """Estimated error of a step over its allowance [Hairer, Norsett and Wanner, II.10: fifth and third order]."""
+    _, e3, e5 = method
     fifth, third = 0.0, 0.0
     for i in range(scale.shape[0]):
         a, b = 0.0, 0.0
@@ -145,6 +146,26 @@ def _attempt(
 
 
 @compiled
+def _tried(
+    model: Model,
+    clock: np.ndarray,
+    y: np.ndarray,
+    h: float,
+    method: Method,
+    k: np.ndarray,
+    f: np.ndarray,
+    new: np.ndarray,
+) -> float:
+    """A step into `new`, and its error over what it is small against."""
+    scale = np.empty(y.shape[0])
+    _attempt(model, y, h, method[0], k, f, new)
+    _sizes(model, clock, y, k[0], h, scale)
+    for i in range(y.shape[0]):
+        scale[i] += max(abs(y[i]), abs(new[i]))
+    return _error(k, h, scale, method)
+
+
+@compiled
 def leap(
     model: Model,
     y: np.ndarray,
@@ -182,9 +203,7 @@ def advance(
     clock   time [s], next step [s], steps taken, times reached, greatest speed and spin, greatest contact forces [N]
     y, slope, f   state, its derivative, reactions there: changed in place; at the times a copy goes to `kept`
     """
-    a, e3, e5 = method
-    size, last = y.shape[0], times.shape[0] - 1
-    k, new, scale, sizes = np.empty((STAGES + 1, size)), np.empty(size), np.empty(size), np.empty(size)
+    last, k, new = times.shape[0] - 1, np.empty((STAGES + 1, y.shape[0])), np.empty(y.shape[0])
     _copy(slope, k[0])
     while clock[DONE_TO] < last:
         clock[TAKEN] += 1
@@ -196,19 +215,16 @@ def advance(
         now = left if ends else wish
         if not now > 1e-14 * max(abs(clock[TIME]), 1e-300):
             return TOO_SMALL
-        _attempt(model, y, now, a, k, f, new)
-        _sizes(model, clock, y, k[0], now, sizes)
-        for i in range(size):
-            scale[i] = rtol * (sizes[i] + max(abs(y[i]), abs(new[i])))
-        error = _error(k, now, scale, e3, e5)
+        error = _tried(model, clock, y, now, method, k, f, new) / rtol
+        factor = 0.9 * error**-0.125 if 0.0 < error < 1e300 else (6.0 if error == 0.0 else 0.2)
         if not error < 1.0:
-            clock[NEXT] = now * (max(0.2, 0.9 * error**-0.125) if error < 1e300 else 0.2)
+            clock[NEXT] = now * max(0.2, factor)
             continue
         touch = until_touch(model, y, new, now)
         if touch < now:
             clock[NEXT] = touch
             continue
-        grown = now * (min(6.0, 0.9 * error**-0.125) if error > 0.0 else 6.0)
+        grown = now * min(6.0, factor)
         clock[NEXT] = max(clock[NEXT], grown) if ends else grown
         clock[TIME] = times[int(clock[DONE_TO]) + 1] if ends else clock[TIME] + now
         _land(model, clock, y, new, k, f)
