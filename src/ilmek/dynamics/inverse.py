@@ -84,6 +84,10 @@ class Forces:
             raise MechanismError(f"joint {name!r} does not touch {on!r}", allowed=f"it joins {joined}")
         return self.reactions[name] if on in (None, receiver(joint)) else -self.reactions[name]
 
+    def receiver(self, name: str) -> str:
+        """The body on which a joint's force, couple and friction are counted."""
+        return receiver(self.mechanism.joint(name))
+
     def effort(self, entry: str) -> FloatArray:
         """Torque [N m] or force [N] on the driven body, by the name of the input: that of the body, or of the slide."""
         if entry not in self.efforts:

@@ -1,11 +1,12 @@
 """A turn of a curve that may jump: where it is zero, and its integral, piece by smooth piece."""
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.peaks import SidedCurves, pieces
+from ilmek.dynamics.peaks import Piece, SidedCurves, pieces
 from ilmek.units import turn
 
 HALVINGS = 60
@@ -40,11 +41,17 @@ def integrals(curves: SidedCurves, breaks: Iterable[float] = ()) -> dict[str, fl
     >>> round(integrals(lambda angle, _: {"square": np.cos(angle) ** 2})["square"] / np.pi, 12)
     1.0
     """
-    cut = pieces((*breaks, *(turn / PARTS * np.arange(PARTS))))
+    return {name: math.fsum(found) for name, found in piecewise(curves, breaks, PARTS)[1].items()}
+
+
+def piecewise(
+    curves: SidedCurves, breaks: Iterable[float], parts: int
+) -> tuple[tuple[Piece, ...], dict[str, FloatArray]]:
+    """The turn cut at the breaks and into even parts, and the integral of each curve over each piece of it."""
+    cut = pieces((*breaks, *(turn / parts * np.arange(parts))))
     nodes, weights = np.polynomial.legendre.leggauss(NODES)
     half = np.array([[(piece.end - piece.start) / 2] for piece in cut])
     angle = np.array([[piece.start] for piece in cut]) + half * (1 + nodes)
     side = np.array([piece.sides(row) for piece, row in zip(cut, angle, strict=True)])
     values: Mapping[str, FloatArray] = curves(np.ravel(angle), np.ravel(side))
-    weight = np.ravel(half * weights)
-    return {name: float(np.dot(weight, value)) for name, value in values.items()}
+    return cut, {name: np.sum(half * weights * np.reshape(value, side.shape), axis=1) for name, value in values.items()}
