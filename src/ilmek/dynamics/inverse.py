@@ -34,7 +34,8 @@ class Forces:
 
     motion        whose forces they are
     status        Status of each sample: the motion's, and NOT_CONVERGED where friction locks the mechanism
-    reactions     joint -> force on the second body of the pin, or across the line on the slide's body [N], complex
+    reactions     joint -> force on the second body of the pin, or across the line on the slide's body [N], complex;
+                  coupling -> force on its second body
     couples       slide -> couple on the slide's body [N m]
     efforts       input -> torque [N m] or force along the line [N] on the driven body
     input_power   Σ effort times speed of the drive [W]
@@ -83,6 +84,12 @@ class Forces:
             joined = " and ".join(joint.bodies)
             raise MechanismError(f"joint {name!r} does not touch {on!r}", allowed=f"it joins {joined}")
         return self.reactions[name] if on in (None, receiver(joint)) else -self.reactions[name]
+
+    def tooth(self, coupling: str) -> ComplexArray:
+        """Force of gears or a rack [N] on the coupling's second body, in the pitch point."""
+        if coupling not in {one.name for one in self.mechanism.couplings}:
+            raise MechanismError(f"{self.mechanism.name} has no coupling {coupling!r}")
+        return self.reactions[coupling]
 
     def receiver(self, name: str) -> str:
         """The body on which a joint's force, couple and friction are counted."""
@@ -158,7 +165,7 @@ def _room(motion: Motion, rubbing: Sequence[JointFriction]) -> Forces:
     return Forces(
         motion,
         motion.status.copy(),
-        reactions={joint.name: np.empty(samples, complex) for joint in mechanism.joints},
+        reactions={one.name: np.empty(samples, complex) for one in (*mechanism.joints, *mechanism.couplings)},
         couples={joint.name: np.empty(samples) for joint in mechanism.joints if isinstance(joint, Slide)},
         efforts={entry.name: np.empty(samples) for entry in mechanism.inputs},
         frictions={one.joint: np.empty(samples) for one in rubbing},

@@ -174,13 +174,19 @@ def from_motion(
     gravity: complex = 0j,
     loads: Sequence[Spring | Push | Twist] = (),
 ) -> System:
-    """The system that a mechanism is with its inputs let go, starting from the first sample of a motion."""
+    """The system that a mechanism is with its inputs let go, starting from the first sample of a motion.
+
+    Raises MechanismError where the motion fails, and for couplings, which a system does not know.
+    """
     mechanism = motion.require().plan.mechanism
     poses = {}
     for body in mechanism.moving:
         origin = attached(motion, body, 0j)
         angle, omega = float(motion.angle(body)[0]), float(motion.omega(body)[0])
         poses[body] = Pose(complex(origin.position[0]), angle, complex(origin.velocity[0]), omega)
+    if mechanism.couplings:
+        names = ", ".join(coupling.name for coupling in mechanism.couplings)
+        raise MechanismError(f"{mechanism.name} has the couplings {names}", allowed="a system has pins and slides only")
     return System(mechanism.bodies, mechanism.joints, inertias, poses, gravity, loads, mechanism.name)
 
 

@@ -8,9 +8,10 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.dynamics.inertia import Inertia
+from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion, carried_velocity
 from ilmek.linkage.groups.group import Drive
-from ilmek.linkage.model import GROUND, Joint, Mechanism, Pin
+from ilmek.linkage.model import GROUND, Coupling, Joint, Mechanism, Pin, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import cross, dot, unit
 
@@ -27,13 +28,18 @@ class Pull(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """A joint in its poses: its point [m] and, of a slide, the direction of its line; `on` one body, `by` the other."""
+    """A joint or coupling in its poses; `on` one body, `by` the other.
+
+    at    its point [m]; of gears the pitch point     line  of a slide, the direction of its line
+    tooth of a coupling, the direction of the only force that it bears, on its second body by its first
+    """
 
     name: str
     on: str
     by: str
     at: ComplexField
     line: ComplexField | None
+    tooth: ComplexField | None = None
 
     def play(self, pull: Pull, about: ComplexField) -> RealField:
         """Work of a pull, its moment about a given point, on the joint's own motion: nothing but its drive resists it.
@@ -50,8 +56,10 @@ class Held:
         return Pull(0j, 1.0) if self.line is None else Pull(self.line, 0.0)
 
     @property
-    def bears(self) -> tuple[Pull, Pull]:
-        """Units of what the joint bears by itself: two forces of a pin; across a line a force, and a couple."""
+    def bears(self) -> tuple[Pull, ...]:
+        """Units of what it bears by itself: two forces of a pin; across a line a force, and a couple; one of teeth."""
+        if self.tooth is not None:
+            return (Pull(self.tooth, 0.0),)
         return (Pull(1 + 0j, 0.0), Pull(1j, 0.0)) if self.line is None else (Pull(1j * self.line, 0.0), Pull(0j, 1.0))
 
 
@@ -99,7 +107,8 @@ def posed(motion: Motion, inertias: Mapping[str, Inertia]) -> Posed:
         motion,
         bodies,
         centres,
-        {joint.name: _held(mechanism, joint, bodies) for joint in mechanism.joints},
+        {joint.name: _held(mechanism, joint, bodies) for joint in mechanism.joints}
+        | {coupling.name: _meshed(mechanism, coupling, bodies) for coupling in mechanism.couplings},
         characteristic_length(mechanism),
         {(body, inertias[body].centre): centre for body, centre in centres.items()},
     )
@@ -112,6 +121,31 @@ def _held(mechanism: Mechanism, joint: Joint, bodies: Mapping[str, BodyMotion]) 
     at = moved.anchor.position + moved.direction * (mechanism.point(on, joint.name) - moved.at)
     line = None if isinstance(joint, Pin) else bodies[by].direction * unit(joint.along)
     return Held(joint.name, on, by, at, line)
+
+
+def _meshed(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyMotion]) -> Held:
+    """Gears touch in the pitch point, the pole of their turning against one another:
+
+        P = O_1 + ratio / (ratio - 1) (O_2 - O_1),   its force across O_1 O_2;    rack: P = O_1 - i ratio f, along f
+
+    The pressure angle's share along the line of centres does no work and is left out. Raises MechanismError for a belt,
+    whose pull depends on its tension, and for gears that turn alike.
+    """
+    (first, one), (second, two) = coupling.first, coupling.second
+    at = bodies[first].carry(mechanism.point(first, one)).position
+    joint = mechanism.joint(two) if coupling.kind == "rack" else None
+    if isinstance(joint, Slide):
+        line = bodies[joint.guide].direction * unit(joint.along)
+        return Held(coupling.name, second, first, at - 1j * coupling.ratio * line, None, line)
+    if coupling.kind == "belt" or coupling.ratio == 1:
+        raise MechanismError(
+            f"the force of {coupling.kind} {coupling.name!r} of {mechanism.name} is not determined",
+            allowed="a belt's depends on its tension; gears that turn alike touch nowhere",
+            do="give gears of the same ratio",
+        )
+    way = bodies[second].carry(mechanism.point(second, two)).position - at
+    pole = at + coupling.ratio / (coupling.ratio - 1) * way
+    return Held(coupling.name, second, first, pole, None, 1j * way / np.abs(way))
 
 
 def receiver(joint: Joint) -> str:

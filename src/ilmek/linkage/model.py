@@ -270,6 +270,9 @@ def _check_names(mechanism: Mechanism) -> None:
         for name, times in Counter(one.name for one in named).items():
             if times > 1:
                 raise MechanismError(f"{mechanism.name} has {times} {kind} named {name!r}", do="give each its own name")
+    for name in {joint.name for joint in mechanism.joints} & {one.name for one in mechanism.couplings}:
+        given = f"{mechanism.name} has a joint and a coupling named {name!r}"
+        raise MechanismError(given, do="give each its own name", about=("couplings", name))
     if GROUND not in {body.name for body in mechanism.bodies}:
         given = f"{mechanism.name} has no body named {GROUND!r}"
         raise MechanismError(given, do="one body must stand still", about=("bodies",))
