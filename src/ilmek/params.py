@@ -25,6 +25,10 @@ P = TypeVar("P", bound="Params")
 Setting: typing.TypeAlias = float | int | bool | str | None
 
 
+NEXT_TO_NOTHING = 1e-60
+"""A size below which a number is no quantity of a machine, and its powers are lost to a computer."""
+
+
 @dataclass(frozen=True, slots=True)
 class Parameter:
     """A declared parameter of a machine."""
@@ -83,6 +87,10 @@ class Parameter:
             raise ParameterError(f"{self.name}={value!r} is not a number", allowed=self.allowed())
         if self.kind is int and value != int(value):
             raise ParameterError(f"{self.name}={value!r} is not a whole number", allowed=self.allowed())
+        if 0 < abs(value) < NEXT_TO_NOTHING:
+            raise ParameterError(
+                f"{self.name}={value:g} is next to nothing", allowed=self.allowed(), do="0 may be meant"
+            )
         if not self.within(value):
             shown = format_quantity(value, self.unit)
             raise ParameterError(f"{self.name}={shown} is out of bounds", allowed=self.allowed(), do=self._slip(value))

@@ -41,6 +41,7 @@ def test_reads_units_and_keeps_defaults() -> None:
         ({"lift": "0mm"}, "above 0 mm"),
         ({"lift": "60kg"}, "wrong unit"),
         ({"lift": float("nan")}, "not a number"),
+        ({"lift": "1e-320"}, "next to nothing"),
         ({"warps": "3.5"}, "whole number"),
         ({"warps": "1"}, "at least 2"),
         ({"law": "harmonik"}, "did you mean harmonic"),
