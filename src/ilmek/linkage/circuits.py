@@ -19,6 +19,7 @@ from jaxtyping import Float
 from ilmek.arrays import FloatArray
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.configuration import Configurations, Freed, freed
+from ilmek.linkage.model import Mechanism
 from ilmek.linkage.one_input import OneInput
 from ilmek.linkage.outputs import Output, followed_bodies
 from ilmek.linkage.structure import plan
@@ -49,7 +50,7 @@ class Branch:
 
 @dataclass(frozen=True, slots=True)
 class Circuit:
-    """A closed way through configurations: its branches in the order in which they are passed; a `Course`.
+    """A closed way through configurations: its branches in the order in which they are passed; a `Way`.
 
     dead_centres  values of the input [rad, m] at which it turns back, in order      turns  of the input, all round
     crossings     values of the input near which another circuit is crossed: a change point, the motion uncertain there
@@ -69,13 +70,18 @@ class Circuit:
         return self.trace.closed
 
     @property
-    def start(self) -> float:
-        """Where its length begins: 0."""
-        return 0.0
+    def mechanism(self) -> Mechanism:
+        """What moves."""
+        return self.freed.moved.plan.mechanism
+
+    @property
+    def breaks(self) -> Float[np.ndarray, " breaks"]:
+        """Places of the nodes, from 0 to the length of the whole by its chords [m, scaled turns among them]."""
+        return self.trace.lengths
 
     @property
     def stop(self) -> float:
-        """Its length, in metres of the shifts and scaled turns of all bodies together, by the chords of its nodes."""
+        """The last place."""
         return float(self.trace.lengths[-1])
 
     def bodies(self, lengths: FloatArray) -> Mapping[str, BodyMotion]:
@@ -91,10 +97,9 @@ class Circuit:
 
         Unlike `extremes` it sees those on all branches, and those at the dead centres of the input.
         """
-        mechanism = self.freed.moved.plan.mechanism
 
         def rate(lengths: FloatArray) -> FloatArray:
-            return followed_bodies(mechanism, self.bodies(lengths), output).rate
+            return followed_bodies(self.mechanism, self.bodies(lengths), output).rate
 
         lengths = self.trace.lengths
         value = rate(lengths)
@@ -102,7 +107,7 @@ class Circuit:
         if not len(changed):
             return ()
         at = bracketed_roots(rate, lengths[changed], lengths[changed + 1])
-        reached = followed_bodies(mechanism, self.bodies(at), output).value
+        reached = followed_bodies(self.mechanism, self.bodies(at), output).value
         return tuple(zip(self.inputs(at).tolist(), reached.tolist(), strict=True))
 
 

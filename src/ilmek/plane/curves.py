@@ -1,0 +1,65 @@
+"""Plane curves: curvature, where a polyline crosses itself, the hull of points."""
+
+import numpy as np
+from jaxtyping import Complex, Int
+
+from ilmek.arrays import ComplexField, RealField
+from ilmek.plane.vectors import cross
+
+
+def curvature(first: ComplexField, second: ComplexField) -> RealField:
+    """Curvature [1/m] of z(u) from z' and z'': z' x z'' / |z'|^3, above 0 to the left; NaN where z' = 0.
+
+    >>> float(curvature(2j, -2 + 0j))
+    0.5
+    """
+    bend: RealField = cross(first, second) / np.abs(first) ** 3
+    return bend
+
+
+def crossing_segments(points: Complex[np.ndarray, " points"], closed: bool) -> Int[np.ndarray, "pairs 2"]:
+    """Pairs of segments of a polyline that cross within both, neighbours left out: segment k is from point k to k + 1.
+
+    closed  the last point is the first one again
+    Two segments cross where each has the other's ends on different sides.
+
+    >>> crossing_segments(np.array([0, 2 + 2j, 2 + 0j, 0 + 2j]), closed=False).tolist()
+    [[0, 2]]
+    """
+    start, way = points[:-1], np.diff(points)
+    count = len(way)
+    pairs = []
+    for rows in np.array_split(np.arange(count), max(1, count // 256)):
+        base = start[rows, None]
+        before = cross(way[rows, None], start[None, :] - base)
+        after = cross(way[rows, None], points[None, 1:] - base)
+        own = cross(way[None, :], base - start[None, :])
+        other = cross(way[None, :], points[rows + 1, None] - start[None, :])
+        apart = np.arange(count)[None, :] - rows[:, None]
+        far = (apart > 1) & ~((apart == count - 1) & closed)
+        found = np.argwhere((before * after < 0) & (own * other < 0) & far)
+        found[:, 0] += rows[0]
+        pairs.append(found)
+    return np.concatenate(pairs)
+
+
+def hull(points: Complex[np.ndarray, " points"]) -> Complex[np.ndarray, " corners"]:
+    """Corners of the convex hull, counter-clockwise from the leftmost [Andrew's monotone chain]; points in line: two.
+
+    >>> hull(np.array([0, 1, 1 + 1j, 1j, 0.5 + 0.5j]))
+    array([0.+0.j, 1.+0.j, 1.+1.j, 0.+1.j])
+    """
+    ordered = sorted(set(points.tolist()), key=lambda z: (z.real, z.imag))
+    if len(ordered) < 3:
+        return np.array(ordered, dtype=complex)
+    return np.array(_chain(ordered)[:-1] + _chain(ordered[::-1])[:-1], dtype=complex)
+
+
+def _chain(ordered: list[complex]) -> list[complex]:
+    """The lower chain of the hull of points in order."""
+    chain: list[complex] = []
+    for z in ordered:
+        while len(chain) > 1 and ((chain[-1] - chain[-2]).conjugate() * (z - chain[-2])).imag <= 0:
+            chain.pop()
+        chain.append(z)
+    return chain
