@@ -1,0 +1,132 @@
+"""Convex outlines with round edges: how far points and outlines stand from one another, below 0 inside one another.
+
+Corners run counter-clockwise; two corners are a bar with round ends, one is a disc. Everything takes any batch shape.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Complex, Float
+
+from ilmek.errors import IlmekError
+from ilmek.plane.curves import hull
+from ilmek.plane.vectors import cross, dot
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Outline:
+    """All points within `radius` [m] of the convex hull of the corners [m]. A hollow outline is given as several.
+
+    Raises IlmekError where there is no corner, one is not finite, or the radius is negative.
+    >>> Outline((0, 2, 2 + 1j, 1 + 0.2j, 1j)).corners.tolist()
+    [0j, (2+0j), (2+1j), 1j]
+    """
+
+    corners: Complex[np.ndarray, " corners"]
+    radius: float
+
+    def __init__(self, corners: "tuple[complex, ...] | Complex[np.ndarray, ' corners']", radius: float = 0.0) -> None:
+        given = np.asarray(corners, dtype=complex)
+        if not len(given) or not np.isfinite(given).all():
+            raise IlmekError(f"an outline of the corners {list(corners)}", allowed="one or more, all finite")
+        if not (np.isfinite(radius) and radius >= 0):
+            raise IlmekError(f"an outline of radius {radius} m", allowed="0 or above")
+        object.__setattr__(self, "corners", hull(given))
+        object.__setattr__(self, "radius", float(radius))
+
+    @property
+    def area(self) -> float:
+        """Area [m^2]: the corners' polygon, a strip along its edges, and a disc for its corners."""
+        edges = np.roll(self.corners, -1) - self.corners
+        polygon = 0.5 * float(np.sum(cross(self.corners, np.roll(self.corners, -1))))
+        return polygon + float(np.sum(np.abs(edges))) * self.radius + np.pi * self.radius**2
+
+
+def to_segments(
+    points: Complex[np.ndarray, "*#batch"], starts: Complex[np.ndarray, "*#batch"], ends: Complex[np.ndarray, "*#batch"]
+) -> Float[np.ndarray, "*batch"]:
+    """Distance of points from segments [m]; a segment without length is a point.
+
+    >>> to_segments(np.array([3 + 4j]), np.array([0j]), np.array([0j])).tolist()
+    [5.0]
+    """
+    way, arm = ends - starts, points - starts
+    squared = dot(way, way)
+    share = np.clip(dot(arm, way) / np.where(squared > 0, squared, 1.0), 0.0, 1.0)
+    distance: Float[np.ndarray, "*batch"] = np.abs(arm - share * way)
+    return distance
+
+
+def to_outline(points: Complex[np.ndarray, "*batch"], outline: Outline) -> Float[np.ndarray, "*batch"]:
+    """Distance of points from an outline's edge [m], below 0 inside.
+
+    >>> to_outline(np.array([0.5 + 0.5j, 3 + 0.5j]), Outline((0, 1, 1 + 1j, 1j), 0.1)).round(12).tolist()
+    [-0.6, 1.9]
+    """
+    corners, following = outline.corners, np.roll(outline.corners, -1)
+    spread = points[..., None]
+    distance = np.min(to_segments(spread, corners, following), axis=-1)
+    if len(corners) > 2:
+        edges = following - corners
+        within = np.all(cross(edges, spread - corners) > 0, axis=-1)
+        distance = np.where(within, -distance, distance)
+    apart: Float[np.ndarray, "*batch"] = distance - outline.radius
+    return apart
+
+
+def between(
+    first: Complex[np.ndarray, "*batch a"], second: Complex[np.ndarray, "*batch b"]
+) -> Float[np.ndarray, "*batch"]:
+    """Distance of two convex polygons by their corners [m]; overlapping, minus the shortest way to part them.
+
+    Corners counter-clockwise; two are a bar, one a point.
+    >>> square = np.array([0, 1, 1 + 1j, 1j])
+    >>> between(square, square + 3).tolist(), between(square, square + 0.75 + 0.5j).tolist()
+    (2.0, -0.25)
+    """
+    apart = np.minimum(_corners_to_edges(first, second), _corners_to_edges(second, first))
+    parted = np.maximum(_parting(first, second), _parting(second, first))
+    overlapping = (parted < 0) & np.isfinite(parted)
+    distance: Float[np.ndarray, "*batch"] = np.where(overlapping, parted, apart)
+    return distance
+
+
+def nearest(first: Complex[np.ndarray, " a"], second: Complex[np.ndarray, " b"]) -> tuple[complex, complex]:
+    """The nearest points of two convex polygons that stand apart: one on each.
+
+    >>> nearest(np.array([0, 1, 1 + 1j, 1j]), np.array([3 + 0.5j]))
+    ((1+0.5j), (3+0.5j))
+    """
+    on_second, from_first = _foot(first, second)
+    on_first, from_second = _foot(second, first)
+    pairs = ((from_first, on_second), (on_first, from_second))
+    return min(pairs, key=lambda pair: abs(pair[0] - pair[1]))
+
+
+def _foot(corners: Complex[np.ndarray, " a"], polygon: Complex[np.ndarray, " b"]) -> tuple[complex, complex]:
+    """The point of a polygon's edges nearest to any of the corners, and that corner."""
+    starts, way = polygon[None, :], (np.roll(polygon, -1) - polygon)[None, :]
+    arm, squared = corners[:, None] - starts, dot(way, way)
+    feet = starts + np.clip(dot(arm, way) / np.where(squared > 0, squared, 1.0), 0.0, 1.0) * way
+    at = np.unravel_index(np.argmin(np.abs(corners[:, None] - feet)), feet.shape)
+    return complex(feet[at]), complex(corners[at[0]])
+
+
+def _corners_to_edges(
+    first: Complex[np.ndarray, "*batch a"], second: Complex[np.ndarray, "*batch b"]
+) -> Float[np.ndarray, "*batch"]:
+    starts, ends = second[..., None, :], np.roll(second, -1, axis=-1)[..., None, :]
+    return np.asarray(np.min(to_segments(first[..., :, None], starts, ends), axis=(-2, -1)))
+
+
+def _parting(
+    first: Complex[np.ndarray, "*batch a"], second: Complex[np.ndarray, "*batch b"]
+) -> Float[np.ndarray, "*batch"]:
+    """The farthest that any edge of the first keeps the second away, below 0 if none does; -inf for a point."""
+    edges = np.roll(first, -1, axis=-1) - first
+    lengths = np.abs(edges)
+    arms = second[..., None, :] - first[..., :, None]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        outward = -cross(edges[..., None], arms) / lengths[..., None]
+    least = np.where(lengths > 0, np.min(outward, axis=-1), -np.inf)
+    return np.asarray(np.max(least, axis=-1))
