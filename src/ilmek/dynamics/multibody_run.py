@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, FloatArray, RealField
+from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.dynamics.clearance import ClearancePin
 from ilmek.dynamics.events import Happening
 from ilmek.dynamics.multibody_kernel import Model, joints
@@ -18,7 +18,7 @@ HOLDS = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """A system at one instant, or over the samples of a run: each answer is then an array.
+    """A system over the samples of a run, or at one instant: each answer is then an array of no dimension.
 
     time       [s]
     states     x, y [m], theta [rad] of the mass centres in the order of `system.order`; their rates; the work [J];
@@ -34,44 +34,41 @@ class Course:
     slopes: FloatArray
     reactions: FloatArray
 
-    def angle(self, body: str) -> RealField:
+    def angle(self, body: str) -> FloatArray:
         """Angle of a body [rad], counted through all turns."""
         return self._column(body, self.states, 2)
 
-    def omega(self, body: str) -> RealField:
+    def omega(self, body: str) -> FloatArray:
         """Angular velocity of a body [rad/s]."""
         return self._column(body, self.slopes, 2)
 
-    def alpha(self, body: str) -> RealField:
+    def alpha(self, body: str) -> FloatArray:
         """Angular acceleration of a body [rad/s²]."""
         return self._column(body, self.slopes[..., len(self.model.weights) :], 2)
 
-    def position(self, body: str, point: str) -> ComplexField:
+    def position(self, body: str, point: str) -> ComplexArray:
         """Place of a body's point [m]."""
         arm = self.system.arm(body, point)
         if body == GROUND:
-            return arm
-        placed: ComplexField = self._centre(body, self.states) + arm * np.exp(1j * self.angle(body))
-        return placed
+            return np.asarray(arm)
+        return np.asarray(self._centre(body, self.states) + arm * np.exp(1j * self.angle(body)))
 
-    def velocity(self, body: str, point: str) -> ComplexField:
+    def velocity(self, body: str, point: str) -> ComplexArray:
         """Velocity of a body's point [m/s]."""
         arm = self.system.arm(body, point) * np.exp(1j * self.angle(body))
-        moved: ComplexField = self._centre(body, self.slopes) + 1j * self.omega(body) * arm
-        return moved
+        return np.asarray(self._centre(body, self.slopes) + 1j * self.omega(body) * arm)
 
-    def travel(self, slide: str) -> RealField:
+    def travel(self, slide: str) -> FloatArray:
         """Distance of a slide's body from the guide's point along the line [m]."""
         one = next((one for one in self.system.slides if one.name == slide), None)
         if one is None:
             known = ", ".join(slide.name for slide in self.system.slides) or "none"
             raise MechanismError(f"{self.system.name} has no slide {slide!r}", allowed=f"it has {known}")
-        line = one.along + (0.0 if one.guide == GROUND else self.angle(one.guide))
+        line = one.along + (np.asarray(0.0) if one.guide == GROUND else self.angle(one.guide))
         apart = self.position(one.body, slide) - self.position(one.guide, slide)
-        gone: RealField = np.real(np.exp(-1j * line) * apart)
-        return gone
+        return np.asarray(np.real(np.exp(-1j * line) * apart))
 
-    def pin(self, name: str) -> ComplexField:
+    def pin(self, name: str) -> ComplexArray:
         """Force [N] of a pin, with clearance or without, on its second body; of least norm where joints are redundant.
 
         On the line of centres and the friction across it, for a pin with clearance.
@@ -83,19 +80,18 @@ class Course:
                 f"{self.system.name} has no pin {name!r}", allowed=f"it has {', '.join(known) or 'none'}"
             )
         row = 2 * [one.name for one in pins].index(name)
-        force: ComplexField = self.reactions[..., row] + 1j * self.reactions[..., row + 1]
-        return force
+        return np.asarray(self.reactions[..., row] + 1j * self.reactions[..., row + 1])
 
-    def eccentricity(self, name: str) -> ComplexField:
+    def eccentricity(self, name: str) -> ComplexArray:
         """Place of a clearance pin's journal from its bearing's centre [m], in the world's directions."""
         one = self.system.clearance(name)
-        return self.position(one.second, name) - self.position(one.first, name)
+        return np.asarray(self.position(one.second, name) - self.position(one.first, name))
 
     @property
-    def energy(self) -> RealField:
+    def energy(self) -> FloatArray:
         """Kinetic energy, potential of weights and springs, what contacts store [J]."""
         count = len(self.model.weights)
-        energy: RealField = 0.5 * (self.slopes[..., :count] ** 2) @ self.model.weights
+        energy = 0.5 * (self.slopes[..., :count] ** 2) @ self.model.weights
         for k, mass in enumerate(self.model.weights[::3]):
             place = self.states[..., 3 * k] + 1j * self.states[..., 3 * k + 1]
             energy = energy - mass * np.real(np.conj(self.model.gravity) * place)
@@ -107,23 +103,21 @@ class Course:
             touching = self.states[..., 2 * count + 1 + k] >= 0
             deep = np.asarray(np.abs(self.eccentricity(pin.name)) - pin.clearance)
             energy = energy + touching * pin.elastic_energy(deep)
-        return energy
+        return np.asarray(energy)
 
     @property
-    def work(self) -> RealField:
+    def work(self) -> FloatArray:
         """Work done since the start by pushes, twists, dampers and contacts' losses [J]."""
-        work: RealField = self.states[..., 2 * len(self.model.weights)]
-        return work
+        return np.asarray(self.states[..., 2 * len(self.model.weights)])
 
-    def _centre(self, body: str, rows: FloatArray) -> ComplexField:
-        centre: ComplexField = self._column(body, rows, 0) + 1j * self._column(body, rows, 1)
-        return centre
+    def _centre(self, body: str, rows: FloatArray) -> ComplexArray:
+        return np.asarray(self._column(body, rows, 0) + 1j * self._column(body, rows, 1))
 
-    def _column(self, body: str, rows: FloatArray, axis: int) -> RealField:
+    def _column(self, body: str, rows: FloatArray, axis: int) -> FloatArray:
         if body not in self.system.order:
             known = ", ".join(self.system.order)
             raise MechanismError(f"{self.system.name} has no moving body {body!r}", allowed=f"it has {known}")
-        column: RealField = rows[..., 3 * self.system.order.index(body) + axis]
+        column: FloatArray = np.asarray(rows[..., 3 * self.system.order.index(body) + axis])
         return column
 
 
@@ -145,10 +139,9 @@ class SystemRun(Course):
         return self.events[-1] if self.events and self.events[-1].terminal else None
 
     @property
-    def energy_residual(self) -> RealField:
+    def energy_residual(self) -> FloatArray:
         """Energy gained less the work done since the start [J]: zero but for errors."""
-        energy, work = np.asarray(self.energy), np.asarray(self.work)
-        residual: FloatArray = energy - energy[0] - (work - work[0])
+        residual: FloatArray = self.energy - self.energy[0] - (self.work - self.work[0])
         return residual
 
     @property
