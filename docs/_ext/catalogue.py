@@ -1,7 +1,8 @@
 """Sphinx extension: the reference pages, generated from the code so that they cannot drift from it.
 
 Writes docs/reference/generated/: one page for the machines (parameters and results), one for the command line, the
-verdicts on the published papers, one for each package (signatures and docstrings, shown as they stand in the source).
+verdicts on the published papers, one for each package (signatures and docstrings, shown as they stand in the source);
+and, beside the built pages, the report of every machine.
 """
 
 import ast
@@ -18,6 +19,7 @@ from ilmek.params import Parameter, declared
 from ilmek.units import format_quantity, printed_unit
 from ilmek.verification import PAPERS, TITLES, reproduce
 from ilmek.verification.wording import HEADINGS, row, summary
+from ilmek.viz.page import machine_page
 
 SOURCE = Path(__file__).parents[2] / "src" / "ilmek"
 OUT = Path(__file__).parents[1] / "reference" / "generated"
@@ -70,7 +72,7 @@ def machine_section(machine: Machine) -> str:
     return "\n\n".join(
         (
             f"## {machine.name}",
-            machine.summary,
+            f'{machine.summary}. <a href="../../machines/{machine.name}.html">Its page</a>, drawn with the defaults.',
             table(("parameter", "default", "unit", "allowed", "meaning"), parameters),
             "Results (JSON in SI and radians; the unit is the one a report shows):",
             table(("result", "unit", "meaning"), results),
@@ -146,7 +148,19 @@ def write_pages(_app: Any) -> None:
         (OUT / f"{name}.md").write_text(text + "\n", encoding="utf-8")
 
 
+def write_machine_pages(app: Any, failed: Exception | None) -> None:
+    """Write the report of every machine's defaults beside the built documentation, as `ilmek design --report` does."""
+    if failed or app.builder.format != "html":
+        return
+    folder = Path(app.outdir) / "machines"
+    folder.mkdir(exist_ok=True)
+    for machine in MACHINES.values():
+        page = machine_page(machine.report(machine.design(machine.params())))
+        (folder / f"{machine.name}.html").write_text(page, encoding="utf-8")
+
+
 def setup(app: Any) -> dict[str, bool]:
     """Register with Sphinx."""
     app.connect("builder-inited", write_pages)
+    app.connect("build-finished", write_machine_pages)
     return {"parallel_read_safe": True}
