@@ -15,17 +15,11 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.model import Mechanism
 from ilmek.linkage.way import Way, spaced
-from ilmek.num.brackets import bracketed_roots
+from ilmek.num.brackets import bracketed_minima, bracketed_roots
 from ilmek.plane.outlines import Outline, between, nearest
 
 BETWEEN = 8
 """Samples between neighbouring breaks of the way."""
-
-GOLDEN = 0.6180339887498949
-"""Share of a bracket that a step of the golden section keeps."""
-
-STEPS = 60
-"""Steps of the golden section: a bracket shrinks to rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,17 +132,7 @@ def _minima(
         low, high = np.append(low, places[-2]), np.append(high, places[-1])
     if not len(low):
         return np.empty(0)
-    left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-    at_left, at_right = apart(left), apart(right)
-    for _ in range(STEPS):
-        to_left = at_left < at_right
-        low, high = np.where(to_left, low, left), np.where(to_left, right, high)
-        fresh = np.where(to_left, high - GOLDEN * (high - low), low + GOLDEN * (high - low))
-        at_fresh = apart(fresh)
-        left, right = np.where(to_left, fresh, right), np.where(to_left, left, fresh)
-        at_left, at_right = np.where(to_left, at_fresh, at_right), np.where(to_left, at_left, at_fresh)
-    best: Float[np.ndarray, " minima"] = np.where(at_left < at_right, left, right)
-    return best
+    return bracketed_minima(apart, low, high)[0]
 
 
 def _interference(

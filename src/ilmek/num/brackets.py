@@ -1,4 +1,4 @@
-"""Roots between two places of opposite sign, many at once, to the last digit."""
+"""Roots and minima within brackets, many at once, to the last digit."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -7,6 +7,9 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 Reals: TypeAlias = Float[np.ndarray, " brackets"]
+
+GOLDEN = 0.6180339887498949
+"""Share of a bracket that a step of the golden section keeps."""
 
 
 def bracketed_roots(f: Callable[[Reals], Reals], low: Reals, high: Reals, *, steps: int = 200) -> Reals:
@@ -40,6 +43,27 @@ def bracketed_roots(f: Callable[[Reals], Reals], low: Reals, high: Reals, *, ste
             x1, f1 = np.where(done, x1, x), np.where(done, f1, value)
             share = _next_share(x1, x2, x3, f1, f2, f3)
     return np.where(usable, np.where(np.abs(f1) < np.abs(f2), x1, x2), np.nan)
+
+
+def bracketed_minima(f: Callable[[Reals], Reals], low: Reals, high: Reals, *, steps: int = 60) -> tuple[Reals, Reals]:
+    """Where f is least within each bracket, and its value there, by golden sections; kinks do not matter.
+
+    f has one minimum in each bracket, or one of several is found. 60 steps shrink a bracket to rounding.
+
+    >>> at, least = bracketed_minima(lambda x: np.abs(x - 0.3), np.array([0.0]), np.array([1.0]))
+    >>> at.round(12).tolist(), least.round(12).tolist()
+    ([0.3], [0.0])
+    """
+    left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    at_left, at_right = f(left), f(right)
+    for _ in range(steps):
+        to_left = at_left < at_right
+        low, high = np.where(to_left, low, left), np.where(to_left, right, high)
+        fresh = np.where(to_left, high - GOLDEN * (high - low), low + GOLDEN * (high - low))
+        value = f(fresh)
+        left, right = np.where(to_left, fresh, right), np.where(to_left, left, fresh)
+        at_left, at_right = np.where(to_left, value, at_right), np.where(to_left, at_left, value)
+    return np.where(at_left < at_right, left, right), np.minimum(at_left, at_right)
 
 
 def _next_share(x1: Reals, x2: Reals, x3: Reals, f1: Reals, f2: Reals, f3: Reals) -> Reals:  # noqa: PLR0917
