@@ -15,9 +15,10 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_jerk import carried_jerk
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.groups.group import Drive, Known
-from ilmek.linkage.model import Coupling, Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.groups.group import Drive, Group, Known
+from ilmek.linkage.model import Coupling, Joint, Mechanism, Pin, Rotation, Slide
 from ilmek.plane.vectors import dot
 
 Row: TypeAlias = dict[str, tuple[RealField, RealField, RealField]]
@@ -36,6 +37,7 @@ class Equation:
     bias: RealField
     rate: RealField = 0.0
     second_rate: RealField = 0.0
+    third_rate: RealField = 0.0
     length: int = 1
 
 
@@ -60,7 +62,7 @@ def slide_equations(mechanism: Mechanism, slide: Slide, bodies: Known) -> list[E
 def displacement_equation(mechanism: Mechanism, slide: Slide, drive: Drive, bodies: Known) -> Equation:
     """D . f - s = 0: the driven slide."""
     along = _along(mechanism, slide, bodies, 1)
-    return Equation(along.value - drive.value, along.row, along.bias, drive.speed, drive.acceleration)
+    return Equation(along.value - drive.value, along.row, along.bias, drive.speed, drive.acceleration, drive.jerk)
 
 
 def rotation_equation(mechanism: Mechanism, entry: Rotation, drive: Drive, bodies: Known) -> Equation:
@@ -68,7 +70,7 @@ def rotation_equation(mechanism: Mechanism, entry: Rotation, drive: Drive, bodie
     first, second = mechanism.joint(entry.about).bodies
     carrier = second if entry.body == first else first
     held = _angle(entry.body, carrier, drive.value, bodies)
-    return Equation(held.value, held.row, held.bias, drive.speed, drive.acceleration, length=0)
+    return Equation(held.value, held.row, held.bias, drive.speed, drive.acceleration, drive.jerk, length=0)
 
 
 def coupling_equation(mechanism: Mechanism, coupling: Coupling, near: RealField, bodies: Known) -> Equation:
@@ -88,6 +90,42 @@ def coupling_equation(mechanism: Mechanism, coupling: Coupling, near: RealField,
     x, y, spin = row[coupling.carrier]
     row |= {first: (0, 0, -geared), coupling.carrier: (x, y, spin + geared)}
     return Equation(value, row, held.bias if length else 0.0, length=length)
+
+
+def third_biases(group: Group, bodies: Known) -> list[RealField]:
+    """What is left of each third rate where no body has a jerk; in the order of joints, inputs, couplings."""
+    mechanism = group.mechanism
+    biases: list[RealField] = []
+    for joint in group.joints:
+        if isinstance(joint, Pin):
+            first, second = (_arm_jerk(bodies[body], mechanism.point(body, joint.name)) for body in joint.bodies)
+            biases += [np.real(first - second), np.imag(first - second)]
+        else:
+            biases += [_along_third(mechanism, joint, bodies, 1j), 0.0]
+    driven: list[Joint | None] = [mechanism.joint(entry.joint) for entry in group.inputs]
+    driven += [mechanism.joint(one.second[1]) if one.kind == "rack" else None for one in group.couplings]
+    for one in driven:
+        biases.append(_along_third(mechanism, one, bodies, 1) if isinstance(one, Slide) else 0.0)
+    return biases
+
+
+def _arm_jerk(body: BodyMotion, local: complex) -> ComplexField:
+    return carried_jerk(0j, body.direction * local, body.omega, body.alpha, 0.0)
+
+
+def _along_third(mechanism: Mechanism, slide: Slide, bodies: Known, quarter: complex) -> RealField:
+    """Third rate of D . f where no body has a jerk: the product rule of D and f, thrice."""
+    body, guide = bodies[slide.body], bodies[slide.guide]
+    p, q = body.carry(mechanism.point(slide.body, slide.name)), guide.carry(mechanism.point(slide.guide, slide.name))
+    f, w = guide.direction * np.exp(1j * slide.along) * quarter, guide.omega
+    thrown = _arm_jerk(body, mechanism.point(slide.body, slide.name))
+    thrown = thrown - _arm_jerk(guide, mechanism.point(slide.guide, slide.name))
+    return (
+        dot(carried_jerk(0j, f, w, guide.alpha, 0.0), p.position - q.position)
+        + 3 * dot((1j * guide.alpha - w * w) * f, p.velocity - q.velocity)
+        + 3 * dot(1j * w * f, p.acceleration - q.acceleration)
+        + dot(f, thrown)
+    )
 
 
 def angle_near(direction: ComplexField, against: ComplexField, near: RealField) -> RealField:

@@ -22,7 +22,7 @@ def first_fault(plan: Plan, drives: Mapping[str, Drive], status: Int8[np.ndarray
     """The error for the first step that fails anywhere: the failing samples are solved once more, step by step."""
     bad = status != Status.OK
     moving = _moving(plan, drives)
-    drives = {name: _chosen(drive, bad) for name, drive in drives.items()}
+    drives = {name: drive.part(bad) for name, drive in drives.items()}
     known: dict[str, BodyMotion] = {GROUND: STILL, **starts(plan, drives)}
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         for step in plan.steps:
@@ -59,11 +59,6 @@ def _error(plan: Plan, step: Step, said: tuple[str, str], known: Known, status: 
         )
     missing, remedy = step.shortfall(known)
     return MechanismError(f"{name} cannot close for {where}: {missing}", do=f"{remedy} or limit the {limit}")
-
-
-def _chosen(drive: Drive, bad: Bool[np.ndarray, " samples"]) -> Drive:
-    fields = (drive.value, drive.speed, drive.acceleration)
-    return Drive(*(value[bad] if isinstance(value, np.ndarray) else value for value in fields))
 
 
 def _where(

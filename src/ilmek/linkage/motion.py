@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Complex, Float, Int8
 
 from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_jerk import STILL_JERK, BodyJerk
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.faults import first_fault
 from ilmek.linkage.groups.group import Columns, Drive
@@ -88,6 +89,27 @@ class Motion:
     def alpha(self, body: str) -> Reals:
         """Angular acceleration of a body [rad/s^2]."""
         return self._reals(self.body(body).alpha)
+
+    def jerk(self, body: str) -> Reals:
+        """Third rate of a body's angle [rad/s^3], computed when it is asked for."""
+        return self._reals(self._jerk(body).beta)
+
+    def point_jerk(self, body: str, point: str) -> Points:
+        """Jerk of a body's named point [m/s^3], computed when it is asked for."""
+        local = self.plan.mechanism.point(body, point)
+        return self._points(self._jerk(body).carry(local))
+
+    def _jerk(self, name: str) -> BodyJerk:
+        """A body's motion with its jerk, from those that it hangs on."""
+        if name == GROUND:
+            return STILL_JERK
+        self.plan.mechanism.body(name)
+        step = self.plan.step_of(name)
+        known = {parent: self._jerk(parent) for parent in step.parents}
+        columns = {body: self.columns[body] for body in step.bodies}
+        placed = step.place({parent: one.motion for parent, one in known.items()}, columns)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            return step.jerk(known, placed, columns, self.drives)[name]
 
     def require(self) -> "Motion":
         """The motion itself, if every sample could be solved.

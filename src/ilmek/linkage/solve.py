@@ -29,18 +29,19 @@ Courses = RealField | Mapping[str, RealField]
 """One input's values, or several inputs' by name: a rotation's by its body, a displacement's by its slide."""
 
 
-def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Courses = 0.0) -> Motion:
+def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Courses = 0.0, jerk: Courses = 0.0) -> Motion:
     """Motion of the mechanism for a batch of input values.
 
     angle         value of the input [rad, or m for a displacement]: a number, or an array over the samples
     speed         its rate [rad/s, m/s], one number or an array over the samples
     acceleration  its second rate [rad/s^2, m/s^2], likewise
-    Where there are several inputs: mappings from the input's name; a speed or acceleration left out is zero.
+    jerk          its third rate [rad/s^3, m/s^3], likewise; counts only where `Motion.jerk` is asked
+    Where there are several inputs: mappings from the input's name; a rate left out is zero.
 
     Never fails for a sample: see `Motion.status` and `Motion.require`. Raises MechanismError for unknown or missing
     inputs, values that are not finite, and arrays that are empty or of different lengths.
     """
-    drives = drives_of(plan, angle, speed, acceleration)
+    drives = drives_of(plan, angle, speed, acceleration, jerk)
     size = NEWTON_BLOCK if any(isinstance(step, Block) for step in plan.steps) else BLOCK
     samples = np.size(drives[plan.mechanism.inputs[0].name].value)
     status = np.zeros(samples, dtype=np.int8)
@@ -48,7 +49,7 @@ def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Course
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         for start in range(0, samples, size):
             part = slice(start, start + size)
-            solved = _block(plan, {name: _part(drive, part) for name, drive in drives.items()}, status[part])
+            solved = _block(plan, {name: drive.part(part) for name, drive in drives.items()}, status[part])
             if start == 0:
                 columns = {body: _room(fields, samples) for body, fields in solved.items()}
             for body, fields in solved.items():
@@ -81,28 +82,24 @@ def _write(room: Columns, fields: Columns, part: slice) -> None:
             place[part] = field
 
 
-def _part(drive: Drive, part: slice) -> Drive:
-    fields = (drive.value, drive.speed, drive.acceleration)
-    return Drive(*(value[part] if isinstance(value, np.ndarray) else value for value in fields))
-
-
-def drives_of(plan: Plan, angle: Courses, speed: Courses, acceleration: Courses) -> dict[str, Drive]:
+def drives_of(
+    plan: Plan, angle: Courses, speed: Courses, acceleration: Courses, jerk: Courses = 0.0
+) -> dict[str, Drive]:
     """The inputs' courses by name, checked, their values spread over the samples; for the errors see `solve`."""
     names = [entry.name for entry in plan.mechanism.inputs]
-    values, speeds, accelerations = (
+    values, *rates = (
         _by_name(names, courses, what)
-        for courses, what in ((angle, "value"), (speed, "speed"), (acceleration, "acceleration"))
+        for courses, what in ((angle, "value"), (speed, "speed"), (acceleration, "acceleration"), (jerk, "jerk"))
     )
     missing = [name for name in names if name not in values]
     if missing:
         raise MechanismError(f"no value given for input {missing[0]!r} of {plan.mechanism.name}")
-    fields = [course for given in (values, speeds, accelerations) for course in given.values()]
+    fields = [course for given in (values, *rates) for course in given.values()]
     samples = _samples(fields)
     return {
         name: Drive(
             np.broadcast_to(values[name], samples),
-            _spread(speeds.get(name, 0.0), samples),
-            _spread(accelerations.get(name, 0.0), samples),
+            *(_spread(given.get(name, 0.0), samples) for given in rates),
         )
         for name in names
     }

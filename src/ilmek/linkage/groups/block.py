@@ -11,12 +11,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, RealField
+from ilmek.arrays import ComplexField, FloatArray, RealField
 from ilmek.linkage import equations
+from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.equations import Equation
 from ilmek.linkage.groups.course import Course, angles, first_angle
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.model import Pin, Rotation, Slide
 from ilmek.num.linear import reciprocal_condition, solve_many
 from ilmek.num.newton import newton
@@ -109,16 +110,40 @@ class Block(Step):
         samples = matrix.shape[:-2]
         moving = dict(posed) | {body: _at_origin(known[body]) for body in self.parents}
         held = self.equations(moving, drives)
-        demand = [(one.rate - _known_part(one, moving, self.parents, 1)) * self._unit(one) for one in held]
+        speeds = {body: (moving[body].anchor.velocity, moving[body].omega) for body in self.parents}
+        demand = [(one.rate - _share(one, speeds)) * self._unit(one) for one in held]
         v = solve_many(matrix, _stack(demand, samples))
         moving |= {body: self._with_velocity(posed[body], v, k) for k, body in enumerate(self.bodies)}
         held = self.equations(moving, drives)
-        demand = [
-            (one.second_rate - one.bias - _known_part(one, moving, self.parents, 2)) * self._unit(one) for one in held
-        ]
+        gains = {body: (moving[body].anchor.acceleration, moving[body].alpha) for body in self.parents}
+        demand = [(one.second_rate - one.bias - _share(one, gains)) * self._unit(one) for one in held]
         a = solve_many(matrix, _stack(demand, samples))
         columns = {body: self._columns(moving[body], a, k) for k, body in enumerate(self.bodies)}
         return Solved(columns, reciprocal_condition(matrix))
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, Drive],
+    ) -> Mapping[str, BodyJerk]:
+        """The bodies': the matrix of `solve` once more, with the third rates' right side."""
+        moving = dict(placed) | {body: _at_origin(known[body].motion) for body in self.parents}
+        shapes = (np.shape(field) for body in moving.values() for field in (body.direction, body.alpha))
+        samples = np.broadcast_shapes(*shapes)
+        held = self.equations(moving, drives)
+        biases = equations.third_biases(self.group, moving)
+        jerks = {body: (known[body].carry(0j), known[body].beta) for body in self.parents}
+        demand = [
+            (one.third_rate - bias - _share(one, jerks)) * self._unit(one)
+            for one, bias in zip(held, biases, strict=True)
+        ]
+        x = solve_many(self._matrix(held, samples), _stack(demand, samples))
+        return {
+            body: BodyJerk(placed[body], x[..., 3 * k] + 1j * x[..., 3 * k + 1], x[..., 3 * k + 2] / self.scale)
+            for k, body in enumerate(self.bodies)
+        }
 
     def _unit(self, equation: Equation) -> float:
         return 1.0 if equation.length else self.scale
@@ -161,16 +186,14 @@ def of(group: Group) -> Block:
     return Block(group, reach or 1.0, angles(group.mechanism) if group.couplings else {})
 
 
-def _known_part(one: Equation, bodies: Known, parents: tuple[str, ...], order: int) -> RealField:
-    """What the known bodies' velocities (order 1) or accelerations (order 2) contribute to an equation."""
-    part: RealField = 0.0
-    for body in parents:
+def _share(one: Equation, rates: Mapping[str, tuple[ComplexField, RealField]]) -> RealField:
+    """What the known bodies contribute to an equation's rate, by the rates of their origins and angles."""
+    share: RealField = 0.0
+    for body, (move, turn) in rates.items():
         if body in one.row:
             dx, dy, dtheta = one.row[body]
-            move = bodies[body].anchor.velocity if order == 1 else bodies[body].anchor.acceleration
-            turn = bodies[body].omega if order == 1 else bodies[body].alpha
-            part = part + dx * move.real + dy * move.imag + dtheta * turn
-    return part
+            share = share + dx * move.real + dy * move.imag + dtheta * turn
+    return share
 
 
 def _at_origin(body: BodyMotion) -> BodyMotion:

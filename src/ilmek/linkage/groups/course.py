@@ -35,15 +35,17 @@ class Course:
     shares: Mapping[str, float]
 
     def drive(self, drives: Mapping[str, Drive]) -> Drive:
-        """Value, speed and acceleration at the inputs' courses."""
+        """Value, speed, acceleration and jerk at the inputs' courses."""
         value: RealField = self.constant
         speed: RealField = 0.0
         acceleration: RealField = 0.0
+        jerk: RealField = 0.0
         for name, factor in self.shares.items():
             value = value + factor * drives[name].value
             speed = speed + factor * drives[name].speed
             acceleration = acceleration + factor * drives[name].acceleration
-        return Drive(value, speed, acceleration)
+            jerk = jerk + factor * drives[name].jerk
+        return Drive(value, speed, acceleration, jerk)
 
 
 def angles(mechanism: Mechanism) -> dict[str, Course]:

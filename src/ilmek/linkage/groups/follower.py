@@ -11,9 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ilmek.arrays import RealField
+from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.equations import angle_near
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.groups.hang import Hang, hangs
 from ilmek.linkage.model import Coupling, Slide
 from ilmek.plane.vectors import unit
@@ -64,6 +66,30 @@ class Follower(Step):
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The body on its joint."""
         return {self.hang.body: self.hang.place(known[self.hang.on], columns[self.hang.body])}
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],
+        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+    ) -> Mapping[str, BodyJerk]:
+        """The driven body's: the source's jerk, scaled, upon the carrier's."""
+        carrier, body = known[self.carrier], self.hang.body
+        third = self.scale * self._source_jerk(known[self.source], carrier)
+        beta = third if self.hang.track is not None else carrier.beta + third
+        return {body: self.hang.jerk(known[self.hang.on], placed[body], columns[body], beta)}
+
+    def _source_jerk(self, source: BodyJerk, carrier: BodyJerk) -> RealField:
+        """Third rate of the source's angle against the carrier, or of its slide's displacement."""
+        if self.slide is None:
+            return source.beta - carrier.beta
+        point, root, lead = self.slide
+        p, g, turns = source.motion.carry(point), carrier.motion.carry(root), carrier.motion
+        way, gain, rush = p.position - g.position, p.velocity - g.velocity, p.acceleration - g.acceleration
+        back = slid_jerk(1 + 0j, -turns.omega, -turns.alpha, -carrier.beta, way, gain, rush, 0j)
+        jerk = source.carry(point) - carrier.carry(root) + back
+        return np.real(jerk * np.conj(turns.direction * lead))
 
     def _source(self, known: Known) -> Drive:
         """The source's angle against the carrier, or the displacement of its slide, with its rates."""

@@ -7,9 +7,10 @@ Gears in a row, belts, racks, planetary gears with any member driven: however ma
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.groups.course import Course, courses
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.groups.hang import Hang, hangs, place_all
 from ilmek.plane.vectors import unit
 
@@ -52,6 +53,20 @@ class Geared(Step):
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The bodies on their joints."""
         return place_all(self.hangs, known, columns)
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],
+        drives: Mapping[str, Drive],
+    ) -> Mapping[str, BodyJerk]:
+        """The bodies': their courses' jerks."""
+        found = dict(known)
+        for one, course in zip(self.hangs, self.courses, strict=True):
+            third = course.drive(drives).jerk
+            found[one.body] = one.jerk(found[one.on], placed[one.body], columns[one.body], third)
+        return {body: found[body] for body in self.bodies}
 
 
 def recognise(group: Group) -> Geared | None:

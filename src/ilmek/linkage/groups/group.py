@@ -9,8 +9,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
+from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.model import Coupling, Input, Joint, Mechanism
 
@@ -20,14 +23,23 @@ Columns: TypeAlias = tuple[Any, ...]
 Known: TypeAlias = Mapping[str, BodyMotion]
 """Motions of the bodies already solved, by name."""
 
+KnownJerks: TypeAlias = Mapping[str, BodyJerk]
+"""The same with their jerks."""
+
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """An input's course: value [rad or m], speed and acceleration, a number or one a sample."""
+    """An input's course: value [rad or m], speed, acceleration and jerk, a number or one a sample."""
 
     value: RealField
     speed: RealField
     acceleration: RealField
+    jerk: RealField = 0.0
+
+    def part(self, chosen: Any) -> "Drive":
+        """Some of its samples, as a slice or mask chooses them."""
+        fields = (self.value, self.speed, self.acceleration, self.jerk)
+        return Drive(*(field[chosen] if isinstance(field, np.ndarray) else field for field in fields))
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +85,19 @@ class Step(ABC):
     @abstractmethod
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The bodies' motions from their columns."""
+
+    @abstractmethod
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],
+        drives: Mapping[str, Drive],
+    ) -> Mapping[str, BodyJerk]:
+        """The bodies' jerks: the equations of `solve` differentiated once more, each with another right side.
+
+        known  jerks of the bodies it hangs on         placed  the bodies' own motions, from their columns
+        """
 
     @property
     def size(self) -> float:

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ilmek.arrays import RealField
+from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.groups.group import Columns, Group, Known
 from ilmek.linkage.groups.shift import Track, track
@@ -28,6 +30,12 @@ class Hang:
     def place(self, on: BodyMotion, columns: Columns) -> BodyMotion:
         """The body's motion; columns: direction, omega, alpha; on a slide s, s', s''."""
         return hung(on, self.hinge, self.at, columns) if self.track is None else self.track.place(on, columns)
+
+    def jerk(self, on: BodyJerk, placed: BodyMotion, columns: Columns, third: RealField) -> BodyJerk:
+        """The body's jerk; third: beta in the world, on a slide the third rate of s."""
+        if self.track is None:
+            return BodyJerk(placed, on.carry(self.hinge), third)
+        return self.track.jerk(on, placed, columns, third)
 
 
 def hang(group: Group, joint: Joint, body: str) -> Hang:

@@ -12,8 +12,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.groups.shift import Track, refuse_parallel, slid_acceleration, slid_velocity, track
 from ilmek.linkage.model import Pin, Slide
 from ilmek.plane.vectors import cross, oblique
@@ -72,6 +73,28 @@ class CrossedSliders(Step):
         return {
             slider: line.place(known[on], columns[slider])
             for slider, on, line in zip(self.sliders, self.on, self.tracks, strict=True)
+        }
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],
+        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+    ) -> Mapping[str, BodyJerk]:
+        """The sliders': the third rates of s along e and z along f make good what the guides and other rates leave."""
+        lines, ends = [], []
+        for slider, on, line, reach in zip(self.sliders, self.on, self.tracks, self.reach, strict=True):
+            guide, turns, (s, ds, dds) = known[on], known[on].motion, columns[slider]
+            e = turns.direction * line.lead
+            lines.append(e)
+            way = slid_jerk(e, turns.omega, turns.alpha, guide.beta, s, ds, dds, 0.0)
+            ends.append(guide.carry(line.root + line.twist * reach) + way)
+        r = ends[1] - ends[0]
+        thirds = oblique(r, lines[0], lines[1]), -oblique(r, lines[1], lines[0])
+        return {
+            slider: line.jerk(known[on], placed[slider], columns[slider], third)
+            for slider, on, line, third in zip(self.sliders, self.on, self.tracks, thirds, strict=True)
         }
 
     @property

@@ -12,8 +12,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion, carried_acceleration, carried_velocity
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.groups.shift import Track, refuse_parallel, track
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin, Slide
@@ -101,6 +102,28 @@ class CrossSlide(Step):
         return {
             self.link: hung(known[self.on[0]], self.hinge, self.at, columns[self.link]),
             self.slider: self.track.place(known[self.on[1]], columns[self.slider]),
+        }
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],
+        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+    ) -> Mapping[str, BodyJerk]:
+        """The slider's: its third rate along e makes good what the guide leaves; the link turns as the guide does."""
+        guide, A = known[self.on[1]], known[self.on[0]].carry(self.hinge)
+        turns, link = guide.motion, placed[self.link]
+        Q, w = turns.carry(self.zero), turns.omega
+        d = link.anchor.position - Q.position
+        ds = link.anchor.velocity - carried_velocity(Q.velocity, d, w)
+        dds = gain(link.anchor.acceleration - carried_acceleration(Q.acceleration, d, w, turns.alpha), ds, w)
+        r = A - guide.carry(self.zero) - slid_jerk(1 + 0j, w, turns.alpha, guide.beta, d, ds, dds, 0.0)
+        e = turns.direction * self.track.lead
+        third = oblique(r, e, turns.direction * (self.track.twist * self.lead))
+        return {
+            self.link: BodyJerk(link, A, guide.beta),
+            self.slider: self.track.jerk(guide, placed[self.slider], columns[self.slider], third),
         }
 
 

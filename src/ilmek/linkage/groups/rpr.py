@@ -17,11 +17,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.groups.shift import Track, track
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin, Slide
+from ilmek.plane.vectors import dot
 from ilmek.units import format_quantity
 
 
@@ -147,6 +149,25 @@ class SlidingDyad(Step):
             link: hung(known[on], hinge, at, columns[link])
             for link, on, hinge, at in zip(self.links, self.on, self.hinges, self.at, strict=True)
         }
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+    ) -> Mapping[str, BodyJerk]:
+        """Both bodies': i beta d and the third rate of t along e make good what the other rates leave."""
+        (p, q), (one, two) = (known[on] for on in self.on), (placed[link] for link in self.links)
+        jerks = p.carry(self.hinges[0]), q.carry(self.hinges[1])
+        A, B, o = one.anchor, two.anchor, self.offset
+        e, w, alpha = one.direction * self.track.lead, one.omega, one.alpha
+        d, gain = B.position - A.position, B.acceleration - A.acceleration
+        t, dt = dot(e, d), way_rate(e, B.velocity - A.velocity, w, o)
+        ddt = way_rate(e, parting(gain, d, e, w, dt), alpha, o)
+        r = jerks[1] - jerks[0] - slid_jerk(e, w, alpha, 0.0, t + 1j * o, dt, ddt, 0.0)
+        beta = turn_rate(e, r, t)
+        return {self.links[0]: BodyJerk(one, jerks[0], beta), self.links[1]: BodyJerk(two, jerks[1], beta)}
 
     @property
     def size(self) -> float:

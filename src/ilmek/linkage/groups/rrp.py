@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_jerk import BodyJerk, carried_jerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.groups.shift import Track, slid_acceleration, slid_velocity, track
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin, Slide
@@ -141,6 +142,28 @@ class SliderDyad(Step):
         return {
             self.link: hung(known[self.on[0]], self.hinge, self.at, columns[self.link]),
             self.slider: self.track.place(known[self.on[1]], columns[self.slider]),
+        }
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],
+        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+    ) -> Mapping[str, BodyJerk]:
+        """Link's and slider's: i beta_a u and the third rate of s along e make good what the other rates leave."""
+        guide, link = known[self.on[1]], placed[self.link]
+        turns, A = guide.motion, known[self.on[0]].carry(self.hinge)
+        e, u = turns.direction * self.track.lead, link.direction * self.arm
+        s, ds, dds = columns[self.slider]
+        Q = guide.carry(self.track.root + self.track.twist * self.reach)
+        r = Q + slid_jerk(e, turns.omega, turns.alpha, guide.beta, s, ds, dds, 0.0)
+        r = r - carried_jerk(A, u, link.omega, link.alpha, 0.0)
+        cosine = turning(u, e)
+        third = slider_rate(u, r, cosine)
+        return {
+            self.link: BodyJerk(link, A, link_rate(e, r, cosine)),
+            self.slider: self.track.jerk(guide, placed[self.slider], columns[self.slider], third),
         }
 
     @property

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
+from ilmek.linkage.body_jerk import BodyJerk, carried_jerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin
 from ilmek.units import format_quantity
@@ -139,6 +140,24 @@ class Dyad(Step):
         return {
             link: hung(known[on], hinge, at, columns[link])
             for link, on, hinge, at in zip(self.links, self.on, self.hinges, self.at, strict=True)
+        }
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+    ) -> Mapping[str, BodyJerk]:
+        """The links': i beta_a u - i beta_b v = what A, B and the other rates of u and v leave."""
+        (one, two), (p, q) = (placed[link] for link in self.links), (known[on] for on in self.on)
+        u, v = one.direction * self.arms[0], two.direction * self.arms[1]
+        A, B = p.carry(self.hinges[0]), q.carry(self.hinges[1])
+        r = carried_jerk(B, v, two.omega, two.alpha, 0.0) - carried_jerk(A, u, one.omega, one.alpha, 0.0)
+        sine = turning(u, v)
+        return {
+            self.links[0]: BodyJerk(one, A, first_rate(v, r, sine)),
+            self.links[1]: BodyJerk(two, B, second_rate(u, r, sine)),
         }
 
     @property

@@ -8,8 +8,9 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.errors import MechanismError
+from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.model import Displacement, Mechanism, Slide
 
 PARALLEL = 1e-12
@@ -63,6 +64,13 @@ class Track:
             root.acceleration + slid_acceleration(e, w, on.alpha, s, ds, dds),
         )
         return BodyMotion(anchor, self.at, on.direction * self.twist, w, on.alpha)
+
+    def jerk(self, on: BodyJerk, placed: BodyMotion, columns: Columns, third: RealField) -> BodyJerk:
+        """The sliding body's jerk; columns: s, s', s''; third: the third rate of s."""
+        s, ds, dds = columns
+        e, w = on.motion.direction * self.lead, on.motion.omega
+        anchor = on.carry(self.root) + slid_jerk(e, w, on.motion.alpha, on.beta, s, ds, dds, third)
+        return BodyJerk(placed, anchor, on.beta)
 
 
 def track(mechanism: Mechanism, slide: Slide, body: str) -> Track:
@@ -118,6 +126,17 @@ class Shift(Step):
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The driven body, anchored at the slide's point."""
         return {self.body: self.track.place(known[self.on], columns[self.body])}
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],
+        drives: Mapping[str, Drive],
+    ) -> Mapping[str, BodyJerk]:
+        """The driven body's: the input's jerk along the track."""
+        third = drives[self.entry].jerk
+        return {self.body: self.track.jerk(known[self.on], placed[self.body], columns[self.body], third)}
 
 
 def recognise(group: Group) -> Shift | None:

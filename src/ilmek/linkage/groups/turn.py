@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.model import GROUND, Pin, Rotation
 from ilmek.plane.vectors import unit
 
@@ -47,6 +48,18 @@ class Turn(Step):
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The driven body, anchored at its pin."""
         return {self.body: hung(known[self.carrier], self.hinge, self.at, columns[self.body])}
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, Drive],
+    ) -> Mapping[str, BodyJerk]:
+        """The driven body's: the input's jerk upon the carrier's."""
+        carrier, jerk = known[self.carrier], drives[self.entry].jerk
+        beta = carrier.beta + (jerk if self.sign > 0 else -jerk)
+        return {self.body: BodyJerk(placed[self.body], carrier.carry(self.hinge), beta)}
 
 
 def hung(on: BodyMotion, hinge: complex, at: complex, columns: Columns) -> BodyMotion:
