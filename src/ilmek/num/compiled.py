@@ -22,7 +22,7 @@ def compiled(kernel: F) -> F:
     """`kernel` compiled on its first call: division by zero gives inf, NaN tests hold, multiply-adds may be fused."""
     # Under pytest a type checker is wrapped around every function; the compiler wants the bare one.
     bare = inspect.unwrap(kernel)
-    return cast(F, numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(bare))
+    return cast(F, numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(bare))
 
 
 def _sources_key() -> str:
