@@ -8,8 +8,8 @@ import pytest
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.dimensions import FixedAngle, LineDirection, Place, dimensions
-from ilmek.linkage.extremes import extreme_derivatives, extremes, rate_extreme_derivatives, rate_extremes
-from ilmek.linkage.fourbar import four_bar
+from ilmek.linkage.extremes import dwells, extreme_derivatives, extremes, rate_extreme_derivatives, rate_extremes
+from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import Body
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.outputs import Coordinate, Travel, Turning, followed
@@ -139,6 +139,18 @@ def test_two_extremes_between_neighbouring_samples_are_both_found():
         np.testing.assert_allclose([one.input for one in coarse], [one.input for one in fine], atol=1e-9)
 
 
+def test_a_slider_dwells_about_its_dead_centres_as_long_as_its_closed_form_says():
+    crank, rod, tolerance = 0.1, 0.3, 1e-3
+    moved = one_input(plan(slider_crank(crank, rod, branch=+1)))
+    inner, outer = dwells(moved, Travel("line"), tolerance, -1.0, 5.0)
+    for found, reach, middle in ((outer, rod + crank, 0.0), (inner, rod - crank, np.pi)):
+        at = reach - tolerance if middle == 0 else reach + tolerance
+        half = abs(np.arccos((crank**2 + at**2 - rod**2) / (2 * crank * at)) - middle)
+        assert (found.start, found.stop) == (pytest.approx(middle - half), pytest.approx(middle + half))
+    (cut,) = dwells(moved, Travel("line"), tolerance, -0.05, 1.0)
+    assert (cut.start, cut.stop) == (-0.05, pytest.approx(outer.stop))
+
+
 def test_a_dead_sample_has_no_derivative():
     motion = solve(plan(four_bar(1.0, 2.0, 1.4, 1.1, branch=+1)), np.array([0.1, 3.0]), 1.0)
     found = derivatives(motion, Turning("rocker"), [Place("crank", "A")])
@@ -161,5 +173,7 @@ def test_what_has_no_derivative_is_refused():
         spread(np.ones((1, 3)), [-0.1])
     with pytest.raises(MechanismError, match="while left moves, a value for each of: right"):
         one_input(plan(mechanisms.two_motors()), "left")
+    with pytest.raises(MechanismError, match="dwell within 0; a tolerance above 0"):
+        dwells(one_input(plan(mechanism)), Travel("t"), 0, 0.0, 1.0)
     with pytest.raises(MechanismError, match="from 1.0 to 0.0"):
         extremes(one_input(plan(mechanism)), Travel("t"), 1.0, 0.0)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.dimensions import Dimension
@@ -65,6 +65,56 @@ def extremes(moved: OneInput, output: Output, start: float, stop: float, *, samp
     return tuple(
         Extreme(float(q), float(y), bool(yy < 0)) for q, y, yy in zip(at, there.value, there.second_rate, strict=True)
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Dwell:
+    """A stretch of the input [rad, m] in which an output stays within a tolerance of its value at an extreme."""
+
+    start: float
+    stop: float
+    value: float
+
+
+def dwells(
+    moved: OneInput, output: Output, tolerance: float, start: float, stop: float, *, samples: int = 720
+) -> tuple[Dwell, ...]:
+    """Dwells of an output for inputs between start and stop, the longest first: about each extreme, ends polished.
+
+    tolerance  [m or rad], to either side. Of dwells about neighbouring extremes that overlap the longest is told; one
+               that goes on beyond start or stop, or the input's range, ends there.
+    Raises MechanismError for a tolerance that is not above zero, or a start not below stop.
+
+    >>> from ilmek.linkage.fourbar import slider_crank
+    >>> from ilmek.linkage.one_input import one_input
+    >>> from ilmek.linkage.outputs import Travel
+    >>> from ilmek.linkage.structure import plan
+    >>> crank = one_input(plan(slider_crank(0.1, 0.3, branch=+1)))
+    >>> [round(one.stop - one.start, 4) for one in dwells(crank, Travel("line"), 0.001, -1, 5)]
+    [0.3463, 0.2452]
+    """
+    if not tolerance > 0:
+        raise MechanismError(f"dwell within {tolerance}", allowed="a tolerance above 0")
+    peaks = extremes(moved, output, start, stop, samples=samples)
+    nodes = np.unique(np.concatenate([_nodes(start, stop, samples), [peak.input for peak in peaks]]))
+    value = followed(moved.motion(nodes), output).value
+    found: list[Dwell] = []
+    for peak in peaks:
+        at = int(np.searchsorted(nodes, peak.input))
+        near = np.abs(value - value[at]) <= tolerance
+        after, before = _run(near[at:]), _run(near[at::-1])
+        ends = nodes[at - before], nodes[at + after]
+        beyond = nodes[max(at - before - 1, 0)], nodes[min(at + after + 1, len(nodes) - 1)]
+        low, high = (
+            _leaving(moved, output, peak.value, tolerance, end, far) for end, far in zip(ends, beyond, strict=True)
+        )
+        found.append(Dwell(low, high, peak.value))
+    found.sort(key=lambda one: one.start - one.stop)
+    apart: list[Dwell] = []
+    for one in found:
+        if all(one.stop <= other.start or one.start >= other.stop for other in apart):
+            apart.append(one)
+    return tuple(apart)
 
 
 def rate_extremes(
@@ -131,3 +181,21 @@ def _roots(
         return np.empty(0)
     found = bracketed_roots(f, nodes[changed], nodes[changed + 1])
     return np.unique(found[np.isfinite(found)])
+
+
+def _run(near: Bool[np.ndarray, " nodes"]) -> int:
+    """How many nodes after the first are near without a break."""
+    return int(np.argmin(near)) - 1 if not near.all() else len(near) - 1
+
+
+def _leaving(  # noqa: PLR0917
+    moved: OneInput, output: Output, value: float, tolerance: float, inside: float, outside: float
+) -> float:
+    """Where between two inputs an output comes to differ from a value by the tolerance; the first, if it does not."""
+
+    def f(inputs: np.ndarray) -> np.ndarray:
+        apart = followed(moved.motion(inputs), output).value - value
+        return np.abs(apart) - tolerance
+
+    found = float(bracketed_roots(f, np.array([inside]), np.array([outside]))[0])
+    return found if np.isfinite(found) else float(inside)
