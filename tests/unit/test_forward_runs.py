@@ -137,6 +137,17 @@ def test_a_run_stops_where_its_linkage_cannot_go_on() -> None:
     assert run.energy_error < 1e-4
 
 
+def test_a_run_that_comes_to_a_dead_centre_stops_there_with_time_state_and_reason() -> None:
+    bars = {name: bar(0, length, mass=length) for name, length in (("crank", 0.2), ("coupler", 0.5), ("rocker", 0.2))}
+    parallelogram = reduce(plan(four_bar(0.5, 0.2, 0.5, 0.2, branch=+1)), bars)
+    run = forward(parallelogram, State(1.0, 10.0), 1.0, rtol=1e-8)
+    assert run.end.kind is Ending.DEAD_CENTRE
+    assert abs(run.end.state.position - math.pi) < 2e-6
+    assert run.end.state.time == pytest.approx((math.pi - 1.0) / 10, rel=1e-3)
+    assert run.end.state.speed == pytest.approx(10.0, rel=1e-2)
+    assert run.end.words == "four-bar stands at a dead centre for crank 180.0°"
+
+
 def test_a_motor_too_weak_is_told_so() -> None:
     run = forward(machine(), State(0.0), 1.0, drive=lambda _t, _q, _w: 0.2, events=(at_rest(),))
     with pytest.raises(MechanismError, match="came 0.*of 1 turns.*at rest.*stronger drive"):
@@ -176,5 +187,11 @@ def test_a_machine_that_cannot_be_reduced_is_refused() -> None:
         reduce(CRANK_ROCKER, {})
     with pytest.raises(MechanismError, match="flywheel"):
         reduce(CRANK_ROCKER, BARS, flywheel=-1.0)
+    with pytest.raises(MechanismError, match="gravity of four-bar is"):
+        reduce(CRANK_ROCKER, BARS, (Gravity(complex(math.nan)),))
+    with pytest.raises(MechanismError, match="mass centre of a body is"):
+        Inertia(1.0, complex(math.nan), 1.0)
+    with pytest.raises(MechanismError, match="event 'x' gives nan"):
+        forward(rotor(), State(0.0, 1.0), 1.0, events=(RunEvent("x", lambda _state: math.nan),))
     with pytest.raises(MechanismError, match="by sample"):
         reduce(CRANK_ROCKER, BARS, (Torque("crank", np.ones(3)),))

@@ -10,7 +10,7 @@ from ilmek.dynamics.forward import State, forward
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import Gravity
-from ilmek.dynamics.multibody import Pose, Push, Spring, System, Twist, from_motion, simulate
+from ilmek.dynamics.multibody import Event, Pose, Push, Spring, System, Twist, from_motion, simulate
 from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
@@ -144,9 +144,26 @@ def test_systems_that_make_no_sense_are_refused() -> None:
     with pytest.raises(MechanismError, match="no body 'wheel'"):
         replace(system, joints=(Pin("S", "wheel", GROUND),))
     with pytest.raises(MechanismError, match="acts on 'wheel'"):
-        simulate(replace(system, loads=(Twist("wheel", 1.0),)), np.array([0.0, 1.0]))
+        replace(system, loads=(Twist("wheel", 1.0),))
     with pytest.raises(MechanismError, match="finite"):
         replace(system, poses={"block": Pose(complex(math.nan))})
+
+
+def test_mechanisms_that_are_no_such_system_are_refused() -> None:
+    motion = solve(plan(MACHINES["four-bar"]), 0.3, 9.0)
+    inertias = masses(MACHINES["four-bar"])
+    with pytest.raises(MechanismError, match="no body 'wheel'"):
+        from_motion(motion, {**inertias, "wheel": Inertia(1.0, 0j, 1.0)})
+    with pytest.raises(MechanismError, match="'coupler' of four-bar has no inertia"):
+        from_motion(motion, {"crank": inertias["crank"]})
+    with pytest.raises(MechanismError, match="gravity of four-bar is"):
+        from_motion(motion, inertias, gravity=complex(math.nan))
+    with pytest.raises(MechanismError, match="torque=nan"):
+        from_motion(motion, inertias, loads=(Twist("crank", math.nan),))
+    with pytest.raises(MechanismError, match="no point 'Z'"):
+        from_motion(motion, inertias, loads=(Push("crank", "Z", 1.0 + 0j),))
+    with pytest.raises(MechanismError, match="event 'x' gives nan"):
+        simulate(from_motion(motion, inertias), np.array([0.0, 0.1]), events=(Event("x", lambda _course: math.nan),))
 
 
 def test_times_and_errors_that_make_no_sense_are_refused() -> None:

@@ -5,11 +5,14 @@ closing of a gap one of a distance. A value is looked at after each step of the 
 cancel, as in a value that swings faster than the machine moves.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from scipy.optimize import brentq
+
+from ilmek.errors import MechanismError
 
 At = TypeVar("At")
 
@@ -26,6 +29,13 @@ class Event(Generic[At]):
     value: Callable[[At], float]
     direction: int = 0
     terminal: bool = True
+
+    def look(self, state: At) -> float:
+        """The value in a state; raises MechanismError where it is not a number."""
+        value = float(self.value(state))
+        if math.isnan(value):
+            raise MechanismError(f"event {self.name!r} gives {value}", allowed="a number", do="mend its function")
+        return value
 
     def crossed(self, old: float, new: float) -> bool:
         """Whether a step from one value to another goes through zero in the direction that is meant."""

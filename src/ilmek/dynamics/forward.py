@@ -209,13 +209,13 @@ def _met(
             def at(time: float, dense: Callable[[float], Row] = dense) -> State:
                 return course.state(time, dense(time))
 
-            time = located(lambda time, event=event, at=at: event.value(at(time)), solver.t_old, solver.t)  # type: ignore[misc]
+            time = located(lambda time, event=event, at=at: event.look(at(time)), solver.t_old, solver.t)  # type: ignore[misc]
             met.append(Happening(event.name, time, at(time), event.terminal))
     return until_terminal(met)
 
 
 def _values(events: tuple[RunEvent, ...], state: State) -> list[float]:
-    return [event.value(state) for event in events]
+    return [event.look(state) for event in events]
 
 
 ARREST = 1e-9

@@ -5,6 +5,7 @@
 (0.2691, 3.149)
 """
 
+import cmath
 import math
 from dataclasses import dataclass
 
@@ -31,6 +32,8 @@ class Inertia:
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0):
                 raise MechanismError(f"{name} of a body is {value:g}", allowed="finite and not negative")
+        if not cmath.isfinite(self.centre):
+            raise MechanismError(f"mass centre of a body is {self.centre}", allowed="finite coordinates")
 
     def about(self, point: complex) -> float:
         """Moment of inertia about any point of the body's frame [kg m²]: J + m r² [Steiner's theorem].

@@ -85,11 +85,11 @@ class _Simulation:
         """From the start to the last time or the first terminal event."""
         begin(self.model, self.y, self.slope, self.force, self.kept)
         met: list[Happening[Course]] = []
-        before = [event.value(self._now()) for event in events]
+        before = [event.look(self._now()) for event in events]
         while int(self.clock[DONE_TO]) < len(self.times) - 1:
             start = float(self.clock[TIME]), self.y.copy(), self.slope.copy()
             self._advance(single=bool(events))
-            after = [event.value(self._now()) for event in events]
+            after = [event.look(self._now()) for event in events]
             met += self._met(events, before, after, start)
             if met and met[-1].terminal:
                 return self._told(met)
@@ -129,7 +129,7 @@ class _Simulation:
         found = []
         for event, old, new in zip(events, before, after, strict=True):
             if event.crossed(old, new):
-                part = located(lambda part, event=event: event.value(at(part)), 0.0, length)  # type: ignore[misc]
+                part = located(lambda part, event=event: event.look(at(part)), 0.0, length)  # type: ignore[misc]
                 found.append(Happening(event.name, time + part, at(part), event.terminal))
         return until_terminal(found)
 

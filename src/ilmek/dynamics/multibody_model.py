@@ -179,6 +179,14 @@ def from_motion(
     Raises MechanismError where the motion fails, and for couplings, which a system does not know.
     """
     mechanism = motion.require().plan.mechanism
+    if mechanism.couplings:
+        raise MechanismError(
+            f"{mechanism.name} has a coupling {mechanism.couplings[0].name!r}",
+            allowed="a general system has pins and slides",
+            do="run it by the reduced equation",
+        )
+    for body in inertias:
+        mechanism.body(body)
     poses = {}
     for body in mechanism.moving:
         origin = attached(motion, body, 0j)

@@ -102,8 +102,8 @@ def reduce(
 
     inertias  body -> inertia; a body not named is massless      loads  such as `Gravity`; see `Reduced.live_force`
 
-    Raises MechanismError for several inputs, an unknown body, a negative flywheel, a load that is given by sample, and
-    where no mass moves with the input.
+    Raises MechanismError for several inputs, an unknown body, a negative flywheel, a load that is given by sample or
+    gravity that is not finite, and where no mass moves with the input.
     """
     mechanism = plan.mechanism
     if len(mechanism.inputs) != 1:
@@ -118,6 +118,11 @@ def reduce(
     if flywheel == 0 and not any(inertia.mass or inertia.moment for inertia in moving.values()):
         raise MechanismError(f"no body of {mechanism.name} has a mass", do="give inertias, or a flywheel")
     weights = tuple(load for load in loads if isinstance(load, Gravity))
+    for load in weights:
+        if not np.isfinite(load.acceleration):
+            raise MechanismError(
+                f"gravity of {mechanism.name} is {load.acceleration}", allowed="a finite free fall in m/s²"
+            )
     others = [load for load in loads if not isinstance(load, Gravity)]
     steady, live = ([load for load in others if _steady(load) is kind] for kind in (True, False))
     return Reduced(plan, moving, weights, tuple(steady), tuple(live), flywheel)
