@@ -6,10 +6,11 @@ import math
 import numpy as np
 import pytest
 
+from ilmek.dynamics.balance import counterweighted, harmonics, shaking
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up import MACHINE, BeatUpParams, design, report
-from ilmek.machines.beat_up.design import _bars, _inertias, evaluate
+from ilmek.machines.beat_up.design import evaluate
 from ilmek.report import Animation, Drawing, Plot, Report
 from ilmek.units import deg
 
@@ -35,7 +36,7 @@ def test_unasked_design_meets_every_check() -> None:
     said = answer()
     assert not said.failed
     assert not said.warnings
-    assert len(said.checks) == 6
+    assert len(said.checks) == 9
     assert "at" not in said.as_json()["results"]
 
 
@@ -104,7 +105,8 @@ def test_refuses_in_words(settings: dict[str, str], error: type[IlmekError], sai
 
 def test_figures_are_a_drawing_of_the_beat_and_curves_over_a_turn() -> None:
     said = answer()
-    drawing, moving, *plots = said.figures
+    drawing, moving, *plots, start = said.figures
+    assert start.name == "run-speed"
     assert isinstance(drawing, Drawing)
     assert isinstance(moving, Animation)
     places = {dot.label: dot.at for dot in drawing.dots}
@@ -130,11 +132,12 @@ def test_machine_is_in_the_shape_of_the_catalogue() -> None:
 def test_mean_torque_is_that_of_dense_samples_however_near_a_toggle(swing: str, rotation: str) -> None:
     """Down to a transmission angle of 0.04 degrees, where half a degree of crank misses the peak altogether."""
     made = design(BeatUpParams.read({"swing": swing, "crank_rotation": rotation}))
-    bodies = _inertias(made.params, made.lengths, _bars(made.params, made.lengths))
+    rms = made.run().duty.rms
+    bodies = made.bodies
     angle = (np.arange(100_000) + 0.3) * (2 * math.pi / 100_000)
     torque = evaluate(made.params, made.plan, bodies, angle).torque
-    assert made.torque_rms == pytest.approx(math.sqrt(float(np.mean(torque**2))), rel=1e-5)
-    assert made.torque_rms <= made.peaks["drive_torque"].value
+    assert rms == pytest.approx(math.sqrt(float(np.mean(torque**2))), rel=1e-5)
+    assert rms <= made.peaks["drive_torque"].value
 
 
 def test_rocker_angles_at_the_dead_centres_are_those_of_the_links_not_of_samples() -> None:
@@ -143,3 +146,56 @@ def test_rocker_angles_at_the_dead_centres_are_those_of_the_links_not_of_samples
         motion = solve(made.plan, np.array([crank]))
         placed = complex(np.ravel(motion.point("rocker", "B").position)[0]) - made.lengths["ground"]
         assert math.atan2(placed.imag, placed.real) == pytest.approx(rocker, abs=1e-12)
+
+
+def test_counterweight_flywheel_and_motor_by_the_names_that_are_promised() -> None:
+    said = answer().as_json()["results"]
+    assert set(said["counterweight"]) == {"static_moment", "angle", "mass"}
+    assert set(said["full_balance"]) == {"crank", "rocker"}
+    assert set(said["shaking_first_harmonic"]) == {"with_crank", "against_crank"}
+    names = "shaking_moment_max work_excess flywheel_inertia motor_torque start_time run_speed_mean run_fluctuation"
+    assert set(names.split()) < set(said)
+    assert said["shaking_force_max_balanced"] < 0.7 * said["shaking_force_max"]
+    assert said["drive_torque_mean"] == 0.0
+    assert said["run_speed_mean"] == pytest.approx(BeatUpParams().speed, rel=5e-3)
+
+
+def test_the_counterweight_leaves_the_harmonic_that_turns_against_the_crank() -> None:
+    made = design(BeatUpParams())
+    left = harmonics(made.balance.after.force[:-1], 1)
+    assert abs(left[1]) < 1e-9
+    assert abs(left[-1]) == pytest.approx(made.balance.first[1])
+    half = design(BeatUpParams(balance_share=0.5, counterweight_radius=0.1)).balance
+    assert abs(harmonics(half.after.force[:-1], 1)[1]) == pytest.approx(made.balance.first[0] / 2)
+    assert half.mass == pytest.approx(abs(half.counterweight) / 0.1)
+    none = design(BeatUpParams(balance_share=0.0)).balance
+    np.testing.assert_array_equal(none.after.force, none.before.force)
+
+
+def test_the_whole_balance_leaves_nothing() -> None:
+    made = design(BeatUpParams())
+    bodies = made.bodies
+    weighted = bodies | {
+        link: counterweighted(bodies[link], static_moment, 0.05)
+        for link, static_moment in zip(("crank", "rocker"), made.balance.whole, strict=True)
+    }
+    assert np.abs(shaking(made.state.motion, weighted).force).max() < 1e-12
+
+
+@pytest.mark.parametrize("speed", [5.0, 40.0])
+def test_the_flywheel_keeps_the_fluctuation_at_any_speed(speed: float) -> None:
+    running = design(BeatUpParams(speed=speed, slip=0.3, fluctuation=0.02)).run()  # so soft a motor leaves it so
+    assert running.fluctuation == pytest.approx(0.02, rel=0.1)
+
+
+def test_a_motor_too_weak_for_the_weight_is_said() -> None:
+    said = answer(gravity="9.81m/s^2", motor_torque="0.2N*m", speed="15.5rad/s")
+    assert "speed that the motor reaches" in [check.name for check in said.failed]
+    assert any("does not bring the crank to its speed" in warning for warning in said.warnings)
+    assert said.as_json()["results"]["start_time"] is None
+
+
+def test_beside_a_toggle_nothing_is_run_and_that_is_said() -> None:
+    said = answer(swing="84.3deg", crank_rotation="311.3deg")
+    assert any("too near a toggle" in warning for warning in said.warnings)
+    assert "start_time" not in said.as_json()["results"]

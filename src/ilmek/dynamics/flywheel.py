@@ -14,7 +14,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.peaks import Peak, Piece, suprema
+from ilmek.dynamics.peaks import Peak, Piece, pieces, suprema
 from ilmek.dynamics.turning import piecewise
 from ilmek.errors import MechanismError
 from ilmek.units import turn
@@ -24,7 +24,7 @@ Torque: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray]
 
 PARTS, MOST_PARTS = 32, 8192
 ACCURACY = 1e-10
-ROUNDS = 7
+ROUNDS = 6
 """Each narrows down a crossing of the mean 16 times; the work stands still there, so that its error is the square."""
 
 
@@ -52,31 +52,34 @@ def duty(torque: Torque, breaks: Iterable[float] = ()) -> Duty:
     """
     breaks = tuple(breaks)
     peak = suprema(lambda angle, side: {"size": np.abs(torque(angle, side))}, breaks)["size"]
-    parts, found = PARTS, _work(torque, breaks, PARTS)
+    parts, found = PARTS, _means(torque, breaks, PARTS)
     while parts < MOST_PARTS:
-        parts, before, found = 2 * parts, found, _work(torque, breaks, 2 * parts)
-        if np.allclose(found[:3], before[:3], rtol=ACCURACY, atol=ACCURACY * peak.value):
+        parts, before, found = 2 * parts, found, _means(torque, breaks, 2 * parts)
+        if np.allclose(found, before, rtol=ACCURACY, atol=ACCURACY * peak.value):
             break
-    mean, rms, excess, slowest, fastest = found
-    return Duty(mean, rms, peak, excess, slowest, fastest)
+    mean, rms = found
+    return Duty(mean, rms, peak, *_excess(torque, breaks, parts // 2, mean))
 
 
-def _work(torque: Torque, breaks: tuple[float, ...], parts: int) -> tuple[float, float, float, float, float]:
-    """Mean, rms, excess, and where the work above the mean is greatest and least."""
+def _means(torque: Torque, breaks: tuple[float, ...], parts: int) -> tuple[float, float]:
+    """Mean and root mean square over a turn."""
 
     def powers(angle: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
         value = torque(angle, side)
         return {"once": value, "squared": value**2}
 
-    cut, sums = piecewise(powers, breaks, parts)
-    mean = math.fsum(sums["once"]) / turn
-    crossings = _crossings(torque, cut, mean)
+    _, sums = piecewise(powers, breaks, parts)
+    return math.fsum(sums["once"]) / turn, math.sqrt(math.fsum(sums["squared"]) / turn)
+
+
+def _excess(torque: Torque, breaks: tuple[float, ...], parts: int, mean: float) -> tuple[float, float, float]:
+    """Excess of work above the mean, and the angles where it is greatest and least."""
+    crossings = _crossings(torque, pieces((*breaks, *(turn / parts * np.arange(parts)))), mean)
     cut, above = piecewise(lambda angle, side: {"above": torque(angle, side) - mean}, (*breaks, *crossings), parts)
     work = np.concatenate(([0.0], np.cumsum(above["above"])))
     at = np.array([cut[0].start, *(piece.end for piece in cut)])
     most, least = int(np.argmax(work)), int(np.argmin(work))
-    rms = math.sqrt(math.fsum(sums["squared"]) / turn)
-    return mean, rms, float(work[most] - work[least]), float(at[most] % turn), float(at[least] % turn)
+    return float(work[most] - work[least]), float(at[most] % turn), float(at[least] % turn)
 
 
 def _crossings(torque: Torque, cut: tuple[Piece, ...], mean: float) -> list[float]:

@@ -7,7 +7,7 @@ at the crank angle beta, is the beat.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,6 +25,8 @@ from ilmek.linkage.quality import grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.machines.beat_up.running import Running, run
+from ilmek.machines.beat_up.shaking import Balance, balance
 from ilmek.synthesis.crank_rocker import DeadCentres, Links, dead_centres, grashof_margin, transmission_angle_min
 from ilmek.synthesis.crank_rocker_selection import member
 from ilmek.units import format_quantity, turn
@@ -36,9 +38,6 @@ BEATER_RATIO = 1.3
 
 SAMPLES = 720
 """Samples over a turn: half a degree."""
-
-MOST_SAMPLES = 360 * 2**11
-"""Most samples over a turn for a mean: links within 0.003 degrees of a toggle need them."""
 
 TOGGLE = 1e-9
 """Least Grashof margin, in ground links, of a crank-rocker that does not stand in a toggle."""
@@ -70,8 +69,9 @@ class BeatUp:
     links     ratios to the ground link        dead_centres  swing, crank rotation and beta of these links
     lengths   ground, crank, coupler, rocker, beater [m]
     masses    of the bars crank, coupler, rocker [kg]       inertias  of the same about their own centres [kg m²]
+    bodies    the moving bodies, the beater on the rocker
     state     over one turn, both ends included             peaks     greatest values over the turn
-    torque_rms  root mean square of the drive torque over the turn [N m]
+    balance     shaking force and counterweights
     at        at the crank angle asked for, if any
     """
 
@@ -81,10 +81,11 @@ class BeatUp:
     lengths: Mapping[str, float]
     masses: Mapping[str, float]
     inertias: Mapping[str, float]
+    bodies: Mapping[str, Inertia]
     plan: Plan
     state: State
     peaks: Mapping[str, Peak]
-    torque_rms: float
+    balance: Balance
     at: State | None
 
     @property
@@ -108,6 +109,17 @@ class BeatUp:
         """Crank angle of the folded dead centre, the beater farthest from the fell [rad]."""
         return float(np.mod(self.dead_centres.beta + self.dead_centres.rotation, turn))
 
+    def run(self) -> Running:
+        """Its run by the motor, from rest and at speed, and what that asks of motor and flywheel."""
+        return run(
+            self.params,
+            self.plan,
+            self.bodies,
+            Gravity(weight(self.params)),
+            torque=lambda at: evaluate(self.params, self.plan, self.bodies, at).torque,
+            back=self.back_angle,
+        )
+
 
 def design(params: BeatUpParams) -> BeatUp:
     """Size, move and load a beat-up mechanism.
@@ -126,6 +138,7 @@ def design(params: BeatUpParams) -> BeatUp:
     def state(at: FloatArray) -> State:
         return evaluate(params, planned, inertias, at)
 
+    whole = state(angle)
     return BeatUp(
         params=params,
         links=links,
@@ -133,10 +146,11 @@ def design(params: BeatUpParams) -> BeatUp:
         lengths=lengths,
         masses={name: inertia.mass for name, inertia in bars.items()},
         inertias={name: inertia.moment for name, inertia in bars.items()},
+        bodies=inertias,
         plan=planned,
-        state=state(angle),
+        state=whole,
         peaks=peaks(lambda at: sizes(state(at)), samples=SAMPLES),
-        torque_rms=root_mean_square(lambda at: state(at).torque),
+        balance=balance(params, lengths, inertias, whole.motion),
         at=None if params.crank_angle is None else state(np.array([params.crank_angle])),
     )
 
@@ -162,11 +176,16 @@ def mechanism(lengths: Mapping[str, float]) -> Mechanism:
     )
 
 
+def weight(params: BeatUpParams) -> complex:
+    """Free fall [m/s²] in the frame of the ground line."""
+    return params.gravity * complex(math.cos(params.gravity_direction), math.sin(params.gravity_direction))
+
+
 def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia], angle: FloatArray) -> State:
     """Motion and forces at the given crank angles [rad]."""
     motion = solve(planned, angle, params.speed).require()
-    weight = params.gravity * complex(math.cos(params.gravity_direction), math.sin(params.gravity_direction))
-    forces = inverse(motion, inertias, (Gravity(weight),))
+    falling = weight(params)
+    forces = inverse(motion, inertias, (Gravity(falling),))
     beater = attached(motion, "rocker", planned.mechanism.point("rocker", "E"))
     return State(
         angle=angle,
@@ -175,23 +194,8 @@ def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia
         pins={pin: np.abs(forces.pin(pin)) for pin in PINS},
         torque=forces.effort("crank"),
         beater=beater,
-        beater_force=params.beater_mass * (beater.acceleration - weight),
+        beater_force=params.beater_mass * (beater.acceleration - falling),
     )
-
-
-def root_mean_square(curve: Callable[[FloatArray], FloatArray]) -> float:
-    """Root mean square of a curve over a turn, samples doubled until it stands.
-
-    A smooth curve of one turn is summed by few even samples to rounding; one with a peak as narrow as near a toggle
-    needs more.
-    """
-    count, mean = SAMPLES, float(np.mean(curve(np.arange(SAMPLES) * (turn / SAMPLES)) ** 2))
-    while count < MOST_SAMPLES:
-        between = float(np.mean(curve((np.arange(count) + 0.5) * (turn / count)) ** 2))
-        count, before, mean = 2 * count, mean, (mean + between) / 2
-        if abs(mean - before) <= 1e-9 * mean:
-            break
-    return math.sqrt(mean)
 
 
 def sizes(state: State) -> dict[str, FloatArray]:

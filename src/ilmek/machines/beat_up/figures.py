@@ -9,6 +9,8 @@ from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.machines.animation import animated, frames
 from ilmek.machines.beat_up.design import BeatUp
+from ilmek.machines.beat_up.running import Running
+from ilmek.machines.beat_up.shaking import size
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
 
@@ -16,12 +18,13 @@ CARPET = 0.35
 """Length of carpet and of warp drawn, over the length of the beater."""
 
 
-def figures(design: BeatUp) -> tuple[Figure, ...]:
-    """The drawing, the same in motion, and six plots."""
+def figures(design: BeatUp, running: Running) -> tuple[Figure, ...]:
+    """The drawing, the same in motion, seven plots, and the start under the motor."""
     return (
         drawing(design),
         moving(design),
-        *(plot(design) for plot in (travel, velocity, acceleration, pins, torque, transmission)),
+        *(plot(design) for plot in (travel, velocity, acceleration, pins, torque, transmission, shaken)),
+        *started(running),
     )
 
 
@@ -138,6 +141,27 @@ def torque(design: BeatUp) -> Plot:
     """Torque of the drive on the crank."""
     curves = {"drive": design.state.torque}
     return _plot(design, "drive-torque", "Torque of the drive on the crank", Axis("torque", "N*m"), curves)
+
+
+def shaken(design: BeatUp) -> Plot:
+    """Size of the shaking force without the counterweight on the crank and with it."""
+    balance = design.balance
+    curves = {"with the counterweight": size(balance.after), "without": size(balance.before)}
+    return _plot(design, "shaking-force", "Shaking force on the frame", Axis("force", "N"), curves)
+
+
+def started(running: Running) -> tuple[Plot, ...]:
+    """Speed of the crank from rest, under the motor; nothing where the motor is not run."""
+    runs = [run for run in (running.start, running.steady) if run is not None]
+    if not runs:
+        return ()
+    begin = [0.0, float(runs[0].time[-1])]
+    series = tuple(
+        Series(said, start + run.time, run.speed)
+        for said, start, run in zip(("from rest", "at speed"), begin, runs, strict=False)
+    )
+    title = "Speed of the crank under its motor"
+    return (Plot("run-speed", title, Axis("time", "s"), Axis("speed", "rad/s"), series),)
 
 
 def transmission(design: BeatUp) -> Plot:

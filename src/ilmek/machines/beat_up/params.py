@@ -76,6 +76,34 @@ class BeatUpParams(Params):
     beat_force: float = param(
         60.0, unit="N", at_least=0.0, at_most=1e6, doc="force on the beater that is wanted at its peak"
     )
+    balance_share: float = param(
+        1.0,
+        at_least=0.0,
+        at_most=2.0,
+        doc="share of the shaking force's first harmonic, the part that turns with the crank, that a counterweight on "
+        "it cancels",
+    )
+    counterweight_radius: float | None = param(
+        None, unit="mm", at_least=SMALL, at_most=LARGE, doc="of its mass centre from the pivot; unsaid: the crank"
+    )
+    fluctuation: float = param(
+        0.05, at_least=1e-4, at_most=1.0, doc="fluctuation of the speed that the flywheel is to keep", symbol="δ"
+    )
+    flywheel: float | None = param(
+        None,
+        unit="kg*m^2",
+        at_least=0.0,
+        at_most=1e6,
+        doc="moment of inertia of flywheel and rotor on the crank; unsaid: as the fluctuation asks",
+    )
+    motor_torque: float | None = param(
+        None,
+        unit="N*m",
+        at_least=1e-6,
+        at_most=1e9,
+        doc="greatest torque of the motor on the crank; unsaid: the greatest that the constant speed asks",
+    )
+    slip: float = param(0.1, at_least=1e-3, at_most=1.0, doc="loss of speed at which the motor gives its torque")
     crank_angle: float | None = param(
         None, unit="deg", at_least=-2 * turn, at_most=2 * turn, doc="crank angle at which to report forces", symbol="θ"
     )

@@ -7,6 +7,13 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.machines.beat_up.design import PINS, BeatUp
 from ilmek.machines.beat_up.figures import figures
+from ilmek.machines.beat_up.running import Running
+from ilmek.machines.beat_up.running_report import (
+    running_checks,
+    running_results,
+    running_warnings,
+    shaking_results,
+)
 from ilmek.machines.rounding import settled
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.synthesis.crank_rocker import grashof_margin
@@ -19,16 +26,24 @@ POWER_LIMIT = 1e-9
 
 
 def report(design: BeatUp) -> Report:
-    """Everything that the design says."""
+    """Everything that the design says, its run by the motor among it."""
+    running = design.run()
     return Report(
         machine="beat-up",
         title="Beat-up",
         parameters=design.params.as_dict(),
-        results=(*_geometry(design), *_motion(design), *_loads(design), *_at(design)),
-        checks=_checks(design),
+        results=(
+            *_geometry(design),
+            *_motion(design),
+            *_loads(design, running),
+            *shaking_results(design),
+            *running_results(running),
+            *_at(design),
+        ),
+        checks=(*_checks(design), *running_checks(design.params, running)),
         tables=(_link_table(design), _dead_centre_table(design), _peak_table(design)),
-        figures=figures(design),
-        warnings=_warnings(design),
+        figures=figures(design, running),
+        warnings=(*_warnings(design), *running_warnings(running)),
     )
 
 
@@ -76,7 +91,7 @@ def _motion(design: BeatUp) -> tuple[Result, ...]:
     )
 
 
-def _loads(design: BeatUp) -> tuple[Result, ...]:
+def _loads(design: BeatUp, running: Running) -> tuple[Result, ...]:
     peaks = design.peaks
     return (
         Result(
@@ -87,7 +102,7 @@ def _loads(design: BeatUp) -> tuple[Result, ...]:
         ),
         Result("pin_force_max", {pin: peaks[pin].value for pin in PINS}, "N", "greatest force in each pin"),
         Result("drive_torque_max", peaks["drive_torque"].value, "N*m", "greatest size of the torque on the crank"),
-        Result("drive_torque_rms", design.torque_rms, "N*m", "root mean square of the torque"),
+        Result("drive_torque_rms", running.duty.rms, "N*m", "root mean square of the torque"),
         Result(
             "drive_power_max",
             peaks["drive_torque"].value * design.params.speed,

@@ -1,0 +1,111 @@
+"""The beat-up run by a motor: what it asks of it, the flywheel, the start from rest and the steady run.
+
+    M = M_0 tanh((omega_0 - omega) / (s omega_0))          a motor or drive that limits its torque to M_0
+
+omega_0 the speed without load, s the slip at which it would give M_0 were its curve straight.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.dynamics.flywheel import Duty, duty, flywheel
+from ilmek.dynamics.forward import Run, State, at_speed, forward
+from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.loads import Gravity
+from ilmek.dynamics.reduced import Reduced, reduce
+from ilmek.dynamics.table import tabulate
+from ilmek.linkage.structure import Plan
+from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.units import turn
+
+REACHED = 0.95
+"""Part of the speed at which the start is over."""
+
+MOST_TURNS = 100
+"""A start that takes more turns is not run to its end."""
+
+STEADY_TURNS, STEADY_SAMPLES = 4, 120
+RTOL = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Running:
+    """The beat-up under its motor.
+
+    duty       of the torque at constant speed
+    flywheel   on the crank [kg m²]: that given, or that which keeps the fluctuation
+    torque     the motor's greatest, on the crank [N m]
+    start      the run from rest, the beater farthest back, to 95 % of the speed; `started`: whether it came there
+    steady     turns at speed, after it; None where it does not start
+    Both are None where the linkage stands so near a toggle that its inertia has no usable Fourier series.
+    """
+
+    duty: Duty
+    flywheel: float
+    torque: float
+    start: Run | None
+    started: bool
+    steady: Run | None
+
+    @property
+    def last_turn(self) -> tuple[FloatArray, FloatArray]:
+        """Speeds [rad/s] and motor torques [N m] of the steady run's last turn; empty where there is none."""
+        if self.steady is None:
+            return np.zeros(0), np.zeros(0)
+        return self.steady.speed[-STEADY_SAMPLES:], self.steady.effort[-STEADY_SAMPLES:]
+
+    @property
+    def fluctuation(self) -> float:
+        """Of the speed in the last turn, (greatest - least) / mean of both; NaN where there is none."""
+        speed, _ = self.last_turn
+        return float((speed.max() - speed.min()) / ((speed.max() + speed.min()) / 2)) if speed.size else math.nan
+
+
+def run(
+    params: BeatUpParams,
+    planned: Plan,
+    inertias: Mapping[str, Inertia],
+    weight: Gravity,
+    *,
+    torque: Callable[[FloatArray], FloatArray],
+    back: float,
+) -> Running:
+    """The running of a beat-up: `torque` on the crank at constant speed, `back` the crank angle that it starts from."""
+    asked = duty(lambda angle, _: torque(angle))
+    wheel = params.flywheel
+    if wheel is None:
+        wheel = max(flywheel(asked.excess, params.speed, params.fluctuation) - inertias["crank"].about(0), 0.0)
+    most = params.motor_torque or asked.peak.value
+    reduced = reduce(planned, inertias, (weight,), flywheel=wheel)
+    if most == 0 or tabulate(reduced) is None:
+        return Running(asked, wheel, most, None, False, None)
+
+    def motor(_time: float, _position: float, speed: float) -> float:
+        return most * math.tanh((params.speed - speed) / (params.slip * params.speed))
+
+    start, started = _start(params, reduced, motor, most, back)
+    last = start.end.state
+    steady = _steady(params, reduced, motor, State(last.position, last.speed)) if started else None
+    return Running(asked, wheel, most, start, started, steady)
+
+
+def _start(
+    params: BeatUpParams, reduced: Reduced, motor: Callable[[float, float, float], float], most: float, back: float
+) -> tuple[Run, bool]:
+    """The run from rest; whether it reached its speed in the time that twice the greatest inertia would take."""
+    greatest = float(np.max(reduced.terms(np.linspace(0, turn, 181)).inertia))
+    duration = min(4 * greatest * params.speed / most, MOST_TURNS * turn / params.speed)
+    reached = at_speed(REACHED * params.speed)
+    found = forward(reduced, State(back), duration, drive=motor, events=(reached,), every=duration / 200, rtol=RTOL)
+    return found, found.end.words == reached.name
+
+
+def _steady(params: BeatUpParams, reduced: Reduced, motor: Callable[[float, float, float], float], start: State) -> Run:
+    """The run from the start's last state."""
+    period = turn / params.speed
+    every = period / STEADY_SAMPLES
+    return forward(reduced, start, STEADY_TURNS * period, drive=motor, every=every, rtol=RTOL)
