@@ -56,6 +56,7 @@ def test_own_weight_is_added_to_the_pull_where_limits_are_judged() -> None:
     assert [check.name for check in report.failed if check.name == "deflection"] == ["deflection"]
 
 
+@settings(deadline=None)
 @given(inner=st.floats(0.0, 0.2))
 def test_least_outer_radius_has_just_the_slope_allowed(inner) -> None:
     least = MACHINE.design(WarpTensionParams(inner_radius=inner)).outer_radius_min
