@@ -90,6 +90,7 @@ def test_every_example_makes_a_page_with_a_moving_figure(path: Path, tmp_path: P
     page = tmp_path / "page.html"
     shown = run(str(path), "--report", str(page), *(["--over", "-40deg..40deg"] if path.stem == "peaucellier" else []))
     assert "freedoms: 1" in shown
+    assert "mobility: 1 freedom by count, and by rank" in shown
     assert "in motion" in page.read_text(encoding="utf-8")
 
 
@@ -115,6 +116,10 @@ WRONG = {
     "wrong unit": ([example("peaucellier"), "--over", "1mm..2mm"], "'1mm' has the wrong unit"),
     "wrong speed": ([example("peaucellier"), "--speed", "3mm"], "'3mm' has the wrong unit"),
     "closes nowhere": ([example("peaucellier"), "--at", "180deg"], "Peaucellier cannot close for crank 180"),
+    "closes nowhere over a range": (
+        [example("peaucellier"), "--over", "150deg..210deg"],
+        "Peaucellier closes nowhere, crank 150.0°..210.0°: |P1-O1| ",
+    ),
     "two on one stream": ([example("peaucellier"), "--csv", "-", "--json", "-"], "both --csv and --json"),
     "csv into no folder": ([example("peaucellier"), "--csv", "gone/a.csv"], "there is no folder"),
     "no steps": ([example("peaucellier"), "--steps", "0"], "0 is not in the range"),

@@ -53,7 +53,7 @@ class Run:
 
     def at(self, values: FloatArray) -> dict[str, RealField]:
         """All inputs' values where the running one takes these."""
-        held = {name: float(drive.value[0]) for name, drive in self.motion.drives.items()}
+        held = {name: float(np.ravel(drive.value)[0]) for name, drive in self.motion.drives.items()}
         return {**held, **({self.running.name: values} if self.running else {})}
 
     @property

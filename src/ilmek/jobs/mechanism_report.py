@@ -4,10 +4,11 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import ComplexField, FloatArray
 from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism import Run
 from ilmek.linkage.body_motion import PointMotion
+from ilmek.linkage.mobility import mobility
 from ilmek.linkage.model import GROUND, Pin, Rotation, freedom
 from ilmek.linkage.motion import Status
 from ilmek.linkage.solve import solve
@@ -38,6 +39,9 @@ def report(run: Run) -> Report:
     mechanism = run.plan.mechanism
     results = (
         Result("freedoms", freedom(mechanism), "1", "by count, the inputs left free"),
+        Result(
+            "mobility", _mobility(run), "", "freedoms by count, and by the rank of all constraints in the first pose"
+        ),
         Result("inputs", [entry.name for entry in mechanism.inputs], "", "what is driven"),
         Result("groups", [step.words for step in run.plan.steps], "", "in the order in which they are solved"),
         Result("closes", [list(ends) for ends in run.closing], run.unit, "ranges of the running input that can be had"),
@@ -46,7 +50,7 @@ def report(run: Run) -> Report:
         machine="mechanism",
         title=f"Mechanism {run.name}",
         parameters={"running": run.running.name if run.running else None, "speed": run.speed},
-        results=results if run.running else results[:3],
+        results=results if run.running else results[:-1],
         checks=(),
         tables=(_points_table(run), _bodies_table(run)),
         figures=_figures(run),
@@ -62,29 +66,41 @@ def _warnings(run: Run) -> tuple[str, ...]:
     return ()
 
 
+def _mobility(run: Run) -> str:
+    first = int(np.flatnonzero(run.motion.status == Status.OK)[0])
+    return mobility(run.plan.mechanism, run.motion.pose(first)).words
+
+
 def _points_table(run: Run) -> Table:
-    columns = (Column("point"), Column("x from", "mm"), Column("x to", "mm"))
-    columns += (Column("y from", "mm"), Column("y to", "mm"))
-    columns += (Column("speed up to", "m/s"), Column("acceleration up to", "m/s^2"))
-    rows = []
-    for body, point in places(run):
-        moved = run.motion.point(body, point)
-        x, y = np.real(moved.position), np.imag(moved.position)
-        ends = [f(part) for part in (x, y) for f in (np.nanmin, np.nanmax)]
-        tops = [np.nanmax(np.abs(rate)) for rate in (moved.velocity, moved.acceleration)]
-        rows.append((f"{point} of {body}", *(float(value) for value in (*ends, *tops))))
-    return Table("points", "Points that move", columns, tuple(rows))
+    columns = (
+        *(Column("point"), Column("x from", "mm"), Column("x to", "mm"), Column("y from", "mm"), Column("y to", "mm")),
+        *(Column("speed up to", "m/s"), Column("acceleration up to", "m/s^2")),
+    )
+    return Table("points", "Points that move", columns, tuple(_point_row(run, *one) for one in places(run)))
+
+
+def _point_row(run: Run, body: str, point: str) -> tuple[float | int | str, ...]:
+    moved = run.motion.point(body, point)
+    ends = [*_ends(np.real(moved.position)), *_ends(np.imag(moved.position))]
+    return (f"{point} of {body}", *ends, _ends(np.abs(moved.velocity))[1], _ends(np.abs(moved.acceleration))[1])
 
 
 def _bodies_table(run: Run) -> Table:
-    columns = (Column("body"), Column("angle from", "deg"), Column("angle to", "deg"))
-    columns += (Column("speed up to", "rad/s"), Column("acceleration up to", "rad/s^2"))
-    rows = []
-    for body in run.plan.mechanism.moving:
-        angle = _angle(run, body)
-        tops = [np.nanmax(np.abs(rate)) for rate in (run.motion.omega(body), run.motion.alpha(body))]
-        rows.append((body, *(float(value) for value in (np.nanmin(angle), np.nanmax(angle), *tops))))
-    return Table("bodies", "Bodies", columns, tuple(rows))
+    columns = (
+        *(Column("body"), Column("angle from", "deg"), Column("angle to", "deg")),
+        *(Column("speed up to", "rad/s"), Column("acceleration up to", "rad/s^2")),
+    )
+    return Table("bodies", "Bodies", columns, tuple(_body_row(run, body) for body in run.plan.mechanism.moving))
+
+
+def _body_row(run: Run, body: str) -> tuple[float | int | str, ...]:
+    omega, alpha = np.abs(run.motion.omega(body)), np.abs(run.motion.alpha(body))
+    return (body, *_ends(_angle(run, body)), _ends(omega)[1], _ends(alpha)[1])
+
+
+def _ends(values: FloatArray) -> tuple[float, float]:
+    """Least and greatest of the samples that closed."""
+    return float(np.nanmin(values)), float(np.nanmax(values))
 
 
 def _figures(run: Run) -> tuple[Figure, ...]:
@@ -119,7 +135,8 @@ def _moving(run: Run, drive: Axis) -> Iterator[Figure]:
 
 def _frames(run: Run) -> FloatArray:
     """Values of the running input to draw at: the longest range that closes; of a full turn not the end again."""
-    first, last = sorted(max(run.closing, key=lambda ends: abs(ends[1] - ends[0])))
+    one, other = max(run.closing, key=lambda ends: abs(ends[1] - ends[0]))
+    first, last = min(one, other), max(one, other)
     whole = isinstance(run.running, Rotation) and abs(last - first - turn) < 1e-9
     return np.linspace(first, last, FRAMES, endpoint=not whole)
 
@@ -174,5 +191,5 @@ def columns(run: Run) -> dict[str, FloatArray]:
     return found
 
 
-def _vectors(moved: PointMotion) -> tuple[tuple[str, ComplexArray, str], ...]:
+def _vectors(moved: PointMotion) -> tuple[tuple[str, ComplexField, str], ...]:
     return ("", moved.position, "m"), ("v", moved.velocity, "m/s"), ("a", moved.acceleration, "m/s^2")

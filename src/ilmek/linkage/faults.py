@@ -30,7 +30,8 @@ def first_fault(plan: Plan, drives: Mapping[str, Drive], status: Int8[np.ndarray
             found = np.zeros(np.count_nonzero(bad), dtype=np.int8)
             judge(step, known, solved, found)
             if found.any():
-                said = _where(moving, drives, bad, found), " or ".join(entry.name for entry in moving)
+                nowhere = len(found) == len(bad) > 1 and found.all()
+                said = _where(moving, drives, bad, found), "" if nowhere else " or ".join(one.name for one in moving)
                 return _error(plan, step, said, known, Status(found.max()))
             known.update(step.place(known, solved.columns))
     raise AssertionError("a sample that failed fails again")
@@ -43,7 +44,7 @@ def _moving(plan: Plan, drives: Mapping[str, Drive]) -> tuple[Input, ...]:
 
 
 def _error(plan: Plan, step: Step, said: tuple[str, str], known: Known, status: Status) -> MechanismError:
-    """The error, from where it fails and the names of the inputs to limit."""
+    """The error, from where it fails and the names of the inputs to limit; "" where no limit would help."""
     (where, limit), name, bodies = said, plan.mechanism.name, " and ".join(step.bodies)
     if status is Status.DEAD_CENTRE:
         return MechanismError(
@@ -58,6 +59,8 @@ def _error(plan: Plan, step: Step, said: tuple[str, str], known: Known, status: 
             do="give a pose nearer to an assembled one, or limit the input",
         )
     missing, remedy = step.shortfall(known)
+    if not limit:
+        return MechanismError(f"{name} closes nowhere, {where}: {missing}", do=remedy)
     return MechanismError(f"{name} cannot close for {where}: {missing}", do=f"{remedy} or limit the {limit}")
 
 

@@ -71,6 +71,13 @@ class Motion:
         """Acceleration of the origin of a body's frame [m/s^2]."""
         return self._points(self._carried(body, 0j).acceleration)
 
+    def pose(self, sample: int = 0) -> dict[str, tuple[complex, float]]:
+        """Body -> (origin [m], angle [rad]) at one sample: what a mechanism's `pose` wants."""
+        return {
+            body: (complex(self.origin(body)[sample]), float(np.angle(self.direction(body)[sample])))
+            for body in self.plan.mechanism.moving
+        }
+
     def direction(self, body: str) -> Points:
         """Unit complex e^{i theta} along the x axis of a body's frame."""
         return self._points(self.body(body).direction)

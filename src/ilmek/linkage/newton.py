@@ -16,7 +16,7 @@ from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.equations import relative_angle, travel
 from ilmek.linkage.groups.block import Block
 from ilmek.linkage.groups.group import Drive
-from ilmek.linkage.model import GROUND, Rotation, Slide
+from ilmek.linkage.model import GROUND, Mechanism, Rotation, Slide
 from ilmek.linkage.structure import Plan
 from ilmek.units import deg
 
@@ -49,7 +49,7 @@ def starts(plan: Plan, drives: Mapping[str, Drive]) -> dict[str, BodyMotion]:
 def _inputs_in_pose(plan: Plan) -> dict[str, float]:
     """The inputs' values in the mechanism's pose."""
     mechanism = plan.mechanism
-    bodies = _pose(plan)
+    bodies = drawn(plan.mechanism)
     values: dict[str, float] = {}
     for entry in mechanism.inputs:
         joint = mechanism.joint(entry.joint)
@@ -60,11 +60,11 @@ def _inputs_in_pose(plan: Plan) -> dict[str, float]:
     return values
 
 
-def _pose(plan: Plan) -> dict[str, BodyMotion]:
-    """Every body at rest in the mechanism's pose."""
+def drawn(mechanism: Mechanism) -> dict[str, BodyMotion]:
+    """Every body at rest in the mechanism's pose; as drawn in place where none is given."""
     bodies = {}
-    for body in plan.mechanism.moving:
-        origin, angle = plan.mechanism.pose.get(body, (0j, 0.0))
+    for body in mechanism.moving:
+        origin, angle = mechanism.pose.get(body, (0j, 0.0))
         bodies[body] = BodyMotion(PointMotion(complex(origin), 0j, 0j), 0j, cmath.rect(1, angle), 0.0, 0.0)
     return bodies | {GROUND: STILL}
 
@@ -87,7 +87,7 @@ def _follow(
 ) -> list[dict[str, BodyMotion]]:
     """The bodies of the blocks at each of `count` even steps from the pose to the inputs wanted, the pose first."""
     blocks = {body for step in plan.steps if isinstance(step, Block) for body in step.bodies}
-    near = {body: motion for body, motion in _pose(plan).items() if body in blocks}
+    near = {body: motion for body, motion in drawn(plan.mechanism).items() if body in blocks}
     way = []
     for k in range(count + 1):
         drives = {

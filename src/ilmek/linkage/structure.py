@@ -95,7 +95,7 @@ def _over_constrained(group: Group) -> MechanismError:
     whole = group.mechanism
     free, driven = freedom(whole), [entry.name for entry in whole.inputs]
     held = f"{_holding(group)} hold it {_times(-group.freedom)} too often"
-    if 0 <= free < len(driven):
+    if 1 <= free < len(driven):
         held += f": the inputs {', '.join(driven)} drive {free} {'freedom' if free == 1 else 'freedoms'}"
         do = f"take {len(driven) - free} of the inputs away"
     else:
