@@ -232,3 +232,27 @@ def test_couplings_are_read_with_their_units():
         with pytest.raises(MechanismError) as caught:
             parse_mechanism(text.replace(before, after))
         assert said in str(caught.value)
+
+
+def test_wheels_geared_in_a_circle_are_told_with_the_line_of_the_coupling_that_closes_it():
+    text = """
+    [bodies]
+    ground.points = { A = [0, 0], B = [1, 0], C = [0, 1] }
+    a.points.A = [0, 0]
+    b.points.B = [0, 0]
+    c.points.C = [0, 0]
+    [joints]
+    A = { pin = ["ground", "a"] }
+    B = { pin = ["ground", "b"] }
+    C = { pin = ["ground", "c"] }
+    [couplings]
+    ab = { gears = [["a", "A"], ["b", "B"]], ratio = -1, first_at = 0, second_at = 0 }
+    bc = { gears = [["b", "B"], ["c", "C"]], ratio = -1, first_at = 0, second_at = 0 }
+    ca = { gears = [["c", "C"], ["a", "A"]], ratio = -1, first_at = 0, second_at = 0 }
+    [inputs]
+    A = "a"
+    """
+    said = "ring.toml, line 14, couplings.ca: mechanism is over-constrained at c; joints C and couplings bc, ca"
+    with pytest.raises(MechanismError) as caught:
+        parse_mechanism(text, name="ring.toml").plan()
+    assert str(caught.value).startswith(said)

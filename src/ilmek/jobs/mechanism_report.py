@@ -38,17 +38,25 @@ def report(run: Run) -> Report:
     """What the mechanism is and how it moves; lengths in mm, angles in degrees where shown."""
     mechanism = run.plan.mechanism
     results = (
-        Result("freedoms", freedom(mechanism), "1", "by count, the inputs left free"),
+        Result("freedoms", freedom(mechanism), "1", "freedoms by count, the inputs left free"),
         Result(
-            "mobility", _mobility(run), "", "freedoms by count, and by the rank of all constraints in the first pose"
+            "mobility",
+            _mobility(run),
+            "",
+            "freedoms by count, and by the rank of all constraints in the first pose that closes",
         ),
         Result("inputs", [entry.name for entry in mechanism.inputs], "", "what is driven"),
-        Result("groups", [step.words for step in run.plan.steps], "", "in the order in which they are solved"),
+        Result(
+            "groups",
+            [step.words for step in run.plan.steps],
+            "",
+            "the groups it falls apart into, in the order in which they are solved",
+        ),
         Result("closes", [list(ends) for ends in run.closing], run.unit, "ranges of the running input that can be had"),
     )
     return Report(
         machine="mechanism",
-        title=f"Mechanism {run.name}",
+        title=run.name,
         parameters={"running": run.running.name if run.running else None, "speed": run.speed},
         results=results if run.running else results[:-1],
         checks=(),
@@ -123,22 +131,22 @@ def _figures(run: Run) -> tuple[Figure, ...]:
 
 def _moving(run: Run, drive: Axis) -> Iterator[Figure]:
     """The mechanism in motion, the paths of its free points drawn."""
-    at = _frames(run)
+    at, way = _frames(run)
     moved = solve(run.plan, run.at(at), {run.running.name: run.speed} if run.running else {})
     if moved.ok:
         joints = {joint.name for joint in run.plan.mechanism.joints}
         traces = [one for one in places(run) if one[1] not in joints]
-        period = abs(at[-1] - at[0]) / abs(run.speed) if run.speed else None
+        period = way / abs(run.speed) if run.speed else None
         drawn = Drawing("mechanism", f"{run.name} in motion", ())
         yield animated(moved, at, drawn, traces=traces, period=period, drive=drive)
 
 
-def _frames(run: Run) -> FloatArray:
-    """Values of the running input to draw at: the longest range that closes; of a full turn not the end again."""
+def _frames(run: Run) -> tuple[FloatArray, float]:
+    """Values of the running input to draw at, and their range: the longest that closes; of a turn not the end again."""
     one, other = max(run.closing, key=lambda ends: abs(ends[1] - ends[0]))
     first, last = min(one, other), max(one, other)
     whole = isinstance(run.running, Rotation) and abs(last - first - turn) < 1e-9
-    return np.linspace(first, last, FRAMES, endpoint=not whole)
+    return np.linspace(first, last, FRAMES, endpoint=not whole), last - first
 
 
 def _angle(run: Run, body: str) -> FloatArray:
@@ -187,7 +195,7 @@ def columns(run: Run) -> dict[str, FloatArray]:
         moved = run.motion.point(body, point)
         for what, vector, per in _vectors(moved):
             for axis, part in (("x", np.real(vector)), ("y", np.imag(vector))):
-                found[f"{body}.{point} {what}{axis} [{per}]"] = part
+                found[f"{body}.{point} {what}{axis} [{per}]"] = np.asarray(part)
     return found
 
 

@@ -101,7 +101,8 @@ def _over_constrained(group: Group) -> MechanismError:
     else:
         do = "take one away, or leave out a body that only repeats what others hold"
     given = f"{whole.name} is over-constrained at {', '.join(group.bodies)}"
-    return MechanismError(given, allowed=held, do=do, about=("joints", group.joints[-1].name))
+    about = ("couplings", group.couplings[-1].name) if group.couplings else ("joints", group.joints[-1].name)
+    return MechanismError(given, allowed=held, do=do, about=about)
 
 
 def _holding(group: Group) -> str:
