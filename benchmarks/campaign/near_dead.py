@@ -21,7 +21,7 @@ class NearDead:
     samples    looked at                         solved    of these with status OK
     velocity   worst error of those, of the largest velocity                 acceleration  likewise
     silent     of those with either wrong by more than a hundredth
-    misjudged  samples that close said not to, or the other way round, more than 1e-9 rad from the dead centre
+    misjudged  samples that close said not to, or the other way round, 1e-9 to 1e-4 rad from the dead centre
     """
 
     mechanisms: int = 0
@@ -61,7 +61,7 @@ def _look(family: Family, dead: FloatArray, side: FloatArray, found: NearDead) -
         status = swept.status[:, 0]
         closes = (away > 0) | (side == 2)
         found.samples += len(family)
-        if abs(away) > 1e-9:
+        if 1e-9 < abs(away) < 1e-4:
             found.misjudged += int((closes != (status != Status.CANNOT_CLOSE)).sum())
         ok = np.flatnonzero(status == Status.OK)
         found.solved += len(ok)

@@ -7,7 +7,7 @@ from jaxtyping import Int8
 
 from ilmek.linkage.groups.group import Known, Solved, Step
 
-DEAD = 1e-6
+DEAD = 2e-6
 """A margin (sine of the transmission angle) this small leaves rates too few digits: the pose is known to rounding by
 the margin, and rates divide by the margin once more. Just above it the worst of 10^5 random mechanisms keep two."""
 
