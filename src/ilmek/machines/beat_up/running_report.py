@@ -9,12 +9,12 @@ from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.running import REACHED, Running
 from ilmek.machines.rounding import settled
-from ilmek.report import Check, Json, Result, at_least, at_most
-from ilmek.units import format_quantity
+from ilmek.report import Check, Result, at_least, at_most
+from ilmek.units import format_quantity, turn
 
 ENERGY = 1e-6
 ROUNDING = 1e-10
-"""A mean torque this small against the greatest is rounding."""
+"""A mean torque this small against the greatest, an angle this near to a turn are rounding."""
 
 
 def shaking_results(design: BeatUp) -> tuple[Result, ...]:
@@ -22,10 +22,7 @@ def shaking_results(design: BeatUp) -> tuple[Result, ...]:
     found = design.balance
     (force, balanced), (moment, balanced_moment) = found.greatest("force"), found.greatest("moment")
     with_crank, against = found.first
-    weight: dict[str, Json] = {**_static_moment(found.counterweight), "mass": found.mass}
-    whole: dict[str, Json] = {
-        link: _static_moment(one) for link, one in zip(("crank", "rocker"), found.whole, strict=True)
-    }
+    whole = dict(zip(("crank", "rocker"), found.whole, strict=True))
     return (
         Result("shaking_force_max", force, "N", "greatest force of the moving masses on the frame"),
         Result("shaking_moment_max", moment, "N*m", "its greatest moment about the crank's pivot"),
@@ -35,20 +32,30 @@ def shaking_results(design: BeatUp) -> tuple[Result, ...]:
             "N",
             "the parts of its first harmonic that turn with the crank and against it",
         ),
-        Result("counterweight", weight, "", "on the crank: static moment (kg m), angle from it (rad), mass (kg)"),
+        Result("counterweight_moment", abs(found.counterweight), "", "on the crank: mass times radius (kg m)"),
+        Result("counterweight_mass", found.mass, "kg", "its mass at counterweight_radius"),
+        Result("counterweight_angle", _direction(found.counterweight), "deg", "its direction, from the crank"),
         Result("shaking_force_max_balanced", balanced, "N", "greatest shaking force with that counterweight"),
         Result("shaking_moment_max_balanced", balanced_moment, "N*m", "greatest shaking moment with it"),
         Result(
-            "full_balance",
-            whole,
+            "full_balance_moment",
+            {link: abs(one) for link, one in whole.items()},
             "",
-            "counterweights on crank and rocker that leave no shaking force (kg m, rad)",
+            "counterweights that would leave no shaking force at all: mass times radius (kg m)",
+        ),
+        Result(
+            "full_balance_angle",
+            {link: _direction(one) for link, one in whole.items()},
+            "deg",
+            "their directions, from crank and rocker",
         ),
     )
 
 
-def _static_moment(static_moment: complex) -> dict[str, Json]:
-    return {"static_moment": abs(static_moment), "angle": cmath.phase(static_moment)}
+def _direction(static_moment: complex) -> float:
+    """Angle in [0, 2 pi) [rad], rounding below 0 taken for 0."""
+    angle = cmath.phase(static_moment) % turn
+    return 0.0 if turn - angle < ROUNDING else angle
 
 
 def running_results(running: Running) -> tuple[Result, ...]:
