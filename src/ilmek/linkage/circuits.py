@@ -29,6 +29,9 @@ from ilmek.num.brackets import bracketed_roots
 SEEDS = 180
 """Values of the input, over a turn or the mechanism's reach, at which assemblies are looked for."""
 
+ASIDE = 0.382
+"""Where within a run of them the tracing starts: not in the middle, which crossings of curves like for symmetry."""
+
 SAME = 1e-6
 """Distance of two configurations, of the mechanism's size, below which they are one."""
 
@@ -53,7 +56,7 @@ class Circuit:
     """A closed way through configurations: its branches in the order in which they are passed; a `Way`.
 
     dead_centres  values of the input [rad, m] at which it turns back, in order      turns  of the input, all round
-    crossings     values of the input near which another circuit is crossed: a change point, the motion uncertain there
+    crossings     values of the input at which another circuit is crossed: a change point, the motion uncertain there
     closed        False where the way runs out of the mechanism's reach, or beyond the steps allowed
     """
 
@@ -167,7 +170,7 @@ def _seeds(way: OneInput, count: int) -> Iterator[Configurations]:
     (closing,) = np.nonzero(way.motion(values).status == 0)
     runs = np.split(closing, np.flatnonzero(np.diff(closing) > 1) + 1) if len(closing) else []
     for run in runs:
-        yield free.posed(values[run[len(run) // 2 :][:1]])
+        yield free.posed(values[run[int(ASIDE * len(run)) :][:1]])
 
 
 def _passes(circuit: Circuit, seed: Configurations) -> bool:
@@ -204,7 +207,7 @@ def _circuit(way: OneInput, seed: Configurations, ways: list[OneInput]) -> Circu
     inputs = line.at(folds)[0].inputs if len(folds) else np.empty(0)
     parts = _parts(free, line, folds, inputs, ways)
     shown = tuple(_principal(value, way.turns) for value in inputs)
-    crossings = tuple(_principal(float(value), way.turns) for value in line.crossings)
+    crossings = tuple(_principal(value, way.turns) for value in line.crossings)
     return Circuit(parts, shown, crossings, abs(turns), free, line)
 
 

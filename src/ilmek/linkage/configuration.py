@@ -100,9 +100,17 @@ class Freed:
         return matrix, self.loops.column(held, [one.value for one in held], rows)
 
     def tangents(self, at: Configurations, along: FloatArray) -> FloatArray:
-        """Unit tangents, on the side of `along`."""
-        t: FloatArray = np.linalg.svd(self.slope(at)[0])[2][:, -1, :]
-        return t * np.where(np.sum(t * along, axis=1) < 0, -1.0, 1.0)[:, None]
+        """Unit tangents, on the side of `along`; NaN where the configuration is."""
+        return self.oriented(at, along)[0]
+
+    def oriented(self, at: Configurations, along: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Unit tangents t, and the sign of det [A; t]: it changes only where curves cross."""
+        matrix = self.slope(at)[0]
+        usable = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(at.inputs)
+        matrix = np.where(usable[:, None, None], matrix, 0.0)
+        t: FloatArray = np.linalg.svd(matrix)[2][:, -1, :]
+        t = t * np.where(usable, np.where(np.sum(t * along, axis=1) < 0, -1.0, 1.0), np.nan)[:, None]
+        return t, np.linalg.slogdet(np.concatenate([matrix, np.nan_to_num(t)[:, None, :]], axis=1))[0]
 
     def corrected(self, at: Configurations, across: FloatArray) -> Configurations:
         """Back on the curve, square to the directions `across`; NaN where Newton's method does not get there."""

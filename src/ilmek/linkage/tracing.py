@@ -13,11 +13,14 @@ from ilmek.arrays import FloatArray
 from ilmek.linkage.configuration import Configurations, Freed
 from ilmek.num.brackets import bracketed_roots
 
-TURN = 0.2
+TURN = 0.3
 """Most that the tangent may turn in a step [rad]; a step that turns it less than half is followed by a longer one."""
 
-LONGEST, SHORTEST = 0.25, 1e-7
+LONGEST, SHORTEST = 0.4, 1e-7
 """Bounds of a step, of the mechanism's size."""
+
+ACROSS = 0.01
+"""Step with which a crossing of two curves is passed, of the mechanism's size."""
 
 STEPS = 20_000
 """Steps after which a curve is given up as open."""
@@ -30,7 +33,7 @@ REACH = 100.0
 class Trace:
     """A configuration curve: nodes on it, their unit tangents, and lengths from the first (measured by the chords).
 
-    crossings  inputs near which another curve is crossed
+    crossings  values of the input at which another curve is crossed
     """
 
     freed: Freed
@@ -77,9 +80,10 @@ def trace(freed: Freed, seed: Configurations) -> Trace:
     ahead = np.zeros((1, 3 * len(freed.moved.plan.mechanism.moving) + 1))
     ahead[0, -1] = 1.0
     first = freed.tangents(seed, ahead)
-    nodes, tangents, closed = _followed(freed, seed, first)
+    nodes, tangents, closed, crossings = _followed(freed, seed, first)
     if not closed:
-        back, against, _ = _followed(freed, seed, -first)
+        back, against, _, further = _followed(freed, seed, -first)
+        crossings += further
         nodes, tangents = back[:0:-1] + nodes, [-t for t in against[:0:-1]] + tangents
     at_nodes = Configurations(
         np.concatenate([one.origins for one in nodes]),
@@ -91,34 +95,50 @@ def trace(freed: Freed, seed: Configurations) -> Trace:
     chords[:, -1] = np.diff(at_nodes.inputs) * freed.per_input
     along = np.sum(chords * stacked[:-1], axis=1)
     lengths = np.concatenate([[0.0], np.cumsum(along)])
-    return Trace(freed, at_nodes, stacked, lengths, closed, _crossings(freed, at_nodes, stacked))
+    return Trace(freed, at_nodes, stacked, lengths, closed, tuple(crossings))
 
 
 def _followed(
     freed: Freed, seed: Configurations, first: FloatArray
-) -> tuple[list[Configurations], list[FloatArray], bool]:
-    """Nodes and tangents from the seed on, the seed repeated at the end if the curve closes."""
-    nodes, tangents = [seed], [first]
+) -> tuple[list[Configurations], list[FloatArray], bool, list[float]]:
+    """Nodes and tangents from the seed on, the seed repeated at the end if the curve closes; inputs at crossings.
+
+    A step over which det [A; t] changes its sign has gone from one of two near curves to the other, and is shortened;
+    where the shortest still does, they cross.
+    """
+    nodes, tangents, crossings = [seed], [first], list[float]()
+    began = side = freed.oriented(seed, first)[1]
     step, gone = 0.2 * LONGEST * freed.size, 0.0
     for _ in range(STEPS):
         at, t = nodes[-1], tangents[-1]
         home = freed.between(at, seed)
-        if gone > 3 * step and _is_home(home, t, first, step):
+        if gone > 3 * step and side == began and _is_home(home, t, first, step):
             end = Configurations(seed.origins, seed.directions, at.inputs + _input_left(freed, at, seed))
-            return [*nodes, end], [*tangents, first], True
-        new = freed.corrected(freed.stepped(at, step * t), t)
-        new_t = freed.tangents(new, t) if np.isfinite(new.inputs).all() else np.full(t.shape, np.nan)
+            return [*nodes, end], [*tangents, first], True, crossings
+        new, new_t, new_side = _step(freed, at, t, step)
         bend = float(np.arccos(np.clip(np.sum(t * new_t), -1, 1)))
-        if not bend <= TURN and step > SHORTEST * freed.size:
-            step *= 0.5
-            continue
+        if not (bend <= TURN and new_side == side):
+            if step > SHORTEST * freed.size:
+                step *= 0.5
+                continue
+            crossings.append(float(at.inputs[0]))
+            step = ACROSS * freed.size
+            new, new_t, side = _step(freed, at, t, step)
         if not np.isfinite(new_t).all() or np.max(np.abs(new.origins)) > REACH * freed.size:
             break
         gone += step
         nodes.append(new)
         tangents.append(new_t)
         step = min(step * (1.6 if bend < 0.5 * TURN else 1.0), LONGEST * freed.size)
-    return nodes, tangents, False
+    return nodes, tangents, False, crossings
+
+
+def _step(
+    freed: Freed, at: Configurations, t: FloatArray, step: float
+) -> tuple[Configurations, FloatArray, FloatArray]:
+    """The configuration a step on, its tangent, and the sign of det [A; t] there."""
+    new = freed.corrected(freed.stepped(at, step * t), t)
+    return new, *freed.oriented(new, t)
 
 
 def _is_home(home: FloatArray, t: FloatArray, first: FloatArray, step: float) -> bool:
@@ -135,11 +155,3 @@ def _input_left(freed: Freed, at: Configurations, seed: Configurations) -> Float
     left = seed.inputs - at.inputs
     shortest: FloatArray = (left + np.pi) % (2 * np.pi) - np.pi if freed.moved.turns else left
     return shortest
-
-
-def _crossings(freed: Freed, nodes: Configurations, tangents: FloatArray) -> tuple[float, ...]:
-    """Inputs midway of the steps in which the curve passes another: the determinant of [A; t] changes its sign."""
-    square = np.concatenate([freed.slope(nodes)[0], tangents[:, None, :]], axis=1)
-    sign = np.linalg.slogdet(square)[0]
-    (changed,) = np.nonzero(sign[:-1] * sign[1:] < 0)
-    return tuple(float(0.5 * (nodes.inputs[k] + nodes.inputs[k + 1])) for k in changed)
