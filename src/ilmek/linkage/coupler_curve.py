@@ -201,18 +201,13 @@ class CouplerCurve:
         meets = np.abs(np.asarray(one.position) - np.asarray(other.position)) <= MEET * loop
         real = meets & (np.abs(np.sin(turn)) > TOUCH) & (both[:, 0] != both[:, 1])
         found: list[Crossing] = []
-        for k in np.flatnonzero(real & self._first_of_its_kind(both)):
+        for k in np.flatnonzero(real & _first_of_its_kind(both, 1e-8 * float(np.ptp(self.way.breaks)))):
             pair = both[k]
             inputs = self.way.inputs(pair)
             position = complex(np.asarray(one.position)[k])
             ends = (float(pair[0]), float(pair[1])), (float(inputs[0]), float(inputs[1]))
             found.append(Crossing(*ends, position, float(abs(turn[k]))))
         return tuple(found)
-
-    def _first_of_its_kind(self, both: Float[np.ndarray, "pairs 2"]) -> Bool[np.ndarray, " pairs"]:
-        near = np.abs(both[:, None] - both[None, :]).max(axis=-1) < 1e-8 * np.ptp(self.way.breaks)
-        first: Bool[np.ndarray, " pairs"] = np.argmax(near, axis=1) == np.arange(len(both))
-        return first
 
     def _fitted(self, low: float, high: float, tolerance: float) -> Straight:
         """The longest stretch between two places, in finer steps."""
@@ -248,6 +243,13 @@ def _windows(z: Complex[np.ndarray, " points"], tolerance: float) -> list[tuple[
             windows.append((first, reached))
         last = reached
     return windows
+
+
+def _first_of_its_kind(both: Float[np.ndarray, "pairs 2"], near: float) -> Bool[np.ndarray, " pairs"]:
+    """Which pairs of places are not within `near` of one before."""
+    alike = np.abs(both[:, None] - both[None, :]).max(axis=-1) < near
+    first: Bool[np.ndarray, " pairs"] = np.argmax(alike, axis=1) == np.arange(len(both))
+    return first
 
 
 def _overlaps(found: list[Straight], start: float, stop: float, turn: float) -> bool:
