@@ -1,0 +1,180 @@
+"""Which candidates are worth looking at: those without defects, and within the limits that were asked.
+
+Defects are sieved out unless that is switched off; limits only where they are said. Everything that goes is kept in
+sight, with all its reasons in words, and counted.
+
+>>> from ilmek.synthesis.candidate import judge
+>>> from ilmek.synthesis.four_bar import FourBar
+>>> from ilmek.synthesis.task import Task
+>>> drawn = FourBar(0j, 4 + 0j, 1j, 3 + 3j, tracer=2 + 3j)
+>>> print(sift([judge(drawn, Task(points=np.array([2 + 3j, 0j])))]).words)
+1 four-bar: 0 kept, 1 removed
+misses a position: 1
+"""
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.errors import ParameterError
+from ilmek.synthesis.candidate import Candidate
+from ilmek.units import deg, format_quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Filters:
+    """What a candidate must have.
+
+    closes       the linkage closes at every position        met   every position within the task's tolerances
+    one_circuit  without being taken apart                   one_branch  without passing a dead centre of the crank
+    in_order     the crank meets the positions in order      full_turn   the crank turns fully
+    transmission least acute transmission angle [rad]        link_ratio  greatest longest link by shortest
+    size         greatest extent [m]
+
+    Raises ParameterError for a limit that no four-bar can keep.
+    """
+
+    closes: bool = True
+    met: bool = True
+    one_circuit: bool = True
+    one_branch: bool = True
+    in_order: bool = True
+    full_turn: bool = False
+    transmission: float | None = None
+    link_ratio: float | None = None
+    size: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.transmission is not None and not 0 <= self.transmission < math.pi / 2:
+            guess = self.transmission * deg
+            raise ParameterError(
+                f"least transmission angle {self.transmission:g} rad",
+                allowed="0 to below 1.5708 rad, 90 deg",
+                do=f"{self.transmission:g} deg is {guess:.6g} rad" if 0 < guess < math.pi / 2 else "",
+            )
+        if self.link_ratio is not None and not self.link_ratio >= 1:
+            raise ParameterError(f"greatest link ratio {self.link_ratio:g}", allowed="1 (all links equal) or more")
+        if self.size is not None and not self.size > 0:
+            raise ParameterError(f"greatest size {self.size:g} m", allowed="above 0")
+
+
+@dataclass(frozen=True, slots=True)
+class Removed:
+    """A candidate that was sieved out: for each filter that it failed, why, in words."""
+
+    candidate: Candidate
+    reasons: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Sifted:
+    """What was kept, the best transmission angle first, and what was removed."""
+
+    kept: tuple[Candidate, ...]
+    removed: tuple[Removed, ...]
+
+    @property
+    def counts(self) -> Mapping[str, int]:
+        """How many failed each filter; one may fail several."""
+        return Counter(reason for one in self.removed for reason in one.reasons)
+
+    @property
+    def words(self) -> str:
+        """How many were kept and removed, and for what: a line each."""
+        total = len(self.kept) + len(self.removed)
+        first = f"{total} four-bar{'' if total == 1 else 's'}: {len(self.kept)} kept, {len(self.removed)} removed"
+        return "\n".join([first, *(f"{SAID[name]}: {count}" for name, count in self.counts.items())])
+
+
+SAID = {
+    "closes": "does not close at a position",
+    "met": "misses a position",
+    "one_circuit": "positions on two circuits",
+    "one_branch": "positions on two branches",
+    "in_order": "positions out of order",
+    "full_turn": "crank does not turn fully",
+    "transmission": "transmission angle too small",
+    "link_ratio": "links too unequal",
+    "size": "too large",
+}
+"""Each filter's defect in a few words."""
+
+
+def sift(candidates: Iterable[Candidate], filters: Filters | None = None) -> Sifted:
+    """Candidates without defects and within limits, the best transmission angle first; the others with reasons."""
+    filters = filters or Filters()
+    kept, removed = [], []
+    for one in candidates:
+        reasons = defects(one, filters)
+        if reasons:
+            removed.append(Removed(one, reasons))
+        else:
+            kept.append(one)
+    return Sifted(tuple(sorted(kept, key=lambda one: -one.least_transmission)), tuple(removed))
+
+
+def defects(one: Candidate, filters: Filters | None = None) -> dict[str, str]:
+    """The filters that a candidate fails, and why, in words; empty where it passes."""
+    filters = filters or Filters()
+    found = _of_positions(one) | _of_motion(one, filters)
+    return {name: words for name, words in found.items() if getattr(filters, name)}
+
+
+def _of_positions(one: Candidate) -> dict[str, str]:
+    """Defects of the kind for which the task is not done."""
+    found = {}
+    circuits = {k: met.circuit for k, met in enumerate(one.positions, 1)}
+    branches = {k: met.branch for k, met in enumerate(one.positions, 1)}
+    lost = [str(k) for k, met in enumerate(one.positions, 1) if not met.reached]
+    if lost:
+        found["closes"] = f"does not close at position {', '.join(lost)}"
+    elif not one.met:
+        found["met"] = f"misses {_worst(one)}"
+    if not one.one_circuit:
+        found["one_circuit"] = f"has to be taken apart: positions {_grouped(circuits)} are on circuits 1 and 2"
+    elif not one.one_branch:
+        found["one_branch"] = f"passes a dead centre of the crank: positions {_grouped(branches)} are on two branches"
+    elif not lost and not one.in_order:
+        found["in_order"] = f"the crank meets the positions in the order {', '.join(map(str, one.order))}"
+    return found
+
+
+def _of_motion(one: Candidate, filters: Filters) -> dict[str, str]:
+    """Limits that are not kept."""
+    found = {}
+    if not one.crank_turns:
+        found["full_turn"] = f"the crank does not turn fully: {one.grashof.kind}"
+    if filters.transmission is not None and not one.least_transmission >= filters.transmission:
+        least, limit = (format_quantity(angle, "deg") for angle in (one.least_transmission, filters.transmission))
+        found["transmission"] = f"transmission angle {least}, asked at least {limit}"
+    if filters.link_ratio is not None and not one.link_ratio <= filters.link_ratio:
+        found["link_ratio"] = (
+            f"longest link {one.link_ratio:.4g} times the shortest, asked at most {filters.link_ratio:g}"
+        )
+    if filters.size is not None and not one.size <= filters.size:
+        found["size"] = f"size {format_quantity(one.size, 'mm')}, asked at most {format_quantity(filters.size, 'mm')}"
+    return found
+
+
+def _grouped(values: Mapping[int, int]) -> str:
+    """Positions by what they have in common, "1, 3 and 2"."""
+    kinds = sorted({value for value in values.values() if value}, key=lambda kind: list(values.values()).index(kind))
+    return " and ".join(", ".join(str(k) for k, value in values.items() if value == kind) for kind in kinds)
+
+
+def _worst(one: Candidate) -> str:
+    """The position that is missed most, and by what."""
+    near, angle = one.task.near, one.task.angle_tolerance
+    errors = [(met.point_error / near, met.coupler_error / angle, met.rocker_error / angle) for met in one.positions]
+    table = np.nan_to_num(np.array(errors), nan=-1.0)
+    position, what = (int(k) for k in np.unravel_index(np.argmax(table), table.shape))
+    met = one.positions[position]
+    missed = (
+        f"point by {format_quantity(met.point_error, 'mm')}",
+        f"coupler angle by {format_quantity(met.coupler_error, 'deg')}",
+        f"rocker angle by {format_quantity(met.rocker_error, 'deg')}",
+    )
+    return f"position {position + 1}: {missed[what]}"
