@@ -33,10 +33,10 @@ def test_chebychevs_linkage_draws_his_line():
         line = z[(np.abs(np.abs(z.imag) - 2) < 0.1) & (z.real > 0) & (z.real < 2)]
         assert np.abs(np.abs(line.imag) - 2).max() < 0.006
         for x in (0.0, 1.0, 2.0):
-            assert np.abs(line - (x + 2j * np.sign(line[0].imag))).min() < 2e-3
+            assert np.abs(line - (x + 2j * np.sign(line[0].imag))).min() < 5e-3
         best, *_ = middle.straights(0.005, least=1.5)
         assert best.length == pytest.approx(2.25, abs=0.03)
-        assert 0.0045 < best.deviation <= 0.005
+        assert 0.004 < best.deviation <= 0.005
         assert abs(best.direction.imag) < 2e-3
 
 
@@ -48,7 +48,7 @@ def test_roberts_linkage_draws_its_line_between_the_pivots():
     moved = one_input(plan(mechanism))
     seen = [coupler_curve(one, "coupler", "P") for one in circuits(moved)]
     z = np.concatenate([np.asarray(one.at(np.linspace(0, one.way.breaks[-1], 2001)).position) for one in seen])
-    assert max(np.abs(z - x).min() for x in (0.0, 1.0, 2.0)) < 2e-3
+    assert max(np.abs(z - x).min() for x in (0.0, 1.0, 2.0)) < 5e-3
     best = max((one for curve in seen for one in curve.straights(0.008, least=1.5)), key=lambda one: one.length)
     assert abs(best.middle - 1) < 0.05
     assert best.length > 1.8

@@ -25,6 +25,9 @@ from ilmek.plane.vectors import cross, dot
 BETWEEN = 12
 """Samples between neighbouring breaks of the way."""
 
+EVEN = 601
+"""Samples along a way among which straight stretches are looked for."""
+
 GAUSS = np.polynomial.legendre.leggauss(12)
 """Places and weights of the quadrature between neighbouring samples."""
 
@@ -156,7 +159,7 @@ class CouplerCurve:
         if not (tolerance > 0 and least > 0):
             given = f"straight within {tolerance} m for {least} m"
             raise MechanismError(given, allowed="a tolerance and a length above 0")
-        places = spaced(self.way.breaks, BETWEEN // 2)
+        places = np.linspace(self.way.breaks[0], self.way.breaks[-1], EVEN)
         if self.way.closed:
             places = np.concatenate([places, places[1:] + np.ptp(places)])
         z, turn = np.asarray(self.at(places).position), float(np.ptp(self.way.breaks))
@@ -166,7 +169,7 @@ class CouplerCurve:
         for extent, first, last in sorted(windows, reverse=True):
             start, stop = places[first], places[last]
             if extent + 2 * step >= least and stop - start < turn and not _overlaps(found, start, stop, turn):
-                one = self._fitted(places[max(first - 1, 0)], places[min(last + 1, len(places) - 1)], tolerance)
+                one = _fitted(self, places[max(first - 1, 0)], places[min(last + 1, len(places) - 1)], tolerance)
                 if one.length >= least and not _overlaps(found, one.start, one.stop, turn):
                     found.append(one)
         return tuple(found)
@@ -209,25 +212,26 @@ class CouplerCurve:
             found.append(Crossing(*ends, position, float(abs(turn[k]))))
         return tuple(found)
 
-    def _fitted(self, low: float, high: float, tolerance: float) -> Straight:
-        """The longest stretch between two places, in finer steps."""
-        places = np.linspace(low, high, 200)
-        every = np.asarray(self.at(places).position)
-        first, last = max(_windows(every, tolerance), key=lambda w: abs(every[w[1]] - every[w[0]]))
-        z: Complex[np.ndarray, " z"] = every[first : last + 1]
-        direction = complex((z[-1] - z[0]) / abs(z[-1] - z[0]))
-        along, across = np.asarray(dot(direction, z)), np.asarray(cross(direction, z))
-        middle = direction * (0.5 * (along.min() + along.max()) + 0.5j * (across.min() + across.max()))
-        ends = self.way.inputs(places[[first, last]])
-        return Straight(
-            float(places[first]),
-            float(places[last]),
-            (float(ends[0]), float(ends[1])),
-            float(np.ptp(along)),
-            direction,
-            complex(middle),
-            0.5 * float(np.ptp(across)),
-        )
+
+def _fitted(curve: CouplerCurve, low: float, high: float, tolerance: float) -> Straight:
+    """The longest stretch between two places, in finer steps."""
+    places = np.linspace(low, high, 200)
+    every = np.asarray(curve.at(places).position)
+    first, last = max(_windows(every, tolerance), key=lambda w: abs(every[w[1]] - every[w[0]]))
+    z: Complex[np.ndarray, " z"] = every[first : last + 1]
+    direction = complex((z[-1] - z[0]) / abs(z[-1] - z[0]))
+    along, across = np.asarray(dot(direction, z)), np.asarray(cross(direction, z))
+    middle = direction * (0.5 * (along.min() + along.max()) + 0.5j * (across.min() + across.max()))
+    ends = curve.way.inputs(places[[first, last]])
+    return Straight(
+        float(places[first]),
+        float(places[last]),
+        (float(ends[0]), float(ends[1])),
+        float(np.ptp(along)),
+        direction,
+        complex(middle),
+        0.5 * float(np.ptp(across)),
+    )
 
 
 def _windows(z: Complex[np.ndarray, " points"], tolerance: float) -> list[tuple[int, int]]:
