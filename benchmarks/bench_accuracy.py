@@ -23,12 +23,12 @@ def run() -> None:
         one = accuracy(kind, count, np.random.default_rng(seed))
         print(f"{kind:6s}{one.closure:10.1e}{one.newton:10.1e}{one.velocity:10.1e}{one.acceleration:14.1e}", flush=True)
     print("\nbeside dead centres, from 0.03 to 3e-15 rad on either side; rates of samples whose status is OK")
-    print(f"{'':6s}{'samples':>10s}{'OK':>10s}{'velocity':>10s}{'acceleration':>14s}{'silently wrong':>16s}")
+    heads = f"{'':6s}{'samples':>10s}{'OK':>10s}{'velocity':>10s}{'acceleration':>14s}"
+    print(f"{heads}{'silently wrong':>16s}{'misjudged':>11s}")
     for seed, kind in enumerate(KINDS[:4]):
         beside = near_dead(kind, count, np.random.default_rng(seed))
-        assert beside.misjudged == 0
         row = f"{kind:6s}{beside.samples:10d}{beside.solved:10d}{beside.velocity:10.1e}{beside.acceleration:14.1e}"
-        print(f"{row}{beside.silent:16d}", flush=True)
+        print(f"{row}{beside.silent:16d}{beside.misjudged:11d}", flush=True)
     found = crank_rockers(count, np.random.default_rng(9))
     steps = ", ".join(str(step) for step in STEPS)
     print(f"\n{found.mechanisms:,} crank-rockers, Grashof ratio up to {found.greatest:.6f}, at {steps} steps a turn:")

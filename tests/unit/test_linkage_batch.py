@@ -1,6 +1,8 @@
 """The compiled executor: the same motions as `solve` gives, the same statuses, and what a sweep refuses."""
 
 import dataclasses
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -309,6 +311,12 @@ def test_variants_that_cannot_close_are_told_apart():
 def test_a_sweep_refuses(given, said):
     with pytest.raises(MechanismError, match=said):
         sweep(BEAT_UP, **({"dimensions": {}, "angle": 0.0} | given))
+
+
+def test_the_compiler_is_imported_by_the_batch_module_alone():
+    script = "import sys, ilmek.linkage.solve, ilmek.linkage.fourbar; print('numba' in sys.modules)"
+    shown = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert shown.stdout.strip() == "False"
 
 
 def test_sine_and_cosine_are_right_to_the_last_digits():
