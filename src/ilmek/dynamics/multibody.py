@@ -16,7 +16,7 @@ from scipy.integrate import DOP853
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.events import Event, Happening, located, until_terminal
 from ilmek.dynamics.multibody_kernel import Model, joints
-from ilmek.dynamics.multibody_model import Pose, Push, Spring, System, Twist, from_motion, loosened, modelled, start_of
+from ilmek.dynamics.multibody_model import Pose, Push, System, Twist, from_motion, loosened, modelled, start_of
 from ilmek.dynamics.multibody_run import Course, SystemRun
 from ilmek.dynamics.multibody_steps import (
     DONE,
@@ -32,6 +32,7 @@ from ilmek.dynamics.multibody_steps import (
     begin,
     leap,
 )
+from ilmek.dynamics.springs import Spring
 from ilmek.errors import MechanismError
 
 __all__ = ["Course", "Event", "Pose", "Push", "Spring", "System", "SystemEvent", "SystemRun", "Twist", "from_motion",

@@ -12,6 +12,7 @@ from ilmek.dynamics.clearance import ClearancePin
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.multibody_contact import FLIGHT
 from ilmek.dynamics.multibody_kernel import Model
+from ilmek.dynamics.springs import Spring
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body, Joint, Pin, Slide
 from ilmek.linkage.motion import Motion
@@ -26,19 +27,6 @@ class Pose:
     angle: float = 0.0
     velocity: complex = 0j
     omega: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Spring:
-    """A straight spring and damper between points of two bodies: stiffness [N/m], free length [m], damping [N s/m]."""
-
-    first: str
-    first_point: str
-    second: str
-    second_point: str
-    stiffness: float
-    length: float
-    damping: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

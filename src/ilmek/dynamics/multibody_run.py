@@ -8,7 +8,8 @@ from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.dynamics.clearance import ClearancePin
 from ilmek.dynamics.events import Happening
 from ilmek.dynamics.multibody_kernel import Model, joints
-from ilmek.dynamics.multibody_model import Spring, System
+from ilmek.dynamics.multibody_model import System
+from ilmek.dynamics.springs import Spring
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Joint, Pin
 
