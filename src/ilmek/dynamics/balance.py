@@ -18,8 +18,9 @@ from ilmek.arrays import ComplexArray, FloatArray, NumberArray
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia, combined, point_mass
 from ilmek.dynamics.inverse import Forces
+from ilmek.dynamics.posed import posed
 from ilmek.errors import MechanismError
-from ilmek.linkage.model import GROUND, Slide
+from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import cross, unit
 
@@ -44,27 +45,21 @@ def shaking(motion: Motion, inertias: Mapping[str, Inertia], about: complex = 0j
 
 
 def on_frame(forces: Forces, about: complex = 0j) -> Shaking:
-    """Force and moment of all joints, drives and frictions on the ground, those from weight and loads among them."""
-    motion, mechanism = forces.motion, forces.mechanism
+    """Force and moment of all joints, teeth, drives and frictions on the ground, from weight and loads too."""
+    motion = forces.motion
     force, moment = np.zeros(len(motion), complex), np.zeros(len(motion))
-    for joint in mechanism.joints:
-        if GROUND not in joint.bodies:
+    for name, joint in posed(motion, {}).joints.items():
+        if GROUND not in (joint.on, joint.by):
             continue
-        on = forces.receiver(joint.name)
-        at = attached(motion, on, mechanism.point(on, joint.name)).position
-        sign = 1.0 if on == GROUND else -1.0
-        couple, along = sign * forces.couples.get(joint.name, 0.0), sign * forces.frictions.get(joint.name, 0.0)
-        for entry in mechanism.inputs:
-            if entry.joint == joint.name:
-                driven = on if isinstance(joint, Slide) else entry.name
+        sign = 1.0 if joint.on == GROUND else -1.0
+        couple, along = sign * forces.couples.get(name, 0.0), sign * forces.frictions.get(name, 0.0)
+        for entry in forces.mechanism.inputs:
+            if entry.joint == name:
+                driven = joint.on if entry.name in (joint.on, name) else joint.by
                 along = along + (1.0 if driven == GROUND else -1.0) * forces.efforts[entry.name]
-        push = forces.pin(joint.name, on=GROUND)
-        if isinstance(joint, Slide):
-            push = push + along * motion.direction(joint.guide) * unit(joint.along)
-        else:
-            couple = couple + along
+        push = sign * forces.reactions[name] + along * joint.drive.force
         force = force + push
-        moment = moment + cross(at - about, push) + couple
+        moment = moment + cross(joint.at - about, push) + couple + along * joint.drive.moment
     return Shaking(force, moment)
 
 

@@ -91,10 +91,6 @@ class Forces:
             raise MechanismError(f"{self.mechanism.name} has no coupling {coupling!r}")
         return self.reactions[coupling]
 
-    def receiver(self, name: str) -> str:
-        """The body on which a joint's force, couple and friction are counted."""
-        return receiver(self.mechanism.joint(name))
-
     def effort(self, entry: str) -> FloatArray:
         """Torque [N m] or force [N] on the driven body, by the name of the input: that of the body, or of the slide."""
         if entry not in self.efforts:
