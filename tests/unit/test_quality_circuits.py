@@ -21,7 +21,6 @@ from ilmek.linkage.structure import plan
 
 FOUR_BARS = {
     "crank-rocker": (3.0, 1.0, 2.7, 1.3 + 1e-5),  # four parts in a million from its change point
-    "double-crank": (1.0, 2.2, 1.8, 2.0),
     "double-rocker": (2.0, 2.5, 1.0, 2.5),
     "rocker-crank": (1.1, 1.0, 1.2, 0.4),
     "triple-rocker": (0.300, 0.200, 0.200, 0.230),
