@@ -1,0 +1,136 @@
+"""A function that a four-bar is to generate: y = f(x), x shown by turns of the crank, y by turns of the rocker.
+
+crank = crank_swing (x - x0) / (x1 - x0)        rocker = rocker_swing (f(x) - y0) / (y1 - y0)
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.interpolate import PchipInterpolator
+
+from ilmek.arrays import FloatArray
+from ilmek.errors import ParameterError
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import plan
+from ilmek.synthesis.four_bar import FourBar
+from ilmek.synthesis.task import Task
+from ilmek.units import deg
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """y = f(x) from `start` to `stop`, and the turns of crank and rocker that show the two ranges [rad].
+
+    f  takes and returns arrays; y0 = f(start), y1 = f(stop)
+
+    Raises ParameterError for an empty range of x or y, values that are not finite, and swings of nothing or of more
+    than a turn.
+
+    >>> root = Function(np.sqrt, 1.0, 9.0, 80 * deg, 60 * deg)
+    >>> np.degrees(root.rocker(np.array([1.0, 4.0, 9.0]))).round(6)
+    array([ 0., 30., 60.])
+    """
+
+    f: Callable[[FloatArray], FloatArray]
+    start: float
+    stop: float
+    crank_swing: float
+    rocker_swing: float
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.start) and math.isfinite(self.stop) and self.start != self.stop):
+            raise ParameterError(f"x from {self.start:g} to {self.stop:g}", allowed="two finite ends that differ")
+        for name in ("crank_swing", "rocker_swing"):
+            swing = getattr(self, name)
+            if not 0 < abs(swing) <= 2 * math.pi:
+                guess = f"{swing:g} deg is {swing * deg:.6g} rad" if 2 * math.pi < abs(swing) <= 360 else ""
+                raise ParameterError(f"{name} {swing:g} rad", allowed="not 0, at most a turn, 6.283 rad", do=guess)
+        first, last = self.range
+        if not (math.isfinite(first) and math.isfinite(last) and first != last):
+            given = f"y is {first:g} at x = {self.start:g} and {last:g} at x = {self.stop:g}"
+            raise ParameterError(given, allowed="two finite values that differ", do="choose another range of x")
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """What y is at both ends of x."""
+        first, last = self.f(np.array([self.start, self.stop]))
+        return float(first), float(last)
+
+    def crank(self, x: FloatArray) -> FloatArray:
+        """Turn of the crank since `start` [rad]."""
+        return np.asarray(self.crank_swing * (x - self.start) / (self.stop - self.start))
+
+    def rocker(self, x: FloatArray) -> FloatArray:
+        """Turn of the rocker since `start` [rad]."""
+        first, last = self.range
+        return np.asarray(self.rocker_swing * (self.f(x) - first) / (last - first))
+
+    def task(self, x: FloatArray) -> Task:
+        """The precision positions at places x. Raises ParameterError where f is not finite."""
+        if not np.isfinite(self.f(x)).all():
+            bad = float(np.asarray(x)[~np.isfinite(self.f(x))][0])
+            raise ParameterError(f"the function is not finite at x = {bad:g}", do="choose another range of x")
+        return Task(crank=self.crank(x), rocker=self.rocker(x))
+
+    def nodes(self, count: int) -> Float[np.ndarray, " count"]:
+        """Chebyshev's places for `count` precision points: the error of interpolation is spread about evenly.
+
+            x_i = (x0 + x1) / 2 - (x1 - x0) / 2 cos((2 i - 1) pi / (2 n))
+
+        >>> Function(lambda x: x, 0.0, 2.0, 1.0, 1.0).nodes(3).round(6)
+        array([0.133975, 1.      , 1.866025])
+        """
+        middle, half = 0.5 * (self.start + self.stop), 0.5 * (self.stop - self.start)
+        return np.asarray(middle - half * np.cos((2 * np.arange(count) + 1) * np.pi / (2 * count)))
+
+
+def function_of_samples(x: FloatArray, y: FloatArray, crank_swing: float, rocker_swing: float) -> Function:
+    """The function through samples, without overshooting between them: monotone cubic interpolation.
+
+    Raises ParameterError for fewer than two samples, x that does not rise, or values that are not finite.
+    [Fritsch and Butland, A method for constructing local monotone piecewise cubic interpolants, 1984.]
+    """
+    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    if x.shape != y.shape or x.ndim != 1 or len(x) < 2:
+        raise ParameterError(f"samples of shapes {x.shape} and {y.shape}", allowed="two or more pairs of x and y")
+    if not (np.isfinite(x).all() and np.isfinite(y).all()) or not (np.diff(x) > 0).all():
+        raise ParameterError("samples are not in order", allowed="finite values, x rising from sample to sample")
+    return Function(PchipInterpolator(x, y), float(x[0]), float(x[-1]), crank_swing, rocker_swing)
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorCurve:
+    """How a four-bar generates a function over its range: everything by x.
+
+    wanted, generated  turns of the rocker since the start of the range [rad]; NaN where the four-bar does not close
+    error              generated less wanted [rad]      y_error  the same in units of y
+    """
+
+    x: Float[np.ndarray, " samples"]
+    wanted: Float[np.ndarray, " samples"]
+    generated: Float[np.ndarray, " samples"]
+    error: Float[np.ndarray, " samples"]
+    y_error: Float[np.ndarray, " samples"]
+
+    @property
+    def greatest(self) -> float:
+        """Greatest error over the range [rad]; NaN where the four-bar does not close all over it."""
+        return float(np.max(np.abs(self.error)))
+
+
+def error_curve(four_bar: FourBar, function: Function, drawn_at: float, samples: int = 361) -> ErrorCurve:
+    """The structural error over the range, by moving the four-bar through `linkage` on its drawn branch.
+
+    drawn_at  the x that the four-bar shows as it is drawn: that of its first precision point
+    """
+    x = np.linspace(function.start, function.stop, samples)
+    wanted, at = function.rocker(x), np.array([drawn_at])
+    crank = four_bar.crank_angle + function.crank(x) - function.crank(at)
+    shown = four_bar.rocker_angle + wanted - function.rocker(at)
+    motion = solve(plan(four_bar.mechanism()), crank)
+    error = np.angle(motion.direction("rocker") * np.exp(-1j * shown))
+    first, last = function.range
+    return ErrorCurve(x, wanted, wanted + error, error, error * (last - first) / function.rocker_swing)
