@@ -80,20 +80,34 @@ def _crank_rockers(count: int, rng: np.random.Generator) -> tuple[FloatArray, Fl
 
 
 @compiled
+def _places(ground: float, pin: complex, coupler: float, rocker: float) -> tuple[complex, complex]:
+    """Where the rocker's pin can be: left and right of the line from the crank's pin to the ground's."""
+    away = ground - pin
+    square = away.real * away.real + away.imag * away.imag
+    along = 0.5 * (square + coupler * coupler - rocker * rocker) / square
+    height = math.sqrt(max(coupler * coupler / square - along * along, 0.0))
+    return pin + complex(along, height) * away, pin + complex(along, -height) * away
+
+
+@compiled
 def follow(lengths: FloatArray, sign: float, around: ComplexArray, kept: ComplexArray) -> None:
-    """The rocker's pin over a turn by continuity alone, the crank in the fine directions `around`; some are kept."""
+    """The rocker's pin over a turn by continuity alone, the crank in the fine directions `around`; some are kept.
+
+    It sets out where the two places are farthest apart, so that its first steps are in no doubt.
+    """
     ground, crank, coupler, rocker = lengths
-    stride = len(around) // len(kept)
+    fine, stride = len(around), len(around) // len(kept)
+    start, most = 0, -1.0
+    for k in range(0, fine, stride):
+        one, other = _places(ground, crank * around[k], coupler, rocker)
+        if abs(one - other) > most:
+            start, most = k, abs(one - other)
     before, last = 0j, 0j
-    for k in range(len(around)):
-        pin = crank * around[k]
-        away = ground - pin
-        square = away.real * away.real + away.imag * away.imag
-        along = 0.5 * (square + coupler * coupler - rocker * rocker) / square
-        height = math.sqrt(max(coupler * coupler / square - along * along, 0.0))
-        one, other = pin + complex(along, height) * away, pin + complex(along, -height) * away
+    for step in range(fine):
+        k = (start + step) % fine
+        one, other = _places(ground, crank * around[k], coupler, rocker)
         expected = 2 * last - before
-        if k == 0:
+        if step == 0:
             last = expected = one if sign > 0 else other
         to_one, to_other = one - expected, other - expected
         nearer = to_one.real**2 + to_one.imag**2 <= to_other.real**2 + to_other.imag**2
