@@ -21,6 +21,9 @@ turns round a warp on the radius r = (D + d)/2. In the section across the warps,
 
     L = k (2 (D/2 + d + h + c) + wrap)
 
+The jufti forms take neighbouring warps together: the straight parts grow by whole pitches, the turns stay. The same
+path as a curve, point for point, is `knot_path`; its wrap is the one given here.
+
 k is a calibration by the weaver's own carpet. By hand the figures published are 25 to 28 mm at 40 knots per dm and 30
 to 35 mm at 35, but 40 mm at 40 raj, where the waste of the hand cut seems to be in it (iran-carpet.com 1705;
 Azerbaijani Wikipedia). Fine carpets are shorn lower: give their own pile height.
@@ -77,15 +80,22 @@ class PileParams(Params):
     )
 
 
-def symmetric_wrap(pitch: float, radius: float) -> float:
-    """Part of a symmetric knot round its two warps [m]: p + 3 pi r."""
-    return pitch + 3 * math.pi * radius
+def symmetric_wrap(pitch: float, radius: float, left: int = 1, right: int = 1) -> float:
+    """Part of a symmetric knot round its warps [m]: (2 (m + n) - 3) p + 3 pi r.
+
+    left, right  m and n, warps on each side of its middle: 1, 2 for the jufti form
+    """
+    return (2 * (left + right) - 3) * pitch + 3 * math.pi * radius
 
 
-def asymmetric_wrap(pitch: float, radius: float) -> float:
-    """Part of an asymmetric knot round its two warps [m]: sqrt(p² - 4r²) + 2 r (pi + alpha), sin alpha = 2r/p."""
+def asymmetric_wrap(pitch: float, radius: float, passed: int = 1, encircled: int = 1) -> float:
+    """Part of an asymmetric knot round its warps [m]: (m - 1 + 2 (n - 1)) p + sqrt(p² - 4r²) + 2 r (pi + alpha).
+
+    sin alpha = 2r/p      passed, encircled  m and n, warps it only passes behind, and winds round: 1, or 2 of a jufti
+    """
     alpha = math.asin(min(1.0, 2 * radius / pitch))
-    return math.sqrt(max(pitch**2 - 4 * radius**2, 0.0)) + 2 * radius * (math.pi + alpha)
+    straight = (passed - 1 + 2 * (encircled - 1)) * pitch + math.sqrt(max(pitch**2 - 4 * radius**2, 0.0))
+    return straight + 2 * radius * (math.pi + alpha)
 
 
 WRAPS: dict[str, Callable[[float, float], float]] = {"symmetric": symmetric_wrap, "asymmetric": asymmetric_wrap}
@@ -127,8 +137,13 @@ def knot_length(knot: str, quality: Quality, linear_density: float, pile: PilePa
     wrap = WRAPS[parse_knot(knot)]
     warp = pile.warp_diameter or yarn_diameter(warp_density(quality))
     yarn = yarn_diameter(linear_density, pile.fibre_density, pile.packing)
-    leg = warp / 2 + yarn + pile.pile_height + pile.cut_waste
+    leg = leg_length(warp, yarn, pile)
     return pile.calibration * (2 * leg + wrap(quality.warp_pitch, (warp + yarn) / 2))
+
+
+def leg_length(warp_diameter: float, yarn_diameter: float, pile: PileParams) -> float:
+    """From the warps' axes to the tip of the yarn as woven [m]: D/2 + d + h + c."""
+    return warp_diameter / 2 + yarn_diameter + pile.pile_height + pile.cut_waste
 
 
 def pile_fill(quality: Quality, linear_density: float, pile: PileParams | None = None) -> float:
