@@ -93,6 +93,12 @@ def test_positions_met_in_another_order_are_told(links: LinkLengths, order: list
     assert defects(found) == {"in_order": "the crank meets the positions in the order 1, 3, 2, 4"}
 
 
+def test_of_many_positions_out_of_order_the_first_is_told() -> None:
+    turns = np.linspace(0, 5, 40)
+    found = planted(CRANK_ROCKER, list(turns), [1] * 40, [*range(20), 21, 20, *range(22, 40)])
+    assert defects(found) == {"in_order": "the crank meets position 22 before 21"}
+
+
 def test_a_crank_turning_backwards_keeps_the_order() -> None:
     assert planted(CRANK_ROCKER, [0.0, 5.0, 3.0, 1.0], [1] * 4).in_order
     assert planted(ROCKER, [0.0, -0.3, -0.6], [1] * 3).in_order

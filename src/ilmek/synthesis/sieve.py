@@ -16,6 +16,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -103,6 +104,10 @@ SAID = {
 """Each filter's defect in a few words."""
 
 
+FEW = 12
+"""Positions whose order is said in full."""
+
+
 def sift(candidates: Iterable[Candidate], filters: Filters | None = None) -> Sifted:
     """Candidates without defects and within limits, the best transmission angle first; the others with reasons."""
     filters = filters or Filters()
@@ -138,7 +143,7 @@ def _of_positions(one: Candidate) -> dict[str, str]:
     elif not one.one_branch:
         found["one_branch"] = f"passes a dead centre of the crank: positions {_grouped(branches)} are on two branches"
     elif not lost and not one.in_order:
-        found["in_order"] = f"the crank meets the positions in the order {', '.join(map(str, one.order))}"
+        found["in_order"] = _out_of_order(one.order)
     return found
 
 
@@ -157,6 +162,13 @@ def _of_motion(one: Candidate, filters: Filters) -> dict[str, str]:
     if filters.size is not None and not one.size <= filters.size:
         found["size"] = f"size {format_quantity(one.size, 'mm')}, asked at most {format_quantity(filters.size, 'mm')}"
     return found
+
+
+def _out_of_order(order: tuple[int, ...]) -> str:
+    if len(order) <= FEW:
+        return f"the crank meets the positions in the order {', '.join(map(str, order))}"
+    early, late = next(pair for pair in pairwise(order) if pair[1] < pair[0])
+    return f"the crank meets position {early} before {late}"
 
 
 def _grouped(values: Mapping[int, int]) -> str:
