@@ -114,7 +114,10 @@ def test_the_knotting_report_s_example() -> None:
     [
         ([0, 1, 2j, np.nan], [0, 1, 2, 3], "not a number"),
         ([1, 1, 1, 1], [0, 1, 2, 3], "all points"),
-        ([0, 1, 2j, 2j], [0, 1, 2, 2], "a whole family"),
+        ([0, 1, 2j, 2j], [0, 1, 2, 2], "timed points 3 and 4 are one"),
+        (np.exp(1j * np.arange(4)), [0, 1, 2, 3], "a whole family"),
+        ([0, 1, 2j], [0, 1, 2], "given 3 timed points; exactly 4; for 3: crank_of_pivot"),
+        ([0, 1, 2j, 3], [0, 20, 45, 80], "angles are in radians: 80 deg would be 1.39626"),
     ],
 )
 def test_what_is_no_task(points: list[complex], th1: list[float], said: str) -> None:

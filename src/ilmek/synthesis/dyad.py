@@ -4,26 +4,32 @@
 
 Pivot O = a0 e^{i th0}, first link a1, second link a2, p its end; all angles absolute. Where the equation of place 1 is
 taken from the others, both tasks are pencils (A + x B) v = 0 in one length x: all solutions at once, no starting
-values, and none of the divisions at which the elimination by hand breaks down.
+values, and none of the divisions at which the elimination by hand breaks down. Timed points are solved by the batch,
+one task like a hundred thousand: `arms_through_points`.
 
 [thesis 2.1.3, there by superposition, with misprints that `ilmek reproduce --paper thesis` names; knotting report, 2]
 """
 
-import math
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Complex, Float
+from jaxtyping import Complex, Float, Int8
 
 from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.errors import ParameterError
 from ilmek.num.pencil import Root, real_roots
-from ilmek.plane.vectors import dot
+from ilmek.num.pencil3 import Roots, roots3
+from ilmek.plane.vectors import dot, unit
+from ilmek.synthesis.burmester_forms import FAR, require_task, timed_forms
 
-FAR = 1e9
-"""Distance of a pivot, in sizes of the path, beyond which it counts as infinitely far: the arm would be a slide."""
+BLOCK = 4096
+"""Tasks that are solved together: more would not stay in the cache."""
 
+
+STILL = 1e-11
+"""Length of the first link, in sizes of the path, below which it is rounding."""
 
 FAMILY = 1e-9
 """Singular value of the task's pencil, in units of the path, that leaves a length free."""
@@ -98,29 +104,86 @@ def dyads_through_poses(
     return tuple(found)
 
 
-def dyads_through_points(points: Complex[np.ndarray, "4"], first_angles: Float[np.ndarray, "4"]) -> tuple[Dyad, ...]:
+class Found(IntEnum):
+    """What a root of the four-point task is."""
+
+    ARM = 0
+    COMPLEX = 1
+    STILL = 2
+    FAR_PIVOT = 3
+    LINE = 4
+    LONG = 5
+    FAMILY = 6
+
+    @property
+    def words(self) -> str:
+        """The same, said to people."""
+        return WORDS[self]
+
+
+WORDS = {
+    Found.ARM: "an arm",
+    Found.COMPLEX: "no real arm",
+    Found.STILL: "the points lie on a circle about the pivot: the first link has no length",
+    Found.FAR_PIVOT: "the pivot is infinitely far: the first link would turn on a slide",
+    Found.LINE: "the points lie on a line: the pivot is infinitely far and the first link has no length",
+    Found.LONG: "both links are infinitely long",
+    Found.FAMILY: "a whole family of arms solves this task, or no task was given",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Arms:
+    """All roots of four-point tasks, three each, in the order of `first`; what they are is in `found`.
+
+    pivot  O [m], complex; of a pivot infinitely far the direction, a unit vector
+    first, second  a1 with its sign, a2 [m]; infinite where they are, NaN where there is no real arm
+    found  `Found` of each
+    """
+
+    pivot: Complex[np.ndarray, "*batch 3"]
+    first: Float[np.ndarray, "*batch 3"]
+    second: Float[np.ndarray, "*batch 3"]
+    found: Int8[np.ndarray, "*batch 3"]
+
+
+def arms_through_points(points: Complex[np.ndarray, "*batch 4"], first_angles: Float[np.ndarray, "*batch 4"]) -> Arms:
+    """All arms whose end is at four points [m] at four angles of the first link [rad]: any batch of tasks.
+
+        |p_i - O - a1 e^{i th1_i}|² = a2²,    less the first:    (A + a1 B) (O - p_1, 1)^T = 0
+
+    A and B are columns of the forms G of `burmester_forms`, W = a1 e^{i th1_1} taken as its moving point. Never raises
+    for a task: a bad one is told in `found`.                                                   [thesis 2.36, 2.37]
+
+    >>> arms = arms_through_points(np.array([0, 2, 2 + 2j, 2j]), np.array([0.1, 0.7, 1.9, 3.0]))
+    >>> [Found(one).name for one in arms.found], complex(np.round(arms.pivot[0], 12))  # a circle about 1 + i
+    (['STILL', 'COMPLEX', 'COMPLEX'], (1+1j))
+    """
+    batch = points.shape[:-1]
+    flat, angles = points.reshape(-1, 4), first_angles.reshape(-1, 4)
+    parts = [_arms(flat[k : k + BLOCK], angles[k : k + BLOCK]) for k in range(0, max(len(flat), 1), BLOCK)]
+    whole = [np.concatenate([getattr(part, name) for part in parts]) for name in Arms.__slots__]
+    return Arms(*(one.reshape(*batch, 3) for one in whole))
+
+
+def dyads_through_points(points: Complex[np.ndarray, " n"], first_angles: Float[np.ndarray, " n"]) -> tuple[Dyad, ...]:
     """All arms whose end is at four points at four angles of the first link: 1 or 3, seldom fewer.
 
-        |p_i - O - a1 e^{i th1_i}|² = a2²,    less the first:    (A + a1 B) (X, Y, 1)^T = 0
-        A_i = [-2 dx, -2 dy, d|p|²],    B_i = [2 dcos, 2 dsin, -2 d(x cos + y sin)],    d: row i minus row 1
-
-    `second` is positive, `first` carries a sign. Sorted by `first`. An arm with first = 0 says that the points lie on a
-    circle about its pivot; arms with the pivot infinitely far (points on a line) are left out. Raises ParameterError
-    where the points are no task: not finite, all in one place, or met by a whole family of arms. [thesis 2.36, 2.37]
+    `arms_through_points` of one task. `second` is positive, `first` carries a sign. Sorted by `first`. An arm with
+    first = 0 says that the points lie on a circle about its pivot; what is no arm (a pivot infinitely far, for points
+    on a line) is left out here and said there. Raises ParameterError where the points are no task: not four, not
+    finite, all in one place, two that are one, angles in degrees, or met by a whole family of arms.
     """
-    origin, size = _frame(points, first_angles)
-    p, u = (points - origin) / size, np.exp(1j * first_angles)
-    A = np.stack([_less_first(-2 * p.real), _less_first(-2 * p.imag), _less_first(dot(p, p))], axis=-1)
-    B = np.stack([_less_first(2 * u.real), _less_first(2 * u.imag), _less_first(-2 * dot(p, u))], axis=-1)
-    found = []
-    for first, (x, y, one) in _roots(A, B):
-        if abs(one) * FAR < math.hypot(x, y) or abs(first) > FAR:
-            continue
-        pivot = complex(x, y) / one
-        second = abs(p[0] - pivot - first * u[0])
-        place = pivot * size + origin
-        found.append(Dyad(complex(place), abs(place), first * size, float(second) * size))
-    return tuple(found)
+    _frame(points, first_angles)
+    require_task("timed point", points, first_angles, 4, "dyads_through_points")
+    arms = arms_through_points(points, first_angles)
+    if np.any(arms.found == Found.FAMILY):
+        raise _family()
+    return tuple(
+        Dyad(complex(pivot), abs(pivot), float(first), float(second))
+        for pivot, first, second, found in zip(arms.pivot, arms.first, arms.second, arms.found, strict=True)
+        if found in (Found.ARM, Found.STILL)
+    )
 
 
 def four_bar(one: Dyad, other: Dyad) -> Lengths:
@@ -154,8 +217,54 @@ def _roots(A: FloatArray, B: FloatArray) -> tuple[Root, ...]:
     probes = (0.6180339887, *(root.value for root in found))  # the first is a root by chance only
     ranks = [int(np.linalg.matrix_rank(A + x * B, tol=FAMILY * max(1.0, abs(x)))) for x in probes]
     if ranks[0] < len(A) or any(rank < len(A) - 1 for rank in ranks):
-        raise ParameterError(
-            "a whole family of dyads solves this task",
-            do="move a point or an angle: equal places, or an arm that turns without bending, leave a length free",
-        )
+        raise _family()
     return found
+
+
+def _family() -> ParameterError:
+    return ParameterError(
+        "a whole family of dyads solves this task",
+        do="move a point or an angle: equal places, or an arm that turns without bending, leave a length free",
+    )
+
+
+def _arms(points: Complex[np.ndarray, "n 4"], angles: Float[np.ndarray, "n 4"]) -> Arms:
+    """The arms of a block of tasks."""
+    usable = np.isfinite(points).all(axis=-1) & np.isfinite(angles).all(axis=-1)
+    points, angles = np.where(usable[:, None], points, 0), np.where(usable[:, None], angles, 0)
+    size = np.max(np.abs(points - points[:, :1]), axis=-1)
+    size = np.where(size > 0, size, 1.0)
+    start = np.asarray(unit(angles[:, 0]))
+    G = timed_forms(points, angles, size)
+    A = G[..., 2]
+    B = G[..., 0] * start.real[:, None, None] + G[..., 1] * start.imag[:, None, None]
+    roots = roots3(A, B)
+    found = _told(roots, usable)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        first = roots.numerator / roots.denominator
+        away = -(roots.vectors[..., 0] + 1j * roots.vectors[..., 1])  # the forms' moving point is -(O - p_1)
+        far = np.isin(found, (Found.FAR_PIVOT, Found.LINE))
+        pivot = np.where(far, away / np.abs(away), size[:, None] * away / roots.vectors[..., 2] + points[:, :1])
+        first = np.where(found == Found.LONG, np.inf, np.where(found == Found.STILL, 0.0, first * size[:, None]))
+        second = np.where(far | (found == Found.LONG), np.inf, np.abs(points[:, :1] - pivot - first * start[:, None]))
+    none = np.isin(found, (Found.COMPLEX, Found.FAMILY))
+    first, second, pivot = (np.where(none, np.nan, one) for one in (first, second, pivot))
+    order = np.argsort(first, axis=-1)  # NaN comes last
+    return Arms(*(np.take_along_axis(one, order, axis=-1) for one in (pivot, first, second, found)))
+
+
+def _told(roots: Roots, usable: np.ndarray) -> Int8[np.ndarray, "n 3"]:
+    """What each root is."""
+    x, k, vectors = roots.numerator, roots.denominator, roots.vectors
+    far = np.abs(vectors[..., 2]) * FAR <= np.hypot(vectors[..., 0], vectors[..., 1])
+    still = np.abs(x) <= STILL * np.abs(k)
+    free = (roots.free | ~usable)[:, None] | (roots.real & ~roots.alone)
+    told = [
+        (free, Found.FAMILY),
+        (~roots.real, Found.COMPLEX),
+        (np.abs(k) * FAR <= np.abs(x), Found.LONG),
+        (far & still, Found.LINE),
+        (far, Found.FAR_PIVOT),
+        (still, Found.STILL),
+    ]
+    return np.select([case for case, _ in told], [value for _, value in told], Found.ARM).astype(np.int8)

@@ -9,7 +9,7 @@ pivot. The crank carries the coupler along: its angle at the points is then know
 motion generation (`burmester`).              [thesis 2.1.3 generalised; Sandor and Erdman, Advanced Mechanism Design 3]
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -25,7 +25,6 @@ from ilmek.synthesis.burmester import (
     POINT,
     Guide,
     Kind,
-    Pair,
     arms_of_pivots,
     arms_through_five_poses,
     common_solutions,
@@ -34,6 +33,7 @@ from ilmek.synthesis.burmester import (
 from ilmek.synthesis.burmester_curve import SAMPLES, BurmesterCurve, burmester_curve, curve, still_point
 from ilmek.synthesis.burmester_forms import Frame, homogeneous, place, require_task, timed_forms
 from ilmek.synthesis.dyad import Found, arms_through_points
+from ilmek.synthesis.four_bar import FourBar
 
 
 class CrankKind(StrEnum):
@@ -58,7 +58,16 @@ CRANK_WORDS = {
     CrankKind.ON_PIN: "the points lie on the crank's own circle, timed as it turns: the tracer is its pin",
     CrankKind.FAR_PIVOT: "the pivot is infinitely far, as for points on a line: the crank would turn on a slide",
     CrankKind.FAR_PIN: "the crank is infinitely long",
-    CrankKind.FREE: "any crank whose tip is on a line will do",
+    CrankKind.FREE: "more than one crank will do, a whole line of them",
+}
+
+KIND_OF_ARM = {
+    Found.ARM: CrankKind.CRANK,
+    Found.STILL: CrankKind.STILL,
+    Found.FAR_PIVOT: CrankKind.FAR_PIVOT,
+    Found.LINE: CrankKind.FAR_PIVOT,
+    Found.LONG: CrankKind.FAR_PIN,
+    Found.FAMILY: CrankKind.FREE,
 }
 
 
@@ -98,6 +107,16 @@ class TimedCrank:
         return np.asarray(np.angle(points - self.pins(crank_angles)))
 
 
+@dataclass(frozen=True, slots=True)
+class PathFourBar:
+    """A crank with its second link: the four-bar, drawn at the first point, or None and in `said` why there is none."""
+
+    crank: TimedCrank
+    second: Guide | None
+    four_bar: FourBar | None
+    said: str
+
+
 def cranks_through_five_points(
     points: Complex[np.ndarray, " n"], crank_angles: Float[np.ndarray, " n"]
 ) -> tuple[TimedCrank, ...]:
@@ -129,8 +148,9 @@ def crank_of_pivot(
 ) -> TimedCrank:
     """The crank with a given pivot [m] for three points [m] at crank angles [rad], of which the differences count.
 
-    >>> crank = crank_of_pivot(np.array([2, 1 + 1j, 0]), np.array([0.0, 0.5, 1.2]), -1j)
-    >>> crank.kind.value, np.ptp(crank.reach(np.array([2, 1 + 1j, 0]), np.array([0.0, 0.5, 1.2]))) < 1e-12
+    >>> points, turns = np.array([2, 1 + 1j, 0]), np.array([0.0, 0.5, 1.2])
+    >>> crank = crank_of_pivot(points, turns, -1j)
+    >>> crank.kind.value, float(np.ptp(crank.reach(points, turns))) < 1e-12
     ('crank', True)
     """
     G, centre_frame, circle_frame = _task(points, crank_angles, 3, "crank_of_pivot")
@@ -143,17 +163,13 @@ def crank_of_pivot(
 
 
 def second_arms(
-    crank: TimedCrank, points: Complex[np.ndarray, " 5"], crank_angles: Float[np.ndarray, " 5"]
+    crank: TimedCrank, points: Complex[np.ndarray, " n"], crank_angles: Float[np.ndarray, " n"]
 ) -> tuple[Guide, ...]:
-    """The links that may go with a crank for five points: those of its coupler's poses, less the crank itself."""
-    angles = np.unwrap(crank.coupler_angles(points, crank_angles))
-    found = arms_through_five_poses(points, angles - 2 * np.pi * np.round(angles[0] / (2 * np.pi)))
-    itself = min(
-        (one for one in found if one.kind is Kind.CRANK),
-        key=lambda one: abs(one.pivot - crank.pivot) + abs(one.pin - crank.pin),
-        default=None,
-    )
-    return tuple(one for one in found if one is not itself)
+    """The links that may go with a crank for five points: those of its coupler's poses, less the crank itself.
+
+    Raises ParameterError as `arms_through_five_poses`, for the coupler's poses.
+    """
+    return _others(crank, points, crank.coupler_angles(points, crank_angles))
 
 
 def path_four_bars(
@@ -162,7 +178,7 @@ def path_four_bars(
     *,
     pivots: tuple[complex, complex] | None = None,
     samples: int = 24,
-) -> tuple[Pair, ...]:
+) -> tuple[PathFourBar, ...]:
     """Four-bars whose tracer is at the points [m] at the crank angles [rad], crank first.
 
     five points   every solution: up to four cranks with up to three second links each
@@ -170,22 +186,30 @@ def path_four_bars(
                   two curves at `samples` places of each closed part
     three points  the one with these `pivots` [m] of crank and rocker
 
-    Where crank or second link are degenerate the pair has no four-bar and says why. Raises ParameterError for another
+    Where crank or second link are degenerate there is no four-bar, and it says why. Raises ParameterError for another
     number of points, for three without pivots, and as the methods that it puts together.
     """
     if len(points) == 5:
-        return tuple(_of_five(points, crank_angles))
+        cranks = cranks_through_five_points(points, crank_angles)
+        return _joined(cranks, points, crank_angles, _others)
     if len(points) == 4:
-        return tuple(_of_four(points, crank_angles, samples))
-    if len(points) == 3 and pivots is None:
-        raise ParameterError("three timed points leave both pivots free", do="give the pivots of crank and rocker")
-    if len(points) == 3 and pivots is not None:
-        crank = crank_of_pivot(points, crank_angles, pivots[0])
-        return tuple(_joined(crank, arms_of_pivots, points, crank_angles, np.array([complex(pivots[1])])))
+        require_task("timed point", points, crank_angles, 4, "path_four_bars")
+        return _joined(
+            _cranks_of_four(points, crank_angles),
+            points,
+            crank_angles,
+            lambda _, places, angles: burmester_curve(places, angles, samples).guides(),
+        )
+    if len(points) == 3:
+        if pivots is None:
+            raise ParameterError("three timed points leave both pivots free", do="give the pivots of crank and rocker")
+        one, other = complex(pivots[0]), np.array([complex(pivots[1])])
+        cranks = (crank_of_pivot(points, crank_angles, one),)
+        return _joined(cranks, points, crank_angles, lambda _, places, angles: arms_of_pivots(places, angles, other))
     raise ParameterError(
         f"a timed path of {len(points)} points",
         allowed="3 to 5 points are met exactly",
-        do="for more points search approximately",
+        do="for more points search approximately" if len(points) > 5 else "give more points",
     )
 
 
@@ -214,33 +238,58 @@ def _crank(m: NumberArray, w: NumberArray, centre_frame: Frame, circle_frame: Fr
         kind = CrankKind.ON_PIN if abs(arm - pivot) <= POINT * max(1.0, abs(arm)) else CrankKind.CRANK
     return TimedCrank(
         kind,
-        complex(centre_frame.out(np.asarray(pivot))) if near else -pivot,
-        complex(circle_frame.out(np.asarray(arm))) if close else arm,
+        centre_frame.spot(pivot) if near else -pivot,
+        circle_frame.spot(arm) if close else arm,
     )
 
 
-def _of_five(points: NumberArray, crank_angles: FloatArray) -> Iterator[Pair]:
-    for crank in cranks_through_five_points(points, crank_angles):
-        if crank.kind is not CrankKind.CRANK:
-            yield _alone(crank, crank.kind.words)
-            continue
-        try:
-            others = second_arms(crank, points, crank_angles)
-        except ParameterError as error:
-            yield _alone(crank, f"the coupler of this crank: {error.given}")
-            continue
-        yield from (pair(_as_guide(crank), other, complex(points[0])) for other in others)
-
-
-def _of_four(points: NumberArray, crank_angles: FloatArray, samples: int) -> Iterator[Pair]:
-    require_task("timed point", points, crank_angles, 4, "path_four_bars")
-    arms = arms_through_points(points, crank_angles)
+def _cranks_of_four(points: NumberArray, crank_angles: FloatArray) -> tuple[TimedCrank, ...]:
+    """The cranks whose own angles are given."""
+    arms = arms_through_points(np.asarray(points, dtype=complex), crank_angles)
     start = complex(unit(crank_angles[0]))
-    for pivot, first, told in zip(arms.pivot, arms.first, arms.found, strict=True):
-        if told == Found.COMPLEX:
-            continue
-        crank = TimedCrank(CrankKind.CRANK, complex(pivot), complex(first * start) if told == Found.ARM else 0j)
-        if told != Found.ARM:
-            yield _alone(crank, Found(told).words)
-            continue
-        yield from _joined(crank, None, points, crank_angles, samples)
+    return tuple(
+        TimedCrank(KIND_OF_ARM[Found(told)], complex(pivot), complex(start if np.isinf(first) else first * start))
+        for pivot, first, told in zip(arms.pivot, arms.first, arms.found, strict=True)
+        if told != Found.COMPLEX
+    )
+
+
+def _others(crank: TimedCrank, points: NumberArray, angles: FloatArray) -> tuple[Guide, ...]:
+    """The guides of five poses of a coupler, less its crank."""
+    found = arms_through_five_poses(np.asarray(points, dtype=complex), angles)
+    itself = min(
+        (one for one in found if one.kind is Kind.CRANK),
+        key=lambda one: abs(one.pivot - crank.pivot) + abs(one.pin - crank.pin),
+        default=None,
+    )
+    return tuple(one for one in found if one is not itself)
+
+
+def _joined(
+    cranks: Sequence[TimedCrank],
+    points: NumberArray,
+    crank_angles: FloatArray,
+    others: Callable[[TimedCrank, NumberArray, FloatArray], Sequence[Guide]],
+) -> tuple[PathFourBar, ...]:
+    """Each crank with each of the links that may go with it."""
+    return tuple(one for crank in cranks for one in _of_crank(crank, points, crank_angles, others))
+
+
+def _of_crank(
+    crank: TimedCrank,
+    points: NumberArray,
+    crank_angles: FloatArray,
+    others: Callable[[TimedCrank, NumberArray, FloatArray], Sequence[Guide]],
+) -> Iterator[PathFourBar]:
+    if crank.kind is not CrankKind.CRANK:
+        yield PathFourBar(crank, None, None, crank.kind.words)
+        return
+    try:
+        found = others(crank, points, crank.coupler_angles(points, crank_angles))
+    except ParameterError as error:
+        yield PathFourBar(crank, None, None, f"the poses of this crank's coupler: {error.given}")
+        return
+    link = Guide(Kind.CRANK, crank.pivot, crank.pin)
+    for second in found:
+        joined = pair(link, second, complex(points[0]))
+        yield PathFourBar(crank, second, joined.four_bar, joined.said)
