@@ -21,12 +21,14 @@ def knot_drawing(path: KnotPath, *, cuts: bool = False) -> Drawing:
     ring = size.warp_diameter / 2 * np.exp(2j * np.pi * np.arange(72) / 72)
     strokes = [Stroke(place + ring, "outline", closed=True, filled=True) for place in places]
     if cuts:
-        strokes += [Stroke(_cut(place, size.radius, size.warp_diameter), "construction") for place in places]
+        ways = [_cut(place, size.radius, size.warp_diameter) for place in places]
+        strokes += [Stroke(way, "construction", str(warp)) for warp, way in zip(warps, ways, strict=True)]
     low = complex(0.0, -2.4 * size.radius if cuts else -1.7 * size.radius)
     strokes.append(Stroke(places[1:3] + low, "dimension", "p"))
     line = path.point(path.distances(size.radius * _SHARE))
     strokes.append(Stroke(line, "yarn"))
-    dots = [Dot(complex(place), str(number), "point") for number, place in zip(warps, places, strict=True)]
+    names = [""] * len(warps) if cuts else [str(warp) for warp in warps]
+    dots = [Dot(complex(place), name, "point") for name, place in zip(names, places, strict=True)]
     dots += [Dot(complex(line[0]), "begins", "point"), Dot(complex(line[-1]), "ends", "point")]
     letters = ", ".join(f"{letter:+d}" for letter in path.knot.word)
     note = f"word {letters}" if cuts else ""

@@ -64,8 +64,8 @@ def tied_knot(
     turn = _upright(pile)
     if closed:
         points = np.append(points, points[0])
-    row = Row(np.asarray(warps * turn, complex), keep_out)
-    upright = np.asarray(points * turn, complex)
+    row = Row(_turned(warps, turn), keep_out)
+    upright = _turned(points, turn)
     return _judged(row, upright, reduced(crossings(row, upright, lengths)))
 
 
@@ -87,8 +87,8 @@ def tied_by_curve(
     'no knot: the yarn only passes behind warps 1 and 2 from left to right'
     """
     turn = _upright(pile)
-    row = Row(np.asarray(warps * turn, complex), keep_out)
-    points, lengths = followed(row, lambda u: np.asarray(curve(u) * turn, complex), speed)
+    row = Row(_turned(warps, turn), keep_out)
+    points, lengths = followed(row, lambda u: _turned(curve(u), turn), speed)
     return _judged(row, points, reduced(crossings(row, points, lengths)))
 
 
@@ -119,6 +119,11 @@ def _upright(pile: complex) -> complex:
         raise CarpetError(f"the pile lies in direction {pile}", allowed="a direction, such as 1j for upwards")
     turn = 1j * np.conj(pile) / abs(pile)
     return complex(turn)
+
+
+def _turned(points: ComplexArray, turn: complex) -> ComplexArray:
+    with np.errstate(invalid="ignore"):  # places that are not finite are refused in words later
+        return np.asarray(points * turn, complex)
 
 
 def _judged(row: Row, points: ComplexArray, word: Word) -> Tied:
