@@ -23,7 +23,7 @@ def made(swing: float, turned: float, where: float, **further: float) -> BeatUp:
     return design(BeatUpParams(swing=swing, crank_rotation=rotation, beta=float(low + where * (high - low)), **further))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(swings, parts, parts)
 def test_solved_linkage_swings_and_dwells_as_asked(swing: float, turned: float, where: float) -> None:
     beat_up = made(swing, turned, where)
@@ -39,7 +39,7 @@ def test_solved_linkage_swings_and_dwells_as_asked(swing: float, turned: float, 
     assert np.ptp(turned_by) == pytest.approx(swing, abs=1e-2)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(swings, parts, parts)
 def test_least_transmission_angle_is_that_of_the_solved_linkage(swing: float, turned: float, where: float) -> None:
     beat_up = made(swing, turned, where)
@@ -51,7 +51,7 @@ def test_least_transmission_angle_is_that_of_the_solved_linkage(swing: float, tu
     assert np.min(np.arctan2(np.abs(everywhere.imag), np.abs(everywhere.real))) >= np.min(acute) - 1e-9
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(scales)
 def test_without_weight_forces_grow_with_the_square_of_the_speed(scale: float) -> None:
     slow, fast = design(BeatUpParams()), design(BeatUpParams(speed=15.5 * scale))
@@ -59,7 +59,7 @@ def test_without_weight_forces_grow_with_the_square_of_the_speed(scale: float) -
         assert fast.peaks[name].value == pytest.approx(slow.peaks[name].value * scale**power, rel=1e-9)
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(scales)
 def test_a_loom_of_another_size(scale: float) -> None:
     small = design(BeatUpParams())
@@ -70,7 +70,7 @@ def test_a_loom_of_another_size(scale: float) -> None:
         assert large.peaks[name].value == pytest.approx(small.peaks[name].value * scale**power, rel=1e-9)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.integers(-180, 180), swings, parts)
 def test_power_balances_and_the_mean_torque_is_zero(direction: int, swing: float, where: float) -> None:
     beat_up = made(swing, 0.5, where, gravity=9.81, gravity_direction=direction * deg)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -40,7 +40,6 @@ def test_xyz_survives_cielab(lab: np.ndarray) -> None:
     assert xyz_to_lab(lab_to_xyz(lab)) == pytest.approx(lab, abs=1e-9)
 
 
-@settings(deadline=None)  # the first call compiles
 @given(LABS, LABS)
 def test_difference_is_symmetric_and_zero_only_at_home(one: np.ndarray, other: np.ndarray) -> None:
     there, back = delta_e_2000(one, other), delta_e_2000(other, one)
@@ -49,7 +48,6 @@ def test_difference_is_symmetric_and_zero_only_at_home(one: np.ndarray, other: n
     assert np.all((there > 0) | (np.abs(one - other).max(axis=1) < 1e-6))
 
 
-@settings(deadline=None)  # the first call compiles
 @given(LABS, LABS)
 def test_lower_bound_holds(one: np.ndarray, other: np.ndarray) -> None:
     difference = delta_e_2000(one, other)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.carpet.colour import srgb_to_lab
@@ -17,7 +17,6 @@ def lone_by_definition(knots: np.ndarray) -> np.ndarray:
     return np.all([side != knots for side in around], axis=0) & np.any([side >= 0 for side in around], axis=0)
 
 
-@settings(deadline=None)  # the first call compiles
 @given(rows=st.integers(1, 12), columns=st.integers(1, 12), yarns=st.integers(2, 6), seed=st.integers(0, 10**6))
 def test_one_pass_leaves_none(rows: int, columns: int, yarns: int, seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -79,7 +79,7 @@ def slope(periodic: np.ndarray) -> np.ndarray:
     return np.fft.irfft(1j * np.arange(periodic.size // 2 + 1) * np.fft.rfft(periodic), periodic.size)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(tasks, st.floats(-50.0, 50.0))
 @example(LEVER, 7.0)
 def test_virtual_power_is_zero(task: Numbers, alpha: float) -> None:
@@ -95,7 +95,7 @@ def test_virtual_power_is_zero(task: Numbers, alpha: float) -> None:
     np.testing.assert_allclose(forces.input_power, forces.effort("crank") * speed, rtol=1e-12, atol=1e-12)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(tasks)
 @example(LEVER)
 def test_drive_torque_is_that_of_lagrange(task: Numbers) -> None:
@@ -110,7 +110,7 @@ def test_drive_torque_is_that_of_lagrange(task: Numbers) -> None:
     assert np.mean(torque) == pytest.approx(0.0, abs=1e-9 * np.max(np.abs(torque)) + 1e-12)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(tasks)
 @example(LEVER)
 def test_the_ground_takes_up_the_momentum(task: Numbers) -> None:

@@ -17,7 +17,7 @@ from ilmek.num.periodic import periodic_derivative
 TURN = np.arange(512) * (2 * np.pi / 512)
 SIGN = st.sampled_from([+1, -1])
 LENGTH = st.floats(0.2, 3.0)
-FEW = settings(max_examples=40, deadline=None)
+FEW = settings(max_examples=40)
 
 
 @st.composite
@@ -121,7 +121,7 @@ def test_slider_crank(sizes, branch):
     ).all()
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(crank_rockers(), st.tuples(SIGN, SIGN), st.booleans())
 def test_six_bar_with_the_second_dyad_on_moving_bodies(sizes, branches, slide_on_rocker):
     mechanism = six_bar(sizes, branches, slide_on_rocker)
@@ -173,7 +173,7 @@ def test_the_four_bar_closes_exactly_in_its_input_range(ground, crank, coupler, 
     assert (status[outside] == 1).all()
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(st.floats(1e-9, 1e-4), SIGN, st.sampled_from([36, 72, 360]), LENGTH, LENGTH)
 def test_no_wrong_branch_close_to_a_change_point(short, branch, steps, coupler, rocker):
     """Grashof ratio up to 1 - 1e-9: the orientation of the triangle A B0 B never changes over the turn."""
@@ -189,7 +189,7 @@ def test_no_wrong_branch_close_to_a_change_point(short, branch, steps, coupler, 
     assert loop_gap(motion) <= 1e-12 / short
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 @given(st.data())
 def test_closed_form_is_newton(data):
     kind = data.draw(st.sampled_from(["four-bar", "slider-crank", "six-bar"]))

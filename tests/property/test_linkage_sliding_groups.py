@@ -16,7 +16,7 @@ TURN = np.arange(512) * (2 * np.pi / 512)
 SIGN = st.sampled_from([+1, -1])
 ANGLE = st.floats(-3.0, 3.0)
 PLACE = st.builds(complex, st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
-FEW = settings(max_examples=8, deadline=None)
+FEW = settings(max_examples=8)
 
 
 def crank_and(ground, crank, bodies, joints, branches=None) -> Mechanism:

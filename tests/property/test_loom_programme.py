@@ -51,7 +51,7 @@ def account(programme: Programme) -> tuple[float, list[int], list[int]]:
 
 
 @given(charts())
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_the_replayed_order_costs_what_the_programme_says(case: tuple[Indices, int, int]) -> None:
     knots, yarns, heads = case
     programme = make_programme(knots, yarns, heads, TIMES)
@@ -63,7 +63,7 @@ def test_the_replayed_order_costs_what_the_programme_says(case: tuple[Indices, i
 
 
 @given(charts())
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_every_knot_is_tied_once_by_its_head_in_its_colour(case: tuple[Indices, int, int]) -> None:
     knots, yarns, heads = case
     programme = make_programme(knots, yarns, heads, TIMES)
@@ -77,7 +77,7 @@ def test_every_knot_is_tied_once_by_its_head_in_its_colour(case: tuple[Indices, 
 
 
 @given(charts())
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 def test_the_order_is_never_slower_than_sweeping_a_part_with_the_same_handler(case: tuple[Indices, int, int]) -> None:
     knots, yarns, _ = case
     times = Times(knot=1.0, colour_change=1.0, travel=0.01, weft=0.0)
@@ -87,7 +87,7 @@ def test_the_order_is_never_slower_than_sweeping_a_part_with_the_same_handler(ca
 
 
 @given(charts(), st.floats(1.0, 3.0))
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 def test_deadline_gives_the_smallest_number_of_heads(case: tuple[Indices, int, int], slack: float) -> None:
     knots, yarns, heads_max = case
     durations = [make_programme(knots, yarns, heads, TIMES).duration for heads in range(1, heads_max + 1)]
@@ -97,7 +97,7 @@ def test_deadline_gives_the_smallest_number_of_heads(case: tuple[Indices, int, i
 
 
 @given(charts())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_no_chart_is_woven_sooner_than_the_least_time(case: tuple[Indices, int, int]) -> None:
     knots, yarns, heads = case
     assert make_programme(knots, yarns, heads, TIMES).duration >= least_time(*knots.shape, heads, TIMES) - 1e-6
@@ -110,7 +110,7 @@ def test_a_trial_is_given_up_above_the_deadline() -> None:
 
 
 @given(charts())
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 def test_heads_keep_their_distance_in_both_halves(case: tuple[Indices, int, int]) -> None:
     knots, yarns, heads = case
     programme = make_programme(knots, yarns, heads, TIMES)

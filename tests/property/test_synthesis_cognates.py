@@ -33,7 +33,7 @@ def path(motion: Motion) -> np.ndarray:
     return motion.point("coupler", "P").position
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(st.one_of(traced(), traced(on_line=True)))
 def test_three_cognates_draw_one_curve(four_bar: FourBar) -> None:
     found = cognates(four_bar)
@@ -50,7 +50,7 @@ def test_three_cognates_draw_one_curve(four_bar: FourBar) -> None:
     assert np.count_nonzero(sine > 1e-3) > 50
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(traced())
 def test_cognates_are_the_original_in_other_sizes(four_bar: FourBar) -> None:
     original, timed, other, third = cognates(four_bar)

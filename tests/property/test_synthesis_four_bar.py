@@ -24,7 +24,7 @@ def drawn(draw: st.DrawFn) -> FourBar:
     return FourBar(a0, b0, a, b, draw(places))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(drawn())
 def test_the_linkage_at_the_drawn_crank_angle_is_the_drawing(four_bar: FourBar) -> None:
     motion = solve(plan(four_bar.mechanism()), np.array([four_bar.crank_angle])).require()
@@ -37,7 +37,7 @@ def test_the_linkage_at_the_drawn_crank_angle_is_the_drawing(four_bar: FourBar) 
     assert np.exp(1j * motion.angle("rocker")[0]) == pytest.approx(np.exp(1j * four_bar.rocker_angle), abs=1e-9)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(drawn(), st.floats(-3, 3), st.floats(0.1, 10), places)
 def test_shape_survives_moving_turning_scaling(four_bar: FourBar, angle: float, factor: float, by: complex) -> None:
     other = four_bar.moved(by).turned(angle).scaled(factor)
@@ -47,7 +47,7 @@ def test_shape_survives_moving_turning_scaling(four_bar: FourBar, angle: float, 
     assert math.cos(other.crank_angle - four_bar.crank_angle - angle) == pytest.approx(1)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(drawn())
 def test_a_mirrored_four_bar_is_put_together_the_other_way(four_bar: FourBar) -> None:
     other = four_bar.mirrored()
@@ -56,7 +56,7 @@ def test_a_mirrored_four_bar_is_put_together_the_other_way(four_bar: FourBar) ->
     assert other.mirrored() == four_bar
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(drawn())
 def test_reversed_drives_the_same_linkage_by_its_rocker(four_bar: FourBar) -> None:
     other = four_bar.reversed()
@@ -64,7 +64,7 @@ def test_reversed_drives_the_same_linkage_by_its_rocker(four_bar: FourBar) -> No
     assert other.reversed() == four_bar
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(drawn())
 def test_a_four_bar_is_drawn_again_from_its_lengths(four_bar: FourBar) -> None:
     ground = np.angle(four_bar.b0 - four_bar.a0)

@@ -48,7 +48,7 @@ def solved(crank: np.ndarray, rocker: np.ndarray, swap: bool = False) -> Generat
     )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(tasks, st.booleans())
 def test_a_planted_function_generator_is_found_again(task: Drawn, swap: bool) -> None:
     drawn, crank, rocker = planted(task)
@@ -57,7 +57,7 @@ def test_a_planted_function_generator_is_found_again(task: Drawn, swap: bool) ->
     assert len(found.four_bars) + len(found.left_out) in {3: (1,), 4: (1, 2), 5: (1, 2, 3)}[len(crank)]
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(tasks)
 def test_every_generator_found_takes_the_angles(task: Drawn) -> None:
     _, crank, rocker = planted(task)

@@ -139,5 +139,5 @@ def test_unknown_coupling_is_refused():
 
 def test_a_free_system_takes_no_couplings():
     motion = solve(plan(gear_pair()), np.zeros(1), 1.0)
-    with pytest.raises(MechanismError, match="has the couplings teeth"):
+    with pytest.raises(MechanismError, match="has a coupling 'teeth'; a general system has pins"):
         from_motion(motion, {})

@@ -118,7 +118,7 @@ WRONG = {
     "closes nowhere": ([example("peaucellier"), "--at", "180deg"], "Peaucellier cannot close for crank 180"),
     "closes nowhere over a range": (
         [example("peaucellier"), "--over", "150deg..210deg"],
-        "Peaucellier closes nowhere, crank 150.0°..210.0°: |P1-O1| ",
+        "Peaucellier cannot close for crank 150.0°..210.0°: |P1-O1| ",
     ),
     "two on one stream": ([example("peaucellier"), "--csv", "-", "--json", "-"], "both --csv and --json"),
     "csv into no folder": ([example("peaucellier"), "--csv", "gone/a.csv"], "there is no folder"),

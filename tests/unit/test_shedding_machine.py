@@ -81,7 +81,7 @@ def test_a_shed_too_low_for_the_shuttle_fails() -> None:
     assert report.as_json()["results"]["shuttle_time"] == 0.0
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     law=st.sampled_from(list(LAWS)),
     lift=st.floats(0.02, 0.12),

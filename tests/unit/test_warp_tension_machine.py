@@ -27,7 +27,7 @@ def test_the_thesis_tube_comes_out_and_passes() -> None:
     assert report.warnings == ()
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(warps=st.integers(50, 4000), tension=st.floats(2.0, 40.0), width=st.floats(0.3, 4.0))
 def test_the_tube_chosen_keeps_the_limits_and_a_millimetre_less_does_not(warps, tension, width) -> None:
     params = WarpTensionParams(warps=warps, tension=tension, width=width)
@@ -56,8 +56,7 @@ def test_own_weight_is_added_to_the_pull_where_limits_are_judged() -> None:
     assert [check.name for check in report.failed if check.name == "deflection"] == ["deflection"]
 
 
-@settings(deadline=None)
-@given(inner=st.floats(0.0, 0.2))
+@given(inner=st.just(0.0) | st.floats(1e-6, 0.2))
 def test_least_outer_radius_has_just_the_slope_allowed(inner) -> None:
     least = MACHINE.design(WarpTensionParams(inner_radius=inner)).outer_radius_min
     at_the_limit = MACHINE.design(WarpTensionParams(inner_radius=inner, outer_radius=least))

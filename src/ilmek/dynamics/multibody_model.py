@@ -180,9 +180,6 @@ def from_motion(
         origin = attached(motion, body, 0j)
         angle, omega = float(motion.angle(body)[0]), float(motion.omega(body)[0])
         poses[body] = Pose(complex(origin.position[0]), angle, complex(origin.velocity[0]), omega)
-    if mechanism.couplings:
-        names = ", ".join(coupling.name for coupling in mechanism.couplings)
-        raise MechanismError(f"{mechanism.name} has the couplings {names}", allowed="a system has pins and slides only")
     return System(mechanism.bodies, mechanism.joints, inertias, poses, gravity, loads, mechanism.name)
 
 

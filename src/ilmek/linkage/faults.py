@@ -59,9 +59,8 @@ def _error(plan: Plan, step: Step, said: tuple[str, str], known: Known, status: 
             do="give a pose nearer to an assembled one, or limit the input",
         )
     missing, remedy = step.shortfall(known)
-    if not limit:
-        return MechanismError(f"{name} closes nowhere, {where}: {missing}", do=remedy)
-    return MechanismError(f"{name} cannot close for {where}: {missing}", do=f"{remedy} or limit the {limit}")
+    remedy = f"{remedy} or limit the {limit}" if limit else remedy
+    return MechanismError(f"{name} cannot close for {where}: {missing}", do=remedy)
 
 
 def _where(

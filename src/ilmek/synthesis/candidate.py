@@ -86,7 +86,7 @@ class Candidate:
     in_order      whether that is the order of the task
     transmission  least and greatest angle of coupler against rocker [rad]: over the turn of a crank that turns fully,
                   else between its first and last position
-    link_ratio    longest link by shortest      size  greatest distance of places that pins and tracer get to [m], roughly
+    link_ratio    longest link by shortest      size  greatest distance of places that pins, tracer reach [m], roughly
     """
 
     four_bar: FourBar

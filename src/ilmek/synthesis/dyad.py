@@ -166,7 +166,7 @@ def arms_through_points(points: Complex[np.ndarray, "*batch 4"], first_angles: F
     return Arms(*(one.reshape(*batch, 3) for one in whole))
 
 
-def dyads_through_points(points: Complex[np.ndarray, " n"], first_angles: Float[np.ndarray, " n"]) -> tuple[Dyad, ...]:
+def dyads_through_points(points: ComplexArray, first_angles: FloatArray) -> tuple[Dyad, ...]:
     """All arms whose end is at four points at four angles of the first link: 1 or 3, seldom fewer.
 
     `arms_through_points` of one task. `second` is positive, `first` carries a sign. Sorted by `first`. An arm with
