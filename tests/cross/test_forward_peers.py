@@ -5,6 +5,8 @@ generalised alpha 3.7e-4 rad after 2 s at 2e-4 s, mujoco's soft loop 7.6e-4 rad 
 must fall as h does, so that the limit they run to is our answer.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -25,6 +27,7 @@ RUNS = {"free": (2.0, 20.0, 0.0, 0.0), "motor": (1.0, 0.0, 0.5, 0.01)}
 """Duration, speed at the start, torque, its fall with the speed."""
 
 
+@cache
 def ours(run: str) -> tuple[float, float]:
     """Crank angle at the end by the reduced equation and as a general system."""
     duration, speed, torque, drag = RUNS[run]

@@ -189,7 +189,7 @@ def test_no_wrong_branch_close_to_a_change_point(short, branch, steps, coupler, 
     assert loop_gap(motion) <= 1e-12 / short
 
 
-@settings(max_examples=12)
+@settings(max_examples=6)
 @given(st.data())
 def test_closed_form_is_newton(data):
     kind = data.draw(st.sampled_from(["four-bar", "slider-crank", "six-bar"]))
