@@ -18,19 +18,19 @@ from ilmek.num.quadratic import back_solve, cholesky
 from ilmek.synthesis.path_limits import GRACE, excess
 from ilmek.synthesis.path_model import START, TURN, Angles, Design, Points, coupler_direction, squared_error
 
-DICE = 6
-"""Random numbers in [0, 1) that a start takes: branch, first angle, span, sense, warp and its phase."""
+DICE = 8
+"""Random numbers in [0, 1) that a start takes: branch, first angle, span, sense, two warps and their phases."""
 
 RIDGE = 1e-4
 """Weight that keeps size and tracer of a start from running away where the points do not fix them."""
 
-WARP = 0.8
+WARP = 0.95
 """Unevenness of the crank's angle along the path, at most: 1 would make it stand still somewhere."""
 
 
 @compiled
 def start_all(
-    dice: Float[np.ndarray, "starts 6"],
+    dice: Float[np.ndarray, "starts 8"],
     links: Float[np.ndarray, "starts 4"],
     along: Angles,
     timed: bool,
@@ -60,7 +60,7 @@ def start_all(
 
 @compiled
 def _guess_angles(
-    dice: Float[np.ndarray, "6"],
+    dice: Float[np.ndarray, "8"],
     along: Angles,
     timed: bool,
     closed: bool,
@@ -81,10 +81,17 @@ def _guess_angles(
         return
     span = turn if closed else turn * (0.08 + 0.87 * dice[2])
     sense = 1.0 if dice[3] < 0.5 else -1.0
-    warp, phase = WARP * dice[4], turn * dice[5]
+    once, twice = WARP * dice[4], (WARP - WARP * dice[4]) * dice[6]
     for k in range(along.size):
-        uneven = warp * (math.sin(turn * along[k] + phase) - math.sin(phase)) / turn
+        uneven = _wave(along[k], once, turn * dice[5]) + 0.5 * _wave(2.0 * along[k], twice, turn * dice[7])
         angles[k] = turn * dice[1] + sense * span * (along[k] + uneven)
+
+
+@compiled
+def _wave(along: float, warp: float, phase: float) -> float:
+    """Part of a turn by which the crank is ahead; its slope is between -warp and warp."""
+    turn = 2.0 * math.pi
+    return warp * (math.sin(turn * along + phase) - math.sin(phase)) / turn
 
 
 @compiled
