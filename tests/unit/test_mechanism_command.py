@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -94,11 +95,15 @@ def test_every_example_makes_a_page_with_a_moving_figure(path: Path, tmp_path: P
     assert "in motion" in page.read_text(encoding="utf-8")
 
 
-def test_a_mechanism_that_closes_only_partly_says_its_ranges(tmp_path: Path):
-    result = called(example("peaucellier"))
+def test_a_mechanism_that_closes_only_partly_says_its_ranges_to_the_end():
+    """P may come as near to O as the arms are longer than the rhombus' sides: 160 mm cos(crank / 2) = 150 mm."""
+    result = called(example("peaucellier"), "--json", "-")
     assert result.exit_code == 0
-    assert "closes: 0 deg .. " in result.stdout
     assert "note: Peaucellier cannot close for crank " in result.stderr
+    end = 2 * math.acos(150 / 160)
+    first, last = json.loads(result.stdout)["results"]["closes"]
+    assert first == pytest.approx([0, end], abs=1e-10)
+    assert last == pytest.approx([2 * math.pi - end, 2 * math.pi], abs=1e-10)
 
 
 def test_the_same_file_in_the_other_form(tmp_path: Path):

@@ -15,6 +15,9 @@ from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
 from ilmek.units import parse_quantity, turn
 
+CUTS, PIECES = 9, 64
+"""A step of a range is cut so often into so many pieces to find where it ends: to rounding."""
+
 
 @dataclass(frozen=True, slots=True)
 class Course:
@@ -58,10 +61,22 @@ class Run:
 
     @property
     def closing(self) -> tuple[tuple[float, float], ...]:
-        """Ranges of the running input over which the mechanism could be moved: first and last value of each."""
+        """Ranges of the running input over which the mechanism could be moved; their ends to rounding."""
         good = np.flatnonzero(self.motion.status == Status.OK)
         runs = np.split(good, np.flatnonzero(np.diff(good) > 1) + 1) if len(good) else []
-        return tuple((float(self.values[run[0]]), float(self.values[run[-1]])) for run in runs)
+        ends = [(int(run[0]), int(run[-1])) for run in runs]
+        return tuple((self._end(first, first - 1), self._end(last, last + 1)) for first, last in ends)
+
+    def _end(self, good: int, bad: int) -> float:
+        """Where the mechanism ceases to close between two samples; the good one's value where there is no other."""
+        if not 0 <= bad < len(self.values):
+            return float(self.values[good])
+        ends = self.values[[good, bad]]
+        for _ in range(CUTS):
+            cuts = np.linspace(ends[0], ends[1], PIECES + 1)
+            lost = int(np.argmax(solve(self.plan, self.at(cuts)).status != Status.OK))
+            ends = cuts[[lost - 1, lost]]
+        return float(ends[0])
 
 
 def run(file: MechanismFile, course: Course) -> Run:

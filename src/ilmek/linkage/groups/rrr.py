@@ -18,6 +18,7 @@ from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin
+from ilmek.linkage.status import TOUCHING
 from ilmek.units import format_quantity
 
 
@@ -176,6 +177,7 @@ class Dyad(Step):
         gaps = np.ravel(self.gap(known))
         worst = int(np.nanargmax(np.abs(gaps)))
         reach, gap = np.ravel(np.abs(B.position - A.position))[worst], gaps[worst]
+        reach = 0.0 if reach < TOUCHING * self.a else reach
         (p, q), pins = self.links, "-".join(self.hung_at)
         if gap > 0:
             return (
