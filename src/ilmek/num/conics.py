@@ -105,16 +105,26 @@ def _roots(quartic: NumberArray) -> NumberArray:
 
 
 def _polished(C: NumberArray, D: NumberArray, s: NumberArray) -> NumberArray:
-    """Newton's method on both conics, at right angles to s."""
+    """Newton's method on both conics, at right angles to s; a step that does not come nearer is not taken."""
+    best, step = _off(C, D, s)
     for _ in range(STEPS):
-        by_c, by_d = (np.sum(conic * s[..., None, :], axis=-1) for conic in (C, D))
-        off_c, off_d = (0.5 * np.sum(s * by, axis=-1, keepdims=True) for by in (by_c, by_d))
-        normal = np.conj(s)
-        across, along = product(by_d, normal), product(normal, by_c)
-        whole = np.sum(by_c * across, axis=-1, keepdims=True)
-        step = (off_c * across + off_d * along) / np.where(whole == 0, np.inf, whole)
-        s = _unit(np.where(np.sum(np.abs(step) ** 2, axis=-1, keepdims=True) < 0.25, s - step, s))
+        tried = _unit(s - step)
+        missed, further = _off(C, D, tried)
+        nearer = (missed < best)[..., None]
+        s, best = np.where(nearer, tried, s), np.minimum(missed, best)
+        step = np.where(nearer, further, 0.0)
     return s
+
+
+def _off(C: NumberArray, D: NumberArray, s: NumberArray) -> tuple[NumberArray, NumberArray]:
+    """How far s is off both conics, and Newton's step."""
+    by_c, by_d = (np.sum(conic * s[..., None, :], axis=-1) for conic in (C, D))
+    off_c, off_d = (0.5 * np.sum(s * by, axis=-1, keepdims=True) for by in (by_c, by_d))
+    normal = np.conj(s)
+    across, along = product(by_d, normal), product(normal, by_c)
+    whole = np.sum(by_c * across, axis=-1, keepdims=True)
+    step = (off_c * across + off_d * along) / np.where(whole == 0, np.inf, whole)
+    return np.maximum(np.abs(off_c), np.abs(off_d))[..., 0], step
 
 
 def _unit(s: NumberArray) -> NumberArray:

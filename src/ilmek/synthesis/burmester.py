@@ -18,18 +18,19 @@ import numpy as np
 from jaxtyping import Complex, Float
 
 from ilmek.arrays import ComplexArray, FloatArray, NumberArray
-from ilmek.errors import MechanismError, ParameterError
+from ilmek.errors import MechanismError
 from ilmek.num.conics import meet
 from ilmek.num.pencil3 import product
 from ilmek.plane.vectors import dot, unit
-from ilmek.synthesis.burmester_forms import Frame, homogeneous, place, pose_forms, require_task
+from ilmek.synthesis.burmester_forms import FAR, Frame, family, homogeneous, place, pose_forms, require_task
 from ilmek.synthesis.four_bar import FourBar
 
 FAMILY = 1e-12
 """Singular value of the equations, in units of the task, that leaves more than points."""
 
-POINT = 1e-11
-"""Length of a link, in sizes of the task, below which pivot and pin are one."""
+
+TOUCHING = 1e-6
+"""Accuracy of a double root."""
 
 
 class Kind(StrEnum):
@@ -38,7 +39,6 @@ class Kind(StrEnum):
     CRANK = "crank"
     SLIDER = "slider"
     BLOCK = "turning block"
-    FIXED = "fixed point"
     ANGLE = "fixed angle"
     FREE = "any point of a line"
 
@@ -52,10 +52,13 @@ WORDS = {
     Kind.CRANK: "a link with two pins",
     Kind.SLIDER: "the pivot is infinitely far: the pin goes on a straight line, at right angles to its direction",
     Kind.BLOCK: "the pin is infinitely far: a straight line of the body goes through the pivot, in a turning block",
-    Kind.FIXED: "pin and pivot are one point that stands still: the body turns about it",
     Kind.ANGLE: "pivot and pin are infinitely far: the body has no more than two angles",
     Kind.FREE: "this point is a pole of the poses: any point of a line will do at the other end",
 }
+
+
+ENDS = {(True, True): Kind.CRANK, (True, False): Kind.BLOCK, (False, True): Kind.SLIDER, (False, False): Kind.ANGLE}
+"""What a guide is, by whether its pivot and its pin are finite."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +76,7 @@ class Guide:
     @property
     def length(self) -> float:
         """From pivot to pin [m]; infinite where one of them is."""
-        return abs(self.pin - self.pivot) if self.kind in (Kind.CRANK, Kind.FIXED) else float("inf")
+        return abs(self.pin - self.pivot) if self.kind is Kind.CRANK else float("inf")
 
     @property
     def line(self) -> float:
@@ -95,11 +98,9 @@ class Guide:
         from the body's line, measured from the body's point; of a fixed angle the cosine of it.
         """
         pins = self.pins(points, angles)
-        if self.kind is Kind.SLIDER:
-            return np.asarray(dot(self.pivot, pins))
         if self.kind is Kind.BLOCK:
             return np.asarray(dot(pins, self.pivot - points))
-        if self.kind is Kind.ANGLE:
+        if self.kind in (Kind.SLIDER, Kind.ANGLE):
             return np.asarray(dot(self.pivot, pins))
         return np.asarray(np.abs(pins - self.pivot))
 
@@ -114,9 +115,7 @@ class Pair:
     said: str
 
 
-def arms_of_pivots(
-    points: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"], pivots: Complex[np.ndarray, " m"]
-) -> tuple[Guide, ...]:
+def arms_of_pivots(points: ComplexArray, angles: FloatArray, pivots: Complex[np.ndarray, " m"]) -> tuple[Guide, ...]:
     """The link of each pivot [m] that guides a body through three poses: its pin is where two lines meet.
 
     points [m]  of one point of the body      angles [rad]  of the body
@@ -130,13 +129,10 @@ def arms_of_pivots(
     require_task("pose", points, angles, 3, "arms_of_pivots")
     G, frame = pose_forms(points, angles)
     ends = homogeneous(frame.into(pivots))
-    rows = np.einsum("...a,iab->i...b", ends, G)
-    return guides(ends, _crossing(rows), frame)
+    return guides(ends, other_ends(ends, G), frame)
 
 
-def arms_of_pins(
-    points: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"], pins: Complex[np.ndarray, " m"]
-) -> tuple[Guide, ...]:
+def arms_of_pins(points: ComplexArray, angles: FloatArray, pins: Complex[np.ndarray, " m"]) -> tuple[Guide, ...]:
     """The link of each pin, given by its place [m] at the first of three poses: its pivot is the centre of a circle.
 
     As `arms_of_pivots`, the other way round.
@@ -144,11 +140,10 @@ def arms_of_pins(
     require_task("pose", points, angles, 3, "arms_of_pins")
     G, frame = pose_forms(points, angles)
     ends = homogeneous(frame.into(pins))
-    rows = np.einsum("...b,iab->i...a", ends, G)
-    return guides(_crossing(rows), ends, frame)
+    return guides(other_ends(ends, np.swapaxes(G, -1, -2)), ends, frame)
 
 
-def arms_through_five_poses(points: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> tuple[Guide, ...]:
+def arms_through_five_poses(points: ComplexArray, angles: FloatArray) -> tuple[Guide, ...]:
     """All links that guide a body through five poses: none, 2 or 4 in general, sliders and blocks among them.
 
     points [m]  of one point of the body      angles [rad]  of the body
@@ -157,12 +152,14 @@ def arms_through_five_poses(points: Complex[np.ndarray, " n"], angles: Float[np.
     """
     require_task("pose", points, angles, 5, "arms_through_five_poses")
     G, frame = pose_forms(points, angles)
-    centres, circles = common_solutions(G)
-    return tuple(sorted(guides(centres, circles, frame), key=lambda one: (one.length, one.kind)))
+    found = common_solutions(G)
+    if found is None:
+        raise family("pose", frame.into(points), angles)
+    return tuple(sorted(guides(*found, frame), key=lambda one: (one.length, one.kind, one.pivot.real)))
 
 
-def common_solutions(G: Float[np.ndarray, "4 3 3"]) -> tuple[FloatArray, FloatArray]:
-    """All real (m̃, w̃) with m̃ᵀ G_i w̃ = 0 for four forms; ParameterError where they are more than points."""
+def common_solutions(G: Float[np.ndarray, "4 3 3"]) -> tuple[FloatArray, FloatArray] | None:
+    """All real (m̃, w̃) with m̃ᵀ G_i w̃ = 0 for four forms; None where they are more than points."""
     names = ((2, 0), (2, 1), (0, 2), (1, 2))  # w_x, w_y, m_x, m_y; then Re Q, Im Q and 1
     rows = np.stack([*(G[:, a, b] for a, b in names), G[:, 0, 0], G[:, 1, 0], G[:, 2, 2]], axis=-1)
     _, sizes, basis = np.linalg.svd(rows)
@@ -170,11 +167,17 @@ def common_solutions(G: Float[np.ndarray, "4 3 3"]) -> tuple[FloatArray, FloatAr
     C, D = (plane @ conic @ plane.T for conic in CONICS)
     found = meet(C, D)
     if sizes[-1] < FAMILY * sizes[0] or found.share or max(np.abs(C).max(), np.abs(D).max()) < FAMILY:
-        raise ParameterError(
-            "a whole family of links solves this task",
-            do="move a pose or a point: equal angles, or positions that one rotation makes, leave a length free",
-        )
-    return _ends(found.points[found.real].real @ plane)
+        return None
+    return _ends(_with_fixed_angle(rows, found.points[found.real].real @ plane))
+
+
+def other_ends(ends: Float[np.ndarray, "n 3"], G: Float[np.ndarray, "2 3 3"]) -> Float[np.ndarray, "n 3"]:
+    """w̃ with m̃ᵀ G_i w̃ = 0 for two forms, where two lines meet; nothing (zeros) where they are one, or one is none."""
+    ends = ends / np.linalg.norm(ends, axis=-1, keepdims=True)
+    lines = np.einsum("na,iab->inb", ends, G / np.max(np.abs(G), axis=(-2, -1), keepdims=True))
+    found = product(lines[0], lines[1])
+    size = np.linalg.norm(found, axis=-1, keepdims=True)
+    return np.asarray(np.where(size > FAMILY, found / np.where(size > FAMILY, size, 1.0), 0.0))
 
 
 def guides(centres: Float[np.ndarray, "n 3"], circles: Float[np.ndarray, "n 3"], frame: Frame) -> tuple[Guide, ...]:
@@ -222,14 +225,30 @@ CONICS = (
 """Q · 1 = conj(w) m of the seven numbers (w, m, Q, 1)."""
 
 
+def _with_fixed_angle(rows: Float[np.ndarray, "4 7"], seven: Float[np.ndarray, "n 7"]) -> FloatArray:
+    """The same roots, that of a body with two angles exact: only Q is left there, and the conics touch."""
+    _, sizes, basis = np.linalg.svd(rows[:, 4:6])
+    if sizes[1] > FAMILY * sizes[0]:
+        return seven
+    alone = np.linalg.norm(seven[:, 4:6], axis=-1) > 1 - TOUCHING
+    exact = np.concatenate([np.zeros(4), basis[1], np.zeros(1)])
+    return np.asarray(np.where(alone[:, None], exact, seven))
+
+
 def _ends(seven: Float[np.ndarray, "n 7"]) -> tuple[FloatArray, FloatArray]:
     """m̃ and w̃ of the seven numbers, which are the products (w k, m l, conj(w) m, k l) of (m, k) and (w, l).
 
-    Each is read off with the larger factor of the other: m̃ from (m l, k l) or from (Q, w k), w̃ alike.
+    Each is read off with the larger factor of the other: m̃ from (m l, k l) or from (Q, w k), w̃ alike. Where only Q is
+    left both are infinitely far, and the pin's direction is free: it is taken along x.
     """
     w, m, q = (seven[:, i] + 1j * seven[:, i + 1] for i in (0, 2, 4))
     one = seven[:, 6]
-    return _larger(m, one, w * q, np.abs(w) ** 2), _larger(w, one, m * np.conj(q), np.abs(m) ** 2)
+    lone = np.maximum(np.abs(w), np.abs(m)) * FAR <= np.abs(q)
+    pivots = _larger(m, one, w * q, np.abs(w) ** 2)
+    pins = _larger(w, one, m * np.conj(q), np.abs(m) ** 2)
+    pivots[lone] = np.stack([q.real, q.imag, 0 * one], axis=-1)[lone]
+    pins[lone] = (1.0, 0.0, 0.0)
+    return pivots, pins
 
 
 def _larger(a: ComplexArray, k: NumberArray, b: ComplexArray, j: NumberArray) -> FloatArray:
@@ -238,24 +257,11 @@ def _larger(a: ComplexArray, k: NumberArray, b: ComplexArray, j: NumberArray) ->
     sizes = np.linalg.norm(both, axis=-1)
     chosen = np.where(sizes[0] >= sizes[1], 0, 1)
     index = np.arange(len(k))
-    return np.asarray(both[chosen, index] / sizes[chosen, index][:, None])
-
-
-def _crossing(rows: Float[np.ndarray, "2 *n 3"]) -> FloatArray:
-    """The point where two lines meet; nothing (zeros) where they are one."""
-    found = product(rows[0], rows[1])
-    sizes = np.linalg.norm(rows, axis=-1)
-    size = np.linalg.norm(found, axis=-1, keepdims=True)
-    alone = size > FAMILY * np.maximum(sizes[0] * sizes[1], FAMILY)[..., None]
-    return np.asarray(np.where(alone, found / np.where(size > 0, size, 1.0), 0.0))
+    return np.asarray(both[chosen, index] / np.maximum(sizes[chosen, index], 1e-300)[:, None])
 
 
 def _guide(m: NumberArray, w: NumberArray, frame: Frame) -> Guide:
     if not (np.any(m) and np.any(w)):
         return Guide(Kind.FREE, *(frame.spot(place(v)[0]) if np.any(v) else complex("nan") for v in (m, w)))
     (pivot, near), (pin, close) = place(m), place(w)
-    if near and close:
-        kind = Kind.FIXED if abs(pin - pivot) <= POINT * max(1.0, abs(pin)) else Kind.CRANK
-    else:
-        kind = Kind.BLOCK if near else Kind.SLIDER if close else Kind.ANGLE
-    return Guide(kind, frame.spot(pivot) if near else pivot, frame.spot(pin) if close else pin)
+    return Guide(ENDS[near, close], frame.spot(pivot) if near else pivot, frame.spot(pin) if close else pin)

@@ -20,21 +20,18 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Complex, Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.num.pencil3 import adjugate, determinant, null_vector
 from ilmek.plane.vectors import unit
 from ilmek.synthesis.burmester import FAMILY, Guide, guides
-from ilmek.synthesis.burmester_forms import Frame, homogeneous, pose_forms, require_task
+from ilmek.synthesis.burmester_forms import Frame, family, homogeneous, pose_forms, require_task, still_point
 
 SAMPLES = 360
 """Points of each closed part of a curve, if it is not said."""
 
 ON_CIRCLE = 1e-6
 """Distance from the unit circle of a root e^{2iφ} that is the angle of a touching line: a double one splits so far."""
-
-ANGLES = 1e-9
-"""Angle [rad] below which a body has not turned."""
 
 POLISHED = 3
 """Newton's steps on to the cubic."""
@@ -94,9 +91,7 @@ class BurmesterCurve:
         return tuple(one for loop in self.loops for one in guides(loop.centres, loop.circles, self.centre_frame))
 
 
-def burmester_curve(
-    points: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"], samples: int = SAMPLES
-) -> BurmesterCurve:
+def burmester_curve(points: ComplexArray, angles: FloatArray, samples: int = SAMPLES) -> BurmesterCurve:
     """Where the links through four poses have their pivots and their pins: for every pivot its pin.
 
     points [m]  of one point of the body      angles [rad]  of the body      samples  of each closed part
@@ -105,34 +100,27 @@ def burmester_curve(
     """
     require_task("pose", points, angles, 4, "burmester_curve")
     G, frame = pose_forms(points, angles)
-    return curve(G, (frame, frame), still_point(frame.into(points), angles), samples)
+    places = frame.into(points)
+    pole = still_point(places, angles)
+    found = None if pole is None else curve(G, (frame, frame), pole, samples)
+    if found is None:
+        raise family("pose", places, angles)
+    return found
 
 
-def curve(G: Float[np.ndarray, "3 3 3"], frames: tuple[Frame, Frame], pole: complex, samples: int) -> BurmesterCurve:
-    """The curves of three forms, through a pole of the centre-point cubic (in its frame)."""
+def curve(
+    G: Float[np.ndarray, "3 3 3"], frames: tuple[Frame, Frame], pole: complex, samples: int
+) -> BurmesterCurve | None:
+    """The curves of three forms, through a pole of the centre-point cubic (in its frame); None where all is pivot."""
     if samples < 8:
         raise ParameterError(f"{samples} samples of a curve", allowed="8 or more")
     start = homogeneous(np.asarray(pole))
-    loops = tuple(_loop(G, way) for way in _ways(G, start, samples))
+    ways = _ways(G, start, samples)
+    if ways is None:
+        return None
+    loops = tuple(_loop(G, way) for way in ways)
     across = np.swapaxes(G, -1, -2)
     return BurmesterCurve(loops, *frames, _asymptote(G, frames[0]), _asymptote(across, frames[1]))
-
-
-def still_point(places: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> complex:
-    """The pole of two poses, a point that does not move from one to the other: of those two that are turned most.
-
-    Raises ParameterError where no two angles differ.
-    """
-    turns = angles[None, :] - angles[:, None]
-    i, j = np.unravel_index(np.argmax(np.abs(np.sin(turns / 2))), turns.shape)
-    turned = unit(turns[i, j])
-    if abs(1 - turned) < ANGLES:
-        raise ParameterError(
-            "the body has one angle at all four poses",
-            allowed="it turns",
-            do="for a body that only shifts, a parallelogram with any pin serves where the four points are on a circle",
-        )
-    return complex((places[j] - turned * places[i]) / (1 - turned))
 
 
 def _value(G: FloatArray, m: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -142,8 +130,8 @@ def _value(G: FloatArray, m: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.asarray(determinant(rows)), gradient
 
 
-def _ways(G: FloatArray, start: FloatArray, samples: int) -> list[FloatArray]:
-    """The closed parts of the centre-point curve, as homogeneous points."""
+def _ways(G: FloatArray, start: FloatArray, samples: int) -> list[FloatArray] | None:
+    """The closed parts of the centre-point curve, as homogeneous points; None where the cubic is zero all over."""
     fixed = np.einsum("a,iab->ib", start, G)
 
     def quadratic(phi: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -165,7 +153,7 @@ def _ways(G: FloatArray, start: FloatArray, samples: int) -> list[FloatArray]:
 
     size = np.max(np.abs(discriminant(np.linspace(0, math.pi, 7))))
     if size < FAMILY**2:
-        raise ParameterError("every point of the plane is a pivot", do="move a pose: one rotation makes these poses")
+        return None
     ends = _touching(discriminant)
     if not len(ends):
         phi = np.linspace(0, math.pi, samples, endpoint=False)

@@ -28,6 +28,21 @@ from ilmek.synthesis.task import require_angles
 FAR = 1e9
 """Distance, in sizes of the task, beyond which a point counts as infinitely far."""
 
+ANGLES = 1e-9
+"""Angle [rad] below which a body has not turned."""
+
+FAMILIES = {
+    "pose": (
+        "the body has one angle at all poses, so that parallel links guide it wherever one does",
+        "one rotation makes all poses, so that any point of the body goes on a circle",
+    ),
+    "timed point": (
+        "the crank has one angle at all points",
+        "the points lie on one circle, timed as the crank turns, so that a crank of any length meets them",
+    ),
+}
+"""What leaves a task without an answer of its own: equal angles, and one rotation."""
+
 METHODS = {
     "pose": {
         3: "3: arms_of_pivots, arms_of_pins or dyads_through_poses",
@@ -109,6 +124,33 @@ def place(vector: Num[np.ndarray, "3"]) -> tuple[complex, bool]:
     if abs(k) * FAR <= reach:
         return complex(x, y) / reach, False
     return complex(x, y) / k, True
+
+
+def still_point(places: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> complex | None:
+    """The pole of two poses, a point that does not move from one to the other: of those two that are turned most.
+
+    None where no two angles differ.
+    """
+    turns = angles[None, :] - angles[:, None]
+    i, j = np.unravel_index(np.argmax(np.abs(np.sin(turns / 2))), turns.shape)
+    turned = complex(unit(turns[i, j]))
+    if abs(1 - turned) < ANGLES:
+        return None
+    return complex((places[j] - turned * places[i]) / (1 - turned))
+
+
+def family(kind: str, places: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> ParameterError:
+    """Why a task is met by more than points or a curve, as an error to raise; places in the task's frame."""
+    alike, turned = FAMILIES[kind]
+    pole = still_point(places, angles)
+    if pole is None:
+        return ParameterError(f"{alike}: no task, or a whole family", do="give angles that differ")
+    away = places - pole
+    if np.max(np.abs(away - away[0] * unit(angles - angles[0]))) < ANGLES * np.max(np.abs(away)):
+        return ParameterError(f"{turned}: a whole family solves this task", do="move a point or an angle")
+    return ParameterError(
+        "a whole family of links solves this task", do="move a point or an angle: two of them say the same"
+    )
 
 
 def require_task(kind: str, points: ComplexArray, angles: FloatArray, wanted: int, name: str) -> None:

@@ -16,23 +16,21 @@ from enum import StrEnum
 import numpy as np
 from jaxtyping import Complex, Float
 
-from ilmek.arrays import FloatArray, NumberArray
+from ilmek.arrays import ComplexArray, FloatArray, NumberArray
 from ilmek.errors import ParameterError
-from ilmek.num.pencil3 import product
 from ilmek.plane.vectors import unit
 from ilmek.synthesis.burmester import (
-    FAMILY,
-    POINT,
     Guide,
     Kind,
     arms_of_pivots,
     arms_through_five_poses,
     common_solutions,
+    other_ends,
     pair,
 )
-from ilmek.synthesis.burmester_curve import SAMPLES, BurmesterCurve, burmester_curve, curve, still_point
-from ilmek.synthesis.burmester_forms import Frame, homogeneous, place, require_task, timed_forms
-from ilmek.synthesis.dyad import Found, arms_through_points
+from ilmek.synthesis.burmester_curve import SAMPLES, BurmesterCurve, burmester_curve, curve
+from ilmek.synthesis.burmester_forms import Frame, family, homogeneous, place, require_task, still_point, timed_forms
+from ilmek.synthesis.dyad import STILL, Found, arms_through_points
 from ilmek.synthesis.four_bar import FourBar
 
 
@@ -41,7 +39,7 @@ class CrankKind(StrEnum):
 
     CRANK = "crank"
     STILL = "points on a circle"
-    ON_PIN = "tracer on the crank's pin"
+    LINE = "points on a line"
     FAR_PIVOT = "pivot infinitely far"
     FAR_PIN = "crank infinitely long"
     FREE = "any crank of a line"
@@ -55,8 +53,8 @@ class CrankKind(StrEnum):
 CRANK_WORDS = {
     CrankKind.CRANK: "a crank with a tracer on its coupler",
     CrankKind.STILL: "the points lie on a circle about the pivot: the crank has no length",
-    CrankKind.ON_PIN: "the points lie on the crank's own circle, timed as it turns: the tracer is its pin",
-    CrankKind.FAR_PIVOT: "the pivot is infinitely far, as for points on a line: the crank would turn on a slide",
+    CrankKind.LINE: "the points lie on a line: the pivot is infinitely far and the crank has no length",
+    CrankKind.FAR_PIVOT: "the pivot is infinitely far: the crank would turn on a slide",
     CrankKind.FAR_PIN: "the crank is infinitely long",
     CrankKind.FREE: "more than one crank will do, a whole line of them",
 }
@@ -65,7 +63,7 @@ KIND_OF_ARM = {
     Found.ARM: CrankKind.CRANK,
     Found.STILL: CrankKind.STILL,
     Found.FAR_PIVOT: CrankKind.FAR_PIVOT,
-    Found.LINE: CrankKind.FAR_PIVOT,
+    Found.LINE: CrankKind.LINE,
     Found.LONG: CrankKind.FAR_PIN,
     Found.FAMILY: CrankKind.FREE,
 }
@@ -96,7 +94,7 @@ class TimedCrank:
         self, points: Complex[np.ndarray, " n"], crank_angles: Float[np.ndarray, " n"]
     ) -> Float[np.ndarray, " n"]:
         """Distance of pin and tracer [m], which must be the same at all points; NaN where something is infinite."""
-        if self.kind in (CrankKind.FAR_PIVOT, CrankKind.FAR_PIN, CrankKind.FREE):
+        if self.kind in (CrankKind.LINE, CrankKind.FAR_PIVOT, CrankKind.FAR_PIN, CrankKind.FREE):
             return np.full(len(points), np.nan)
         return np.asarray(np.abs(points - self.pins(crank_angles)))
 
@@ -117,35 +115,34 @@ class PathFourBar:
     said: str
 
 
-def cranks_through_five_points(
-    points: Complex[np.ndarray, " n"], crank_angles: Float[np.ndarray, " n"]
-) -> tuple[TimedCrank, ...]:
+def cranks_through_five_points(points: ComplexArray, crank_angles: FloatArray) -> tuple[TimedCrank, ...]:
     """All cranks for five points [m] at crank angles [rad], of which the differences count: none, 2 or 4 in general.
 
     Raises ParameterError where the points are no task: not five, not finite, two that are one, angles in degrees, or
     points that a whole family of cranks meets.
     """
-    G, _, _ = _task(points, crank_angles, 5, "cranks_through_five_points")
-    centres, circles = common_solutions(G)
-    found = [_crank(m, w, *_frames(points)) for m, w in zip(centres, circles, strict=True)]
-    return tuple(sorted(found, key=lambda one: (one.kind is not CrankKind.CRANK, abs(one.arm))))
+    G, centre_frame, circle_frame = _task(points, crank_angles, 5, "cranks_through_five_points")
+    found = common_solutions(G)
+    if found is None:
+        raise family("timed point", circle_frame.into(points), crank_angles)
+    cranks = [_crank(m, w, centre_frame, circle_frame) for m, w in zip(*found, strict=True)]
+    return tuple(sorted(cranks, key=lambda one: (one.kind is not CrankKind.CRANK, abs(one.arm))))
 
 
-def timed_curve(
-    points: Complex[np.ndarray, " n"], crank_angles: Float[np.ndarray, " n"], samples: int = SAMPLES
-) -> BurmesterCurve:
+def timed_curve(points: ComplexArray, crank_angles: FloatArray, samples: int = SAMPLES) -> BurmesterCurve:
     """All cranks for four points [m] at crank angles [rad], of which the differences count: a curve of them.
 
     Its centre-point curve holds the pivots; its circle-point curve the cranks as vectors W [m] at the first point.
     """
     G, centre_frame, circle_frame = _task(points, crank_angles, 4, "timed_curve")
     pole = still_point(centre_frame.into(points), crank_angles)
-    return curve(G, (centre_frame, circle_frame), pole, samples)
+    found = None if pole is None else curve(G, (centre_frame, circle_frame), pole, samples)
+    if found is None:
+        raise family("timed point", circle_frame.into(points), crank_angles)
+    return found
 
 
-def crank_of_pivot(
-    points: Complex[np.ndarray, " n"], crank_angles: Float[np.ndarray, " n"], pivot: complex
-) -> TimedCrank:
+def crank_of_pivot(points: ComplexArray, crank_angles: FloatArray, pivot: complex) -> TimedCrank:
     """The crank with a given pivot [m] for three points [m] at crank angles [rad], of which the differences count.
 
     >>> points, turns = np.array([2, 1 + 1j, 0]), np.array([0.0, 0.5, 1.2])
@@ -154,12 +151,11 @@ def crank_of_pivot(
     ('crank', True)
     """
     G, centre_frame, circle_frame = _task(points, crank_angles, 3, "crank_of_pivot")
-    m = homogeneous(centre_frame.into(complex(pivot)))
-    rows = np.einsum("a,iab->ib", m, G)
-    w = product(rows[0], rows[1])
-    if np.linalg.norm(w) <= FAMILY:
+    m = homogeneous(centre_frame.into(np.array([complex(pivot)])))
+    (w,) = other_ends(m, G)
+    if not np.any(w):
         return TimedCrank(CrankKind.FREE, complex(pivot), complex("nan"))
-    return _crank(m, w, centre_frame, circle_frame)
+    return _crank(m[0], w, centre_frame, circle_frame)
 
 
 def second_arms(
@@ -173,8 +169,8 @@ def second_arms(
 
 
 def path_four_bars(
-    points: Complex[np.ndarray, " n"],
-    crank_angles: Float[np.ndarray, " n"],
+    points: ComplexArray,
+    crank_angles: FloatArray,
     *,
     pivots: tuple[complex, complex] | None = None,
     samples: int = 24,
@@ -228,14 +224,13 @@ def _task(points: NumberArray, crank_angles: FloatArray, wanted: int, name: str)
 
 def _crank(m: NumberArray, w: NumberArray, centre_frame: Frame, circle_frame: Frame) -> TimedCrank:
     (pivot, near), (arm, close) = place(m), place(w)
+    still = close and abs(arm) <= STILL
     if not close:
         kind = CrankKind.FAR_PIN
     elif not near:
-        kind = CrankKind.FAR_PIVOT
-    elif abs(arm) <= POINT:
-        kind = CrankKind.STILL
+        kind = CrankKind.LINE if still else CrankKind.FAR_PIVOT
     else:
-        kind = CrankKind.ON_PIN if abs(arm - pivot) <= POINT * max(1.0, abs(arm)) else CrankKind.CRANK
+        kind = CrankKind.STILL if still else CrankKind.CRANK
     return TimedCrank(
         kind,
         centre_frame.spot(pivot) if near else -pivot,
