@@ -9,13 +9,12 @@ from hypothesis import strategies as st
 
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.synthesis.candidate import judge
+from ilmek.synthesis.path_fit import judged
 from ilmek.synthesis.path_limits import excess
 from ilmek.synthesis.path_links import random_links
 from ilmek.synthesis.path_model import SIZE, coupler_point, with_slopes
 from ilmek.synthesis.path_search import path_four_bars
 from ilmek.synthesis.path_task import PathTask
-from ilmek.synthesis.task import Task
 
 TURN = 2 * math.pi
 PLANTED = np.array([2.0, 0.7, 1.9, 1.6, 1.1, 0.8, 0.3, -0.2, 0.4, 0.0])
@@ -71,8 +70,7 @@ def test_what_is_found_is_what_the_linkage_does_and_candidate_finds_no_defect():
     for fit in path_four_bars(task, starts=192):
         motion = solve(plan(fit.four_bar.mechanism()), fit.crank_angles)
         np.testing.assert_allclose(motion.point("coupler", "P").position - task.points, fit.errors, atol=1e-12)
-        near = 1.01 * fit.greatest_error
-        seen = judge(fit.four_bar, Task(points=task.points, crank=fit.crank_angles, point_tolerance=near))
+        seen = judged(task, fit)
         assert seen.reached
         assert seen.crank_turns
         assert seen.one_circuit

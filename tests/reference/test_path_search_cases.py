@@ -6,6 +6,7 @@ Squared errors re-evaluated from the design vectors printed in the sources that 
 import pytest
 from benchmarks.path_cases import CASES, LINE, SEMICIRCLE, PathCase, met
 
+from ilmek.synthesis.path_fit import judged
 from ilmek.synthesis.path_search import path_four_bars
 
 
@@ -15,6 +16,10 @@ def test_the_best_value_known_is_reached(case: PathCase):
     assert met(case, fit.squared_error)
     if case is not LINE:
         assert fit.squared_error >= case.best * 0.999  # better would be a different problem
+    seen = judged(case.task, fit)
+    assert seen.reached
+    assert seen.one_circuit
+    assert seen.in_order
 
 
 def test_the_semicircle_is_held_by_the_rocker_and_by_grashof():

@@ -9,10 +9,14 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Complex, Float, Int
 
+from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.path_limits import excess
 from ilmek.synthesis.path_model import NAMES, SIZE, TURN, coupler_point
 from ilmek.synthesis.path_task import PathTask
+from ilmek.synthesis.task import Task
+
+ONCE = 2 * math.pi
 
 AT = 1e-7
 """Distance from a limit, in sizes of the path, at which it is active."""
@@ -91,6 +95,16 @@ def path_fit(task: PathTask, pose: Pose, search: Search) -> PathFit:
         least_transmission=least_transmission(design),
         search=search,
     )
+
+
+def judged(task: PathTask, fit: PathFit) -> Candidate:
+    """The four-bar as every method's are judged: circuit, branch and order of each point, by forward simulation.
+
+    Points count as met within the fit's own greatest error, at its own crank angles.
+    """
+    crank = fit.crank_angles[0] + np.clip(fit.crank_angles - fit.crank_angles[0], -ONCE, ONCE)
+    near = fit.greatest_error * (1 + 1e-6) + AT * task.size
+    return judge(fit.four_bar, Task(points=task.points, crank=crank, point_tolerance=near))
 
 
 def least_transmission(design: Float[np.ndarray, "10"]) -> float:
