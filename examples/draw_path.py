@@ -29,7 +29,7 @@ TASK = PathTask(POINTS, closed=True, bounds=LINKS, transmission=40 * deg)
 def figure(fit: PathFit) -> Drawing:
     """The four-bar where its tracer meets the first point, the tracer's path, and the points."""
     four_bar, turn = fit.four_bar, np.linspace(0, 2 * math.pi, 361)
-    path = solve(plan(four_bar.mechanism()), turn).point("coupler", "P").position
+    path = np.asarray(solve(plan(four_bar.mechanism()), turn).point("coupler", "P").position)
     a0, b0, a, b, p = four_bar.a0, four_bar.b0, four_bar.a, four_bar.b, complex(four_bar.tracer or 0)
     return Drawing(
         "path-four-bar",

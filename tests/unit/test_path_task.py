@@ -30,6 +30,7 @@ QUARTERS = np.radians([0.0, 60, 120, 180])
         (dict(points=SQUARE, bounds={"link": (0.0, 1.0)}), "bounds are on: ground, crank"),
         (dict(points=SQUARE, bounds={"crank": (2.0, 1.0)}), "crank from 2 to 1"),
         (dict(points=SQUARE, bounds={"crank": (-1.0, 1.0)}), "above 0"),
+        (dict(points=SQUARE, bounds={"turn": (0.0, 90.0)}), "90 deg was meant"),
     ],
 )
 def test_what_is_no_task_is_refused_in_words(given, said):

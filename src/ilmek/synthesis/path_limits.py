@@ -13,6 +13,7 @@ import math
 import numpy as np
 from jaxtyping import Float
 
+from ilmek.arrays import RealField
 from ilmek.num.compiled import compiled
 from ilmek.synthesis.path_model import SIZE, Design
 
@@ -26,19 +27,19 @@ Rows = Float[np.ndarray, "23 10"]
 Slack = Float[np.ndarray, "23"]
 
 
-@compiled
-def spans(design: Design, kappa: float) -> tuple[float, float]:
-    """D and E [m]."""
-    r3, r4 = design[2], design[3]
-    inner = (r3 - r4) * (r3 - r4) + 2.0 * (1.0 - kappa) * r3 * r4
-    outer = (r3 + r4) * (r3 + r4) - 2.0 * (1.0 - kappa) * r3 * r4
-    return math.sqrt(max(inner, 0.0)), math.sqrt(max(outer, 0.0))
+def spans(coupler: RealField, rocker: RealField, kappa: RealField) -> tuple[RealField, RealField]:
+    """D and E [m], of any shape; compiled as `_spans`."""
+    squares, slant = coupler * coupler + rocker * rocker, 2.0 * kappa * coupler * rocker
+    return np.sqrt(np.maximum(squares - slant, 0.0)), np.sqrt(squares + slant)
+
+
+_spans = compiled(spans)
 
 
 @compiled
 def excess(design: Design, kind: int, kappa: float) -> float:
     """By how much [m] the crank's limits are overstepped; 0 or less where they hold."""
-    D, E = spans(design, kappa)
+    D, E = _spans(design[2], design[3], kappa)
     return float(max(D - kind * (design[0] - design[1]), design[0] + design[1] - E))
 
 
@@ -50,7 +51,7 @@ def limit_rows(design: Design, low: Design, high: Design, kind: int, kappa: floa
         rows[2 * i, i], rows[2 * i + 1, i] = 1.0, -1.0
         slack[2 * i], slack[2 * i + 1] = max(high[i] - design[i], 0.0), max(design[i] - low[i], 0.0)
     r1, r2, r3, r4 = design[0], design[1], design[2], design[3]
-    D, E = spans(design, kappa)
+    D, E = _spans(design[2], design[3], kappa)
     near, mirrored, far = 2 * SIZE, 2 * SIZE + 1, 2 * SIZE + 2
     for row in (near, mirrored):
         rows[row, 0], rows[row, 1] = -kind, kind

@@ -9,7 +9,7 @@ narrow, lengths drawn within the bounds and sifted by the crank's limits fill up
 import numpy as np
 from jaxtyping import Float
 
-from ilmek.arrays import FloatArray
+from ilmek.synthesis.path_limits import spans
 
 Four = Float[np.ndarray, "4"]
 Links = Float[np.ndarray, "some 4"]
@@ -34,7 +34,7 @@ def random_links(rng: np.random.Generator, count: int, bounds: tuple[Four, Four]
 def _by_ratio(dice: Float[np.ndarray, "some 3"], kind: int, kappa: float) -> Links:
     """Links with rocker 1 within the crank's limits, one for each row of dice."""
     coupler = np.exp(3 * dice[:, 0] - 1.5)
-    near, far = _spans(coupler, np.ones_like(coupler), kappa)
+    near, far = spans(coupler, np.ones_like(coupler), kappa)
     longer = near + (far - near) * (0.02 + 0.96 * dice[:, 1])
     shorter = (0.02 + 0.97 * dice[:, 2]) * np.minimum(longer - near, far - longer)
     ground, crank = (longer, shorter) if kind > 0 else (shorter, longer)
@@ -46,14 +46,7 @@ def _within_bounds(rng: np.random.Generator, low: Four, high: Four, kind: int, k
     top = np.minimum(high, np.maximum(low, LARGE))
     bottom = np.minimum(np.maximum(low, SMALL), top)
     drawn = np.clip(np.exp(rng.uniform(np.log(bottom), np.log(top), (DRAWS, 4))), low, high)
-    near, far = _spans(drawn[:, 2], drawn[:, 3], kappa)
+    near, far = spans(drawn[:, 2], drawn[:, 3], kappa)
     apart, together = kind * (drawn[:, 0] - drawn[:, 1]), drawn[:, 0] + drawn[:, 1]
     kept: Links = drawn[(near <= apart) & (together <= far)]
     return kept
-
-
-def _spans(coupler: FloatArray, rocker: FloatArray, kappa: float) -> tuple[FloatArray, FloatArray]:
-    """D and E as `path_limits.spans`, of many."""
-    slant = 2 * kappa * coupler * rocker
-    squares = coupler**2 + rocker**2
-    return np.sqrt(np.maximum(squares - slant, 0.0)), np.sqrt(squares + slant)

@@ -87,11 +87,13 @@ class Scaled:
     low: Float[np.ndarray, "10"]
     high: Float[np.ndarray, "10"]
 
-    def descend(self, found: Found, points: Complex[np.ndarray, " part"], rounds: int) -> None:
-        """Each start goes on downhill, in place."""
+    def descend(self, found: Found, points: Complex[np.ndarray, " part"], rounds: int) -> int:
+        """Each start goes on downhill, in place; the evaluations that took."""
+        before = found.states[:, 4].sum()
         kind, kappa = self.task.sign, self.task.kappa
         arrays = (found.designs, found.angles, found.branches, found.states, found.blocks)
         descend_all(*arrays, points, self.low, self.high, kind, kappa, rounds)
+        return int(found.states[:, 4].sum() - before)
 
 
 def path_four_bars(
@@ -152,16 +154,14 @@ def _batch(scaled: Scaled, seed: int, number: int) -> tuple[Found, int]:
     found = _begin(scaled, part, seed, number)
     spent = 0
     for rounds, stay in STAGES:
-        before = found.states[:, 4].sum()
-        scaled.descend(found, scaled.points[part], rounds)
-        spent += int(found.states[:, 4].sum() - before)
+        spent += scaled.descend(found, scaled.points[part], rounds)
         found = found.only(np.argsort(found.errors, kind="stable")[: math.ceil(stay * len(found.errors))])
     if len(part) < len(scaled.points):
         found = _refined(scaled, found.only(slice(KEPT)), part)
-        scaled.descend(found, scaled.points, STAGES[-1][0])
-        spent += int(found.states[:, 4].sum())
+        spent += scaled.descend(found, scaled.points, STAGES[-1][0])
     if scaled.task.timing is None and scaled.task.ordered:
-        found = _in_order(scaled, found)
+        found, more = _in_order(scaled, found)
+        spent += more
     return found, spent
 
 
@@ -204,13 +204,15 @@ def _restarted(scaled: Scaled, found: Found) -> Found:
     return found._replace(states=states)
 
 
-def _in_order(scaled: Scaled, found: Found) -> Found:
+def _in_order(scaled: Scaled, found: Found) -> tuple[Found, int]:
     """Those that meet the points in order, and the best of the others once points out of order share a crank angle.
+
+    With the evaluations that took.
 
     To keep the order costs: a start that is out of order and worse than enough of those in order is left.
     """
     good = in_order(found.angles)
-    done, lost = found.only(good), found.only(~good)
+    done, lost, spent = found.only(good), found.only(~good), 0
     for _ in range(REPAIRS):
         worst = np.sort(done.errors)[KEPT - 1] if len(done.errors) >= KEPT else math.inf
         lost = lost.only(np.argsort(lost.errors, kind="stable")[:KEPT])
@@ -221,10 +223,10 @@ def _in_order(scaled: Scaled, found: Found) -> Found:
         angles, blocks = (np.array(part) for part in zip(*pairs, strict=True))
         lost = _restarted(scaled, lost._replace(angles=angles, blocks=blocks))
         lost = lost.only(np.isfinite(lost.errors))
-        scaled.descend(lost, scaled.points, MENDING)
+        spent += scaled.descend(lost, scaled.points, MENDING)
         good = in_order(lost.angles)
         done, lost = _joined([done, lost.only(good)]), lost.only(~good)
-    return done
+    return done, spent
 
 
 def _joined(parts: list[Found]) -> Found:

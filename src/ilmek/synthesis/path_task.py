@@ -9,7 +9,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray, NumberArray, RealField
 from ilmek.errors import ParameterError
 from ilmek.synthesis.path_links import random_links
-from ilmek.synthesis.path_model import NAMES, SIZE, START
+from ilmek.synthesis.path_model import NAMES, SIZE, START, TURN
 
 FEWEST, MOST = 4, 200
 """Points of a path."""
@@ -139,6 +139,10 @@ def _check_bounds(bounds: Mapping[str, tuple[float, float]]) -> None:
             raise ParameterError(f"{name} from {low:g} to {high:g}", allowed="the lower bound first, the upper after")
         if name in NAMES[:4] and not (low >= 0 and high > 0):
             raise ParameterError(f"{name} from {low:g} m to {high:g} m", allowed="a length is above 0")
+        angle = max((abs(end) for end in (low, high) if math.isfinite(end)), default=0.0)
+        if name in NAMES[TURN:] and angle > 2 * ONCE:
+            given = f"{name} from {low:g} rad to {high:g} rad"
+            raise ParameterError(given, allowed="within two turns (12.57 rad)", do=_degrees(angle))
 
 
 def _check_crank(task: PathTask) -> None:
