@@ -40,6 +40,7 @@ def planted(draw: st.DrawFn, count: int) -> tuple[FourBar, np.ndarray, np.ndarra
     across = ground - pin
     along = 0.5 + 0.5 * (coupler**2 - rocker**2) / np.abs(across) ** 2
     end = pin + (along + 1j * np.sqrt((coupler / np.abs(across)) ** 2 - along**2)) * across
+    assume(np.min(np.abs(np.diff(end))) > 0.05)
     angles = np.angle(end - pin)
     assume(np.ptp(angles) > 0.2)
     points = pin + tracer * np.exp(1j * angles)

@@ -36,6 +36,7 @@ def planted(draw: st.DrawFn, count: int) -> tuple[FourBar, np.ndarray, np.ndarra
     assume(np.all(np.abs(across) > abs(coupler - rocker) + 0.1) and np.all(np.abs(across) < coupler + rocker - 0.1))
     along = 0.5 + 0.5 * (coupler**2 - rocker**2) / np.abs(across) ** 2
     end = pin + (along + 1j * np.sqrt((coupler / np.abs(across)) ** 2 - along**2)) * across
+    assume(np.min(np.abs(np.diff(end))) > 0.05)
     angles = np.angle(end - pin)
     assume(np.ptp(angles) > 0.2)
     points = pin + complex(draw(st.floats(0.2, 1)), draw(st.floats(-1, 1))) * np.exp(1j * angles)

@@ -13,19 +13,20 @@ its asymptote told.                     [Bottema and Roth, Theoretical Kinematic
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import partial
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from jaxtyping import Complex, Float
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
-from ilmek.num.pencil3 import adjugate, determinant, null_vector
+from ilmek.num.pencil3 import adjugate, determinant, null_vector, product
 from ilmek.plane.vectors import unit
 from ilmek.synthesis.burmester import FAMILY, Guide, guides
-from ilmek.synthesis.burmester_forms import Frame, family, homogeneous, pose_forms, require_task, still_point
+from ilmek.synthesis.burmester_forms import ANGLES, Frame, family, homogeneous, pose_forms, require_task, still_point
 
 SAMPLES = 360
 """Points of each closed part of a curve, if it is not said."""
@@ -35,6 +36,16 @@ ON_CIRCLE = 1e-6
 
 POLISHED = 3
 """Newton's steps on to the cubic."""
+
+
+ROUNDS = 6
+"""Times that the samples are spread anew."""
+
+SLOWEST = 0.3
+"""Share of the mean gap that every gap counts more, lest the samples crowd."""
+
+Way: TypeAlias = Callable[[FloatArray], FloatArray]
+"""A closed part of the centre-point curve: a parameter from 0 to 2 pi -> homogeneous points."""
 
 
 class Asymptote(NamedTuple):
@@ -115,10 +126,10 @@ def curve(
     if samples < 8:
         raise ParameterError(f"{samples} samples of a curve", allowed="8 or more")
     start = homogeneous(np.asarray(pole))
-    ways = _ways(G, start, samples)
+    ways = _ways(G, start)
     if ways is None:
         return None
-    loops = tuple(_loop(G, way) for way in ways)
+    loops = tuple(_even(G, way, samples) for way in ways)
     across = np.swapaxes(G, -1, -2)
     return BurmesterCurve(loops, *frames, _asymptote(G, frames[0]), _asymptote(across, frames[1]))
 
@@ -130,8 +141,8 @@ def _value(G: FloatArray, m: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.asarray(determinant(rows)), gradient
 
 
-def _ways(G: FloatArray, start: FloatArray, samples: int) -> list[FloatArray] | None:
-    """The closed parts of the centre-point curve, as homogeneous points; None where the cubic is zero all over."""
+def _ways(G: FloatArray, start: FloatArray) -> Sequence[Way] | None:
+    """The closed parts of the centre-point curve; None where the cubic is zero all over."""
     fixed = np.einsum("a,iab->ib", start, G)
 
     def quadratic(phi: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -140,12 +151,18 @@ def _ways(G: FloatArray, start: FloatArray, samples: int) -> list[FloatArray] | 
         by_along = np.einsum("...bi,ib->...", adjugate(along), fixed)
         return by_fixed, by_along, np.asarray(determinant(along))
 
-    def points(phi: FloatArray, sheet: FloatArray) -> FloatArray:
+    def points(phi: FloatArray, signs: FloatArray) -> FloatArray:
         c1, c2, c3 = quadratic(phi)
-        root = sheet * np.sqrt(np.maximum(c2**2 - 4 * c1 * c3, 0.0))
+        root = signs * np.sqrt(np.maximum(c2**2 - 4 * c1 * c3, 0.0))
         same = c2 * root > 0  # -c2 + root would cancel
         r, k = np.where(same, 2 * c1, root - c2), np.where(same, -c2 - root, 2 * c3)
         return np.asarray(k[:, None] * start + r[:, None] * _direction(phi))
+
+    def sheet(sign: float, tau: FloatArray) -> FloatArray:
+        return points(tau / 2, np.full(tau.shape, sign))
+
+    def stretch(middle: float, half: float, tau: FloatArray) -> FloatArray:
+        return points(middle - half * np.cos(tau), np.sign(np.sin(tau)))
 
     def discriminant(phi: FloatArray) -> FloatArray:
         c1, c2, c3 = quadratic(phi)
@@ -156,14 +173,12 @@ def _ways(G: FloatArray, start: FloatArray, samples: int) -> list[FloatArray] | 
         return None
     ends = _touching(discriminant)
     if not len(ends):
-        phi = np.linspace(0, math.pi, samples, endpoint=False)
-        both = discriminant(phi[:1])[0] > 0
-        return [points(phi, np.full(samples, sheet)) for sheet in (1.0, -1.0)] if both else []
-    found, tau = [], 2 * math.pi * np.arange(samples) / samples
+        return [partial(sheet, sign) for sign in (1.0, -1.0)] if discriminant(np.zeros(1))[0] > 0 else []
+    found = []
     for low, high in zip(ends, np.append(ends[1:], ends[0] + math.pi), strict=True):
         middle, half = (low + high) / 2, (high - low) / 2
-        if half > 1e-9 and discriminant(np.array([middle]))[0] > 0:
-            found.append(points(middle - half * np.cos(tau), np.sign(np.sin(tau))))
+        if half > ANGLES and discriminant(np.array([middle]))[0] > 0:
+            found.append(partial(stretch, middle, half))
     return found
 
 
@@ -190,6 +205,26 @@ def _loop(G: FloatArray, way: FloatArray) -> Loop:
         m = m - step[:, None] * gradient
         m /= np.linalg.norm(m, axis=-1, keepdims=True)
     return Loop(_followed(m), _followed(null_vector(np.einsum("na,iab->nib", m, G))))
+
+
+def _even(G: FloatArray, way: Way, samples: int) -> Loop:
+    """A closed part with its samples about as far apart for the pivots and the pins together."""
+    tau = 2 * math.pi * np.arange(samples) / samples
+    loop = _loop(G, way(tau))
+    for _ in range(ROUNDS):
+        gaps = _gaps(loop.centres) + _gaps(loop.circles)
+        along = np.cumsum(np.append(0.0, gaps + SLOWEST * np.mean(gaps)))
+        tau = np.interp(np.arange(samples) * along[-1] / samples, along, np.append(tau, 2 * math.pi))
+        loop = _loop(G, way(tau))
+    return loop
+
+
+def _gaps(vectors: FloatArray) -> FloatArray:
+    """Angle from each point of the projective plane to the next, the first after the last."""
+    after = np.roll(vectors, -1, axis=0)
+    return np.asarray(
+        np.arctan2(np.linalg.norm(product(vectors, after), axis=-1), np.abs(np.sum(vectors * after, axis=-1)))
+    )
 
 
 def _followed(vectors: FloatArray) -> FloatArray:
