@@ -10,7 +10,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.synthesis.burmester import arms_through_five_poses, four_bars
 from ilmek.synthesis.burmester_curve import burmester_curve
 from ilmek.synthesis.dyad import Found, arms_through_points
-from ilmek.synthesis.path_points import path_four_bars
+from ilmek.synthesis.path_points import timed_four_bars
 
 Task = TypeVar("Task")
 
@@ -73,7 +73,7 @@ def run() -> None:
     five, four = couplers(random, 5), couplers(random, 4)
     jobs = (
         ("five poses: links and four-bars", lambda t: four_bars(arms_through_five_poses(t[0], t[1]), t[0][0]), five),
-        ("five timed points: all four-bars", lambda t: path_four_bars(t[0], t[2]), five),
+        ("five timed points: all four-bars", lambda t: timed_four_bars(t[0], t[2]), five),
         ("four poses: both curves, 360 points", lambda t: burmester_curve(t[0], t[1]), four),
     )
     for name, job, tasks in jobs:

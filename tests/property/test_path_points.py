@@ -15,7 +15,7 @@ from ilmek.synthesis.path_points import (
     CrankKind,
     TimedCrank,
     cranks_through_five_points,
-    path_four_bars,
+    timed_four_bars,
     second_arms,
     timed_curve,
 )
@@ -61,7 +61,7 @@ def test_a_planted_four_bar_is_among_those_of_five_of_its_timed_points(task) -> 
     for crank in cranks_through_five_points(points, angles):
         if crank.kind is CrankKind.CRANK:
             assert spread(crank, points, angles) < EXACT
-    found = path_four_bars(points, angles)
+    found = timed_four_bars(points, angles)
     assert min(off(one.four_bar, drawn) for one in found if one.four_bar) < 1e-4
     assert len(found) <= 12
 
@@ -69,7 +69,7 @@ def test_a_planted_four_bar_is_among_those_of_five_of_its_timed_points(task) -> 
 def test_the_four_bars_of_five_timed_points_move_through_them_in_time() -> None:
     angles = np.array([0.2, 0.7, 1.3, 1.8, 2.4])
     points = np.array([0.0, 0.3 + 0.4j, 0.9 + 0.5j, 1.4 + 0.3j, 1.6 - 0.2j])
-    found = [one for one in path_four_bars(points, angles) if one.four_bar]
+    found = [one for one in timed_four_bars(points, angles) if one.four_bar]
     assert len(found) >= 2
     for one in found:
         drawn = one.four_bar
@@ -103,7 +103,7 @@ def test_four_timed_points_are_met_by_the_links_along_the_second_curve() -> None
     angles = np.array([0.2, 0.7, 1.3, 1.8])
     points = np.array([0.0, 0.3 + 0.4j, 0.9 + 0.5j, 1.4 + 0.3j])
     arms = dyads_through_points(points, angles)
-    found = path_four_bars(points, angles, samples=16)
+    found = timed_four_bars(points, angles, samples=16)
     assert {one.crank.kind for one in found} == {CrankKind.CRANK}
     pivots = {one.crank.pivot for one in found}
     assert len(pivots) == len(arms)
@@ -123,7 +123,7 @@ def test_four_timed_points_are_met_by_the_links_along_the_second_curve() -> None
 @given(planted(3))
 def test_three_timed_points_and_two_pivots_are_one_four_bar(task) -> None:
     drawn, points, angles = task
-    (found,) = path_four_bars(points, angles, pivots=(drawn.a0, drawn.b0))
+    (found,) = timed_four_bars(points, angles, pivots=(drawn.a0, drawn.b0))
     assert spread(found.crank, points, angles) < EXACT
     assert found.four_bar is not None
     assert off(found.four_bar, drawn) < 1e-5
@@ -148,7 +148,7 @@ def test_points_on_a_line_are_told() -> None:
     points = np.array([0, 1, 2.5, 3, 4]) + 1j
     kinds = [one.kind for one in cranks_through_five_points(points, TURNS)]
     assert CrankKind.LINE in kinds
-    assert any("lie on a line" in one.said for one in path_four_bars(points, TURNS))
+    assert any("lie on a line" in one.said for one in timed_four_bars(points, TURNS))
     arms = arms_through_points(points[:4], TURNS[:4])
     line = int(np.flatnonzero(arms.found == Found.LINE)[0])
     assert (arms.first[line], arms.second[line]) == (0, np.inf)
@@ -159,8 +159,8 @@ def test_points_on_a_circle_are_told() -> None:
     points = 1 + 2j + np.exp(1j * np.array([0, 0.5, 1.4, 2.2, 3.0]))
     still = next(one for one in cranks_through_five_points(points, TURNS) if one.kind is CrankKind.STILL)
     assert still.pivot == pytest.approx(1 + 2j)
-    assert any("lie on a circle" in one.said for one in path_four_bars(points, TURNS))
-    assert any("lie on a circle" in one.said for one in path_four_bars(points[:4], TURNS[:4]))
+    assert any("lie on a circle" in one.said for one in timed_four_bars(points, TURNS))
+    assert any("lie on a circle" in one.said for one in timed_four_bars(points[:4], TURNS[:4]))
 
 
 def test_a_pivot_infinitely_far_is_told() -> None:
@@ -171,7 +171,7 @@ def test_a_pivot_infinitely_far_is_told() -> None:
     assert arms.first[far] == pytest.approx(0.5)
     assert abs((arms.pivot[far] * np.exp(-0.3j)).real) < 1e-9
     assert len(dyads_through_points(points, TURNS[:4])) in {0, 2}
-    assert any("pivot is infinitely far" in one.said for one in path_four_bars(points, TURNS[:4]))
+    assert any("pivot is infinitely far" in one.said for one in timed_four_bars(points, TURNS[:4]))
 
 
 def test_equal_radii_and_a_path_along_x_are_tasks_like_any_other() -> None:
@@ -234,14 +234,14 @@ FIVE = np.array([0, 1, 1 + 1j, 2j, 3 + 1j])
     [
         (cranks_through_five_points, FIVE[:4], TURNS[:4], "4 timed points; exactly 5; for 4: dyads_through_points"),
         (timed_curve, FIVE, TURNS, "5 timed points; exactly 4; for 5: cranks_through_five_points"),
-        (path_four_bars, FIVE[:2], TURNS[:2], "3 to 5 points are met exactly; give more points"),
-        (path_four_bars, np.arange(6) + 1j, np.arange(6) / 2, "for more points search approximately"),
-        (path_four_bars, FIVE[:3], TURNS[:3], "both pivots free"),
-        (path_four_bars, FIVE, TURNS / deg, "angles are in radians"),
-        (path_four_bars, FIVE[[0, 1, 2, 1]], TURNS[[0, 1, 2, 1]], "timed points 2 and 4 are one"),
+        (timed_four_bars, FIVE[:2], TURNS[:2], "3 to 5 points are met exactly; give more points"),
+        (timed_four_bars, np.arange(6) + 1j, np.arange(6) / 2, "for more points search approximately"),
+        (timed_four_bars, FIVE[:3], TURNS[:3], "both pivots free"),
+        (timed_four_bars, FIVE, TURNS / deg, "angles are in radians"),
+        (timed_four_bars, FIVE[[0, 1, 2, 1]], TURNS[[0, 1, 2, 1]], "timed points 2 and 4 are one"),
         (cranks_through_five_points, FIVE, 0 * TURNS, "the crank has one angle at all points"),
         (timed_curve, FIVE[:4], 0 * TURNS[:4], "the crank has one angle at all points"),
-        (path_four_bars, 1j + np.exp(1j * TURNS), TURNS, "timed as the crank turns, so that a crank of any length"),
+        (timed_four_bars, 1j + np.exp(1j * TURNS), TURNS, "timed as the crank turns, so that a crank of any length"),
         (timed_curve, 1j + np.exp(1j * TURNS[:4]), TURNS[:4], "timed as the crank turns"),
     ],
 )

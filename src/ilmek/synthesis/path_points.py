@@ -106,7 +106,7 @@ class TimedCrank:
 
 
 @dataclass(frozen=True, slots=True)
-class PathFourBar:
+class TimedFourBar:
     """A crank with its second link: the four-bar, drawn at the first point, or None and in `said` why there is none."""
 
     crank: TimedCrank
@@ -168,13 +168,13 @@ def second_arms(
     return _others(crank, points, crank.coupler_angles(points, crank_angles))
 
 
-def path_four_bars(
+def timed_four_bars(
     points: ComplexArray,
     crank_angles: FloatArray,
     *,
     pivots: tuple[complex, complex] | None = None,
     samples: int = 24,
-) -> tuple[PathFourBar, ...]:
+) -> tuple[TimedFourBar, ...]:
     """Four-bars whose tracer is at the points [m] at the crank angles [rad], crank first.
 
     five points   every solution: up to four cranks with up to three second links each
@@ -189,7 +189,7 @@ def path_four_bars(
         cranks = cranks_through_five_points(points, crank_angles)
         return _joined(cranks, points, crank_angles, _others)
     if len(points) == 4:
-        require_task("timed point", points, crank_angles, 4, "path_four_bars")
+        require_task("timed point", points, crank_angles, 4, "timed_four_bars")
         return _joined(
             _cranks_of_four(points, crank_angles),
             points,
@@ -265,7 +265,7 @@ def _joined(
     points: NumberArray,
     crank_angles: FloatArray,
     others: Callable[[TimedCrank, NumberArray, FloatArray], Sequence[Guide]],
-) -> tuple[PathFourBar, ...]:
+) -> tuple[TimedFourBar, ...]:
     """Each crank with each of the links that may go with it."""
     return tuple(one for crank in cranks for one in _of_crank(crank, points, crank_angles, others))
 
@@ -275,16 +275,16 @@ def _of_crank(
     points: NumberArray,
     crank_angles: FloatArray,
     others: Callable[[TimedCrank, NumberArray, FloatArray], Sequence[Guide]],
-) -> Iterator[PathFourBar]:
+) -> Iterator[TimedFourBar]:
     if crank.kind is not CrankKind.CRANK:
-        yield PathFourBar(crank, None, None, crank.kind.words)
+        yield TimedFourBar(crank, None, None, crank.kind.words)
         return
     try:
         found = others(crank, points, crank.coupler_angles(points, crank_angles))
     except ParameterError as error:
-        yield PathFourBar(crank, None, None, f"the poses of this crank's coupler: {error.given}")
+        yield TimedFourBar(crank, None, None, f"the poses of this crank's coupler: {error.given}")
         return
     link = Guide(Kind.CRANK, crank.pivot, crank.pin)
     for second in found:
         joined = pair(link, second, complex(points[0]))
-        yield PathFourBar(crank, second, joined.four_bar, joined.said)
+        yield TimedFourBar(crank, second, joined.four_bar, joined.said)
