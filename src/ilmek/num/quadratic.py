@@ -29,15 +29,6 @@ SAME = 1e-10
 
 
 @compiled
-def dot(one: Vector, other: Vector) -> float:
-    """Sum of the products; a plain loop, where a library call would cost more than the sum."""
-    total = 0.0
-    for i in range(one.size):
-        total += one[i] * other[i]
-    return total
-
-
-@compiled
 def cholesky(matrix: Matrix, size: int, least: float, factor: Matrix) -> bool:
     """Lower L with L L^T = matrix (its leading `size` rows) into `factor`; False where a pivot is below `least`."""
     for i in range(size):
@@ -80,7 +71,8 @@ def limited_step(
     factor, within = np.empty((n, n)), np.empty((n, n))
     if not cholesky(H, n, LEAST, factor):
         return -1
-    held, count = np.empty(n, np.int64), 0
+    held = np.empty(n, np.int64)
+    count = held.size - n  # a plain 0 would be compiled for twice, as that number and as any
     pulls, move = np.empty(n), np.empty(n)
     spread = np.empty((n, n))
     for i in range(n):
@@ -127,26 +119,47 @@ def _towards(
     """
     n = g.size
     for i in range(n):
-        move[i] = -g[i] - dot(H[i], step)
+        move[i] = -g[i]
+        for j in range(n):
+            move[i] -= H[i, j] * step[j]
     back_solve(factor, n, move)
     if count == 0:
         return True
-    for k in range(count):
-        for i in range(n):
-            spread[k, i] = rows[held[k], i]
-        back_solve(factor, n, spread[k])
-        pulls[k] = dot(rows[held[k]], move)
-    crossed = np.empty((count, count))
-    for k in range(count):
-        for m in range(count):
-            crossed[k, m] = dot(rows[held[k]], spread[m])
+    crossed = np.zeros((count, count))
+    _spread(rows, factor, held, count, spread, crossed)
     if not cholesky(crossed, count, SAME, within):
         return False
+    for k in range(count):
+        pulls[k] = 0.0
+        for i in range(n):
+            pulls[k] += rows[held[k], i] * move[i]
     back_solve(within, count, pulls)
     for k in range(count):
         for i in range(n):
             move[i] -= pulls[k] * spread[k, i]
     return True
+
+
+@compiled
+def _spread(
+    rows: Float[np.ndarray, "m n"],
+    factor: Matrix,
+    held: Int[np.ndarray, " n"],
+    count: int,
+    spread: Matrix,
+    crossed: Float[np.ndarray, "count count"],
+) -> None:
+    """H^-1 A^T of the held limits into the rows of `spread`, A H^-1 A^T into `crossed`."""
+    n = rows.shape[1]
+    column = np.empty(n)
+    for m in range(count):
+        for i in range(n):
+            column[i] = rows[held[m], i]
+        back_solve(factor, n, column)
+        for i in range(n):
+            spread[m, i] = column[i]
+            for k in range(count):
+                crossed[k, m] += rows[held[k], i] * column[i]
 
 
 @compiled

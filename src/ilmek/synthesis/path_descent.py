@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Complex, Float, Int
 
 from ilmek.num.compiled import compiled
-from ilmek.num.quadratic import dot, limited_step
+from ilmek.num.quadratic import limited_step
 from ilmek.synthesis.path_limits import GRACE, LIMITS, Rows, Slack, excess, limit_rows
 from ilmek.synthesis.path_model import SIZE, START, Angles, Design, Points, normal_equations, squared_error
 
@@ -67,12 +67,10 @@ def descend(
             state[1] *= 10.0
             fresh = False
             continue
-        for k in range(count):
-            turn[k] = -(pull[k] + dot(mixed[k], step)) / (own[k] * (1.0 + state[1]) + FLOOR)
+        _own_steps(mixed, own, pull, state[1], step, turn)
         for k in range(points.size):
             ahead[k] = angles[k] + (turn[blocks[k]] if blocks[k] >= 0 else step[START])
-        for i in range(SIZE):
-            gain -= step[i] * (b[i] + 0.5 * dot(A[i], step))
+        gain -= _taken(A, b, step)
         error = squared_error(trial, ahead, points, branch)
         state[4] += 1.0
         fresh = error < state[0]
@@ -80,6 +78,34 @@ def descend(
         if fresh:
             _copy(trial, design)
             _copy(ahead, angles)
+
+
+@compiled
+def _own_steps(
+    mixed: Float[np.ndarray, "blocks 10"],
+    own: Float[np.ndarray, " blocks"],
+    pull: Float[np.ndarray, " blocks"],
+    damping: float,
+    step: Design,
+    turn: Float[np.ndarray, " blocks"],
+) -> None:
+    """The steps of the free angles that go with a step of the ten numbers, into `turn`."""
+    for k in range(own.size):
+        total = pull[k]
+        for i in range(SIZE):
+            total += mixed[k, i] * step[i]
+        turn[k] = -total / (own[k] * (1.0 + damping) + FLOOR)
+
+
+@compiled
+def _taken(A: Float[np.ndarray, "10 10"], b: Design, step: Design) -> float:
+    """What a step adds to the quadratic of the ten numbers."""
+    total = 0.0
+    for i in range(SIZE):
+        total += step[i] * b[i]
+        for j in range(SIZE):
+            total += 0.5 * step[i] * A[i, j] * step[j]
+    return total
 
 
 @compiled
