@@ -5,6 +5,7 @@ import difflib
 from ilmek.errors import ParameterError
 from ilmek.machines.automated_loom import MACHINE as AUTOMATED_LOOM
 from ilmek.machines.beat_up import MACHINE as BEAT_UP
+from ilmek.machines.knotting_dyad import MACHINE as KNOTTING_DYAD
 from ilmek.machines.knotting_four_bar import MACHINE as KNOTTING_FOUR_BAR
 from ilmek.machines.machine import Machine
 from ilmek.machines.shedding import MACHINE as SHEDDING
@@ -14,7 +15,7 @@ from ilmek.machines.weaver import MACHINE as WEAVER
 
 MACHINES: dict[str, Machine] = {
     machine.name: machine
-    for machine in (AUTOMATED_LOOM, WEAVER, BEAT_UP, SHEDDING, WARP_TENSION, TUFTING, KNOTTING_FOUR_BAR)
+    for machine in (AUTOMATED_LOOM, WEAVER, BEAT_UP, SHEDDING, WARP_TENSION, TUFTING, KNOTTING_FOUR_BAR, KNOTTING_DYAD)
 }
 """Every machine by its name, in the order of the catalogue."""
 

@@ -1,0 +1,129 @@
+"""The knotting dyad: what it answers, and what it refuses."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from ilmek.errors import ParameterError
+from ilmek.machines import MACHINES
+from ilmek.machines.knotting_dyad import MACHINE, KnottingDyadParams, design, report
+from ilmek.report import Drawing, Report
+from ilmek.units import deg
+
+POINTS = "(12mm,4mm) (18.5mm,9.5mm) (24mm,8mm) (27mm,3mm)"
+ANGLES = "20deg 65deg 100deg 150deg"
+CIRCLE = "(10mm,0) (0,10mm) (-10mm,0) (0,-10mm)"
+LINE = "(0,0) (10mm,0) (20mm,0) (30mm,0)"
+
+
+def answer(**settings: str) -> Report:
+    return report(design(KnottingDyadParams.read(settings)))
+
+
+def test_given_points_are_met_by_every_solution_by_the_names_that_are_promised() -> None:
+    said = answer(points=POINTS, angles=ANGLES).as_json()
+    assert json.dumps(said)
+    points, angles = np.array([12 + 4j, 18.5 + 9.5j, 24 + 8j, 27 + 3j]) * 1e-3, np.array([20, 65, 100, 150]) * deg
+    assert len(said["results"]["solutions"]) in (1, 3)
+    for found in said["results"]["solutions"]:
+        assert {"a0", "theta0", "a1", "a2", "pivot_x", "pivot_y"} < set(found)
+        pivot = complex(found["pivot_x"], found["pivot_y"])
+        assert found["a0"] * np.exp(1j * found["theta0"]) == pytest.approx(pivot, abs=1e-15)
+        elbow = pivot + found["a1"] * np.exp(1j * angles)
+        assert np.abs(points - elbow) == pytest.approx(np.full(4, found["a2"]), abs=1e-14)
+    assert said["checks"][0]["ok"]
+    assert MACHINES["knotting-dyad"] is MACHINE
+
+
+@pytest.mark.parametrize("knot", ["symmetric", "asymmetric"])
+@pytest.mark.parametrize("opens", ["left", "right"])
+@pytest.mark.parametrize("pitch", ["1.6mm", "2mm", "10mm"])
+def test_points_are_chosen_on_the_knot_and_the_arm_reaches_all_of_its_way(knot: str, opens: str, pitch: str) -> None:
+    made = design(KnottingDyadParams.read({"knot": knot, "opens": opens, "warp_pitch": pitch}))
+    assert not report(made).failed
+    assert made.task.path is not None
+    assert made.chosen is not None
+    arm, distance = made.dyads[made.chosen], np.abs(made.task.course - made.dyads[made.chosen].pivot)
+    assert distance.max() < abs(arm.first) + arm.second
+    assert distance.min() > abs(abs(arm.first) - arm.second)
+    fine = made.task.path.point(made.task.path.distances(1e-6))
+    assert max(np.abs(fine - point).min() for point in made.task.points) < 1e-6
+    assert arm.pivot.imag >= 2 * made.params.leg
+
+
+def test_the_asymmetric_knots_of_both_sides_have_mirrored_arms() -> None:
+    left, right = (design(KnottingDyadParams.read({"knot": "asymmetric", "opens": side})) for side in ("left", "right"))
+    assert left.chosen is not None
+    assert right.chosen is not None
+    one, other = left.dyads[left.chosen], right.dyads[right.chosen]
+    assert abs(one.first) == pytest.approx(abs(other.first), rel=1e-9)
+    assert one.second == pytest.approx(other.second, rel=1e-9)
+    assert 0.002 - one.pivot.conjugate() == pytest.approx(other.pivot, abs=1e-12)
+
+
+def test_points_on_a_circle_are_told_and_fail_where_no_other_arm_is() -> None:
+    said = answer(points=CIRCLE, angles="0 100deg 170deg 300deg")
+    results = said.as_json()["results"]
+    assert any("first link has no length" in kind for kind in results["roots"])
+    assert any("first link has no length" in warning for warning in said.warnings)
+    still = next(found for found in results["solutions"] if found["a1"] == 0)
+    assert still["a2"] == pytest.approx(0.01, rel=1e-12)
+
+
+def test_points_on_a_line_say_which_root_is_infinitely_far() -> None:
+    said = answer(points=LINE, angles=ANGLES)
+    assert any("the points lie on a line" in kind for kind in said.as_json()["results"]["roots"])
+    assert not any(found["a1"] == 0 for found in said.as_json()["results"]["solutions"])
+
+
+def test_an_elbow_on_both_sides_is_a_failed_check_and_a_warning() -> None:
+    said = answer(points=POINTS, angles=ANGLES)
+    assert ["off straight" in check.name for check in said.failed] == [True]
+    assert "on both sides" in said.warnings[-1]
+
+
+def test_figures_show_every_arm_and_the_points() -> None:
+    every, poses = answer(points=POINTS, angles=ANGLES).figures
+    assert isinstance(every, Drawing)
+    assert isinstance(poses, Drawing)
+    links = [stroke for stroke in every.strokes if stroke.role == "link"]
+    assert len(links) == 2 * len(answer(points=POINTS, angles=ANGLES).as_json()["results"]["solutions"])
+    assert {"P1", "P2", "P3", "P4", "O1"} <= {dot.label for dot in every.dots}
+    assert sum(stroke.role == "yarn" for stroke in answer().figures[0].strokes) == 1
+    joints = {complex(np.round(stroke.points[-1], 12)) for stroke in links}
+    assert complex(np.round(0.012 + 0.004j, 12)) in joints
+    assert all(math.isfinite(abs(place)) for place in joints)
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"points": POINTS}, "points are given without angles"),
+        ({"angles": ANGLES}, "angles are given without points"),
+        ({"points": POINTS, "angles": "20deg 65deg 100deg"}, "4 points and 3 angles"),
+        ({"points": "(1mm,2mm) (3mm,1mm) (5mm,2mm)", "angles": "1deg 2deg 3deg"}, "exactly 4; for 3: crank_of_pivot"),
+        ({"points": POINTS + "(1mm,1mm)", "angles": ANGLES + " 170deg"}, "for 5: cranks_through_five_points"),
+        ({"points": POINTS + "(1mm,1mm) (2mm,9mm)", "angles": ANGLES + " 170deg 180deg"}, "given 6 timed points"),
+        ({"points": "(1mm,2mm) " * 4, "angles": "5deg 10deg 5deg 20deg"}, "timed points 1 and 3 are one"),
+        ({"points": "(1mm,2mm) " * 4, "angles": "5deg 10deg 15deg 20deg"}, "all points of the dyad's task are one"),
+        ({"points": POINTS, "angles": "20 65 100 150"}, "20 has no unit; did you mean 20deg"),
+        ({"points": POINTS, "angles": "20rad 65rad 100rad 150rad"}, "angles are in radians: 150 deg would be"),
+        ({"points": POINTS, "angles": "20mm 65deg 100deg 150deg"}, "'20mm' has the wrong unit"),
+        ({"points": POINTS, "angles": " "}, "no list of angles"),
+        ({"points": "(12,4) (18,9) (24,8) (27,3)", "angles": ANGLES}, "12 has no unit; did you mean 12mm"),
+        ({"points": "12mm,4mm", "angles": ANGLES}, "no list of points"),
+        ({"points": POINTS + " and so on", "angles": ANGLES}, "no list of points"),
+        ({"points": CIRCLE, "angles": "0 90deg 180deg 270deg"}, "a whole family of dyads"),
+        ({"points": LINE, "angles": "95deg 125deg 250deg 125deg"}, "points lie on a line: no arm of finite links"),
+        ({"warp_pitch": "1mm"}, "a pitch of 1.6 mm or more"),
+        ({"link_limit": "5mm"}, "no arm with links of 5 mm or less"),
+        ({"knot": "symmetrical"}, "did you mean symmetric"),
+        ({"warp_pitch": "2"}, "did you mean 2mm"),
+    ],
+)
+def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
+    with pytest.raises(ParameterError) as refused:
+        answer(**settings)
+    assert said in str(refused.value)
