@@ -15,9 +15,9 @@ from ilmek.synthesis.path_points import (
     CrankKind,
     TimedCrank,
     cranks_through_five_points,
-    timed_four_bars,
     second_arms,
     timed_curve,
+    timed_four_bars,
 )
 from ilmek.units import deg
 

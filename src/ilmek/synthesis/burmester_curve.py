@@ -26,7 +26,16 @@ from ilmek.errors import ParameterError
 from ilmek.num.pencil3 import adjugate, determinant, null_vector, product
 from ilmek.plane.vectors import unit
 from ilmek.synthesis.burmester import FAMILY, Guide, guides
-from ilmek.synthesis.burmester_forms import ANGLES, Frame, family, homogeneous, pose_forms, require_task, still_point
+from ilmek.synthesis.burmester_forms import (
+    ANGLES,
+    FAR,
+    Frame,
+    family,
+    homogeneous,
+    pose_forms,
+    require_task,
+    still_points,
+)
 
 SAMPLES = 360
 """Points of each closed part of a curve, if it is not said."""
@@ -37,6 +46,9 @@ ON_CIRCLE = 1e-6
 POLISHED = 3
 """Newton's steps on to the cubic."""
 
+
+LINE = 1e-6
+"""Size of all three coefficients, in units of the task, that says that the turned line is part of the cubic."""
 
 ROUNDS = 6
 """Times that the samples are spread anew."""
@@ -76,7 +88,7 @@ class Loop(NamedTuple):
 class BurmesterCurve:
     """Centre-point and circle-point curve: one or two closed parts, sampled in order.
 
-    loops   pivots and pins in the task's frames, unit vectors whose sign does not jump
+    loops   pivots and pins in the task's frames, unit vectors whose sign does not jump; zeros where any pin will do
     centre_frame, circle_frame  of pivots and of pins
     centre_asymptote, circle_asymptote  None where the curve falls apart into a circle and the line at infinity
     """
@@ -112,23 +124,28 @@ def burmester_curve(points: ComplexArray, angles: FloatArray, samples: int = SAM
     require_task("pose", points, angles, 4, "burmester_curve")
     G, frame = pose_forms(points, angles)
     places = frame.into(points)
-    pole = still_point(places, angles)
-    found = None if pole is None else curve(G, (frame, frame), pole, samples)
+    found = curve(G, (frame, frame), still_points(places, angles), samples)
     if found is None:
         raise family("pose", places, angles)
     return found
 
 
 def curve(
-    G: Float[np.ndarray, "3 3 3"], frames: tuple[Frame, Frame], pole: complex, samples: int
+    G: Float[np.ndarray, "3 3 3"], frames: tuple[Frame, Frame], poles: Sequence[complex], samples: int
 ) -> BurmesterCurve | None:
-    """The curves of three forms, through a pole of the centre-point cubic (in its frame); None where all is pivot."""
+    """The curves of three forms, by poles of the centre-point cubic (in its frame); None where all is pivot."""
     if samples < 8:
         raise ParameterError(f"{samples} samples of a curve", allowed="8 or more")
-    start = homogeneous(np.asarray(pole))
-    ways = _ways(G, start)
-    if ways is None:
+    chosen = None
+    for pole in poles:
+        seen = _ways(G, homogeneous(np.asarray(pole)))
+        chosen = chosen or seen
+        if seen is not None and not seen.lines:
+            chosen = seen
+            break
+    if chosen is None:
         return None
+    ways = (*chosen.parts, *chosen.lines)
     loops = tuple(_even(G, way, samples) for way in ways)
     across = np.swapaxes(G, -1, -2)
     return BurmesterCurve(loops, *frames, _asymptote(G, frames[0]), _asymptote(across, frames[1]))
@@ -141,7 +158,17 @@ def _value(G: FloatArray, m: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.asarray(determinant(rows)), gradient
 
 
-def _ways(G: FloatArray, start: FloatArray) -> Sequence[Way] | None:
+class Ways(NamedTuple):
+    """Closed parts of a cubic as seen from a pole: those that a turning line draws, and lines through the pole.
+
+    With a line there the parts may jump at it: another pole serves better.
+    """
+
+    parts: tuple[Way, ...]
+    lines: tuple[Way, ...]
+
+
+def _ways(G: FloatArray, start: FloatArray) -> Ways | None:
     """The closed parts of the centre-point curve; None where the cubic is zero all over."""
     fixed = np.einsum("a,iab->ib", start, G)
 
@@ -168,17 +195,31 @@ def _ways(G: FloatArray, start: FloatArray) -> Sequence[Way] | None:
         c1, c2, c3 = quadratic(phi)
         return np.asarray(c2**2 - 4 * c1 * c3)
 
-    size = np.max(np.abs(discriminant(np.linspace(0, math.pi, 7))))
-    if size < FAMILY**2:
+    def line(phi: float, tau: FloatArray) -> FloatArray:
+        far = np.sin(tau / 2)[:, None] * _direction(np.full(tau.shape, phi))
+        return np.asarray(np.cos(tau / 2)[:, None] * start + far)
+
+    sizes = np.max(np.abs(quadratic(np.linspace(0, math.pi, 7))))
+    if sizes < FAMILY:
         return None
     ends = _touching(discriminant)
     if not len(ends):
-        return [partial(sheet, sign) for sign in (1.0, -1.0)] if discriminant(np.zeros(1))[0] > 0 else []
+        signs = (1.0, -1.0) if discriminant(np.zeros(1))[0] > 0 else ()
+        return Ways(tuple(partial(sheet, sign) for sign in signs), ())
+    on = ends[np.max(np.abs(quadratic(ends)), axis=0) < LINE * sizes]
+    spans = _positive(discriminant, ends, narrowest=LINE if len(on) else ANGLES)
+    return Ways(tuple(partial(stretch, *span) for span in spans), tuple(partial(line, phi) for phi in on[:1]))
+
+
+def _positive(
+    function: Callable[[FloatArray], FloatArray], zeros: FloatArray, narrowest: float
+) -> list[tuple[float, float]]:
+    """Middle and half width of the spans between zeros, of period pi, where a function is positive."""
     found = []
-    for low, high in zip(ends, np.append(ends[1:], ends[0] + math.pi), strict=True):
+    for low, high in zip(zeros, np.append(zeros[1:], zeros[0] + math.pi), strict=True):
         middle, half = (low + high) / 2, (high - low) / 2
-        if half > ANGLES and discriminant(np.array([middle]))[0] > 0:
-            found.append(partial(stretch, middle, half))
+        if half > narrowest and function(np.array([middle]))[0] > 0:
+            found.append((middle, half))
     return found
 
 
@@ -204,7 +245,9 @@ def _loop(G: FloatArray, way: FloatArray) -> Loop:
         step = value / np.where(steep > FAMILY, steep, np.inf)
         m = m - step[:, None] * gradient
         m /= np.linalg.norm(m, axis=-1, keepdims=True)
-    return Loop(_followed(m), _followed(null_vector(np.einsum("na,iab->nib", m, G))))
+    rows = np.einsum("na,iab->nib", m, G)
+    alone = np.max(np.abs(adjugate(rows)), axis=(-2, -1)) > FAMILY * np.max(np.abs(G)) ** 2
+    return Loop(_followed(m), _followed(np.where(alone[:, None], null_vector(rows), 0.0)))
 
 
 def _even(G: FloatArray, way: Way, samples: int) -> Loop:
@@ -213,6 +256,8 @@ def _even(G: FloatArray, way: Way, samples: int) -> Loop:
     loop = _loop(G, way(tau))
     for _ in range(ROUNDS):
         gaps = _gaps(loop.centres) + _gaps(loop.circles)
+        if np.sum(gaps) < LINE:
+            return Loop(loop.centres[:1], loop.circles[:1])
         along = np.cumsum(np.append(0.0, gaps + SLOWEST * np.mean(gaps)))
         tau = np.interp(np.arange(samples) * along[-1] / samples, along, np.append(tau, 2 * math.pi))
         loop = _loop(G, way(tau))
@@ -235,7 +280,8 @@ def _followed(vectors: FloatArray) -> FloatArray:
 
 def _branches(loop: FloatArray, frame: Frame) -> list[Branch]:
     """A closed part of the projective plane, cut where it goes through infinity."""
-    count, side = len(loop), np.sign(loop[:, 2])
+    far = np.abs(loop[:, 2]) * FAR <= np.hypot(loop[:, 0], loop[:, 1])
+    count, side = len(loop), np.where(far, 0.0, np.sign(loop[:, 2]))
     closes = 1.0 if loop[-1] @ loop[0] >= 0 else -1.0
     cuts = [k for k in range(count) if side[k] * (side[k - 1] if k else closes * side[-1]) <= 0]
     finite = side != 0
@@ -254,12 +300,12 @@ def _branches(loop: FloatArray, frame: Frame) -> list[Branch]:
 def _asymptote(G: FloatArray, frame: Frame) -> Asymptote | None:
     """The tangent of the cubic at its real point at infinity: (x² + y²)(l x + m y) leads, so that lies at (m, -l)."""
     (across, along), _ = _value(G, np.eye(3)[:2])
-    size = math.hypot(across, along)
-    if size < FAMILY:
+    size, turned, shifted = math.hypot(across, along), np.max(np.abs(G[:, :2, :2])), np.max(np.abs(G[:, :2, 2]))
+    if size <= FAMILY * turned**2 * shifted:
         return None
     _, line = _value(G, np.array([along, -across, 0.0]) / size)
     square = line[0] ** 2 + line[1] ** 2
-    if square < FAMILY**2:
+    if square == 0:
         return None
     foot = frame.spot(-line[2] * complex(line[0], line[1]) / square)
     angle = math.atan2(line[0], -line[1]) % math.pi

@@ -126,26 +126,21 @@ def place(vector: Num[np.ndarray, "3"]) -> tuple[complex, bool]:
     return complex(x, y) / k, True
 
 
-def still_point(places: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> complex | None:
-    """The pole of two poses, a point that does not move from one to the other: of those two that are turned most.
-
-    None where no two angles differ.
-    """
-    turns = angles[None, :] - angles[:, None]
-    i, j = np.unravel_index(np.argmax(np.abs(np.sin(turns / 2))), turns.shape)
-    turned = complex(unit(turns[i, j]))
-    if abs(1 - turned) < ANGLES:
-        return None
-    return complex((places[j] - turned * places[i]) / (1 - turned))
+def still_points(places: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> list[complex]:
+    """The poles: points that do not move from one pose to another; those of the poses that are turned most first."""
+    pairs = [(i, j) for j in range(len(angles)) for i in range(j)]
+    turned = {(i, j): complex(unit(angles[j] - angles[i])) for i, j in pairs}
+    pairs = sorted((pair for pair in pairs if abs(1 - turned[pair]) > ANGLES), key=lambda pair: -abs(1 - turned[pair]))
+    return [complex((places[j] - turned[i, j] * places[i]) / (1 - turned[i, j])) for i, j in pairs]
 
 
 def family(kind: str, places: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> ParameterError:
     """Why a task is met by more than points or a curve, as an error to raise; places in the task's frame."""
     alike, turned = FAMILIES[kind]
-    pole = still_point(places, angles)
-    if pole is None:
+    poles = still_points(places, angles)
+    if not poles:
         return ParameterError(f"{alike}: no task, or a whole family", do="give angles that differ")
-    away = places - pole
+    away = places - poles[0]
     if np.max(np.abs(away - away[0] * unit(angles - angles[0]))) < ANGLES * np.max(np.abs(away)):
         return ParameterError(f"{turned}: a whole family solves this task", do="move a point or an angle")
     return ParameterError(

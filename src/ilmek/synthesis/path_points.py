@@ -29,7 +29,7 @@ from ilmek.synthesis.burmester import (
     pair,
 )
 from ilmek.synthesis.burmester_curve import SAMPLES, BurmesterCurve, burmester_curve, curve
-from ilmek.synthesis.burmester_forms import Frame, family, homogeneous, place, require_task, still_point, timed_forms
+from ilmek.synthesis.burmester_forms import Frame, family, homogeneous, place, require_task, still_points, timed_forms
 from ilmek.synthesis.dyad import STILL, Found, arms_through_points
 from ilmek.synthesis.four_bar import FourBar
 
@@ -135,8 +135,8 @@ def timed_curve(points: ComplexArray, crank_angles: FloatArray, samples: int = S
     Its centre-point curve holds the pivots; its circle-point curve the cranks as vectors W [m] at the first point.
     """
     G, centre_frame, circle_frame = _task(points, crank_angles, 4, "timed_curve")
-    pole = still_point(centre_frame.into(points), crank_angles)
-    found = None if pole is None else curve(G, (centre_frame, circle_frame), pole, samples)
+    poles = still_points(centre_frame.into(points), crank_angles)
+    found = curve(G, (centre_frame, circle_frame), poles, samples)
     if found is None:
         raise family("timed point", circle_frame.into(points), crank_angles)
     return found
