@@ -6,7 +6,7 @@ from typing import Any
 from ilmek.carpet.knot_path import KnotDimensions, KnotPath, knot_path
 from ilmek.carpet.knot_word import knot
 from ilmek.errors import CarpetError, ParameterError
-from ilmek.machines.knotting_dyad.places import read_angles, read_points
+from ilmek.machines.places import read_angles, read_points
 from ilmek.params import Params, param
 from ilmek.synthesis.burmester_forms import require_task
 from ilmek.units import mm

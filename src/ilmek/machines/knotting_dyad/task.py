@@ -9,7 +9,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.carpet.knot_path import KnotPath
 from ilmek.errors import ParameterError
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.machines.knotting_dyad.places import read_angles, read_points
+from ilmek.machines.places import read_angles, read_points
 from ilmek.synthesis.dyad import Arms, Found, arms_through_points
 from ilmek.units import deg, format_quantity
 

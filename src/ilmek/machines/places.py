@@ -1,0 +1,110 @@
+"""Lists read from a text: points `(12mm,4mm) (18.5mm,9.5mm)`, poses `(0mm,0mm,10deg)`, angles `20deg 65deg`, bounds.
+
+Every number takes its unit, 0 alone needs none: a list of bare ones is as likely in millimetres and degrees as in SI.
+"""
+
+import re
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Complex, Float
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.errors import ParameterError, UnitError
+from ilmek.units import parse_quantity
+
+_BRACKETS = re.compile(r"\(([^()]*)\)")
+_ITEM = re.compile(r"[^\s,;]+(?:\s+(?![+\-.\d])[^\s,;]+)?")
+"""A number, and its unit after a space."""
+
+_BARE = re.compile(r"[+-]?[\d.]+(?:[eE][+-]?\d+)?")
+POINTS, ANGLES = "points are written (12mm,4mm) (18.5mm,9.5mm)", "angles are written 20deg 65deg"
+POSES, PAIRS = "poses are written (0mm,0mm,10deg) (25mm,15mm,3deg)", "pairs are written (1,0) (2,0.301)"
+BOUNDS = "bounds are written 10mm..60mm, ..60mm or 10mm.."
+
+
+class Poses(NamedTuple):
+    """Poses of a body in a list: places of one of its points [m] and its angles [rad]."""
+
+    points: Complex[np.ndarray, " poses"]
+    angles: Float[np.ndarray, " poses"]
+
+
+def read_points(name: str, text: str) -> ComplexArray:
+    """The points of a text as complex numbers [m]. Raises ParameterError where it holds anything else.
+
+    >>> read_points("points", "(1cm,4mm) (0, -2mm)").tolist()
+    [(0.01+0.004j), -0.002j]
+    """
+    return np.array([complex(*row) for row in _rows(name, text, ("mm", "mm"), "points", POINTS)])
+
+
+def read_poses(name: str, text: str) -> Poses:
+    """The poses of a text, x and y of a point and the body's angle. Raises ParameterError where it holds anything else.
+
+    >>> read_poses("poses", "(1cm,4mm,0) (0,-2mm,1rad)").angles.tolist()
+    [0.0, 1.0]
+    """
+    rows = np.array(_rows(name, text, ("mm", "mm", "deg"), "poses", POSES))
+    return Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy())
+
+
+def read_pairs(name: str, text: str) -> Float[np.ndarray, "pairs 2"]:
+    """The pairs of plain numbers of a text. Raises ParameterError where it holds anything else.
+
+    >>> read_pairs("samples", "(1, 0) (2, 0.301)").tolist()
+    [[1.0, 0.0], [2.0, 0.301]]
+    """
+    return np.array(_rows(name, text, ("", ""), "pairs", PAIRS))
+
+
+def read_angles(name: str, text: str) -> FloatArray:
+    """The angles of a text [rad]. Raises ParameterError where it holds anything else.
+
+    >>> read_angles("angles", "0, 1rad -0.5 rad").tolist()
+    [0.0, 1.0, -0.5]
+    """
+    found = _ITEM.findall(text)
+    if not found:
+        raise ParameterError(f"{name}={text!r} is no list of angles", do=ANGLES)
+    return np.array([_quantity(name, one, "deg") for one in found])
+
+
+def read_bounds(name: str, text: str, unit: str = "mm") -> tuple[float | None, float | None]:
+    """Least and most of a text like `10mm..60mm` [SI], one of them None where it is left out: `..60mm`.
+
+    Raises ParameterError where it holds anything else, or the least is above the most.
+
+    >>> read_bounds("crank", "0..60mm"), read_bounds("crank", "1cm..")
+    ((0.0, 0.06), (0.01, None))
+    """
+    ends = [part.strip() for part in text.split("..")]
+    if len(ends) != 2 or not any(ends):
+        raise ParameterError(f"{name}={text!r} is no pair of bounds", do=BOUNDS)
+    least, most = (_quantity(name, end, unit) if end else None for end in ends)
+    if least is not None and most is not None and least > most:
+        raise ParameterError(f"{name}={text}: the least is above the most", do=f"did you mean {ends[1]}..{ends[0]}?")
+    return least, most
+
+
+def _rows(name: str, text: str, units: tuple[str, ...], what: str, written: str) -> list[list[float]]:
+    """Numbers of every bracket of a list, as many as there are units, in SI."""
+    found = _BRACKETS.findall(text)
+    if not found or _BRACKETS.sub("", text).strip(" ,;"):
+        raise ParameterError(f"{name}={text!r} is no list of {what}", do=written)
+    rows = [re.split("[,;]", one) for one in found]
+    for row, one in zip(rows, found, strict=True):
+        if len(row) != len(units):
+            raise ParameterError(f"{name}: ({one}) holds {len(row)} numbers, not {len(units)}", do=written)
+    return [[_quantity(name, *item) for item in zip(row, units, strict=True)] for row in rows]
+
+
+def _quantity(name: str, text: str, unit: str) -> float:
+    """One number of a list, in SI."""
+    item = text.strip()
+    if unit and _BARE.fullmatch(item) and item.strip("+-0."):
+        raise ParameterError(f"{name}: {item} has no unit", do=f"did you mean {item}{unit}?")
+    try:
+        return parse_quantity(item, unit)
+    except UnitError as error:
+        raise ParameterError(f"{name}: {error.given}", allowed=error.allowed, do=error.do) from None
