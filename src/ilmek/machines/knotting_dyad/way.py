@@ -1,0 +1,167 @@
+"""The way of an arm: its needle always goes through the middle of the gap between two warps.
+
+Link 2 is the needle. Its line goes through the middle G of the gap at every place of the way, as if it slid in a swivel
+there: the arm moves like an oscillating block, and G, the pivot O and the elbow E are a triangle with two fixed sides,
+
+    b = |O - G|,     a1 = |E - O|,     r = |E - G| = a2 - rho,     rho = rho0 + s (rho1 - rho0),     0 <= s <= 1
+
+rho is how far the tip is beyond G, below 0 in front of the warps; it grows evenly with the parameter s. So with the
+angles psi of the triangle at G and chi at O,
+
+    cos psi = (r + (b² - a1²)/r) / 2b           E - G = r exp(i (arg(O - G) + side psi)),    th2 = arg(G - E)
+    cos chi = (a1² + b² - r²) / 2 a1 b          E - O = a1 exp(i (arg(G - O) - side chi)),   th1 = arg(E - O)
+
+and the tip P = G + (r - a2) (E - G)/r. All of it is analytic in s as long as the triangle is one, and that it is as
+long as the arm is bent: links 1 and 2 in one line are the dead points of the arm and of the triangle alike. With
+c = cos psi, S = sin psi the derivatives by s follow from c' = -S psi' and so on:
+
+    psi' = -c'/S      psi'' = -(c'' + c psi'²)/S      psi''' = -(c''' + 3 c psi' psi'' - S psi'³)/S
+
+[the swivel's loop closure; e.g. Hain, Applied Kinematics, 1967, oscillating block]
+"""
+
+import math
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from jaxtyping import Float
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.plane.vectors import unit
+
+Jet: TypeAlias = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
+"""A function's values and its first to third derivatives by s."""
+
+
+@dataclass(frozen=True, slots=True)
+class ArmWay:
+    """Joint angles along an arm's way, and their derivatives by the way's parameter s.
+
+    s      0: at rest in front of the warps, 1: at the hand-over behind them; the arm goes out and back the same way
+    theta  angles of the first and second link, absolute [rad], without jumps; the elbow's angle is their difference
+    first, second, third  derivatives of theta by s [rad]
+    """
+
+    s: Float[np.ndarray, " n"]
+    theta: Float[np.ndarray, "n 2"]
+    first: Float[np.ndarray, "n 2"]
+    second: Float[np.ndarray, "n 2"]
+    third: Float[np.ndarray, "n 2"]
+
+
+@dataclass(frozen=True, slots=True)
+class Arm:
+    """The left arm and its way; the right one is its mirror image (`mirrored_way`).
+
+    pivot   O [m]             first, second  links a1, a2 [m], both above 0
+    gap     G [m]             side           of the elbow: +1 left of the line from the gap to the pivot, -1 right
+    begin   rho0 [m], below 0           end  rho1 [m]
+    """
+
+    pivot: complex
+    first: float
+    second: float
+    gap: complex
+    side: int
+    begin: float
+    end: float
+
+    @property
+    def base(self) -> float:
+        """Distance b of the pivot from the gap [m]."""
+        return abs(self.pivot - self.gap)
+
+    @property
+    def stroke(self) -> float:
+        """Length of the way along the needle [m]."""
+        return self.end - self.begin
+
+    def beyond(self, s: FloatArray) -> FloatArray:
+        """How far the tip is beyond the gap's middle [m], rho."""
+        return np.asarray(self.begin + s * self.stroke)
+
+    def elbow(self, s: FloatArray) -> ComplexArray:
+        """Places of the elbow [m]; NaN where the arm cannot be."""
+        return np.asarray(self.pivot + self.first * unit(self._first(s)[0]))
+
+    def tip(self, s: FloatArray) -> ComplexArray:
+        """Places of the needle's tip [m]; NaN where the arm cannot be."""
+        return np.asarray(self.gap + self.beyond(s) * unit(self._second(s)[0]))
+
+    def tilt(self, s: FloatArray) -> FloatArray:
+        """Angle of the needle from upright [rad], positive where the tip is farther right than the elbow."""
+        return np.asarray((self._second(s)[0] + 3 * np.pi / 2) % (2 * np.pi) - np.pi)
+
+    @property
+    def bend(self) -> float:
+        """Least |sin| of the angle between the links on the way, -1 where the arm cannot be everywhere on it.
+
+        cos = (r + (a1² - b²)/r) / 2 a1 grows with r, or is positive with one minimum: the greatest |cos| is at an end.
+        """
+        r = self.second - np.array([self.begin, self.end])
+        if np.min(r) <= 0:
+            return -1.0
+        cosine = float(np.max(np.abs(r + (self.first**2 - self.base**2) / r))) / (2 * self.first)
+        return math.sqrt(1 - cosine**2) if cosine <= 1 else -1.0
+
+    @property
+    def turn_bound(self) -> float:
+        """Bound of |d th2 / ds| on the way [rad]: |b c'| / (a1 sin bend), c' greatest at an end."""
+        r = self.second - np.array([self.begin, self.end])
+        slope = float(np.max(np.abs(1 - (self.base**2 - self.first**2) / r**2))) / 2
+        return self.stroke * slope / (self.first * self.bend)
+
+    @property
+    def speed_bound(self) -> float:
+        """Bound of |dz/ds| of every point of both links [m]: along the needle, and about the gap."""
+        far = max(self.second - self.begin, self.end)
+        return math.hypot(self.stroke, far * self.turn_bound)
+
+    def way(self, s: Float[np.ndarray, " n"]) -> ArmWay:
+        """Joint angles and their derivatives at values of s."""
+        both = zip(self._first(s), self._second(s), strict=True)
+        return ArmWay(s, *(np.stack(np.broadcast_arrays(*pair), axis=-1) for pair in both))
+
+    def _first(self, s: FloatArray) -> Jet:
+        """th1 and its derivatives."""
+        r, fall, double = self.second - self.beyond(s), -self.stroke, 2 * self.first * self.base
+        cosine = (self.first**2 + self.base**2 - r**2) / double, -2 * r * fall / double
+        jet = _arccosine((*cosine, np.full_like(r, -2 * fall**2 / double), np.zeros_like(r)))
+        return _turned(jet, float(np.angle(self.gap - self.pivot)), -self.side)
+
+    def _second(self, s: FloatArray) -> Jet:
+        """th2 and its derivatives."""
+        r, fall, excess = self.second - self.beyond(s), -self.stroke, self.base**2 - self.first**2
+        cosine = (
+            (r + excess / r) / (2 * self.base),
+            fall * (1 - excess / r**2) / (2 * self.base),
+            fall**2 * excess / (self.base * r**3),
+            -3 * fall**3 * excess / (self.base * r**4),
+        )
+        return _turned(_arccosine(cosine), float(np.angle(self.gap - self.pivot)), self.side)
+
+
+def mirrored_way(way: ArmWay) -> ArmWay:
+    """The mirror image of a way about an upright line: theta becomes pi - theta.
+
+    >>> zero = np.zeros((1, 2))
+    >>> mirrored_way(ArmWay(np.zeros(1), zero, zero + 1, zero, zero)).theta.round(3).tolist()
+    [[3.142, 3.142]]
+    """
+    return ArmWay(way.s, np.pi - way.theta, -way.first, -way.second, -way.third)
+
+
+def _arccosine(cosine: Jet) -> Jet:
+    """The arc cosine of a jet; NaN beyond ±1."""
+    c, c1, c2, c3 = cosine
+    with np.errstate(invalid="ignore", divide="ignore"):
+        S = np.sqrt(1 - c**2)
+        one = -c1 / S
+        two = -(c2 + c * one**2) / S
+        return np.arccos(c), one, two, -(c3 + 3 * c * one * two - S * one**3) / S
+
+
+def _turned(jet: Jet, angle: float, side: int) -> Jet:
+    value, one, two, three = (side * part for part in jet)
+    return angle + value, one, two, three
