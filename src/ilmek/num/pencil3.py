@@ -27,18 +27,18 @@ POLISHED = 3
 
 
 class Roots(NamedTuple):
-    """The three roots of each pencil.
+    """The n roots of each pencil of n x n matrices.
 
     numerator, denominator  x and k of x : k = root, x² + k² = 1
     vectors  unit v with (k A + x B) v = 0          real  whether the root is real; the others hold no meaning
     alone    False where v is not the only one      free  the pencil is singular for every x: it has no roots
     """
 
-    numerator: Float[np.ndarray, "*batch 3"]
-    denominator: Float[np.ndarray, "*batch 3"]
-    vectors: Float[np.ndarray, "*batch 3 3"]
-    real: Bool[np.ndarray, "*batch 3"]
-    alone: Bool[np.ndarray, "*batch 3"]
+    numerator: Float[np.ndarray, "*batch n"]
+    denominator: Float[np.ndarray, "*batch n"]
+    vectors: Float[np.ndarray, "*batch n n"]
+    real: Bool[np.ndarray, "*batch n"]
+    alone: Bool[np.ndarray, "*batch n"]
     free: Bool[np.ndarray, "*batch"]
 
 

@@ -4,8 +4,8 @@
 
 Pivot O = a0 e^{i th0}, first link a1, second link a2, p its end; all angles absolute. Where the equation of place 1 is
 taken from the others, both tasks are pencils (A + x B) v = 0 in one length x: all solutions at once, no starting
-values, and none of the divisions at which the elimination by hand breaks down. Timed points are solved by the batch,
-one task like a hundred thousand: `arms_through_points`.
+values, and none of the divisions at which the elimination by hand breaks down. Both are solved by the batch, one task
+like a hundred thousand, and every root says what it is: `arms_through_poses`, `arms_through_points`.
 
 [thesis 2.1.3, there by superposition, with misprints that `ilmek reproduce --paper thesis` names; knotting report, 2]
 """
@@ -17,12 +17,13 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Complex, Float, Int8
 
-from ilmek.arrays import ComplexArray, FloatArray, RealField
+from ilmek.arrays import BoolArray, ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.errors import ParameterError
-from ilmek.num.pencil import Root, real_roots
+from ilmek.num.pencil2 import roots2
 from ilmek.num.pencil3 import Roots, roots3
-from ilmek.plane.vectors import dot, unit
+from ilmek.plane.vectors import cross, dot, unit
 from ilmek.synthesis.burmester_forms import FAR, require_task, timed_forms
+from ilmek.synthesis.task import require_angles
 
 BLOCK = 4096
 """Tasks that are solved together: more would not stay in the cache."""
@@ -30,9 +31,6 @@ BLOCK = 4096
 
 STILL = 1e-11
 """Length of the first link, in sizes of the path, below which it is rounding."""
-
-FAMILY = 1e-9
-"""Singular value of the task's pencil, in units of the path, that leaves a length free."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,37 +73,8 @@ class Lengths(NamedTuple):
     rocker: float
 
 
-def dyads_through_poses(
-    points: Complex[np.ndarray, "3"], second_angles: Float[np.ndarray, "3"], ground_angle: float
-) -> tuple[Dyad, ...]:
-    """All arms through three poses of the second link with the pivot on the ray of `ground_angle`: none, 1 or 2.
-
-        a2 (f3 - a0 F) + f4 + a0 f2 = const
-        f2 = 2 p · e0,   f3 = 2 p · e2,   f4 = -|p|²,   F = 2 cos(th2 - th0)
-
-    `first` is positive, ground and second carry signs. Sorted by ground. Two arms together are a four-bar whose coupler
-    takes the poses: `four_bar`. Raises ParameterError where the poses are no task: not finite, all in one place, or so
-    placed that a whole family of arms takes them.                        [knotting report, 2, with F's bracket mended]
-    """
-    _, size = _frame(points, second_angles)
-    # The ray starts at the world's origin, which must stay; lengths are scaled.
-    p, e0, e2 = points / size, np.exp(1j * ground_angle), np.exp(1j * second_angles)
-    of_ground, of_second = 2 * dot(p, e0), 2 * dot(p, e2)
-    of_both, known = 2 * dot(e2, e0), -dot(p, p)
-    A = np.stack([_less_first(of_second), _less_first(known)], axis=-1)
-    B = np.stack([_less_first(-of_both), _less_first(of_ground)], axis=-1)
-    found = []
-    for ground, (second, one) in _roots(A, B):
-        if abs(one) * FAR < abs(second) or abs(ground) > FAR:
-            continue
-        pivot, a2 = ground * e0, second / one
-        first = abs(p[0] - pivot - a2 * e2[0])
-        found.append(Dyad(complex(pivot * size), ground * size, float(first) * size, float(a2) * size))
-    return tuple(found)
-
-
 class Found(IntEnum):
-    """What a root of the four-point task is."""
+    """What a root of a task is, of four timed points or of three poses."""
 
     ARM = 0
     COMPLEX = 1
@@ -114,6 +83,8 @@ class Found(IntEnum):
     LINE = 4
     LONG = 5
     FAMILY = 6
+    FAR_ELBOW = 7
+    FAR_BOTH = 8
 
     @property
     def words(self) -> str:
@@ -129,7 +100,97 @@ WORDS = {
     Found.LINE: "the points lie on a line: the pivot is infinitely far and the first link has no length",
     Found.LONG: "both links are infinitely long",
     Found.FAMILY: "a whole family of arms solves this task, or no task was given",
+    Found.FAR_ELBOW: "the elbow is infinitely far: a line of the second link would slide through the pivot",
+    Found.FAR_BOTH: "pivot and elbow are infinitely far: the second link keeps its angle to the ground ray",
 }
+
+
+@dataclass(frozen=True, slots=True)
+class PoseArms:
+    """Both roots of three-pose tasks, in the order of `ground`; what they are is in `found`.
+
+    pivot   O [m], complex; of a pivot infinitely far the direction of the ray, a unit vector
+    ground, second  a0, a2 [m] with their signs; infinite where they are, NaN where there is no real arm, and where any
+            will do        first  a1 [m], 0 or more
+    found   `Found` of each
+    """
+
+    pivot: Complex[np.ndarray, "*batch 2"]
+    ground: Float[np.ndarray, "*batch 2"]
+    first: Float[np.ndarray, "*batch 2"]
+    second: Float[np.ndarray, "*batch 2"]
+    found: Int8[np.ndarray, "*batch 2"]
+
+
+def arms_through_poses(
+    points: Complex[np.ndarray, "*batch 3"],
+    second_angles: Float[np.ndarray, "*batch 3"],
+    ground_angle: RealField,
+    start: ComplexField = 0j,
+) -> PoseArms:
+    """All arms through three poses of the second link with the pivot on a ray: any batch of tasks, two roots each.
+
+        a2 (f3 - a0 F) + f4 + a0 f2 = const
+        f2 = 2 p · e0,   f3 = 2 p · e2,   f4 = -|p|²,   F = 2 cos(th2 - th0)
+
+    points [m]  of the second link's end      second_angles, ground_angle [rad]      start [m]  where the ray begins
+    The origin is put on the ray where it is nearest to the first point. Never raises for a task: a bad one is told in
+    `found`.                                                          [knotting report, 2, with F's bracket mended]
+
+    >>> along = arms_through_poses(np.array([0, 3 + 0j, 5 + 0j]), np.array([0.0, 0.4, -0.2]), np.pi / 2)
+    >>> [Found(int(one)).name for one in along.found], along.ground.round(9).tolist()  # p itself goes along x
+    (['ARM', 'FAR_PIVOT'], [2.167450549, inf])
+    """
+    finite = np.isfinite(points).all(axis=-1) & np.isfinite(second_angles).all(axis=-1) & np.isfinite(ground_angle)
+    usable = np.asarray(finite)
+    angles = np.where(usable[..., None], second_angles, 0)
+    moved = np.where(usable[..., None], points - points[..., :1], 0)
+    e0, e2 = np.asarray(unit(np.where(usable, ground_angle, 0))), np.asarray(unit(angles))
+    first = np.where(usable, points[..., 0] - start, 0)
+    aside = 1j * e0 * cross(e0, first)
+    size = np.maximum(np.max(np.abs(moved), axis=-1), np.abs(aside))
+    size = np.where(size > 0, size, 1.0)
+    q = (moved + aside[..., None]) / size[..., None]
+    roots = roots2(*_pose_pencil(q, moved / size[..., None], e0[..., None], e2))
+    found = _told_poses(roots, usable)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        along, second = roots.numerator / roots.denominator, roots.vectors[..., 0] / roots.vectors[..., 1]
+    far = np.isin(found, (Found.FAR_PIVOT, Found.FAR_BOTH))
+    none = np.isin(found, (Found.COMPLEX, Found.FAMILY))
+    second = np.where(np.isin(found, (Found.FAR_ELBOW, Found.FAR_BOTH)), np.inf, second)
+    second = np.where(none | (far & ~roots.alone), np.nan, second)
+    scale, foot, arm = size[..., None], np.asarray(dot(e0, first))[..., None], found == Found.ARM
+    with np.errstate(invalid="ignore"):
+        reach = np.abs(q[..., :1] - along * e0[..., None] - second * e2[..., :1])
+        length = np.where(arm, reach, np.where(none, np.nan, np.inf))
+        ground = np.where(none, np.nan, np.where(far, np.inf, along * scale + foot))
+        pivot = np.where(far, e0[..., None], np.asarray(start)[..., None] + ground * e0[..., None])
+    pivot = np.where(none, np.nan, pivot)
+    order = np.argsort(ground, axis=-1)  # infinite and NaN come last
+    parts = pivot, ground, length * scale, second * scale, found
+    return PoseArms(*(np.take_along_axis(one, order, axis=-1) for one in parts))
+
+
+def dyads_through_poses(
+    points: Complex[np.ndarray, "3"], second_angles: Float[np.ndarray, "3"], ground_angle: float, start: complex = 0j
+) -> tuple[Dyad, ...]:
+    """All arms through three poses of the second link with the pivot on the ray of `ground_angle`: none, 1 or 2.
+
+    `arms_through_poses` of one task. `first` is positive, ground and second carry signs. Sorted by ground. What is no
+    arm of finite links is left out here and said there. Two arms together are a four-bar whose coupler takes the poses:
+    `four_bar`. Raises ParameterError where the poses are no task: not finite, angles in degrees, all in one place, or
+    so placed that a whole family of arms takes them.
+    """
+    _frame(points, second_angles)
+    require_angles("angle of the second link", second_angles)
+    arms = arms_through_poses(points, second_angles, ground_angle, start)
+    if np.any(arms.found == Found.FAMILY):
+        raise _family()
+    return tuple(
+        Dyad(complex(pivot), float(ground), float(first), float(second))
+        for pivot, ground, first, second, found in zip(*_each(arms), strict=True)
+        if found == Found.ARM
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,12 +256,6 @@ def four_bar(one: Dyad, other: Dyad) -> Lengths:
     return Lengths(abs(other.pivot - one.pivot), abs(one.first), abs(other.second - one.second), abs(other.first))
 
 
-def _less_first(values: RealField) -> FloatArray:
-    """Each value but the first, minus the first."""
-    numbers = np.asarray(values)
-    return np.asarray(numbers[1:] - numbers[0])
-
-
 def _frame(points: ComplexArray, angles: FloatArray) -> tuple[complex, float]:
     """The first point and the size of the path: the frame in which the numbers are near 1."""
     if not (np.isfinite(points).all() and np.isfinite(angles).all()):
@@ -211,14 +266,41 @@ def _frame(points: ComplexArray, angles: FloatArray) -> tuple[complex, float]:
     return origin, size
 
 
-def _roots(A: FloatArray, B: FloatArray) -> tuple[Root, ...]:
-    """The real roots of the task's pencil; ParameterError where every length solves it, or one length in many ways."""
-    found = real_roots(A, B)
-    probes = (0.6180339887, *(root.value for root in found))  # the first is a root by chance only
-    ranks = [int(np.linalg.matrix_rank(A + x * B, tol=FAMILY * max(1.0, abs(x)))) for x in probes]
-    if ranks[0] < len(A) or any(rank < len(A) - 1 for rank in ranks):
-        raise _family()
-    return found
+def _each(arms: PoseArms) -> tuple[np.ndarray, ...]:
+    """Pivots, grounds, first and second links, and what they are."""
+    return arms.pivot, arms.ground, arms.first, arms.second, arms.found
+
+
+def _pose_pencil(
+    q: Complex[np.ndarray, "*batch 3"],
+    moved: Complex[np.ndarray, "*batch 3"],
+    e0: Complex[np.ndarray, "*batch 1"],
+    e2: Complex[np.ndarray, "*batch 3"],
+) -> tuple[Float[np.ndarray, "*batch 2 2"], Float[np.ndarray, "*batch 2 2"]]:
+    """A and B of (A + a0 B) (a2, 1)^T = 0: poses 2 and 3 less the first; `moved` are the places since the first."""
+    known = -np.asarray(dot(moved[..., 1:], q[..., 1:] + q[..., :1]))
+    of_second = np.asarray(dot(q, e2))
+    A = np.stack([2 * (of_second[..., 1:] - of_second[..., :1]), known], axis=-1)
+    B = np.stack(
+        [-2 * np.asarray(dot(e0, e2[..., 1:] - e2[..., :1])), 2 * np.asarray(dot(e0, moved[..., 1:]))], axis=-1
+    )
+    return A, B
+
+
+def _told_poses(roots: Roots, usable: BoolArray) -> Int8[np.ndarray, "*batch 2"]:
+    """What each root of a three-pose task is."""
+    x, k, vectors = roots.numerator, roots.denominator, roots.vectors
+    far = np.abs(k) * FAR <= np.abs(x)
+    straight = roots.alone & (np.abs(vectors[..., 1]) * FAR <= np.abs(vectors[..., 0]))
+    told = [
+        ((roots.free | ~usable)[..., None] | np.zeros_like(far), Found.FAMILY),
+        (~roots.real, Found.COMPLEX),
+        (far & straight, Found.FAR_BOTH),
+        (far, Found.FAR_PIVOT),
+        (~roots.alone, Found.FAMILY),
+        (straight, Found.FAR_ELBOW),
+    ]
+    return np.select([case for case, _ in told], [value for _, value in told], Found.ARM).astype(np.int8)
 
 
 def _family() -> ParameterError:
