@@ -18,45 +18,11 @@ from ilmek.synthesis.crank_rocker import (
 )
 from ilmek.synthesis.crank_rocker_selection import member
 from ilmek.units import deg
+from ilmek.verification.beat_up_table import PRINTED
 
 SWING = 30 * deg
 
-# Table 1 as printed: beta [deg], a, b, c, r/l, mu_min [deg], under phi [deg].
-TABLE_1 = {
-    120: """75 0.2588 0.2588 1 1.00 0
-            72 0.2449 0.2720 0.9735 0.90 4.33
-            70 0.2353 0.2804 0.9556 0.84 4.66
-            67 0.2203 0.2923 0.9285 0.75 4.13
-            64 0.2047 0.3034 0.9015 0.67 2.78
-            60 0.1830 0.3170 0.8660 0.58 0""",
-    160: """70 0.2473 0.3062 0.9632 0.81 25.08
-            65 0.2340 0.3513 0.9208 0.67 31.53
-            57 0.2089 0.4177 0.8427 0.5 34.97
-            55 0.2019 0.4331 0.8225 0.47 35.06
-            53 0.1948 0.4479 0.7997 0.43 34.92
-            43 0.1555 0.5136 0.6848 0.30 31.08
-            35 0.1207 0.5550 0.5912 0.22 24.27
-            30 0.0977 0.5755 0.5359 0.17 18.04""",
-    180: """70 0.2518 0.3420 0.9728 0.74 40.82
-            67 0.2467 0.3907 0.9530 0.63 48.52
-            55 0.2195 0.5736 0.8481 0.38 63.18
-            50 0.2053 0.6428 0.7931 0.32 66.26
-            48 0.1991 0.6691 0.7694 0.30 67.24
-            47 0.1960 0.6820 0.7572 0.29 67.70
-            40 0.1722 0.7660 0.6655 0.22 70.25
-            35 0.1537 0.8192 0.5940 0.19 71.58
-            10 0.0465 0.9848 0.1798 0.05 74.76""",
-    200: """70 0.2559 0.5157 1.0332 0.50 42.97
-            67 0.2532 0.6680 1.0624 0.38 44.23
-            66 0.2521 0.7184 1.0735 0.35 44.02
-            60 0.2441 1.0157 1.1521 0.24 40.20
-            50 0.2250 1.4848 1.3135 0.15 31.40
-            40 0.1990 1.9088 1.4878 0.10 23.33
-            30 0.1670 2.2749 1.6533 0.07 16.44
-            25 0.1490 2.4326 1.7278 0.06 13.36
-            10 0.0889 2.7905 1.9025 0.03 05.07""",
-    210: "75 0.2589 0.5708 1.122 0.45 36.06",
-}
+# Table 1 as printed, under phi [deg]: beta [deg] and these.
 COLUMNS = ("a", "b", "c", "r/l", "mu")
 
 # Cells that differ from the printed value by more than half a unit of the last digit, with the right value.
@@ -73,7 +39,7 @@ WRONG = {(160, 55, "c"): 0.821450, (180, 35, "c"): 0.593810}  # misprints of 0.8
 
 
 def table_1() -> list[tuple[tuple[int, int, str], str]]:
-    rows = ((phi, line.split()) for phi, text in TABLE_1.items() for line in text.splitlines())
+    rows = ((phi, line.split()) for phi, text in PRINTED.items() for line in text.splitlines())
     return [
         ((phi, int(beta), name), text)
         for phi, (beta, *cells) in rows
@@ -101,7 +67,7 @@ def units_of_last_digit(cell: tuple[int, int, str], printed: str) -> float:
 
 
 def test_table_1_has_33_rows_where_the_paper_counts_32() -> None:
-    assert [len(text.splitlines()) for text in TABLE_1.values()] == [6, 8, 9, 9, 1]
+    assert [len(text.splitlines()) for text in PRINTED.values()] == [6, 8, 9, 9, 1]
     assert len(table_1()) == 165
 
 
@@ -165,11 +131,11 @@ def test_eqs_10_to_14_of_the_linkage_with_a_free_coupler() -> None:
 
 
 # Section 2.1.4 prints the lengths to a tenth of a millimetre; the peaks below are for these.
-PRINTED = {"crank": "59.7mm", "coupler": "200.7mm", "rocker": "230.8mm", "beater": "300.1mm"}
+LENGTHS = {"crank": "59.7mm", "coupler": "200.7mm", "rocker": "230.8mm", "beater": "300.1mm"}
 
 
 def printed(**settings: str) -> BeatUp:
-    return design(BeatUpParams.read({**PRINTED, **settings}))
+    return design(BeatUpParams.read({**LENGTHS, **settings}))
 
 
 def test_lengths_of_the_selected_linkage() -> None:

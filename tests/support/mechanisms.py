@@ -57,15 +57,15 @@ def quick_return() -> Mechanism:
     )
 
 
-def two_motors() -> Mechanism:
-    """Two cranks, each with its motor, carry a dyad."""
+def two_motors(left: float = 0.4, right: float = 0.3, one: float = 0.9, two: float = 0.8) -> Mechanism:
+    """Two cranks, each with its motor, carry a dyad: a five-bar of the given lengths on a ground of 1."""
     return Mechanism(
         bodies=(
             Body(GROUND, {"A0": 0, "B0": 1.0}),
-            Body("left", {"A0": 0, "A": 0.4}),
-            Body("right", {"B0": 0, "B": 0.3}),
-            Body("one", {"A": 0, "C": 0.9}),
-            Body("two", {"B": 0, "C": 0.8}),
+            Body("left", {"A0": 0, "A": left}),
+            Body("right", {"B0": 0, "B": right}),
+            Body("one", {"A": 0, "C": one}),
+            Body("two", {"B": 0, "C": two}),
         ),
         joints=(
             Pin("A0", GROUND, "left"),

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from mechanisms import two_motors
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
@@ -17,24 +18,11 @@ TURN = np.arange(128) * (2 * np.pi / 128)
 
 def geared_five_bar(ratio=-1.0, first_at=0.0, second_at=np.pi, kind="gears") -> Mechanism:
     """Two cranks geared to one another drive a dyad."""
-    return Mechanism(
-        bodies=(
-            Body(GROUND, {"A0": 0, "B0": 1}),
-            Body("left", {"A0": 0, "A": 0.3}),
-            Body("right", {"B0": 0, "B": 0.3}),
-            Body("one", {"A": 0, "P": 0.9}),
-            Body("two", {"B": 0, "P": 0.9}),
-        ),
-        joints=(
-            Pin("A0", GROUND, "left"),
-            Pin("B0", GROUND, "right"),
-            Pin("A", "left", "one"),
-            Pin("B", "right", "two"),
-            Pin("P", "one", "two"),
-        ),
+    return dataclasses.replace(
+        two_motors(0.3, 0.3, 0.9, 0.9),
         inputs=(Rotation("left", "A0"),),
-        branches={"P": +1},
         couplings=(Coupling("mesh", kind, ("left", "A0"), ("right", "B0"), ratio, first_at, second_at),),
+        name="geared five-bar",
     )
 
 
@@ -77,10 +65,10 @@ def test_two_sided_mechanism_is_one_model_with_one_input():
     assert [step.words for step in planned.steps] == [
         "left turned by the input on ground",
         "right driven by left through mesh",
-        "one and two joined at P (branch +1), hung on left and right: RRR",
+        "one and two joined at C (branch +1), hung on left and right: RRR",
     ]
     motion = solve(planned, TURN, 2.0, 3.0).require()
-    np.testing.assert_allclose(motion.point("two", "P").position.real, 0.5, atol=1e-14)  # the mirror line
+    np.testing.assert_allclose(motion.point("two", "C").position.real, 0.5, atol=1e-14)  # the mirror line
     np.testing.assert_allclose(motion.direction("right"), np.exp(1j * (np.pi - TURN)), atol=1e-14)
     assert set(motion.omega("right")) == {-2.0}
     assert set(motion.alpha("right")) == {-3.0}
@@ -93,10 +81,10 @@ def test_full_turns_are_counted_and_closed_form_is_newton(ratio, turns):
     angle = np.linspace(0, 2 * np.pi * turns, 97)
     motion = solve(plan(mechanism), angle, 1.5, 0.5).require()
     np.testing.assert_allclose(motion.direction("right"), np.exp(1j * (1.1 + ratio * (angle - 0.2))), atol=1e-13)
-    np.testing.assert_allclose(motion.point("one", "P").position[0], motion.point("one", "P").position[-1], atol=1e-12)
+    np.testing.assert_allclose(motion.point("one", "C").position[0], motion.point("one", "C").position[-1], atol=1e-12)
     found = solve(plan(by_newton(mechanism), closed_forms=False), angle[:50:7], 1.5, 0.5).require()
     for field in ("position", "velocity", "acceleration"):
-        ours, theirs = (getattr(one.point("two", "P"), field) for one in (motion, found))
+        ours, theirs = (getattr(one.point("two", "C"), field) for one in (motion, found))
         ours = ours[:50:7]
         np.testing.assert_allclose(ours, theirs, atol=1e-10 * max(1.0, np.abs(ours).max()))
 
@@ -195,12 +183,12 @@ def mesh(**changes) -> Coupling:
 @pytest.mark.parametrize(
     ("coupling", "said"),
     [
-        (mesh(ratio=0.0), "coupling 'mesh' of mechanism has ratio 0"),
+        (mesh(ratio=0.0), "coupling 'mesh' of geared five-bar has ratio 0"),
         (mesh(ratio=float("nan")), "finite numbers, the ratio not 0"),
         (mesh(second_at=float("inf")), "assembled at 0 and inf"),
         (mesh(kind="worm"), "is of kind 'worm'; gears, belt, rack"),
         (mesh(first=("lft", "A0")), "has no body 'lft'"),
-        (mesh(first=("left", "Q")), "body 'left' of mechanism has no point 'Q'"),
+        (mesh(first=("left", "Q")), "body 'left' of geared five-bar has no point 'Q'"),
         (mesh(second=("left", "A0")), "joins left, left, ground; three different bodies"),
         (mesh(carrier="arm"), "has no body 'arm'"),
         (mesh(kind="rack"), "wants a slide 'B0' of 'right' on 'ground'; it is a pin of ground, right"),
