@@ -40,12 +40,16 @@ def at_least(name: str, value: float, limit: float, unit: str, source: str) -> C
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """A number (or text, or group of them) that a design answers with; `name` is stable and documented."""
+    """A number (or text, or group of them) that a design answers with; `name` is stable and documented.
+
+    shown  False: for the JSON alone, where a table shows it better to a reader
+    """
 
     name: str
     value: Json
     unit: str
     meaning: str
+    shown: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,12 +63,16 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Rows of SI numbers and texts under columns."""
+    """Rows of SI numbers and texts under columns.
+
+    brief  True: short, and worth being shown on a terminal too
+    """
 
     name: str
     title: str
     columns: tuple[Column, ...]
     rows: tuple[tuple[float | int | str, ...], ...]
+    brief: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,5 +1,6 @@
 """`ilmek design`: one machine, designed from its parameters and reported."""
 
+import math
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -10,8 +11,8 @@ from ilmek.cli.terminal import check_json, console, give_json, note, passed, sho
 from ilmek.errors import ParameterError
 from ilmek.io.output import check_file, write_whole
 from ilmek.machines import find_machine
-from ilmek.report import Report, Result
-from ilmek.units import format_quantity
+from ilmek.report import Column, Report, Result, Table
+from ilmek.units import format_number, format_quantity, from_si, printed_unit
 from ilmek.viz.page import machine_page
 
 EXAMPLES = """\b
@@ -64,12 +65,38 @@ def read_settings(settings: Iterable[str]) -> dict[str, str]:
 
 
 def show_report(report: Report) -> None:
-    """Results and checks as tables."""
+    """Results, the tables that are brief, and checks."""
     console().print(report.title)
-    show_table(("result", "value", "meaning"), [(r.name, _shown(r), r.meaning) for r in report.results], right=(1,))
+    shown = [(r.name, _shown(r), r.meaning) for r in report.results if r.shown]
+    show_table(("result", "value", "meaning"), shown, right=(1,))
+    more = [result.name for result in report.results if not result.shown]
+    if more:
+        console().print(f"with --json also: {', '.join(more)}")
+    for table in report.tables:
+        if table.brief:
+            _show(table)
     if report.checks:
         show_checks(report.checks)
         console().print(f"checks: {passed(report.checks)}")
+
+
+def _show(table: Table) -> None:
+    """A table of the report, its numbers in the units of their columns."""
+    console().print(table.title)
+    units = [printed_unit(column.unit) for column in table.columns]
+    headings = [
+        f"{column.heading} ({unit})" if unit else column.heading
+        for column, unit in zip(table.columns, units, strict=True)
+    ]
+    rows = [[_cell(cell, column) for cell, column in zip(row, table.columns, strict=True)] for row in table.rows]
+    show_table(headings, rows)
+
+
+def _cell(cell: float | int | str, column: Column) -> str:
+    """A cell without its unit, which the heading has."""
+    if isinstance(cell, str):
+        return cell
+    return format_number(from_si(cell, column.unit), column.digits) if math.isfinite(cell) else "–"
 
 
 def _shown(result: Result) -> str:
@@ -82,6 +109,8 @@ def _value(value: object, unit: str) -> str:
         return {True: "yes", False: "no", None: "–"}[value]
     if isinstance(value, int | float):
         return format_quantity(value, unit)
+    if isinstance(value, list | tuple | dict) and not value:
+        return "none"
     if isinstance(value, dict):
         return "\n".join(f"{name} {_value(item, unit)}" for name, item in value.items())
     if isinstance(value, list | tuple):

@@ -2,7 +2,7 @@
 
 A kernel is compiled when it is first called and kept in the user's cache folder (`ilmek.num.compiled`); the drawing
 library makes its list of fonts on its first drawing. This weaves a carpet of a few knots into a folder that is thrown
-away, so that the first real job does not wait for either.
+away, and searches a four-bar for a path, so that the first real job does not wait for either.
 """
 
 import tempfile
@@ -15,10 +15,12 @@ from ilmek.io.programme_file import open_programme
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import weave
+from ilmek.machines.path_four_bar import PathFourBarParams, design
 
 
 def warm() -> float:
-    """Weave 16 x 16 knots of noise; the weaving time [s]."""
+    """Search one path, weave 16 x 16 knots of noise; the weaving time [s]."""
+    design(PathFourBarParams(starts=1))
     noise = np.random.default_rng(1).integers(0, 256, (24, 24, 3), dtype=np.uint8)
     with tempfile.TemporaryDirectory() as folder:
         picture, out = Path(folder) / "noise.png", Path(folder) / "out"

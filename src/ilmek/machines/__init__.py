@@ -8,6 +8,7 @@ from ilmek.machines.beat_up import MACHINE as BEAT_UP
 from ilmek.machines.knotting_dyad import MACHINE as KNOTTING_DYAD
 from ilmek.machines.knotting_four_bar import MACHINE as KNOTTING_FOUR_BAR
 from ilmek.machines.machine import Machine
+from ilmek.machines.path_four_bar import MACHINE as PATH_FOUR_BAR
 from ilmek.machines.shedding import MACHINE as SHEDDING
 from ilmek.machines.tufting import MACHINE as TUFTING
 from ilmek.machines.warp_tension import MACHINE as WARP_TENSION
@@ -15,7 +16,17 @@ from ilmek.machines.weaver import MACHINE as WEAVER
 
 MACHINES: dict[str, Machine] = {
     machine.name: machine
-    for machine in (AUTOMATED_LOOM, WEAVER, BEAT_UP, SHEDDING, WARP_TENSION, TUFTING, KNOTTING_FOUR_BAR, KNOTTING_DYAD)
+    for machine in (
+        AUTOMATED_LOOM,
+        WEAVER,
+        BEAT_UP,
+        SHEDDING,
+        WARP_TENSION,
+        TUFTING,
+        KNOTTING_FOUR_BAR,
+        KNOTTING_DYAD,
+        PATH_FOUR_BAR,
+    )
 }
 """Every machine by its name, in the order of the catalogue."""
 

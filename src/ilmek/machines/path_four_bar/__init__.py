@@ -1,0 +1,20 @@
+"""A four-bar for a path: its tracer goes through points, as near as can be, or exactly at given crank angles.
+
+Any 4 to 200 points are searched for the nearest four-bars within limits; 3 to 5 points at given crank angles are also
+met exactly, by all four-bars that do.
+"""
+
+from ilmek.machines.machine import Machine
+from ilmek.machines.path_four_bar.design import PathFourBar, design
+from ilmek.machines.path_four_bar.params import PathFourBarParams
+from ilmek.machines.path_four_bar.report import report
+
+__all__ = ["MACHINE", "PathFourBar", "PathFourBarParams", "design", "report"]
+
+MACHINE = Machine(
+    name="path-four-bar",
+    summary="four-bars whose coupler point goes through points of yours, the nearest within limits or all exact ones",
+    params=PathFourBarParams,
+    design=design,
+    report=report,
+)

@@ -1,0 +1,166 @@
+"""What may be asked of a four-bar for a path."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.errors import ParameterError
+from ilmek.machines.four_bars import wishes
+from ilmek.machines.places import read_angles, read_bounds, read_points
+from ilmek.params import Params, param
+from ilmek.synthesis.path_task import FEWEST, KINDS, MOST, PathTask
+
+LINE = "(20mm,20mm) (20mm,25mm) (20mm,30mm) (20mm,35mm) (20mm,40mm) (20mm,45mm)"
+"""Case 1 of the literature's benchmarks: six points of a vertical line."""
+
+EITHER = "either"
+
+NAMED = {
+    "ground": "ground",
+    "crank": "crank",
+    "coupler": "coupler",
+    "rocker": "rocker",
+    "tracer_along": "along",
+    "tracer_across": "across",
+    "pivot_x": "x",
+    "pivot_y": "y",
+    "turn": "turn",
+    "start": "start",
+}
+"""Bounds: their parameters, and their names in `PathTask.bounds`."""
+
+ANGLES = ("turn", "start")
+LENGTHS = ("ground", "crank", "coupler", "rocker")
+
+EXACT = (3, 4, 5)
+"""Timed points that are met exactly."""
+
+
+def _bounds(of: str, how: str = "like 10mm..60mm, or ..60mm") -> Any:
+    return param(None, doc=f"bounds on {of}, {how}")
+
+
+@dataclass(frozen=True, slots=True)
+class PathFourBarParams(Params):
+    """What may be asked of a four-bar for a path: points, and within which limits."""
+
+    points: str = param(LINE, doc="points in the order in which they are met: 4 to 200, or 3 to 5 where exact")
+    timing: str | None = param(None, doc="crank angles at the points, like 30deg 45deg …; their differences count")
+    closed: bool = param(False, doc="the path goes on from the last point to the first, once a turn of the crank")
+    ordered: bool = param(True, doc="the crank meets the points in their order, within one turn")
+    exact: bool = param(False, doc="all four-bars that meet 3 to 5 timed points exactly, in place of the nearest")
+    pivots: str | None = param(
+        None, doc="pivots of crank and rocker where 3 timed points are met exactly: (0,0) (9mm,0)"
+    )
+    kind: str = param("crank-rocker", choices=(*KINDS, EITHER), doc="class that is searched; exact takes every class")
+    ground: str | None = _bounds("the ground link")
+    crank: str | None = _bounds("the crank")
+    coupler: str | None = _bounds("the coupler")
+    rocker: str | None = _bounds("the rocker")
+    tracer_along: str | None = _bounds("the tracer along the coupler, from A towards B")
+    tracer_across: str | None = _bounds("the tracer across the coupler, to the left of A to B")
+    pivot_x: str | None = _bounds("x of the crank's pivot; 5mm..5mm fixes it")
+    pivot_y: str | None = _bounds("y of the crank's pivot")
+    turn: str | None = _bounds("the direction of the ground link", "like -20deg..20deg")
+    start: str | None = _bounds("what is added to the timing to give crank angles against the ground link", "like 0..0")
+    transmission_min: float = wishes.transmission_min()
+    error_max: float | None = param(None, unit="mm", above=0.0, at_most=1e3, doc="greatest distance from a point")
+    one_circuit: bool = wishes.one_circuit()
+    one_branch: bool = wishes.one_branch()
+    in_order: bool = wishes.in_order()
+    full_turn: bool = wishes.full_turn()
+    link_ratio_max: float | None = wishes.link_ratio_max()
+    size_max: float | None = wishes.size_max()
+    count: int = wishes.count()
+    chosen: int = wishes.chosen()
+    cognates: bool = param(False, doc="also the two other four-bars that draw the same curve as the chosen one")
+    starts: int = param(960, at_least=1, at_most=10000, doc="random starts after which the search ends at the latest")
+    seed: int = param(0, at_least=0, at_most=10**9, doc="seed of the random starts: the same seed, the same answers")
+
+    def check_together(self) -> None:
+        """The task can be read, and one method takes it."""
+        if self.exact:
+            _check_exact(self)
+        else:
+            self.tasks()
+
+    def places(self) -> ComplexArray:
+        """The points [m]."""
+        return read_points("points", self.points)
+
+    def angles(self) -> FloatArray | None:
+        """The timing [rad]."""
+        return None if self.timing is None else read_angles("timing", self.timing)
+
+    def given_pivots(self) -> tuple[complex, complex] | None:
+        """Pivots of crank and rocker [m]."""
+        if self.pivots is None:
+            return None
+        found = read_points("pivots", self.pivots)
+        if len(found) != 2:
+            raise ParameterError(f"pivots holds {len(found)} points", allowed="two: of the crank and of the rocker")
+        return complex(found[0]), complex(found[1])
+
+    def tasks(self) -> tuple[PathTask, ...]:
+        """The tasks of the search, one for each class. Raises ParameterError where they are none."""
+        points = self.places()
+        if not FEWEST <= len(points) <= MOST:
+            raise ParameterError(
+                f"a path of {len(points)} points", allowed=f"{FEWEST} to {MOST} are searched", do=_instead(len(points))
+            )
+        if self.pivots is not None:
+            raise ParameterError(
+                "pivots are for 3 timed points with exact=yes", do="fix the crank's with pivot_x=5mm..5mm, pivot_y=…"
+            )
+        timing, limits = self.angles(), self.limits()
+        if timing is None and self.start is not None:
+            raise ParameterError("start is given without a timing", do="set timing, or leave start out")
+        kinds = tuple(KINDS) if self.kind == EITHER else (self.kind,)
+        return tuple(
+            PathTask(points, timing, self.closed, self.ordered, limits, kind, self.transmission_min) for kind in kinds
+        )
+
+    def limits(self) -> dict[str, tuple[float, float]]:
+        """Bounds that are set, by the names of `PathTask.bounds` [m, rad]."""
+        found = {}
+        for parameter, name in NAMED.items():
+            text = getattr(self, parameter)
+            if text is not None:
+                low, high = read_bounds(parameter, text, "deg" if parameter in ANGLES else "mm")
+                least = 0.0 if parameter in LENGTHS else -math.inf
+                found[name] = (least if low is None else low, math.inf if high is None else high)
+        return found
+
+
+def _instead(count: int) -> str:
+    """What takes so many points."""
+    if count > MOST:
+        return "leave points out: a hand-drawn curve needs no more than 60"
+    if count == 3:
+        return "3 timed points are met exactly: set timing, pivots and exact=yes"
+    return "give more points; a body that is to take two or three poses: motion-four-bar"
+
+
+def _check_exact(params: PathFourBarParams) -> None:
+    """Raise ParameterError where the exact methods do not take the task."""
+    points, timing = params.places(), params.angles()
+    if timing is None:
+        raise ParameterError("exact=yes without a timing", do="set timing: a crank angle for each point, 30deg 45deg …")
+    if len(points) not in EXACT:
+        more = f"{FEWEST} to {MOST} points are searched for the nearest four-bar: leave exact out"
+        raise ParameterError(
+            f"exact=yes with {len(points)} points",
+            allowed="3 to 5 timed points are met exactly",
+            do=more if len(points) > max(EXACT) else "give more points",
+        )
+    if len(timing) != len(points):
+        raise ParameterError(f"{len(points)} points and {len(timing)} angles", allowed="one angle for each point")
+    if (params.given_pivots() is None) == (len(points) == 3):
+        what = "need both pivots" if len(points) == 3 else "leave no pivot free to give"
+        do = "set pivots=(0,0) (9mm,0)" if len(points) == 3 else "leave pivots out"
+        raise ParameterError(f"{len(points)} timed points {what}", do=do)
+    searched = [name for name in NAMED if getattr(params, name) is not None]
+    if searched:
+        given = f"{searched[0]} and exact=yes: bounds are the search's, and exact four-bars leave nothing to bound"
+        raise ParameterError(given, do=f"leave {' and '.join(searched)} out, or exact")

@@ -1,0 +1,142 @@
+"""The four-bar for a path: what it answers, and what it refuses."""
+
+import json
+
+import numpy as np
+import pytest
+
+from ilmek.errors import ParameterError
+from ilmek.machines import MACHINES
+from ilmek.machines.path_four_bar import MACHINE, PathFourBarParams, design, report
+from ilmek.report import Animation, Report
+from ilmek.synthesis.candidate import judge
+from ilmek.synthesis.four_bar import FourBar
+from ilmek.synthesis.task import Task
+from ilmek.units import deg
+
+CASE_TWO = "(3mm,3mm) (2.759mm,3.363mm) (2.372mm,3.663mm) (1.890mm,3.862mm) (1.355mm,3.943mm)"
+FIVE = "30deg 45deg 60deg 75deg 90deg"
+THREE, TURNS = "(20mm,20mm) (22mm,30mm) (15mm,38mm)", "0deg 30deg 80deg"
+
+
+def answer(**settings: str) -> Report:
+    return report(design(PathFourBarParams.read(settings)))
+
+
+def four_bar(found: dict[str, list[float]]) -> FourBar:
+    return FourBar(*(complex(*found[name]) for name in ("a0", "b0", "a", "b", "tracer")))
+
+
+def test_the_default_task_is_met_exactly_and_said_by_the_names_that_are_promised() -> None:
+    said = answer(starts="200", cognates="yes")
+    results = json.loads(json.dumps(said.as_json()))["results"]
+    assert MACHINES["path-four-bar"] is MACHINE
+    assert not said.failed
+    assert results["error_max"] < 1e-12
+    points = np.array([20 + (20 + 5 * k) * 1j for k in range(6)]) * 1e-3
+    for found in results["solutions"]:
+        again = judge(four_bar(found), Task(points=points))
+        assert again.met
+        assert again.in_order
+        assert list(four_bar(found).lengths) == pytest.approx([found[name] for name in LINKS], rel=1e-12)
+        assert found["starts_agreed"] >= 1
+        assert (found["active"], found["circuits"]) == ([], found["circuits"][:1] * 6)
+    assert [one["name"] for one in results["cognates"]] == ["timed", "other"]
+    assert all(one["error_max"] < 1e-12 for one in results["cognates"])
+    assert sum(isinstance(figure, Animation) for figure in said.figures) == 1
+
+
+LINKS = ("ground", "crank", "coupler", "rocker")
+
+
+def test_bounds_and_a_fixed_pivot_reach_the_published_best_of_case_two() -> None:
+    limits = dict.fromkeys(LINKS, "..50mm") | dict.fromkeys(("tracer_along", "tracer_across"), "-50mm..50mm")
+    fixed = {"pivot_x": "0..0", "pivot_y": "0..0", "turn": "0..0", "start": "0..0"}
+    results = answer(points=CASE_TWO, timing=FIVE, **limits, **fixed).as_json()["results"]
+    assert results["error_squares"] == pytest.approx(7.4158e-7 * 1e-6, rel=1e-3, abs=0)  # synthesis.md, case 2, in mm²
+    assert results["solutions"][0]["a0"] == pytest.approx([0.0, 0.0], abs=1e-15)
+    assert results["solutions"][0]["crank_angles"][0] == pytest.approx(30 * deg)
+
+
+def test_five_timed_points_are_met_exactly_by_every_solution_and_what_is_removed_says_why() -> None:
+    results = answer(points=CASE_TWO, timing=FIVE, exact="yes", **LOOSE).as_json()["results"]
+    points, turns = np.array([complex(*pair) for pair in POINTS]) * 1e-3, np.array([30, 45, 60, 75, 90]) * deg
+    assert results["solutions"]
+    for found in results["solutions"]:
+        seen = judge(four_bar(found), Task(points=points, crank=turns))
+        assert seen.point_error < 1e-11
+    strict = answer(points=CASE_TWO, timing=FIVE, exact="yes").as_json()["results"]
+    assert len(strict["solutions"]) + len(strict["removed"]) == len(results["solutions"]) + len(results["removed"])
+    assert all(one["reasons"] for one in strict["removed"])
+
+
+LOOSE = {"one_circuit": "no", "one_branch": "no", "in_order": "no"}
+POINTS = [(3, 3), (2.759, 3.363), (2.372, 3.663), (1.890, 3.862), (1.355, 3.943)]
+
+
+def test_three_timed_points_are_met_with_the_pivots_that_are_given() -> None:
+    results = answer(points=THREE, timing=TURNS, exact="yes", pivots="(0,0) (30mm,-5mm)", **LOOSE).as_json()["results"]
+    (found,) = results["solutions"]
+    assert (found["a0"], found["b0"]) == (pytest.approx([0, 0]), pytest.approx([0.03, -0.005]))
+    assert found["error_max"] < 1e-12
+
+
+def test_four_timed_points_give_four_bars_with_the_crank_at_its_own_angles() -> None:
+    four = " ".join(CASE_TWO.split()[:4])
+    results = answer(points=four, timing="30deg 45deg 60deg 75deg", exact="yes", **LOOSE, count="3").as_json()[
+        "results"
+    ]
+    for found in results["solutions"]:
+        pin = complex(*found["a"]) - complex(*found["a0"])
+        assert abs((pin * np.exp(-1j * 30 * deg)).imag) < 1e-12 * abs(pin)
+
+
+def test_an_error_that_is_too_great_is_a_reason_to_go() -> None:
+    said = answer(points=CASE_TWO, timing=FIVE, pivot_x="0..0", pivot_y="0..0", starts="96", error_max="0.001um")
+    results = said.as_json()["results"]
+    assert results["solutions"] == []
+    assert results["chosen"] is None
+    assert all("misses position" in one["reasons"]["met"] for one in results["removed"])
+    assert said.failed[0].name == "four-bars without defects"
+    assert "loosen a filter" in said.warnings[0]
+
+
+NARROW = dict.fromkeys(("ground", "coupler", "rocker"), "20mm..21mm") | {"crank": "12mm..13mm"}
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"points": "(1mm,2mm) (3mm,4mm)"}, "a path of 2 points; 4 to 200 are searched; give more points; a body"),
+        ({"points": THREE}, "3 timed points are met exactly: set timing, pivots and exact=yes"),
+        ({"points": "(1mm,2mm) " * 201}, "a hand-drawn curve needs no more than 60"),
+        ({"points": "(1mm,2mm) (1mm,2mm) (3mm,4mm) (5mm,6mm)"}, "points 1 and 2 of the path are the same"),
+        ({"points": "(1mm,2mm) " * 4}, "all points of the path are one"),
+        ({"points": "(1,2) (3,4) (5,6) (7,8)"}, "1 has no unit; did you mean 1mm"),
+        ({"points": "(1mm,2mm,3deg) (4mm,5mm,6deg)"}, "holds 3 numbers, not 2"),
+        ({"timing": "30 60 90 120 150 180"}, "30 has no unit; did you mean 30deg"),
+        ({"timing": "30rad 60rad 90rad 120rad 150rad 180rad"}, "if 150 deg was meant"),
+        ({"timing": "30deg 60deg"}, "timing of 2 angles for 6 points"),
+        ({"timing": "0deg 60deg 30deg 90deg 120deg 150deg"}, "go to and fro"),
+        ({"exact": "yes"}, "exact=yes without a timing"),
+        ({"exact": "yes", "timing": "0 10deg 20deg 30deg 40deg 50deg"}, "leave exact out"),
+        ({"exact": "yes", "points": THREE, "timing": TURNS}, "3 timed points need both pivots"),
+        ({"exact": "yes", "points": CASE_TWO, "timing": FIVE, "crank": "..9mm"}, "leave crank out, or exact"),
+        ({"exact": "yes", "points": CASE_TWO, "timing": FIVE, "pivots": "(0,0) (1mm,0)"}, "leave pivots out"),
+        ({"exact": "yes", "points": CASE_TWO, "timing": TURNS}, "5 points and 3 angles"),
+        ({"pivots": "(0,0) (9mm,0)"}, "fix the crank's with pivot_x"),
+        ({"start": "0..0"}, "start is given without a timing"),
+        ({"crank": "60mm"}, "crank='60mm' is no pair of bounds; bounds are written 10mm..60mm"),
+        ({"crank": "60mm..10mm"}, "did you mean 10mm..60mm"),
+        ({"crank": "10..60"}, "10 has no unit; did you mean 10mm"),
+        ({"ground": "10mm..50mm", "crank": "60mm..80mm"}, "ground 0.01 m to 0.05 m and crank 0.06 m to 0.08 m clash"),
+        ({**NARROW, "transmission_min": "60deg"}, "crank 0.012 m to 0.013 m and a transmission angle of 60 deg clash"),
+        ({"transmission_min": "40"}, "did you mean 40deg"),
+        ({"kind": "crank rocker"}, "did you mean crank-rocker"),
+        ({"starts": "96", "count": "2", "chosen": "3"}, "chosen=3, and there are 2 solutions; 1 to 2"),
+    ],
+)
+def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
+    with pytest.raises(ParameterError) as refused:
+        answer(**settings)
+    assert said in str(refused.value)
