@@ -1,13 +1,18 @@
 """The knotting dyad's design: every arm through the four timed points, and the one to build."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
+from ilmek.machines.knotting_dyad.head import Head, head_of
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.machines.knotting_dyad.task import Task, bend, task_of
+from ilmek.machines.knotting_dyad.search import best_arm
+from ilmek.machines.knotting_dyad.section import section_of
+from ilmek.machines.knotting_dyad.task import Task, bend, task_on
+from ilmek.machines.knotting_dyad.way import Arm
+from ilmek.machines.places import read_angles, read_points
 from ilmek.synthesis.dyad import Arms, Dyad, Found, arms_through_points, dyads_through_points
 
 LINE = 1e-9
@@ -23,6 +28,7 @@ class KnottingDyad:
     bends   of each dyad, least |sin| of the angle between its links over the task's course; 0: its four points lie on
             both sides of the elbow; -1: a place is out of its reach
     chosen  number of the dyad to build, None where none has two links
+    head    the head that is made of it; None where the points were given
     """
 
     params: KnottingDyadParams
@@ -31,6 +37,7 @@ class KnottingDyad:
     roots: Arms
     bends: FloatArray
     chosen: int | None
+    head: Head | None = None
 
     def second_angles(self, dyad: Dyad) -> FloatArray:
         """Angles of a dyad's second link at the four points [rad]."""
@@ -52,18 +59,40 @@ class KnottingDyad:
 
 
 def design(params: KnottingDyadParams) -> KnottingDyad:
-    """All arms through the task's points.
+    """All arms through the given points; or the arm for the knot, all others through four points of its way, its head.
 
-    Raises ParameterError where there is none, where a family of them is, and where no arm leads the yarn along the way.
+    Raises ParameterError where there is none, where a family of them is, and where no arm ties the knot.
     """
-    task = task_of(params)
+    if params.points is None or params.angles is None:
+        return _for_knot(params)
+    points = read_points("points", params.points)
+    made = _arms(params, Task(points, read_angles("angles", params.angles), points))
+    return replace(made, chosen=_best(params, made.dyads, made.bends))
+
+
+def _for_knot(params: KnottingDyadParams) -> KnottingDyad:
+    section = section_of(params)
+    wanted = best_arm(params, section)
+    made = _arms(params, task_on(wanted))
+    chosen = min(range(len(made.dyads)), key=lambda at: abs(made.dyads[at].pivot - wanted.pivot))
+    arm = _built(made.dyads[chosen], wanted)
+    return replace(made, chosen=chosen, head=head_of(params, section, arm))
+
+
+def _built(dyad: Dyad, wanted: Arm) -> Arm:
+    """The arm of the synthesis on the way that was wanted."""
+    return replace(wanted, pivot=dyad.pivot, first=abs(dyad.first), second=dyad.second)
+
+
+def _arms(params: KnottingDyadParams, task: Task) -> KnottingDyad:
+    """All arms of a task, none chosen."""
     dyads = dyads_through_points(task.points, task.angles)
     roots = arms_through_points(task.points, task.angles)
     if not dyads:
         raise _none(task, roots)
     bends = bend(roots, task.points, task.angles, task.course)
     bends = bends[np.isin(roots.found, (Found.ARM, Found.STILL))]  # the dyads, in this order
-    return KnottingDyad(params, task, dyads, roots, bends, _best(params, dyads, bends))
+    return KnottingDyad(params, task, dyads, roots, bends, None)
 
 
 def _best(params: KnottingDyadParams, dyads: tuple[Dyad, ...], bends: FloatArray) -> int | None:

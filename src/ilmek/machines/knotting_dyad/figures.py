@@ -1,18 +1,160 @@
-"""The knotting dyad's figures: every arm to scale at the first point, the points, and the way of the yarn."""
+"""The knotting dyad's figures: every arm through the points, the head at its four points, its room, and curves."""
 
 import numpy as np
 
-from ilmek.carpet.knot_path import warp_places
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.machines.knotting_dyad.clear import Bars, arm_bars, mirrored_bars, to_warps
 from ilmek.machines.knotting_dyad.design import KnottingDyad
-from ilmek.machines.knotting_dyad.task import Task
-from ilmek.report import Dot, Drawing, Figure, Stroke
+from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.moving import moving
+from ilmek.machines.knotting_dyad.section import Section
+from ilmek.machines.knotting_dyad.task import SHARES
+from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.synthesis.dyad import Dyad
 from ilmek.units import format_quantity, turn
 
+WAY = Axis("s, from rest to the hand-over")
+
 
 def figures(design: KnottingDyad) -> tuple[Figure, ...]:
-    """All arms in one drawing, and the arm to build in its four poses."""
-    return (drawing(design),) if design.chosen is None else (drawing(design), poses(design))
+    """The head and its motion, where a knot is tied; all arms in one drawing, and the arm to build in four poses."""
+    arms = (drawing(design),) if design.chosen is None else (drawing(design), poses(design))
+    if design.head is None:
+        return arms
+    head = design.head
+    plots = (joints(head), bent(head), clear(head))
+    return head_drawing(head), passing(head), moving(head), workspace(head), *plots, *arms
+
+
+def head_drawing(head: Head) -> Drawing:
+    """Both arms at the four points, the last one strong, with the centre gripper."""
+    bars = arm_bars(head.section, head.arm, SHARES)
+    other = mirrored_bars(head.section, bars)
+    dashed = [_chain(one, at, "construction") for one in (bars, other) for at in range(3)]
+    strong = [_chain(bars, 3, "link", "left arm"), _chain(other, 3, "link", "right arm")]
+    pivot = head.arm.pivot
+    dots = (Dot(pivot, "O", "pivot"), Dot(complex(2 * head.section.middle - pivot.conjugate()), "O'", "pivot"))
+    elbows = tuple(Dot(complex(one.starts[3, 1]), name) for one, name in ((bars, "E"), (other, "E'")))
+    centre = Stroke(
+        np.array([head.section.handover, head.section.middle + 1.6j * head.section.front]), "path", "centre"
+    )
+    strokes = (*warps(head.section), *dashed, *strong, centre, Stroke(_knot(head), "yarn"))
+    note = "Both arms at their four points, the last strong: they come one after the other. Yarn: the ways of its ends."
+    return Drawing(
+        "knotting-dyad-head", "Both arms of the head at their four points", strokes, (*dots, *elbows), note=note
+    )
+
+
+def passing(head: Head) -> Drawing:
+    """The needle among the warps, to scale, at places of its way, and at the hand-over."""
+    section = head.section
+    room = 1.6 * section.reach
+    strokes = [
+        *warps(section, 2),
+        Stroke(section.middle + 1j * np.array([room, -section.depth]), "path", "centre gripper"),
+    ]
+    for at in (0.8, 0.9, 1.0):
+        tip = complex(head.arm.tip(np.array([at]))[0])
+        back = complex(head.arm.elbow(np.array([at]))[0]) - tip
+        length = (room - tip.imag) / (back.imag / abs(back))
+        outline = _bar(tip, tip + back / abs(back) * length, section.needle / 2)
+        strokes.append(Stroke(outline, "outline" if at == 1.0 else "construction", closed=True))
+    way = head.arm.tip(np.linspace(max(0.0, 1 - 2.2 * section.reach / head.arm.stroke), 1.0, 61))
+    strokes.append(Stroke(way, "yarn"))
+    dots = (Dot(section.gap, "G", "point"), Dot(section.handover, "H", "point"))
+    note = "G: middle of the gap, through which the needle always goes. H: hand-over. Yarn: the way of the tip."
+    return Drawing("knotting-dyad-passing", "The needle between the warps", tuple(strokes), dots, note=note)
+
+
+def workspace(head: Head) -> Drawing:
+    """What the left arm reaches: between two circles, on which its links are in one line."""
+    arm = head.arm
+    ring = np.exp(1j * turn * np.arange(181) / 180)
+    inner = abs(arm.first - arm.second)
+    circles = [Stroke(arm.pivot + radius * ring, "guide") for radius in (arm.first + arm.second, inner)]
+    least, most = (abs(head.arm.tip(np.array([at]))[0] - arm.pivot) for at in (1.0, 0.0))
+    used = [Stroke(arm.pivot + radius * ring, "construction") for radius in (least, most)]
+    way = Stroke(arm.tip(np.linspace(0, 1, 121)), "yarn")
+    bars = arm_bars(head.section, arm, np.array([1.0]))
+    strokes = (*warps(head.section), *circles, *used, _chain(bars, 0, "link", "left arm at the hand-over"), way)
+    note = "Hatched: outstretched and folded, the singular places and the bounds of the room. Dashed: used of it."
+    dots = (Dot(arm.pivot, "O", "pivot"), Dot(complex(bars.ends[0, 0]), "E"))
+    return Drawing("knotting-dyad-workspace", "What the left arm reaches", strokes, dots, note=note)
+
+
+def joints(head: Head) -> Plot:
+    """Angles of both servos along the way."""
+    theta = np.asarray(head.way.theta)
+    curves = (
+        ("first link", theta[:, 0]),
+        ("second link", theta[:, 1]),
+        ("elbow, second to first", theta[:, 1] - theta[:, 0]),
+    )
+    series = tuple(Series(name, head.way.s, _near(values), dashed=at == 2) for at, (name, values) in enumerate(curves))
+    marks = tuple(Mark(float(at), f"P{number}") for number, at in enumerate(SHARES, 1))
+    return Plot("knotting-dyad-servos", "Servo angles of the left arm", WAY, Axis("angle", "deg"), series, marks)
+
+
+def bent(head: Head) -> Plot:
+    """How far the links are from one line, and how far the needle is from upright."""
+    theta = head.way.theta
+    off = np.arcsin(np.abs(np.sin(theta[:, 1] - theta[:, 0])))
+    series = (
+        Series("links off one line", head.way.s, off),
+        Series("needle off upright", head.way.s, _tilt(head), dashed=True),
+    )
+    return Plot("knotting-dyad-bend", "Distance from the singular poses, and tilt", WAY, Axis("angle", "deg"), series)
+
+
+def clear(head: Head) -> Plot:
+    """Distance of needle and wide links from the nearest warp along the way."""
+    bars = arm_bars(head.section, head.arm, head.way.s)
+    near = [
+        to_warps(head.section, Bars(bars.starts[:, k], bars.ends[:, k], bars.radii[k]))
+        for k in (slice(2, 3), slice(0, 2))
+    ]
+    series = tuple(
+        Series(name, head.way.s, values) for name, values in zip(("needle", "wide links"), near, strict=True)
+    )
+    return Plot("knotting-dyad-clearance", "Clearance to the nearest warp", WAY, Axis("distance", "mm"), series)
+
+
+def _near(angles: FloatArray) -> FloatArray:
+    """The same angles, begun within half a turn."""
+    return np.asarray(angles - turn * np.round(angles[0] / turn))
+
+
+def _tilt(head: Head) -> FloatArray:
+    return head.arm.tilt(head.way.s)
+
+
+def _knot(head: Head) -> ComplexArray:
+    """The ways of both ends in one line: down between the pair, behind a warp, out, over, and the same mirrored."""
+    way = head.arm.tip(np.linspace(0.0, 1.0, 61))
+    top = complex(head.section.middle, head.section.front)
+    left = np.concatenate([[top], way[::-1]])
+    return np.concatenate([left, (2 * head.section.middle - np.conj(left))[::-1]])
+
+
+def _chain(bars: Bars, at: int, role: str, label: str = "") -> Stroke:
+    return Stroke(np.append(bars.starts[at, [0, 1]], bars.ends[at, -1]), role, label)
+
+
+def _bar(start: complex, end: complex, radius: float) -> ComplexArray:
+    """Outline of a bar with round ends."""
+    along = (end - start) / abs(end - start)
+    half = radius * along * np.exp(1j * np.linspace(-np.pi / 2, np.pi / 2, 13))
+    return np.concatenate([end + half, start - half])
+
+
+def warps(section: Section, neighbours: int = 6) -> tuple[Stroke, ...]:
+    """The pair and so many neighbours on each side, in section."""
+    ring = section.warp / 2 * np.exp(1j * turn * np.arange(36) / 36)
+    middle = len(section.warps) // 2
+    return tuple(
+        Stroke(place + ring, "outline", closed=True, filled=True)
+        for place in section.warps[middle - 1 - neighbours : middle + 1 + neighbours]
+    )
 
 
 def drawing(design: KnottingDyad) -> Drawing:
@@ -21,7 +163,7 @@ def drawing(design: KnottingDyad) -> Drawing:
     pivots = [Dot(dyad.pivot, f"O{at + 1}", "pivot") for at, dyad in enumerate(design.dyads)]
     note = "All at the first point P1. O: pivots."
     title = "Every arm through the four timed points"
-    return Drawing("knotting-dyad", title, (*_yarn(design.task), *links), (*pivots, *_points(design)), note=note)
+    return Drawing("knotting-dyad", title, (*_course(design), *links), (*pivots, *_points(design)), note=note)
 
 
 def poses(design: KnottingDyad) -> Drawing:
@@ -30,7 +172,7 @@ def poses(design: KnottingDyad) -> Drawing:
     elbows = design.joints(dyad)
     others = [Stroke(np.array([dyad.pivot, elbows[at], design.task.points[at]]), "construction") for at in range(1, 4)]
     dots = (Dot(dyad.pivot, "O", "pivot"), Dot(complex(elbows[0]), "A"), *_points(design))
-    strokes = (*_yarn(design.task), *others, *_arm(design, dyad, 0, ""))
+    strokes = (*_course(design), *others, *_arm(design, dyad, 0, ""))
     note = "At the first point P1, the other poses dashed."
     return Drawing("knotting-dyad-poses", f"Arm {(design.chosen or 0) + 1}, the one to build", strokes, dots, note=note)
 
@@ -47,14 +189,8 @@ def _points(design: KnottingDyad) -> tuple[Dot, ...]:
     return tuple(Dot(complex(point), f"P{at + 1}", "point") for at, point in enumerate(design.task.points))
 
 
-def _yarn(task: Task) -> tuple[Stroke, ...]:
-    """The knot that the points were chosen on: its warps and the way of the arm's end."""
-    if task.path is None:
+def _course(design: KnottingDyad) -> tuple[Stroke, ...]:
+    """The way that the points were chosen on, and its warps."""
+    if design.head is None:
         return ()
-    size = task.path.dimensions
-    ring = size.warp_diameter / 2 * np.exp(1j * turn * np.arange(48) / 48)
-    places = warp_places(task.path.knot.warps, size.pitch)
-    return (
-        *(Stroke(place + ring, "outline", closed=True, filled=True) for place in places),
-        Stroke(task.course, "yarn"),
-    )
+    return (*warps(design.head.section, 2), Stroke(design.task.course, "yarn"))

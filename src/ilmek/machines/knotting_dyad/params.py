@@ -3,16 +3,14 @@
 from dataclasses import dataclass
 from typing import Any
 
-from ilmek.carpet.knot_path import KnotDimensions, KnotPath, knot_path
-from ilmek.carpet.knot_word import knot
-from ilmek.errors import CarpetError, ParameterError
+from ilmek.errors import ParameterError
 from ilmek.machines.places import read_angles, read_points
 from ilmek.params import Params, param
 from ilmek.synthesis.burmester_forms import require_task
-from ilmek.units import mm
+from ilmek.units import deg, format_quantity, mm
 
 
-def _length(default: float, doc: str, symbol: str = "", at_most: float = 50 * mm) -> Any:
+def _length(default: float | None, doc: str, symbol: str = "", at_most: float = 50 * mm) -> Any:
     return param(default, unit="mm", at_least=0.01 * mm, at_most=at_most, doc=doc, symbol=symbol)
 
 
@@ -24,11 +22,38 @@ class KnottingDyadParams(Params):
     opens: str = param("left", choices=("left", "right"), doc="side on which an asymmetric knot is open")
     warp_pitch: float = _length(2 * mm, "distance between two warps", "p")
     warp_diameter: float = _length(0.8 * mm, "diameter of a warp", "D")
-    yarn_diameter: float = _length(0.8 * mm, "diameter of the pile yarn", "d")
-    clearance: float = param(
-        0.0, unit="mm", at_least=0.0, at_most=50 * mm, doc="kept from the warps besides half the yarn", symbol="e"
+    yarn_diameter: float = _length(0.8 * mm, "diameter of the pile yarn")
+    opening: float = param(
+        0.0,
+        unit="mm",
+        at_least=0.0,
+        at_most=50 * mm,
+        doc="by which a warp opener pushes the neighbours of the pair aside",
+        symbol="o",
     )
-    leg: float = _length(10 * mm, "height above the warps to which an end is led", "a", at_most=0.5)
+    needle_diameter: float = _length(0.5 * mm, "diameter of the grippers where they pass between warps", "d")
+    link_width: float = _length(4 * mm, "width of the links elsewhere")
+    clearance: float = param(
+        0.1 * mm,
+        unit="mm",
+        at_least=0.0,
+        at_most=50 * mm,
+        doc="asked between all that moves and the warps, and between the arms",
+        symbol="c",
+    )
+    leg: float = _length(10 * mm, "height above the warps at which the ends are taken and left", "a", at_most=0.5)
+    depth: float | None = param(
+        None,
+        unit="mm",
+        at_least=0.01 * mm,
+        at_most=0.5,
+        doc="of the hand-over behind the warps; none: two pitches, more where the clearance asks for it",
+        symbol="h",
+    )
+    pivot_room: float = _length(40 * mm, "least distance between the pivots of both arms, for their motors", at_most=2)
+    bend_limit: float = param(
+        30 * deg, unit="deg", at_least=1 * deg, below=90 * deg, doc="least angle between the links, off straight"
+    )
     points: str | None = param(
         None, doc="four points to go through instead of the knot's, like (12mm,4mm) (18.5mm,9.5mm) …"
     )
@@ -36,20 +61,28 @@ class KnottingDyadParams(Params):
     link_limit: float = _length(150 * mm, "longest link that the machine has room for", at_most=5.0)
 
     def check_together(self) -> None:
-        """Points and angles go together, four of each; a knot has room between its warps."""
+        """Points and angles go together, four of each; warps stand apart, and the hand-over behind them."""
         if (self.points is None) != (self.angles is None):
             said, unsaid = ("points", "angles") if self.angles is None else ("angles", "points")
             raise ParameterError(f"{said} are given without {unsaid}", allowed="both, or neither", do=f"set {unsaid}")
         if self.points is None or self.angles is None:
-            try:
-                self.way()
-            except CarpetError as error:
-                raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
+            self._check_section()
             return
         points, angles = read_points("points", self.points), read_angles("angles", self.angles)
         require_task("timed point", points, angles, 4, "knotting-dyad")
 
-    def way(self) -> KnotPath:
-        """The knot's way. Raises CarpetError where the warps leave the yarn no room."""
-        size = KnotDimensions(self.warp_pitch, self.warp_diameter, self.yarn_diameter, self.clearance, self.leg)
-        return knot_path(knot(self.knot, opens=self.opens), size)
+    def _check_section(self) -> None:
+        if self.warp_pitch <= self.warp_diameter:
+            raise ParameterError(
+                f"warps of {format_quantity(self.warp_diameter, 'mm')} at a pitch of "
+                f"{format_quantity(self.warp_pitch, 'mm')} touch each other",
+                allowed=f"a pitch above {format_quantity(self.warp_diameter, 'mm')}",
+                do="take a finer warp, or a wider pitch",
+            )
+        least = (self.warp_diameter + self.needle_diameter) / 2
+        if self.depth is not None and self.depth < least:
+            raise ParameterError(
+                f"a hand-over {format_quantity(self.depth, 'mm')} behind the warps' axes is among the warps",
+                allowed=f"a depth of {format_quantity(least, 'mm')} or more",
+                do="leave depth out to have it chosen",
+            )

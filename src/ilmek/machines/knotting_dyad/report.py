@@ -4,24 +4,26 @@ import numpy as np
 
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.figures import figures
+from ilmek.machines.knotting_dyad.head_report import head_checks, head_results, head_tables, head_warnings
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.synthesis.dyad import Dyad, Found
-from ilmek.units import deg, format_quantity
+from ilmek.units import format_quantity
 
-CLOSURE, BEND = 1e-9, 20 * deg
+CLOSURE = 1e-9
 
 
 def report(design: KnottingDyad) -> Report:
     """Everything that the design says."""
+    head = design.head
     return Report(
         machine="knotting-dyad",
         title="Knotting dyad",
         parameters=design.params.as_dict(),
-        results=(*_task(design), *_arms(design)),
-        checks=_checks(design),
-        tables=(_point_table(design), _arm_table(design)),
+        results=(*(() if head is None else head_results(head)), *_task(design), *_arms(design)),
+        checks=(*_checks(design), *(() if head is None else head_checks(design.params, head))),
+        tables=(*(() if head is None else head_tables(head)), _point_table(design), _arm_table(design)),
         figures=figures(design),
-        warnings=_warnings(design),
+        warnings=(*_warnings(design), *(() if head is None else head_warnings(design.params, head))),
     )
 
 
@@ -29,13 +31,13 @@ def _task(design: KnottingDyad) -> tuple[Result, ...]:
     task = design.task
     points: list[Json] = [[float(point.real), float(point.imag)] for point in task.points]
     return (
-        Result("timed_points", points, "mm", "the four points, x and y from warp 1, the pile upwards"),
+        Result("timed_points", points, "mm", "the four points, x and y from the pair's left warp, the pile upwards"),
         Result("timed_angles", task.angles.tolist(), "deg", "angles of the first link there"),
         Result(
             "shares",
             None if task.shares is None else task.shares.tolist(),
             "",
-            "of the arm's way, where the points were chosen on it; a symmetric knot's arm leads the right half",
+            "of the left arm's way, its s, where the points were chosen on it",
         ),
     )
 
@@ -52,16 +54,22 @@ def _arms(design: KnottingDyad) -> tuple[Result, ...]:
 
 
 MEANING = (
-    "pivot a0 at theta0 = (pivot_x, pivot_y); first link a1, below 0 if it points away from its angle; second link a2; "
-    "theta2, residual at the points; bend, least sine between the links, 0: elbow on both sides, -1: out of reach"
+    "pivot a0 at theta0 = (pivot_x, pivot_y), also as ground_length and ground_angle; first link a1, below 0 if it "
+    "points away from its angle; second link a2; link1, link2 their lengths; theta2, residual at the points; bend, "
+    "least sine between the links, 0: elbow on both sides, -1: out of reach"
 )
 
 
 def _solution(design: KnottingDyad, at: int) -> dict[str, Json]:
     dyad = design.dyads[at]
+    angle = float(np.angle(dyad.pivot))
     return {
+        "ground_length": dyad.ground,
+        "ground_angle": angle,
+        "link1": abs(dyad.first),
+        "link2": dyad.second,
         "a0": dyad.ground,
-        "theta0": float(np.angle(dyad.pivot)),
+        "theta0": angle,
         "a1": dyad.first,
         "a2": dyad.second,
         "pivot_x": dyad.pivot.real,
@@ -79,15 +87,16 @@ def _checks(design: KnottingDyad) -> tuple[Check, ...]:
     found = at_least("real arms of two links", built, 1, "", "the task has three roots")
     if design.chosen is None:
         return closes, found
-    where = "along the way" if design.task.path else "at the points"
-    longest, bend = _longest(design.dyads[design.chosen]), max(float(design.bends[design.chosen]), 0.0)
+    where = "at the points" if design.head is None else "along the way"
+    sine = float(design.bends[design.chosen]) if design.head is None else design.head.arm.bend
+    off = float(np.arcsin(max(sine, 0.0)))
+    longest, limits = _longest(design.dyads[design.chosen]), design.params
     return (
         closes,
         found,
-        at_most("longest link of the arm to build", longest, design.params.link_limit, "mm", "link_limit"),
-        at_least(
-            f"angle between its links, off straight, {where}", float(np.arcsin(bend)), BEND, "deg", "rule of thumb"
-        ),
+        at_most("longest link of the arm to build", longest, limits.link_limit, "mm", "link_limit"),
+        # As bent as asked for is bent enough, though rounding may take its last digit.
+        at_least(f"angle between its links, off straight, {where}", off + 1e-9, limits.bend_limit, "deg", "bend_limit"),
     )
 
 
@@ -96,6 +105,8 @@ def _longest(dyad: Dyad) -> float:
 
 
 def _warnings(design: KnottingDyad) -> tuple[str, ...]:
+    if design.head is not None:  # the other arms are by the way
+        return ()
     kinds = dict.fromkeys(Found(int(found)) for found in design.roots.found)
     odd = [kind.words for kind in kinds if kind not in (Found.ARM, Found.COMPLEX)]
     return (*(f"one root is no arm of two links: {words}" for words in odd), *_elbow(design))

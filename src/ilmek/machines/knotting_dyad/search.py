@@ -1,0 +1,143 @@
+"""The arm for a section: of all whose needle goes through the gap's middle to the hand-over, the one that is easiest.
+
+Such an arm has three freedoms: the second link a2, the needle's tilt phi0 at rest, and the distance t of the pivot from
+the middle of the elbow's two places, on their perpendicular bisector:
+
+    E0 = G + (a2 - rho0) i e^{i phi0},   E1 = G + (a2 - rho1) i e^{i phi1},   O = (E0 + E1)/2 + t i (E1 - E0)/|E1 - E0|
+
+phi1 and rho1 are those of the hand-over. The needle is nowhere tilted more than there, so that its clearance is the
+greatest that the section has. Of the arms that fit the one is taken whose links are least moved and light:
+
+    (a1² + a2²) (|dth1| + |dth2|)        inertia and swing
+
+A grid of all three, then finer ones about the best: no chance in it, the same arm every time.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from ilmek.arrays import BoolArray, ComplexArray, FloatArray
+from ilmek.errors import ParameterError
+from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+from ilmek.machines.knotting_dyad.section import Section
+from ilmek.machines.knotting_dyad.way import Arm
+from ilmek.plane.vectors import cross
+from ilmek.units import format_quantity
+
+GRID, ZOOM, ROUNDS, SHRINK = (20, 21, 40), 9, 8, 0.45
+"""Values of a2, phi0 and t at first; then of each, how often, and by how much the grid shrinks."""
+
+SAMPLES = 17
+"""Places of the way at which tilt and sides are looked at."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Tried:
+    """Arms of a grid, each by its number; `cost` is infinite where one does not fit."""
+
+    pivot: ComplexArray
+    first: FloatArray
+    second: FloatArray
+    side: FloatArray
+    cost: FloatArray
+
+
+def best_arm(params: KnottingDyadParams, section: Section) -> Arm:
+    """The left arm. Raises ParameterError where none fits."""
+    least = section.needle_length + params.link_width
+    limit = params.link_limit
+    if least > limit:
+        raise _none(params, f"the second link alone needs {format_quantity(least, 'mm')}")
+    seconds = np.geomspace(least, limit, GRID[0])
+    tilts = np.linspace(-section.tilt, section.tilt, GRID[1])
+    offsets = np.geomspace(section.reach / 10, limit, GRID[2] // 2)
+    axes = [np.log(seconds), tilts, np.concatenate([np.log(offsets), np.log(offsets)])]
+    signs = np.repeat([1.0, -1.0], GRID[2] // 2)
+    grids = np.meshgrid(axes[0], axes[1], np.arange(GRID[2]), indexing="ij")
+    number = grids[2].ravel()
+    at = np.stack([grids[0].ravel(), grids[1].ravel(), axes[2][number]], axis=-1)
+    tried = _tried(params, section, at, signs[number])
+    chosen = int(np.argmin(tried.cost))
+    if not np.isfinite(tried.cost[chosen]):
+        raise _none(params, "none reaches the hand-over bent enough, on its own side")
+    steps = np.array([axis[1] - axis[0] for axis in axes])
+    return _refined(params, section, at[chosen], steps, float(signs[number[chosen]]))
+
+
+def _refined(
+    params: KnottingDyadParams, section: Section, centre: Float[np.ndarray, "3"], steps: FloatArray, sign: float
+) -> Arm:
+    """The best of ever finer grids about a place that fits."""
+    spread = np.linspace(-1.0, 1.0, ZOOM)
+    cube = np.stack([axis.ravel() for axis in np.meshgrid(spread, spread, spread, indexing="ij")], axis=-1)
+    for _ in range(ROUNDS):
+        at = centre + cube * steps
+        tried = _tried(params, section, at, np.full(len(at), sign))
+        best = int(np.argmin(tried.cost))
+        centre, steps = at[best], steps * SHRINK
+    return Arm(
+        pivot=complex(tried.pivot[best]),
+        first=float(tried.first[best]),
+        second=float(tried.second[best]),
+        gap=section.gap,
+        side=int(tried.side[best]),
+        begin=-section.front,
+        end=section.reach,
+    )
+
+
+def _tried(params: KnottingDyadParams, section: Section, at: Float[np.ndarray, "n 3"], sign: FloatArray) -> _Tried:
+    second, tilt, offset = np.exp(at[:, 0]), at[:, 1], sign * np.exp(at[:, 2])
+    gap, r0, r1 = section.gap, second + section.front, second - section.reach
+    E0, E1 = gap + r0 * 1j * np.exp(1j * tilt), gap + r1 * 1j * np.exp(1j * section.tilt)
+    pivot = (E0 + E1) / 2 + offset * 1j * (E1 - E0) / np.abs(E1 - E0)
+    first, side = np.abs(pivot - E0), np.sign(cross(pivot - gap, E0 - gap))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        fits = (side == np.sign(cross(pivot - gap, E1 - gap))) & (np.abs(tilt) <= section.tilt)
+        fits &= (np.maximum(first, second) <= params.link_limit) & (r1 > 0)
+        fits &= second >= section.needle_length + params.link_width
+        fits &= _bent(np.abs(pivot - gap), first, r0, r1) >= np.sin(params.bend_limit)
+        fits &= _pivot_clear(params, section, pivot) & _own_side(section, pivot, first, second, side)
+        turns = np.abs(np.angle((E1 - pivot) / (E0 - pivot))) + np.abs(tilt - section.tilt)
+    cost = np.where(fits, (first**2 + second**2) * turns, np.inf)
+    return _Tried(pivot, first, second, side, cost)
+
+
+def _bent(base: FloatArray, first: FloatArray, r0: FloatArray, r1: FloatArray) -> FloatArray:
+    """Least sine between the links: see `Arm.bend`."""
+    cosine = np.maximum(*(np.abs(r + (first**2 - base**2) / r) for r in (r0, r1))) / (2 * first)
+    return np.asarray(np.sqrt(1 - cosine**2))
+
+
+def _pivot_clear(params: KnottingDyadParams, section: Section, pivot: ComplexArray) -> BoolArray:
+    """The pivot is above warps and pile, and leaves room for the other arm's motor."""
+    room = section.middle - pivot.real >= params.pivot_room / 2
+    return np.asarray(room & (pivot.imag >= 2 * params.leg))
+
+
+def _own_side(
+    section: Section, pivot: ComplexArray, first: FloatArray, second: FloatArray, side: FloatArray
+) -> Bool[np.ndarray, " n"]:
+    """The wide parts stay above the warps, and on their side of the centre gripper's; the tilt within its limit."""
+    base = np.abs(pivot - section.gap)[:, None]
+    beyond = np.linspace(-section.front, section.reach, SAMPLES)
+    r = second[:, None] - beyond
+    cosine = (r + (base**2 - first[:, None] ** 2) / r) / (2 * base)
+    out = np.exp(1j * (np.angle(pivot - section.gap)[:, None] + side[:, None] * np.arccos(cosine)))
+    elbow, wide = section.gap + r * out, section.gap + (section.needle_length - beyond) * out
+    room = section.width + section.room
+    above = section.width / 2 + section.warp / 2 + section.room
+    right = np.maximum(elbow.real, wide.real)
+    low = np.minimum(elbow.imag, wide.imag)
+    straight = out.imag >= np.cos(section.tilt) - 1e-12
+    fits: Bool[np.ndarray, " n"] = np.all((right <= section.middle - room) & (low >= above) & straight, axis=-1)
+    return fits & (pivot.real <= section.middle - room)
+
+
+def _none(params: KnottingDyadParams, why: str) -> ParameterError:
+    return ParameterError(
+        f"no arm with links of {format_quantity(params.link_limit, 'mm')} or less ties this knot: {why}",
+        do="allow longer links, or narrower ones, or a shorter leg",
+    )

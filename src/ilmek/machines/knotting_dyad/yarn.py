@@ -1,0 +1,78 @@
+"""The yarn's two ends over a cycle: where they are led, by whom, and which knot that ties.
+
+The yarn lies straight in front of the warps between its two ends when the cycle begins. Each end then goes where its
+carrier goes, phase by phase. A hand-over from one carrier to the next must be at one place; an end that nobody carries
+stays where it was left. The first end's way backwards, then the second end's, is the yarn: `tied_knot` proves the knot.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Complex, Float
+
+from ilmek.arrays import FloatArray
+from ilmek.carpet.tied_knot import Tied, tied_knot
+from ilmek.machines.knotting_dyad.section import Section
+from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, Phase
+from ilmek.machines.knotting_dyad.way import Arm
+from ilmek.units import format_quantity, um
+
+MISSED = 1 * um
+"""How far apart two grippers may be at a hand-over."""
+
+SAMPLES = 201
+"""Places along a phase."""
+
+
+def carried(
+    section: Section, arm: Arm, carrier: str, phase: Phase, shares: Float[np.ndarray, " n"]
+) -> Complex[np.ndarray, " n"]:
+    """Places of a carrier's tip at shares of a phase [m]."""
+    if carrier == CENTRE:
+        begin, end = phase.centre
+        return np.asarray(section.middle + 1j * (begin + (end - begin) * shares))
+    begin, end = phase.left if carrier == LEFT else phase.right
+    tip = arm.tip(begin + (end - begin) * shares)
+    return tip if carrier == LEFT else np.asarray(2 * section.middle - np.conj(tip))
+
+
+def _length(arm: Arm, carrier: str, phase: Phase) -> float:
+    """Bound of a carrier's way during a phase [m]."""
+    begin, end = phase.centre if carrier == CENTRE else (phase.left if carrier == LEFT else phase.right)
+    return abs(end - begin) * (1.0 if carrier == CENTRE else arm.speed_bound)
+
+
+def tied_by(section: Section, arm: Arm, phases: Sequence[Phase]) -> Tied:
+    """The knot that the phases tie with this arm and its mirror image.
+
+    Raises CarpetError where an end is led through a warp.
+    """
+    shares = np.linspace(0.0, 1.0, SAMPLES)
+    ways: list[Complex[np.ndarray, " n"]] = []
+    bounds: list[FloatArray] = []
+    for end in (0, 1):
+        places, lengths = np.empty(0, complex), np.empty(0)
+        for phase in phases:
+            carrier = phase.carries[end]
+            if not carrier:
+                continue
+            way = carried(section, arm, carrier, phase, shares)
+            if len(places) and abs(way[0] - places[-1]) > MISSED:
+                return _missed(end, carrier, phase, abs(way[0] - places[-1]))
+            step = np.full(SAMPLES - 1, _length(arm, carrier, phase) / (SAMPLES - 1) * (1 + 1e-9))
+            gap = np.abs(way[:1] - places[-1:])
+            places, lengths = np.concatenate([places, way]), np.concatenate([lengths, gap, step])
+        ways.append(places)
+        bounds.append(lengths)
+    between = np.abs(ways[1][:1] - ways[0][:1])  # the yarn at the beginning, straight
+    lengths = np.concatenate([bounds[0][::-1], between, bounds[1]])
+    points = np.concatenate([ways[0][::-1], ways[1]])
+    return tied_knot(
+        points, section.warps, keep_out=section.warp / 2, lengths=np.maximum(lengths, np.abs(np.diff(points)))
+    )
+
+
+def _missed(end: int, carrier: str, phase: Phase, gap: float) -> Tied:
+    name = ("first", "second")[end]
+    words = f"no knot: at '{phase.name}' the {name} end is {format_quantity(gap, 'mm')} from the {carrier} gripper"
+    return Tied(None, (), False, words)

@@ -1,0 +1,215 @@
+"""The knotting head: the arm's way, what is tied by it and by wrong hand-overs, and how clear everything stays."""
+
+import dataclasses
+from functools import cache
+
+import numpy as np
+import pytest
+
+from ilmek.carpet.knot_word import knot
+from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams, design, report
+from ilmek.machines.knotting_dyad.clear import apart, arm_bars, mirrored_bars, to_warps
+from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.section import NEIGHBOURS, section_of
+from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT, Phase, sequence
+from ilmek.machines.knotting_dyad.way import mirrored_way
+from ilmek.machines.knotting_dyad.yarn import tied_by
+from ilmek.report import Animation
+
+
+@cache
+def made(**settings: str) -> KnottingDyad:
+    return design(KnottingDyadParams.read(settings))
+
+
+def head(**settings: str) -> Head:
+    found = made(**settings).head
+    assert found is not None
+    return found
+
+
+SECTIONS: list[dict[str, str]] = [
+    {},
+    {"warp_pitch": "1.25mm", "warp_diameter": "0.5mm", "yarn_diameter": "0.6mm"},
+    {"warp_pitch": "10mm"},
+    {"warp_pitch": "1.5mm", "warp_diameter": "0.5mm", "opening": "0.4mm"},
+    {
+        "warp_pitch": "0.5mm",
+        "warp_diameter": "0.2mm",
+        "needle_diameter": "0.15mm",
+        "clearance": "20um",
+        "yarn_diameter": "0.3mm",
+    },
+]
+
+
+@pytest.mark.parametrize("settings", SECTIONS)
+def test_every_check_holds_and_the_needle_has_the_greatest_clearance_that_the_section_has(
+    settings: dict[str, str],
+) -> None:
+    assert not report(made(**settings)).failed
+    found = head(**settings)
+    assert found.clearance_min == pytest.approx(found.section.clearance_bound, abs=1e-9)
+
+
+@pytest.mark.parametrize("settings", SECTIONS)
+def test_the_needle_always_goes_through_the_middle_of_the_gap_and_both_links_keep_their_length(
+    settings: dict[str, str],
+) -> None:
+    arm, s = head(**settings).arm, np.linspace(0, 1, 501)
+    elbow, tip = arm.elbow(s), arm.tip(s)
+    along = (tip - elbow) / arm.second
+    assert np.abs(along) == pytest.approx(np.ones(501), abs=1e-12)
+    assert np.abs(elbow - arm.pivot) == pytest.approx(np.full(501, arm.first), abs=1e-15)
+    assert (np.conj(along) * (arm.gap - elbow)).imag == pytest.approx(np.zeros(501), abs=1e-14)
+    assert tip[-1] == pytest.approx(head(**settings).section.handover, abs=1e-12)
+
+
+@pytest.mark.parametrize("settings", SECTIONS)
+def test_the_derivatives_of_the_joint_angles_are_those_of_a_polynomial_through_them(settings: dict[str, str]) -> None:
+    arm = head(**settings).arm
+    way = arm.way(np.linspace(0, 1, 33))
+    for joint in (0, 1):
+
+        def angle(s: np.ndarray, joint: int = joint) -> np.ndarray:
+            return arm.way(s).theta[:, joint]
+
+        series = np.polynomial.Chebyshev.interpolate(angle, 40, domain=[0, 1])
+        for order, exact in enumerate((way.first, way.second, way.third), 1):
+            scale = np.abs(exact[:, joint]).max()
+            assert series.deriv(order)(way.s) == pytest.approx(exact[:, joint], abs=1e-5 * scale)
+
+
+def test_no_point_of_an_arm_is_faster_than_its_bound_and_no_pose_nearer_to_straight() -> None:
+    for settings in SECTIONS:
+        arm, s = head(**settings).arm, np.linspace(0, 1, 4001)
+        bars = arm_bars(head(**settings).section, arm, s)
+        fastest = max(np.abs(np.diff(places, axis=0)).max() / s[1] for places in (bars.starts, bars.ends))
+        assert fastest <= arm.speed_bound < 3 * fastest
+        theta = arm.way(s).theta
+        assert np.abs(np.sin(theta[:, 1] - theta[:, 0])).min() == pytest.approx(arm.bend, rel=1e-9)
+
+
+def test_the_right_arms_way_is_the_mirror_image() -> None:
+    one = head()
+    way = mirrored_way(one.way)
+    twice, arm = 2 * one.section.middle, one.arm
+    elbow = twice - np.conj(arm.pivot) + arm.first * np.exp(1j * way.theta[:, 0])
+    tip = elbow + arm.second * np.exp(1j * way.theta[:, 1])
+    assert tip == pytest.approx(twice - np.conj(arm.tip(one.way.s)), abs=1e-15)
+    step = np.diff(way.theta, axis=0) / np.diff(way.s)[:, None]
+    assert step == pytest.approx((way.first[1:] + way.first[:-1]) / 2, rel=1e-2, abs=1e-3)
+
+
+@pytest.mark.parametrize("settings", SECTIONS[:4])
+def test_no_sampled_distance_is_less_than_the_least_that_is_told(settings: dict[str, str]) -> None:
+    found, rng = head(**settings), np.random.default_rng(7)
+    told = {one.name: one for one in found.clearances}
+    s, t = rng.uniform(0, 1, (2, 4000))
+    s, t = np.where(s + t > 1, 1 - s, s), np.where(s + t > 1, 1 - t, t)
+    left = arm_bars(found.section, found.arm, s)
+    right = mirrored_bars(found.section, arm_bars(found.section, found.arm, t))
+    for name, sampled in (("arms to warps", to_warps(found.section, left)), ("arm to arm", apart(left, right))):
+        assert sampled.min() >= told[name].value - told[name].sure
+    assert to_warps(found.section, right).min() >= told["arms to warps"].value - told["arms to warps"].sure
+    assert told["arm to arm"].value > 0
+
+
+def test_there_are_six_warps_on_each_side_of_the_pair_and_the_opener_moves_them_aside() -> None:
+    shut, opened = (section_of(KnottingDyadParams(opening=one)).warps for one in (0.0, 0.7e-3))
+    assert len(shut) == 2 * NEIGHBOURS + 2
+    assert np.diff(shut.real) == pytest.approx(np.full(13, 0.002))
+    wide = np.full(13, 0.002)
+    wide[[5, 7]] = 0.0027
+    assert np.diff(opened.real) == pytest.approx(wide)
+    assert opened[6] == 0
+
+
+KNOTS = [("symmetric", "left"), ("asymmetric", "left"), ("asymmetric", "right")]
+
+
+@pytest.mark.parametrize(("kind", "opens"), KNOTS)
+def test_the_phases_tie_the_knot_and_no_other(kind: str, opens: str) -> None:
+    found = head(knot=kind, opens=opens)
+    assert found.tied.knot == knot(kind, NEIGHBOURS + 1, opens=opens)
+    assert report(made(knot=kind, opens=opens)).as_json()["results"]["knot_tied"] == kind
+
+
+def _carried(phases: tuple[Phase, ...], end: int, *by: str) -> tuple[Phase, ...]:
+    """The phases with other carriers of an end."""
+    return tuple(
+        dataclasses.replace(phase, carries=(carrier, phase.carries[1]) if end == 0 else (phase.carries[0], carrier))
+        for phase, carrier in zip(phases, by, strict=True)
+    )
+
+
+def test_an_arm_that_keeps_its_end_ties_nothing_round_its_warp() -> None:
+    found = head()
+    kept = _carried(found.phases, 0, LEFT, LEFT, LEFT, LEFT, "", "", "")
+    assert tied_by(found.section, found.arm, kept).words.startswith("no knot: the yarn only passes behind warp 8")
+    both = _carried(kept, 1, *(RIGHT,) * 7)
+    assert tied_by(found.section, found.arm, both).words == "no knot: pulled, the yarn comes away from every warp"
+
+
+def test_the_carriers_of_the_other_side_tie_the_mirrored_knot() -> None:
+    found = head(knot="asymmetric", opens="left")
+    phases = sequence(knot("asymmetric", NEIGHBOURS + 1, opens="right"), found.section.front, -found.section.depth)
+    tied = tied_by(found.section, found.arm, phases)
+    assert tied.knot is not None
+    assert tied.knot.opens == "right"
+    assert tied.knot != found.knot
+
+
+def test_a_hand_over_at_two_places_is_told_with_the_distance() -> None:
+    found = head()
+    early = _carried(found.phases, 0, CENTRE, LEFT, CENTRE, "", "", "", "")
+    assert "first end is 14 mm from the left gripper" not in tied_by(found.section, found.arm, found.phases).words
+    words = tied_by(found.section, found.arm, early).words
+    assert words.startswith("no knot: at 'centre gripper to the left arm' the first end is ")
+
+
+def test_an_end_left_behind_the_warps_is_no_knot() -> None:
+    found = head()
+    left = _carried(found.phases, 0, LEFT, LEFT, "", "", "", "", "")
+    assert "4 mm behind the front of the warps" in tied_by(found.section, found.arm, left).words
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"warp_pitch": "1mm"}, "take finer warps, or a pitch of 1.5 mm or more"),
+        ({"warp_pitch": "1.4mm"}, "take a needle of 0.4 mm or less, or a pitch of 1.5 mm or more"),
+        ({"depth": "1mm"}, "try a depth of 2.27 mm or an opening of 4.68 mm"),
+    ],
+)
+def test_too_little_room_is_a_failed_check_and_a_warning_that_says_what_to_change(
+    settings: dict[str, str], said: str
+) -> None:
+    found = report(made(**settings))
+    assert [check.name for check in found.failed if "clearance" in check.name] == ["clearance over the whole cycle"]
+    assert said in found.warnings[0]
+    assert head(**settings).clearance_min < 1e-4
+
+
+def test_what_a_warning_advises_helps() -> None:
+    for better in (
+        {"depth": "2.27mm"},
+        {"depth": "1mm", "opening": "4.68mm"},
+        {"warp_pitch": "1.4mm", "needle_diameter": "0.3mm"},
+    ):
+        assert head(**better).clearance_min >= 1e-4 - 1e-6
+
+
+def test_a_given_depth_is_kept_and_a_deeper_hand_over_has_more_room() -> None:
+    assert head(depth="2.27mm").clearance_min < head().clearance_min < head(depth="6mm").clearance_min
+    assert head(depth="6mm").section.depth == pytest.approx(0.006)
+
+
+def test_the_animation_shows_both_arms_and_ends_with_both_out() -> None:
+    moving = next(figure for figure in report(made()).figures if isinstance(figure, Animation))
+    assert {stroke.label for stroke in moving.strokes} >= {"left arm", "right arm"}
+    assert all(np.isfinite(stroke.points).all() for stroke in moving.strokes)
+    ends = [reading.values[-1] for reading in moving.readings[:2]]
+    assert ends == [0.0, 0.0]
+    tips = [stroke.points[:, 1] for stroke in moving.strokes if stroke.role == "outline"]
+    assert len(tips) == 4
