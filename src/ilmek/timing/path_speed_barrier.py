@@ -1,0 +1,184 @@
+"""The quickest speed along a path as an optimisation over a spline, solved by a banded interior-point method.
+
+    least ∫ du / sqrt(w)   so that   c + k / sqrt(w) + R w >= 0 at every place,     w = u'² a cubic spline of u
+
+R acts on w and its first two derivatives. The objective is convex, every c + R w is linear. k / sqrt(w) is convex, so
+its tangent lies below it: a step that keeps the tangent's constraint keeps the true one, and no iterate ever breaks a
+limit. Newton's matrix takes the constraints by their tangents, is positive definite, and is banded, for a place sees
+four coefficients only: a step costs a time in proportion to the places.
+                       [primal-dual steps: S. Boyd and L. Vandenberghe, Convex Optimization, 11.7; tangents of a convex
+                       function: A. Yuille and A. Rangarajan, The concave-convex procedure, 2003]
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+from scipy.interpolate import BSpline
+from scipy.linalg import solveh_banded
+
+from ilmek.arrays import FloatArray
+
+ORDER = 4
+"""Coefficients of a cubic that a place sees."""
+
+GAP, STEPS = 1e-6, 300
+"""Duality gap over the time at which the search ends, and the most steps."""
+
+_TO_WALL, _SPREAD, _SHRINK = 0.95, 10.0, 0.1
+"""Share of the way to the nearest constraint that a step takes; how far products of slack and multiplier may spread
+about their mean; the least factor by which that mean is brought down in a step."""
+
+_GAUSS, _WEIGHT = np.polynomial.legendre.leggauss(3)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SpeedTask:
+    """What is sought: places in order of u, the same number in every interval of the knots.
+
+    knots  of u, ascending         basis  values of the four B-splines at the places
+    rows   R by coefficient        constant, root   c and k
+    """
+
+    knots: Float[np.ndarray, " knots"]
+    basis: Float[np.ndarray, "places 4"]
+    rows: Float[np.ndarray, "places constraints 4"]
+    constant: Float[np.ndarray, "places constraints"]
+    root: Float[np.ndarray, "places constraints"]
+
+    def scaled(self, scale: float) -> "SpeedTask":
+        """The same task for w / scale."""
+        return replace(self, rows=self.rows * scale, root=self.root / np.sqrt(scale))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _State:
+    """Coefficients, and what follows from them: w at the places and at Gauss's points, and the slacks."""
+
+    x: FloatArray
+    w: FloatArray
+    gauss: FloatArray
+    slack: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Integral:
+    """Gauss's points of the objective: basis and weights."""
+
+    basis: FloatArray
+    weight: FloatArray
+
+    def time(self, w: FloatArray) -> float:
+        return float(np.sum(self.weight / np.sqrt(w)))
+
+
+def local_basis(knots: FloatArray, share: FloatArray, order: int = 0) -> FloatArray:
+    """The four B-splines, or a derivative of them, at shares of every interval: (places, 4)."""
+    width = np.diff(knots)[:, None]
+    u = (knots[:-1, None] + width * share).ravel()
+    every = np.eye(len(knots) + ORDER - 2)
+    values = BSpline(clamped(knots), every, ORDER - 1)(u, nu=order)
+    return np.asarray(np.take_along_axis(values, _seen(len(knots) - 1, len(share)), 1))
+
+
+def clamped(knots: FloatArray) -> FloatArray:
+    """The knots with their ends repeated."""
+    return np.pad(knots, ORDER - 1, mode="edge")
+
+
+def _seen(intervals: int, places: int) -> np.ndarray:
+    return np.repeat(np.arange(intervals), places)[:, None] + np.arange(ORDER)
+
+
+def quickest(task: SpeedTask, start: float) -> FloatArray:
+    """Coefficients of the best w; a constant w = `start` must keep all constraints with room to spare."""
+    scaled = task.scaled(start)
+    width = np.diff(task.knots)[:, None]
+    integral = _Integral(local_basis(task.knots, (_GAUSS + 1) / 2), (width * _WEIGHT / 2).ravel())
+    state = _state(scaled, integral, np.ones(len(task.knots) + ORDER - 2))
+    assert state is not None  # the caller's promise: w = start is inside
+    mean = integral.time(state.gauss) / state.slack.size
+    duals = mean / state.slack
+    shrink = 0.3
+    for _ in range(STEPS):
+        gap = float(np.sum(duals * state.slack))
+        if gap < GAP * integral.time(state.gauss):
+            break
+        mean = gap / state.slack.size * shrink
+        step, change, gain = _newton(scaled, integral, state, duals, mean)
+        dual_share = min(1.0, _to_wall(duals, gain))
+        state, share = _moved(scaled, integral, state, step, change)
+        if share == 0.0:
+            break
+        near = mean / state.slack
+        duals = np.clip(duals + dual_share * gain, near / _SPREAD, near * _SPREAD)
+        shrink = min(1.0, max(_SHRINK, 1 - min(share, dual_share)))
+    return state.x * start
+
+
+def _state(task: SpeedTask, integral: _Integral, x: FloatArray) -> _State | None:
+    """What follows from coefficients; None where w is not above 0, or a constraint does not hold."""
+    intervals = len(task.knots) - 1
+    local, at_gauss = x[_seen(intervals, len(task.basis) // intervals)], x[_seen(intervals, len(_GAUSS))]
+    w, gauss = (task.basis * local).sum(1), (integral.basis * at_gauss).sum(1)
+    if not (w.min() > 0 and gauss.min() > 0):
+        return None
+    slack = task.constant + task.root / np.sqrt(w)[:, None] + (task.rows @ local[..., None])[..., 0]
+    return _State(x, w, gauss, slack) if slack.min() > 0 else None
+
+
+def _newton(
+    task: SpeedTask, integral: _Integral, state: _State, duals: FloatArray, mean: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Step of the coefficients, and the changes of slacks and duals that go with it."""
+    intervals = len(task.knots) - 1
+    places = len(state.w) // intervals
+    bent = -0.5 * task.root / state.w[:, None] ** 1.5
+    gradients = task.rows + bent[..., None] * task.basis[:, None]
+    slope = np.zeros(len(state.x))
+    time_slope = (-0.5 * integral.weight * state.gauss**-1.5)[:, None] * integral.basis
+    np.add.at(slope, _seen(intervals, len(_GAUSS)), time_slope)
+    np.add.at(slope, _seen(intervals, places), -((mean / state.slack)[:, None] @ gradients)[:, 0])
+    curved = (0.75 * integral.weight * state.gauss**-2.5)[:, None] * integral.basis
+    curvature = _blocks(curved, integral.basis, intervals)
+    steep = gradients * (duals / state.slack)[..., None]
+    curvature += _blocks(steep.reshape(-1, ORDER), gradients.reshape(-1, ORDER), intervals)
+    step = solveh_banded(_banded(curvature), -slope, lower=True)
+    change = (gradients @ step[_seen(intervals, places)][..., None])[..., 0]
+    return step, change, (mean - duals * change) / state.slack - duals
+
+
+def _blocks(left: FloatArray, right: FloatArray, intervals: int) -> FloatArray:
+    """Sum of the products over an interval's rows: (intervals, 4, 4)."""
+    shape = (intervals, -1, ORDER)
+    return np.asarray(np.swapaxes(left.reshape(shape), 1, 2) @ right.reshape(shape))
+
+
+def _banded(blocks: FloatArray) -> FloatArray:
+    """Lower bands of the overlapping sum of the blocks; the ridge keeps a coefficient that nothing needs."""
+    intervals = len(blocks)
+    bands = np.zeros((ORDER, intervals + ORDER - 1))
+    for row in range(ORDER):
+        for column in range(row + 1):
+            bands[row - column, column : column + intervals] += blocks[:, row, column]
+    bands[0] *= 1 + 1e-12
+    return bands
+
+
+def _to_wall(values: FloatArray, change: FloatArray) -> float:
+    """Share of a change that brings values above 0 nearly to 0."""
+    falling = change < 0
+    return float(_TO_WALL * np.min(-values[falling] / change[falling], initial=np.inf))
+
+
+def _moved(
+    task: SpeedTask, integral: _Integral, state: _State, step: FloatArray, change: FloatArray
+) -> tuple[_State, float]:
+    """The state after the longest share of a step that keeps inside, and that share; 0 where none does."""
+    share = min(1.0, _to_wall(state.slack, change))
+    while share > 1e-9:
+        there = _state(task, integral, state.x + share * step)
+        if there is not None and (there.slack > 0.01 * state.slack).all():
+            return there, share
+        share *= 0.7
+    return state, 0.0

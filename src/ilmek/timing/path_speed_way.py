@@ -1,0 +1,108 @@
+"""A way of several axes by one parameter, their limits, and the rates of a motion along it.
+
+With s' = sqrt(b(s)) the rates of an axis q(s) are
+
+    q' s'      q'' b + q' b_s / 2      sqrt(b) (q''' b + 3/2 q'' b_s + 1/2 q' b_ss)              [chain rule]
+
+At rest b is 0 and b_ss infinite. So the way is led by another parameter u on [0, 1],
+
+    s = s0 + L (10 u³ - 15 u⁴ + 6 u⁵),     w = u'²
+
+whose first two derivatives vanish at both ends: the same formulas hold in u, and rest is kept by any finite w.
+"""
+
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import numpy as np
+from jaxtyping import Float
+from scipy.interpolate import BPoly, PPoly
+
+from ilmek.arrays import FloatArray
+from ilmek.errors import ParameterError
+
+Three: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AxisLimits:
+    """Greatest speed, acceleration and jerk of every axis; speed and acceleration may be infinite.
+
+    Raises ParameterError where one is not above 0, a jerk is infinite, or they are of different numbers.
+    """
+
+    speed: Float[np.ndarray, " axes"]
+    acceleration: Float[np.ndarray, " axes"]
+    jerk: Float[np.ndarray, " axes"]
+
+    def __post_init__(self) -> None:
+        if not len(self.speed) == len(self.acceleration) == len(self.jerk) > 0:
+            raise ParameterError("limits of different numbers of axes", allowed="speed, acceleration, jerk of each")
+        for name in ("speed", "acceleration", "jerk"):
+            values = getattr(self, name)
+            if not (values > 0).all() or (name == "jerk" and not np.isfinite(values).all()):
+                raise ParameterError(f"{name} limits {values.tolist()}", allowed="above 0, the jerk's finite")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointPath:
+    """A way of the axes by a parameter s: a quintic between two nodes, with continuous first two derivatives.
+
+    s          parameter at the nodes, ascending        positions  of the axes there [m or rad]
+    slopes     first derivatives by s                   bends      second derivatives by s
+    Of a smooth way the third derivative is met to the third order of the nodes' distance.
+
+    Raises ParameterError for less than two nodes, s not ascending, numbers that are not finite, and no motion at all.
+    """
+
+    s: Float[np.ndarray, " nodes"]
+    positions: Float[np.ndarray, "nodes axes"]
+    slopes: Float[np.ndarray, "nodes axes"]
+    bends: Float[np.ndarray, "nodes axes"]
+    _curve: PPoly = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        nodes = np.column_stack([self.s, self.positions, self.slopes, self.bends])
+        if len(self.s) < 2 or not (np.diff(self.s) > 0).all() or not np.isfinite(nodes).all():
+            raise ParameterError("nodes of a path", allowed="two or more, s ascending, all numbers finite")
+        if not (np.ptp(self.positions, axis=0).any() or self.slopes.any()):
+            raise ParameterError("a path on which no axis moves", allowed="one that moves", do="leave it out")
+        values = np.stack([self.positions, self.slopes, self.bends], axis=1)
+        object.__setattr__(self, "_curve", PPoly.from_bernstein_basis(BPoly.from_derivatives(self.s, values)))
+
+    @property
+    def length(self) -> float:
+        """Range of the parameter s."""
+        return float(self.s[-1] - self.s[0])
+
+    def at(self, s: FloatArray, order: int = 0) -> FloatArray:
+        """Positions, or their derivatives of an order by s: (..., axes)."""
+        return np.asarray(self._curve(s, nu=order))
+
+    def led(self, u: FloatArray) -> Three:
+        """The first three derivatives of the axes by u on [0, 1]."""
+        g, *slopes = (self.length * one[..., None] for one in rise(u))
+        g1, g2, g3 = slopes
+        q1, q2, q3 = (self.at(self.s[0] + g[..., 0], order) for order in (1, 2, 3))
+        return q1 * g1, q2 * g1**2 + q1 * g2, q3 * g1**3 + 3 * q2 * g1 * g2 + q1 * g3
+
+
+def rise(u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """10 u³ - 15 u⁴ + 6 u⁵ from 0 to 1, and its first three derivatives."""
+    return (
+        u**3 * (10 + u * (6 * u - 15)),
+        30 * (u * (1 - u)) ** 2,
+        60 * u * (1 - u) * (1 - 2 * u),
+        60 * (1 + 6 * u * (u - 1)),
+    )
+
+
+def rates(slopes: Three, square: Three) -> Three:
+    """Speed, acceleration and jerk by time, of what has the slopes by a parameter whose speed's square is given.
+
+    slopes  first three derivatives by the parameter        square  of its speed, and its first two derivatives by it
+    """
+    q1, q2, q3 = slopes
+    w, w1, w2 = square
+    speed = np.sqrt(w)
+    return q1 * speed, q2 * w + q1 * w1 / 2, speed * (q3 * w + 1.5 * q2 * w1 + q1 * w2 / 2)
