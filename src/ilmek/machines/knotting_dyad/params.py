@@ -7,11 +7,19 @@ from ilmek.errors import ParameterError
 from ilmek.machines.places import read_angles, read_points
 from ilmek.params import Params, param
 from ilmek.synthesis.burmester_forms import require_task
-from ilmek.units import deg, format_quantity, mm
+from ilmek.units import deg, format_quantity, g, mm, ms
 
 
 def _length(default: float | None, doc: str, symbol: str = "", at_most: float = 50 * mm) -> Any:
     return param(default, unit="mm", at_least=0.01 * mm, at_most=at_most, doc=doc, symbol=symbol)
+
+
+def _most(default: float, unit: str, rate: str, of: str) -> Any:
+    return param(default, unit=unit, above=0.0, at_most=1e9, doc=f"greatest {rate} of a {of}")
+
+
+def _some(default: float, unit: str, at_most: float, doc: str) -> Any:
+    return param(default, unit=unit, at_least=0.0, at_most=at_most, doc=doc)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +67,36 @@ class KnottingDyadParams(Params):
     )
     angles: str | None = param(None, doc="angles of the first link at these points, like 20deg 65deg …", symbol="θ1")
     link_limit: float = _length(150 * mm, "longest link that the machine has room for", at_most=5.0)
+    joint_speed: float = _most(40.0, "rad/s", "speed", "joint")
+    joint_acceleration: float = _most(2e3, "rad/s^2", "acceleration", "joint")
+    joint_jerk: float = _most(2e5, "rad/s^3", "jerk", "joint")
+    centre_speed: float = _most(2.0, "m/s", "speed", "centre gripper")
+    centre_acceleration: float = _most(50.0, "m/s^2", "acceleration", "centre gripper")
+    centre_jerk: float = _most(5e3, "m/s^3", "jerk", "centre gripper")
+    grasp_time: float = _some(20 * ms, "ms", 10.0, "for a gripper to take an end")
+    release_time: float = _some(10 * ms, "ms", 10.0, "for a gripper to let an end go")
+    elbow_drive: str = param(
+        "belt", choices=("belt", "direct"), doc="second link by a belt from the pivot, or by a servo in the elbow"
+    )
+    elbow_mass: float = _some(0.0, "g", 100.0, "mass in the elbow, such as a servo's")
+    link_thickness: float = _length(3 * mm, "thickness of the links, across their plane")
+    density: float = param(2700.0, unit="kg/m^3", above=0.0, at_most=1e5, doc="density of the links; aluminium")
+    gripper_mass: float = _some(2 * g, "g", 10.0, "mass of the gripper in an arm's tip")
+    yarn_pull: float = _some(0.5, "N", 1e4, "force of the yarn on a tip that leads it, against its motion")
+    gravity: float = _some(9.81, "m/s^2", 1e3, "free fall, in the section's plane and away from the pile; 0: it lies")
+    gear_ratio: float | None = param(
+        None,
+        above=0.0,
+        at_most=1e4,
+        doc="turns of a servo for one of its joint; unsaid: the least with which the smallest servo will do",
+    )
+    gear_efficiency: float = param(0.9, above=0.0, at_most=1.0, doc="efficiency of the gears", symbol="η")
+    rotor_inertia: float = param(
+        5e-6, unit="kg*m^2", at_least=0.0, at_most=1.0, doc="of a servo's rotor; 100 W classes have about 5e-6"
+    )
+    servo_overload: float = param(
+        3.0, at_least=1.0, at_most=10.0, doc="short peaks of torque that a servo bears, over its lasting torque"
+    )
 
     def check_together(self) -> None:
         """Points and angles go together, four of each; warps stand apart, and the hand-over behind them."""
