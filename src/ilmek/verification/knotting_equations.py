@@ -34,7 +34,7 @@ def poses() -> Poses:
     """The machine's four-bar from 5 to 20 deg short of the quoted crank angle."""
     params = KnottingFourBarParams()
     ground = closing_ground(params)
-    angle = params.crank_angle - np.linspace(5.0, 20.0, 16) * deg
+    angle = params.stated_crank_angle - np.linspace(5.0, 20.0, 16) * deg
     motion = solve(plan(mechanism(params, ground)), angle, 2.0).require()
     bodies = "crank", "coupler", "rocker"
     t1, t2, t3 = (np.asarray(motion.angle(body)) for body in bodies)

@@ -2,7 +2,8 @@
 
     ground O1-O1'     crank O1-O2, driven     coupler O2-O2', the hand H on its line     rocker O1'-O2'
 
-O1 is the origin; all angles are counter-clockwise from x. One freedom: the coupler's angle follows from the crank's.
+O1 is the origin, unless the four-bar is made for poses; all angles are counter-clockwise from x. One freedom: the
+coupler's angle follows from the crank's.
 The report chooses both; that is the same as to turn the ground link until the loop closes, see `closing_ground`.
 """
 
@@ -66,12 +67,12 @@ def closing_ground(params: KnottingFourBarParams) -> float:
     return found[0]
 
 
-def mechanism(params: KnottingFourBarParams, ground_angle: float) -> Mechanism:
-    """The four-bar with its hand."""
+def mechanism(params: KnottingFourBarParams, ground_angle: float, origin: complex = 0j) -> Mechanism:
+    """The four-bar with its hand, its pivot O1 at `origin` [m]."""
     return Mechanism(
         name="knotting-four-bar",
         bodies=(
-            Body(GROUND, {"O1": 0, "O1'": complex(params.ground * unit(ground_angle))}),
+            Body(GROUND, {"O1": origin, "O1'": complex(origin + params.ground * unit(ground_angle))}),
             Body("crank", {"O1": 0, "O2": params.crank}),
             Body("coupler", {"O2": 0, "O2'": params.coupler, "H": params.hand}),
             Body("rocker", {"O1'": 0, "O2'": params.rocker}),

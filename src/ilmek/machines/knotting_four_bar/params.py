@@ -1,10 +1,12 @@
 """What may be asked of a knotting four-bar."""
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from ilmek.errors import ParameterError
-from ilmek.params import Params, param
+from ilmek.machines.knotting_four_bar.poses import read_three_poses
+from ilmek.params import Params, Setting, declared, param
 from ilmek.units import deg, mm, turn
 
 SMALL, LARGE = 1e-4, 5.0
@@ -17,8 +19,14 @@ def _length(default: float, doc: str, alias: str = "") -> Any:
 
 @dataclass(frozen=True, slots=True)
 class KnottingFourBarParams(Params):
-    """What may be asked of a knotting four-bar; the defaults are the report's, the aliases its symbols."""
+    """What may be asked of a knotting four-bar; the defaults are the report's, the aliases its symbols.
 
+    With `poses` the links, the hand and the branch follow from them, and may not be given.
+    """
+
+    poses: str | None = param(
+        None, doc="three poses of the hand and the coupler, like (0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
+    )
     ground: float = _length(78.105 * mm, "distance of the pivots O1 and O1'", "r0")
     crank: float = _length(82.345 * mm, "driven link, O1 to O2", "r1")
     coupler: float = _length(15.688 * mm, "coupler between its pins, O2 to O2'", "r2")
@@ -28,7 +36,8 @@ class KnottingFourBarParams(Params):
         unit="deg",
         at_least=-turn,
         at_most=turn,
-        doc="direction from O1 to O1'; unsaid: as it must be for the loop to close at the stated pose",
+        doc="direction from O1 to O1'; unsaid: as it must be for the loop to close at the stated pose. With poses, of "
+        "the ray from their origin that both pivots lie on; unsaid: the best",
         symbol="θg",
     )
     stated_crank_angle: float = param(
@@ -38,8 +47,13 @@ class KnottingFourBarParams(Params):
         10 * deg, unit="deg", at_least=-turn, at_most=turn, doc="coupler angle of the stated pose"
     )
     branch: int = param(-1, at_least=-1, at_most=1, doc="+1: pin O2' on the left of the line O2-O1', -1: on the right")
-    crank_angle: float = param(
-        135 * deg, unit="deg", at_least=-2 * turn, at_most=2 * turn, doc="crank angle to report", symbol="θ1"
+    crank_angle: float | None = param(
+        None,
+        unit="deg",
+        at_least=-2 * turn,
+        at_most=2 * turn,
+        doc="crank angle to report; unsaid: 135°, with poses that of the first",
+        symbol="θ1",
     )
     speed: float = param(1.0, unit="rad/s", at_least=-1e4, at_most=1e4, doc="speed of the crank", symbol="ω1")
     acceleration: float = param(
@@ -77,6 +91,35 @@ class KnottingFourBarParams(Params):
     gear_efficiency: float = param(0.9, above=0.0, at_most=1.0, doc="efficiency of the gears", symbol="η")
 
     def check_together(self) -> None:
-        """A branch has a side."""
+        """A branch has a side; poses leave nothing of the links to give."""
         if self.branch == 0:
             raise ParameterError("branch=0 is no side", allowed="+1: O2' left of the line O2-O1', -1: right")
+        if self.poses is not None:
+            given = (one for one in declared(type(self)) if one.name in SYNTHESISED)
+            refuse_links(one.name for one in given if getattr(self, one.name) != one.default)
+            read_three_poses(self.poses)
+
+    @classmethod
+    def read(cls, settings: Mapping[str, Setting]) -> "KnottingFourBarParams":
+        """Parameters from settings by name or alias, texts with units allowed; see `Params.read`."""
+        read = super(KnottingFourBarParams, cls).read(settings)
+        if read.poses is not None:
+            said = {given.casefold() for given in settings}
+            known = (one for one in declared(cls) if one.name in SYNTHESISED)
+            refuse_links(one.name for one in known if said & {one.name, one.alias.casefold()})
+        return read
+
+
+SYNTHESISED = ("ground", "crank", "coupler", "rocker", "branch", "hand")
+"""What follows from poses."""
+
+
+def refuse_links(given: Iterable[str]) -> None:
+    """Raise ParameterError where anything is given beside poses that follows from them."""
+    names = tuple(given)
+    if names:
+        raise ParameterError(
+            f"poses are given together with {', '.join(names)}",
+            allowed="either poses, from which links, hand and branch follow, or these",
+            do=f"leave out poses, or {', '.join(names)}",
+        )

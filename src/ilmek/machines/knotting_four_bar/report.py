@@ -3,8 +3,9 @@
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.machines.knotting_four_bar import poses_report
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.drive import Drive
+from ilmek.machines.knotting_four_bar.drive import Drive, drive_for
 from ilmek.machines.knotting_four_bar.figures import figures
 from ilmek.machines.knotting_four_bar.instead import Instead
 from ilmek.machines.knotting_four_bar.model import State
@@ -21,24 +22,40 @@ def report(design: KnottingFourBar) -> Report:
     return Report(
         machine="knotting-four-bar",
         title="Knotting four-bar",
-        parameters=design.params.as_dict(),
-        results=(*_place(design), _at(design), *_split(design), *_drive(design), _mass(design), _instead(design)),
-        checks=_checks(design),
-        tables=(_force_table(design), _part_table(design), _instead_table(design)),
+        parameters=_parameters(design),
+        results=(
+            *poses_report.results(design),
+            *_place(design),
+            _at(design),
+            *_split(design),
+            *_drive(design),
+            _mass(design),
+            *_instead(design),
+        ),
+        checks=(*_checks(design), *poses_report.checks(design)),
+        tables=(*poses_report.tables(design), _force_table(design), _part_table(design), *_instead_table(design)),
         figures=figures(design),
         warnings=_warnings(design),
     )
 
 
+def _parameters(design: KnottingFourBar) -> dict[str, Json]:
+    """As asked; the links that follow from poses as they are."""
+    found = design.synthesis
+    said: dict[str, Json] = {} if found is None else {"poses": found.poses.text, "ground_angle": found.ground_angle}
+    return {**design.params.as_dict(), **said}
+
+
 def _place(design: KnottingFourBar) -> tuple[Result, ...]:
     closes = None if design.range is None else list(design.range)
     distance = design.dead_point_distance if design.range else None
+    place, least = ("its way", "least on the way") if design.working else ("crank_angle", "there")
     return (
         Result("ground_angle", design.ground_angle, "deg", "direction of the ground link, O1 to O1'"),
         Result("grashof", design.grashof.kind, "", "class of the four-bar"),
         Result("crank_range", closes, "deg", "crank angles between its dead points; none where it turns fully"),
-        Result("dead_point_distance", distance, "deg", "crank's turn from crank_angle to the nearer dead point"),
-        Result("transmission_angle", design.transmission_angle, "deg", "acute angle of coupler and rocker there"),
+        Result("dead_point_distance", distance, "deg", f"crank's turn from {place} to the nearer dead point"),
+        Result("transmission_angle", design.transmission_angle, "deg", f"acute angle of coupler and rocker {least}"),
     )
 
 
@@ -87,9 +104,9 @@ def _torques(design: KnottingFourBar) -> tuple[float, float]:
 
 
 def _drive(design: KnottingFourBar) -> tuple[Result, ...]:
-    drive = design.drive
+    drive, where = design.drive, "on the way through the poses" if design.working else "at crank_angle"
     return (
-        Result("servo_torque", drive.torque, "N*m", "torque of the servo at crank_angle, moving or at rest"),
+        Result("servo_torque", drive.torque, "N*m", f"torque of the servo {where}, moving or at rest"),
         Result("servo_speed", drive.speed, "rad/s", "speed of the servo"),
         Result("gear_ratio", drive.reducer.ratio, "", "turns of the servo for one of the crank"),
         Result("servo", _servo(drive), "", "smallest servo that gives both"),
@@ -109,8 +126,11 @@ def _mass(design: KnottingFourBar) -> Result:
     return Result("masses", answer, "", meaning)
 
 
-def _instead(design: KnottingFourBar) -> Result:
-    made, params = design.instead, design.instead.params
+def _instead(design: KnottingFourBar) -> tuple[Result, ...]:
+    made = design.instead
+    if made is None:
+        return ()
+    params, drive = made.params, _drive_instead(made)
     answer: dict[str, Json] = {
         "ground": params.ground,
         "crank": params.crank,
@@ -122,14 +142,19 @@ def _instead(design: KnottingFourBar) -> Result:
         "crank_angles": made.crank_angles.tolist(),
         "drive_torques": made.state.torque.tolist(),
         "transmission_angle_min": _least_transmission(made),
-        "gear_ratio": design.drive_instead.reducer.ratio,
-        "servo": _servo(design.drive_instead),
+        "gear_ratio": drive.reducer.ratio,
+        "servo": _servo(drive),
     }
     meaning = (
         "four-bar whose coupler takes the report's three poses: parameters to set; crank and torque at the poses, "
         "gears and servo for the greatest; SI"
     )
-    return Result("instead", answer, "", meaning)
+    return (Result("instead", answer, "", meaning),)
+
+
+def _drive_instead(made: Instead) -> Drive:
+    """The drive for the greatest torque of the four-bar to use instead at the report's poses."""
+    return drive_for(made.params, float(np.max(np.abs(made.state.torque))))
 
 
 def _least_transmission(made: Instead) -> float:
@@ -162,10 +187,13 @@ def _near_dead_point(design: KnottingFourBar) -> tuple[str, ...]:
         return ()
     distance = format_quantity(design.dead_point_distance, "deg")
     asked, torque = (
-        format_quantity(design.params.crank_angle, "deg"),
+        format_quantity(design.crank_angle, "deg"),
         format_quantity(abs(_only(design.at.torque)), "N*m"),
     )
-    instead, params = design.instead, design.instead.params
+    instead = design.instead
+    if instead is None:
+        return (f"on its way through the poses the crank comes within {distance} of a dead point",)
+    params = instead.params
     lengths = ", ".join(
         f"{alias} {format_quantity(length, 'mm')}"
         for alias, length in (
@@ -209,7 +237,9 @@ def _part_table(design: KnottingFourBar) -> Table:
     return Table("knotting-parts", "Masses and moments of inertia", columns, rows)
 
 
-def _instead_table(design: KnottingFourBar) -> Table:
+def _instead_table(design: KnottingFourBar) -> tuple[Table, ...]:
+    if design.instead is None:
+        return ()
     state = design.instead.state
     columns = (
         Column("pose"),
@@ -223,4 +253,4 @@ def _instead_table(design: KnottingFourBar) -> Table:
         (at + 1, float(state.angle[at]), float(coupler[at]), float(rocker[at]), float(state.torque[at]))
         for at in range(3)
     )
-    return Table("knotting-instead", "The four-bar of both arms at the report's poses", columns, rows)
+    return (Table("knotting-instead", "The four-bar of both arms at the report's poses", columns, rows),)

@@ -1,0 +1,265 @@
+"""The four-bar through three poses of the hand: both arms of the poses, joined, and judged at either crank.
+
+Each arm (`synthesis.dyad`) carries the coupler through the poses, its pivot on the ray of the ground angle. Two of them
+side by side are a four-bar: their second links are one body, the first links its crank and its rocker.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import permutations
+
+import numpy as np
+from jaxtyping import Complex, Float
+
+from ilmek.arrays import FloatArray
+from ilmek.errors import MechanismError, ParameterError
+from ilmek.machines.places import read_poses
+from ilmek.plane.vectors import unit
+from ilmek.synthesis.burmester_forms import require_task
+from ilmek.synthesis.candidate import Candidate, judge
+from ilmek.synthesis.dyad import Dyad, Found, PoseArms, arms_through_poses, dyads_through_poses
+from ilmek.synthesis.four_bar import FourBar
+from ilmek.synthesis.sieve import Filters, defects
+from ilmek.synthesis.task import Task
+from ilmek.units import deg, format_quantity, turn
+
+DIRECTIONS = np.arange(360) * 0.5 * deg
+"""Ground rays that are tried where none is said; a ray and its opposite are one line, and have the same arms."""
+
+LINK_RATIO = 10.0
+"""Longest link by shortest, up to which a four-bar of a tried ray is taken."""
+
+
+OTHERS = {
+    1: "one leaves nearly everything free: give three",
+    2: "two leave a family for every ground angle: give three",
+    4: "for 4 poses: motion-four-bar",
+    5: "for 5 poses: motion-four-bar",
+}
+"""What takes other numbers of poses."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Poses:
+    """Three poses of the hand: its places [m], the directions of the coupler there [rad], and as they were written."""
+
+    points: Complex[np.ndarray, "3"]
+    angles: Float[np.ndarray, "3"]
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Choice:
+    """A four-bar of two arms: their numbers from 0, the driven one first; what was found, and its defects in words."""
+
+    crank: int
+    rocker: int
+    candidate: Candidate
+    defects: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Synthesis:
+    """All arms through three poses with their pivots on one ray, and the four-bars made of them.
+
+    ground_angle  of the ray from the poses' origin [rad]      tried  whether it was found by trial
+    roots         both roots of the task, and what they are    dyads  the real arms among them
+    choices       every four-bar                               best   the one to build
+    """
+
+    poses: Poses
+    ground_angle: float
+    tried: bool
+    roots: PoseArms
+    dyads: tuple[Dyad, ...]
+    choices: tuple[Choice, ...]
+    best: Choice
+
+    @property
+    def crank(self) -> Dyad:
+        """The arm whose first link is driven."""
+        return self.dyads[self.best.crank]
+
+    @property
+    def rocker(self) -> Dyad:
+        """The other arm."""
+        return self.dyads[self.best.rocker]
+
+    @property
+    def hand(self) -> float:
+        """The gripping point on the coupler, from O2 towards O2' [m]."""
+        drawn = self.best.candidate.four_bar
+        along = drawn.tracer_on_coupler
+        return float(np.real(along if along is not None else 0j))
+
+    @property
+    def crank_angles(self) -> Float[np.ndarray, "3"]:
+        """Of the driven link at the poses, as it turns through them one way [rad]; the last within the first turn."""
+        return turned_through(self.best.candidate)
+
+    def residuals(self, dyad: Dyad) -> FloatArray:
+        """By how much an arm misses the poses [m]."""
+        points, angles = self.poses.points, self.poses.angles
+        return np.asarray(np.abs(dyad.place(dyad.first_angles(points, angles), angles) - points))
+
+
+def read_three_poses(text: str) -> Poses:
+    """The three poses of a text. Raises ParameterError for anything else; other numbers are sent to who takes them."""
+    points, angles = read_poses("poses", text)
+    if len(points) in OTHERS:
+        given = f"{len(points)} pose{'s' if len(points) > 1 else ''}"
+        raise ParameterError(given, allowed="exactly 3", do=OTHERS[len(points)])
+    if len(points) > max(OTHERS):
+        raise ParameterError(
+            f"{len(points)} poses", allowed="exactly 3", do="no four-bar takes more than 5 exactly: choose among them"
+        )
+    require_task("pose", points, angles, 3, "knotting-four-bar")
+    return Poses(points, angles, text)
+
+
+def synthesised(poses: Poses, ground_angle: float | None) -> Synthesis:
+    """The four-bar through three poses, the best of both cranks; ground angle [rad], or None to try them.
+
+    Raises ParameterError where there are not two real arms, or where neither four-bar goes through the poses without
+    defects; it says what there is, and which ground angles will do.
+    """
+    tried = ground_angle is None
+    if ground_angle is None:
+        ground_angle = best_ray(poses)
+        if ground_angle is None:
+            raise ParameterError(
+                f"no ground ray out of {DIRECTIONS.size}, half a degree apart, has a four-bar through the three poses "
+                "that passes them in order on one branch",
+                do="move or turn a pose",
+            )
+    dyads = dyads_through_poses(poses.points, poses.angles, ground_angle)
+    roots = arms_through_poses(poses.points, poses.angles, ground_angle)
+    if len(dyads) < 2:
+        raise _too_few(poses, ground_angle, roots)
+    choices = tuple(_choices(poses, dyads))
+    kept = [one for one in choices if not one.defects]
+    if not kept:
+        raise _none_will_do(poses, ground_angle, choices)
+    best = max(kept, key=lambda one: one.candidate.least_transmission)
+    return Synthesis(poses, ground_angle, tried, roots, dyads, choices, best)
+
+
+def best_ray(poses: Poses) -> float | None:
+    """Of rays half a degree apart the one with the best transmission angle [rad]; None where none has a four-bar.
+
+    The angles at the poses bound that of the whole motion: four-bars are judged from the highest bound downwards.
+    """
+    bounds = _bounds(poses)
+    best, most = None, 0.0
+    for at in np.argsort(-np.max(bounds, axis=-1)):
+        if np.max(bounds[at]) <= most:
+            break
+        dyads = dyads_through_poses(poses.points, poses.angles, float(DIRECTIONS[at]))
+        for one in _choices(poses, dyads, Filters(link_ratio=LINK_RATIO)):
+            if not one.defects and one.candidate.least_transmission > most:
+                best, most = float(DIRECTIONS[at]), one.candidate.least_transmission
+    return best
+
+
+def _bounds(poses: Poses) -> Float[np.ndarray, "rays 2"]:
+    """The most that the transmission angle can be [rad], for each ray and driven arm; -1 where there is no four-bar.
+
+    Left out are those with the poses on two branches, and those whose crank does not turn fully and is at the poses out
+    of order.
+    """
+    shape = (DIRECTIONS.size, 3)
+    points, angles = (np.broadcast_to(one, shape) for one in (poses.points, poses.angles))
+    arms = arms_through_poses(points, angles, DIRECTIONS)
+    there = np.all(arms.found == Found.ARM, axis=-1)[:, None]
+    pivot, first, second = (np.where(there, one, 1.0) for one in (arms.pivot, arms.first, arms.second))
+    turned = np.asarray(unit(angles))[:, None]
+    links = points[:, None] - pivot[..., None] - second[..., None] * turned
+    # Sines of the coupler against the first link of the other arm.
+    sines = (np.imag(links * np.conj(turned)) / first[..., None])[:, ::-1]
+    across = np.diff(pivot, axis=-1) * np.array([1, -1])
+    cranks = np.angle(links * np.conj(across)[..., None])
+    ground, coupler, rocker = np.abs(across), np.abs(np.diff(second)), first[:, ::-1]
+    folded, stretched = (
+        (np.abs(coupler - rocker) <= span) & (span <= coupler + rocker)
+        for span in (np.abs(ground - first), ground + first)
+    )
+    # A crank that passes the stretched pose is at half a turn from the ground line there: no place to cut its angle.
+    steps = np.diff(np.where(stretched[..., None], np.mod(cranks, turn), cranks))
+    in_order = np.all(steps > 0, axis=-1) | np.all(steps < 0, axis=-1) | (folded & stretched)
+    one_branch = np.abs(np.sum(np.sign(sines), axis=-1)) == 3
+    likely = there & one_branch & in_order
+    return np.where(likely, np.arcsin(np.minimum(np.min(np.abs(sines), axis=-1), 1.0)), -1.0)
+
+
+def turned_through(candidate: Candidate) -> Float[np.ndarray, "3"]:
+    """Crank angles at the positions of a candidate that meets them in order, turning one way [rad]."""
+    angles = np.array([met.crank_angle for met in candidate.positions])
+    if candidate.crank_turns:
+        onward, back = (np.mod(way * (angles - angles[0]), turn) for way in (+1, -1))
+        angles = angles[0] + (onward if np.all(np.diff(onward) > 0) else -back)
+    return np.asarray(angles - turn * np.floor(angles[-1] / turn))
+
+
+def sines(poses: Poses, arm: Dyad) -> Float[np.ndarray, "3"]:
+    """Sine of the coupler against an arm's first link, at the poses: what the other arm as crank works with."""
+    return np.asarray(np.abs(np.sin(arm.first_angles(poses.points, poses.angles) - poses.angles)))
+
+
+def _choices(poses: Poses, dyads: tuple[Dyad, ...], filters: Filters | None = None) -> list[Choice]:
+    """Every pair of arms as a four-bar, with either of them driven."""
+    task = Task(points=poses.points, coupler=poses.angles)
+    found = []
+    for crank, rocker in permutations(range(len(dyads)), 2):
+        drawn = _joined(poses, dyads[crank], dyads[rocker])
+        if drawn:
+            candidate = judge(drawn, task)
+            found.append(Choice(crank, rocker, candidate, defects(candidate, filters)))
+    return found
+
+
+def _joined(poses: Poses, crank: Dyad, rocker: Dyad) -> FourBar | None:
+    """Two arms as drawn at the first pose; None where two of their pins are one."""
+    A, B = (poses.points[0] - arm.second * unit(poses.angles[0]) for arm in (crank, rocker))
+    try:
+        return FourBar(crank.pivot, rocker.pivot, complex(A), complex(B), complex(poses.points[0]))
+    except MechanismError:
+        return None
+
+
+def _too_few(poses: Poses, ground_angle: float, roots: PoseArms) -> ParameterError:
+    count = int(np.sum(roots.found == Found.ARM))
+    said = dict.fromkeys(Found(int(one)).words for one in roots.found if one != Found.ARM)
+    arms = ("no real arm takes", "only one real arm takes")[count]
+    return ParameterError(
+        f"{arms} the three poses with its pivot on the ray at {format_quantity(ground_angle, 'deg')} "
+        f"(of two roots, {'the other' if count else 'both'}: {'; '.join(said)})",
+        allowed="a four-bar takes two",
+        do=_rays_with_two(poses),
+    )
+
+
+def _rays_with_two(poses: Poses) -> str:
+    """The ground angles that have two real arms, in words."""
+    shape = (DIRECTIONS.size, 3)
+    points, angles = (np.broadcast_to(one, shape) for one in (poses.points, poses.angles))
+    there = np.all(arms_through_poses(points, angles, DIRECTIONS).found == Found.ARM, axis=-1)
+    if not there.any():
+        return "no ground angle has two: move or turn a pose"
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(int)))
+    spans = [
+        f"{np.degrees(DIRECTIONS[start]):g}deg..{np.degrees(DIRECTIONS[stop - 1]):g}deg"
+        for start, stop in edges.reshape(-1, 2)
+    ]
+    return f"ground_angle {' or '.join(spans)}, or their opposites, has two; leave it out to have the best"
+
+
+def _none_will_do(poses: Poses, ground_angle: float, choices: tuple[Choice, ...]) -> ParameterError:
+    said = "; ".join(f"driven at arm {one.crank + 1}: {' and '.join(one.defects.values())}" for one in choices)
+    best = best_ray(poses)
+    other = "move or turn a pose" if best is None else f"ground_angle={np.degrees(best):g}deg has one"
+    return ParameterError(
+        f"with the ground ray at {format_quantity(ground_angle, 'deg')} no four-bar goes through the three poses "
+        f"({said or 'both arms are one'})",
+        allowed="all poses on one branch, in order",
+        do=other,
+    )
