@@ -9,6 +9,7 @@ from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.moving import moving
 from ilmek.machines.knotting_dyad.section import Section
 from ilmek.machines.knotting_dyad.task import SHARES
+from ilmek.machines.knotting_dyad.yarn import carried
 from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.synthesis.dyad import Dyad
 from ilmek.units import format_quantity, turn
@@ -27,19 +28,20 @@ def figures(design: KnottingDyad) -> tuple[Figure, ...]:
 
 
 def head_drawing(head: Head) -> Drawing:
-    """Both arms at the four points, the last one strong, with the centre gripper."""
+    """Both arms at the four points, the left one strong at the last, the right one at the first; the centre gripper."""
     bars = arm_bars(head.section, head.arm, SHARES)
     other = mirrored_bars(head.section, bars)
-    dashed = [_chain(one, at, "construction") for one in (bars, other) for at in range(3)]
-    strong = [_chain(bars, 3, "link", "left arm"), _chain(other, 3, "link", "right arm")]
+    poses = [(bars, at) for at in range(3)] + [(other, at) for at in range(1, 4)]
+    dashed = [_chain(one, at, "construction") for one, at in poses]
+    strong = [_chain(bars, 3, "link", "left arm"), _chain(other, 0, "link", "right arm")]
     pivot = head.arm.pivot
     dots = (Dot(pivot, "O", "pivot"), Dot(complex(2 * head.section.middle - pivot.conjugate()), "O'", "pivot"))
-    elbows = tuple(Dot(complex(one.starts[3, 1]), name) for one, name in ((bars, "E"), (other, "E'")))
+    elbows = (Dot(complex(bars.starts[3, 1]), "E"), Dot(complex(other.starts[0, 1]), "E'"))
     centre = Stroke(
         np.array([head.section.handover, head.section.middle + 1.6j * head.section.front]), "path", "centre"
     )
     strokes = (*warps(head.section), *dashed, *strong, centre, Stroke(_knot(head), "yarn"))
-    note = "Both arms at their four points, the last strong: they come one after the other. Yarn: the ways of its ends."
+    note = "Left arm at its last point, right arm at its first, the others dashed. Yarn: the ways of its two ends."
     return Drawing(
         "knotting-dyad-head", "Both arms of the head at their four points", strokes, (*dots, *elbows), note=note
     )
@@ -69,15 +71,15 @@ def passing(head: Head) -> Drawing:
 def workspace(head: Head) -> Drawing:
     """What the left arm reaches: between two circles, on which its links are in one line."""
     arm = head.arm
-    ring = np.exp(1j * turn * np.arange(181) / 180)
+    ring = np.exp(1j * turn * np.arange(180) / 180)
     inner = abs(arm.first - arm.second)
-    circles = [Stroke(arm.pivot + radius * ring, "guide") for radius in (arm.first + arm.second, inner)]
+    circles = [Stroke(arm.pivot + radius * ring, "outline", closed=True) for radius in (arm.first + arm.second, inner)]
     least, most = (abs(head.arm.tip(np.array([at]))[0] - arm.pivot) for at in (1.0, 0.0))
-    used = [Stroke(arm.pivot + radius * ring, "construction") for radius in (least, most)]
+    used = [Stroke(arm.pivot + radius * ring, "construction", closed=True) for radius in (least, most)]
     way = Stroke(arm.tip(np.linspace(0, 1, 121)), "yarn")
     bars = arm_bars(head.section, arm, np.array([1.0]))
     strokes = (*warps(head.section), *circles, *used, _chain(bars, 0, "link", "left arm at the hand-over"), way)
-    note = "Hatched: outstretched and folded, the singular places and the bounds of the room. Dashed: used of it."
+    note = "Thick circles: outstretched and folded, the singular places and the bounds of the room. Dashed: used of it."
     dots = (Dot(arm.pivot, "O", "pivot"), Dot(complex(bars.ends[0, 0]), "E"))
     return Drawing("knotting-dyad-workspace", "What the left arm reaches", strokes, dots, note=note)
 
@@ -129,11 +131,15 @@ def _tilt(head: Head) -> FloatArray:
 
 
 def _knot(head: Head) -> ComplexArray:
-    """The ways of both ends in one line: down between the pair, behind a warp, out, over, and the same mirrored."""
-    way = head.arm.tip(np.linspace(0.0, 1.0, 61))
-    top = complex(head.section.middle, head.section.front)
-    left = np.concatenate([[top], way[::-1]])
-    return np.concatenate([left, (2 * head.section.middle - np.conj(left))[::-1]])
+    """The ways of both ends in one line: the first backwards, then the second."""
+    shares = np.linspace(0.0, 1.0, 41)
+    first, second = (
+        np.concatenate(
+            [carried(head.section, head.arm, one.carries[end], one, shares) for one in head.phases if one.carries[end]]
+        )
+        for end in (0, 1)
+    )
+    return np.concatenate([first[::-1], second])
 
 
 def _chain(bars: Bars, at: int, role: str, label: str = "") -> Stroke:

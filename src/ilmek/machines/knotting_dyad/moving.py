@@ -1,12 +1,13 @@
 """The head in motion: both arms, the centre gripper, and the yarn as it lies where its ends went."""
 
+from typing import TypeAlias
+
 import numpy as np
 from jaxtyping import Complex, Float
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.knotting_dyad.clear import Bars, arm_bars, mirrored_bars
 from ilmek.machines.knotting_dyad.head import Head
-from ilmek.machines.knotting_dyad.sequence import Phase
 from ilmek.machines.knotting_dyad.yarn import carried
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import turn
@@ -14,8 +15,10 @@ from ilmek.units import turn
 EACH = 14
 """Frames of a phase."""
 
-ALONG = 120
+ALONG = 160
 """Places that the yarn is drawn through."""
+
+_Ways: TypeAlias = list[ComplexArray]
 
 
 def moving(head: Head) -> Animation:
@@ -27,7 +30,8 @@ def moving(head: Head) -> Animation:
     arms = [_links(one, name) for one, name in zip(bars, ("left arm", "right arm"), strict=True)]
     tip = section.middle + 1j * centre
     gripper = MovingStroke(np.stack([tip, tip + 1j * section.needle_length], -1), "outline")
-    yarn = MovingStroke(np.stack([_yarn(head, frame) for frame in range(frames)]), "outline")
+    ways = _ways(head, 0), _ways(head, 1)
+    yarn = MovingStroke(np.stack([_yarn(ways, frame) for frame in range(frames)]), "outline")
     strokes = (yarn, *arms[0], *arms[1], gripper)
     elbows = tuple(MovingDot(one.starts[:, 1], name) for one, name in zip(bars, ("E", "E'"), strict=True))
     pivot = head.arm.pivot
@@ -65,24 +69,20 @@ def _links(bars: Bars, name: str) -> tuple[MovingStroke, ...]:
     return (*wide, MovingStroke(np.stack([bars.starts[:, 2], bars.ends[:, 2]], -1), "outline"))
 
 
-def _yarn(head: Head, frame: int) -> Complex[np.ndarray, " along"]:
-    """The yarn at a frame: the first end's way until then backwards, then the second's."""
-    phase, share = divmod(frame, EACH)
-    first, second = (_went(head, end, phase, share / (EACH - 1)) for end in (0, 1))
+def _yarn(ways: tuple[_Ways, _Ways], frame: int) -> Complex[np.ndarray, " along"]:
+    """The yarn at a frame: the first end's way until then backwards, then the second's, in even steps."""
+    phase, at = divmod(frame, EACH)
+    first, second = (np.concatenate([*way[:phase], way[phase][: at + 1]]) for way in ways)
     whole = np.concatenate([first[::-1], second])
     length = np.append(0.0, np.cumsum(np.abs(np.diff(whole))))
-    at = np.linspace(0.0, length[-1], ALONG)
-    return np.asarray(np.interp(at, length, whole.real) + 1j * np.interp(at, length, whole.imag))
+    even = np.linspace(0.0, length[-1], ALONG)
+    return np.asarray(np.interp(even, length, whole.real) + 1j * np.interp(even, length, whole.imag))
 
 
-def _went(head: Head, end: int, until: int, share: float) -> ComplexArray:
-    """Where an end has gone until a share of a phase."""
-    ways = [_carry(head, end, phase, 1.0) for phase in head.phases[:until]]
-    return np.concatenate([*ways, _carry(head, end, head.phases[until], share)])
-
-
-def _carry(head: Head, end: int, phase: Phase, share: float) -> ComplexArray:
-    carrier = phase.carries[end]
-    if not carrier:
-        return np.empty(0, complex)
-    return carried(head.section, head.arm, carrier, phase, _soft(np.linspace(0.0, share, 33)))
+def _ways(head: Head, end: int) -> _Ways:
+    """Where an end is at the frames of each phase; nothing where nobody carries it."""
+    shares, none = _soft(np.arange(EACH) / (EACH - 1)), np.empty(0, complex)
+    return [
+        carried(head.section, head.arm, phase.carries[end], phase, shares) if phase.carries[end] else none
+        for phase in head.phases
+    ]
