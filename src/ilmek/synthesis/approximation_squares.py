@@ -53,7 +53,7 @@ def squares_descent(errors: Errors, start: Parameters, x: FloatArray) -> Squares
         return Squares(parameters, np.inf, np.inf)
     damping, scale = 1e-3, np.zeros(len(parameters))
     for count in range(STEPS):
-        if _cosine(found, slopes) <= STOP:
+        if cosine(found, slopes) <= STOP:
             break
         scale = np.maximum(scale, np.linalg.norm(slopes, axis=0))
         curved = None if count < FIRST else _curved(errors, parameters, x)
@@ -73,7 +73,7 @@ def squares_descent(errors: Errors, start: Parameters, x: FloatArray) -> Squares
             break
         parameters, (found, slopes) = ends[best], trials[best]
         damping *= 0.1 if curved is None else 0.01
-    return Squares(parameters, float(found @ found), _cosine(found, slopes))
+    return Squares(parameters, float(found @ found), cosine(found, slopes))
 
 
 def _first_step(errors: FloatArray, slopes: FloatArray, damping: float, scale: FloatArray) -> FloatArray:
@@ -122,6 +122,7 @@ def _curved(errors: Errors, parameters: Parameters, x: FloatArray) -> _Curved:
     return _Curved(ways, *np.linalg.eigh(0.5 * (curvature + curvature.T)), ways.T @ (slopes.T @ found))
 
 
-def _cosine(errors: FloatArray, slopes: FloatArray) -> float:
+def cosine(errors: FloatArray, slopes: FloatArray) -> float:
+    """Greatest cosine of the angle between the errors and a column of their slopes."""
     lengths = np.linalg.norm(errors) * np.linalg.norm(slopes, axis=0)
     return float(np.max(np.abs(slopes.T @ errors) / np.where(lengths > 0, lengths, np.inf), initial=0.0))
