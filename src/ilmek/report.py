@@ -12,7 +12,8 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 
-Json: TypeAlias = float | int | bool | str | Mapping[str, "Json"] | Sequence["Json"] | None
+Json: TypeAlias = float | int | bool | str | Mapping[str, Any] | Sequence[Any] | None
+"""What JSON can hold; what is inside of groups is Json again, which a checker at run time cannot follow."""
 
 
 @dataclass(frozen=True, slots=True)

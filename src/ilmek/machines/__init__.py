@@ -8,6 +8,7 @@ from ilmek.machines.beat_up import MACHINE as BEAT_UP
 from ilmek.machines.knotting_dyad import MACHINE as KNOTTING_DYAD
 from ilmek.machines.knotting_four_bar import MACHINE as KNOTTING_FOUR_BAR
 from ilmek.machines.machine import Machine
+from ilmek.machines.motion_four_bar import MACHINE as MOTION_FOUR_BAR
 from ilmek.machines.path_four_bar import MACHINE as PATH_FOUR_BAR
 from ilmek.machines.shedding import MACHINE as SHEDDING
 from ilmek.machines.tufting import MACHINE as TUFTING
@@ -26,6 +27,7 @@ MACHINES: dict[str, Machine] = {
         KNOTTING_FOUR_BAR,
         KNOTTING_DYAD,
         PATH_FOUR_BAR,
+        MOTION_FOUR_BAR,
     )
 }
 """Every machine by its name, in the order of the catalogue."""

@@ -132,8 +132,7 @@ def ranking(choice: Choice, name: str) -> Table:
         Column("solution"),
         *LINKS,
         Column("class"),
-        Column("least μ", "deg"),
-        Column("most μ", "deg"),
+        Column("transmission", "deg"),
         Column("link ratio"),
         Column("size", "mm"),
         Column("made of"),
@@ -143,7 +142,7 @@ def ranking(choice: Choice, name: str) -> Table:
             at + 1,
             *one.candidate.four_bar.lengths,
             one.candidate.grashof.kind,
-            *one.candidate.transmission,
+            one.candidate.least_transmission,
             one.candidate.link_ratio,
             one.candidate.size,
             one.made,
@@ -151,9 +150,7 @@ def ranking(choice: Choice, name: str) -> Table:
         for at, one in enumerate(choice.kept)
     )
     more = f", and {choice.more} more" if choice.more else ""
-    return Table(
-        f"{name}-solutions", f"Solutions, the best first{more}; μ: transmission angle", columns, rows, brief=True
-    )
+    return Table(f"{name}-solutions", f"Solutions, the best first{more}", columns, rows, brief=True)
 
 
 ERRORS = (

@@ -80,9 +80,9 @@ def transmission_min() -> Any:
     )
 
 
-def link_ratio_max() -> Any:
+def link_ratio_max(default: float | None = None) -> Any:
     """Unequal links."""
-    return param(None, at_least=1.0, at_most=1e6, doc="longest link over the shortest, at most")
+    return param(default, at_least=1.0, at_most=1e6, doc="longest link over the shortest, at most")
 
 
 def size_max() -> Any:

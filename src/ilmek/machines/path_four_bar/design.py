@@ -47,8 +47,8 @@ def design(params: PathFourBarParams) -> PathFourBar:
     """
     points = params.places()
     options, other = _exact(params, points) if params.exact else (_searched(params), ())
-    wanted = {"number": params.chosen, "count": params.count}
-    choice = choose(options, filters(params), other=other, least=None if params.exact else _nearest, **wanted)
+    rank = None if params.exact else _nearest
+    choice = choose(options, filters(params), number=params.chosen, count=params.count, other=other, least=rank)
     best = choice.best
     siblings = _siblings(best.candidate) if best is not None and params.cognates else ()
     return PathFourBar(params, points, choice, siblings)

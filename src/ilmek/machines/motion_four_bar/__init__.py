@@ -1,0 +1,20 @@
+"""A four-bar for a motion: its coupler takes three, four or five poses exactly.
+
+Three poses leave both pivots (or both pins) free to be given, or to be chosen on a grid; four leave a curve of them,
+five a few links. All pairs are judged, and those without defects ranked.
+"""
+
+from ilmek.machines.machine import Machine
+from ilmek.machines.motion_four_bar.design import MotionFourBar, design
+from ilmek.machines.motion_four_bar.params import MotionFourBarParams
+from ilmek.machines.motion_four_bar.report import report
+
+__all__ = ["MACHINE", "MotionFourBar", "MotionFourBarParams", "design", "report"]
+
+MACHINE = Machine(
+    name="motion-four-bar",
+    summary="four-bars whose coupler takes three, four or five poses of yours, those without defects ranked",
+    params=MotionFourBarParams,
+    design=design,
+    report=report,
+)

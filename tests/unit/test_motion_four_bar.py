@@ -1,0 +1,145 @@
+"""The four-bar for a motion: what it answers for three, four and five poses, and what it refuses."""
+
+import itertools
+import json
+
+import numpy as np
+import pytest
+
+from ilmek.errors import ParameterError
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import plan
+from ilmek.machines import MACHINES
+from ilmek.machines.motion_four_bar import MACHINE, MotionFourBarParams, design, report
+from ilmek.machines.places import read_poses
+from ilmek.plane.vectors import cross
+from ilmek.report import Animation, Report
+from ilmek.synthesis.burmester import Guide, Kind
+from ilmek.synthesis.burmester_curve import burmester_curve
+from ilmek.synthesis.candidate import judge
+from ilmek.synthesis.four_bar import FourBar
+from ilmek.synthesis.guide_pairs import promising
+from ilmek.synthesis.task import Task
+
+THREE = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
+FOUR = "(0mm,0mm,35deg) (40mm,22mm,12deg) (78mm,12mm,-22deg) (92mm,-28mm,-60deg)"
+FIVE = "(0mm,0mm,0deg) (15mm,6mm,10deg) (28mm,8mm,24deg) (40mm,5mm,40deg) (50mm,-3mm,55deg)"
+LINKS = ("ground", "crank", "coupler", "rocker")
+
+
+def answer(**settings: str) -> Report:
+    return report(design(MotionFourBarParams.read(settings)))
+
+
+def four_bar(found: dict[str, list[float]]) -> FourBar:
+    return FourBar(*(complex(*found[name]) for name in ("a0", "b0", "a", "b", "tracer")))
+
+
+@pytest.mark.parametrize("text", [THREE, FOUR, FIVE], ids=["three", "four", "five"])
+def test_every_solution_takes_the_poses_on_one_branch_when_it_is_moved(text: str) -> None:
+    said = answer(poses=text, samples="40")
+    results = json.loads(json.dumps(said.as_json()))["results"]
+    points, angles = read_poses("poses", text)
+    assert results["solutions"]
+    for found in results["solutions"]:
+        drawn = four_bar(found)
+        motion = solve(plan(drawn.mechanism()), np.array(found["crank_angles"]))
+        assert np.abs(motion.point("coupler", "P").position - points).max() < 1e-10
+        turned = motion.direction("coupler") * np.exp(-1j * (angles - angles[0]))
+        assert np.abs(turned - turned[0]).max() < 1e-9
+        assert set(found["branches"]) <= {drawn.branch, 0}
+        assert max(found[name] for name in LINKS) <= 10 * min(found[name] for name in LINKS)
+    least = [found["transmission_min"] for found in results["solutions"]]
+    assert least == sorted(least, reverse=True)
+    assert sum(isinstance(figure, Animation) for figure in said.figures) == 1
+    assert not [check for check in said.failed if check.name != "transmission angle"]
+    assert MACHINES["motion-four-bar"] is MACHINE
+
+
+def test_five_poses_list_every_link_and_judge_every_pair_both_ways() -> None:
+    results = answer(poses=FIVE).as_json()["results"]
+    assert len(results["links"]) == 4
+    assert len(results["solutions"]) + len(results["removed"]) + 2 == results["judged"] == 12
+    assert results["sieve"].startswith("12 four-bars: 7 kept, 5 removed")
+    points, angles = read_poses("poses", FIVE)
+    for link in results["links"]:
+        guide = Guide(Kind(link["kind"]), complex(*link["pivot"]), complex(*link["pin"]))
+        assert np.ptp(guide.reach(points, angles)) < 1e-12
+
+
+def test_four_poses_give_both_curves_and_a_crank_that_turns_where_it_is_asked() -> None:
+    results = answer(poses=FOUR, samples="40", full_turn="yes").as_json()["results"]
+    assert {"pivots", "pins"} == set(results["curves"])
+    assert sum(len(branch["places"]) for branch in results["curves"]["pivots"]) >= 39
+    assert all(found["crank_turns"] for found in results["solutions"])
+
+
+def test_pivots_and_pins_that_are_given_are_those_of_the_answer() -> None:
+    loose = {"one_circuit": "no", "one_branch": "no", "in_order": "no"}
+    results = answer(pivots="(0,-40mm) (40mm,-30mm)", **loose).as_json()["results"]
+    given = np.array([[0, -0.04], [0.04, -0.03]])
+    assert np.sort([found["a0"] for found in results["solutions"]], axis=0)[[0, -1]] == pytest.approx(given, abs=1e-12)
+    results = answer(pins="(0,-10mm) (20mm,-3mm)", link_ratio_max="1000", **loose).as_json()["results"]
+    given = np.array([[0, -0.01], [0.02, -0.003]])
+    assert np.sort([found["a"] for found in results["solutions"]], axis=0)[[0, -1]] == pytest.approx(given, abs=1e-12)
+
+
+def test_pivots_stay_within_their_bounds() -> None:
+    for text in (THREE, FOUR):
+        results = answer(poses=text, pivot_y="..-20mm", pivot_x="-60mm..90mm", samples="24").as_json()["results"]
+        assert results["solutions"]
+        for found in results["solutions"]:
+            assert max(found["a0"][1], found["b0"][1]) <= -0.02
+            assert -0.06 <= min(found["a0"][0], found["b0"][0]) <= max(found["a0"][0], found["b0"][0]) <= 0.09
+    said = answer(poses=FIVE, pivot_y="..-20mm")
+    assert said.as_json()["results"]["chosen"] is None
+    assert "links with a pivot outside pivot_x and pivot_y: 3" in said.warnings[-1]
+
+
+def test_promising_pairs_leave_out_none_that_judging_finds_without_defects() -> None:
+    points, angles = read_poses("poses", FOUR)
+    found = [one for one in burmester_curve(points, angles, 12).guides() if one.kind is Kind.CRANK]
+    task, good = Task(points=points, coupler=angles), 0
+    for crank, rocker in itertools.product(found[::4], found[1::4]):
+        seen = judge(FourBar(crank.pivot, rocker.pivot, crank.pin, rocker.pin, complex(points[0])), task)
+        if seen.one_circuit and seen.one_branch and seen.in_order:
+            good += 1
+            assert (crank, rocker) in promising([crank, rocker], points, angles, most=2)
+    assert good > 1
+
+
+def test_promising_pairs_come_by_their_worst_angle_at_the_poses() -> None:
+    points, angles = read_poses("poses", FOUR)
+    sines = []
+    for crank, rocker in promising(burmester_curve(points, angles, 40).guides(), points, angles, most=30):
+        b, pivot = rocker.pins(points, angles), rocker.pivot
+        coupler, arm = b - crank.pins(points, angles), b - pivot
+        sines.append(float(np.min(np.abs(cross(coupler, arm)) / np.abs(coupler) / np.abs(arm))))
+    assert sines == sorted(sines, reverse=True)
+    assert len(sines) > 5
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"poses": "(0,0,0) (1mm,2mm,3deg)"}, "given 2 poses; 3, 4 or 5 are met exactly; give three at least"),
+        ({"poses": FIVE + "(1mm,1mm,9deg)"}, "path-four-bar comes near any number of points"),
+        ({"poses": THREE + "(25mm,15mm,3deg)"}, "poses 2 and 4 are one; leave one out or move it"),
+        ({"poses": "(0,0) (1mm,2mm) (3mm,4mm)"}, "holds 2 numbers, not 3; poses are written (0mm,0mm,10deg)"),
+        ({"poses": "(0mm,0mm,10) (25mm,15mm,3) (30mm,1mm,-25)"}, "10 has no unit; did you mean 10deg"),
+        ({"poses": "(0,0,10rad) (25mm,15mm,3rad) (30mm,1mm,-25rad)"}, "-25 deg would be"),
+        ({"poses": "(0,0,0) (10mm,0,0) (20mm,9mm,0) (30mm,1mm,0)"}, "the body has one angle at all poses"),
+        ({"poses": "(10mm,0,0) (0,10mm,90deg) (-10mm,0,180deg) (0,-10mm,270deg)"}, "one rotation makes all poses"),
+        ({"poses": FOUR, "pivots": "(0,0) (9mm,0)"}, "pivots are given for 4 poses; three poses leave them free"),
+        ({"pivots": "(0,0) (9mm,0)", "pins": "(0,0) (9mm,0)"}, "pivots and pins are given; one of them, or neither"),
+        ({"pivots": "(0,0)"}, "pivots holds 1 points; two, one for each link"),
+        ({"pins": "(0,0) (0,0)"}, "both pins are one point"),
+        ({"pivot_x": "50mm..0mm"}, "did you mean 0mm..50mm"),
+        ({"transmission_min": "40"}, "did you mean 40deg"),
+        ({"poses": FIVE, "chosen": "9"}, "chosen=9, and there are 5 solutions; 1 to 5"),
+    ],
+)
+def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
+    with pytest.raises(ParameterError) as refused:
+        answer(**settings)
+    assert said in str(refused.value)
