@@ -114,5 +114,6 @@ def _value(value: object, unit: str) -> str:
     if isinstance(value, dict):
         return "\n".join(f"{name} {_value(item, unit)}" for name, item in value.items())
     if isinstance(value, list | tuple):
-        return ", ".join(_value(item, unit) for item in value)
+        records = isinstance(value[0], dict)
+        return f"{len(value)} entries, with --json" if records else ", ".join(_value(item, unit) for item in value)
     return str(value)
