@@ -15,7 +15,7 @@ that is in every product; from there it goes on by exchange (`approximation_exch
 (array([0.125, 1.   ]), 0.125, True)
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple, TypeAlias
@@ -27,6 +27,7 @@ from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 from ilmek.synthesis.approximation_exchange import (
     PROVEN,
+    Descent,
     Errors,
     extremes,
     linear_minimax,
@@ -52,7 +53,7 @@ Terms: TypeAlias = Callable[[FloatArray], FloatArray]
 NODES = 64
 """Gauss's nodes for the integral of the squares over a range."""
 
-SAME = 1e-5
+SAME = 1e-4
 """Difference of even parameters, of the greatest, below which two answers are one."""
 
 TURNS = 32
@@ -229,17 +230,23 @@ def minimax(polynomial: SynthesisPolynomial, places: FloatArray) -> Approximatio
     sizes = scales(rows, polynomial.products)
     least = NOTHING * float(np.max(np.abs(rows.wanted)))
     errors = _even_errors(polynomial, sizes)
-    descend = minimax_over_range if polynomial.between else minimax_descent
-    kept: list[FloatArray] = []
-    found = []
-    for start in _starts(polynomial, places, rows, sizes):
-        end = descend(errors, start, places, least=least)
-        if all(np.max(np.abs(end.parameters - other)) > SAME * np.max(np.abs(other)) for other in kept):
-            kept.append(end.parameters)
-            found.append(_told(polynomial, sizes * end.parameters, "minimax", places, (end.level, end.gap)))
+    starts = _starts(polynomial, places, rows, sizes)
+    ends = _different(minimax_descent(errors, start, places, least=least) for start in starts)
+    if polynomial.between:
+        ends = _different(minimax_over_range(errors, end.parameters, places, least=least) for end in ends)
+    found = [_told(polynomial, sizes * end.parameters, "minimax", places, (end.level, end.gap)) for end in ends]
     proven = [one for one in found if one.proven]
     words = ("a search that came to no end",) if len(proven) < len(found) else ()
     return Approximations(tuple(sorted(proven or found, key=lambda one: one.worst)), words)
+
+
+def _different(ends: Iterable[Descent]) -> list[Descent]:
+    """Each end once."""
+    kept: list[Descent] = []
+    for end in ends:
+        if all(np.max(np.abs(end.parameters - one.parameters)) > SAME * np.max(np.abs(one.parameters)) for one in kept):
+            kept.append(end)
+    return kept
 
 
 def _even_errors(polynomial: SynthesisPolynomial, sizes: FloatArray) -> Errors:

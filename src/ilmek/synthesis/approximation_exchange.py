@@ -227,7 +227,7 @@ def extremes(error: Callable[[FloatArray], FloatArray], x: FloatArray) -> FloatA
     sign = np.where(rising[inner - 1] - rising[inner] >= 0, 1.0, -1.0)
     low, high = x[inner - 1], x[inner + 1]
     part = 0.5 * (np.sqrt(5.0) - 1)
-    for _ in range(44):
+    for _ in range(30):
         one, other = high - part * (high - low), low + part * (high - low)
         better = sign * error(one) > sign * error(other)
         low, high = np.where(better, low, one), np.where(better, other, high)
@@ -246,7 +246,7 @@ def minimax_over_range(errors: Errors, start: Parameters, x: FloatArray, *, leas
             break
         at = extremes(partial(_error_alone, errors, found.parameters), places)
         worst = float(np.max(np.abs(_error_alone(errors, found.parameters, at))))
-        done = worst <= max(least, found.worst * (1 + 1e-11)) or found.gap > PROVEN
+        done = worst <= max(least, found.worst * (1 + 1e-9)) or found.gap > PROVEN
         found = found._replace(worst=max(worst, found.worst))
         if done:
             break
