@@ -39,6 +39,7 @@ SECTIONS: list[dict[str, str]] = [
         "needle_diameter": "0.15mm",
         "clearance": "20um",
         "yarn_diameter": "0.3mm",
+        "yarn_pull": "0.2N",
     },
 ]
 
@@ -172,6 +173,30 @@ def test_an_end_left_behind_the_warps_is_no_knot() -> None:
     found = head()
     left = _carried(found.phases, 0, LEFT, LEFT, "", "", "", "", "")
     assert "4 mm behind the front of the warps" in tied_by(found.section, found.arm, left).words
+
+
+def test_the_needle_bends_as_the_curvature_of_a_clamped_bar_adds_up() -> None:
+    found, pull, modulus = head(), 0.5, 210e9
+    section, arm = found.section, found.arm
+    s = np.linspace(0, 1, 2001)
+    way = np.gradient(arm.tip(s), s)
+    needle = np.exp(1j * arm.way(s).theta[:, 1])
+    across = pull * np.abs((np.conj(needle) * way).imag) / np.abs(way)
+    inertia = 2e-3 * section.needle**3 / 12
+    most = 0.0
+    for at in range(0, 2001, 20):
+        x = np.linspace(0, section.needle_length - arm.beyond(s[at : at + 1])[0], 2001)
+        if x[-1] <= section.needle_length:
+            curvature = across[at] * (section.needle_length - x) / (modulus * inertia)
+            slope = np.append(0, np.cumsum((curvature[1:] + curvature[:-1]) / 2 * np.diff(x)))
+            most = max(most, float(np.sum((slope[1:] + slope[:-1]) / 2 * np.diff(x))))
+    assert found.bent == pytest.approx(most, rel=1e-2)
+
+
+def test_a_thin_needle_bends_into_the_warps_and_is_told() -> None:
+    found = report(made(needle_diameter="0.1mm"))
+    assert [check.name for check in found.failed] == ["needle bent aside by the yarn"]
+    assert "the yarn bends the needle" in found.warnings[0]
 
 
 @pytest.mark.parametrize(

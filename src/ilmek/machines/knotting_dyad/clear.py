@@ -24,7 +24,7 @@ from ilmek.plane.outlines import between, to_segments
 TOLERANCE, RELATIVE = 1e-6, 5e-3
 """By which a least distance may be too great: [m], and besides of itself."""
 
-PIECES, MOST = 16, 400_000
+PIECES, MOST = 16, 60_000
 """Pieces of the way at first in each direction; pieces at most, after which the tolerance is not met."""
 
 
@@ -110,7 +110,7 @@ def clearances(section: Section, arm: Arm) -> tuple[Least, ...]:
     found = least("arms to warps", warps, (speed,))
     both = least("arm to arm", arms, (speed, speed))
     u, v = both.at
-    centre = section.pitch / 2 - (section.warp + section.needle) / 2
+    centre = float(section.pitch / 2 - (section.warp + section.needle) / 2)
     return (
         found,
         Least(both.name, both.value, (u * (1 - v / 2), u * v / 2), both.sure),

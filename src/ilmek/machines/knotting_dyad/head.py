@@ -11,6 +11,7 @@ from ilmek.machines.knotting_dyad.clear import Least, clearances
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import Section, knot_of
 from ilmek.machines.knotting_dyad.sequence import Phase, sequence
+from ilmek.machines.knotting_dyad.stiff import bent_aside
 from ilmek.machines.knotting_dyad.way import Arm, ArmWay
 from ilmek.machines.knotting_dyad.yarn import tied_by
 
@@ -25,7 +26,7 @@ class Head:
     section     the warps that it works among      phases      of a cycle, one after the other
     knot        to be tied                         clearances  of everything that moves, over the whole cycle
     arm         the left one; the right mirrored   tied        the knot that the phases tie, proved
-    way         of the left arm, tabulated
+    way         of the left arm, tabulated         bent        the needle aside by the yarn, at the warps [m]
     """
 
     section: Section
@@ -35,6 +36,7 @@ class Head:
     phases: tuple[Phase, ...]
     clearances: tuple[Least, ...]
     tied: Tied
+    bent: float
 
     @property
     def clearance_min(self) -> float:
@@ -62,7 +64,16 @@ def head_of(params: KnottingDyadParams, section: Section, arm: Arm) -> Head:
     wanted = knot_of(params)
     phases = sequence(wanted, section.front, -section.depth)
     way = arm.way(np.linspace(0.0, 1.0, SAMPLES))
-    return Head(section, wanted, arm, way, phases, clearances(section, arm), _tied(section, arm, phases))
+    return Head(
+        section,
+        wanted,
+        arm,
+        way,
+        phases,
+        clearances(section, arm),
+        _tied(section, arm, phases),
+        bent_aside(params, section, arm),
+    )
 
 
 def _tied(section: Section, arm: Arm, phases: tuple[Phase, ...]) -> Tied:

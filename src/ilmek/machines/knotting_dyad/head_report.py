@@ -39,6 +39,7 @@ def head_results(head: Head) -> tuple[Result, ...]:
         Result("handover_depth", section.depth, "mm", "of the hand-over behind the warps' axes"),
         Result("needle_length", section.needle_length, "mm", "from the tip to where the second link grows wide"),
         Result("needle_tilt", section.tilt, "deg", "from upright, at the hand-over"),
+        Result("needle_bent", head.bent, "um", "aside by the yarn's pull, at the warps' axes"),
         Result("centre_stroke", head.centre_stroke, "mm", "way of the centre gripper"),
         Result("workspace", room, "", "radii about the pivot that bound it, where the arm is singular [m]"),
         Result("phases", phases, "", "of a cycle: arms' s at begin and end, the centre gripper's height [m], carriers"),
@@ -67,6 +68,7 @@ def head_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
             "the knot asked for is tied, proved: 1", 1.0 if head.knot_tied else 0.0, 1.0, "", "word of the yarn's way"
         ),
         at_least("clearance over the whole cycle", head.clearance_min, section.asked - 1e-9, "mm", "clearance"),
+        at_most("needle bent aside by the yarn", head.bent, max(head.clearance_min, 0.0), "um", "clearance_min"),
         at_most("arm and centre gripper apart at the hand-over", handed, MISSED, "um", "grip of the tips"),
         at_most(
             "pile yarn in the gap between the warps", params.yarn_diameter, gap, "mm", "warp_pitch - warp_diameter"
@@ -76,12 +78,18 @@ def head_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
 
 def head_warnings(params: KnottingDyadParams, head: Head) -> tuple[str, ...]:
     """What to change where something overlaps or comes too near."""
-    section = head.section
+    section, said = head.section, []
     least = min(head.clearances, key=lambda one: one.value)
-    if least.value >= section.asked - 1e-9:
-        return ()
-    found = format_quantity(least.value, "mm", 3)
-    return (f"{least.name}: {found}, {format_quantity(section.asked, 'mm')} is asked for; {_mend(params, section)}",)
+    if least.value < section.asked - 1e-9:
+        found, asked = format_quantity(least.value, "mm", 3), format_quantity(section.asked, "mm")
+        said.append(f"{least.name}: {found}, {asked} is asked for; {_mend(params, section)}")
+    if head.bent > max(head.clearance_min, 0.0):
+        aside = format_quantity(head.bent, "mm", 3)
+        said.append(
+            f"the yarn bends the needle {aside} aside between the warps: these warps are too close for it; "
+            "take a broader needle, narrower links, a wider pitch or an opening"
+        )
+    return tuple(said)
 
 
 def _mend(params: KnottingDyadParams, section: Section) -> str:

@@ -40,6 +40,7 @@ class KnottingDyadParams(Params):
         symbol="o",
     )
     needle_diameter: float = _length(0.5 * mm, "diameter of the grippers where they pass between warps", "d")
+    needle_breadth: float = _length(2 * mm, "breadth of the arms' needles, blades, along the warps")
     link_width: float = _length(4 * mm, "width of the links elsewhere")
     clearance: float = param(
         0.1 * mm,
@@ -118,6 +119,11 @@ class KnottingDyadParams(Params):
                 do="take a finer warp, or a wider pitch",
             )
         least = (self.warp_diameter + self.needle_diameter) / 2
+        if self.leg < least + self.clearance:
+            raise ParameterError(
+                f"ends taken {format_quantity(self.leg, 'mm')} above the warps' axes are among the warps",
+                allowed=f"a leg of {format_quantity(least + self.clearance, 'mm')} or more",
+            )
         if self.depth is not None and self.depth < least:
             raise ParameterError(
                 f"a hand-over {format_quantity(self.depth, 'mm')} behind the warps' axes is among the warps",

@@ -133,7 +133,7 @@ def _own_side(
     low = np.minimum(elbow.imag, wide.imag)
     straight = out.imag >= np.cos(section.tilt) - 1e-12
     fits: Bool[np.ndarray, " n"] = np.all((right <= section.middle - room) & (low >= above) & straight, axis=-1)
-    return fits & (pivot.real <= section.middle - room)
+    return fits & (pivot.real <= section.middle - room) & (pivot.imag >= above)
 
 
 def _none(params: KnottingDyadParams, why: str) -> ParameterError:
