@@ -5,6 +5,14 @@ import numpy as np
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.figures import figures
 from ilmek.machines.knotting_dyad.head_report import head_checks, head_results, head_tables, head_warnings
+from ilmek.machines.knotting_dyad.motion_report import (
+    head_motion,
+    motion_checks,
+    motion_figures,
+    motion_results,
+    motion_tables,
+    motion_warnings,
+)
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.synthesis.dyad import Dyad, Found
 from ilmek.units import format_quantity
@@ -15,15 +23,34 @@ CLOSURE = 1e-9
 def report(design: KnottingDyad) -> Report:
     """Everything that the design says."""
     head = design.head
+    motion = None if head is None else head_motion(design.params, head)
     return Report(
         machine="knotting-dyad",
         title="Knotting dyad",
         parameters=design.params.as_dict(),
-        results=(*(() if head is None else head_results(head)), *_task(design), *_arms(design)),
-        checks=(*_checks(design), *(() if head is None else head_checks(design.params, head))),
-        tables=(*(() if head is None else head_tables(head)), _point_table(design), _arm_table(design)),
-        figures=figures(design),
-        warnings=(*_warnings(design), *(() if head is None else head_warnings(design.params, head))),
+        results=(
+            *(() if head is None else head_results(head)),
+            *(() if motion is None else motion_results(motion)),
+            *_task(design),
+            *_arms(design),
+        ),
+        checks=(
+            *_checks(design),
+            *(() if head is None else head_checks(design.params, head)),
+            *(() if motion is None else motion_checks(motion)),
+        ),
+        tables=(
+            *(() if head is None else head_tables(head)),
+            *(() if motion is None else motion_tables(motion)),
+            _point_table(design),
+            _arm_table(design),
+        ),
+        figures=(*figures(design), *(() if motion is None else motion_figures(motion))),
+        warnings=(
+            *_warnings(design),
+            *(() if head is None else head_warnings(design.params, head)),
+            *(() if motion is None else motion_warnings(motion)),
+        ),
     )
 
 

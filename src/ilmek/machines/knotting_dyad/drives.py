@@ -1,0 +1,181 @@
+"""What turns the joints: torques of both arms over the cycle, by the engine's inverse dynamics, and the servos.
+
+An arm is a mechanism of two inputs, at the pivot and in the elbow, with torques M1 and M2, each on the outer link from
+the inner one. A belt that turns the second link from the pivot reacts on the ground instead of the first link, so that
+by the power of both the pivot's servo gives M1 - M2:     M1 w1 + M2 (w2 - w1) = (M1 - M2) w1 + M2 w2
+Behind gears of ratio i and efficiency e a servo of rotor inertia J gives     M / (i e) + J i a
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from ilmek.arrays import FloatArray
+from ilmek.dynamics.inertia import Inertia, combined, point_mass
+from ilmek.dynamics.inverse import Forces, inverse
+from ilmek.dynamics.loads import Gravity, PointForce
+from ilmek.dynamics.shapes import link
+from ilmek.elements.motors import Motor, Reducer, smallest_motor
+from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import plan
+from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.motion import ArmCourse, Cycle, drive_angles
+from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+
+RATIOS = (1.0, 3.0, 4.0, 5.0, 7.0, 10.0, 16.0, 20.0, 25.0, 35.0, 50.0, 70.0, 100.0)
+"""Gears to choose from: none, and the usual planetary ones of one and two stages."""
+
+JOINTS = ("first link", "second link")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ArmForces:
+    """An arm's torques over the cycle: of its two drives [N m], and the engine's forces they come from."""
+
+    torque: Float[np.ndarray, "samples 2"]
+    forces: Forces
+
+
+@dataclass(frozen=True, slots=True)
+class JointDrive:
+    """A drive, for the worse of both arms.
+
+    torque_max, torque_rms, speed_max, power_max   at the joint [N m, rad/s, W]
+    reducer                                        its gears
+    servo_torque_max, servo_torque_rms, servo_speed  with the rotor's own inertia, at the servo
+    servo                                          smallest class that is enough; None where none is
+    """
+
+    joint: str
+    torque_max: float
+    torque_rms: float
+    speed_max: float
+    power_max: float
+    reducer: Reducer
+    servo_torque_max: float
+    servo_torque_rms: float
+    servo_speed: float
+    servo: Motor | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drives:
+    """Torques of both arms, by name, and the drive of each joint."""
+
+    arms: Mapping[str, ArmForces]
+    joints: tuple[JointDrive, JointDrive]
+
+
+def arm_mechanism(first: float, second: float) -> Mechanism:
+    """An arm with its pivot O in the origin, elbow E and tip P, links [m]; inputs turn link 1, and 2 against it."""
+    return Mechanism(
+        name="knotting-dyad",
+        bodies=(
+            Body(GROUND, {"O": 0}),
+            Body("link 1", {"O": 0, "E": first}),
+            Body("link 2", {"E": 0, "P": second}),
+        ),
+        joints=(Pin("O", GROUND, "link 1"), Pin("E", "link 1", "link 2")),
+        inputs=(Rotation("link 1", "O"), Rotation("link 2", "E")),
+        branches={},
+    )
+
+
+def inertias(params: KnottingDyadParams, first: float, second: float) -> dict[str, Inertia]:
+    """Links of the parameters' width, thickness and density, the mass in the elbow, and the gripper in the tip."""
+    one, two = (link(0j, end, params.link_width, params.link_thickness, params.density) for end in (first, second))
+    return {
+        "link 1": combined(one, point_mass(params.elbow_mass, first)),
+        "link 2": combined(two, point_mass(params.gripper_mass, second)),
+    }
+
+
+def drives_of(params: KnottingDyadParams, head: Head, cycle: Cycle) -> Drives:
+    """Torques and drives of a head over its cycle."""
+    links = abs(head.arm.first), head.arm.second
+    arms = {name: _arm_forces(params, links, course) for name, course in cycle.arms.items()}
+    turned = drive_angles(params).T
+    loads = [
+        _Load(
+            cycle.time,
+            [forces.torque[:, at] for forces in arms.values()],
+            [(course.speed @ turned)[:, at] for course in cycle.arms.values()],
+            [(course.acceleration @ turned)[:, at] for course in cycle.arms.values()],
+        )
+        for at in range(2)
+    ]
+    return Drives(arms, (_drive(params, JOINTS[0], loads[0]), _drive(params, JOINTS[1], loads[1])))
+
+
+def _arm_forces(params: KnottingDyadParams, links: tuple[float, float], course: ArmCourse) -> ArmForces:
+    mechanism = arm_mechanism(*links)
+    angle, speed, acceleration = (
+        {"link 1": one[:, 0], "link 2": one[:, 1] - one[:, 0]}
+        for one in (course.angle, course.speed, course.acceleration)
+    )
+    motion = solve(plan(mechanism), angle, speed, acceleration).require()
+    loads = (Gravity(-1j * params.gravity), PointForce("link 2", "P", _pull(params, motion, course)))
+    forces = inverse(motion, inertias(params, *links), loads)
+    at_pivot, in_elbow = forces.effort("link 1"), forces.effort("link 2")
+    base = at_pivot - in_elbow if params.elbow_drive == "belt" else at_pivot
+    return ArmForces(np.stack([base, in_elbow], axis=1), forces)
+
+
+def _pull(params: KnottingDyadParams, motion: Motion, course: ArmCourse) -> np.ndarray:
+    """Force of the yarn on the tip [N], against its motion while it leads an end."""
+    velocity = np.asarray(motion.point("link 2", "P").velocity)
+    speed = np.abs(velocity)
+    moves = course.leads & (speed > 0)
+    return np.asarray(np.where(moves, -params.yarn_pull * velocity / np.where(speed > 0, speed, 1.0), 0j))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Load:
+    """What one joint's drive does over the cycle, in each arm."""
+
+    time: FloatArray
+    torque: list[FloatArray]
+    speed: list[FloatArray]
+    acceleration: list[FloatArray]
+
+
+def _drive(params: KnottingDyadParams, joint: str, load: _Load) -> JointDrive:
+    """The drive of a joint: the smallest servo, behind the first gears with which it is enough."""
+    ratios = RATIOS if params.gear_ratio is None else (params.gear_ratio,)
+    found = [_behind(params, joint, load, Reducer(ratio, params.gear_efficiency)) for ratio in ratios]
+    return min(found, key=lambda one: one.servo.power if one.servo else math.inf)
+
+
+def _behind(params: KnottingDyadParams, joint: str, load: _Load, reducer: Reducer) -> JointDrive:
+    """The drive of a joint behind given gears."""
+    at_servo = [
+        reducer.motor_torque(1.0) * torque + params.rotor_inertia * reducer.ratio * acceleration
+        for torque, acceleration in zip(load.torque, load.acceleration, strict=True)
+    ]
+    most, lasting, speed = _most(at_servo), _rms(load.time, at_servo), _most(load.speed)
+    return JointDrive(
+        joint,
+        torque_max=_most(load.torque),
+        torque_rms=_rms(load.time, load.torque),
+        speed_max=speed,
+        power_max=_most([torque * rate for torque, rate in zip(load.torque, load.speed, strict=True)]),
+        reducer=reducer,
+        servo_torque_max=most,
+        servo_torque_rms=lasting,
+        servo_speed=reducer.ratio * speed,
+        servo=smallest_motor(max(lasting, most / params.servo_overload), reducer.ratio * speed, "servo"),
+    )
+
+
+def _most(courses: list[FloatArray]) -> float:
+    return max(float(np.max(np.abs(course))) for course in courses)
+
+
+def _rms(time: FloatArray, courses: list[FloatArray]) -> float:
+    """The greater root mean square over the cycle."""
+    return max(math.sqrt(float(np.trapezoid(course**2, time)) / float(time[-1])) for course in courses)

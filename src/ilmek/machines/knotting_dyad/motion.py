@@ -1,0 +1,219 @@
+"""The head's cycle in time: every phase as quick as the drives allow, and a pause for each grip.
+
+An arm goes its way in the least time within the limits of its joints, and back in the same motion backwards. Where both
+arms move, one parameter leads both, so that the ways done always add up to one. The centre gripper goes straight, in
+seven phases of constant jerk. Before a phase the grippers that take an end close, then those that leave one open.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from ilmek.arrays import FloatArray
+from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, OUT, RIGHT, Phase
+from ilmek.machines.knotting_dyad.way import ArmWay
+from ilmek.timing.path_speed import AxisLimits, Course, JointPath, PathMotion, quickest_motion
+from ilmek.timing.path_speed_line import LineMotion, line_motion
+
+SAMPLES, INTERVALS = 161, 200
+"""Times of a phase that are tabulated, and intervals of its motion's spline."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A part of the cycle [s]: a phase's motion, or a grip, `grasp` or `release`, by the grippers named."""
+
+    name: str
+    start: float
+    end: float
+    grippers: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ArmCourse:
+    """An arm over the samples: s, and of both links the absolute angles [rad] and their rates by time.
+
+    leads  whether it moves with an end of the yarn in its gripper
+    """
+
+    s: Float[np.ndarray, " samples"]
+    angle: Float[np.ndarray, "samples 2"]
+    speed: Float[np.ndarray, "samples 2"]
+    acceleration: Float[np.ndarray, "samples 2"]
+    jerk: Float[np.ndarray, "samples 2"]
+    leads: np.ndarray
+
+    def mirrored(self) -> "ArmCourse":
+        """The mirror image about an upright line."""
+        return ArmCourse(self.s, np.pi - self.angle, -self.speed, -self.acceleration, -self.jerk, self.leads)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cycle:
+    """A whole cycle.
+
+    parts   in order, from 0 to the period         time    of the samples [s]; where parts meet it comes twice
+    arms    left and right                         centre  height of the centre gripper's tip [m], and three rates
+    usage   greatest speed, acceleration and jerk over their limits, of joints and centre gripper: at most 1
+    """
+
+    parts: tuple[Part, ...]
+    time: Float[np.ndarray, " samples"]
+    arms: Mapping[str, ArmCourse]
+    centre: Float[np.ndarray, "4 samples"]
+    usage: float
+
+    @property
+    def period(self) -> float:
+        """Time of a knot [s]."""
+        return self.parts[-1].end
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Motions:
+    """The motions that a cycle is made of: one arm in, one out while the other comes in, the centre gripper down."""
+
+    way: ArmWay
+    single: PathMotion
+    both: PathMotion
+    centre: LineMotion
+    absolute: FloatArray  # of the drives' angles, the links' absolute ones
+
+
+def cycle_of(params: KnottingDyadParams, head: Head) -> Cycle:
+    """The cycle of a head."""
+    motions = _motions(params, head)
+    before = (*head.phases[-1:], *head.phases[:-1])
+    parts: list[Part] = []
+    pieces: list[tuple[FloatArray, ArmCourse, ArmCourse, FloatArray]] = []
+    for last, phase in zip(before, head.phases, strict=True):
+        for grip in _grips(params, last, phase, parts[-1].end if parts else 0.0):
+            parts.append(grip)
+            pieces.append(_still(motions, phase, np.array([grip.start, grip.end])))
+        duration, piece = _moved(motions, phase, parts[-1].end if parts else 0.0)
+        parts.append(Part(phase.name, float(piece[0][0]), float(piece[0][0]) + duration))
+        pieces.append(piece)
+    time, left, right, centre = zip(*pieces, strict=True)
+    arms = {LEFT: _joined(left), RIGHT: _joined(right).mirrored()}
+    used = max(float(motions.single.usage.max()), float(motions.both.usage.max()), _used(params, motions.centre))
+    return Cycle(tuple(parts), np.concatenate(time), arms, np.concatenate(centre, axis=1), used)
+
+
+def drive_angles(params: KnottingDyadParams) -> Float[np.ndarray, "2 2"]:
+    """What the drives turn, in the links' absolute angles: with a belt these themselves, else the elbow's own angle."""
+    return np.array([[1.0, 0.0], [0.0 if params.elbow_drive == "belt" else -1.0, 1.0]])
+
+
+def _motions(params: KnottingDyadParams, head: Head) -> _Motions:
+    way, turned = head.way, drive_angles(params).T
+    of_one = way.theta @ turned, way.first @ turned, way.second @ turned
+    backwards = [sign * one[::-1] for sign, one in zip((1, -1, 1), of_one, strict=True)]
+    together = [np.concatenate(pair, axis=1) for pair in zip(backwards, of_one, strict=True)]
+    return _Motions(
+        way,
+        quickest_motion(JointPath(way.s, *of_one), _limits(params, 2), INTERVALS),
+        quickest_motion(JointPath(way.s, *together), _limits(params, 4), INTERVALS),
+        line_motion(head.centre_stroke, params.centre_speed, params.centre_acceleration, params.centre_jerk),
+        np.linalg.inv(turned),
+    )
+
+
+def _limits(params: KnottingDyadParams, axes: int) -> AxisLimits:
+    each = params.joint_speed, params.joint_acceleration, params.joint_jerk
+    return AxisLimits(*(np.full(axes, limit) for limit in each))
+
+
+def _grips(params: KnottingDyadParams, last: Phase, phase: Phase, now: float) -> Iterator[Part]:
+    """The grips before a phase: those that take an end close, then those that had it open."""
+    changes = [(old, new) for old, new in zip(last.carries, phase.carries, strict=True) if old != new]
+    leavers = tuple(dict.fromkeys(old for old, _ in changes if old))
+    takers = tuple(dict.fromkeys(new for _, new in changes if new))
+    for name, grippers, takes in (("grasp", takers, params.grasp_time), ("release", leavers, params.release_time)):
+        if grippers and takes:
+            yield Part(name, now, now + takes, grippers)
+            now += takes
+
+
+def _moved(
+    motions: _Motions, phase: Phase, now: float
+) -> tuple[float, tuple[FloatArray, ArmCourse, ArmCourse, FloatArray]]:
+    """A phase's motion from a time on, both arms as left ones."""
+    moves = [name for name, span in ((LEFT, phase.left), (RIGHT, phase.right)) if span[0] != span[1]]
+    if not moves:
+        duration = motions.centre.duration if phase.centre[0] != phase.centre[1] else 0.0
+        time, left, right, centre = _still(motions, phase, now + np.linspace(0.0, duration, SAMPLES))
+        return duration, (time, left, right, _centre(motions, phase, time - now))
+    motion = motions.both if len(moves) == 2 else motions.single
+    course = motion.even(SAMPLES)
+    time, *arms, centre = _still(motions, phase, now + course.time)
+    courses = []
+    for name, span, still in ((LEFT, phase.left, arms[0]), (RIGHT, phase.right, arms[1])):
+        comes = span[0] == OUT
+        leads = np.full(SAMPLES, name in phase.carries)
+        moved = _arm(course, motions, 2 * (comes and len(moves) == 2), leads)
+        # Alone an arm goes out as it comes in, backwards; of two, the first axes go out and the last come in.
+        backwards = not comes and len(moves) == 1
+        courses.append(still if name not in moves else _reversed(moved) if backwards else moved)
+    return motion.duration, (time, courses[0], courses[1], centre)
+
+
+def _arm(course: Course, motions: _Motions, axis: int, leads: np.ndarray) -> ArmCourse:
+    """The arm of the two axes from `axis` on, as a left one."""
+    of = slice(axis, axis + 2)
+    s = course.s if axis or course.position.shape[1] == 2 else 1 - course.s
+    rates = course.position, course.speed, course.acceleration, course.jerk
+    angle, speed, acceleration, jerk = (one[:, of] @ motions.absolute for one in rates)
+    return ArmCourse(s, angle, speed, acceleration, jerk, leads)
+
+
+def _reversed(course: ArmCourse) -> ArmCourse:
+    """The same motion backwards in time."""
+    speed, jerk = -course.speed[::-1], -course.jerk[::-1]
+    return ArmCourse(course.s[::-1], course.angle[::-1], speed, course.acceleration[::-1], jerk, course.leads)
+
+
+def _still(motions: _Motions, phase: Phase, time: FloatArray) -> tuple[FloatArray, ArmCourse, ArmCourse, FloatArray]:
+    """Nothing moves: all stand where the phase begins."""
+    left, right = (_standing(motions.way, span[0], len(time)) for span in (phase.left, phase.right))
+    centre = np.zeros((4, len(time)))
+    centre[0] = phase.centre[0]
+    return time, left, right, centre
+
+
+def _standing(way: ArmWay, s: float, samples: int) -> ArmCourse:
+    zero = np.zeros((samples, 2))
+    angle = np.broadcast_to(way.theta[0 if s == OUT else -1], (samples, 2))
+    return ArmCourse(np.full(samples, s), angle + zero, zero, zero, zero, np.zeros(samples, bool))
+
+
+def _centre(motions: _Motions, phase: Phase, time: FloatArray) -> FloatArray:
+    """The centre gripper's tip and its rates over a phase."""
+    begin, end = phase.centre
+    moved = np.sign(end - begin) * motions.centre.at(time)
+    moved[0] += begin
+    return np.asarray(moved)
+
+
+def _joined(courses: tuple[ArmCourse, ...]) -> ArmCourse:
+    """One course after the other."""
+    return ArmCourse(
+        np.concatenate([one.s for one in courses]),
+        np.concatenate([one.angle for one in courses]),
+        np.concatenate([one.speed for one in courses]),
+        np.concatenate([one.acceleration for one in courses]),
+        np.concatenate([one.jerk for one in courses]),
+        np.concatenate([one.leads for one in courses]),
+    )
+
+
+def _used(params: KnottingDyadParams, centre: LineMotion) -> float:
+    """The centre gripper's greatest use of a limit."""
+    top = centre.jerk * centre.times[0]
+    return max(centre.speed / params.centre_speed, top / params.centre_acceleration, centre.jerk / params.centre_jerk)
+
+
+__all__ = ["CENTRE", "LEFT", "RIGHT", "ArmCourse", "Cycle", "Part", "cycle_of", "drive_angles"]

@@ -1,0 +1,214 @@
+"""The knotting dyad in time: the cycle, the torques of its joints, the servos."""
+
+import dataclasses
+import functools
+import itertools
+import json
+
+import numpy as np
+import pytest
+
+from ilmek.arrays import FloatArray
+from ilmek.machines.knotting_dyad import MACHINE, design
+from ilmek.machines.knotting_dyad.drives import drives_of, inertias
+from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.motion import LEFT, RIGHT, Cycle
+from ilmek.machines.knotting_dyad.motion_report import (
+    HeadMotion,
+    cyclogram,
+    head_motion,
+    motion_figures,
+    motion_results,
+    motion_warnings,
+)
+from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+from ilmek.report import Plot, Timing
+from ilmek.timing.path_speed_line import line_motion
+from ilmek.units import turn
+
+Settings = tuple[tuple[str, str], ...]
+
+
+@functools.cache
+def head_of(knot: str, opens: str) -> Head:
+    head = design(KnottingDyadParams(knot=knot, opens=opens)).head
+    assert head is not None
+    return head
+
+
+@functools.cache
+def made(settings: Settings = ()) -> tuple[KnottingDyadParams, Head, HeadMotion]:
+    params = KnottingDyadParams.read(dict(settings))
+    head = head_of(params.knot, params.opens)
+    return params, head, head_motion(params, head)
+
+
+DIRECT: Settings = (("elbow_drive", "direct"), ("elbow_mass", "20g"))
+ASYMMETRIC: Settings = (("knot", "asymmetric"), ("opens", "right"), ("gravity", "0"))
+
+
+def links_of(head: Head) -> tuple[float, float]:
+    return abs(head.arm.first), head.arm.second
+
+
+def equations(params: KnottingDyadParams, head: Head, motion: HeadMotion, side: str) -> FloatArray:
+    """Generalised torques of the absolute angles of both links, by Lagrange's equations of the RR arm.
+
+    Q1 = I1 a1 + h cos(t1 - t2) a2 + h sin(t1 - t2) w2² + (m1 c1 + m2 l1) g cos t1 - F . l1 i e^{i t1}
+    Q2 = I2 a2 + h cos(t1 - t2) a1 - h sin(t1 - t2) w1² + m2 c2 g cos t2 - F . l2 i e^{i t2}
+    I1 = J1 + m1 c1² + m2 l1²,   I2 = J2 + m2 c2²,   h = m2 l1 c2
+    """
+    arm = motion.cycle.arms[side]
+    (t1, t2), (w1, w2), (a1, a2) = arm.angle.T, arm.speed.T, arm.acceleration.T
+    one, two = inertias(params, *links_of(head)).values()
+    l1, l2 = links_of(head)
+    c1, c2 = one.centre.real, two.centre.real
+    I1, I2, h = one.moment + one.mass * c1**2 + two.mass * l1**2, two.moment + two.mass * c2**2, two.mass * l1 * c2
+    first = I1 * a1 + h * np.cos(t1 - t2) * a2 + h * np.sin(t1 - t2) * w2**2
+    second = I2 * a2 + h * np.cos(t1 - t2) * a1 - h * np.sin(t1 - t2) * w1**2
+    first += (one.mass * c1 + two.mass * l1) * params.gravity * np.cos(t1)
+    second += two.mass * c2 * params.gravity * np.cos(t2)
+    pull = pulls(params, head, motion.cycle, side)
+    along = [length * 1j * np.exp(1j * angle) for length, angle in ((l1, t1), (l2, t2))]
+    return np.stack([q - (np.conj(pull) * way).real for q, way in zip((first, second), along, strict=True)], 1)
+
+
+def pulls(params: KnottingDyadParams, head: Head, cycle: Cycle, side: str) -> np.ndarray:
+    """Force of the yarn on the tip."""
+    arm = cycle.arms[side]
+    velocity = (np.array(links_of(head)) * 1j * np.exp(1j * arm.angle) * arm.speed).sum(1)
+    size = np.abs(velocity)
+    return np.where(arm.leads & (size > 0), -params.yarn_pull * velocity / np.maximum(size, 1e-300), 0)
+
+
+@pytest.mark.parametrize("settings", [(), DIRECT, ASYMMETRIC], ids=["belt", "direct", "asymmetric"])
+@pytest.mark.parametrize("side", [LEFT, RIGHT])
+def test_torques_are_those_of_the_closed_equations_of_the_arm(settings: Settings, side: str) -> None:
+    params, head, motion = made(settings)
+    absolute = equations(params, head, motion, side)
+    expected = absolute if params.elbow_drive == "belt" else np.stack([absolute.sum(1), absolute[:, 1]], 1)
+    found = motion.drives.arms[side].torque
+    assert np.abs(found - expected).max() <= 1e-9 * np.abs(expected).max()
+    assert motion.power_error < 1e-12
+
+
+@pytest.mark.parametrize("settings", [(), DIRECT, ASYMMETRIC], ids=["belt", "direct", "asymmetric"])
+def test_limits_hold_at_the_drives_and_some_are_reached(settings: Settings) -> None:
+    params, _, motion = made(settings)
+    worst = 0.0
+    for course in motion.cycle.arms.values():
+        for rate, limit in (("speed", "joint_speed"), ("acceleration", "joint_acceleration"), ("jerk", "joint_jerk")):
+            links = getattr(course, rate)
+            elbow = links[:, 1] if params.elbow_drive == "belt" else links[:, 1] - links[:, 0]
+            worst = max(worst, float(np.abs(np.stack([links[:, 0], elbow])).max()) / getattr(params, limit))
+    assert 0.99 < worst <= 1 + 1e-3
+    assert motion.cycle.usage <= 1 + 1e-9
+
+
+@pytest.mark.parametrize("settings", [(), ASYMMETRIC], ids=["symmetric", "asymmetric"])
+def test_the_cycle_goes_round_without_a_jump_and_follows_the_ways(settings: Settings) -> None:
+    params, head, motion = made(settings)
+    cycle = motion.cycle
+    assert cycle.time[0] == 0.0
+    assert cycle.time[-1] == pytest.approx(cycle.period, rel=1e-12)
+    assert (np.diff(cycle.time) >= 0).all()
+    assert (cycle.arms[LEFT].s + cycle.arms[RIGHT].s).max() <= 1 + 1e-9
+    for side, course in cycle.arms.items():
+        assert course.s[0] == pytest.approx(course.s[-1], abs=1e-12)
+        exact = head.arm.way(np.clip(course.s, 0.0, 1.0)).theta
+        assert np.abs(course.angle - (exact if side == LEFT else np.pi - exact)).max() < 1e-9
+        steps = np.diff(cycle.time)[:, None]
+        trapezoid = (course.speed[1:] + course.speed[:-1]) / 2 * steps
+        room = params.joint_jerk * steps**3 / 12 * (1 + 1e-3) + params.joint_acceleration * 1e-12
+        assert (np.abs(np.diff(course.angle, axis=0) - trapezoid) <= room + 1e-9).all()
+    height, rate = cycle.centre[:2]
+    assert height.min() == pytest.approx(-head.section.depth)
+    assert height[0] == height[-1] == head.section.front
+    assert np.abs(np.diff(height) - (rate[1:] + rate[:-1]) / 2 * np.diff(cycle.time)).max() < 1e-5
+
+
+def test_parts_follow_one_another_and_every_grip_has_its_grippers() -> None:
+    params, head, motion = made()
+    parts = motion.cycle.parts
+    assert [part.name for part in parts if not part.grippers] == [phase.name for phase in head.phases]
+    assert all(first.end == then.start for first, then in itertools.pairwise(parts))
+    grips = [(part.name, part.grippers) for part in parts if part.grippers]
+    assert grips == [
+        ("grasp", ("left", "right")),
+        ("grasp", ("centre",)),
+        ("release", ("left",)),
+        ("release", ("centre",)),
+        ("grasp", ("centre",)),
+        ("release", ("right",)),
+        ("release", ("centre",)),
+    ]
+    pauses = sum(part.end - part.start for part in parts if part.grippers)
+    assert pauses == pytest.approx(3 * params.grasp_time + 4 * params.release_time)
+    centre = line_motion(head.centre_stroke, params.centre_speed, params.centre_acceleration, params.centre_jerk)
+    assert parts[2].end - parts[2].start == pytest.approx(centre.duration)
+
+
+def test_tighter_limits_take_longer_and_grips_without_time_are_no_parts() -> None:
+    quick = made()[2].cycle.period
+    assert made((("joint_jerk", "2e4"),))[2].cycle.period > quick
+    no_grips = made((("grasp_time", "0"), ("release_time", "0")))[2].cycle
+    assert no_grips.period == pytest.approx(quick - 0.1)
+    assert len(no_grips.parts) == 7
+
+
+def test_servos_are_strong_and_quick_enough_with_their_own_rotors() -> None:
+    params, head, motion = made((("gear_ratio", "5"), ("rotor_inertia", "1e-5kg*m^2")))
+    for at, drive in enumerate(motion.drives.joints):
+        assert drive.servo is not None
+        assert drive.reducer.ratio == 5
+        assert drive.servo_speed == pytest.approx(5 * drive.speed_max)
+        assert drive.servo.speed >= drive.servo_speed
+        assert drive.servo.torque >= max(drive.servo_torque_rms, drive.servo_torque_max / params.servo_overload)
+        arms = motion.cycle.arms
+        expected = max(
+            float(
+                np.abs(
+                    motion.drives.arms[side].torque[:, at] / (5 * params.gear_efficiency)
+                    + 5e-5 * arms[side].acceleration[:, at]
+                ).max()
+            )
+            for side in arms
+        )
+        assert drive.servo_torque_max == pytest.approx(expected, rel=1e-12)
+    heavy = dataclasses.replace(params, gripper_mass=9.0, gear_ratio=None)
+    stronger = drives_of(heavy, head, motion.cycle).joints[0].servo
+    assert stronger is None or stronger.power > 100
+
+
+def test_no_servo_is_said_and_results_have_the_promised_names() -> None:
+    _, _, motion = made((("gear_ratio", "9000"),))
+    assert len(motion_warnings(motion)) == 2
+    values = {result.name: result.value for result in motion_results(motion)}
+    assert json.dumps(values)
+    assert values["servo"] is None
+    assert {"cycle_time", "torque_max", "torque_rms", "joint_speed_max", "drives", "cycle"} < set(values)
+    assert values["cycle_time"] == motion.cycle.period
+
+
+def test_figures_cover_the_cycle() -> None:
+    _, _, motion = made()
+    timing, *plots = motion_figures(motion)
+    assert isinstance(timing, Timing)
+    for lane in cyclogram(motion.cycle).lanes:
+        assert lane.angle[0] == 0.0
+        assert lane.angle[-1] == pytest.approx(turn)
+        assert (np.diff(lane.angle) > 0).all()
+        assert lane.position.min() == 0.0
+        assert lane.position.max() == pytest.approx(1.0)
+    assert len(plots) == 3
+    for plot in plots:
+        assert isinstance(plot, Plot)
+        assert len(plot.series) == 4
+        assert len(plot.marks) == 7
+
+
+def test_the_machine_itself_reports_its_cycle() -> None:
+    said = MACHINE.report(MACHINE.design(KnottingDyadParams())).as_json()
+    assert 0.1 < said["results"]["cycle_time"] < 1.0
+    assert said["results"]["torque_max"] > 0
+    assert all(check["ok"] for check in said["checks"])
