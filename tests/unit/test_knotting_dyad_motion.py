@@ -102,6 +102,7 @@ def test_limits_hold_at_the_drives_and_some_are_reached(settings: Settings) -> N
             elbow = links[:, 1] if params.elbow_drive == "belt" else links[:, 1] - links[:, 0]
             worst = max(worst, float(np.abs(np.stack([links[:, 0], elbow])).max()) / getattr(params, limit))
     assert 0.99 < worst <= 1 + 1e-3
+    assert motion.cycle.used.max() == pytest.approx(worst, rel=1e-12)
     assert motion.cycle.usage <= 1 + 1e-9
 
 
@@ -200,10 +201,10 @@ def test_figures_cover_the_cycle() -> None:
         assert (np.diff(lane.angle) > 0).all()
         assert lane.position.min() == 0.0
         assert lane.position.max() == pytest.approx(1.0)
-    assert len(plots) == 3
+    assert len(plots) == 4
     for plot in plots:
         assert isinstance(plot, Plot)
-        assert len(plot.series) == 4
+        assert len(plot.series) == (3 if plot.name.endswith("limits") else 4)
         assert len(plot.marks) == 7
 
 

@@ -19,8 +19,8 @@ from ilmek.machines.knotting_dyad.way import ArmWay
 from ilmek.timing.path_speed import AxisLimits, Course, JointPath, PathMotion, quickest_motion
 from ilmek.timing.path_speed_line import LineMotion, line_motion
 
-SAMPLES, INTERVALS = 161, 200
-"""Times of a phase that are tabulated, and intervals of its motion's spline."""
+SAMPLES, PAUSED, INTERVALS = 161, 21, 200
+"""Times of a phase and of a grip that are tabulated, and intervals of a phase's spline."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,13 +58,15 @@ class Cycle:
 
     parts   in order, from 0 to the period         time    of the samples [s]; where parts meet it comes twice
     arms    left and right                         centre  height of the centre gripper's tip [m], and three rates
-    usage   greatest speed, acceleration and jerk over their limits, of joints and centre gripper: at most 1
+    used    greatest speed, acceleration and jerk of a joint over their limits, sample by sample
+    usage   the greatest use of a limit, the centre gripper's among them: at most 1
     """
 
     parts: tuple[Part, ...]
     time: Float[np.ndarray, " samples"]
     arms: Mapping[str, ArmCourse]
     centre: Float[np.ndarray, "4 samples"]
+    used: Float[np.ndarray, "3 samples"]
     usage: float
 
     @property
@@ -93,14 +95,14 @@ def cycle_of(params: KnottingDyadParams, head: Head) -> Cycle:
     for last, phase in zip(before, head.phases, strict=True):
         for grip in _grips(params, last, phase, parts[-1].end if parts else 0.0):
             parts.append(grip)
-            pieces.append(_still(motions, phase, np.array([grip.start, grip.end])))
+            pieces.append(_still(motions, phase, np.linspace(grip.start, grip.end, PAUSED)))
         duration, piece = _moved(motions, phase, parts[-1].end if parts else 0.0)
         parts.append(Part(phase.name, float(piece[0][0]), float(piece[0][0]) + duration))
         pieces.append(piece)
     time, left, right, centre = zip(*pieces, strict=True)
     arms = {LEFT: _joined(left), RIGHT: _joined(right).mirrored()}
-    used = max(float(motions.single.usage.max()), float(motions.both.usage.max()), _used(params, motions.centre))
-    return Cycle(tuple(parts), np.concatenate(time), arms, np.concatenate(centre, axis=1), used)
+    most = max(float(motions.single.usage.max()), float(motions.both.usage.max()), _centre_use(params, motions.centre))
+    return Cycle(tuple(parts), np.concatenate(time), arms, np.concatenate(centre, axis=1), _use(params, arms), most)
 
 
 def drive_angles(params: KnottingDyadParams) -> Float[np.ndarray, "2 2"]:
@@ -210,7 +212,17 @@ def _joined(courses: tuple[ArmCourse, ...]) -> ArmCourse:
     )
 
 
-def _used(params: KnottingDyadParams, centre: LineMotion) -> float:
+def _use(params: KnottingDyadParams, arms: Mapping[str, ArmCourse]) -> FloatArray:
+    """The greatest use of each of the joints' limits over the samples."""
+    turned = drive_angles(params).T
+    speed, acceleration, jerk = (
+        np.max([np.abs(rate @ turned).max(axis=1) for rate in rates], axis=0)
+        for rates in zip(*((arm.speed, arm.acceleration, arm.jerk) for arm in arms.values()), strict=True)
+    )
+    return np.stack([speed / params.joint_speed, acceleration / params.joint_acceleration, jerk / params.joint_jerk])
+
+
+def _centre_use(params: KnottingDyadParams, centre: LineMotion) -> float:
     """The centre gripper's greatest use of a limit."""
     top = centre.jerk * centre.times[0]
     return max(centre.speed / params.centre_speed, top / params.centre_acceleration, centre.jerk / params.centre_jerk)

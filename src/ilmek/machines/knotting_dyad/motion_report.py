@@ -1,6 +1,6 @@
 """What is said of the cycle in time and of its drives: results, checks, a table, figures, warnings."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,8 +56,8 @@ def motion_results(motion: HeadMotion) -> tuple[Result, ...]:
     strongest = None if None in servos else max((one for one in servos if one), key=lambda servo: servo.power).name
     return (
         Result("cycle_time", cycle.period, "ms", "of a knot, every motion as quick as the limits of the drives allow"),
-        Result("torque_max", motion.torque_max, "N*m", "greatest torque at a joint"),
-        Result("torque_rms", rms, "N*m", "greatest root mean square of the torque at a joint, over the cycle"),
+        Result("torque_max", motion.torque_max, "mN*m", "greatest torque at a joint"),
+        Result("torque_rms", rms, "mN*m", "greatest root mean square of the torque at a joint, over the cycle"),
         Result("joint_speed_max", speed, "rad/s", "greatest speed of a joint"),
         Result("servo", strongest, "", "servo class that is enough for every joint"),
         Result("drives", drives, "", "of first and second link, for the worse arm: at the joint and at its servo, SI"),
@@ -77,7 +77,7 @@ def motion_checks(motion: HeadMotion) -> tuple[Check, ...]:
 def motion_warnings(motion: HeadMotion) -> tuple[str, ...]:
     """Joints for which no servo is enough."""
     return tuple(
-        f"no servo of the catalogue gives the {joint.joint} {format_quantity(joint.torque_max, 'N*m')} at "
+        f"no servo of the catalogue gives the {joint.joint} {format_quantity(joint.torque_max, 'mN*m')} at "
         f"{format_quantity(joint.speed_max, 'rad/s')}, behind the gears that it may have"
         for joint in motion.drives.joints
         if joint.servo is None
@@ -90,8 +90,8 @@ def motion_tables(motion: HeadMotion) -> tuple[Table, ...]:
 
 
 def motion_figures(motion: HeadMotion) -> tuple[Figure, ...]:
-    """Cyclogram, and angles, speeds and torques over time."""
-    return (cyclogram(motion.cycle), *(plot(motion) for plot in (angles, speeds, torques)))
+    """Cyclogram, and angles, speeds, the use of the limits and torques over time."""
+    return (cyclogram(motion.cycle), *(plot(motion) for plot in (angles, speeds, limits, torques)))
 
 
 def cyclogram(cycle: Cycle) -> Timing:
@@ -112,29 +112,36 @@ def cyclogram(cycle: Cycle) -> Timing:
 
 
 def angles(motion: HeadMotion) -> Plot:
-    """Angles of both arms' links."""
-    return _plot(
-        motion, "angles", "Angles of the links", Axis("angle", "deg"), lambda arm: motion.cycle.arms[arm].angle
-    )
+    """Turns of both arms' links from where they rest."""
+    arms = {name: arm.angle - arm.angle[0] for name, arm in motion.cycle.arms.items()}
+    return _plot(motion, "angles", "Turns of the links from rest", Axis("angle", "deg"), _links(arms))
 
 
 def speeds(motion: HeadMotion) -> Plot:
     """Speeds of both arms' links."""
-    axis = Axis("speed", "rad/s")
-    return _plot(motion, "speeds", "Speeds of the links", axis, lambda arm: motion.cycle.arms[arm].speed)
+    arms = {name: arm.speed for name, arm in motion.cycle.arms.items()}
+    return _plot(motion, "speeds", "Speeds of the links", Axis("speed", "rad/s"), _links(arms))
+
+
+def limits(motion: HeadMotion) -> Plot:
+    """The greatest use of each of the joints' limits."""
+    curves = dict(zip(("speed", "acceleration", "jerk"), motion.cycle.used, strict=True))
+    return _plot(motion, "limits", "Use of the joints' limits", Axis("greatest over its limit"), curves)
 
 
 def torques(motion: HeadMotion) -> Plot:
     """Torques of both arms' drives."""
-    axis = Axis("torque", "N*m")
-    return _plot(motion, "torques", "Torques at the joints", axis, lambda arm: motion.drives.arms[arm].torque)
+    arms = {name: arm.torque for name, arm in motion.drives.arms.items()}
+    return _plot(motion, "torques", "Torques at the joints", Axis("torque", "mN*m"), _links(arms))
 
 
-def _plot(motion: HeadMotion, name: str, title: str, y: Axis, course: Callable[[str], FloatArray]) -> Plot:
+def _links(arms: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    return {f"{said}, link {at + 1}": arms[arm][:, at] for arm, said in ARMS.items() for at in (0, 1)}
+
+
+def _plot(motion: HeadMotion, name: str, title: str, y: Axis, curves: Mapping[str, FloatArray]) -> Plot:
     series = tuple(
-        Series(f"{said}, link {at + 1}", motion.cycle.time, course(arm)[:, at], dashed=at == 1)
-        for arm, said in ARMS.items()
-        for at in (0, 1)
+        Series(said, motion.cycle.time, course, dashed=said.endswith("2")) for said, course in curves.items()
     )
     phases = [part for part in motion.cycle.parts if not part.grippers]
     marks = tuple(Mark(part.start, str(at)) for at, part in enumerate(phases, 1))
@@ -160,11 +167,11 @@ def _drive(joint: JointDrive) -> dict[str, Json]:
 def _drive_table(motion: HeadMotion) -> Table:
     columns = (
         Column("joint"),
-        Column("torque", "N*m"),
-        Column("root mean square", "N*m"),
+        Column("torque", "mN*m"),
+        Column("root mean square", "mN*m"),
         Column("speed", "rad/s"),
         Column("gears"),
-        Column("servo's torque", "N*m"),
+        Column("servo's torque", "mN*m"),
         Column("servo"),
     )
     rows = tuple(
