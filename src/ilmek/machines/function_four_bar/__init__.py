@@ -1,0 +1,20 @@
+"""A four-bar for a function: its rocker shows y = f(x) where its crank shows x.
+
+Exact at three to five places (interpolation), or best over the whole range by least squares or by the greatest error,
+with the alternation that proves it.
+"""
+
+from ilmek.machines.function_four_bar.design import FunctionFourBar, design
+from ilmek.machines.function_four_bar.params import FunctionFourBarParams
+from ilmek.machines.function_four_bar.report import report
+from ilmek.machines.machine import Machine
+
+__all__ = ["MACHINE", "FunctionFourBar", "FunctionFourBarParams", "design", "report"]
+
+MACHINE = Machine(
+    name="function-four-bar",
+    summary="four-bars whose rocker generates a function of the crank's angle, exact at places or best over the range",
+    params=FunctionFourBarParams,
+    design=design,
+    report=report,
+)
