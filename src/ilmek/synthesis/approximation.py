@@ -56,6 +56,9 @@ NODES = 64
 SAME = 1e-4
 """Difference of even parameters, of the greatest, below which two answers are one."""
 
+FAR = 1e4
+"""Even parameter beyond which a minimax runs off."""
+
 TURNS = 32
 """Directions of a common factor in which a minimax is looked for."""
 
@@ -235,9 +238,11 @@ def minimax(polynomial: SynthesisPolynomial, places: FloatArray) -> Approximatio
     if polynomial.between:
         ends = _different(minimax_over_range(errors, end.parameters, places, least=least) for end in ends)
     found = [_told(polynomial, sizes * end.parameters, "minimax", places, (end.level, end.gap)) for end in ends]
-    proven = [one for one in found if one.proven]
-    words = ("a search that came to no end",) if len(proven) < len(found) else ()
-    return Approximations(tuple(sorted(proven or found, key=lambda one: one.worst)), words)
+    near = [one for one in found if np.max(np.abs(one.parameters / sizes)) < FAR]
+    proven = [one for one in near if one.proven]
+    words = ["a search that runs off: a parameter without end"] if len(near) < len(found) else []
+    words += ["a search that came to no end"] if len(proven) < len(near) else []
+    return Approximations(tuple(sorted(proven or near, key=lambda one: one.worst)), tuple(words))
 
 
 def _different(ends: Iterable[Descent]) -> list[Descent]:

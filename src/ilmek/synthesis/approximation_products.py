@@ -123,7 +123,9 @@ def solve_products(rows: Rows, products: Products) -> Solutions:
         parameters = _polished(even, products, unit * whole[:count] / whole[-1])
         if all(np.max(np.abs(parameters - other)) > REAL * np.max(np.abs(other)) for other in found):
             found.append(parameters)
-    far -= 1 if many == 2 and hub_of(products) is not None and far else 0  # always there, and no solution: t = 0, 1 = 0
+    # Always there, and no solutions: the common factor 0 with 1 = 0, and a factor that is in products only alone.
+    always = int(many == 2 and hub_of(products) is not None) + int(np.sum(~np.any(even.terms, axis=0)))
+    far = max(0, far - always)
     words = [f"{far} infinitely far"] if far else []
     words += [f"{complex_ones} complex"] if complex_ones else []
     return Solutions(tuple(sizes * one for one in found), tuple(words))

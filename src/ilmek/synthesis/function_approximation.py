@@ -7,7 +7,8 @@ Two errors are told apart. The design error is what Freudenstein's equation miss
 with ground 1, crank a, coupler b, rocker c: linear in R1, R2, R3 where both start angles are said. The structural
 error is what the rocker misses by, and it is the one that is made small. The design error is solved outright, on a
 grid of start angles where they are free; every local least of it that closes, and every four-bar through Chebyshev's
-places, starts a descent on the structural error in the closed form of the linkage.
+places, starts a descent on the structural error in the closed form of the linkage. (`approximation_design` has the
+design error for its own sake, in all three criteria.)
 [Freudenstein, Trans. ASME 77 (1955); Todorov, Mech. Mach. Theory 37 (2002) 1505, for Chebyshev's approximation of the
 design error; Liu and Angeles, Mech. Mach. Theory 27 (1992) 501, for the difference of the two errors]
 """
@@ -23,6 +24,7 @@ from jaxtyping import Bool, Float
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
+from ilmek.synthesis.approximation_design import design_generators
 from ilmek.synthesis.approximation_exchange import PROVEN, extremes, minimax_over_range
 from ilmek.synthesis.approximation_generator import (
     Generator,
@@ -53,7 +55,7 @@ PLACES = 129
 NODES = 48
 """Gauss's nodes for the integral of the squares."""
 
-GRID = {0: 1, 1: 90, 2: 24}
+GRID = {1: 90, 2: 24}
 """Directions tried of each free start angle, by how many are free; half a turn is enough, as links may be negative."""
 
 STARTS = 8
@@ -188,8 +190,25 @@ def _starts(
     left_out.extend(exact.left_out)
     for four_bar in exact.four_bars:
         yield of_four_bar(four_bar, function, at, starts)
-    if criterion != "interpolation":
+    if criterion == "interpolation":
+        return
+    if points < 5:
+        answers = design_generators(
+            function, "least squares", crank_start=starts[0], rocker_start=starts[1], weight=weight
+        )
+        for design in answers.found:
+            sense = _better_sense(function, design.generator)
+            if sense and design.error.kind == "minimum":
+                yield sense, design.generator
+    if points > 3:
         yield from _grid(function, starts, weight)
+
+
+def _better_sense(function: Function, one: Generator) -> int:
+    """The sense with the smaller structural error; 0 where neither closes all over the range."""
+    x = _range(function, PLACES)
+    worst = [float(np.max(np.abs(structural_error(function, one, sense, x)))) for sense in (+1, -1)]
+    return 0 if not np.isfinite(worst).any() else (+1, -1)[int(np.nanargmin(worst))]
 
 
 def _grid(function: Function, starts: Starts, weight: Weight | None) -> Iterator[tuple[int, Generator]]:
