@@ -55,7 +55,7 @@ def test_a_narrow_peak_at_a_sharp_angle_is_climbed(centre: float, width: float, 
 
 def test_the_higher_of_two_rivals_wins_though_samples_favour_the_lower() -> None:
     def curves(_row: IntArray, angle: FloatArray) -> dict[str, FloatArray]:
-        high, low = np.exp(-((angle - 2.0) ** 2) * 200), np.exp(-((angle - 4.0) ** 2) * 200)
+        high, low = np.exp(-((angle - 2.0) ** 2) * 20), np.exp(-((angle - 4.0) ** 2) * 20)
         return {"two": high + 0.999 * low}
 
     # The lower one has a sample on its top.

@@ -105,8 +105,12 @@ def test_refuses_in_words(settings: dict[str, str], error: type[IlmekError], sai
 
 def test_figures_are_a_drawing_of_the_beat_and_curves_over_a_turn() -> None:
     said = answer()
-    drawing, moving, *plots, start = said.figures
+    drawing, moving, *plots, start = said.figures[:10]
     assert start.name == "run-speed"
+    assert [figure.name for figure in said.figures[10:]] == [
+        *(f"family-{name}" for name in ("angle", "beat", "force", "torque", "rocker", "alpha", "links", "size")),
+        *(f"family-front-{name}" for name in ("force-at-beat", "drive-torque")),
+    ]
     assert isinstance(drawing, Drawing)
     assert isinstance(moving, Animation)
     places = {dot.label: dot.at for dot in drawing.dots}

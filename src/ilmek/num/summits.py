@@ -16,23 +16,24 @@ from ilmek.units import turn
 RowCurves: TypeAlias = Callable[[IntArray, FloatArray], Mapping[str, FloatArray]]
 """Members (m, 1) and angles (m, k) [rad] -> named values (m, k); of period 2 pi and smooth near their summits."""
 
-EVEN, CLOSE, NEAREST = 64, 6, 2.0**-8
+EVEN, CLOSE, NEAREST = 48, 8, 2.0**-8
 """Even samples over the turn; samples on each side of a sharp angle, each nearer than the last by one ratio; and the
 nearest over the farthest of them, which is 0.4 of an even step away."""
 
-RIVAL = 0.1
-"""Local maxima of the samples within this part of the greatest are all climbed."""
+RIVAL, MARGIN = 0.5, 3.0
+"""Part of the span below the greatest sample within which local maxima are looked at, and how many times the gain that
+a hill without flanks may have is granted to each."""
 
 BLOCK = 8192
 """Samples worked off at a time: more would leave the processor's cache."""
 
-ROUNDS, NARROW, FLAT = 12, 16.0, 1e-9
+ROUNDS, NARROW, FLAT = 12, 16.0, 1e-6
 """Most parabolas fitted to a summit; how much narrower each may be than the last; and the fall of its neighbours below
 a summit, as a part of it, at which it is reached."""
 
 
 def summits(curves: RowCurves, sharp: FloatArray) -> dict[str, FloatArray]:
-    """The greatest value over a turn of each curve of each member, to about 1e-9 of itself.
+    """The greatest value over a turn of each curve of each member, to about 1e-8 of itself, hardly ever more than 1e-5.
 
     sharp  angles [rad], (members, any number), near which a member's curves may be narrow
     A curve that is not finite somewhere has no greatest value: NaN.
@@ -43,13 +44,17 @@ def summits(curves: RowCurves, sharp: FloatArray) -> dict[str, FloatArray]:
     [1.0, 2.0]
     """
     grids = _samples(sharp)
-    parts = []
+    greatest: dict[str, list[FloatArray]] = {}
+    hills: dict[str, list[Hills]] = {}
     for part in _blocks(*grids.shape):
         row = np.arange(part.start, part.stop)
-        values = curves(row[:, None], grids[part])
-        parts.append({name: _candidates(one, grids[part], row) for name, one in values.items()})
-    names = list(parts[0]) if parts else []
-    return {name: _climbed(curves, name, [part[name] for part in parts]) for name in names}
+        for name, values in curves(row[:, None], grids[part]).items():
+            greatest.setdefault(name, []).append(np.max(values, axis=1))
+            hills.setdefault(name, []).append(_hills(values, grids[part], row))
+    found = {name: np.concatenate(parts) for name, parts in greatest.items()}
+    if found:
+        _climb(curves, found, hills)
+    return found
 
 
 def _samples(sharp: FloatArray) -> FloatArray:
@@ -62,22 +67,33 @@ def _samples(sharp: FloatArray) -> FloatArray:
     return np.sort(np.concatenate([even, close], axis=1), axis=1)
 
 
-Candidates: TypeAlias = tuple[FloatArray, IntArray, FloatArray, FloatArray]
-"""The members' greatest samples; of each local maximum its member, and angles and values (number, 3) about it."""
+Hills: TypeAlias = tuple[IntArray, FloatArray, FloatArray]
+"""Of each local maximum its member, and angles and values (number, 3) about it."""
 
 
-def _candidates(values: FloatArray, angle: FloatArray, row: IntArray) -> Candidates:
-    """The local maxima of a block's samples that rival the greatest."""
+def _hills(values: FloatArray, angle: FloatArray, row: IntArray) -> Hills:
+    """The local maxima of a block's samples that may rival the greatest."""
     top = np.max(values, axis=1)
     floor = top - RIVAL * (top - np.min(values, axis=1))
     where, place = np.nonzero(_local_maxima(values) & (values >= floor[:, None]))
     width = values.shape[1]
     about = (place[:, None] + np.arange(-1, 2)) % width
-    angles = angle[where[:, None], about]
+    angles, heights = angle[where[:, None], about], values[where[:, None], about]
     # Neighbours across the end of the turn lie on the sample's own side of it.
     angles[:, 0] -= turn * (place == 0)
     angles[:, 2] += turn * (place == width - 1)
-    return top, row[where], angles, values[where[:, None], about]
+    rivals = _may_exceed(angles, heights, top[where])
+    return row[where[rivals]], angles[rivals], heights[rivals]
+
+
+def _may_exceed(x: FloatArray, y: FloatArray, top: FloatArray) -> BoolArray:
+    """Whether hills through three points may be higher than `top`: a hill lies below its chords drawn on."""
+    left, right = x[:, 1] - x[:, 0], x[:, 2] - x[:, 1]
+    up, down = y[:, 1] - y[:, 0], y[:, 1] - y[:, 2]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        gain = np.fmax(up * right / left, down * left / right)
+    may: BoolArray = ~(y[:, 1] + MARGIN * gain < top)
+    return may
 
 
 def _local_maxima(values: FloatArray) -> BoolArray:
@@ -89,19 +105,28 @@ def _local_maxima(values: FloatArray) -> BoolArray:
     return maxima
 
 
-def _climbed(curves: RowCurves, name: str, parts: list[Candidates]) -> FloatArray:
-    """The greatest value of one curve, its summits climbed, of every member."""
-    greatest, row, x, y = (np.concatenate(column) for column in zip(*parts, strict=True))
+def _climb(curves: RowCurves, greatest: dict[str, FloatArray], hills: Mapping[str, list[Hills]]) -> None:
+    """Raise the greatest values to the summits of all hills; those of all curves are climbed together."""
+    row, x, y = (np.concatenate(column) for column in zip(*(one for of in hills.values() for one in of), strict=True))
+    curve = np.repeat(np.arange(len(hills)), [sum(one[0].size for one in of) for of in hills.values()])
     for _ in range(ROUNDS):
         if not row.size:
             break
         tried = _tries(x, y)
-        found = [curves(row[part, None], tried[part])[name] for part in _blocks(*tried.shape)]
-        x, y = _narrowed(np.hstack([x, tried]), np.hstack([y, np.vstack(found)]))
-        np.maximum.at(greatest, row, y[:, 1])
+        found = np.empty_like(tried)
+        for part in _blocks(*tried.shape):
+            values = list(curves(row[part, None], tried[part]).values())
+            for which in np.unique(curve[part]):
+                own = curve[part] == which
+                found[part][own] = values[which][own]
+        x, y = _narrowed(np.hstack([x, tried]), np.hstack([y, found]))
+        for which, heights in enumerate(greatest.values()):
+            own = curve == which
+            np.maximum.at(heights, row[own], y[own, 1])
         steep = y[:, 1] - np.min(y, axis=1) > FLAT * np.abs(y[:, 1])
-        row, x, y = row[steep], x[steep], y[steep]
-    return greatest
+        highest = np.stack(list(greatest.values()))[curve, row]
+        steep &= _may_exceed(x, y, highest)
+        row, x, y, curve = row[steep], x[steep], y[steep], curve[steep]
 
 
 def _blocks(rows: int, width: int) -> list[slice]:

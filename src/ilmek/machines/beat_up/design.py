@@ -6,7 +6,6 @@ D is the origin, A lies on the x axis; crank angles are counted from D-A, counte
 at the crank angle beta, is the beat.
 """
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -24,17 +23,22 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.machines.beat_up.family import Weighed, chosen_ratio, is_chosen, weigh
+from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams, weight
 from ilmek.machines.beat_up.running import Running, run
 from ilmek.machines.beat_up.shaking import Balance, balance
-from ilmek.synthesis.crank_rocker import DeadCentres, Links, dead_centres, grashof_margin, transmission_angle_min
+from ilmek.synthesis.crank_rocker import (
+    DeadCentres,
+    Links,
+    dead_centres,
+    grashof_margin,
+    links_of_ratio,
+    transmission_angle_min,
+)
 from ilmek.synthesis.crank_rocker_selection import member
 from ilmek.units import format_quantity, turn
 
 PINS = ("A", "B", "C", "D")
-
-BEATER_RATIO = 1.3
-"""Beater over rocker, AE / AB: 0.3001 m / 0.2308 m; inferred from the paper, which prints AE only."""
 
 SAMPLES = 720
 """Samples over a turn: half a degree."""
@@ -109,6 +113,10 @@ class BeatUp:
         """Crank angle of the folded dead centre, the beater farthest from the fell [rad]."""
         return float(np.mod(self.dead_centres.beta + self.dead_centres.rotation, turn))
 
+    def family(self) -> Weighed:
+        """The family that it stands in, weighed."""
+        return weigh(self.params, self.links, self.dead_centres)
+
     def run(self) -> Running:
         """Its run by the motor, from rest and at speed, and what that asks of motor and flywheel."""
         return run(
@@ -124,8 +132,8 @@ class BeatUp:
 def design(params: BeatUpParams) -> BeatUp:
     """Size, move and load a beat-up mechanism.
 
-    Raises ParameterError where the family of crank-rockers has no such member, MechanismError where lengths given
-    outright do not turn or do not swing.
+    Raises ParameterError where the family of crank-rockers has no such member or none within the limits, and
+    MechanismError where lengths given outright do not turn or do not swing.
     """
     links = _links(params)
     lengths = _lengths(params, links)
@@ -176,11 +184,6 @@ def mechanism(lengths: Mapping[str, float]) -> Mechanism:
     )
 
 
-def weight(params: BeatUpParams) -> complex:
-    """Free fall [m/s²] in the frame of the ground line."""
-    return params.gravity * complex(math.cos(params.gravity_direction), math.sin(params.gravity_direction))
-
-
 def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia], angle: FloatArray) -> State:
     """Motion and forces at the given crank angles [rad]."""
     motion = solve(planned, angle, params.speed).require()
@@ -210,6 +213,8 @@ def sizes(state: State) -> dict[str, FloatArray]:
 
 
 def _links(params: BeatUpParams) -> Links:
+    if is_chosen(params):
+        return links_of_ratio(params.swing, params.crank_rotation, chosen_ratio(params))
     if params.crank is None or params.coupler is None or params.rocker is None:
         return member(params.swing, params.crank_rotation, params.beta).links
     return Links(params.crank / params.ground, params.coupler / params.ground, params.rocker / params.ground)

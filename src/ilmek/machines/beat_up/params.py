@@ -1,5 +1,6 @@
 """What may be asked of a beat-up mechanism."""
 
+import difflib
 import math
 from dataclasses import dataclass
 
@@ -10,10 +11,13 @@ from ilmek.units import deg, turn
 SMALL, LARGE = 1e-4, 1e2
 """Lengths that are taken for meant [m]."""
 
+BEATER_RATIO = 1.3
+"""Beater over rocker, AE / AB: 0.3001 m / 0.2308 m; inferred from the paper, which prints AE only."""
+
 
 @dataclass(frozen=True, slots=True)
-class BeatUpParams(Params):
-    """What may be asked of a beat-up mechanism; the defaults are the paper's."""
+class MechanismParams(Params):
+    """The mechanism, its masses and its run; the defaults are the paper's."""
 
     swing: float = param(
         30 * deg, unit="deg", above=0.0, below=math.pi, doc="swing of the rocker between its dead centres", symbol="ψ"
@@ -118,3 +122,111 @@ class BeatUpParams(Params):
                 f"{' and '.join(given)} given without {' and '.join(missing)}",
                 do="give crank, coupler and rocker, or none of them",
             )
+
+
+OBJECTIVES = {
+    "force_at_beat": ("force_at_beat", +1),
+    "transmission_angle": ("transmission_angle_min", +1),
+    "ratio": ("crank_coupler_ratio", +1),
+    "link_ratio": ("link_ratio", -1),
+    "size": ("size", -1),
+    "acceleration": ("beater_acceleration_max", -1),
+    "rocker_acceleration": ("rocker_acceleration_max", -1),
+    "drive_torque": ("drive_torque_max", -1),
+    "joint_force": ("joint_force_max", -1),
+}
+"""What may be sought: the quantity of a member, and whether the greatest (+1) or the least (-1) is best."""
+
+LIMITS = {
+    "ratio_min": ("crank_coupler_ratio", +1, "1"),
+    "ratio_max": ("crank_coupler_ratio", -1, "1"),
+    "transmission_min": ("transmission_angle_min", +1, "deg"),
+    "link_ratio_max": ("link_ratio", -1, "1"),
+    "size_max": ("size", -1, "mm"),
+    "acceleration_max": ("beater_acceleration_max", -1, "m/s^2"),
+    "rocker_acceleration_max": ("rocker_acceleration_max", -1, "rad/s^2"),
+    "force_at_beat_min": ("force_at_beat", +1, "N"),
+    "torque_max": ("drive_torque_max", -1, "N*m"),
+    "joint_force_max": ("joint_force_max", -1, "N"),
+}
+"""What may be limited: the quantity of a member, whether it must be at least (+1) or at most (-1) that, its unit."""
+
+CHOOSING = ("objective", *LIMITS)
+"""Parameters by which the member is chosen."""
+
+
+@dataclass(frozen=True, slots=True)
+class BeatUpParams(MechanismParams):
+    """What may be asked of a beat-up mechanism: itself, or limits by which it is chosen from its family."""
+
+    objective: str | None = param(
+        None,
+        choices=tuple(OBJECTIVES),
+        doc="what is best among the crank-rockers within the limits; unsaid, where a limit is given: force_at_beat",
+    )
+    ratio_min: float | None = param(None, above=0.0, at_most=1.0, doc="limit: crank/coupler ratio, r/l")
+    ratio_max: float | None = param(None, above=0.0, at_most=1.0, doc="limit: crank/coupler ratio, r/l")
+    transmission_min: float | None = param(
+        None, unit="deg", above=0.0, below=math.pi / 2, doc="limit: least acute transmission angle over a turn"
+    )
+    link_ratio_max: float | None = param(None, at_least=1.0, at_most=1e6, doc="limit: longest link over the shortest")
+    size_max: float | None = param(
+        None, unit="mm", at_least=SMALL, at_most=LARGE, doc="limit: greatest distance of places that its points get to"
+    )
+    acceleration_max: float | None = param(
+        None, unit="m/s^2", above=0.0, at_most=1e9, doc="limit: greatest acceleration of the beater, at the speed"
+    )
+    rocker_acceleration_max: float | None = param(
+        None, unit="rad/s^2", above=0.0, at_most=1e9, doc="limit: greatest angular acceleration of the rocker"
+    )
+    force_at_beat_min: float | None = param(
+        None, unit="N", above=0.0, at_most=1e9, doc="limit: force on the beater at the beat itself"
+    )
+    torque_max: float | None = param(None, unit="N*m", above=0.0, at_most=1e9, doc="limit: greatest drive torque")
+    joint_force_max: float | None = param(
+        None, unit="N", above=0.0, at_most=1e9, doc="limit: greatest force in any pin"
+    )
+    front: str = param(
+        "transmission_angle force_at_beat drive_torque",
+        doc=f"what Pareto's front weighs, two or more of: {' '.join(OBJECTIVES)}",
+    )
+    members: int = param(500, at_least=10, at_most=100_000, doc="crank-rockers of the family that are looked at")
+
+    def check_together(self) -> None:
+        """Crank, coupler and rocker together or not at all; limits only where there is something to choose."""
+        MechanismParams.check_together(self)
+        weighed_names(self.front)
+        asked = [name for name in CHOOSING if getattr(self, name) is not None]
+        settled = [name for name in ("beta", "crank") if getattr(self, name) is not None]
+        if asked and settled:
+            given = "beta" if settled[0] == "beta" else "crank, coupler and rocker"
+            raise ParameterError(
+                f"{asked[0]} given with {given}",
+                allowed=f"with {given} nothing is left to choose",
+                do=f"leave out {given}, or {' and '.join(asked)}",
+            )
+
+
+def weight(params: MechanismParams) -> complex:
+    """Free fall [m/s²] in the frame of the ground line."""
+    return params.gravity * complex(math.cos(params.gravity_direction), math.sin(params.gravity_direction))
+
+
+def weighed_names(text: str) -> tuple[str, ...]:
+    """Names of `OBJECTIVES` with blanks or commas between, as `front` says them.
+
+    Raises ParameterError for an unknown or repeated name, and for fewer than two.
+    """
+    names = tuple(text.replace(",", " ").split())
+    for name in names:
+        if name not in OBJECTIVES:
+            near = difflib.get_close_matches(name, OBJECTIVES, n=1)
+            hint = f"did you mean {near[0]}?" if near else ""
+            raise ParameterError(f"front={text!r}: {name!r} is unknown", allowed=f"of {' '.join(OBJECTIVES)}", do=hint)
+    if len(set(names)) < max(2, len(names)):
+        raise ParameterError(
+            f"front={text!r} is no choice between two things",
+            allowed=f"two or more different ones of {' '.join(OBJECTIVES)}",
+            do="say what the front is to weigh",
+        )
+    return names

@@ -6,6 +6,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.beat_up.design import PINS, BeatUp
+from ilmek.machines.beat_up.family_figures import family_figures
+from ilmek.machines.beat_up.family_report import family_results, front_table, limit_checks
 from ilmek.machines.beat_up.figures import figures
 from ilmek.machines.beat_up.running import Running
 from ilmek.machines.beat_up.running_report import (
@@ -26,8 +28,8 @@ POWER_LIMIT = 1e-9
 
 
 def report(design: BeatUp) -> Report:
-    """Everything that the design says, its run by the motor among it."""
-    running = design.run()
+    """Everything that the design says, its run by the motor and its family among it."""
+    running, family = design.run(), design.family()
     return Report(
         machine="beat-up",
         title="Beat-up",
@@ -38,11 +40,12 @@ def report(design: BeatUp) -> Report:
             *_loads(design, running),
             *shaking_results(design),
             *running_results(running),
+            *family_results(design, family),
             *_at(design),
         ),
-        checks=(*_checks(design), *running_checks(design.params, running)),
-        tables=(_link_table(design), _dead_centre_table(design), _peak_table(design)),
-        figures=figures(design, running),
+        checks=(*_checks(design), *running_checks(design.params, running), *limit_checks(design, family)),
+        tables=(_link_table(design), _dead_centre_table(design), _peak_table(design), front_table(family)),
+        figures=(*figures(design, running), *family_figures(family)),
         warnings=(*_warnings(design), *running_warnings(running)),
     )
 

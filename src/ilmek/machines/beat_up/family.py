@@ -1,0 +1,156 @@
+"""The family that a beat-up stands in: all crank-rockers with its swing and crank rotation, their motion and forces.
+
+Each is sized, loaded and run at the speed like the beat-up itself, ground, beater and bars as its parameters say. From
+them the best within limits is chosen, and Pareto's front is taken: what no other member beats in everything weighed.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import BoolArray, FloatArray, IntArray, RealField
+from ilmek.machines.beat_up.family_forces import bodies, loaded
+from ilmek.machines.beat_up.params import LIMITS, OBJECTIVES, BeatUpParams, weighed_names
+from ilmek.num.pareto import front
+from ilmek.num.summits import summits
+from ilmek.synthesis.crank_rocker import (
+    DeadCentres,
+    Links,
+    beta_of_ratio,
+    grashof_margin,
+    links_of_ratio,
+    transmission_angle_min,
+)
+from ilmek.synthesis.crank_rocker_choice import Limit, Objective, choose
+from ilmek.synthesis.crank_rocker_family import family, link_ratio, size
+from ilmek.synthesis.crank_rocker_motion import sharp_angles
+from ilmek.synthesis.crank_rocker_selection import RATIO_FLOOR
+from ilmek.units import turn
+
+Table = Mapping[str, FloatArray]
+"""Quantity of `QUANTITIES` -> its values [SI], one a member."""
+
+QUANTITIES = {
+    "crank_coupler_ratio": ("crank/coupler ratio", "1"),
+    "beta": ("crank angle of the beat", "deg"),
+    "crank": ("crank over ground", "1"),
+    "coupler": ("coupler over ground", "1"),
+    "rocker": ("rocker over ground", "1"),
+    "transmission_angle_min": ("least transmission angle", "deg"),
+    "link_ratio": ("longest link over shortest", "1"),
+    "grashof_margin": ("Grashof margin over ground", "1"),
+    "size": ("size", "mm"),
+    "rocker_speed_max": ("greatest speed of the rocker", "rad/s"),
+    "rocker_acceleration_max": ("greatest acceleration of the rocker", "rad/s^2"),
+    "beater_acceleration_max": ("greatest acceleration of the beater", "m/s^2"),
+    "acceleration_at_beat": ("acceleration at the beat", "m/s^2"),
+    "beater_force_max": ("greatest force on the beater", "N"),
+    "force_at_beat": ("force at the beat", "N"),
+    "drive_torque_max": ("greatest drive torque", "N*m"),
+    "joint_force_max": ("greatest force in a pin", "N"),
+}
+"""What is told of every member: in words, and the unit to show it in."""
+
+
+@dataclass(frozen=True, slots=True)
+class Weighed:
+    """A family weighed: members by ascending ratio, their quantities, and Pareto's front.
+
+    own        the beat-up's own quantities             table  those of the members
+    weighed    names of what the front weighs           front  whether each member is on it
+    """
+
+    own: Mapping[str, float]
+    table: Table
+    weighed: tuple[str, ...]
+    front: BoolArray
+
+    def __len__(self) -> int:
+        return self.front.size
+
+    def some(self, number: int) -> tuple[dict[str, float], ...]:
+        """At most so many members of the front, evenly apart in it, the first and the last among them."""
+        places = np.flatnonzero(self.front)
+        if places.size > number:
+            places = places[np.linspace(0, places.size - 1, number).round().astype(np.intp)]
+        return tuple({name: float(values[place]) for name, values in self.table.items()} for place in places)
+
+
+def weigh(params: BeatUpParams, links: Links, dead: DeadCentres) -> Weighed:
+    """The family of a beat-up with these links and dead centres."""
+    objectives = {name: Objective(*OBJECTIVES[name]) for name in weighed_names(params.front)}
+    members = family(float(dead.swing), float(dead.rotation), params.members)
+    table = tabulate(params, members.links, members.beta)
+    own = tabulate(params, Links(*(np.array([float(link)]) for link in links)), np.array([float(dead.beta)]))
+    costs = np.stack([one.cost(table) for one in objectives.values()], axis=1)
+    return Weighed(
+        own={name: float(values[0]) for name, values in own.items()},
+        table=table,
+        weighed=tuple(objectives),
+        front=front(costs),
+    )
+
+
+def tabulate(params: BeatUpParams, links: Links, beta: RealField) -> Table:
+    """The `QUANTITIES` of beat-ups with given links and crank angles of the beat [rad], arrays of one dimension."""
+    made = bodies(params, links)
+    beta = np.broadcast_to(beta, made.crank.shape)
+
+    def curves(row: IntArray, angle: FloatArray) -> dict[str, FloatArray]:
+        return loaded(params, made.rows(row), angle)
+
+    with np.errstate(divide="ignore", invalid="ignore"):
+        most = summits(curves, sharp_angles(links))
+        beat = loaded(params, made, beta)
+    return {
+        "crank_coupler_ratio": made.crank / made.coupler,
+        "beta": np.mod(beta, turn),
+        "crank": np.asarray(links.crank),
+        "coupler": np.asarray(links.coupler),
+        "rocker": np.asarray(links.rocker),
+        "transmission_angle_min": np.asarray(transmission_angle_min(links)),
+        "link_ratio": np.asarray(link_ratio(links)),
+        "grashof_margin": np.asarray(grashof_margin(links)),
+        "size": np.asarray(size(links, beta, made.beater / params.ground)) * params.ground,
+        "rocker_speed_max": most["rocker_speed"],
+        "rocker_acceleration_max": most["rocker_acceleration"],
+        "beater_acceleration_max": most["beater_acceleration"],
+        "acceleration_at_beat": beat["beater_acceleration"],
+        "beater_force_max": most["beater_force"],
+        "force_at_beat": beat["beater_force"],
+        "drive_torque_max": most["drive_torque"],
+        "joint_force_max": np.max(np.stack([most[pin] for pin in "ABCD"]), axis=0),
+    }
+
+
+def is_chosen(params: BeatUpParams) -> bool:
+    """Whether limits or an objective choose the member."""
+    return params.objective is not None or bool(limits(params))
+
+
+def chosen_ratio(params: BeatUpParams) -> float:
+    """Ratio crank / coupler of the member that limits and objective choose.
+
+    Ratios below 0.1, whose crank is a stub beside its ground, are chosen only where they are asked for or no other
+    keeps the limits.     Raises ParameterError, with the limits that clash, where no member keeps them.
+    """
+    asked = limits(params)
+    members = family(params.swing, params.crank_rotation, params.members)
+    bounds = [limit.bound for limit in asked if limit.quantity == "crank_coupler_ratio"]
+    ends = members.ratio[0], members.ratio[-1]
+    ratios = np.unique(np.concatenate([members.ratio, [bound for bound in bounds if ends[0] < bound < ends[1]]]))
+
+    def table(ratio: FloatArray) -> Table:
+        place = params.swing, params.crank_rotation, ratio
+        return tabulate(params, links_of_ratio(*place), beta_of_ratio(*place))
+
+    quantity, sign = OBJECTIVES[params.objective or next(iter(OBJECTIVES))]
+    floor = Limit("crank_coupler_ratio", RATIO_FLOOR, +1, "ratio_min")
+    return choose(table, ratios, Objective(quantity, sign), asked, [floor] if params.ratio_min is None else [])
+
+
+def limits(params: BeatUpParams) -> tuple[Limit, ...]:
+    """The limits that are asked for."""
+    said = ((name, getattr(params, name), of) for name, of in LIMITS.items())
+    return tuple(Limit(of[0], bound, of[1], name, of[2]) for name, bound, of in said if bound is not None)

@@ -1,0 +1,99 @@
+"""Figures of the family that a beat-up stands in: its quantities over the ratio r/l, and Pareto's front."""
+
+import numpy as np
+
+from ilmek.arrays import BoolArray, FloatArray
+from ilmek.machines.beat_up.family import QUANTITIES, Weighed
+from ilmek.machines.beat_up.params import OBJECTIVES
+from ilmek.report import Axis, Mark, Plot, Series
+
+CURVES = (
+    ("family-angle", "Transmission angle of the family", ("transmission_angle_min",)),
+    ("family-beat", "Acceleration of the beater in the family", ("beater_acceleration_max", "acceleration_at_beat")),
+    ("family-force", "Forces in the family", ("joint_force_max", "beater_force_max", "force_at_beat")),
+    ("family-torque", "Drive torque of the family", ("drive_torque_max",)),
+    ("family-rocker", "Speed of the rocker in the family", ("rocker_speed_max",)),
+    ("family-alpha", "Angular acceleration of the rocker in the family", ("rocker_acceleration_max",)),
+    ("family-links", "Longest link over the shortest in the family", ("link_ratio",)),
+    ("family-size", "Size of the family", ("size",)),
+)
+"""Plots over the ratio: name, title, quantities of one unit."""
+
+AXES = {"m/s^2": "acceleration", "N": "force"}
+"""What axes of several curves are called, by their unit."""
+
+WORTH = 4.0
+"""A member is drawn while no value exceeds this many times the quantity's middle one: near toggles all grow no end."""
+
+
+def family_figures(weighed: Weighed) -> tuple[Plot, ...]:
+    """Curves over the ratio, then Pareto's front: the first thing weighed against each other one."""
+    first, *others = weighed.weighed
+    return (
+        *(_curves(weighed, name, title, quantities) for name, title, quantities in CURVES),
+        *(_front(weighed, first, other) for other in others),
+    )
+
+
+def _curves(weighed: Weighed, name: str, title: str, quantities: tuple[str, ...]) -> Plot:
+    ratio = weighed.table["crank_coupler_ratio"]
+    labels, units = zip(*(QUANTITIES[quantity] for quantity in quantities), strict=True)
+    ceiling = max(WORTH * float(np.nanmedian(weighed.table[quantity])) for quantity in quantities)
+    series = tuple(
+        Series(label, ratio, _below(weighed.table[quantity], ceiling), dashed=place > 0 and len(quantities) == 2)
+        for place, (quantity, label) in enumerate(zip(quantities, labels, strict=True))
+    )
+    axis = Axis(labels[0] if len(labels) == 1 else AXES[units[0]], units[0])
+    marks = (Mark(weighed.own["crank_coupler_ratio"], "this beat-up"),)
+    return Plot(name, title, Axis("crank/coupler ratio r/l", "1"), axis, series, marks)
+
+
+def _front(weighed: Weighed, first: str, second: str) -> Plot:
+    """The family with its front, and a ring about the beat-up's own place."""
+    (x, _), (y, _) = OBJECTIVES[first], OBJECTIVES[second]
+    (x_label, x_unit), (y_label, y_unit) = QUANTITIES[x], QUANTITIES[y]
+    kept = np.ones(len(weighed), dtype=bool)
+    for quantity in (x, y):
+        kept &= np.isfinite(_below(weighed.table[quantity], WORTH * float(np.nanmedian(weighed.table[quantity]))))
+    across, up = (np.where(kept, weighed.table[quantity], np.nan) for quantity in (x, y))
+    ring = _ring(weighed.own[x], weighed.own[y], _width(across), _width(up))
+    series = [Series("Pareto's front", *_where(weighed.front, across, up)), Series("this beat-up", *ring)]
+    if not weighed.front.all():
+        series.append(Series("other members", *_where(~_inner(weighed.front), across, up), dashed=True))
+    names = f"{x_label} and {y_label}"
+    return Plot(
+        f"family-front-{second}".replace("_", "-"),
+        f"Pareto's front: {names}",
+        Axis(x_label, x_unit),
+        Axis(y_label, y_unit),
+        tuple(series),
+        note=f"The front weighs {', '.join(weighed.weighed)}.".replace("_", " "),
+    )
+
+
+def _below(values: FloatArray, ceiling: float) -> FloatArray:
+    """The values, those above the ceiling as gaps."""
+    return np.where(values <= ceiling, values, np.nan)
+
+
+def _where(kept: BoolArray, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """A curve with gaps where it is not kept."""
+    return np.where(kept, x, np.nan), np.where(kept, y, np.nan)
+
+
+def _inner(front: BoolArray) -> BoolArray:
+    """Members of the front whose neighbours are on it too: the others' curve reaches up to the front's ends."""
+    inner = front.copy()
+    inner[1:] &= front[:-1]
+    inner[:-1] &= front[1:]
+    return inner
+
+
+def _width(values: FloatArray) -> float:
+    return float(np.nanmax(values) - np.nanmin(values)) or 1.0
+
+
+def _ring(x: float, y: float, width: float, height: float) -> tuple[FloatArray, FloatArray]:
+    """A ring about a place, round on the paper, whose axes are as 2.3 to 1."""
+    around = np.linspace(0, 2 * np.pi, 37)
+    return x + 0.009 * width * np.cos(around), y + 0.021 * height * np.sin(around)

@@ -1,0 +1,121 @@
+"""Forces of many beat-ups at once: those that `dynamics.inverse` finds for one, in closed form for arrays of them.
+
+    F      of the coupler on the rocker at B
+    v x F = J_A alpha_4 - g_4 x m_4 w,        u x F = -(g_3 x m_3 (a_3 - w) + J_3 alpha_3)
+    F_C = F + m_3 (a_3 - w),     F_D = F_C + m_2 (a_2 - w),     F_A = m_4 (a_4 - w) - F
+    T = C x F_C - g_2 x m_2 w    on the crank, whose speed is constant
+
+u = CB, v = AB; 2, 3, 4 are crank, coupler and rocker with masses m, mass centres g from D, C and A, and accelerations a
+of these; w is free fall. The first two are two equations for F:  F = (N v - M u) / (u x v),  M and N their right sides.
+[Newton and Euler, body by body; a test holds them equal to `dynamics.inverse`]
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, FloatArray, IntArray
+from ilmek.dynamics.inertia import bar_mass, bar_moment
+from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams, weight
+from ilmek.plane.vectors import cross
+from ilmek.synthesis.crank_rocker import Links
+from ilmek.synthesis.crank_rocker_motion import Moved, moved
+
+
+class Bodies(NamedTuple):
+    """Lengths, masses and moments of many beat-ups, each an array of one shape.
+
+    crank, coupler, rocker, beater   lengths [m], the beater's from A          links over ground are in `links`
+    crank_mass, coupler_mass         of the bars [kg]                          coupler_moment  about its centre [kg m²]
+    rocker_mass, rocker_static, rocker_moment   rocker and beater together [kg], mass times its centre's distance from A
+                                     [kg m], and moment about A [kg m²]
+    """
+
+    crank: FloatArray
+    coupler: FloatArray
+    rocker: FloatArray
+    beater: FloatArray
+    crank_mass: FloatArray
+    coupler_mass: FloatArray
+    coupler_moment: FloatArray
+    rocker_mass: FloatArray
+    rocker_static: FloatArray
+    rocker_moment: FloatArray
+
+    def rows(self, row: IntArray) -> "Bodies":
+        """Those of some of them."""
+        return Bodies(*(column[row] for column in self))
+
+    def links(self, ground: float) -> Links:
+        """Their links over the ground link [m]."""
+        return Links(self.crank / ground, self.coupler / ground, self.rocker / ground)
+
+
+def bodies(params: BeatUpParams, links: Links) -> Bodies:
+    """The bars and the beater of beat-ups with given links, all else as the parameters say."""
+    crank, coupler, rocker = (np.asarray(link, dtype=float) * params.ground for link in links)
+    beater = np.broadcast_to(np.asarray(params.beater or BEATER_RATIO * rocker), rocker.shape)
+    spans = crank, coupler, np.maximum(rocker, beater)
+    masses = [np.asarray(bar_mass(span, params.width, params.thickness, params.density)) for span in spans]
+    moments = [np.asarray(bar_moment(*pair, params.width)) for pair in zip(masses, spans, strict=True)]
+    centre = spans[2] / 2
+    return Bodies(
+        crank,
+        coupler,
+        rocker,
+        beater,
+        masses[0],
+        masses[1],
+        moments[1],
+        masses[2] + params.beater_mass,
+        masses[2] * centre + params.beater_mass * beater,
+        moments[2] + masses[2] * centre**2 + params.beater_mass * beater**2,
+    )
+
+
+def loaded(params: BeatUpParams, made: Bodies, angle: FloatArray) -> dict[str, FloatArray]:
+    """Curves of beat-ups at crank angles [rad] that broadcast with them; sizes, by name.
+
+    rocker_speed [rad/s], rocker_acceleration [rad/s^2], beater_acceleration [m/s^2], beater_force [N],
+    drive_torque [N m], and the forces in the pins A, B, C, D [N]
+    """
+    at = moved(made.links(params.ground), angle)
+    pull, falling = params.speed**2, weight(params)
+    turned = (1j * at.alpha[1] - at.omega[1] ** 2) * at.rocker
+    beater = (made.beater / made.rocker * (params.ground * pull)) * turned
+    torque, pins = _forces(params, made, at, turned)
+    size = np.abs(beater)
+    return {
+        "rocker_speed": np.abs(at.omega[1]) * params.speed,
+        "rocker_acceleration": np.abs(at.alpha[1]) * pull,
+        "beater_acceleration": size,
+        "beater_force": params.beater_mass * (np.abs(beater - falling) if falling else size),
+        "drive_torque": np.abs(torque),
+        **{pin: np.abs(force) for pin, force in zip("ABCD", pins, strict=True)},
+    }
+
+
+def _forces(
+    params: BeatUpParams, made: Bodies, at: Moved, turned: ComplexField
+) -> tuple[FloatArray, tuple[ComplexField, ...]]:
+    """Torque on the crank [N m] and forces in the pins A, B, C, D [N]; turned: acceleration of B, at unit speed.
+
+    Whatever is the same over the turn is multiplied first, because it is small beside what is not.
+    """
+    ground, pull, falling = params.ground, params.speed**2, weight(params)
+    half = 0.5 * at.coupler
+    coupler = (made.coupler_mass * (ground * pull)) * ((1j * at.alpha[0] - at.omega[0] ** 2) * half - at.pin)
+    rocker = (made.rocker_static / made.rocker * (ground * pull)) * turned
+    crank = (made.crank_mass * (ground * pull / 2)) * at.pin
+    M = (made.rocker_moment * (pull / ground)) * at.alpha[1]
+    if falling:
+        coupler, rocker = coupler - made.coupler_mass * falling, rocker - made.rocker_mass * falling
+        crank = crank + made.crank_mass * falling
+        M = M - made.rocker_static / made.rocker * cross(at.rocker, falling)
+    N = -cross(half, coupler) - (made.coupler_moment * (pull / ground)) * at.alpha[0]
+    B = (N * at.rocker - M * at.coupler) / at.lean
+    C = B + coupler
+    torque = cross(at.pin, C) * ground
+    if falling:
+        torque = torque - (made.crank_mass * (ground / 2)) * cross(at.pin, falling)
+    return np.asarray(torque), (rocker - B, B, C, C - crank)
