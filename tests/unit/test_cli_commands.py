@@ -80,7 +80,9 @@ def test_programme_ties_the_chart(woven: tuple[Path, Any]) -> None:
 def test_machine_json_has_every_machine(woven: tuple[Path, Any]) -> None:
     machine = json.loads((woven[0] / "machine.json").read_text())
     assert machine["machine"] == "automated-loom"
-    assert set(machine["machines"]) == {"weaver", "beat-up", "shedding", "warp-tension"}
+    assert set(machine["machines"]) == {"weaver", "knotting-dyad", "beat-up", "shedding", "warp-tension"}
+    assert machine["machines"]["knotting-dyad"]["parameters"]["warp_pitch"] == machine["results"]["warp_pitch"]
+    assert machine["machines"]["knotting-dyad"]["results"]["knot_tied"] == "symmetric"
     assert "lengths" in machine["machines"]["beat-up"]["results"]
     assert machine["parameters"]["width"] == 0.4
 

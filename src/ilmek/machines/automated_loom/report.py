@@ -9,6 +9,7 @@ from ilmek.machines import beat_up, shedding, warp_tension, weaver
 from ilmek.machines.automated_loom.cyclogram import SHUTTLE, relations
 from ilmek.machines.automated_loom.design import LoomDesign, warp_tension_of
 from ilmek.machines.automated_loom.figures import figures
+from ilmek.machines.automated_loom.knotting import arms_of
 from ilmek.machines.automated_loom.time import estimated_time
 from ilmek.machines.rounding import settled
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
@@ -37,10 +38,12 @@ def report(loom: LoomDesign) -> Report:
     )
 
 
-def parts_of(loom: LoomDesign) -> tuple[Report, Report, Report, Report]:
-    """The reports of the machines in the loom: head, beat-up, shedding, warp tension."""
+def parts_of(loom: LoomDesign) -> tuple[Report, ...]:
+    """The reports of the machines in the loom: head, its arms where they can tie, beat-up, shedding, warp tension."""
+    arms = arms_of(loom.params).report
     return (
         weaver.report(loom.weaver),
+        *(() if arms is None else (arms,)),
         beat_up.report(loom.beat_up),
         shedding.report(loom.shedding),
         warp_tension.report(loom.warp_tension),
@@ -78,6 +81,15 @@ def _results(loom: LoomDesign) -> tuple[Result, ...]:
         Result("tube", {"diameter": loom.tube[0], "wall": loom.tube[1]}, "mm", "stock tube of the warp cylinders"),
         Result("mass", _mass(loom), "kg", "cams with shaft, three cylinders, beat-up; frame and heads not counted"),
     )
+
+
+def _arms_in_time(loom: LoomDesign) -> tuple[Check, ...]:
+    """Where arms tie the knots, whether they do within the time of one."""
+    arms = arms_of(loom.params).report
+    if arms is None:
+        return ()
+    cycle = next(float(str(result.value)) for result in arms.results if result.name == "cycle_time")
+    return (at_most("arms of the heads: cycle", cycle, loom.times.knot, "s", "time of a knot of one head"),)
 
 
 def _beat_results(loom: LoomDesign) -> tuple[Result, ...]:
@@ -125,6 +137,7 @@ def _checks(loom: LoomDesign) -> tuple[Check, ...]:
             if loom.heads > 1
             else ()
         ),
+        *_arms_in_time(loom),
         at_most("shuttle: speed", settled(speed, params.shuttle_speed), params.shuttle_speed, "m/s", "shuttle_speed"),
         at_most("shuttle: acceleration", settled(acceleration, limit), limit, "m/s^2", "shuttle_acceleration"),
         at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
@@ -208,9 +221,13 @@ def _row_table(loom: LoomDesign) -> Table:
 
 def _warnings(loom: LoomDesign) -> tuple[str, ...]:
     params, said = loom.params, []
+    arms = arms_of(params)
+    if arms.cannot:
+        said.append(arms.cannot)
     if params.knot != "symmetric":
         said.append(
             f"the head of the thesis ties symmetric knots; {params.knot} ones need other motions of its grippers"
+            + ("" if arms.report is None else ", as those of the knotting-dyad")
         )
     share = loom.warp_tension.self_weight / loom.warp_tension.load
     if share > HEAVY:
