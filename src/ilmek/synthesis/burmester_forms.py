@@ -141,7 +141,7 @@ def family(kind: str, places: Complex[np.ndarray, " n"], angles: Float[np.ndarra
     if not poles:
         return ParameterError(f"{alike}: no task, or a whole family", do="give angles that differ")
     away = places - poles[0]
-    if np.max(np.abs(away - away[0] * unit(angles - angles[0]))) < ANGLES * np.max(np.abs(away)):
+    if np.max(np.abs(away - away[0] * unit(angles - angles[0]))) <= ANGLES * np.max(np.abs(away)):
         return ParameterError(f"{turned}: a whole family solves this task", do="move a point or an angle")
     return ParameterError(
         "a whole family of links solves this task", do="move a point or an angle: two of them say the same"

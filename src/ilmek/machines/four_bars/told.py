@@ -205,8 +205,9 @@ def checks(choice: Choice) -> tuple[Check, ...]:
 def warnings(choice: Choice) -> tuple[str, ...]:
     """What a reader should not overlook."""
     if choice.best is None:
-        found = f"no four-bar is without defects: {choice.words}" if choice.removed else "there is no four-bar"
-        return (f"{found}; loosen a filter to see one, or change the task", *choice.other)
+        if not choice.removed:
+            return ("there is no four-bar: change the task", *choice.other)
+        return (f"no four-bar is left: {choice.words}; loosen a filter to see one, or change the task", *choice.other)
     least = choice.best.candidate.least_transmission
     if least >= TRANSMISSION:
         return ()

@@ -45,8 +45,8 @@ def named(text: str) -> F:
     if power and float(power[2] or 1):
         return partial(_quietly, partial(_power, float(power[1]) / float(power[2] or 1)))
     near = difflib.get_close_matches({"log": "log10", "lg": "log10", "x": "x^1.5"}.get(name, name), NAMED, n=1)
-    hint = f"did you mean {near[0]}? " if near else ""
-    raise ParameterError(f"function={text!r} is unknown", allowed=ALLOWED, do=f"{hint}Any other: give samples")
+    hint = f"did you mean {near[0]}?" if near else "for any other give samples"
+    raise ParameterError(f"function={text!r} is unknown", allowed=ALLOWED, do=hint)
 
 
 def _power(exponent: float, x: FloatArray) -> FloatArray:

@@ -1,6 +1,7 @@
 """A four-bar for a motion: the links that guide the body, and the four-bars made of two of them, judged and sieved."""
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -68,9 +69,7 @@ def design(params: MotionFourBarParams) -> MotionFourBar:
             other.append(joined.said)
         else:
             options.append(Option(judge(joined.four_bar, task), _made(guides, crank, rocker) if few else "curve"))
-    outside = len(guides) - len(inside)
-    if outside and few:
-        other.append(f"links with a pivot outside pivot_x and pivot_y: {outside}")
+    other += _unused(guides, inside, few, bool(pairs))
     other = list(dict.fromkeys(other))
     choice = choose(options, filters(params), number=params.chosen, count=params.count, other=other)
     return MotionFourBar(params, poses, curve, guides if few else (), choice, (len(pairs), len(inside)))
@@ -89,6 +88,21 @@ def _guides(params: MotionFourBarParams, poses: Poses) -> tuple[BurmesterCurve |
     if pins is not None:
         return None, arms_of_pins(*poses, pins), True
     return None, arms_of_pivots(*poses, _grid(poses.points, params.room())), False
+
+
+def _unused(guides: Sequence[Guide], inside: Sequence[Guide], few: bool, paired: bool) -> Iterator[str]:
+    """Why links are in no four-bar, in words."""
+    outside = len(guides) - len(inside)
+    if outside and few:
+        yield f"links with a pivot outside pivot_x and pivot_y: {outside}"
+    if few or paired:
+        return
+    odd = Counter(one.kind for one in inside if one.kind is not Kind.CRANK)
+    for kind, count in odd.items():
+        yield f"{count} of {len(inside)} links are no cranks: {kind.words}"
+    cranks = len(inside) - odd.total()
+    if cranks:
+        yield f"of {cranks} cranks no two keep one branch, the order of the poses and link_ratio_max"
 
 
 def _grid(points: ComplexArray, room: tuple[Bounds, Bounds]) -> ComplexArray:
