@@ -20,6 +20,7 @@ from ilmek.machines.knotting_four_bar.made import made_for
 from ilmek.machines.knotting_four_bar.model import State, closing_ground, evaluate, inertias, mechanism, parts
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.poses import Synthesis, read_three_poses, synthesised
+from ilmek.machines.knotting_four_bar.sides import Sides, both_sides
 from ilmek.units import deg, format_quantity, turn
 
 SAMPLES = 360
@@ -47,6 +48,7 @@ class KnottingFourBar:
     standing      the same at rest
     synthesis     of the poses; None without            at_poses  the state there
     instead       the four-bar of both arms through the report's poses; None with poses
+    sides         both sides over the course, coupled by gears; None of one side
     """
 
     params: KnottingFourBarParams
@@ -67,6 +69,7 @@ class KnottingFourBar:
     synthesis: Synthesis | None
     at_poses: State | None
     instead: Instead | None
+    sides: Sides | None
 
     @property
     def dead_point_distance(self) -> float:
@@ -96,8 +99,14 @@ class KnottingFourBar:
 
     @property
     def drive(self) -> Drive:
-        """The drive for that torque."""
-        return drive_for(self.params, self.load_torque)
+        """The drive for that torque, or for that of both sides."""
+        return drive_for(self.params, self.sides.torque if self.sides else self.load_torque)
+
+    @property
+    def onward(self) -> slice:
+        """The course in the order of the poses; without poses, of the crank's angle."""
+        back = self.synthesis is not None and self.synthesis.crank_angles[0] > self.synthesis.crank_angles[-1]
+        return slice(None, None, -1 if back else 1)
 
 
 def design(params: KnottingFourBarParams) -> KnottingFourBar:
@@ -138,6 +147,7 @@ def design(params: KnottingFourBarParams) -> KnottingFourBar:
         synthesis=found,
         at_poses=moving(found.crank_angles) if found else None,
         instead=None if found else instead(params),
+        sides=both_sides(params, planned, course) if params.sides > 1 else None,
     )
 
 

@@ -11,6 +11,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.machines.animation import animated, frames
+from ilmek.machines.knotting_four_bar import sides_figures
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.instead import POINTS, Instead
 from ilmek.machines.knotting_four_bar.model import State, evaluate
@@ -24,7 +25,7 @@ PLACES = (("ground", "O1'"), ("crank", "O2"), ("coupler", "O2'"), ("coupler", "H
 def figures(design: KnottingFourBar) -> tuple[Figure, ...]:
     """The mechanism to scale and in motion, the one to use instead likewise, and four plots."""
     plots = (angles, transmission, torque, pins)
-    return (*_drawings(design), *(plot(design) for plot in plots))
+    return (*_drawings(design), *sides_figures.figures(design), *(plot(design) for plot in plots))
 
 
 def _drawings(design: KnottingFourBar) -> tuple[Figure, ...]:

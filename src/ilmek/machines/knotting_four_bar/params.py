@@ -7,7 +7,7 @@ from typing import Any
 from ilmek.errors import ParameterError
 from ilmek.machines.knotting_four_bar.poses import read_three_poses
 from ilmek.params import Params, Setting, declared, param
-from ilmek.units import deg, mm, turn
+from ilmek.units import MPa, deg, mm, turn
 
 SMALL, LARGE = 1e-4, 5.0
 """Lengths that are taken for meant [m]."""
@@ -89,6 +89,28 @@ class KnottingFourBarParams(Params):
         doc="turns of the servo for one of the crank; unsaid: the least with which the smallest servo will do",
     )
     gear_efficiency: float = param(0.9, above=0.0, at_most=1.0, doc="efficiency of the gears", symbol="η")
+
+    sides: int = param(
+        1, at_least=1, at_most=2, doc="2: the mirrored four-bar ties from the other side, both cranks coupled by gears"
+    )
+    axis_distance: float | None = param(
+        None,
+        unit="mm",
+        at_least=SMALL,
+        at_most=LARGE,
+        doc="distance of the pivots of the two cranks, axes of the gears; unsaid: the least that keeps side_clearance",
+    )
+    side_clearance: float = param(
+        1 * mm, unit="mm", at_least=0.0, at_most=LARGE, doc="kept between the two sides all the way"
+    )
+    gear_module: float | None = param(
+        None, unit="mm", at_least=0.1 * mm, at_most=20 * mm, doc="of the gears; unsaid: the finest that bears"
+    )
+    gear_width: float = _length(8 * mm, "width of the gears, along their axes")
+    gear_stress: float = param(
+        20 * MPa, unit="MPa", above=0.0, at_most=2e9, doc="bending that the teeth bear; a cautious value for acetal"
+    )
+    warp_pitch: float = _length(2 * mm, "distance of the two warps between the sides, for the proof of the knot")
 
     def check_together(self) -> None:
         """A branch has a side; poses leave nothing of the links to give."""

@@ -26,11 +26,13 @@ def results(design: KnottingFourBar) -> tuple[Result, ...]:
     pivots: list[Json] = [[arm.pivot.real, arm.pivot.imag] for arm in (found.crank, found.rocker)]
     ends: list[Json] = list(design.working or ())
     return (
-        Result("solutions", solutions, "", f"every real arm through the poses, SI and radians: {ARM}"),
-        Result("roots", roots, "", "what each of the task's two roots is"),
-        Result("four_bars", four_bars, "", f"the arms joined, either one driven, SI and radians: {FOUR_BAR}"),
+        Result("solutions", solutions, "", f"every real arm through the poses, SI and radians: {ARM}", shown=False),
+        Result("roots", roots, "", "what each of the task's two roots is", shown=False),
+        Result(
+            "four_bars", four_bars, "", f"the arms joined, either one driven, SI and radians: {FOUR_BAR}", shown=False
+        ),
         Result("chosen", found.choices.index(found.best) + 1, "", "number of the four-bar to build, from 1"),
-        Result("poses", _met(found, state), "", f"how the poses are met, by moving the four-bar: {POSE}"),
+        Result("poses", _met(found, state), "", f"how the poses are met, by moving the four-bar: {POSE}", shown=False),
         Result("pivots", pivots, "mm", "places of O1 and O1'"),
         Result("working_range", ends, "deg", "crank angles on the way through the poses"),
         Result("drive_torque_max", design.load_torque, "N*m", "greatest torque on the crank on the way, or at rest"),
@@ -150,7 +152,9 @@ def _arm_table(found: Synthesis) -> Table:
         for at, dyad in enumerate(found.dyads)
     )
     columns = (Column("arm"), *(Column(head, "mm", 7) for head in heads), *angles)
-    return Table("knotting-arms", "Arms through the poses with their pivots on the ground ray", columns, rows)
+    return Table(
+        "knotting-arms", "Arms through the poses with their pivots on the ground ray", columns, rows, brief=True
+    )
 
 
 def _four_bar_table(found: Synthesis) -> Table:
@@ -161,7 +165,7 @@ def _four_bar_table(found: Synthesis) -> Table:
             *one.candidate.four_bar.lengths,
             one.candidate.grashof.kind,
             one.candidate.least_transmission,
-            "to build" if one is found.best else "; ".join(one.defects.values()) or "good",
+            "to build" if one is found.best else "; ".join(one.defects.values()) or "no defect",
         )
         for one in found.choices
     )
@@ -169,7 +173,7 @@ def _four_bar_table(found: Synthesis) -> Table:
         *(Column("driven arm"), *(Column(head, "mm", 7) for head in heads), Column("class")),
         *(Column("least transmission angle", "deg"), Column("verdict")),
     )
-    return Table("knotting-four-bars", "The arms joined as one four-bar", columns, rows)
+    return Table("knotting-four-bars", "The arms joined as one four-bar", columns, rows, brief=True)
 
 
 def _pose_table(found: Synthesis, state: State) -> Table:
@@ -187,4 +191,4 @@ def _pose_table(found: Synthesis, state: State) -> Table:
         *(Column("pose"), Column("crank angle", "deg", 7), Column("met as number"), Column("branch")),
         *(Column("place missed", "mm"), Column("angle missed", "deg"), Column("drive torque", "N*m")),
     )
-    return Table("knotting-poses", "The poses, by moving the four-bar", columns, rows)
+    return Table("knotting-poses", "The poses, by moving the four-bar", columns, rows, brief=True)

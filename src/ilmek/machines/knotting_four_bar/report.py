@@ -9,6 +9,7 @@ from ilmek.machines.knotting_four_bar.drive import Drive, drive_for
 from ilmek.machines.knotting_four_bar.figures import figures
 from ilmek.machines.knotting_four_bar.instead import Instead
 from ilmek.machines.knotting_four_bar.model import State
+from ilmek.machines.knotting_four_bar.sides_report import said
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.units import deg, format_quantity, turn
 
@@ -19,6 +20,7 @@ RULE = "rule of thumb for rockers"
 
 def report(design: KnottingFourBar) -> Report:
     """Everything that the design says."""
+    both = said(design)
     return Report(
         machine="knotting-four-bar",
         title="Knotting four-bar",
@@ -31,19 +33,26 @@ def report(design: KnottingFourBar) -> Report:
             *_drive(design),
             _mass(design),
             *_instead(design),
+            *both.results,
         ),
-        checks=(*_checks(design), *poses_report.checks(design)),
-        tables=(*poses_report.tables(design), _force_table(design), _part_table(design), *_instead_table(design)),
+        checks=(*_checks(design), *poses_report.checks(design), *both.checks),
+        tables=(
+            *poses_report.tables(design),
+            *both.tables,
+            _force_table(design),
+            _part_table(design),
+            *_instead_table(design),
+        ),
         figures=figures(design),
-        warnings=_warnings(design),
+        warnings=(*_warnings(design), *both.warnings),
     )
 
 
 def _parameters(design: KnottingFourBar) -> dict[str, Json]:
     """As asked; the links that follow from poses as they are."""
     found = design.synthesis
-    said: dict[str, Json] = {} if found is None else {"poses": found.poses.text, "ground_angle": found.ground_angle}
-    return {**design.params.as_dict(), **said}
+    poses: dict[str, Json] = {} if found is None else {"poses": found.poses.text, "ground_angle": found.ground_angle}
+    return {**design.params.as_dict(), **poses}
 
 
 def _place(design: KnottingFourBar) -> tuple[Result, ...]:
@@ -105,6 +114,8 @@ def _torques(design: KnottingFourBar) -> tuple[float, float]:
 
 def _drive(design: KnottingFourBar) -> tuple[Result, ...]:
     drive, where = design.drive, "on the way through the poses" if design.working else "at crank_angle"
+    if design.sides:
+        where = "over all the way, for both sides"
     return (
         Result("servo_torque", drive.torque, "N*m", f"torque of the servo {where}, moving or at rest"),
         Result("servo_speed", drive.speed, "rad/s", "speed of the servo"),
@@ -216,11 +227,11 @@ def _force_table(design: KnottingFourBar) -> Table:
         Column("as asked"),
     )
     rows: list[tuple[str, float, float, float]] = []
-    for pin, said in (("O2'", "F32"), ("O2", "F12")):
+    for pin, force in (("O2'", "F32"), ("O2", "F12")):
         static, moved, asked = (complex(state.pins[pin][0]) for state in (design.static, design.unit, design.at))
         rows += [
-            (f"{said}x, on the coupler in {pin} [N]", static.real, moved.real - static.real, asked.real),
-            (f"{said}y, on the coupler in {pin} [N]", static.imag, moved.imag - static.imag, asked.imag),
+            (f"{force}x, on the coupler in {pin} [N]", static.real, moved.real - static.real, asked.real),
+            (f"{force}y, on the coupler in {pin} [N]", static.imag, moved.imag - static.imag, asked.imag),
         ]
     rows.append(("M1, on the crank [N·m]", *_torques(design), _only(design.at.torque)))
     return Table(

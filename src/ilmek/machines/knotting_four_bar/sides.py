@@ -1,0 +1,280 @@
+"""Both sides of the knotting machine: the four-bar and its mirror image, their cranks coupled 1:-1 by equal gears.
+
+The mirror is an upright line half way between the pivots of the two cranks, so both hands come to it at one height and
+at one time. It is one mechanism of one freedom: the second crank is driven by the first through the gears' teeth.
+"""
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.dynamics.inertia import Inertia, combined
+from ilmek.dynamics.inverse import Forces, inverse
+from ilmek.dynamics.loads import Gravity, PointForce
+from ilmek.elements.gears import EqualGears, equal_gears
+from ilmek.errors import IlmekError, ParameterError
+from ilmek.linkage.clearance import Clearance, Placed, clearance
+from ilmek.linkage.model import GROUND, Body, Coupling, Mechanism, Pin, Rotation
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.one_input import one_input
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import Plan, plan
+from ilmek.linkage.way import InputWay
+from ilmek.machines.knotting_four_bar.model import inertias
+from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
+from ilmek.plane.outlines import Outline
+from ilmek.plane.vectors import unit
+
+GEARS = "gears"
+BODIES = ("crank", "coupler", "rocker")
+
+
+def other(name: str) -> str:
+    """The name of a body or point of the second side."""
+    return f"{name} *"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Coupled:
+    """Motion and forces of both sides at given crank angles, and the torques of each side driven alone.
+
+    torque  of the motor on the first crank [N m]       alone  of the first and of the second side on their own cranks
+    tooth   force along the pitch circle [N]
+    """
+
+    angle: FloatArray
+    motion: Motion
+    forces: Forces
+    torque: FloatArray
+    tooth: FloatArray
+    alone: tuple[FloatArray, FloatArray]
+
+    @property
+    def torque_error(self) -> float:
+        """Motor torque against that of both sides alone, over the greatest; the second crank turns the other way."""
+        missed = self.torque - (self.alone[0] - self.alone[1])
+        return float(np.max(np.abs(missed)) / max(float(np.max(np.abs(self.torque))), 1e-300))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sides:
+    """Both sides, designed.
+
+    mirror    x of the mirror [m]         facing  +1: the mirror is right of the first side, -1: left
+    gears     on the cranks' pivots       least_distance  of these that keeps the clearance asked for [m]
+    course    over the crank's way        standing  the same at rest
+    knot      crank angle at which the hands are nearest to one another [rad]
+    """
+
+    mirror: float
+    facing: int
+    gears: EqualGears
+    least_distance: float
+    plan: Plan
+    course: Coupled
+    standing: Coupled
+    knot: float
+
+    @property
+    def torque(self) -> float:
+        """The greatest torque of the motor, moving or at rest [N m]."""
+        return max(float(np.max(np.abs(one.torque))) for one in (self.course, self.standing))
+
+    @property
+    def tooth(self) -> float:
+        """The greatest force along the gears' pitch circle [N], moving or at rest."""
+        return max(float(np.max(np.abs(one.tooth))) for one in (self.course, self.standing))
+
+    @property
+    def gap(self) -> FloatArray:
+        """Distance of the two hands over the way [m]."""
+        first, second = hands(self.course.motion)
+        return np.asarray(np.abs(second - first))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Run:
+    """How the first crank is moved: angles [rad], speed [rad/s], acceleration [rad/s²]; the gear on it, if any."""
+
+    angles: FloatArray
+    speed: float
+    acceleration: float
+    disc: Inertia | None = None
+
+    def inertias(self, params: KnottingFourBarParams) -> dict[str, Inertia]:
+        """The moving bodies of one side, its gear on its crank."""
+        had = inertias(params)
+        return had if self.disc is None else {**had, "crank": combined(had["crank"], self.disc)}
+
+
+def hands(motion: Motion) -> tuple[ComplexArray, ComplexArray]:
+    """Places of both hands over the samples [m]."""
+    first, second = motion.point("coupler", "H"), motion.point(other("coupler"), other("H"))
+    return np.asarray(first.position), np.asarray(second.position)
+
+
+def both_sides(params: KnottingFourBarParams, one: Plan, angles: FloatArray) -> Sides:
+    """The mirrored side beside the first over its crank angles [rad], and the gears between them.
+
+    Raises ParameterError where the axes are too near for gears.
+    """
+    motion = solve(one, angles).require()
+    start = one.mechanism.point(GROUND, "O1")
+    reaches = {facing: _reach(params, motion, start, facing) for facing in (+1, -1)}
+    facing = max((+1, -1), key=lambda way: _hand(motion, start, way))
+    least = 2 * reaches[facing] + params.side_clearance
+    runs = Run(angles, params.speed, params.acceleration), Run(angles, 0.0, 0.0)
+    gears = _gears(params, least, max(float(np.max(np.abs(_alone(params, one, run)))) for run in runs))
+    mirror = start.real + facing * gears.distance / 2
+    planned, image = plan(coupled(one.mechanism, mirror)), plan(mirrored(one.mechanism, mirror))
+    geared = [dataclasses.replace(run, disc=wheel(params, gears)) for run in runs]
+    course, standing = (_moved(params, (one, image), planned, run) for run in geared)
+    hand = facing * motion.point("coupler", "H").position.real
+    return Sides(
+        mirror=mirror,
+        facing=facing,
+        gears=gears,
+        least_distance=least,
+        plan=planned,
+        course=course,
+        standing=standing,
+        knot=float(angles[int(np.argmax(hand))]),
+    )
+
+
+def mirrored(mechanism: Mechanism, mirror: float) -> Mechanism:
+    """The mirror image of a four-bar in the upright line x = mirror: its points are on its links' lines."""
+    ground = {other(name): 2 * mirror - point.conjugate() for name, point in mechanism.body(GROUND).points.items()}
+    return Mechanism(
+        name=other(mechanism.name),
+        bodies=(
+            Body(GROUND, ground),
+            *(
+                Body(other(body.name), {other(name): point.conjugate() for name, point in body.points.items()})
+                for body in mechanism.bodies
+                if body.name != GROUND
+            ),
+        ),
+        joints=tuple(
+            Pin(other(pin.name), *(name if name == GROUND else other(name) for name in pin.bodies))
+            for pin in mechanism.joints
+        ),
+        inputs=(Rotation(other("crank"), other("O1")),),
+        branches={other(name): -branch for name, branch in mechanism.branches.items()},
+    )
+
+
+def coupled(mechanism: Mechanism, mirror: float) -> Mechanism:
+    """Both sides as one mechanism: the second crank is driven by the first through equal gears.
+
+    The first crank at 0 meets the second at half a turn: mirror images of one another at every angle.
+    """
+    image = mirrored(mechanism, mirror)
+    ground = {**mechanism.body(GROUND).points, **image.body(GROUND).points}
+    moving = [body for side in (mechanism, image) for body in side.bodies if body.name != GROUND]
+    mesh = Coupling(GEARS, "gears", ("crank", "O1"), (other("crank"), other("O1")), -1.0, 0.0, math.pi)
+    return Mechanism(
+        name="knotting four-bar of two sides",
+        bodies=(Body(GROUND, ground), *moving),
+        joints=(*mechanism.joints, *image.joints),
+        inputs=mechanism.inputs,
+        branches={**mechanism.branches, **image.branches},
+        couplings=(mesh,),
+    )
+
+
+def wheel(params: KnottingFourBarParams, gears: EqualGears) -> Inertia:
+    """A gear on a crank's pivot, as a solid disc."""
+    mass = math.pi * gears.pitch_radius**2 * gears.width * params.density
+    return Inertia(mass, 0j, mass * gears.pitch_radius**2 / 2)
+
+
+def outlines(params: KnottingFourBarParams, mechanism: Mechanism, body: str) -> Placed:
+    """A body of the first side as seen in the plane of motion: its bar, on the coupler holder and gripper too."""
+    points = list(mechanism.body(body).points.values())
+    shapes = [Outline(tuple(points), params.width / 2)]
+    if body == "coupler":
+        outward = 1 if params.hand > 0 else -1
+        end = max(0.0, params.coupler, params.hand) if outward > 0 else min(0.0, params.hand)
+        for length, width in (
+            (params.holder_length, params.holder_width),
+            (params.gripper_length, params.gripper_width),
+        ):
+            far = end + outward * length
+            shapes.append(Outline(tuple(complex(x, side * width / 2) for x in (end, far) for side in (+1, -1))))
+            end = far
+    return Placed(body, tuple(shapes))
+
+
+def _hand(motion: Motion, start: complex, facing: int) -> float:
+    """How far the hand goes from the crank's pivot to one side [m]."""
+    return float(np.max(facing * (motion.point("coupler", "H").position.real - start.real)))
+
+
+def _reach(params: KnottingFourBarParams, motion: Motion, start: complex, facing: int) -> float:
+    """How far any body goes from the crank's pivot to one side [m]."""
+    most = 0.0
+    for body in BODIES:
+        origin, direction = motion.origin(body), motion.direction(body)
+        for shape in outlines(params, motion.plan.mechanism, body).outlines:
+            places = origin[:, None] + direction[:, None] * shape.corners
+            most = max(most, float(np.max(facing * (places.real - start.real))) + shape.radius)
+    return most
+
+
+def _gears(params: KnottingFourBarParams, least: float, torque: float) -> EqualGears:
+    try:
+        return equal_gears(
+            least if params.axis_distance is None else params.axis_distance,
+            torque,
+            width=params.gear_width,
+            stress=params.gear_stress,
+            module=params.gear_module,
+            standard=params.axis_distance is None,
+        )
+    except IlmekError as error:
+        raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
+
+
+def _alone(params: KnottingFourBarParams, one: Plan, run: Run) -> FloatArray:
+    """Torque on the crank of one side by itself [N m]; the second one's input turns the other way."""
+    second = one.mechanism.inputs[0].name != "crank"
+    name = other if second else str
+    turned, way = (math.pi - run.angles, -1) if second else (run.angles, 1)
+    motion = solve(one, turned, way * run.speed, way * run.acceleration).require()
+    had = {name(body): one for body, one in run.inertias(params).items()}
+    return inverse(motion, had, _loads(params, second=second)).effort(name("crank"))
+
+
+def _loads(params: KnottingFourBarParams, *, second: bool) -> tuple[Gravity, PointForce]:
+    """Weight, and the yarn's force on the hand: mirrored on the second side."""
+    force = params.grip_force * complex(unit(params.grip_angle))
+    weight = Gravity(-1j * params.gravity)
+    if second:
+        return weight, PointForce(other("coupler"), other("H"), -force.conjugate())
+    return weight, PointForce("coupler", "H", force)
+
+
+def _moved(params: KnottingFourBarParams, sides: tuple[Plan, Plan], planned: Plan, run: Run) -> Coupled:
+    """Both sides coupled, and each alone."""
+    had = run.inertias(params)
+    motion = solve(planned, run.angles, run.speed, run.acceleration).require()
+    loads = (*_loads(params, second=False), _loads(params, second=True)[1])
+    forces = inverse(motion, {**had, **{other(body): one for body, one in had.items()}}, loads)
+    first, second = (_alone(params, side, run) for side in sides)
+    return Coupled(run.angles, motion, forces, forces.effort("crank"), np.abs(forces.tooth(GEARS)), (first, second))
+
+
+def clearances(params: KnottingFourBarParams, sides: Sides) -> dict[str, Clearance]:
+    """The least clearance of each body, and of its mirror image, over the way [m].
+
+    No other pair comes nearer: a body that stays the distance d from the mirror stays 2 d from its image, and d + d'
+    from any other that stays d' from it. The coupler has holder and gripper.
+    """
+    angles = sides.course.angle
+    way = InputWay(one_input(sides.plan), float(np.min(angles)), float(np.max(angles)))
+    placed = {body: outlines(params, sides.plan.mechanism, body) for body in BODIES}
+    return {body: clearance(way, one, Placed(other(body), one.outlines)) for body, one in placed.items()}
