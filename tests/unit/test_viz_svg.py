@@ -87,6 +87,12 @@ def test_plot_shows_the_data_in_the_axis_unit() -> None:
     assert {"10", "−10", "360"} <= set(said)
 
 
+def test_small_numbers_at_the_ticks_keep_their_decimals() -> None:
+    small = Series("error", np.arange(3.0), np.array([0.0, 1e-3, 2e-3]) * deg)
+    said = texts(parsed(svg(Plot("small", "Small", Axis("x"), Axis("error", "deg"), (small,)))))
+    assert {"0.0005", "0.0010", "0.0020"} <= set(said)
+
+
 def test_one_curve_named_like_its_axis_needs_no_legend() -> None:
     alone = Plot("one", "One", Axis("time", "s"), Axis("force", "N"), (Series("force", TURN, TURN),))
     assert "force" not in texts(parsed(svg(alone)))

@@ -15,6 +15,7 @@ FONTS = "'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # no XML may hold these
 _DECIMALS = re.compile(r"-?\d+\.\d{3,}")
+_ELEMENT = re.compile(r"<[^>]*>")
 _ID = re.compile(r'\sid="([^"]+)"')
 _REFERENCE = re.compile(r'(?:xlink:href="#|url\(#)([^")]+)')
 _TIDY = (
@@ -52,7 +53,7 @@ def inline_svg(sheet: Sheet, title: str, prefix: str, over: str = "") -> str:
     body = text[text.index(">", text.index("<svg")) + 1 :]
     for pattern, instead in _TIDY:
         body = pattern.sub(instead, body)
-    body = _DECIMALS.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), _own_ids(body, prefix))
+    body = _ELEMENT.sub(_rounded, _own_ids(body, prefix))  # the words between elements stay as they are
     body = f"{body[: body.rindex('</svg>')]}{_CONTROL.sub('', over)}</svg>"
     shown = _CONTROL.sub("", title)
     return (
@@ -60,6 +61,10 @@ def inline_svg(sheet: Sheet, title: str, prefix: str, over: str = "") -> str:
         f'viewBox="0 0 {sheet.width:.6g} {sheet.height:.6g}" style="stroke-linejoin:round;font-family:{FONTS}" '
         f"aria-label={quoteattr(shown)}>\n<title>{escape(shown)}</title>{body}"
     )
+
+
+def _rounded(element: re.Match[str]) -> str:
+    return _DECIMALS.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), element[0])
 
 
 def _own_ids(body: str, prefix: str) -> str:
