@@ -230,11 +230,13 @@ def test_a_given_depth_is_kept_and_a_deeper_hand_over_has_more_room() -> None:
     assert head(depth="6mm").section.depth == pytest.approx(0.006)
 
 
-def test_the_animation_shows_both_arms_and_ends_with_both_out() -> None:
+def test_the_animation_shows_both_arms_that_never_do_more_than_one_way_together() -> None:
     moving = next(figure for figure in report(made()).figures if isinstance(figure, Animation))
     assert {stroke.label for stroke in moving.strokes} >= {"left arm", "right arm"}
     assert all(np.isfinite(stroke.points).all() for stroke in moving.strokes)
-    ends = [reading.values[-1] for reading in moving.readings[:2]]
-    assert ends == [0.0, 0.0]
+    assert [reading.values[0] for reading in moving.readings[:2]] == [0.0, 0.0]
+    assert [reading.values.max() for reading in moving.readings[:2]] == pytest.approx([1.0, 1.0])
+    assert np.max(moving.readings[0].values + moving.readings[1].values) == pytest.approx(1.0)
+    assert moving.period == report(made()).as_json()["results"]["cycle_time"]
     tips = [stroke.points[:, 1] for stroke in moving.strokes if stroke.role == "outline"]
     assert len(tips) == 4

@@ -6,6 +6,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.knotting_dyad.clear import Bars, arm_bars, mirrored_bars, to_warps
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.motion import Cycle
 from ilmek.machines.knotting_dyad.moving import moving
 from ilmek.machines.knotting_dyad.section import Section
 from ilmek.machines.knotting_dyad.task import SHARES
@@ -17,14 +18,14 @@ from ilmek.units import format_quantity, turn
 WAY = Axis("s, from rest to the hand-over")
 
 
-def figures(design: KnottingDyad) -> tuple[Figure, ...]:
+def figures(design: KnottingDyad, cycle: Cycle | None) -> tuple[Figure, ...]:
     """The head and its motion, where a knot is tied; all arms in one drawing, and the arm to build in four poses."""
     arms = (drawing(design),) if design.chosen is None else (drawing(design), poses(design))
-    if design.head is None:
+    if design.head is None or cycle is None:
         return arms
     head = design.head
     plots = (joints(head), bent(head), clear(head))
-    return head_drawing(head), passing(head), moving(head), workspace(head), *plots, *arms
+    return head_drawing(head), passing(head), moving(head, cycle), workspace(head), *plots, *arms
 
 
 def head_drawing(head: Head) -> Drawing:

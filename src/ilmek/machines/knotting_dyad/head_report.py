@@ -47,15 +47,14 @@ def head_results(head: Head) -> tuple[Result, ...]:
     )
 
 
-def _angles(head: Head) -> dict[str, Json]:
-    way, told = head.way, slice(None, None, TABLED)
-    return {
-        "s": way.s[told].tolist(),
-        "theta1": way.theta[told, 0].tolist(),
-        "theta2": way.theta[told, 1].tolist(),
-        "theta1_by_s": way.first[told, 0].tolist(),
-        "theta2_by_s": way.first[told, 1].tolist(),
-    }
+def _angles(head: Head) -> list[Json]:
+    way = head.way
+    columns = (way.s, *way.theta.T, *way.first.T)
+    names = ("s", "theta1", "theta2", "theta1_by_s", "theta2_by_s")
+    return [
+        {name: float(column[at]) for name, column in zip(names, columns, strict=True)}
+        for at in range(0, len(way.s), TABLED)
+    ]
 
 
 def head_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:

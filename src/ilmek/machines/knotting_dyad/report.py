@@ -45,7 +45,10 @@ def report(design: KnottingDyad) -> Report:
             _point_table(design),
             _arm_table(design),
         ),
-        figures=(*figures(design), *(() if motion is None else motion_figures(motion))),
+        figures=(
+            *figures(design, None if motion is None else motion.cycle),
+            *(() if motion is None else motion_figures(motion)),
+        ),
         warnings=(
             *_warnings(design),
             *(() if head is None else head_warnings(design.params, head)),
