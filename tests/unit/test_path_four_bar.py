@@ -101,6 +101,16 @@ def test_an_error_that_is_too_great_is_a_reason_to_go() -> None:
     assert "loosen a filter" in said.warnings[0]
 
 
+def test_a_search_that_ends_at_the_transmission_angle_is_kept_and_says_what_holds_it() -> None:
+    bow = "(60mm,0mm) (52mm,12mm) (30mm,18mm) (8mm,12mm) (0mm,0mm) (15mm,0mm) (30mm,0mm) (45mm,0mm)"
+    limits = dict.fromkeys(LINKS, "10mm..120mm") | {"transmission_min": "40deg"}
+    results = answer(points=bow, closed="yes", starts="192", **limits).as_json()["results"]
+    assert results["removed"] == []
+    held = [found for found in results["solutions"] if "transmission angle at its limit 40 deg" in found["active"]]
+    assert held
+    assert all(found["transmission_min"] == pytest.approx(40 * deg, abs=1e-6) for found in held)
+
+
 NARROW = dict.fromkeys(("ground", "coupler", "rocker"), "20mm..21mm") | {"crank": "12mm..13mm"}
 
 

@@ -132,7 +132,7 @@ def ranking(choice: Choice, name: str) -> Table:
         Column("solution"),
         *LINKS,
         Column("class"),
-        Column("transmission", "deg"),
+        Column("least μ", "deg"),
         Column("link ratio"),
         Column("size", "mm"),
         Column("made of"),
@@ -150,7 +150,9 @@ def ranking(choice: Choice, name: str) -> Table:
         for at, one in enumerate(choice.kept)
     )
     more = f", and {choice.more} more" if choice.more else ""
-    return Table(f"{name}-solutions", f"Solutions, the best first{more}", columns, rows, brief=True)
+    return Table(
+        f"{name}-solutions", f"Solutions, the best first{more}; μ: transmission angle", columns, rows, brief=True
+    )
 
 
 ERRORS = (

@@ -80,8 +80,7 @@ def _guides(params: MotionFourBarParams, poses: Poses) -> tuple[BurmesterCurve |
     if len(poses.points) == 5:
         return None, arms_through_five_poses(*poses), True
     if len(poses.points) == 4:
-        curve = burmester_curve(*poses, params.samples)
-        return curve, curve.guides(), False
+        return burmester_curve(*poses), burmester_curve(*poses, params.samples).guides(), False
     pivots, pins = params.given("pivots"), params.given("pins")
     if pivots is not None:
         return None, arms_of_pivots(*poses, pivots), True

@@ -47,8 +47,10 @@ def design(params: PathFourBarParams) -> PathFourBar:
     """
     points = params.places()
     options, other = _exact(params, points) if params.exact else (_searched(params), ())
-    rank = None if params.exact else _nearest
-    choice = choose(options, filters(params), number=params.chosen, count=params.count, other=other, least=rank)
+    sieve, rank = filters(params), None
+    if not params.exact:  # the search keeps both, and ends at them: a sieve would see them broken by rounding
+        sieve, rank = dataclasses.replace(sieve, transmission=None, full_turn=False), _nearest
+    choice = choose(options, sieve, number=params.chosen, count=params.count, other=other, least=rank)
     best = choice.best
     siblings = _siblings(best.candidate) if best is not None and params.cognates else ()
     return PathFourBar(params, points, choice, siblings)

@@ -53,7 +53,9 @@ class PathFourBarParams(Params):
     pivots: str | None = param(
         None, doc="pivots of crank and rocker where 3 timed points are met exactly: (0,0) (9mm,0)"
     )
-    kind: str = param("crank-rocker", choices=(*KINDS, EITHER), doc="class that is searched; exact takes every class")
+    kind: str = param(
+        "crank-rocker", choices=(*KINDS, EITHER), doc="class that is searched, its crank turns; exact takes every class"
+    )
     ground: str | None = _bounds("the ground link")
     crank: str | None = _bounds("the crank")
     coupler: str | None = _bounds("the coupler")
