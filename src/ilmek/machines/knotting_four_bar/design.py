@@ -100,7 +100,9 @@ class KnottingFourBar:
     @property
     def drive(self) -> Drive:
         """The drive for that torque, or for that of both sides."""
-        return drive_for(self.params, self.sides.torque if self.sides else self.load_torque)
+        # Without poses the angle asked for may lie beyond the course, nearer to a dead point; both sides stand there.
+        both = max(self.sides.torque, 2 * self.load_torque) if self.sides else self.load_torque
+        return drive_for(self.params, both)
 
     @property
     def onward(self) -> slice:

@@ -1,0 +1,56 @@
+"""Draws docs/_static/knotting-sides.svg: both sides of the knotting four-bar and the yarn that they lead.
+
+Run it as `python examples/draw_knotting_sides.py`; it prints the knot, and ends with the motor's torque in N·m.
+"""
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+
+from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design
+from ilmek.machines.knotting_four_bar.knot import Proof, proof
+from ilmek.machines.knotting_four_bar.sides import Sides, hands
+from ilmek.machines.knotting_four_bar.sides_figures import drawing
+from ilmek.report import Drawing, Stroke
+from ilmek.units import deg, mm, turn
+from ilmek.viz.svg import svg
+
+OUT = Path(__file__).parents[1] / "docs" / "_static" / "knotting-sides.svg"
+
+POSES = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
+OPENED, THICK = 30 * mm, 3 * mm
+"""Distance and diameter of the two warps as drawn."""
+
+
+def machine() -> tuple[KnottingFourBar, Sides]:
+    """The published poses, with both sides."""
+    made = design(KnottingFourBarParams(poses=POSES, ground_angle=275 * deg, sides=2))
+    if made.sides is None:
+        raise AssertionError("two sides were asked for")
+    return made, made.sides
+
+
+def tied(made: KnottingFourBar, sides: Sides) -> Proof:
+    """What the hands tie on the opened warps."""
+    first, second = (way[made.onward] for way in hands(sides.course.motion))
+    return proof(first, second, OPENED)
+
+
+def figure(made: KnottingFourBar, sides: Sides, knot: Proof) -> Drawing:
+    """The machine where the hands are nearest, the yarn and the two warps half way up it."""
+    middle = knot.warps.real + 1j * float(np.mean([knot.yarn.imag.min(), knot.yarn.imag.max()]))
+    ring = THICK / 2 * np.exp(1j * turn * np.arange(48) / 48)
+    warps = (Stroke(warp + ring, "outline", closed=True, filled=True) for warp in middle)
+    shown = drawing(made, sides)
+    strokes = tuple(one for one in shown.strokes if one.role != "path")
+    yarn = Stroke(knot.yarn, "yarn", "yarn")
+    return dataclasses.replace(shown, title=f"Both sides: {knot.name}", strokes=(*strokes, yarn, *warps))
+
+
+if __name__ == "__main__":
+    made, sides = machine()
+    knot = tied(made, sides)
+    OUT.write_text(svg(figure(made, sides, knot)), encoding="utf-8")
+    print(f"{knot.name}: {knot.why}")
+    print(f"{sides.torque:.4f}")
