@@ -4,7 +4,8 @@ After the student report "Planar knotting mechanisms for Turkish hand woven carp
 too many: it chooses both crank and coupler angle. Here the coupler follows from the crank, and the ground link points
 as closure at the stated pose demands, to 74.34 deg; with the report's -95 deg the loop misses by 155.5 mm. That pose is
 0.0107 deg from a dead point, and the report's r3 is a difference of two separate links, which means nothing: `instead`
-is the four-bar of both arms of its own synthesis.
+is the four-bar of both arms of its own synthesis. With `poses` of one's own that synthesis is the machine; with
+`sides=2` the mirrored four-bar stands beside it, and gears couple both cranks.
 """
 
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar, design
@@ -16,7 +17,7 @@ __all__ = ["MACHINE", "KnottingFourBar", "KnottingFourBarParams", "design", "rep
 
 MACHINE = Machine(
     name="knotting-four-bar",
-    summary="four-bar with a gripper on its coupler, to tie knots: motion, forces, servo, and the one to use instead",
+    summary="four-bar with a gripper on its coupler, of links or through three poses, one side or two on gears",
     params=KnottingFourBarParams,
     design=design,
     report=report,
