@@ -88,7 +88,7 @@ class KnottingFourBarParams(Params):
         at_most=1e4,
         doc="turns of the servo for one of the crank; unsaid: the least with which the smallest servo will do",
     )
-    gear_efficiency: float = param(0.9, above=0.0, at_most=1.0, doc="efficiency of the gears", symbol="η")
+    gear_efficiency: float = param(0.9, above=0.0, at_most=1.0, doc="efficiency of the servo's gears", symbol="η")
 
     sides: int = param(
         1, at_least=1, at_most=2, doc="2: the mirrored four-bar ties from the other side, both cranks coupled by gears"
