@@ -22,7 +22,7 @@ from ilmek.viz.page import machine_page
 from ilmek.viz.svg import svg
 
 NOTHING = Drawing("run", "A machine in motion", ())
-MOVING = ("beat-up", "tufting", "knotting-four-bar")
+MOVING = ("beat-up", "tufting", "knotting-four-bar", "motion-four-bar", "function-four-bar")
 
 
 def designed(name: str) -> Report:

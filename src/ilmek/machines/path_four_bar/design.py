@@ -22,7 +22,7 @@ from ilmek.synthesis.task import Task
 CURVES = 12
 """Second links that are looked at on each closed part of the curves of four timed points."""
 
-MET, ROUNDING = 1e-6, 1e-6
+MET, ROUNDING = 1e-9, 1e-6
 """Shares of a four-bar's size: an error that is none, and of an error, that may be rounding."""
 
 
