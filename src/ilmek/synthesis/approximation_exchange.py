@@ -224,6 +224,8 @@ def extremes(error: Callable[[FloatArray], FloatArray], x: FloatArray) -> FloatA
         return x
     rising = np.sign(np.diff(values))
     inner = 1 + np.flatnonzero(rising[1:] * rising[:-1] <= 0)
+    if not len(inner):
+        return x[[0, -1]]
     sign = np.where(rising[inner - 1] - rising[inner] >= 0, 1.0, -1.0)
     low, high = x[inner - 1], x[inner + 1]
     part = 0.5 * (np.sqrt(5.0) - 1)

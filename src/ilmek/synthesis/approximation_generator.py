@@ -66,7 +66,7 @@ class Generator(NamedTuple):
 
     def drawn(self, function: Function, x: float, sense: int, ground: float) -> FourBar:
         """The four-bar as it shows x, with its ground along the x axis from the origin."""
-        at, links = np.array([x]), self.links
+        at, links = np.array([x], dtype=float), self.links
         e2 = np.exp(1j * (self.crank_start + function.crank(at)))
         a, b = links.crank * complex(e2[0]), 1 + links.rocker * complex(_rocker_arrow(self, e2, sense)[0])
         return FourBar(0j, complex(ground), a * ground, b * ground)
@@ -74,7 +74,8 @@ class Generator(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class StructuralErrors:
-    """(free parameters, x) -> weighted structural error [rad] and its slopes; inf where the four-bar does not close.
+    """(free parameters, x) -> weighted structural error [rad] and its slopes; inf where the four-bar does not close
+    (everywhere, if it is not at x that it does not).
 
     sense  s, +1 or -1      known  all five numbers of the `Generator`; those that are not `free` are taken from here
     """
@@ -100,9 +101,25 @@ class StructuralErrors:
             slopes = _slopes(one, e2, arrow)
         error = np.angle(arrow * np.exp(-1j * (one.rocker_start + self.function.rocker(x))))
         lost = ~(np.isfinite(error) & np.isfinite(slopes).all(axis=-1))
+        if not lost.any() and not margin(self.function, one) > 0:
+            lost[:] = True
         weight = np.ones(len(x)) if self.weight is None else self.weight(x)
         error = np.where(lost, np.inf, weight * error)
         return error, np.where(lost[:, None], 0.0, weight[:, None] * slopes)[:, self.free]
+
+
+def margin(function: Function, one: Generator) -> float:
+    """How far a generator is from a dead centre of its crank over the function's range: least of 1 - C^2 / |D|^2.
+
+    0 in line, below 0 where it does not close. C^2 - |D|^2 is convex in cos th2, so that the ends of the range and the
+    crossings of the ground line tell whether it closes everywhere.
+    """
+    turned = function.crank(np.array([function.start, function.stop], dtype=float))
+    low, high = sorted(float(one.crank_start + turn) for turn in turned)
+    cosines = [math.cos(low), math.cos(high)]
+    cosines += [(-1.0) ** k for k in range(math.ceil(low / math.pi), math.floor(high / math.pi) + 1)]
+    r1, r2, r3 = (float(ratio) for ratio in one[:3])
+    return min(1 - (r2 * one - r3) ** 2 / max(r1 * r1 + 1 - 2 * r1 * one, 1e-300) for one in cosines)
 
 
 def structural_error(function: Function, one: Generator, sense: int, x: FloatArray) -> FloatArray:
@@ -138,7 +155,7 @@ def of_four_bar(
 
     said  start angles that are kept where a link points away from them: it counts as negative then
     """
-    at, frame = np.array([drawn_at]), four_bar.b0 - four_bar.a0
+    at, frame = np.array([drawn_at], dtype=float), four_bar.b0 - four_bar.a0
     a, b, c = (length / abs(frame) for length in four_bar.lengths[1:])
     angles = np.angle([(four_bar.a - four_bar.a0) / frame, (four_bar.b - four_bar.b0) / frame])
     starts = angles - np.array([function.crank(at)[0], function.rocker(at)[0]])

@@ -115,10 +115,10 @@ def _curved(errors: Errors, parameters: Parameters, x: FloatArray) -> _Curved:
     rows = []
     for way in ways.T:
         (up, up_slopes), (down, down_slopes) = (errors(parameters + side * length * way, x) for side in (1, -1))
+        if not (np.isfinite(up).all() and np.isfinite(down).all()):
+            break
         rows.append(ways.T @ (up_slopes.T @ up - down_slopes.T @ down) / (2 * length))
-    curvature = np.stack(rows)
-    if not np.isfinite(curvature).all():
-        curvature = np.eye(len(rows))
+    curvature = np.stack(rows) if len(rows) == len(ways.T) else np.eye(len(ways.T))
     return _Curved(ways, *np.linalg.eigh(0.5 * (curvature + curvature.T)), ways.T @ (slopes.T @ found))
 
 

@@ -31,6 +31,7 @@ from ilmek.synthesis.approximation_generator import (
     StructuralErrors,
     Weight,
     design_fit,
+    margin,
     of_four_bar,
     structural_error,
 )
@@ -61,6 +62,12 @@ GRID = {1: 90, 2: 24}
 STARTS = 8
 """Local leasts on the grid from which descents are begun."""
 
+DEAD = 1e-5
+"""Margin at which a four-bar stands in a dead centre: the rocker within 0.2 degrees of the line to the crank's pin."""
+
+NOTHING = 1e-10
+"""Error [rad] that counts as none."""
+
 UNEVEN = 1000.0
 """Longest by shortest link at which a four-bar runs off to infinity instead of ending."""
 
@@ -82,7 +89,7 @@ class FunctionApproximation:
     bound      minimax only: no small change of the links and of the free start angles brings `worst` below this [rad];
                NaN for other criteria
     gap        what is not proven: minimax 1 - bound / worst; least squares the cosine between the errors and their
-               slopes, which vanishes where they are stationary; 0 for interpolation
+               slopes, which vanishes where they are stationary; interpolation the greatest error at a node [rad]
     """
 
     four_bar: FourBar
@@ -108,6 +115,13 @@ NONE = {
     False: "no four-bar of least design error closes all over the range, whatever its free start angles",
 }
 """What is said where there is nothing to begin with: of interpolation, and of other criteria."""
+
+
+UNPROVEN = {
+    True: "a four-bar that shows Chebyshev's places on both of its branches",
+    False: "a search that came to no end: a valley without a floor, or one too flat to be followed",
+}
+"""What is said of an end that is not proven: of interpolation, and of other criteria."""
 
 
 class FunctionApproximations(NamedTuple):
@@ -152,7 +166,8 @@ def function_approximations(
         left_out.append(NONE[criterion == "interpolation"])
     free = np.array([True, True, True, *(start is None for start in starts)])
     for descent in DESCENTS[criterion]:
-        ends = _different(function, [descent(function, end, free, weight) for end in ends], left_out)
+        ended = _different(function, [descent(function, end, free, weight) for end in ends], left_out, criterion)
+        ends = ended if ended or descent is DESCENTS[criterion][-1] else ends
     measured = [_measured(function, criterion, end, ground, weight) for end in ends]
     ranked = sorted(measured, key=lambda one: one.rms if criterion == "least squares" else one.worst)
     return FunctionApproximations(tuple(ranked), tuple(dict.fromkeys(left_out)))
@@ -193,22 +208,24 @@ def _starts(
     if criterion == "interpolation":
         return
     if points < 5:
-        answers = design_generators(
-            function, "least squares", crank_start=starts[0], rocker_start=starts[1], weight=weight
-        )
-        for design in answers.found:
-            sense = _better_sense(function, design.generator)
-            if sense and design.error.kind == "minimum":
-                yield sense, design.generator
+        try:
+            answers = design_generators(
+                function, "least squares", crank_start=starts[0], rocker_start=starts[1], weight=weight
+            ).found
+        except ParameterError:  # a range so small that terms look alike; the grid does not mind
+            answers = ()
+        for design in answers:
+            if design.error.kind == "minimum" and margin(function, design.generator) > DEAD:
+                yield _better_sense(function, design.generator), design.generator
     if points > 3:
         yield from _grid(function, starts, weight)
 
 
 def _better_sense(function: Function, one: Generator) -> int:
-    """The sense with the smaller structural error; 0 where neither closes all over the range."""
+    """The sense with the smaller structural error."""
     x = _range(function, PLACES)
     worst = [float(np.max(np.abs(structural_error(function, one, sense, x)))) for sense in (+1, -1)]
-    return 0 if not np.isfinite(worst).any() else (+1, -1)[int(np.nanargmin(worst))]
+    return +1 if worst[0] <= worst[1] else -1
 
 
 def _grid(function: Function, starts: Starts, weight: Weight | None) -> Iterator[tuple[int, Generator]]:
@@ -227,9 +244,12 @@ def _grid(function: Function, starts: Starts, weight: Weight | None) -> Iterator
     for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
         low &= least <= np.roll(least, step, axis=axis)
     rows = np.argwhere(low)
-    for i, j in sorted(rows.tolist(), key=lambda at: float(least[at[0], at[1]]))[:STARTS]:
-        sign = +1 if squares[0, i, j] <= squares[1, i, j] else -1
-        yield sign, Generator(*(float(np.asarray(number)[i, j]) for number in fitted))
+    found = 0
+    for i, j in sorted(rows.tolist(), key=lambda at: float(least[at[0], at[1]])):
+        one = Generator(*(float(np.asarray(number)[i, j]) for number in fitted))
+        if found < STARTS and margin(function, one) > DEAD:
+            found += 1
+            yield (+1 if squares[0, i, j] <= squares[1, i, j] else -1), one
 
 
 def _least_squares(function: Function, end: _End, free: Free, weight: Weight | None) -> _End:
@@ -243,21 +263,34 @@ def _least_squares(function: Function, end: _End, free: Free, weight: Weight | N
         return root * found, root[:, None] * slopes
 
     best = squares_descent(shared, errors.known[free], x)
-    return _End(end.sense, errors.generator(best.parameters), best.slope, math.nan)
+    gap = best.slope if best.squares > NOTHING**2 else 0.0
+    return _End(end.sense, errors.generator(best.parameters), gap, math.nan)
 
 
 def _minimax(function: Function, end: _End, free: Free, weight: Weight | None) -> _End:
     """The nearest least greatest structural error, and the bound that proves it."""
     errors = StructuralErrors(function, end.sense, end.generator.numbers, free, weight)
-    best = minimax_over_range(errors, errors.known[free], _range(function, PLACES), least=1e-13)
-    return _End(end.sense, errors.generator(best.parameters), best.gap, best.level)
+    best = minimax_over_range(errors, errors.known[free], _range(function, PLACES), least=NOTHING)
+    gap = best.gap if best.worst > NOTHING else 0.0
+    return _End(end.sense, errors.generator(best.parameters), gap, best.level)
 
 
-DESCENTS = {"interpolation": (), "least squares": (_least_squares,), "minimax": (_least_squares, _minimax)}
+def _interpolated(function: Function, end: _End, free: Free, _: Weight | None) -> _End:
+    """The same, with the error at Chebyshev's places: a four-bar may show some of them on its other branch."""
+    nodes = function.nodes(int(np.sum(free)))
+    missed = float(np.max(np.abs(structural_error(function, end.generator, end.sense, nodes))))
+    return _End(end.sense, end.generator, missed, math.nan)
+
+
+DESCENTS = {
+    "interpolation": (_interpolated,),
+    "least squares": (_least_squares,),
+    "minimax": (_least_squares, _minimax),
+}
 """What follows the starts, for each criterion."""
 
 
-def _different(function: Function, ends: list[_End], left_out: list[str]) -> list[_End]:
+def _different(function: Function, ends: list[_End], left_out: list[str], criterion: str) -> list[_End]:
     """Ends that are four-bars, each once, the proven ones if there are any; what goes is said."""
     kept: list[_End] = []
     places: list[ComplexArray] = []
@@ -273,8 +306,8 @@ def _different(function: Function, ends: list[_End], left_out: list[str]) -> lis
             places.append(at)
     proven = [end for end in kept if end.gap <= PROVEN]
     if len(proven) < len(kept):
-        left_out.append("a search that came to no end: a valley without a floor, or one too flat to be followed")
-    return proven or kept
+        left_out.append(UNPROVEN[criterion == "interpolation"])
+    return proven if criterion == "interpolation" else proven or kept
 
 
 def _defect(function: Function, end: _End) -> str:
@@ -282,8 +315,11 @@ def _defect(function: Function, end: _End) -> str:
     links = np.abs([1.0, *end.generator.links])
     if not np.max(links) <= UNEVEN * np.min(links):
         return f"a four-bar that runs off: its links become more than {UNEVEN:g} to 1"
-    if not np.isfinite(structural_error(function, end.generator, end.sense, _range(function, PLACES))).all():
+    free = margin(function, end.generator)
+    if free < 0:
         return "a four-bar that does not close all over the range"
+    if not free > DEAD:
+        return "a four-bar that the range takes into a dead centre"
     return ""
 
 
