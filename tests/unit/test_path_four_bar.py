@@ -51,7 +51,7 @@ LINKS = ("ground", "crank", "coupler", "rocker")
 
 def test_bounds_and_a_fixed_pivot_reach_the_published_best_of_case_two() -> None:
     limits = dict.fromkeys(LINKS, "..50mm") | dict.fromkeys(("tracer_along", "tracer_across"), "-50mm..50mm")
-    fixed = {"pivot_x": "0..0", "pivot_y": "0..0", "turn": "0..0", "start": "0..0"}
+    fixed = {"pivot_x": "0", "pivot_y": "0mm", "turn": "0deg..0deg", "start": "0"}
     results = answer(points=CASE_TWO, timing=FIVE, **limits, **fixed).as_json()["results"]
     assert results["error_squares"] == pytest.approx(7.4158e-7 * 1e-6, rel=1e-3, abs=0)  # synthesis.md, case 2, in mm²
     assert results["solutions"][0]["a0"] == pytest.approx([0.0, 0.0], abs=1e-15)
@@ -136,7 +136,9 @@ NARROW = dict.fromkeys(("ground", "coupler", "rocker"), "20mm..21mm") | {"crank"
         ({"exact": "yes", "points": CASE_TWO, "timing": TURNS}, "5 points and 3 angles"),
         ({"pivots": "(0,0) (9mm,0)"}, "fix the crank's with pivot_x"),
         ({"start": "0..0"}, "start is given without a timing"),
-        ({"crank": "60mm"}, "crank='60mm' is no pair of bounds; bounds are written 10mm..60mm"),
+        ({"crank": "10mm..20mm..30mm"}, "is no pair of bounds; bounds are written 10mm..60mm"),
+        ({"crank": ".."}, "is no pair of bounds"),
+        ({"crank": "long"}, "crank: 'long' is not a quantity"),
         ({"crank": "60mm..10mm"}, "did you mean 10mm..60mm"),
         ({"crank": "10..60"}, "10 has no unit; did you mean 10mm"),
         ({"ground": "10mm..50mm", "crank": "60mm..80mm"}, "ground 0.01 m to 0.05 m and crank 0.06 m to 0.08 m clash"),

@@ -20,7 +20,7 @@ _ITEM = re.compile(r"[^\s,;]+(?:\s+(?![+\-.\d])[^\s,;]+)?")
 _BARE = re.compile(r"[+-]?[\d.]+(?:[eE][+-]?\d+)?")
 POINTS, ANGLES = "points are written (12mm,4mm) (18.5mm,9.5mm)", "angles are written 20deg 65deg"
 POSES, PAIRS = "poses are written (0mm,0mm,10deg) (25mm,15mm,3deg)", "pairs are written (1,0) (2,0.301)"
-BOUNDS = "bounds are written 10mm..60mm, ..60mm or 10mm.."
+BOUNDS = "bounds are written 10mm..60mm, ..60mm, 10mm.. or 60mm alone"
 
 
 class Poses(NamedTuple):
@@ -73,12 +73,16 @@ def read_angles(name: str, text: str) -> FloatArray:
 def read_bounds(name: str, text: str, unit: str = "mm") -> tuple[float | None, float | None]:
     """Least and most of a text like `10mm..60mm` [SI], one of them None where it is left out: `..60mm`.
 
+    A quantity alone is both.
+
     Raises ParameterError where it holds anything else, or the least is above the most.
 
-    >>> read_bounds("crank", "0..60mm"), read_bounds("crank", "1cm..")
-    ((0.0, 0.06), (0.01, None))
+    >>> read_bounds("crank", "0..60mm"), read_bounds("crank", "1cm.."), read_bounds("crank", "2cm")
+    ((0.0, 0.06), (0.01, None), (0.02, 0.02))
     """
     ends = [part.strip() for part in text.split("..")]
+    if len(ends) == 1:
+        ends *= 2
     if len(ends) != 2 or not any(ends):
         raise ParameterError(f"{name}={text!r} is no pair of bounds", do=BOUNDS)
     least, most = (_quantity(name, end, unit) if end else None for end in ends)

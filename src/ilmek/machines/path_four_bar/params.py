@@ -37,7 +37,7 @@ EXACT = (3, 4, 5)
 """Timed points that are met exactly."""
 
 
-def _bounds(of: str, how: str = "like 10mm..60mm, or ..60mm") -> Any:
+def _bounds(of: str, how: str = "like 10mm..60mm, ..60mm, or 60mm alone") -> Any:
     return param(None, doc=f"bounds on {of}, {how}")
 
 
@@ -62,10 +62,10 @@ class PathFourBarParams(Params):
     rocker: str | None = _bounds("the rocker")
     tracer_along: str | None = _bounds("the tracer along the coupler, from A towards B")
     tracer_across: str | None = _bounds("the tracer across the coupler, to the left of A to B")
-    pivot_x: str | None = _bounds("x of the crank's pivot; 5mm..5mm fixes it")
+    pivot_x: str | None = _bounds("x of the crank's pivot")
     pivot_y: str | None = _bounds("y of the crank's pivot")
     turn: str | None = _bounds("the direction of the ground link", "like -20deg..20deg")
-    start: str | None = _bounds("what is added to the timing to give crank angles against the ground link", "like 0..0")
+    start: str | None = _bounds("what is added to the timing to give crank angles against the ground link", "like 0")
     transmission_min: float = wishes.transmission_min()
     error_max: float | None = param(None, unit="mm", above=0.0, at_most=1e3, doc="greatest distance from a point")
     one_circuit: bool = wishes.one_circuit()
@@ -113,7 +113,7 @@ class PathFourBarParams(Params):
             )
         if self.pivots is not None:
             raise ParameterError(
-                "pivots are for 3 timed points with exact=yes", do="fix the crank's with pivot_x=5mm..5mm, pivot_y=…"
+                "pivots are for 3 timed points with exact=yes", do="fix the crank's with pivot_x=5mm, pivot_y=…"
             )
         timing, limits = self.angles(), self.limits()
         if timing is None and self.start is not None:
