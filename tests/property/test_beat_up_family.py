@@ -32,7 +32,7 @@ def asked(draw: st.DrawFn) -> dict[str, Any]:
     }
 
 
-@settings(max_examples=12)
+@settings(max_examples=8)
 @given(asked(), st.integers(2, 37))
 def test_a_member_has_the_peaks_that_its_design_has(asked_of: dict[str, Any], place: int) -> None:
     params = BeatUpParams(**asked_of)
@@ -66,7 +66,7 @@ def test_a_member_has_the_peaks_that_its_design_has(asked_of: dict[str, Any], pl
     )
 
 
-@settings(max_examples=12)
+@settings(max_examples=8)
 @given(asked(), st.sampled_from(sorted(OBJECTIVES)), st.floats(0.2, 0.8), st.floats(0.2, 0.8))
 def test_no_member_within_the_limits_beats_the_chosen_one(
     asked_of: dict[str, Any], objective: str, first: float, second: float

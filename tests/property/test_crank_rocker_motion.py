@@ -66,6 +66,7 @@ def test_greatest_speed_and_acceleration_are_not_missed_by_dense_samples(members
             assert sampled * (1 - 1e-5) <= greatest[place] <= sampled * (1 + 1e-5)
 
 
+@settings(max_examples=20)
 @given(families())
 def test_the_acceleration_at_the_beat_is_that_of_the_motion_at_beta(members: Family) -> None:
     at = moved(members.links, members.beta)
@@ -76,6 +77,7 @@ def test_the_acceleration_at_the_beat_is_that_of_the_motion_at_beta(members: Fam
     assert (kinematics["rocker_speed_max"] > 0).all()
 
 
+@settings(max_examples=30)
 @given(families())
 def test_every_member_passes_the_circuit_check_and_is_what_the_two_equations_give(members: Family) -> None:
     at = extended(members.swing, members.rotation, members.ratio)
