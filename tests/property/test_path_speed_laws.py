@@ -10,8 +10,9 @@ from ilmek.errors import ParameterError
 from ilmek.timing.path_speed import AxisLimits, JointPath, PathMotion, quickest_motion
 from ilmek.timing.path_speed_line import line_motion
 
-INTERVALS = 120
+INTERVALS = 100
 LIMIT = st.floats(-1.0, 1.0).map(lambda power: 10**power)
+ANY = st.floats(-3.0, 3.0).map(lambda power: 10**power)
 
 
 def path_of(seed: int, axes: int = 2, nodes: int = 61) -> JointPath:
@@ -31,8 +32,8 @@ def moved(seed: int, limits: AxisLimits) -> PathMotion:
     return quickest_motion(path_of(seed, len(limits.jerk)), limits, INTERVALS)
 
 
-@settings(max_examples=8)
-@given(seed=st.integers(0, 10**6), axes=st.integers(1, 3), speed=LIMIT, acceleration=LIMIT, jerk=LIMIT)
+@settings(max_examples=5)
+@given(seed=st.integers(0, 10**6), axes=st.integers(1, 3), speed=ANY, acceleration=ANY, jerk=ANY)
 def test_no_limit_is_overstepped_and_one_is_always_reached(
     seed: int, axes: int, speed: float, acceleration: float, jerk: float
 ) -> None:
@@ -51,7 +52,7 @@ def test_no_limit_is_overstepped_and_one_is_always_reached(
     assert motion.usage.max() <= 1 + 1e-9
 
 
-@settings(max_examples=6)
+@settings(max_examples=4)
 @given(seed=st.integers(0, 10**6), speed=LIMIT, jerk=LIMIT)
 def test_positions_speeds_accelerations_and_jerks_belong_together(seed: int, speed: float, jerk: float) -> None:
     motion = moved(seed, limits_of(speed, 1.0, jerk))
@@ -72,7 +73,7 @@ def test_positions_speeds_accelerations_and_jerks_belong_together(seed: int, spe
     assert np.abs(here.position - motion.path.at(here.s)).max() == 0
 
 
-@settings(max_examples=3)
+@settings(max_examples=2)
 @given(seed=st.integers(0, 10**6), jerk=LIMIT)
 def test_backwards_and_in_other_units_it_takes_the_same_time(seed: int, jerk: float) -> None:
     path, limits = path_of(seed), limits_of(1.0, 1.0, jerk)

@@ -7,11 +7,12 @@ In the parameter u of `path_speed_way`, with w = u'², the limits of an axis are
 of which the first two are linear in w [D. Verscheure and others, IEEE Trans. Automatic Control 54 (2009) 2318, who
 have them for torques], and the third has a convex right-hand side. w is a cubic spline, so that speed, acceleration
 and jerk are continuous; `path_speed_barrier` finds it. The limits hold at four places of every interval. Where they are
-overstepped between them the interval is tightened and the spline found again; the rest is taken off by slowing down, so
-that every limit holds to 1e-3. Optimal within the spline, and but for local optima: the jerk's limit is not convex.
+overstepped between them the interval is divided or tightened and the spline found again; the rest is taken off by
+slowing down, so that every limit holds to 1e-3. Optimal within the spline, and but for local optima: the jerk's limit
+is not convex.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -27,10 +28,11 @@ __all__ = ["AxisLimits", "Course", "JointPath", "PathMotion", "quickest_motion"]
 INTERVALS, COARSE = 300, 80
 """Intervals of the spline, and of the first one, which tells where they are needed."""
 
-TOLERANCE, ROUNDS = 1e-3, 4
-"""Overstepping between the places that is left to slowing down, and how often the spline is found at most."""
+TOLERANCE, GROSS, ROUNDS = 1e-3, 1.05, 6
+"""Overstepping between the places that is left to slowing down; use of a limit from which an interval is divided; how
+often the spline is found at most."""
 
-_PLACES = np.array([0.0, 1 / 3, 2 / 3, 1.0])
+_PLACES, _SHARES = np.array([0.0, 1 / 3, 2 / 3, 1.0]), np.array([1.0, 3.0, 3.0, 1.0]) / 8
 _FINE = np.linspace(0.0, 1.0, 21)
 _GAUSS, _WEIGHT = np.polynomial.legendre.leggauss(5)
 
@@ -116,23 +118,31 @@ def quickest_motion(path: JointPath, limits: AxisLimits, intervals: int = INTERV
             allowed="limits of every axis, ten intervals or more",
         )
     even = np.linspace(0.0, 1.0, COARSE + 1)
-    knots = _knots(path, _found(path, limits, even, rounds=1), intervals)
-    return _timed(path, limits, knots, _found(path, limits, knots, ROUNDS))
+    knots = _knots(path, _found(path, limits, even, rounds=2)[1], intervals)
+    return _timed(path, limits, *_found(path, limits, knots, ROUNDS))
 
 
-def _found(path: JointPath, limits: AxisLimits, knots: FloatArray, rounds: int) -> BSpline:
-    """The best w over the knots; each round after the first tightens the intervals that overstepped."""
-    plain, share = _task(path, limits, knots), np.ones((len(knots) - 1, 1 + 4 * len(limits.jerk)))
+def _found(path: JointPath, limits: AxisLimits, knots: FloatArray, rounds: int) -> tuple[FloatArray, BSpline]:
+    """The best w, and its knots; each round after the first divides or tightens the intervals that overstepped."""
+    share = np.ones((len(knots) - 1, 1 + 4 * len(limits.jerk)))
     while True:
-        tight = np.repeat(share, len(_PLACES), axis=0)
-        task = SpeedTask(knots, plain.basis, plain.rows, plain.constant * tight, plain.root * tight)
-        x = quickest(task, 0.8 * float(share.min()) ** 2 / _slowness(path, limits, knots) ** 2)
-        square = BSpline(clamped(knots), x, 3)
+        square = _best(path, limits, knots, share)
         over = _overstep(path, limits, knots, square)
         rounds -= 1
         if rounds == 0 or over.max() <= 1 + TOLERANCE:
-            return square
-        share = np.maximum(share / np.maximum(over, 1.0), 0.2)
+            return knots, square
+        parts = np.where(over.max(axis=1) > GROSS, 4, 1)
+        tight = np.where(parts[:, None] > 1, share, np.maximum(share / np.maximum(over, 1.0), 0.2))
+        share = np.repeat(tight, parts, axis=0)
+        knots = np.append(0.0, np.cumsum(np.repeat(np.diff(knots) / parts, parts)))
+
+
+def _best(path: JointPath, limits: AxisLimits, knots: FloatArray, share: FloatArray) -> BSpline:
+    """The best w where every interval may use a share of the limits."""
+    task, tight = _task(path, limits, knots), np.repeat(share, len(_PLACES), axis=0)
+    task = replace(task, constant=task.constant * tight, root=task.root * tight)
+    x = quickest(task, 0.8 * float(share.min()) ** 2 / _slowness(path, limits, knots) ** 2)
+    return BSpline(clamped(knots), x, 3)
 
 
 def _slowness(path: JointPath, limits: AxisLimits, knots: FloatArray) -> float:
@@ -157,7 +167,8 @@ def _task(path: JointPath, limits: AxisLimits, knots: FloatArray) -> SpeedTask:
     rows = np.concatenate([-quick, -bend, bend, -jerk, jerk], axis=1)
     by_root = np.arange(rows.shape[1]) > 2 * len(limits.jerk)
     constant = np.broadcast_to(np.where(by_root, 0.0, 1.0), rows.shape[:2])
-    return SpeedTask(knots, b0, rows, constant, 1.0 - constant)
+    weight = (np.diff(knots)[:, None] * _SHARES).ravel()  # Simpson's second rule
+    return SpeedTask(knots, b0, weight, rows, constant, 1.0 - constant)
 
 
 def _overstep(path: JointPath, limits: AxisLimits, knots: FloatArray, square: BSpline) -> FloatArray:
@@ -190,10 +201,10 @@ def _knots(path: JointPath, square: BSpline, intervals: int) -> FloatArray:
 
 
 def _timed(path: JointPath, limits: AxisLimits, knots: FloatArray, square: BSpline) -> PathMotion:
-    """The motion of a spline, slowed down until every limit holds on the fine grid."""
+    """The motion of a spline, slowed down until every limit holds on the fine grid, or sped up until one is reached."""
     u = np.append(_at(knots, _FINE), _beside_nodes(path))
     used = [np.abs(one).max(axis=0) for one in _used(path, limits, u, square)]
-    slow = max(1.0, used[0].max(), np.sqrt(used[1].max()), np.cbrt(used[2].max()))
+    slow = max(used[0].max(), np.sqrt(used[1].max()), np.cbrt(used[2].max()))
     square = BSpline(square.t, square.c / slow**2, square.k)
     takes = _passing(square, knots[:-1], knots[1:])
     usage = np.stack([one / slow**power for power, one in enumerate(used, 1)])

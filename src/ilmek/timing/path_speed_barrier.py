@@ -5,7 +5,8 @@
 R acts on w and its first two derivatives. The objective is convex, every c + R w is linear. k / sqrt(w) is convex, so
 its tangent lies below it: a step that keeps the tangent's constraint keeps the true one, and no iterate ever breaks a
 limit. Newton's matrix takes the constraints by their tangents, is positive definite, and is banded, for a place sees
-four coefficients only: a step costs a time in proportion to the places.
+four coefficients only: a step costs a time in proportion to the places. The integral is a sum over the same places, so
+that w cannot vanish at one of them, where a jerk would cost nothing.
                        [primal-dual steps: S. Boyd and L. Vandenberghe, Convex Optimization, 11.7; tangents of a convex
                        function: A. Yuille and A. Rangarajan, The concave-convex procedure, 2003]
 """
@@ -17,7 +18,7 @@ from jaxtyping import Float
 from scipy.interpolate import BSpline
 from scipy.linalg import solveh_banded
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import FloatArray, IntArray
 
 ORDER = 4
 """Coefficients of a cubic that a place sees."""
@@ -29,22 +30,31 @@ _TO_WALL, _SPREAD, _SHRINK = 0.95, 10.0, 0.1
 """Share of the way to the nearest constraint that a step takes; how far products of slack and multiplier may spread
 about their mean; the least factor by which that mean is brought down in a step."""
 
-_GAUSS, _WEIGHT = np.polynomial.legendre.leggauss(3)
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SpeedTask:
     """What is sought: places in order of u, the same number in every interval of the knots.
 
-    knots  of u, ascending         basis  values of the four B-splines at the places
-    rows   R by coefficient        constant, root   c and k
+    knots   of u, ascending        basis  values of the four B-splines at the places
+    weight  of the integral        rows   R by coefficient        constant, root   c and k
     """
 
     knots: Float[np.ndarray, " knots"]
     basis: Float[np.ndarray, "places 4"]
+    weight: Float[np.ndarray, " places"]
     rows: Float[np.ndarray, "places constraints 4"]
     constant: Float[np.ndarray, "places constraints"]
     root: Float[np.ndarray, "places constraints"]
+
+    @property
+    def seen(self) -> IntArray:
+        """The coefficients that every place sees."""
+        intervals = len(self.knots) - 1
+        return _seen(intervals, len(self.basis) // intervals)
+
+    def time(self, w: FloatArray) -> float:
+        """The integral, of w at the places."""
+        return float(np.sum(self.weight / np.sqrt(w)))
 
     def scaled(self, scale: float) -> "SpeedTask":
         """The same task for w / scale."""
@@ -53,23 +63,11 @@ class SpeedTask:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _State:
-    """Coefficients, and what follows from them: w at the places and at Gauss's points, and the slacks."""
+    """Coefficients, and what follows from them: w at the places, and the slacks."""
 
     x: FloatArray
     w: FloatArray
-    gauss: FloatArray
     slack: FloatArray
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Integral:
-    """Gauss's points of the objective: basis and weights."""
-
-    basis: FloatArray
-    weight: FloatArray
-
-    def time(self, w: FloatArray) -> float:
-        return float(np.sum(self.weight / np.sqrt(w)))
 
 
 def local_basis(knots: FloatArray, share: FloatArray, order: int = 0) -> FloatArray:
@@ -86,28 +84,26 @@ def clamped(knots: FloatArray) -> FloatArray:
     return np.pad(knots, ORDER - 1, mode="edge")
 
 
-def _seen(intervals: int, places: int) -> np.ndarray:
+def _seen(intervals: int, places: int) -> IntArray:
     return np.repeat(np.arange(intervals), places)[:, None] + np.arange(ORDER)
 
 
 def quickest(task: SpeedTask, start: float) -> FloatArray:
     """Coefficients of the best w; a constant w = `start` must keep all constraints with room to spare."""
     scaled = task.scaled(start)
-    width = np.diff(task.knots)[:, None]
-    integral = _Integral(local_basis(task.knots, (_GAUSS + 1) / 2), (width * _WEIGHT / 2).ravel())
-    state = _state(scaled, integral, np.ones(len(task.knots) + ORDER - 2))
+    state = _state(scaled, np.ones(len(task.knots) + ORDER - 2))
     assert state is not None  # the caller's promise: w = start is inside
-    mean = integral.time(state.gauss) / state.slack.size
+    mean = scaled.time(state.w) / state.slack.size
     duals = mean / state.slack
     shrink = 0.3
     for _ in range(STEPS):
         gap = float(np.sum(duals * state.slack))
-        if gap < GAP * integral.time(state.gauss):
+        if gap < GAP * scaled.time(state.w):
             break
         mean = gap / state.slack.size * shrink
-        step, change, gain = _newton(scaled, integral, state, duals, mean)
+        step, change, gain = _newton(scaled, state, duals, mean)
         dual_share = min(1.0, _to_wall(duals, gain))
-        state, share = _moved(scaled, integral, state, step, change)
+        state, share = _moved(scaled, state, step, change)
         if share == 0.0:
             break
         near = mean / state.slack
@@ -116,35 +112,31 @@ def quickest(task: SpeedTask, start: float) -> FloatArray:
     return state.x * start
 
 
-def _state(task: SpeedTask, integral: _Integral, x: FloatArray) -> _State | None:
+def _state(task: SpeedTask, x: FloatArray) -> _State | None:
     """What follows from coefficients; None where w is not above 0, or a constraint does not hold."""
-    intervals = len(task.knots) - 1
-    local, at_gauss = x[_seen(intervals, len(task.basis) // intervals)], x[_seen(intervals, len(_GAUSS))]
-    w, gauss = (task.basis * local).sum(1), (integral.basis * at_gauss).sum(1)
-    if not (w.min() > 0 and gauss.min() > 0):
+    local = x[task.seen]
+    w = (task.basis * local).sum(1)
+    if not w.min() > 0:
         return None
     slack = task.constant + task.root / np.sqrt(w)[:, None] + (task.rows @ local[..., None])[..., 0]
-    return _State(x, w, gauss, slack) if slack.min() > 0 else None
+    return _State(x, w, slack) if slack.min() > 0 else None
 
 
 def _newton(
-    task: SpeedTask, integral: _Integral, state: _State, duals: FloatArray, mean: float
+    task: SpeedTask, state: _State, duals: FloatArray, mean: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Step of the coefficients, and the changes of slacks and duals that go with it."""
-    intervals = len(task.knots) - 1
-    places = len(state.w) // intervals
+    intervals, seen = len(task.knots) - 1, task.seen
     bent = -0.5 * task.root / state.w[:, None] ** 1.5
     gradients = task.rows + bent[..., None] * task.basis[:, None]
     slope = np.zeros(len(state.x))
-    time_slope = (-0.5 * integral.weight * state.gauss**-1.5)[:, None] * integral.basis
-    np.add.at(slope, _seen(intervals, len(_GAUSS)), time_slope)
-    np.add.at(slope, _seen(intervals, places), -((mean / state.slack)[:, None] @ gradients)[:, 0])
-    curved = (0.75 * integral.weight * state.gauss**-2.5)[:, None] * integral.basis
-    curvature = _blocks(curved, integral.basis, intervals)
+    np.add.at(slope, seen, (-0.5 * task.weight * state.w**-1.5)[:, None] * task.basis)
+    np.add.at(slope, seen, -((mean / state.slack)[:, None] @ gradients)[:, 0])
+    curvature = _blocks((0.75 * task.weight * state.w**-2.5)[:, None] * task.basis, task.basis, intervals)
     steep = gradients * (duals / state.slack)[..., None]
     curvature += _blocks(steep.reshape(-1, ORDER), gradients.reshape(-1, ORDER), intervals)
     step = solveh_banded(_banded(curvature), -slope, lower=True)
-    change = (gradients @ step[_seen(intervals, places)][..., None])[..., 0]
+    change = (gradients @ step[seen][..., None])[..., 0]
     return step, change, (mean - duals * change) / state.slack - duals
 
 
@@ -171,13 +163,11 @@ def _to_wall(values: FloatArray, change: FloatArray) -> float:
     return float(_TO_WALL * np.min(-values[falling] / change[falling], initial=np.inf))
 
 
-def _moved(
-    task: SpeedTask, integral: _Integral, state: _State, step: FloatArray, change: FloatArray
-) -> tuple[_State, float]:
+def _moved(task: SpeedTask, state: _State, step: FloatArray, change: FloatArray) -> tuple[_State, float]:
     """The state after the longest share of a step that keeps inside, and that share; 0 where none does."""
     share = min(1.0, _to_wall(state.slack, change))
     while share > 1e-9:
-        there = _state(task, integral, state.x + share * step)
+        there = _state(task, state.x + share * step)
         if there is not None and (there.slack > 0.01 * state.slack).all():
             return there, share
         share *= 0.7
