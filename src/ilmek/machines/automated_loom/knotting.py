@@ -6,7 +6,7 @@ thinner the needle, until the yarn bends it into the warps: then arms cannot tie
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from ilmek.errors import ParameterError
@@ -23,6 +23,10 @@ NEEDLE, NEEDLE_SHARE, CLEARANCE, CLEARANCE_SHARE = 0.5 * mm, 0.4, 0.1 * mm, 0.1
 
 CLOSEST = 0.9
 """Diameter of a warp over its pitch at most."""
+
+
+SHOWN = ("knotting-dyad-head", "knotting-dyad-passing", "knotting-dyad-moving", "knotting-dyad-cycle")
+"""Figures of the arms that the loom's page has; `ilmek design knotting-dyad` has all of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +50,7 @@ def _arms(pitch: float, knot: str) -> Arms:
     except ParameterError as error:
         return Arms(None, f"no arms of a knotting-dyad tie on warps {shown} apart: {error.given}")
     if not arms.failed:
-        return Arms(arms)
+        return Arms(replace(arms, figures=tuple(figure for figure in arms.figures if figure.name in SHOWN)))
     why = "; ".join(arms.warnings) or ", ".join(check.name for check in arms.failed)
     return Arms(None, f"the arms of a knotting-dyad cannot tie on warps {shown} apart: {why}")
 

@@ -72,7 +72,7 @@ def passing(head: Head) -> Drawing:
 def workspace(head: Head) -> Drawing:
     """What the left arm reaches: between two circles, on which its links are in one line."""
     arm = head.arm
-    ring = np.exp(1j * turn * np.arange(180) / 180)
+    ring = np.exp(1j * turn * np.arange(96) / 96)
     inner = abs(arm.first - arm.second)
     circles = [Stroke(arm.pivot + radius * ring, "outline", closed=True) for radius in (arm.first + arm.second, inner)]
     least, most = (abs(head.arm.tip(np.array([at]))[0] - arm.pivot) for at in (1.0, 0.0))

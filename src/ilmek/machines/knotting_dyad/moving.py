@@ -11,8 +11,8 @@ from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT, Phase
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import turn
 
-FRAMES = 120
-ALONG, EACH = 160, 41
+FRAMES = 66
+ALONG, EACH = 80, 41
 """Places that the yarn is drawn through, and that an end's way of a phase is known at."""
 
 

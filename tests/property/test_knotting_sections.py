@@ -1,0 +1,69 @@
+"""The knotting head for any section: the arm's triangle closes, its clearance is the best there is, its knot proved."""
+
+import math
+from typing import Any
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ilmek.machines.knotting_dyad import KnottingDyadParams
+from ilmek.machines.knotting_dyad.clear import Least, arm_bars, least, to_warps
+from ilmek.machines.knotting_dyad.head import Head, head_of
+from ilmek.machines.knotting_dyad.search import best_arm
+from ilmek.machines.knotting_dyad.section import section_of
+
+shares = st.floats(0.05, 0.95)
+
+
+@st.composite
+def asked(draw: st.DrawFn) -> dict[str, Any]:
+    """Sections in which a needle fits, from silk to the coarsest."""
+    pitch = 10 ** draw(st.floats(-3.3, -2.3))
+    warp = pitch * draw(st.floats(0.2, 0.5))
+    return dict(
+        knot=draw(st.sampled_from(("symmetric", "asymmetric"))),
+        opens=draw(st.sampled_from(("left", "right"))),
+        warp_pitch=pitch,
+        warp_diameter=warp,
+        needle_diameter=max(1e-5, (pitch - warp) * draw(st.floats(0.1, 0.6))),
+        clearance=(pitch - warp) * draw(st.sampled_from((0.0, 0.05, 0.15))),
+        opening=pitch * draw(st.sampled_from((0.0, 0.3, 1.0))),
+        leg=draw(st.floats(6e-3, 15e-3)),
+        link_width=draw(st.floats(2e-3, 5e-3)),
+    )
+
+
+def made(params: KnottingDyadParams) -> Head:
+    section = section_of(params)
+    return head_of(params, section, best_arm(params, section))
+
+
+@settings(max_examples=8)
+@given(asked(), shares)
+def test_the_needle_goes_through_the_gap_and_nothing_comes_nearer_than_the_section_allows(
+    sizes: dict[str, Any], share: float
+) -> None:
+    head = made(KnottingDyadParams(**sizes))
+    arm, s = head.arm, np.array([share])
+    elbow, tip = arm.elbow(s), arm.tip(s)
+    assert math.isclose(abs(elbow[0] - tip[0]), arm.second, rel_tol=1e-9)
+    assert abs(((tip - elbow) * np.conj(arm.gap - elbow)).imag[0]) < 1e-12 * arm.second
+    assert abs(head.clearance_min - head.section.clearance_bound) < 1e-8
+    assert to_warps(head.section, arm_bars(head.section, arm, s))[0] >= head.clearance_min - 1e-9
+    assert head.tied.knot == head.knot
+    assert head.knot_tied == sizes["knot"]
+
+
+@given(st.lists(st.tuples(shares, shares, st.floats(0, 1)), min_size=1, max_size=5))
+def test_the_least_distance_is_found_to_its_tolerance_among_any_cones(cones: list[tuple[float, float, float]]) -> None:
+    """Cones of slope 1 in each direction, the least of which is known."""
+
+    def f(at: np.ndarray) -> np.ndarray:
+        heights = [abs(at[:, 0] - x) + abs(at[:, 1] - y) + h for x, y, h in cones]
+        return np.min(heights, axis=0)
+
+    found: Least = least("cones", f, (1.0, 1.0))
+    true = min(h for *_, h in cones)
+    assert true <= found.value <= true + found.sure
+    assert found.sure <= 1e-6 + 5e-3 * found.value + 1e-12
