@@ -21,7 +21,7 @@ def misses(arm: np.ndarray, points: np.ndarray, angles: np.ndarray) -> np.ndarra
     return np.abs(points - pivot - first * np.exp(1j * angles)) - second
 
 
-@settings(max_examples=15)
+@settings(max_examples=6)
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["least squares", "minimax"]))
 def test_a_planted_arm_is_found_without_error(seed: int, criterion: str) -> None:
     random = np.random.default_rng(seed)

@@ -68,8 +68,9 @@ def superposed_through_points(
         + n1 * n4 * above**2
     )
     found = []
-    for lam1 in _real_roots(whole.coef[:4]):
-        P0, P1, P4, P5 = ell + lam1 * m + float(above(lam1) / below(lam1)) * n
+    for root in _real_roots(whole.coef[:4]):
+        lam1, lam2 = _polished(np.array([root, float(above(root) / below(root))]), ell, m, n)
+        P0, P1, P4, P5 = ell + lam1 * m + lam2 * n
         first, pivot = 1 / (2 * P1), complex(P4, P5)
         second = np.sqrt(abs(pivot) ** 2 + first**2 - 2 * first * P0)
         found.append(Dyad(pivot * size, abs(pivot) * size, float(first) * size, float(second) * size))
@@ -112,6 +113,19 @@ def _superposed(matrix: FloatArray, *right: FloatArray) -> list[FloatArray]:
         raise _breaks("the matrix of eq. 2.40 is singular", "dyads_through_points or dyads_through_poses")
     factors = lu_factor(matrix)
     return [np.asarray(lu_solve(factors, side)) for side in right]
+
+
+def _polished(lam: FloatArray, ell: FloatArray, m: FloatArray, n: FloatArray) -> FloatArray:
+    """Newton's method on 2.41 and 2.42: the elimination has cost digits."""
+    ways = np.stack([m, n], axis=-1)
+    for _ in range(3):
+        P = ell + ways @ lam
+        missed = lam - P[1] * P[2:]
+        slopes = np.eye(2) - P[1] * ways[2:] - np.outer(P[2:], ways[1])
+        if abs(np.linalg.det(slopes)) <= SINGULAR:
+            break
+        lam = lam - np.linalg.solve(slopes, missed)
+    return lam
 
 
 def _real_roots(coefficients: FloatArray) -> list[float]:
