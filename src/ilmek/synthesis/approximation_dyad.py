@@ -76,6 +76,8 @@ def dyads_along(points: ComplexArray, first_angles: FloatArray, criterion: str =
     criterion  "interpolation": four of the points, spread as Chebyshev's nodes, are met exactly
                "least squares", "minimax": of all the distances by which the end misses
 
+    A first link of no length says that the points lie near a circle about the pivot, as in `dyads_through_points`.
+
     Raises ParameterError for another criterion, too few points, values that are not finite, angles in degrees, and
     points and angles that leave a whole family.
 
