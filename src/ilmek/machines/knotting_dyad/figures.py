@@ -34,7 +34,7 @@ def head_drawing(head: Head) -> Drawing:
     other = mirrored_bars(head.section, bars)
     poses = [(bars, at) for at in range(3)] + [(other, at) for at in range(1, 4)]
     dashed = [_chain(one, at, "construction") for one, at in poses]
-    strong = [_chain(bars, 3, "link", "left arm"), _chain(other, 0, "link", "right arm")]
+    strong = [*_strong(bars, 3, "left arm"), *_strong(other, 0, "right arm")]
     pivot = head.arm.pivot
     dots = (Dot(pivot, "O", "pivot"), Dot(complex(2 * head.section.middle - pivot.conjugate()), "O'", "pivot"))
     elbows = (Dot(complex(bars.starts[3, 1]), "E"), Dot(complex(other.starts[0, 1]), "E'"))
@@ -79,7 +79,7 @@ def workspace(head: Head) -> Drawing:
     used = [Stroke(arm.pivot + radius * ring, "construction", closed=True) for radius in (least, most)]
     way = Stroke(arm.tip(np.linspace(0, 1, 121)), "yarn")
     bars = arm_bars(head.section, arm, np.array([1.0]))
-    strokes = (*warps(head.section), *circles, *used, _chain(bars, 0, "link", "left arm at the hand-over"), way)
+    strokes = (*warps(head.section), *circles, *used, *_strong(bars, 0, "left arm at the hand-over"), way)
     note = "Thick circles: outstretched and folded, the singular places and the bounds of the room. Dashed: used of it."
     dots = (Dot(arm.pivot, "O", "pivot"), Dot(complex(bars.ends[0, 0]), "E"))
     return Drawing("knotting-dyad-workspace", "What the left arm reaches", strokes, dots, note=note)
@@ -143,8 +143,14 @@ def _knot(head: Head) -> ComplexArray:
     return np.concatenate([first[::-1], second])
 
 
-def _chain(bars: Bars, at: int, role: str, label: str = "") -> Stroke:
-    return Stroke(np.append(bars.starts[at, [0, 1]], bars.ends[at, -1]), role, label)
+def _chain(bars: Bars, at: int, role: str) -> Stroke:
+    return Stroke(np.append(bars.starts[at, [0, 1]], bars.ends[at, -1]), role)
+
+
+def _strong(bars: Bars, at: int, label: str) -> tuple[Stroke, Stroke]:
+    """An arm: its wide parts, and the needle."""
+    wide = Stroke(bars.starts[at], "link", label)
+    return wide, Stroke(np.array([bars.starts[at, 2], bars.ends[at, 2]]), "outline")
 
 
 def _bar(start: complex, end: complex, radius: float) -> ComplexArray:
