@@ -216,7 +216,8 @@ def _check(crank: FloatArray, rocker: FloatArray, starts: tuple[float | None, fl
 
 def _check_count(pairs: int, starts: int) -> None:
     if pairs not in POINTS:
-        more = "`approximation` fits any number by least squares or minimax" if pairs > 5 else "give three at least"
+        whole = "`function_approximations` fits the whole range, by least squares or minimax"
+        more = whole if pairs > 5 else "give three at least"
         allowed = ", ".join(f"{count} with {what}" for count, what in POINTS.items())
         raise ParameterError(f"function generation through {pairs} pairs of angles", allowed=allowed, do=more)
     if starts != 5 - pairs:
