@@ -169,6 +169,14 @@ def test_a_hand_over_at_two_places_is_told_with_the_distance() -> None:
     assert words.startswith("no knot: at 'centre gripper to the left arm' the first end is ")
 
 
+def test_a_needle_that_just_passes_the_warps_is_told_apart_from_one_that_does_not() -> None:
+    """A long way past warps that leave it 0.02 mm: coarse samples do not tell on which side it passes."""
+    fine = dict(warp_pitch="0.54mm", warp_diameter="0.43mm", needle_diameter="0.05mm", clearance="0mm", depth="2.4mm")
+    found = head(**fine, leg="33mm")
+    assert 0 < found.clearance_min < 0.03e-3
+    assert found.tied.knot == found.knot
+
+
 def test_an_end_left_behind_the_warps_is_no_knot() -> None:
     found = head()
     left = _carried(found.phases, 0, LEFT, LEFT, "", "", "", "", "")

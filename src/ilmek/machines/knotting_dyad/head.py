@@ -6,7 +6,6 @@ import numpy as np
 
 from ilmek.carpet.knot_word import Knot, knot
 from ilmek.carpet.tied_knot import Tied
-from ilmek.errors import CarpetError
 from ilmek.machines.knotting_dyad.clear import Least, clearances
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import Section, knot_of
@@ -71,13 +70,6 @@ def head_of(params: KnottingDyadParams, section: Section, arm: Arm) -> Head:
         way,
         phases,
         clearances(section, arm),
-        _tied(section, arm, phases),
+        tied_by(section, arm, phases),
         bent_aside(params, section, arm),
     )
-
-
-def _tied(section: Section, arm: Arm, phases: tuple[Phase, ...]) -> Tied:
-    try:
-        return tied_by(section, arm, phases)
-    except CarpetError as error:
-        return Tied(None, (), False, f"no knot: {error.given}")

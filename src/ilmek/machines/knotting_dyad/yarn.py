@@ -12,6 +12,7 @@ from jaxtyping import Complex, Float
 
 from ilmek.arrays import FloatArray
 from ilmek.carpet.tied_knot import Tied, tied_knot
+from ilmek.errors import CarpetError
 from ilmek.machines.knotting_dyad.section import Section
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, Phase
 from ilmek.machines.knotting_dyad.way import Arm
@@ -20,8 +21,8 @@ from ilmek.units import format_quantity, um
 MISSED = 1 * um
 """How far apart two grippers may be at a hand-over."""
 
-SAMPLES = 201
-"""Places along a phase."""
+SAMPLES = (201, 1601, 12801)
+"""Places along a phase: more where the path comes so near a warp that fewer do not tell its side."""
 
 
 def carried(
@@ -43,11 +44,18 @@ def _length(arm: Arm, carrier: str, phase: Phase) -> float:
 
 
 def tied_by(section: Section, arm: Arm, phases: Sequence[Phase]) -> Tied:
-    """The knot that the phases tie with this arm and its mirror image.
+    """The knot that the phases tie with this arm and its mirror image; none where an end is led through a warp."""
+    said = ""
+    for samples in SAMPLES:
+        try:
+            return _tied_by(section, arm, phases, samples)
+        except CarpetError as error:
+            said = error.given
+    return Tied(None, (), False, f"no knot: {said}")
 
-    Raises CarpetError where an end is led through a warp.
-    """
-    shares = np.linspace(0.0, 1.0, SAMPLES)
+
+def _tied_by(section: Section, arm: Arm, phases: Sequence[Phase], samples: int) -> Tied:
+    shares = np.linspace(0.0, 1.0, samples)
     ways: list[Complex[np.ndarray, " n"]] = []
     bounds: list[FloatArray] = []
     for end in (0, 1):
@@ -59,7 +67,7 @@ def tied_by(section: Section, arm: Arm, phases: Sequence[Phase]) -> Tied:
             way = carried(section, arm, carrier, phase, shares)
             if len(places) and abs(way[0] - places[-1]) > MISSED:
                 return _missed(end, carrier, phase, abs(way[0] - places[-1]))
-            step = np.full(SAMPLES - 1, _length(arm, carrier, phase) / (SAMPLES - 1) * (1 + 1e-9))
+            step = np.full(samples - 1, _length(arm, carrier, phase) / (samples - 1) * (1 + 1e-9))
             gap = np.abs(way[:1] - places[-1:])
             places, lengths = np.concatenate([places, way]), np.concatenate([lengths, gap, step])
         ways.append(places)
