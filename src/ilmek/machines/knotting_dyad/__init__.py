@@ -1,7 +1,8 @@
-"""The knotting dyad: an arm of two links, both driven, whose end leads the pile yarn round the warps.
+"""The knotting dyad: arms of two links, both driven, whose needles lead the ends of the pile yarn behind the warps.
 
-Its links follow from four points of the yarn's way and the angles that the first link has there, as in the thesis,
-2.1.3, by all real roots at once: none to three arms. The points are given, or they are chosen on the way of the knot.
+A head of two mirrored arms and a centre gripper ties the knot on warps of a given pitch, proved, with its clearances,
+cycle and drives. Its links follow from four points of the way and the angles that the first link has there, as in the
+thesis, 2.1.3, by all real roots at once: none to three arms. Four points of one's own are solved alike.
 """
 
 from ilmek.machines.knotting_dyad.design import KnottingDyad, design
@@ -13,7 +14,7 @@ __all__ = ["MACHINE", "KnottingDyad", "KnottingDyadParams", "design", "report"]
 
 MACHINE = Machine(
     name="knotting-dyad",
-    summary="two-link arm through four timed points of a knot: every real arm, and the best of them",
+    summary="two-link arms that tie a knot, proved and clear of the warps; or every arm through four timed points",
     params=KnottingDyadParams,
     design=design,
     report=report,
