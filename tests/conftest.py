@@ -2,5 +2,8 @@
 
 from hypothesis import settings
 
-settings.register_profile("ilmek", deadline=None)  # no test is a timed test
+# No test is a timed test. The examples are the same in every run, so that a change breaks it and not chance;
+# `pytest --hypothesis-profile=explore` looks for new ones.
+settings.register_profile("explore", deadline=None)
+settings.register_profile("ilmek", deadline=None, derandomize=True)
 settings.load_profile("ilmek")

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion
-from ilmek.linkage.quality import grashof, input_range, transmission_extremes
+from ilmek.linkage.quality import grashof, input_range
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.num.periodic import periodic_derivative
@@ -22,15 +22,12 @@ FEW = settings(max_examples=40)
 
 @st.composite
 def crank_rockers(draw, least_angle=0.35):
-    """Ground, crank, coupler, rocker of a crank that turns fully with a transmission angle to work with."""
-    ground, coupler, rocker = draw(LENGTH), draw(LENGTH), draw(LENGTH)
-    room = min(ground, coupler, rocker, ground + coupler - rocker, ground + rocker - coupler, coupler + rocker - ground)
-    assume(room > 0.1)
-    crank = draw(st.floats(0.1, 0.95)) * room
-    assume(grashof(ground, crank, coupler, rocker).crank_turns)
-    least, greatest = transmission_extremes(ground, crank, coupler, rocker)
-    assume(min(least, np.pi - greatest) > least_angle)
-    return ground, crank, coupler, rocker
+    """Ground, crank, coupler, rocker of a crank that turns fully: from the extremes of its transmission angle."""
+    coupler, rocker = draw(LENGTH), draw(LENGTH)
+    least = draw(st.floats(least_angle, np.pi / 2))
+    greatest = draw(st.floats(least + 0.2, np.pi - least_angle))
+    near, far = (abs(coupler - rocker * np.exp(1j * angle)) for angle in (least, greatest))
+    return (near + far) / 2, (far - near) / 2, coupler, rocker
 
 
 @st.composite
