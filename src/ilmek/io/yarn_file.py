@@ -12,7 +12,6 @@ Empty lines, and lines that begin with #, are left out.
 Here only the file is read; `ilmek.carpet.yarn` judges the values.
 """
 
-import csv
 import difflib
 import re
 import tomllib
@@ -23,6 +22,7 @@ from typing import TypeAlias
 
 from ilmek.carpet.yarn import FIELDS, Yarn, yarns_from_records
 from ilmek.errors import YarnError
+from ilmek.io.csv_lines import csv_lines, decimal_points
 from ilmek.io.text_file import read_text
 
 LARGEST = 1_000_000
@@ -79,32 +79,23 @@ def _check_columns(names: Sequence[str], line: int) -> None:
 
 
 def _csv_records(text: str) -> Sequence[Record]:
-    said = ["" if line.startswith("#") else f"{line}\n" for line in re.split(r"\r\n?|\n", text.rstrip())]
-    header = next((line for line in said if line.strip()), "")
-    delimiter = max(",;\t", key=header.count)
-    lines = csv.reader(said, delimiter=delimiter, skipinitialspace=True, strict=True)
-    try:
-        filled = (cells for cells in lines if "".join(cells).strip())
-        names = [name.strip().lower() for name in next(filled, [])]
-        _check_columns(names, lines.line_num)
-        return [_csv_record(names, cells, lines.line_num, delimiter) for cells in filled]
-    except csv.Error as error:
-        raise YarnError(f"line {lines.line_num}: {error}", do="mend that line") from None
+    delimiter, (first, header), lines = csv_lines(text, YarnError)
+    names = [name.lower() for name in header]
+    _check_columns(names, first)
+    return [_csv_record(names, cells, line, delimiter) for line, cells in lines]
 
 
 def _csv_record(names: Sequence[str], cells: Sequence[str], line: int, delimiter: str) -> Record:
     if len(cells) > len(names):
         raise YarnError(f"line {line} has {len(cells)} cells", allowed=f"{len(names)} columns", do="quote a comma")
-    said = {name: cell.strip() for name, cell in zip(names, cells, strict=False) if cell.strip()}
+    said = {name: cell for name, cell in zip(names, cells, strict=False) if cell}
     return {name: _csv_value(name, cell, line, delimiter) for name, cell in said.items()}
 
 
 def _csv_value(name: str, cell: str, line: int, delimiter: str) -> object:
     if name in ("name", "srgb"):
         return cell
-    numbers = cell.strip("[]()")
-    if delimiter != ",":  # then a comma may be the decimal sign
-        numbers = re.sub(r"(\d),(\d)", r"\1.\2", numbers)
+    numbers = decimal_points(cell.strip("[]()"), delimiter)
     try:
         values = [float(word) for word in re.split(r"[\s,;/]+", numbers.strip())]
     except ValueError:
