@@ -159,7 +159,7 @@ TURNS = np.array([0.0, 0.4, 0.9, 1.3, 1.5, 1.6])
     ("pairs", "starts", "said"),
     [
         (2, {}, "through 2 pairs of angles; 3 with both start angles given.*give three at least"),
-        (6, {}, "`approximation` fits any number"),
+        (6, {}, "`function_approximations` fits the whole range"),
         (3, {}, "3 pairs of angles and 0 start angles.*no start angle given: 5 pairs"),
         (4, {"crank_start": 0.1, "rocker_start": 0.2}, "both start angles given: 3 pairs"),
         (5, {"crank_start": 0.1}, "one start angle given: 4 pairs"),
