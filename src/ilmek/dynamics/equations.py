@@ -138,5 +138,5 @@ def _units(joint: Held, driven: set[str], length: float) -> Iterable[Pull]:
 
 def _rows(pull: Pull, length: float, samples: int) -> FloatArray:
     """x, y and moment over a length as the last axis, one row a sample."""
-    parts = (np.real(pull.force), np.imag(pull.force), pull.moment / length)
+    parts = (pull.force.real, pull.force.imag, pull.moment / length)
     return np.stack([np.broadcast_to(part, samples) for part in parts], axis=-1)

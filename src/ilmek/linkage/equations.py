@@ -99,7 +99,7 @@ def third_biases(group: Group, bodies: Known) -> list[RealField]:
     for joint in group.joints:
         if isinstance(joint, Pin):
             first, second = (_arm_jerk(bodies[body], mechanism.point(body, joint.name)) for body in joint.bodies)
-            biases += [np.real(first - second), np.imag(first - second)]
+            biases += [(first - second).real, (first - second).imag]
         else:
             biases += [_along_third(mechanism, joint, bodies, 1j), 0.0]
     driven: list[Joint | None] = [mechanism.joint(entry.joint) for entry in group.inputs]

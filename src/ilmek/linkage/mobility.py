@@ -144,7 +144,7 @@ def _moved(held: Loops, bodies: Known, step: FloatArray) -> Known:
     for body, (shift, turn) in held.moves(step).items():
         at, direction = bodies[body].anchor.position + complex(shift), bodies[body].direction
         turned = direction * cmath.exp(1j * float(turn))
-        moved[body] = BodyMotion(PointMotion(at, 0j, 0j), 0j, turned / abs(turned), 0.0, 0.0)
+        moved[body] = BodyMotion(PointMotion(at, 0j, 0j), 0j, turned / np.abs(turned), 0.0, 0.0)
     return moved
 
 

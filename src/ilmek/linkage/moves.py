@@ -23,7 +23,7 @@ def contracted(row: Row, moves: Moves) -> RealField:
     total: RealField = 0.0
     for body, (dx, dy, dtheta) in row.items():
         shift, turn = moves.get(body, (0j, 0.0))
-        total = total + dx * np.real(shift) + dy * np.imag(shift) + dtheta * turn
+        total = total + dx * shift.real + dy * shift.imag + dtheta * turn
     return total
 
 

@@ -11,7 +11,7 @@ def dot(u: ComplexField, v: ComplexField) -> RealField:
     >>> float(dot(3 + 4j, 1 + 1j))
     7.0
     """
-    return np.real(u) * np.real(v) + np.imag(u) * np.imag(v)
+    return u.real * v.real + u.imag * v.imag
 
 
 def cross(u: ComplexField, v: ComplexField) -> RealField:
@@ -20,7 +20,7 @@ def cross(u: ComplexField, v: ComplexField) -> RealField:
     >>> float(cross(1 + 0j, 2j))
     2.0
     """
-    return np.real(u) * np.imag(v) - np.imag(u) * np.real(v)
+    return u.real * v.imag - u.imag * v.real
 
 
 def oblique(v: ComplexField, e: ComplexField, f: ComplexField) -> RealField:

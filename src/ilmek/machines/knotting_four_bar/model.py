@@ -54,7 +54,7 @@ def closing_ground(params: KnottingFourBarParams) -> float:
     with np.errstate(invalid="ignore"):
         pivots = [complex(rrr.position(0j, far, params.ground, params.rocker, branch=side)) for side in (+1, -1)]
     if not np.isfinite(pivots).all():
-        away, reach = (format_quantity(length, "mm") for length in (abs(far), params.ground + params.rocker))
+        away, reach = (format_quantity(length, "mm") for length in (float(np.abs(far)), params.ground + params.rocker))
         raise ParameterError(
             f"no ground closes the stated pose: O2' is {away} from O1, ground and rocker reach 0..{reach} and differ "
             f"by {format_quantity(abs(params.ground - params.rocker), 'mm')}",
