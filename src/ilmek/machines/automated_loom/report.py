@@ -40,11 +40,12 @@ def report(loom: LoomDesign) -> Report:
 
 def parts_of(loom: LoomDesign) -> tuple[Report, ...]:
     """The reports of the machines in the loom: head, its arms where they can tie, beat-up, shedding, warp tension."""
-    arms = arms_of(loom.params).report
+    arms, beat = arms_of(loom.params).report, beat_up.report(loom.beat_up)
+    own = tuple(figure for figure in beat.figures if not figure.name.startswith("family"))  # not those of its relations
     return (
         weaver.report(loom.weaver),
         *(() if arms is None else (arms,)),
-        beat_up.report(loom.beat_up),
+        replace(beat, figures=own),
         shedding.report(loom.shedding),
         warp_tension.report(loom.warp_tension),
     )
