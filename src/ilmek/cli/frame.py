@@ -10,7 +10,6 @@ Errors of ours (IlmekError) and click's are shown alike; a defect of the program
 
 import contextlib
 import difflib
-import gc
 import importlib
 import math
 import os
@@ -78,7 +77,6 @@ class Frame(click.Group):
         run = partial(super().main, args, prog_name or "ilmek", standalone_mode=False, **settings)
         if not standalone_mode:
             return run()
-        gc.set_threshold(50_000, 20, 20)  # a command makes much and few circles of it: a tenth of its time less
         _open_streams()
         _write_any_character()
         with _unwinding() as stopped:
