@@ -4,8 +4,8 @@ A machine returns a `Report`; the command line, the web page and the JSON are ma
 machine. Values are SI; the unit beside a value is the one to show it in.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -251,6 +251,59 @@ Figure: TypeAlias = Plot | Drawing | Animation | Timing
 
 
 @dataclass(frozen=True, slots=True)
+class Hole:
+    """A round hole of a plate: centre and radius [m], and what it is for."""
+
+    at: complex
+    radius: float
+    label: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Plate:
+    """A flat part for the workshop, in its own frame [m].
+
+    outline   points of the closed contour, counter-clockwise, the first not said again at the end
+    holes     round holes             cutouts  closed contours inside the outline: a bore with its keyway, a groove
+    paths     curves that guide a tool or an eye, not cut through, by name: `cutter path`, `pitch curve`
+    marks     short lines to scribe, by name: `zero` at the angle 0
+    area      of the face without holes and cutouts [m^2], reckoned apart from the points; None: not known
+    number    pieces to be made
+    """
+
+    name: str
+    title: str
+    outline: ComplexArray
+    thickness: float
+    material: str
+    holes: tuple[Hole, ...] = ()
+    cutouts: tuple[ComplexArray, ...] = ()
+    paths: Mapping[str, ComplexArray] = field(default_factory=dict)
+    marks: Mapping[str, ComplexArray] = field(default_factory=dict)
+    area: float | None = None
+    number: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class CamTable:
+    """A motion of a slave axis over one turn of the master, for a controller's electronic cam.
+
+    course    master angles [rad], of any shape, to the rows s, s', s'' by the master angle [SI, SI/rad, SI/rad^2]
+    knots     master angles, ascending from 0 to 2 pi, between which the course is smooth [rad]
+    unit      the unit that a controller is given positions in
+    period    time of a turn [s]      revolves  what the slave gains in a turn [SI]; 0: it returns
+    """
+
+    name: str
+    title: str
+    course: Callable[[FloatArray], FloatArray]
+    knots: FloatArray
+    unit: str
+    period: float
+    revolves: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Report:
     """Everything that a design says."""
 
@@ -262,6 +315,8 @@ class Report:
     tables: tuple[Table, ...] = ()
     figures: tuple[Figure, ...] = ()
     warnings: tuple[str, ...] = ()
+    plates: tuple[Plate, ...] = ()
+    cam_tables: tuple[CamTable, ...] = ()
 
     @property
     def failed(self) -> tuple[Check, ...]:
