@@ -1,0 +1,85 @@
+"""Jerk-limited moves: limits kept by integrating the jerk, no shorter one among others, the limits' own laws."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ilmek.errors import ParameterError
+from ilmek.timing.s_curve import AxisLimits, SCurve, move_time, s_curve
+
+SIZES = st.floats(1e-3, 1e3)
+
+
+def integrated(move: SCurve, jerk: float) -> tuple[float, float, float]:
+    """Distance, greatest speed and greatest acceleration, by exact integration of the seven parts of constant jerk."""
+    place = speed = acceleration = top_speed = top_acceleration = 0.0
+    parts = ((move.ramp, 1), (move.hold, 0), (move.ramp, -1), (move.cruise, 0))
+    for time, sign in (*parts, (move.ramp, -1), (move.hold, 0), (move.ramp, 1)):
+        j = sign * jerk
+        place += speed * time + acceleration * time**2 / 2 + j * time**3 / 6
+        speed += acceleration * time + j * time**2 / 2
+        acceleration += j * time
+        top_speed, top_acceleration = max(top_speed, speed), max(top_acceleration, abs(acceleration))
+    return place, top_speed, top_acceleration
+
+
+@given(SIZES, SIZES, SIZES, SIZES)
+def test_the_integrated_jerk_arrives_and_keeps_every_limit(distance, speed, acceleration, jerk):
+    move = s_curve(distance, AxisLimits(speed, acceleration, jerk))
+    place, top_speed, top_acceleration = integrated(move, jerk)
+    assert place == pytest.approx(distance, rel=1e-9)
+    assert top_speed <= speed * (1 + 1e-9)
+    assert top_acceleration <= acceleration * (1 + 1e-9)
+    assert min(move.ramp, move.hold, move.cruise) >= -1e-12 * move.time
+    assert move.speed == pytest.approx(top_speed, rel=1e-6)
+
+
+@given(SIZES, SIZES, SIZES, SIZES)
+def test_some_limit_is_used_up_throughout(distance, speed, acceleration, jerk):
+    """The shortest move uses full jerk, and then acceleration, and then speed as far as it has the room."""
+    move = s_curve(distance, AxisLimits(speed, acceleration, jerk))
+    _, top_speed, top_acceleration = integrated(move, jerk)
+    if move.hold > 1e-9 * move.time:
+        assert top_acceleration == pytest.approx(acceleration, rel=1e-6)
+    if move.cruise > 1e-9 * move.time:
+        assert top_speed == pytest.approx(speed, rel=1e-6)
+
+
+@given(SIZES, SIZES, SIZES)
+def test_without_a_limit_of_the_jerk_it_is_the_trapezoid(distance, speed, acceleration):
+    reached = distance >= speed**2 / acceleration
+    trapezoid = distance / speed + speed / acceleration if reached else 2 * math.sqrt(distance / acceleration)
+    assert move_time(distance, AxisLimits(speed, acceleration)) == pytest.approx(trapezoid, rel=1e-12)
+
+
+@given(SIZES, SIZES, SIZES, SIZES, st.floats(0.1, 10.0))
+def test_scale_laws(distance, speed, acceleration, jerk, scale):
+    """Length by k leaves the time; time by k divides the limits by k, k^2, k^3."""
+    time = move_time(distance, AxisLimits(speed, acceleration, jerk))
+    longer = AxisLimits(speed * scale, acceleration * scale, jerk * scale)
+    slower = AxisLimits(speed / scale, acceleration / scale**2, jerk / scale**3)
+    assert move_time(distance * scale, longer) == pytest.approx(time, rel=1e-9)
+    assert move_time(distance, slower) == pytest.approx(time * scale, rel=1e-9)
+
+
+@given(SIZES, SIZES, SIZES)
+def test_no_random_profile_of_the_same_limits_is_quicker(speed, acceleration, jerk):
+    """Profiles of other ramp and hold within the limits need at least as long for what distance they cover."""
+    rng = np.random.default_rng(1)
+    for ramp, hold, cruise in rng.uniform(0, 1, (40, 3)):
+        ramp = ramp * min(acceleration / jerk, math.sqrt(speed / jerk))
+        hold = hold * max(0.0, speed / (jerk * ramp) - ramp)
+        other = SCurve(0.0, ramp, hold, cruise * ramp)
+        covered = integrated(other, jerk)[0]
+        assert move_time(covered, AxisLimits(speed, acceleration, jerk)) <= other.time * (1 + 1e-9)
+
+
+def test_no_move_takes_no_time_and_bad_limits_are_told():
+    assert move_time(0.0, AxisLimits(1.0, 1.0, 1.0)) == 0.0
+    with pytest.raises(ParameterError, match="acceleration"):
+        AxisLimits(1.0, -1.0)
+    with pytest.raises(ParameterError, match="0 or more"):
+        s_curve(-1.0, AxisLimits(1.0, 1.0))
