@@ -1,0 +1,134 @@
+"""Round steel tubes that dealers keep, and the properties of their sections.
+
+    I = π (D⁴ - d⁴) / 64,   J = 2 I,   W = 2 I / D,   A = π (D² - d²) / 4
+
+D outer, d inner diameter. Hot finished hollow sections after EN 10210-2, and cold drawn precision tubes after EN
+10305-1 in even diameters, the thesis' 140 x 5 mm among them: a choice of the standards' sizes.
+
+>>> tube = find_tube("140x5")
+>>> tube.outer_radius, tube.standard, round(tube.inertia * 1e8, 2)
+(0.07, 'EN 10305-1', 483.76)
+"""
+
+import math
+import re
+from dataclasses import dataclass
+
+from ilmek.errors import ParameterError
+from ilmek.units import mm
+
+
+@dataclass(frozen=True, slots=True)
+class Tube:
+    """A round tube: outer diameter and wall [m], the standard that lists it."""
+
+    outer: float
+    wall: float
+    standard: str
+
+    @property
+    def name(self) -> str:
+        """Outer diameter x wall in millimetres, as dealers write it."""
+        return f"{self.outer / mm:.5g}x{self.wall / mm:.5g}"
+
+    @property
+    def outer_radius(self) -> float:
+        """Ro [m]."""
+        return self.outer / 2
+
+    @property
+    def inner_radius(self) -> float:
+        """Ri [m]."""
+        return self.outer / 2 - self.wall
+
+    @property
+    def area(self) -> float:
+        """Area of the section [m²]: π (Ro² - Ri²)."""
+        return math.pi * self.wall * (self.outer - self.wall)
+
+    @property
+    def inertia(self) -> float:
+        """Second moment of area [m⁴]: π/4 (Ro⁴ - Ri⁴)."""
+        return math.pi / 4 * (self.outer_radius**4 - self.inner_radius**4)
+
+    @property
+    def modulus(self) -> float:
+        """Section modulus [m³]: bending stress = M / W; torsion has twice of it."""
+        return self.inertia / self.outer_radius
+
+    def mass(self, density: float = 7850.0) -> float:
+        """Mass per length [kg/m]."""
+        return density * self.area
+
+
+_HOT = {
+    21.3: (2.6, 3.2), 26.9: (2.6, 3.2), 33.7: (2.6, 3.2, 4), 42.4: (2.6, 3.2, 4), 48.3: (2.6, 3.2, 4, 5),
+    60.3: (2.6, 3.2, 4, 5), 76.1: (2.6, 3.2, 4, 5), 88.9: (3.2, 4, 5, 6, 6.3), 101.6: (3.2, 4, 5, 6, 6.3, 8, 10),
+    114.3: (3.2, 4, 5, 6, 6.3, 8, 10), 139.7: (4, 5, 6, 6.3, 8, 10, 12, 12.5),
+    168.3: (4, 5, 6, 6.3, 8, 10, 12, 12.5), 177.8: (5, 6, 6.3, 8, 10, 12, 12.5),
+    193.7: (5, 6, 6.3, 8, 10, 12, 12.5, 16), 219.1: (5, 6, 6.3, 8, 10, 12, 12.5, 16, 20),
+    244.5: (5, 6, 6.3, 8, 10, 12, 12.5, 16, 20), 273.0: (5, 6, 6.3, 8, 10, 12, 12.5, 16, 20),
+    323.9: (5, 6, 6.3, 8, 10, 12, 12.5, 16, 20), 355.6: (6, 6.3, 8, 10, 12, 12.5, 16, 20),
+    406.4: (6, 6.3, 8, 10, 12, 12.5, 16, 20), 457.0: (6, 6.3, 8, 10, 12, 12.5, 16, 20),
+    508.0: (6, 6.3, 8, 10, 12, 12.5, 16, 20),
+}  # fmt: skip
+_PRECISION = {
+    20: (2, 3), 25: (2, 2.5, 3), 30: (2, 3, 4), 35: (2, 3, 4), 40: (2, 3, 4, 5), 50: (2, 3, 4, 5), 60: (3, 4, 5),
+    70: (3, 5, 8), 80: (3, 5, 8), 90: (5, 8), 100: (5, 8, 10), 110: (5, 8, 10), 120: (5, 8, 10), 130: (5, 8, 10),
+    140: (5, 8, 10), 150: (5, 8, 10), 160: (5, 8, 10), 180: (8, 10), 200: (8, 10),
+}  # fmt: skip
+
+TUBES: dict[str, Tube] = {
+    tube.name: tube
+    for standard, sizes in (("EN 10210-2", _HOT), ("EN 10305-1", _PRECISION))
+    for outer, walls in sizes.items()
+    for tube in (Tube(outer * mm, wall * mm, standard) for wall in walls)
+}
+"""Stock sizes by name."""
+
+_WRITTEN = re.compile(r"\s*(\d+(?:\.\d+)?)\s*(?:mm)?\s*[x×*]\s*(\d+(?:\.\d+)?)\s*(?:mm)?\s*$", re.IGNORECASE)
+
+
+def find_tube(name: str) -> Tube:
+    """The tube written as outer diameter x wall in mm; ParameterError, naming the nearest, where it is no stock size.
+
+    >>> find_tube("139.7 x 5 mm").name
+    '139.7x5'
+    """
+    read = _WRITTEN.match(name)
+    if read is None:
+        raise ParameterError(
+            f"{name!r} is no tube", allowed="outer diameter x wall in millimetres", do="write it like 140x5"
+        )
+    outer, wall = float(read[1]) * mm, float(read[2]) * mm
+    near = min(TUBES.values(), key=lambda tube: _apart(tube, outer, wall))
+    if _apart(near, outer, wall) > 1e-6:
+        raise ParameterError(
+            f"no tube {name.strip()!r} in the table",
+            allowed=f"the nearest offered is {near.name!r}",
+            do=f"take it, or one of the {len(TUBES)} others",
+        )
+    return near
+
+
+def lightest_tube(inertia: float, *, modulus: float = 0.0, inner_radius: float = 0.0, wall: float = 0.0) -> Tube | None:
+    """The lightest stock tube with so much second moment of area [m⁴]; None beyond the largest.
+
+    modulus  least section modulus [m³]      inner_radius  least [m]      wall  least [m]
+    >>> lightest_tube(480e-8, inner_radius=0.065, wall=0.005).name
+    '140x5'
+    """
+
+    def enough(tube: Tube) -> bool:
+        wide = tube.inner_radius >= inner_radius * _LEAST and tube.wall >= wall * _LEAST
+        return wide and tube.inertia >= inertia * _LEAST and tube.modulus >= modulus * _LEAST
+
+    return min(filter(enough, TUBES.values()), key=lambda tube: tube.area, default=None)
+
+
+_LEAST = 1 - 1e-9
+
+
+def _apart(tube: Tube, outer: float, wall: float) -> float:
+    """How far a size is from a stock tube's: relative in both measures, the diameter counting double."""
+    return 2 * abs(outer / tube.outer - 1) + abs(wall / tube.wall - 1)
