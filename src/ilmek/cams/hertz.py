@@ -1,0 +1,135 @@
+"""Contact pressure between cam and follower after Hertz: a line of contact, and an ellipse.
+
+Both bodies are taken as smooth, elastic and much larger than the contact. A curvature is positive where its body bulges
+towards the other, negative where it is hollow, 0 where it is flat; the bodies touch only where the sum is positive.
+Where it is not, or nothing presses, the pressure is 0 or NaN as said below.
+[Johnson, Contact Mechanics, 4.2; Hertz 1882]
+
+>>> steel = contact_modulus(206e9, 0.3, 206e9, 0.3)
+>>> line = line_contact(1000 / 0.015, 1 / 0.012 + 1 / 0.040, steel)      # a roller of 12 mm on a cam of 40 mm
+>>> round(float(line.half_width) * 1e3, 7), round(float(line.pressure) * 1e-6, 4)
+(0.0832014, 510.1036)
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+
+_HALVINGS = 54
+_MEANS = 6
+"""Steps of the arithmetic-geometric mean: from a ratio of 1e-6 down to rounding."""
+
+_THINNEST = 1e-6
+"""The thinnest ellipse sought, least axis over greatest; beyond it the contact is a line."""
+
+LINE_YIELD, POINT_YIELD = 1.79, 1.60
+"""Pressure over yield strength at which steel first yields, below the surface, after von Mises [Johnson, 4.5, 6.2]."""
+
+
+class Line(NamedTuple):
+    """A line of contact: half its width [m], and the greatest pressure [Pa]."""
+
+    half_width: FloatArray
+    pressure: FloatArray
+
+
+class Ellipse(NamedTuple):
+    """An ellipse of contact: semi-axes [m], across the sharper and across the flatter curvature, greatest pressure."""
+
+    narrow: FloatArray
+    wide: FloatArray
+    pressure: FloatArray
+
+
+def contact_modulus(first: float, first_poisson: float, second: float, second_poisson: float) -> float:
+    """Modulus E* of a pair [Pa]: 1/E* = (1 - v1^2)/E1 + (1 - v2^2)/E2."""
+    return 1.0 / ((1 - first_poisson**2) / first + (1 - second_poisson**2) / second)
+
+
+def line_contact(load: RealField, curvature: RealField, modulus: float) -> Line:
+    """Two cylinders side by side.
+
+        b^2 = 4 q / (pi E* k),   p0 = 2 q / (pi b) = sqrt(q E* k / pi)
+
+    load        q, along the line [N/m]; below 0 counts as 0
+    curvature   k, of both bodies together [1/m]; NaN where it is not above 0: the bodies do not touch in a line
+    modulus     E* of the pair [Pa]
+    """
+    q = np.maximum(load, 0.0)
+    k = _touching(curvature)
+    return Line(np.asarray(np.sqrt(4 * q / (math.pi * modulus * k))), np.asarray(np.sqrt(q * modulus * k / math.pi)))
+
+
+def ellipse_contact(load: RealField, along: RealField, across: RealField, modulus: float) -> Ellipse:
+    """Two bodies that touch in a point, their main curvatures in the same two planes.
+
+        (k_sharp / k_flat) = (E(e)/k'^2 - K(e)) / (K(e) - E(e)),   k' = b/a,   e^2 = 1 - k'^2
+        b^3 = 3 F k' E(e) / (pi E* (along + across)),   p0 = 3 F / (2 pi a b)
+
+    load            F [N]; below 0 counts as 0
+    along, across   relative curvatures in the two planes [1/m], each of both bodies together; NaN where not above 0
+    modulus         E* of the pair [Pa]
+
+    A sphere on a plane: a^3 = 3 F R / (4 E*), p0 = 3 F / (2 pi a^2).     [Johnson, eqs. 4.22 to 4.32]
+    """
+    sharp, flat = _touching(np.maximum(along, across)), _touching(np.minimum(along, across))
+    slim = _slimness(sharp / flat)
+    _, part = _elliptic(slim)
+    force = np.maximum(load, 0.0)
+    narrow = np.cbrt(3 * force * slim * part / (math.pi * modulus * (sharp + flat)))
+    wide = narrow / slim
+    with np.errstate(divide="ignore", invalid="ignore"):
+        pressure = np.where(force > 0, 3 * force / (2 * math.pi * wide * narrow), 0.0 * narrow)
+    return Ellipse(np.asarray(narrow), np.asarray(wide), np.asarray(pressure))
+
+
+def _touching(curvature: RealField) -> RealField:
+    k = np.asarray(curvature, dtype=float)
+    return np.where(k > 0, k, np.nan)
+
+
+def _slimness(ratio: RealField) -> RealField:
+    """Least over greatest semi-axis for a ratio of curvatures >= 1, by halving its logarithm."""
+    low, high = np.full(np.shape(ratio), math.log(_THINNEST)), np.zeros(np.shape(ratio))
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        rounder = _ratio(np.exp(middle)) < ratio
+        low, high = np.where(rounder, low, middle), np.where(rounder, middle, high)
+    return np.where(ratio > 1, np.exp(0.5 * (low + high)), np.where(np.isnan(ratio), np.nan, 1.0))
+
+
+def _ratio(slim: RealField) -> RealField:
+    """Ratio of the curvatures that make an ellipse of this slimness; falls from infinity to 1."""
+    square = 1 - slim**2
+    tail = _tail(slim)
+    return (square / 2 - tail) / (slim**2 * (square / 2 + tail))
+
+
+def _elliptic(slim: RealField) -> tuple[RealField, RealField]:
+    """Complete elliptic integrals K and E of e^2 = 1 - slim^2."""
+    mean = _mean(slim)
+    first = 0.5 * math.pi / mean
+    return first, first * (1 - (1 - slim**2) / 2 - _tail(slim))
+
+
+def _mean(slim: RealField) -> RealField:
+    a: RealField = 1.0
+    b = slim
+    for _ in range(_MEANS):
+        a, b = 0.5 * (a + b), np.sqrt(a * b)
+    return a
+
+
+def _tail(slim: RealField) -> RealField:
+    """Sum of 2^(n-1) c_n^2 over n >= 1 of the arithmetic-geometric mean, each c without cancellation."""
+    a: RealField = 1.0
+    total: RealField = 0.0
+    b, c = slim, (1 - slim) / 2
+    for n in range(_MEANS):
+        a, b = 0.5 * (a + b), np.sqrt(a * b)
+        total = total + 2.0**n * c**2
+        c = c**2 / (2 * (a + b))
+    return total

@@ -1,0 +1,134 @@
+"""The spring that holds a follower to its cam: no lift-off up to a speed.
+
+The follower stays on the cam at the speed w if and only if, all round the turn,
+
+    m w^2 s'' + k s + P + load >= 0
+
+Every condition below is this one, solved for the speed, for the preload or for the rate, as an exact least upper bound
+over the pieces of the programme. Where the velocity itself jumps down no spring holds the follower.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.cams.contact import Held
+from ilmek.cams.pieces import Extremum, infimum, supremum
+from ilmek.cams.programme import Programme, jumps
+from ilmek.errors import ParameterError
+from ilmek.units import format_quantity
+
+_NOTHING = 1e-12
+"""Displacement over the lift below which the spring counts as not pressed together."""
+
+
+@dataclass(frozen=True, slots=True)
+class LiftOff:
+    """The speed [rad/s] at which the follower begins to lift off, inf where it never does, and the cam angle of it."""
+
+    speed: float
+    at: float
+
+
+def lift_off(programme: Programme, held: Held) -> LiftOff:
+    """Where and from which speed on the follower leaves the cam; the speed of `held` plays no part.
+
+        1 / w^2 = sup( -m s'' / (k s + P + load) )
+
+    0 where the velocity jumps down, or where nothing presses at a place that asks for it.
+    """
+    falls = _dropped(programme)
+    if falls is not None:
+        return LiftOff(0.0, falls)
+
+    def demand(angle: FloatArray) -> FloatArray:
+        at = programme.at(angle)
+        pull, push = -held.mass * at.dds, held.rate * at.s + held.preload + held.load
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(pull <= 0, 0.0, np.where(push > 0, pull / push, np.inf))
+
+    worst = supremum(demand, programme.knots)
+    if worst.value <= 0:
+        return LiftOff(math.inf, worst.at)
+    return LiftOff(0.0 if math.isinf(worst.value) else 1 / math.sqrt(worst.value), worst.at)
+
+
+def least_force(programme: Programme, held: Held) -> Extremum:
+    """Least force along the motion over the turn [N] at the speed, and where; below 0 the follower lifts off."""
+
+    def force(angle: FloatArray) -> FloatArray:
+        at = programme.at(angle)
+        return held.force(at.s, at.dds)
+
+    return infimum(force, programme.knots)
+
+
+def least_preload(programme: Programme, held: Held) -> float:
+    """Least preload [N] of a spring of the given rate that keeps the follower on the cam at the speed.
+
+    Raises ParameterError where the velocity jumps down.
+    """
+    _refuse_drop(programme)
+    return max(0.0, -least_force(programme, replace(held, preload=0.0)).value)
+
+
+def least_rate(programme: Programme, held: Held) -> float:
+    """Least rate [N/m] of a spring of the given preload that keeps the follower on the cam at the speed.
+
+    Raises ParameterError where the velocity jumps down, and where the preload alone must do it: at the lowest place.
+    """
+    _refuse_drop(programme)
+    lift = supremum(lambda angle: programme.at(angle).s, programme.knots).value
+
+    def demand(angle: FloatArray) -> FloatArray:
+        at = programme.at(angle)
+        lack = -replace(held, rate=0.0).force(at.s, at.dds)
+        low = at.s <= _NOTHING * lift
+        slack = _NOTHING * (held.mass * held.speed**2 * np.abs(at.dds) + held.preload + held.load)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(lack <= slack, 0.0, np.where(low, np.inf, lack / at.s))
+
+    needed = supremum(demand, programme.knots).value
+    if math.isinf(needed):
+        shown = format_quantity(held.preload, "N")
+        raise ParameterError(
+            f"preload={shown} lets the follower lift off where the spring is longest",
+            do="give a larger preload, or leave it out",
+        )
+    return needed
+
+
+def doubling_spring(programme: Programme, held: Held) -> Held:
+    """The weakest spring without lift-off at the speed among those whose force doubles over the lift: k = P / lift.
+
+        P = sup( -(m w^2 s'' + load) / (1 + s / lift) )
+
+    Such a spring is neither endlessly long nor slack. Raises ParameterError where the velocity jumps down.
+    """
+    _refuse_drop(programme)
+    lift = supremum(lambda angle: programme.at(angle).s, programme.knots).value
+    bare = replace(held, rate=0.0, preload=0.0)
+
+    def demand(angle: FloatArray) -> FloatArray:
+        at = programme.at(angle)
+        return np.asarray(-bare.force(at.s, at.dds) / (1 + at.s / lift))
+
+    preload = max(0.0, supremum(demand, programme.knots).value)
+    return replace(held, preload=preload, rate=preload / lift)
+
+
+def _dropped(programme: Programme) -> float | None:
+    """The cam angle [rad] where the velocity jumps down; None where it does not."""
+    return next((jump.angle for jump in jumps(programme, 1) if jump.after < jump.before), None)
+
+
+def _refuse_drop(programme: Programme) -> None:
+    at = _dropped(programme)
+    if at is not None:
+        where = format_quantity(at, "deg")
+        raise ParameterError(
+            f"the velocity jumps down at {where}: no spring keeps the follower on the cam",
+            do="take a law that starts and ends at rest, or a grooved cam",
+        )
