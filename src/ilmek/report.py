@@ -260,25 +260,39 @@ class Hole:
 
 
 @dataclass(frozen=True, slots=True)
+class Contour:
+    """A closed line of straight pieces and exact arcs [m]; `ilmek.plane.contours` reckons with it.
+
+    points  corners and joints, counter-clockwise, the first not said again at the end
+    bulges  of the piece from each point to the next: tan(sweep/4), above 0 where it turns left, 0 where it is straight
+    """
+
+    points: ComplexArray
+    bulges: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
 class Plate:
     """A flat part for the workshop, in its own frame [m].
 
-    outline   points of the closed contour, counter-clockwise, the first not said again at the end
+    outline   the closed contour: exact, as a `Contour`; or points of it, counter-clockwise, the first not said again at
+              the end, close enough that arcs can be laid through them (a curve: 720 a turn or more; corners and both
+              ends of straight edges among them)
     holes     round holes             cutouts  closed contours inside the outline: a bore with its keyway, a groove
-    paths     curves that guide a tool or an eye, not cut through, by name: `cutter path`, `pitch curve`
-    marks     short lines to scribe, by name: `zero` at the angle 0
-    area      of the face without holes and cutouts [m^2], reckoned apart from the points; None: not known
+    paths     closed curves that guide a tool or an eye, not cut through, by name: `cutter path`, `pitch curve`
+    marks     lines to scribe, by name: `zero` at the angle 0
+    area      inside the outline [m^2], holes and cutouts not taken off, reckoned apart from the points; None: not known
     number    pieces to be made
     """
 
     name: str
     title: str
-    outline: ComplexArray
+    outline: ComplexArray | Contour
     thickness: float
     material: str
     holes: tuple[Hole, ...] = ()
-    cutouts: tuple[ComplexArray, ...] = ()
-    paths: Mapping[str, ComplexArray] = field(default_factory=dict)
+    cutouts: tuple[ComplexArray | Contour, ...] = ()
+    paths: Mapping[str, ComplexArray | Contour] = field(default_factory=dict)
     marks: Mapping[str, ComplexArray] = field(default_factory=dict)
     area: float | None = None
     number: int = 1

@@ -1,0 +1,168 @@
+"""Closed contours of straight pieces and arcs: area, length, points on them, and the usual ones of plates.
+
+The piece from p to q with the bulge b = tan(sweep/4) is the arc of radius |q - p| (1 + b^2)/(4 |b|), left of the chord
+where b < 0 and right of it where b > 0; b = 1 is a half turn to the left.
+"""
+
+import math
+
+import numpy as np
+from jaxtyping import Complex, Float
+
+from ilmek.arrays import FloatArray
+from ilmek.errors import ParameterError
+from ilmek.plane.curves import hull
+from ilmek.plane.vectors import cross
+from ilmek.report import Contour
+from ilmek.units import format_quantity
+
+STRAIGHT = 1e-8
+"""Bulge below which a piece is straight: its centre is too far away for the digits of a number."""
+
+_NEARLY_STRAIGHT = 1e-2
+"""Bulge below which the sliver of an arc is reckoned by its series."""
+
+
+def circle(at: complex, radius: float) -> Contour:
+    """A circle about `at` [m], of two half turns.
+
+    >>> round(area(circle(1j, 0.5)) / math.pi, 12)
+    0.25
+    """
+    return Contour(np.array([at + radius, at - radius]), np.ones(2))
+
+
+def polygon(corners: Complex[np.ndarray, " corners"]) -> Contour:
+    """Straight pieces from corner to corner [m]."""
+    return Contour(np.asarray(corners, dtype=complex), np.zeros(len(corners)))
+
+
+def rounded_hull(corners: Complex[np.ndarray, " corners"], radius: float) -> Contour:
+    """All points within `radius` of the convex hull of the corners [m]: two corners make a bar with round ends.
+
+    Raises ParameterError for a radius that is not above 0.
+    >>> bar = rounded_hull(np.array([0, 0.2 + 0j]), 0.02)
+    >>> round(area(bar), 12) == round(0.2 * 0.04 + math.pi * 0.02**2, 12)
+    True
+    """
+    if not radius > 0:
+        raise ParameterError(f"an edge of radius {format_quantity(radius, 'mm')}", allowed="above 0 mm")
+    around = hull(corners)
+    if len(around) == 1:
+        return circle(complex(around[0]), radius)
+    edges = np.roll(around, -1) - around
+    outward = -1j * edges / np.abs(edges)
+    before = np.roll(outward, 1)
+    points = np.stack([around + radius * before, around + radius * outward], axis=1).ravel()
+    turns = np.angle(outward / before) % (2 * math.pi)
+    bulges = np.stack([np.tan(turns / 4), np.zeros(len(around))], axis=1).ravel()
+    return Contour(points, bulges)
+
+
+def keyed_bore(radius: float, width: float, depth: float) -> Contour:
+    """A bore about the origin with a keyway that opens towards +x [m], `depth` beyond the bore's circle.
+
+    Raises ParameterError for a keyway as wide as the bore.
+    >>> bore = keyed_bore(0.010, 0.006, 0.0028)
+    >>> float(bore.points.real.max().round(6)), len(bore.points)
+    (0.0128, 4)
+    """
+    if not 0 < width < 2 * radius:
+        said, allowed = (format_quantity(value, "mm") for value in (width, 2 * radius))
+        raise ParameterError(f"a keyway {said} wide", allowed=f"above 0 mm, less than the bore of {allowed}")
+    half = width / 2
+    at = math.sqrt(radius**2 - half**2)
+    points = np.array([at + 1j * half, at - 1j * half, radius + depth - 1j * half, radius + depth + 1j * half])
+    sweep = 2 * (math.pi - math.asin(half / radius))
+    return Contour(points, np.array([math.tan(sweep / 4), 0.0, 0.0, 0.0]))
+
+
+def area(contour: Contour) -> float:
+    """Area inside [m^2], negative where the contour runs clockwise.
+
+    The corners' polygon, and for each arc the sliver between arc and chord: R^2 (sweep - sin sweep)/2.
+    """
+    points, following = contour.points, np.roll(contour.points, -1)
+    corners = points - points[0]
+    flat = 0.5 * float(np.sum(cross(corners, np.roll(corners, -1))))
+    return flat + float(np.sum(_slivers(np.abs(following - points), contour.bulges)))
+
+
+def _slivers(chord: Float[np.ndarray, " pieces"], bulge: Float[np.ndarray, " pieces"]) -> Float[np.ndarray, " pieces"]:
+    """Areas between arcs and chords [m^2]; c^2 (b/3 + b^3/15 - b^5/105) where b is small, which loses no digits."""
+    small = np.abs(bulge) < _NEARLY_STRAIGHT
+    b = np.where(small, 1.0, bulge)
+    radius, sweep = chord * (1 + b**2) / (4 * b), 4 * np.arctan(b)
+    series = chord**2 * (bulge / 3 + bulge**3 / 15 - bulge**5 / 105)
+    return np.asarray(np.where(small, series, 0.5 * radius**2 * (sweep - np.sin(sweep))))
+
+
+def length(contour: Contour) -> float:
+    """Length of the line [m]: chord (1 + b^2) atan(b)/b for each piece."""
+    chord = np.abs(np.roll(contour.points, -1) - contour.points)
+    b = np.where(contour.bulges == 0, 1.0, contour.bulges)
+    longer = np.where(contour.bulges == 0, 1.0, (1 + b**2) * np.arctan(b) / b)
+    return float(np.sum(chord * longer))
+
+
+def along(contour: Contour, chord_error: float) -> Complex[np.ndarray, " points"]:
+    """Points on the contour [m], each of its own among them, whose polyline leaves it by no more than `chord_error`.
+
+    A piece of n chords over the sweep leaves its arc by R (1 - cos(sweep/2n)).
+    """
+    parts = []
+    following = np.roll(contour.points, -1)
+    for start, end, bulge in zip(contour.points, following, contour.bulges, strict=True):
+        pieces = _chords(float(abs(end - start)), abs(float(bulge)), chord_error)
+        parts.append(on_piece(complex(start), complex(end), float(bulge), np.arange(pieces) / pieces))
+    return np.concatenate(parts)
+
+
+def _chords(chord: float, bulge: float, chord_error: float) -> int:
+    """How many chords an arc needs; one where its whole sagitta, b c/2, is within the error."""
+    if bulge * chord / 2 <= chord_error:
+        return 1
+    radius = chord * (1 + bulge**2) / (4 * bulge)
+    return math.ceil(2 * math.atan(bulge) / math.acos(max(0.0, 1 - chord_error / radius)))
+
+
+def on_piece(start: complex, end: complex, bulge: float, share: FloatArray) -> Complex[np.ndarray, " points"]:
+    """Points [m] at shares 0 to 1 of an arc's or a straight piece's length.
+
+        p + (q - p) e^{-i (1 - u) a} sin(u a)/sin(a),   a = sweep/2 = 2 atan b
+
+    >>> on_piece(0j, 2 + 0j, 1.0, np.array([0.5])).round(12).tolist()
+    [(1-1j)]
+    """
+    half = 2 * math.atan(bulge)
+    if abs(bulge) < STRAIGHT:
+        return np.asarray(start + share * (end - start))
+    return np.asarray(start + (end - start) * np.exp(-1j * half * (1 - share)) * np.sin(half * share) / math.sin(half))
+
+
+def arc_centre(start: complex, end: complex, bulge: float) -> complex:
+    """Centre [m] of an arc: on the perpendicular of its chord, (1 - b^2)/(4 b) chords to the left.
+
+    >>> arc_centre(0j, 2 + 0j, 1.0)
+    (1+0j)
+    """
+    return (start + end) / 2 + 1j * (end - start) * (1 - bulge**2) / (4 * bulge)
+
+
+def bounds(contour: Contour) -> tuple[complex, complex]:
+    """Lower left and upper right corner [m] of the box that the contour fills, arcs' summits included.
+
+    >>> bounds(circle(1 + 0j, 1.0))
+    (-1j, (2+1j))
+    """
+    reached = [contour.points]
+    following = np.roll(contour.points, -1)
+    for start, end, bulge in zip(contour.points, following, contour.bulges, strict=True):
+        if abs(bulge) >= STRAIGHT and start != end:
+            centre = arc_centre(complex(start), complex(end), float(bulge))
+            summits = centre + abs(start - centre) * np.array([1, 1j, -1, -1j])
+            sweep = 4 * math.atan(bulge)
+            turned = np.angle((summits - centre) / (start - centre)) * math.copysign(1.0, bulge) % (2 * math.pi)
+            reached.append(summits[turned <= abs(sweep)])
+    points = np.concatenate(reached)
+    return complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max())
