@@ -5,10 +5,12 @@ limits are parameters, since the thesis prints none.
 """
 
 from ilmek.machines.machine import Machine
-from ilmek.machines.weaver.design import Weaver, WeaverParams, design
+from ilmek.machines.weaver.design import Weaver, design
+from ilmek.machines.weaver.moves import step_time, travel_time
+from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.report import report, timing
 
-__all__ = ["MACHINE", "Weaver", "WeaverParams", "design", "report", "timing"]
+__all__ = ["MACHINE", "Weaver", "WeaverParams", "design", "report", "step_time", "timing", "travel_time"]
 
 MACHINE = Machine(
     "weaver", "knotting head: five cams on one shaft, one knot a turn (thesis, 2.2.3)", WeaverParams, design, report

@@ -1,0 +1,64 @@
+"""Moves of the head beside its cams, each jerk-limited from rest to rest: the carriage's along the row, the tubes'."""
+
+import math
+
+from ilmek.machines.weaver.params import WeaverParams
+from ilmek.timing.s_curve import AxisLimits, move_time
+
+
+def carriage(params: WeaverParams) -> AxisLimits:
+    """What the carriage keeps."""
+    return AxisLimits(params.carriage_speed, params.carriage_acceleration, params.carriage_jerk)
+
+
+def selector(params: WeaverParams) -> AxisLimits:
+    """What the colour selector keeps."""
+    return AxisLimits(params.selector_speed, params.selector_acceleration, params.selector_jerk)
+
+
+def step_time(params: WeaverParams) -> float:
+    """Time of the carriage's step to the next knot [s]."""
+    return move_time(params.knot_pitch, carriage(params))
+
+
+def travel_time(params: WeaverParams, window: float) -> float:
+    """Time t of each further pitch of a longer move [s], such that no move of d pitches p takes longer than reckoned:
+
+        move_time(d p) <= W + (d - 1) t   for every d,   W = max(window, move_time(p))
+
+    With a window [s] for start and stop, t is p / v; in a shorter one they take a part of it. move_time is concave in
+    the distance, so that what d pitches ask, (move_time(d p) - W)/(d - 1), rises to one summit and then falls, and
+    bisection finds it; from the distance on at which the speed is reached it only tends to p / v.
+    """
+    limits, pitch = carriage(params), params.knot_pitch
+    room = max(window, step_time(params))
+
+    def asked(pitches: int) -> float:
+        return (move_time(pitches * pitch, limits) - room) / (pitches - 1)
+
+    low, high = 2, 2 + math.ceil(_reach(limits) / pitch)
+    while low < high:
+        middle = (low + high) // 2
+        low, high = (middle + 1, high) if asked(middle + 1) > asked(middle) else (low, middle)
+    return max(pitch / limits.speed, asked(low))
+
+
+def _reach(limits: AxisLimits) -> float:
+    """A distance from which on a move reaches its speed [m]."""
+    ramp, hold = math.sqrt(limits.speed / limits.jerk), limits.speed / limits.acceleration
+    return limits.speed * max(2 * ramp, hold + limits.acceleration / limits.jerk)
+
+
+def colour_change_time(params: WeaverParams) -> float:
+    """Mean time to bring another tube in line [s]; none for a single tube.
+
+    Of the n (n - 1) / 2 pairs of tubes in a line, n - d are d pitches apart.
+    """
+    n, limits = params.tubes, selector(params)
+    total = sum((n - d) * move_time(d * params.tube_pitch, limits) for d in range(1, n))
+    return total / max(n * (n - 1) / 2, 1)
+
+
+def colour_change_longest(params: WeaverParams) -> float:
+    """Time to bring the last tube in line after the first [s]; none for a single tube."""
+    return move_time((params.tubes - 1) * params.tube_pitch, selector(params))
