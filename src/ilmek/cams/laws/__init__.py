@@ -1,10 +1,104 @@
 """Motion laws by name; a new one is a file here and a line below."""
 
-from ilmek.cams.laws import cycloidal, harmonic, modified_sine, parabolic, polynomial_345
-from ilmek.cams.laws.law import REST, Law
+import difflib
+import math
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from types import MappingProxyType
+from typing import Any
 
-__all__ = ["LAWS", "REST", "Law"]
+from ilmek.cams.laws import (
+    cubic,
+    cycloidal,
+    harmonic,
+    modified_sine,
+    modified_trapezoid,
+    modified_uniform,
+    parabolic,
+    polynomial,
+    polynomial_345,
+    polynomial_4567,
+    scca,
+    spline,
+    uniform,
+)
+from ilmek.cams.laws.law import NONE, REST, Family, Law, Parameters, fixed
+from ilmek.errors import ParameterError
 
-LAWS: dict[str, Law] = {
-    file.LAW.name: file.LAW for file in (harmonic, parabolic, cycloidal, polynomial_345, modified_sine)
-}
+__all__ = ["FAMILIES", "LAWS", "REST", "SMOOTH_LAWS", "Law", "Parameters", "law_of"]
+
+FAMILIES: Mapping[str, Family] = MappingProxyType(
+    {
+        "uniform": fixed(uniform.LAW),
+        "modified-uniform": modified_uniform.FAMILY,
+        "parabolic": fixed(parabolic.LAW),
+        "cubic": fixed(cubic.LAW),
+        "harmonic": fixed(harmonic.LAW),
+        "cycloidal": fixed(cycloidal.LAW),
+        "3-4-5": fixed(polynomial_345.LAW),
+        "4-5-6-7": fixed(polynomial_4567.LAW),
+        "modified-sine": modified_sine.FAMILY,
+        "modified-trapezoid": fixed(modified_trapezoid.LAW),
+        "scca": scca.FAMILY,
+        "spline": spline.FAMILY,
+        "polynomial": polynomial.FAMILY,
+    }
+)
+"""How each law is made, and what parameters it takes."""
+
+
+def law_of(name: str, parameters: Mapping[str, Any] = NONE) -> Law:
+    """The law of a name with its parameters; those not given are the family's defaults.
+
+    Numbers may be of any kind, rows any sequence. The same name and values give the same object.
+    Raises ParameterError for a name or parameter that does not exist (the nearest is offered), a value that is no
+    number (no row of numbers), and values that the law cannot take.
+
+    >>> law_of("modified-sine", {"constant_velocity": 0.5}).parameters
+    {'constant_velocity': 0.5}
+    """
+    if name not in FAMILIES:
+        raise ParameterError(f"there is no law {name!r}", allowed=", ".join(FAMILIES), do=_perhaps(name, FAMILIES))
+    defaults = FAMILIES[name].defaults
+    for given in parameters:
+        if given not in defaults:
+            allowed = ", ".join(defaults) or "it takes none"
+            raise ParameterError(f"law {name} has no {given!r}", allowed=allowed, do=_perhaps(given, defaults))
+    values = {key: _value(name, key, parameters.get(key, default), default) for key, default in defaults.items()}
+    return _made(name, tuple(values.items()))
+
+
+@lru_cache(maxsize=512)
+def _made(name: str, values: tuple[tuple[str, float | tuple[float, ...]], ...]) -> Law:
+    return FAMILIES[name].make(**dict(values))
+
+
+def _value(law: str, key: str, given: object, like: object) -> float | tuple[float, ...]:
+    """The given value as a number, or as a row of numbers, as the default is."""
+    if isinstance(like, tuple) and isinstance(given, Sequence) and not isinstance(given, str):
+        return tuple(_number(law, key, item) for item in given)
+    if isinstance(like, tuple):
+        raise ParameterError(f"law {law}: {key}={given!r}", allowed="a row of numbers")
+    number = _number(law, key, given)
+    if not math.isfinite(number):
+        raise ParameterError(f"law {law}: {key}={given!r}", allowed="a finite number")
+    return number
+
+
+def _number(law: str, key: str, given: object) -> float:
+    try:
+        return float(given)  # type: ignore[arg-type]
+    except (TypeError, ValueError) as error:
+        raise ParameterError(f"law {law}: {key}={given!r}", allowed="a number") from error
+
+
+def _perhaps(name: str, known: Mapping[str, object]) -> str:
+    near = difflib.get_close_matches(name, known, n=1)
+    return f"perhaps {near[0]!r}?" if near else ""
+
+
+LAWS: Mapping[str, Law] = MappingProxyType({name: law_of(name) for name in FAMILIES})
+"""Each law with its default parameters."""
+
+SMOOTH_LAWS: tuple[str, ...] = tuple(name for name, law in LAWS.items() if math.isfinite(law.acceleration_peak))
+"""Names of the laws that a follower with a mass can do: their acceleration is finite."""

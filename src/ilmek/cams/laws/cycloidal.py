@@ -41,4 +41,4 @@ def j(u: RealField) -> RealField:
     return _TURN**2 * np.cos(_TURN * u)
 
 
-LAW = Law("cycloidal", s, v, a, j, 2.0, _TURN, _TURN**2)
+LAW = Law("cycloidal", s, v, a, j, 2.0, _TURN, _TURN**2, 1.5 * math.sqrt(3) * math.pi, _TURN / math.sqrt(2))

@@ -38,4 +38,6 @@ def j(u: RealField) -> RealField:
     return -0.5 * math.pi**3 * np.sin(math.pi * u)
 
 
-LAW = Law("harmonic", s, v, a, j, math.pi / 2, math.pi**2 / 2, math.inf)
+_LARGEST = math.pi**2 / 2
+
+LAW = Law("harmonic", s, v, a, j, math.pi / 2, _LARGEST, math.inf, math.pi**3 / 8, _LARGEST / math.sqrt(2))

@@ -5,9 +5,10 @@
 L lift, beta cam angle of the rise, w cam speed. A fall is a rise of -L.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TypeAlias
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -16,15 +17,26 @@ from ilmek.arrays import RealField
 Curve: TypeAlias = Callable[[RealField], RealField]
 
 
+Parameters: TypeAlias = Mapping[str, float | tuple[float, ...]]
+"""What a law is made with, by name: numbers and rows of numbers."""
+
+NONE: Parameters = MappingProxyType({})
+"""Of a law without parameters."""
+
+
 @dataclass(frozen=True, slots=True)
 class Law:
-    """A motion law from rest to rest on u in [0, 1].
+    """A motion law on u in [0, 1]: from rest at 0 to rest at 1, unless its file says otherwise.
 
-    s, v, a, j          displacement and its first three derivatives by u
+    s, v, a, j          displacement and its first three derivatives by u, arrays of any shape
     velocity_peak       largest |v|
-    acceleration_peak   largest |a|
+    acceleration_peak   largest |a|; inf where the velocity jumps against a dwell
     jerk_peak           largest |j|; inf where the acceleration jumps, at the ends (against a dwell) or inside
+    torque_peak         largest |v a|: the inertia's part of the cam torque
+    acceleration_rms    root of the mean square of a: heating of a motor that moves an inertia
     breaks              u inside the rise where a or j is not smooth; a and j are one-sided there
+    parameters          what the law was made with; `law_of(name, parameters)` makes it again
+    lowest, highest     bounds of s: a law that overshoots leaves [0, 1]
     """
 
     name: str
@@ -35,12 +47,29 @@ class Law:
     velocity_peak: float
     acceleration_peak: float
     jerk_peak: float
+    torque_peak: float
+    acceleration_rms: float
     breaks: tuple[float, ...] = ()
+    parameters: Parameters = field(default_factory=dict, hash=False)
+    lowest: float = 0.0
+    highest: float = 1.0
+
+
+class Family(NamedTuple):
+    """A law that takes parameters: how it is made, and what it is made with where nothing is said."""
+
+    make: Callable[..., Law]
+    defaults: Parameters = NONE
+
+
+def fixed(law: Law) -> Family:
+    """A law without parameters, as a family of one."""
+    return Family(lambda: law)
 
 
 def _still(u: RealField) -> RealField:
     return 0.0 * np.asarray(u)
 
 
-REST = Law("rest", _still, _still, _still, _still, 0.0, 0.0, 0.0)
+REST = Law("rest", _still, _still, _still, _still, 0.0, 0.0, 0.0, 0.0, 0.0)
 """No motion at all: the law of a dwell."""

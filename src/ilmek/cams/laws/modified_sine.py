@@ -1,68 +1,28 @@
 """Modified sine: a quick quarter sine wave up to u = 1/8, a slow half wave to 7/8, a quick quarter to the end.
 
-    a = Ca sin 4 pi u               u <= 1/8 and u >= 7/8
-    a = Ca sin((4 pi u + pi) / 3)   between,   Ca = 4 pi^2 / (pi + 4)      [Norton, Cam Design and Manufacturing, 3]
+    (b, c, d) = (1/4, 0, 3/4) of the SCCA family,   Ca = 4 pi^2 / (pi + 4)  [Norton, Cam Design and Manufacturing, 3]
 
-12 % less acceleration and 33 % less torque than the cycloidal law, at the price of more jerk. About the middle, with
-d = u - 1/2 held within +-3/8 (the core w) and the rest e = d - w, the three parts are one formula:
-a = -Ca sin(4 pi w / 3) cos(4 pi e), for outside the core the first factor is +-1, inside it the second is 1.
+12 % less acceleration and 33 % less torque than the cycloidal law, at the price of more jerk. With a share k of the
+time at constant velocity in the middle the ramps keep their split of 1 to 3: (b, c, d) = (1 - k) (1/4, 0, 3/4).
 """
 
-import math
-
-import numpy as np
-
-from ilmek.arrays import RealField
-from ilmek.cams.laws.law import Law
-
-_SUM = math.pi + 4.0
-_FAST = 4.0 * math.pi
-_SLOW = _FAST / 3.0
+from ilmek.cams.laws.law import Family, Law
+from ilmek.cams.laws.scca import family
+from ilmek.errors import ParameterError
 
 
-def _core(u: RealField) -> tuple[RealField, RealField]:
-    """The part of u - 1/2 within +-3/8, and the rest."""
-    d = u - 0.5
-    w = np.minimum(np.maximum(d, -0.375), 0.375)
-    return w, d - w
+def law(constant_velocity: float) -> Law:
+    """The law with a share of the time at constant velocity; 0 is the modified sine as such.
 
+    Raises ParameterError unless it is at least 0 and below 1.
 
-def s(u: RealField) -> RealField:
-    """Displacement over u in [0, 1], from 0 to 1.
-
-    >>> float(s(0.5))
-    0.5
+    >>> round(law(0.2).velocity_peak, 5)
+    1.52754
     """
-    w, e = _core(u)
-    return 0.5 + (math.pi * (u - 0.5) + np.sin(_SLOW * w) * (2.0 + 0.25 * np.cos(_FAST * e))) / _SUM
+    if not 0 <= constant_velocity < 1:
+        raise ParameterError(f"modified-sine with constant_velocity={constant_velocity:g}", allowed="0 to below 1")
+    ramps = 1.0 - constant_velocity
+    return family("modified-sine", 0.25 * ramps, 0.0, 0.75 * ramps, {"constant_velocity": constant_velocity})
 
 
-def v(u: RealField) -> RealField:
-    """Velocity ds/du."""
-    w, e = _core(u)
-    return math.pi / _SUM * (1.0 + 3.0 * np.cos(_SLOW * w) - np.sin(_FAST * np.abs(e)))
-
-
-def a(u: RealField) -> RealField:
-    """Acceleration d2s/du2."""
-    w, e = _core(u)
-    return -4.0 * math.pi**2 / _SUM * np.sin(_SLOW * w) * np.cos(_FAST * e)
-
-
-def j(u: RealField) -> RealField:
-    """Jerk d3s/du3."""
-    w, e = _core(u)
-    return 16.0 * math.pi**3 / _SUM * (np.sin(_SLOW * w) * np.sin(_FAST * e) - np.cos(_SLOW * w) / 3.0)
-
-
-LAW = Law(
-    "modified-sine",
-    s,
-    v,
-    a,
-    j,
-    velocity_peak=4 * math.pi / _SUM,
-    acceleration_peak=4 * math.pi**2 / _SUM,
-    jerk_peak=16 * math.pi**3 / _SUM,
-    breaks=(1 / 8, 7 / 8),
-)
+FAMILY = Family(law, {"constant_velocity": 0.0})

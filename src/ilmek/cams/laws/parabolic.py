@@ -39,4 +39,4 @@ def j(u: RealField) -> RealField:
     return 0.0 * np.asarray(u)
 
 
-LAW = Law("parabolic", s, v, a, j, 2.0, 4.0, math.inf, breaks=(0.5,))
+LAW = Law("parabolic", s, v, a, j, 2.0, 4.0, math.inf, 8.0, 4.0, breaks=(0.5,))

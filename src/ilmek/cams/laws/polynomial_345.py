@@ -36,4 +36,6 @@ def j(u: RealField) -> RealField:
     return 60.0 * (1.0 - 6.0 * u * (1.0 - u))
 
 
-LAW = Law("3-4-5", s, v, a, j, 15 / 8, 10 / math.sqrt(3), 60.0)
+_TORQUE = 1800 / 64 * (6 / 7) ** 3 / math.sqrt(7)
+
+LAW = Law("3-4-5", s, v, a, j, 15 / 8, 10 / math.sqrt(3), 60.0, _TORQUE, math.sqrt(120 / 7))

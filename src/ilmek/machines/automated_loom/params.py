@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ilmek.cams.laws import LAWS
+from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.carpet.knots import WRAPS
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST
@@ -41,7 +41,7 @@ class AutomatedLoomParams(Params):
     colours: int = param(16, at_least=1, at_most=255, doc="yarns, a tube for each in every head")
     knot_cycle: float = param(2.0, unit="s", at_least=1e-3, at_most=3600.0, doc="time of a knot that is asked for")
     knot_yarn: float = param(45 * mm, unit="mm", above=0.0, at_most=0.3, doc="pile yarn drawn for a knot")
-    knot_law: str = param("modified-sine", choices=tuple(LAWS), doc="law of the heads' cams")
+    knot_law: str = param("modified-sine", choices=SMOOTH_LAWS, doc="law of the heads' cams")
     head_acceleration: float = param(
         20.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="allowed acceleration of a head's tools"
     )

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ilmek.cams.laws import LAWS
+from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.cams.programme import TURN
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
@@ -27,7 +27,7 @@ class SheddingParams(Params):
         None, unit="deg", at_least=1 * deg, below=TURN, doc="cam angle of the return; none: as the rise"
     )
     dwell: float = param(0.0, unit="deg", at_least=0.0, below=TURN, doc="cam angle for which the warp stays lifted")
-    law: str = param("harmonic", choices=tuple(LAWS), doc="motion law of rise and return")
+    law: str = param("harmonic", choices=SMOOTH_LAWS, doc="motion law of rise and return")
     pressure_angle_limit: float = param(
         30 * deg, unit="deg", at_least=1 * deg, below=90 * deg, doc="largest pressure angle", symbol="mu"
     )

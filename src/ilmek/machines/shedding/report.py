@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.laws import LAWS
+from ilmek.cams.laws import LAWS, SMOOTH_LAWS
 from ilmek.cams.limits import (
     PlateCam,
     area,
@@ -216,7 +216,7 @@ def _law_table(design: SheddingDesign) -> Table:
         Column("acceleration", "mm/s^2"),
         Column("acceleration jumps"),
     )
-    rows = tuple(_law_row(design, name) for name in LAWS)
+    rows = tuple(_law_row(design, name) for name in SMOOTH_LAWS)
     return Table("shedding-laws", "Motion laws compared at equal lift, angles and pressure angle", columns, rows)
 
 

@@ -1,0 +1,110 @@
+"""Polynomials, one or several joined at knots, and their exact peaks.
+
+Each piece is a polynomial of t = (u - begin)/length. Extremes are taken at the roots of the derivative, so that a law
+which overshoots has its true bounds and not those of a grid.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.cams.laws.law import Law, Parameters
+
+_SAME = 1e-9
+"""Below this share of a derivative's size its step at a knot, or its value at an end, is rounding."""
+
+
+_EXACT = 1e-12
+"""Bounds so near to 0 or 1 are meant to be just that."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Piecewise:
+    """Polynomials between ascending knots from 0 to 1; `rows` holds a piece's coefficients, the constant first."""
+
+    knots: FloatArray
+    rows: FloatArray
+
+    def __call__(self, u: RealField) -> RealField:
+        """Values at u of any shape; at a knot, those of the piece that begins."""
+        if len(self.rows) == 1:
+            return _horner(self.rows[0], u)
+        u = np.asarray(u)
+        piece = np.searchsorted(self.knots[1:-1], u, side="right")
+        t = (u - self.knots[piece]) / (self.knots[piece + 1] - self.knots[piece])
+        return _horner(np.moveaxis(self.rows[piece], -1, 0), t)
+
+    def derivative(self) -> "Piecewise":
+        """The derivative by u."""
+        powers = np.arange(1, self.rows.shape[1])
+        if not powers.size:
+            return Piecewise(self.knots, 0.0 * self.rows)
+        return Piecewise(self.knots, self.rows[:, 1:] * powers / np.diff(self.knots)[:, None])
+
+    def times(self, other: "Piecewise") -> "Piecewise":
+        """The product with another over the same knots."""
+        pairs = zip(self.rows, other.rows, strict=True)
+        return Piecewise(self.knots, np.array([np.convolve(first, second) for first, second in pairs]))
+
+    def bounds(self) -> tuple[float, float]:
+        """Least and greatest value, from the ends of each piece and the roots of its derivative."""
+        values = np.concatenate([_extremes(row) for row in self.rows])
+        return float(values.min()), float(values.max())
+
+    def peak(self) -> float:
+        """Largest size."""
+        return max(abs(bound) for bound in self.bounds())
+
+    def integral(self) -> float:
+        """Integral over u from 0 to 1."""
+        powers = np.arange(1, self.rows.shape[1] + 1)
+        return float(np.sum(np.diff(self.knots) * np.sum(self.rows / powers, axis=1)))
+
+    def steps(self) -> FloatArray:
+        """Steps at the inner knots."""
+        return np.asarray(self.rows[1:, 0] - self.rows[:-1].sum(axis=1))
+
+
+def law_of_pieces(name: str, s: Piecewise, parameters: Parameters) -> Law:
+    """The law whose displacement is `s`, with exact peaks."""
+    v = s.derivative()
+    a = v.derivative()
+    j = a.derivative()
+    lowest, highest = (round(bound) if abs(bound - round(bound)) < _EXACT else bound for bound in s.bounds())
+    velocity, acceleration = v.peak(), a.peak()
+    torque, rms = v.times(a).peak(), float(np.sqrt(a.times(a).integral()))
+    ends = np.array([0.0, 1.0])
+    stays = np.all(np.abs(v(ends)) <= _SAME * velocity)
+    joins = np.all(np.abs(a(ends)) <= _SAME * acceleration) and np.all(np.abs(a.steps()) <= _SAME * acceleration)
+    return Law(
+        name,
+        s,
+        v,
+        a,
+        j,
+        velocity_peak=velocity,
+        acceleration_peak=acceleration if stays else float("inf"),
+        jerk_peak=j.peak() if stays and joins else float("inf"),
+        torque_peak=torque if stays else float("inf"),
+        acceleration_rms=rms if stays else float("inf"),
+        breaks=tuple(float(knot) for knot in s.knots[1:-1]),
+        parameters=parameters,
+        lowest=float(lowest),
+        highest=float(highest),
+    )
+
+
+def _horner(coefficients: FloatArray, t: RealField) -> RealField:
+    value: RealField = coefficients[-1] + 0.0 * np.asarray(t)
+    for coefficient in coefficients[-2::-1]:
+        value = value * t + coefficient
+    return value
+
+
+def _extremes(row: FloatArray) -> FloatArray:
+    """Values of a polynomial at 0, 1 and where its derivative is 0 between."""
+    slope = row[1:] * np.arange(1, row.size)
+    roots = np.roots(slope[::-1]) if slope.size else np.array([])
+    near = np.clip(roots.real[np.abs(roots.imag) < 1e-4], 0.0, 1.0)
+    return np.asarray(_horner(row, np.concatenate([[0.0, 1.0], near])))

@@ -1,0 +1,148 @@
+"""Free polynomial: as many terms as there are conditions, on s and its derivatives at both ends and anywhere between.
+
+    s(u) = sum c_k u^k,     s^(m)(u_i) = given                             [Norton, Cam Design and Manufacturing, 4]
+
+From (0, 0, 0) to (1, 0, 0) it is the 3-4-5 polynomial, with one derivative more at each end 4-5-6-7; with velocities
+at the ends it joins parts of constant speed; with a point between it goes through that point. Values that are not a
+number (nan) leave a derivative free.
+
+The system is solved over z = 2u - 1 in Chebyshev polynomials, whose columns stay apart where those of u^k grow alike.
+A derivative given between the ends, or left out below one that is given, can leave the system without an answer:
+that is found by its rank and said.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from ilmek.arrays import FloatArray
+from ilmek.cams.laws.law import Family, Law
+from ilmek.cams.laws.piecewise import Piecewise, law_of_pieces
+from ilmek.errors import ParameterError
+
+MOST = 16
+"""Conditions at most; beyond them the course between them swings more than any follower wants."""
+
+_SINGULAR = 1e-10
+_NAMES = ("s", "s'", "s''", "s'''")
+
+
+class Condition(NamedTuple):
+    """The derivative of an order (0 to 3) at u is a value."""
+
+    u: float
+    order: int
+    value: float
+
+
+def law(
+    start: Sequence[float],
+    end: Sequence[float],
+    u: Sequence[float] = (),
+    s: Sequence[float] = (),
+    orders: Sequence[float] = (),
+) -> Law:
+    """The polynomial that meets the conditions and has no term more.
+
+    start, end   s, s', s'', s''' at u = 0 and at u = 1, as many of them as are given; nan leaves one free
+    u, s         places between and the values there; `orders` says of which derivative (0 to 3), of s if empty
+    Raises ParameterError where conditions contradict each other, cannot be met or are too many.
+
+    >>> round(law((0, 0, 0), (1, 0, 0)).acceleration_peak, 6)
+    5.773503
+    """
+    conditions = (*_ends(start, end), *_between(u, s, orders))
+    parameters = {
+        "start": tuple(map(float, start)),
+        "end": tuple(map(float, end)),
+        "u": tuple(map(float, u)),
+        "s": tuple(map(float, s)),
+        "orders": tuple(map(float, orders)),
+    }
+    return law_of_pieces("polynomial", Piecewise(np.array([0.0, 1.0]), solved(conditions)[None, :]), parameters)
+
+
+FAMILY = Family(law, {"start": (0.0, 0.0, 0.0), "end": (1.0, 0.0, 0.0), "u": (), "s": (), "orders": ()})
+
+
+def solved(conditions: Sequence[Condition]) -> FloatArray:
+    """Coefficients by u, the constant first, of the polynomial that meets the conditions.
+
+    Raises ParameterError where there are none or too many, two say different things, or no polynomial meets them.
+    """
+    _check(conditions)
+    count = len(conditions)
+    basis = np.eye(count)
+    derivatives = [
+        chebyshev.chebder(basis, order, 2.0, axis=0) if order < count else basis[:1] * 0 for order in range(4)
+    ]
+    matrix = np.array([chebyshev.chebval(2.0 * at - 1.0, derivatives[order]) for at, order, _ in conditions])
+    size = np.abs(matrix).max(axis=1)
+    values = np.array([value for _, _, value in conditions])
+    if np.min(size) == 0 or np.linalg.cond(matrix / size[:, None]) > 1 / _SINGULAR:
+        raise _not_met(conditions)
+    by_z = chebyshev.cheb2poly(np.linalg.solve(matrix / size[:, None], values / size))
+    return _about_the_start(by_z)
+
+
+def _about_the_start(by_z: FloatArray) -> FloatArray:
+    """Coefficients by u of a polynomial given by z = 2u - 1."""
+    by_u = np.zeros(1)
+    for coefficient in by_z[::-1]:
+        by_u = np.convolve(by_u, [-1.0, 2.0])
+        by_u[0] += coefficient
+    return by_u[: by_z.size]
+
+
+def _ends(start: Sequence[float], end: Sequence[float]) -> tuple[Condition, ...]:
+    for name, row in (("start", start), ("end", end)):
+        if len(row) > len(_NAMES):
+            raise ParameterError(f"polynomial: {name} has {len(row)} values", allowed="at most s, s', s'', s'''")
+    rows = ((0.0, start), (1.0, end))
+    return tuple(
+        Condition(u, order, float(value)) for u, row in rows for order, value in enumerate(row) if not math.isnan(value)
+    )
+
+
+def _between(u: Sequence[float], s: Sequence[float], orders: Sequence[float]) -> tuple[Condition, ...]:
+    orders = orders or [0.0] * len(u)
+    if not len(u) == len(s) == len(orders):
+        raise ParameterError(
+            f"polynomial: {len(u)} places u, {len(s)} values s, {len(orders)} orders", allowed="one of each for a point"
+        )
+    for at, order in zip(u, orders, strict=True):
+        if not 0 <= at <= 1 or order not in {0, 1, 2, 3}:
+            raise ParameterError(f"polynomial: order {order:g} at u={at:g}", allowed="u from 0 to 1, orders 0 to 3")
+    return tuple(Condition(float(at), int(m), float(value)) for at, value, m in zip(u, s, orders, strict=True))
+
+
+def _check(conditions: Sequence[Condition]) -> None:
+    if not 0 < len(conditions) <= MOST:
+        raise ParameterError(f"polynomial: {len(conditions)} conditions", allowed=f"1 to {MOST}", do="use a spline")
+    seen: dict[tuple[float, int], float] = {}
+    for condition in conditions:
+        u, order, value = condition
+        if not math.isfinite(value):
+            raise ParameterError(f"polynomial: {_said(condition)}", allowed="a finite number")
+        other = seen.setdefault((u, order), value)
+        if other != value:
+            both = f"{_said(Condition(u, order, other))} and {_said(condition)}"
+            raise ParameterError(f"polynomial: {both} contradict each other", do="give one of them")
+    if len(seen) < len(conditions):
+        raise ParameterError("polynomial: a condition is given twice", do="give it once")
+
+
+def _not_met(conditions: Sequence[Condition]) -> ParameterError:
+    said = ", ".join(_said(condition) for condition in conditions)
+    return ParameterError(
+        f"polynomial: no polynomial of degree {len(conditions) - 1} meets {said}, or more than one does",
+        allowed="s itself somewhere, and below each derivative those of lower order",
+        do="move a point, or give the derivatives that are left out",
+    )
+
+
+def _said(condition: Condition) -> str:
+    return f"{_NAMES[condition.order]}({condition.u:g}) = {condition.value:g}"
