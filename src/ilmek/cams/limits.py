@@ -1,94 +1,89 @@
-"""A plate cam as a whole, and its limits: pressure angle, curvature, undercut, area, smallest prime circle."""
+"""Limits of a cam of any kind: pressure angle, curvature, undercut, area, smallest prime circle.
+
+All of them are searched or integrated piece by piece between the programme's knots, so that jumps of the acceleration
+are taken at both their sides.
+"""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from typing import Literal, TypeAlias
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams import profile
+from ilmek.arrays import BoolArray, FloatArray
 from ilmek.cams.pieces import Extremum, infimum, integral, supremum
+from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import Programme
+from ilmek.cams.trace import Cam
 from ilmek.errors import ParameterError
+from ilmek.plane.vectors import dot
 from ilmek.units import format_quantity
 
+__all__ = [
+    "Part",
+    "PlateCam",
+    "area",
+    "concave_radius_min",
+    "convex_radius_min",
+    "pressure_angle_max",
+    "smallest_prime_radius",
+    "undercut",
+]
 
-@dataclass(frozen=True, slots=True)
-class PlateCam:
-    """A plate cam with a translating roller or knife-edge follower; lengths in m, frame and signs as in `profile`.
+Part: TypeAlias = Literal["turn", "rise", "return"]
+"""The whole turn, or only where the follower goes out, or only where it comes back."""
 
-    Raises ParameterError where the follower's line misses the prime circle or the roller fills it.
+
+def pressure_angle_max(cam: Cam, part: Part = "turn") -> Extremum:
+    """Largest |pressure angle| [rad] over a part of the turn; 0 where the follower never moves so.
+
+    A cam that is closed by a spring pushes on the rise alone; a groove or a second plate pushes on the return too.
     """
 
-    programme: Programme
-    prime_radius: float
-    offset: float = 0.0
-    roller_radius: float = 0.0
+    def leaning(angle: FloatArray) -> FloatArray:
+        trace = cam.trace(angle)
+        return np.where(_within(part, trace.course.ds), np.abs(trace.pressure_angle), 0.0)
 
-    def __post_init__(self) -> None:
-        least = max(abs(self.offset), self.roller_radius)
-        if self.prime_radius <= least:
-            shown = format_quantity(self.prime_radius, "mm")
-            raise ParameterError(f"prime_radius={shown} is too small", allowed=f"above {format_quantity(least, 'mm')}")
-
-    def pitch(self, angle: FloatArray) -> ComplexArray:
-        """Pitch curve at cam angles [rad], in the cam's frame [m]."""
-        points = profile.pitch_point(angle, self.programme.at(angle).s, self.prime_radius, self.offset)
-        return np.asarray(points)
-
-    def surface(self, angle: FloatArray) -> ComplexArray:
-        """Cam surface at cam angles [rad], in the cam's frame [m]."""
-        at = self.programme.at(angle)
-        return np.asarray(
-            profile.profile_point(angle, at.s, at.ds, self.prime_radius, self.offset, roller_radius=self.roller_radius)
-        )
-
-    def pressure_angle(self, angle: FloatArray) -> FloatArray:
-        """Pressure angle [rad] at cam angles [rad]."""
-        at = self.programme.at(angle)
-        return np.asarray(profile.pressure_angle(at.s, at.ds, self.prime_radius, self.offset))
-
-    def curvature(self, angle: FloatArray) -> FloatArray:
-        """Curvature of the pitch curve [1/m] at cam angles [rad], positive where convex."""
-        at = self.programme.at(angle)
-        return np.asarray(profile.curvature(at.s, at.ds, at.dds, self.prime_radius, self.offset))
+    return supremum(leaning, cam.programme.knots)
 
 
-def pressure_angle_max(cam: PlateCam) -> Extremum:
-    """Largest |pressure angle| [rad] over the turn."""
-    return supremum(lambda angle: np.abs(cam.pressure_angle(angle)), cam.programme.knots)
+def convex_radius_min(cam: Cam) -> Extremum:
+    """Least radius of curvature [m] of the pitch curve where it is convex; a roller must be smaller.
 
-
-def convex_radius_min(cam: PlateCam) -> Extremum:
-    """Least radius of curvature [m] of the pitch curve where it is convex; a roller must be smaller."""
-    sharpest = supremum(cam.curvature, cam.programme.knots)
-    return Extremum(sharpest.at, 1 / sharpest.value)
-
-
-def concave_radius_min(cam: PlateCam) -> Extremum | None:
-    """Least radius of curvature [m] of the pitch curve where it is concave; None where it is convex all round."""
-    hollow = infimum(cam.curvature, cam.programme.knots)
-    return Extremum(hollow.at, -1 / hollow.value) if hollow.value < 0 else None
-
-
-def undercut(cam: PlateCam) -> bool:
-    """Whether the roller is too large for the pitch curve, so that no surface can guide it: rho <= roller radius."""
-    return convex_radius_min(cam).value <= cam.roller_radius
-
-
-def area(cam: PlateCam) -> float:
-    """Area [m^2] inside the cam's surface, without undercut.
-
-    The surface is parallel to the pitch curve: A = A_pitch - R (length of the pitch curve) + pi R^2 (Steiner).
+    A flat face's pitch curve is the surface; its radius is not above 0 where no surface can guide the face.
+    Infinite where the curve is nowhere convex.
     """
+    sharpest = supremum(_bend(cam), cam.programme.knots)
+    return Extremum(sharpest.at, cam.prime_radius / math.tan(sharpest.value) if sharpest.value > 0 else math.inf)
 
-    def pitch_area_and_strip(angle: FloatArray) -> FloatArray:
-        at = cam.programme.at(angle)
-        r = profile.reach(at.s, cam.prime_radius, cam.offset)
-        strip = cam.roller_radius * np.hypot(r, at.ds - cam.offset)
-        return np.asarray(0.5 * (r**2 + cam.offset**2) - strip)
 
-    return integral(pitch_area_and_strip, cam.programme.knots) + math.pi * cam.roller_radius**2
+def concave_radius_min(cam: Cam) -> Extremum | None:
+    """Least radius of curvature [m] of the pitch curve where it is concave; None where it is convex all round.
+
+    The outer flank of a groove needs it above the roller's radius.
+    """
+    hollow = infimum(_bend(cam), cam.programme.knots)
+    return Extremum(hollow.at, -cam.prime_radius / math.tan(hollow.value)) if hollow.value < 0 else None
+
+
+def undercut(cam: Cam, *, both_flanks: bool = False) -> bool:
+    """Whether no surface can guide the follower somewhere: convex rho <= roller radius, or a flat face on a hollow.
+
+    both_flanks  a groove's outer flank too: concave rho <= roller radius
+    """
+    hollow = concave_radius_min(cam) if both_flanks or cam.flat else None
+    hollowed = hollow is not None and (cam.flat or hollow.value <= cam.roller_radius)
+    return bool(hollowed or convex_radius_min(cam).value <= cam.roller_radius)
+
+
+def area(cam: Cam) -> float:
+    """Area [m^2] inside the cam's surface, without undercut: A = 1/2 integral of (K . n) flow_K  (Green)."""
+
+    def sector(angle: FloatArray) -> FloatArray:
+        trace = cam.trace(angle)
+        return np.asarray(0.5 * dot(trace.surface, trace.normal) * (trace.flow - trace.roller_radius * trace.turning))
+
+    return integral(sector, cam.programme.knots)
 
 
 def smallest_prime_radius(programme: Programme, pressure_angle_limit: float, offset: float = 0.0) -> Extremum:
@@ -110,3 +105,20 @@ def smallest_prime_radius(programme: Programme, pressure_angle_limit: float, off
 
     worst = supremum(demand, programme.knots)
     return Extremum(worst.at, math.hypot(max(worst.value, 0.0), offset))
+
+
+def _within(part: Part, ds: FloatArray) -> BoolArray:
+    """Where the follower moves as the part of the turn says."""
+    if part == "turn":
+        return np.full(ds.shape, fill_value=True)
+    return np.asarray(ds > 0 if part == "rise" else ds < 0)
+
+
+def _bend(cam: Cam) -> Callable[[FloatArray], FloatArray]:
+    """The curvature as an angle, arctan(Rp kappa), which passes pi/2 where a flat face would cut the cam in a cusp."""
+
+    def bend(angle: FloatArray) -> FloatArray:
+        trace = cam.trace(angle)
+        return np.asarray(np.arctan2(cam.prime_radius * trace.turning, trace.flow))
+
+    return bend

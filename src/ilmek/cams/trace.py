@@ -1,0 +1,159 @@
+"""What a follower traces on a cam: one record for every kind of cam and follower, all of it from one pass.
+
+In the cam's own frame the pitch curve P (the way of the roller's centre or the knife's edge; for a flat face the
+surface itself) is run through against the cam's turning, with the cam on the right of it:
+
+    dP/dtheta = -i n flow,    dn/dtheta = -i n turning,    kappa = turning / flow
+
+n is the unit normal that points out of the cam, to the follower. A curve at the signed distance d along the normals
+has the same normals and flow_d = flow + d turning; it stops being a curve that guides (it turns back in a cusp) where
+that is no longer above 0. Surface, cutter path and both flanks of a groove are such curves:
+
+    surface  d = -Rr      other flank of a groove  d = +Rr      centre of a cutter  d = Rc - Rr
+
+Positive curvature is convex.  [do Carmo, Differential Geometry of Curves and Surfaces, 1-5, parallel curves]
+"""
+
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, ComplexField, FloatArray
+from ilmek.cams.programme import Course, Programme
+from ilmek.plane.vectors import cross, unit
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """Pitch curve and all that hangs on it at cam angles [rad], arrays of one shape, in the cam's frame.
+
+    course          displacement of the follower and its derivatives by the cam angle
+    pitch           points of the pitch curve [m]
+    normal          its outward unit normals
+    pressure_angle  from the follower's way to the cam's push [rad]; positive where it pushes aside on a rise
+    flow, turning   speed of the pitch point along its curve [m/rad] and of the normal's direction [1]
+    roller_radius   distance of the surface inside the pitch curve [m]
+    """
+
+    angle: FloatArray
+    course: Course
+    pitch: ComplexArray
+    normal: ComplexArray
+    pressure_angle: FloatArray
+    flow: FloatArray
+    turning: FloatArray
+    roller_radius: float
+
+    @property
+    def curvature(self) -> FloatArray:
+        """Curvature of the pitch curve [1/m]."""
+        return np.asarray(self.turning / self.flow)
+
+    @property
+    def surface(self) -> ComplexArray:
+        """Points of the cam's surface [m], under the roller."""
+        return self.parallel(-self.roller_radius)
+
+    @property
+    def surface_curvature(self) -> FloatArray:
+        """Curvature of the cam's surface [1/m], infinite in a cusp."""
+        return self.curvature_at(-self.roller_radius)
+
+    def parallel(self, distance: float) -> ComplexArray:
+        """The curve at a signed distance [m] outside the pitch curve."""
+        return np.asarray(self.pitch + distance * self.normal)
+
+    def curvature_at(self, distance: float) -> FloatArray:
+        """Curvature [1/m] of the curve at a signed distance [m] outside the pitch curve: kappa / (1 + d kappa)."""
+        with np.errstate(divide="ignore"):
+            return np.asarray(self.turning / (self.flow + distance * self.turning))
+
+
+@runtime_checkable
+class Cam(Protocol):
+    """What the limits ask of a cam. `prime_radius` [m] sets its size; `flat` says that its follower is a flat face."""
+
+    @property
+    def programme(self) -> Programme:
+        """Motion of the follower over the turn."""
+
+    @property
+    def prime_radius(self) -> float:
+        """Least distance of the pitch curve from the axis; of the face, where the follower is flat."""
+
+    @property
+    def roller_radius(self) -> float:
+        """Roller's (or ball's) radius; 0 for a knife edge and for a flat face."""
+
+    @property
+    def flat(self) -> bool:
+        """Whether the follower's face is flat, so that only a convex cam touches it."""
+
+    def trace(self, angle: FloatArray) -> Trace:
+        """Everything at cam angles [rad]."""
+
+
+class Traced:
+    """The curves of a cam one by one, for whoever needs only one; each reckons the whole trace."""
+
+    __slots__ = ()
+
+    def trace(self, angle: FloatArray) -> Trace:
+        """Everything at cam angles [rad], in one pass."""
+        raise NotImplementedError
+
+    def pitch(self, angle: FloatArray) -> ComplexArray:
+        """Pitch curve at cam angles [rad], in the cam's frame [m]."""
+        return self.trace(angle).pitch
+
+    def surface(self, angle: FloatArray) -> ComplexArray:
+        """Cam surface at cam angles [rad], in the cam's frame [m]."""
+        return self.trace(angle).surface
+
+    def cutter_path(self, angle: FloatArray, radius: float) -> ComplexArray:
+        """Centre of a cutter of a radius [m] that cuts the surface at cam angles [rad], in the cam's frame [m]."""
+        trace = self.trace(angle)
+        return trace.parallel(radius - trace.roller_radius)
+
+    def pressure_angle(self, angle: FloatArray) -> FloatArray:
+        """Pressure angle [rad] at cam angles [rad]."""
+        return self.trace(angle).pressure_angle
+
+    def curvature(self, angle: FloatArray) -> FloatArray:
+        """Curvature of the pitch curve [1/m] at cam angles [rad], positive where convex."""
+        return self.trace(angle).curvature
+
+
+def trace_of_point(
+    angle: FloatArray,
+    course: Course,
+    motion: tuple[ComplexField, ComplexField, ComplexField],
+    way: ComplexField,
+    roller_radius: float,
+) -> Trace:
+    """Trace of a follower that is a point (a roller's centre, a knife's edge) on a cam that turns counter-clockwise.
+
+    motion  the point in the world, B, and its derivatives B', B'' by the cam angle [m]
+    way     unit direction in the world in which the point goes as the follower rises
+
+    Seen from the cam, P = B exp(-i theta), dP = (B' - i B) exp(-i theta), d2P = (B'' - 2i B' - B) exp(-i theta).
+    """
+    point, first, second = motion
+    along = first - 1j * point
+    bend = second - 2j * first - point
+    square = along.real**2 + along.imag**2
+    flow = np.sqrt(square)
+    push = 1j * along / flow
+    leaning = push * np.conj(way)
+    frame = unit(-angle)
+    return Trace(
+        angle=angle,
+        course=course,
+        pitch=np.asarray(point * frame),
+        normal=np.asarray(push * frame),
+        pressure_angle=np.arctan2(leaning.imag, leaning.real),
+        flow=flow,
+        turning=np.asarray(-cross(along, bend) / square),
+        roller_radius=roller_radius,
+    )
