@@ -1,0 +1,95 @@
+"""Plate cam with an oscillating roller, knife-edge or spherical follower: formulas of one cam angle, and the cam.
+
+The cam turns counter-clockwise by theta about 0; the arm of length l swings about the pivot c on the x axis. psi is
+the arm's angle from the line pivot - axis; it grows as the follower goes out. The roller's centre is
+
+    B = c - l e,   e = exp(-i side psi),   B' = i side psi' l e,   B'' = (i side psi'' + psi'^2) l e
+
+side +1 has the roller above the line, where the cam's turning drags the arm away from its pivot (trailing arm), -1
+below it, where it pushes the arm towards its pivot. |B|^2 = c^2 + l^2 - 2 c l cos psi; the follower's way is
+i side e. Over an eccentric circle the follower is a four-bar's rocker: ground c, crank the eccentricity, coupler the
+circle's radius and the roller's, rocker l; its pressure angle is the deviation of the transmission angle from 90 deg.
+[Norton, Cam Design and Manufacturing, 7]
+"""
+
+import math
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, FloatArray, RealField
+from ilmek.cams.programme import Programme
+from ilmek.cams.trace import Trace, Traced, trace_of_point
+from ilmek.errors import ParameterError
+from ilmek.plane.vectors import unit
+from ilmek.units import format_quantity
+
+
+def roller_motion(
+    psi: RealField, dpsi: RealField, ddpsi: RealField, *, pivot: float, arm: float, side: int = 1
+) -> tuple[ComplexField, ComplexField, ComplexField]:
+    """Roller's centre B in the world and its derivatives B', B'' by the cam angle [m], of the arm's angle [rad]."""
+    along = arm * unit(-side * psi)
+    return pivot - along, 1j * side * dpsi * along, (1j * side * ddpsi + np.square(dpsi)) * along
+
+
+def arm_angle(reach: RealField, pivot: float, arm: float) -> RealField:
+    """The arm's angle psi [rad] at which the roller's centre is `reach` [m] from the axis; NaN out of its reach.
+
+    >>> round(math.degrees(arm_angle(5.0, 4.0, 3.0)), 9)
+    90.0
+    """
+    return np.arccos((pivot**2 + arm**2 - reach**2) / (2 * pivot * arm))
+
+
+@dataclass(frozen=True, slots=True)
+class OscillatingCam(Traced):
+    """A plate cam with an oscillating roller or knife-edge follower; the programme's displacement is in rad.
+
+    prime_radius  least distance [m] of the roller's centre from the axis, where the displacement is 0
+    pivot, arm    distance of the arm's pivot from the axis, length of the arm to the roller's centre [m]
+    side          +1: roller above the line from axis to pivot (trailing arm), -1: below it
+
+    Raises ParameterError where the roller fills the prime circle, the arm does not reach it or swings past the pivot.
+    """
+
+    programme: Programme
+    prime_radius: float
+    pivot: float
+    arm: float
+    side: Literal[1, -1] = 1
+    roller_radius: float = 0.0
+    flat: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        least = max(abs(self.pivot - self.arm), self.roller_radius)
+        if not least < self.prime_radius < self.pivot + self.arm:
+            low, high = format_quantity(least, "mm"), format_quantity(self.pivot + self.arm, "mm")
+            raise ParameterError(
+                f"prime_radius={format_quantity(self.prime_radius, 'mm')} with pivot="
+                f"{format_quantity(self.pivot, 'mm')} and arm={format_quantity(self.arm, 'mm')}",
+                allowed=f"above {low}, below {high}",
+            )
+        swing = max(accumulate(part.change for part in self.programme.segments))
+        if self.start_angle + swing >= math.pi:
+            most = format_quantity(math.pi - self.start_angle, "deg")
+            raise ParameterError(
+                f"a swing of {format_quantity(swing, 'deg')} from {format_quantity(self.start_angle, 'deg')}",
+                allowed=f"below {most}, where arm and pivot are in line with the axis",
+                do="swing less, or take a smaller prime circle",
+            )
+
+    @property
+    def start_angle(self) -> float:
+        """The arm's angle psi [rad] where the displacement is 0."""
+        return float(arm_angle(self.prime_radius, self.pivot, self.arm))
+
+    def trace(self, angle: FloatArray) -> Trace:
+        """Everything at cam angles [rad], in one pass."""
+        at = self.programme.at(angle)
+        psi = self.start_angle + at.s
+        motion = roller_motion(psi, at.ds, at.dds, pivot=self.pivot, arm=self.arm, side=self.side)
+        way = (self.pivot - motion[0]) * (1j * self.side / self.arm)
+        return trace_of_point(angle, at, motion, way, self.roller_radius)

@@ -1,0 +1,103 @@
+"""Plate cam with an oscillating flat-faced follower: formulas of one cam angle, and the cam.
+
+The cam turns counter-clockwise by theta about 0; the face swings about the pivot c on the x axis, by psi from the line
+pivot - axis; psi grows as the face goes out. The face lies f beyond the pivot, away from the cam. In the world its
+normal, its distance from the axis and, with tau = 1 + side psi', the contact's way along it are
+
+    m = i side exp(-i side psi),   h = c sin psi + f,   K = (h - i h'/tau) m,   h' = c cos psi psi'
+
+tau is how fast the normal turns as seen from the cam; the envelope of the faces has the radius of curvature
+
+    rho = h + h''/tau^2 - h' tau'/tau^3,   h'' = c (cos psi psi'' - sin psi psi'^2),   tau' = side psi''
+
+which must be above 0, and tau too. The push is along m: the pressure angle is arctan(f / distance of K along the face
+from the pivot), 0 for a face through the pivot. side +1: the face above the line (trailing), -1: below it.
+[support function: do Carmo, Differential Geometry of Curves and Surfaces, 1-7]
+"""
+
+import math
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.cams.pieces import infimum, supremum
+from ilmek.cams.programme import Programme
+from ilmek.cams.trace import Trace, Traced
+from ilmek.errors import ParameterError
+from ilmek.plane.vectors import unit
+from ilmek.units import format_quantity
+
+
+@dataclass(frozen=True, slots=True)
+class OscillatingFlatCam(Traced):
+    """A plate cam with an oscillating flat-faced follower; the programme's displacement is in rad.
+
+    prime_radius  least distance [m] of the face from the axis, where the displacement is 0
+    pivot         distance of the follower's pivot from the axis [m]
+    face_offset   how far the face lies beyond the pivot, away from the cam [m]
+    side          +1: face above the line from axis to pivot (trailing), -1: below it
+
+    Raises ParameterError where the face does not reach the base circle, or swings upright.
+    """
+
+    programme: Programme
+    prime_radius: float
+    pivot: float
+    face_offset: float = 0.0
+    side: Literal[1, -1] = 1
+    roller_radius: ClassVar[float] = 0.0
+    flat: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        most = self.pivot + self.face_offset
+        if not 0 < self.prime_radius < most:
+            shown = format_quantity(self.prime_radius, "mm")
+            raise ParameterError(f"prime_radius={shown}", allowed=f"above 0 mm, below {format_quantity(most, 'mm')}")
+        swing = max(accumulate(part.change for part in self.programme.segments))
+        if self.start_angle + swing >= math.pi / 2:
+            raise ParameterError(
+                f"a swing of {format_quantity(swing, 'deg')} from {format_quantity(self.start_angle, 'deg')}",
+                allowed=f"below {format_quantity(math.pi / 2 - self.start_angle, 'deg')}, where the face stands across",
+                do="swing less, or put the pivot further away",
+            )
+
+    @property
+    def start_angle(self) -> float:
+        """The face's angle psi [rad] where the displacement is 0."""
+        return math.asin((self.prime_radius - self.face_offset) / self.pivot)
+
+    def trace(self, angle: FloatArray) -> Trace:
+        """Everything at cam angles [rad], in one pass; the pitch curve is the surface itself."""
+        at = self.programme.at(angle)
+        swung = self.pivot * unit(self.start_angle + at.s)
+        far = swung.imag + self.face_offset
+        first, second = swung.real * at.ds, swung.real * at.dds - swung.imag * at.ds**2
+        turning = 1 + self.side * at.ds
+        wander = first / turning
+        normal = 1j * self.side * unit(-self.side * (self.start_angle + at.s) - angle)
+        flow = far * turning + (second - wander * self.side * at.dds) / turning
+        return Trace(
+            angle=angle,
+            course=at,
+            pitch=np.asarray((far - 1j * wander) * normal),
+            normal=np.asarray(normal),
+            pressure_angle=np.arctan2(self.side * self.face_offset, swung.real - self.side * wander),
+            flow=np.asarray(flow),
+            turning=np.asarray(turning),
+            roller_radius=0.0,
+        )
+
+    def contact_distance(self, angle: FloatArray) -> FloatArray:
+        """How far from the foot of the pivot on the face, towards the cam, the cam touches [m], at cam angles [rad]."""
+        at = self.programme.at(angle)
+        foot = self.pivot * np.cos(self.start_angle + at.s)
+        return np.asarray(foot * (1 - self.side * at.ds / (1 + self.side * at.ds)))
+
+
+def face_span(cam: OscillatingFlatCam) -> tuple[float, float]:
+    """The least and the largest distance [m] of the contact from the pivot along the face: it must cover them."""
+    knots = cam.programme.knots
+    return infimum(cam.contact_distance, knots).value, supremum(cam.contact_distance, knots).value
