@@ -282,7 +282,7 @@ class Plate:
     paths     closed curves that guide a tool or an eye, not cut through, by name: `cutter path`, `pitch curve`
     marks     lines to scribe, by name: `zero` at the angle 0
     area      inside the outline [m^2], holes and cutouts not taken off, reckoned apart from the points; None: not known
-    number    pieces to be made
+    number    pieces to be made        notes  what else the workshop must know: fits, a keyway's standard
     """
 
     name: str
@@ -296,6 +296,7 @@ class Plate:
     marks: Mapping[str, ComplexArray] = field(default_factory=dict)
     area: float | None = None
     number: int = 1
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Complex, Int
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.plane.contours import STRAIGHT, arc_centre, polygon
+from ilmek.plane.contours import STRAIGHT, arc_centre, counter_clockwise, polygon
 from ilmek.report import Contour
 
 CORNER, SHARP = math.radians(10), math.radians(20)
@@ -23,6 +23,11 @@ CORNER, SHARP = math.radians(10), math.radians(20)
 
 _WIDEST = math.radians(120)
 """Most that the tangent may turn over one pair of arcs."""
+
+
+def as_contour(outline: ComplexArray | Contour, tolerance: float) -> Contour:
+    """A plate's line as a contour, counter-clockwise; arcs are laid through points within the tolerance [m]."""
+    return counter_clockwise(outline if isinstance(outline, Contour) else fitted(outline, tolerance))
 
 
 def fitted(points: Complex[np.ndarray, " points"], tolerance: float) -> Contour:

@@ -77,6 +77,17 @@ def keyed_bore(radius: float, width: float, depth: float) -> Contour:
     return Contour(points, np.array([math.tan(sweep / 4), 0.0, 0.0, 0.0]))
 
 
+def counter_clockwise(contour: Contour) -> Contour:
+    """The same line, run counter-clockwise.
+
+    >>> counter_clockwise(polygon(np.array([0, 1j, 1 + 1j]))).points.tolist()
+    [(1+1j), 1j, 0j]
+    """
+    if area(contour) >= 0:
+        return contour
+    return Contour(contour.points[::-1], -np.roll(contour.bulges[::-1], -1))
+
+
 def area(contour: Contour) -> float:
     """Area inside [m^2], negative where the contour runs clockwise.
 

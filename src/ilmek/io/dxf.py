@@ -1,0 +1,150 @@
+"""Plates as DXF: contours of lines and exact arcs in mm, on layers as a workshop's programs want them.
+
+PROFILE      the outline to cut            BORE    holes and cutouts        CUTTER_PATH  paths of the cutter's centre
+PITCH        pitch curves, paths of eyes   MARK    lines to scribe          CENTRE       centre marks
+DIMENSION    main dimensions               TEXT    what it is, of what, how many
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from ezdxf.document import Drawing
+from ezdxf.entities.circle import Circle
+from ezdxf.entities.lwpolyline import LWPolyline
+from ezdxf.enums import TextEntityAlignment
+from ezdxf.filemanagement import new, readfile
+from ezdxf.layouts.layout import Modelspace
+from ezdxf.lldxf.const import DXFError
+from ezdxf.units import MM
+
+from ilmek.errors import OutputError
+from ilmek.io.dxf_dimensions import dimension, text_height
+from ilmek.io.plate_shape import PlateShape, plate_shape
+from ilmek.plane.contours import area
+from ilmek.report import Contour, Plate
+from ilmek.units import format_quantity, mm
+
+LAYERS = {
+    "PROFILE": (7, "Continuous", 50),
+    "BORE": (5, "Continuous", 35),
+    "CUTTER_PATH": (1, "DASHDOT", 18),
+    "PITCH": (3, "CENTER", 18),
+    "MARK": (6, "Continuous", 25),
+    "DIMENSION": (8, "Continuous", 18),
+    "CENTRE": (4, "CENTER", 18),
+    "TEXT": (7, "Continuous", 18),
+}
+"""Layer -> colour of the AutoCAD index, linetype, line weight [0.01 mm]."""
+
+
+@dataclass(frozen=True, slots=True)
+class DxfFacts:
+    """What a DXF file of a plate says when it is read back, SI.
+
+    area    inside the profile [m^2]       bored   of holes and cutouts [m^2]
+    points  of the profile                 errors  that the audit finds
+    """
+
+    area: float
+    bored: float
+    points: int
+    errors: int
+
+
+def write_dxf(path: Path, plate: Plate) -> PlateShape:
+    """Write a plate to a file; gives its shape as it is written. An OSError passes through."""
+    shape = plate_shape(plate)
+    document = dxf_document(plate, shape)
+    with path.open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream:
+        document.write(stream)
+    return shape
+
+
+def dxf_document(plate: Plate, shape: PlateShape) -> Drawing:
+    """The plate as a DXF document (R2010, mm)."""
+    document = new("R2010", setup=["linetypes", "styles", "dimstyles"], units=MM)
+    for name, (colour, linetype, weight) in LAYERS.items():
+        document.layers.add(name, color=colour, linetype=linetype, lineweight=weight)
+    height = text_height(shape)
+    document.header["$LTSCALE"] = height / 4
+    space = document.modelspace()
+    _add(space, "PROFILE", shape.outline)
+    for cutout in shape.cutouts:
+        _add(space, "BORE", cutout)
+    for name, path in shape.paths.items():
+        _add(space, "CUTTER_PATH" if "cutter" in name else "PITCH", path)
+    for hole in plate.holes:
+        space.add_circle(_xy(hole.at), hole.radius / mm, dxfattribs={"layer": "BORE"})
+    for line in plate.marks.values():
+        space.add_lwpolyline([_xy(point) for point in line], dxfattribs={"layer": "MARK"})
+    _mark_centres(space, plate, shape)
+    low = dimension(document, space, plate, shape)
+    _write_texts(space, plate, shape, low, height)
+    return document
+
+
+def read_dxf(path: Path) -> DxfFacts:
+    """A plate's DXF file, read back and audited. Raises OutputError where it is none."""
+    try:
+        document = readfile(path)
+    except (OSError, DXFError) as error:
+        raise OutputError(f"{path} cannot be read back: {error}") from None
+    space = document.modelspace()
+    lines = [line for line in space if isinstance(line, LWPolyline)]
+    profiles = [_contour(line) for line in lines if line.dxf.layer == "PROFILE"]
+    if len(profiles) != 1:
+        raise OutputError(f"{path} has {len(profiles)} outlines", allowed="a plate has one")
+    cut = sum(area(_contour(line)) for line in lines if line.dxf.layer == "BORE")
+    circles = [circle for circle in space if isinstance(circle, Circle) and circle.dxf.layer == "BORE"]
+    drilled = sum(np.pi * (circle.dxf.radius * mm) ** 2 for circle in circles)
+    errors = len(document.audit().errors)
+    return DxfFacts(area(profiles[0]), float(cut + drilled), len(profiles[0].points), errors)
+
+
+def _xy(point: complex) -> tuple[float, float]:
+    return float(point.real / mm), float(point.imag / mm)
+
+
+def _add(space: Modelspace, layer: str, contour: Contour) -> None:
+    """A contour as one closed polyline with bulges: a circle as a circle."""
+    points = [(*_xy(at), float(bulge)) for at, bulge in zip(contour.points, contour.bulges, strict=True)]
+    space.add_lwpolyline(points, format="xyb", close=True, dxfattribs={"layer": layer})
+
+
+def _contour(line: LWPolyline) -> Contour:
+    """A polyline read back [m]."""
+    rows = np.array(line.get_points("xyb"))
+    return Contour(mm * (rows[:, 0] + 1j * rows[:, 1]), rows[:, 2])
+
+
+def _mark_centres(space: Modelspace, plate: Plate, shape: PlateShape) -> None:
+    """Crosses at the holes, and at the origin where something is cut out about it."""
+    reaches = [(hole.at, hole.radius) for hole in plate.holes]
+    inside = [max(abs(corner) for corner in shape.box(cutout)) for cutout in shape.cutouts]
+    if inside and all(at != 0 for at, _ in reaches):
+        reaches.append((0j, max(inside)))
+    for at, radius in reaches:
+        for arm in (1.4 * radius, 1.4j * radius):
+            space.add_line(_xy(at - arm), _xy(at + arm), dxfattribs={"layer": "CENTRE"})
+
+
+def _write_texts(space: Modelspace, plate: Plate, shape: PlateShape, low: complex, height: float) -> None:
+    """What the plate is, under the drawing and its dimensions."""
+    pieces = f"{plate.number} piece{'s' if plate.number > 1 else ''}"
+    known = f"area {format_quantity(area(shape.outline) - shape.bored, 'cm^2', 6)}, holes taken off"
+    lines = (
+        f"{plate.title} ({plate.name})",
+        f"{plate.material}, {format_quantity(plate.thickness, 'mm')} thick, {pieces}",
+        *plate.notes,
+        f"mm, 1:1; {known}",
+    )
+    _put(space, lines, low, height)
+
+
+def _put(space: Modelspace, lines: Iterable[str], low: complex, height: float) -> None:
+    x, y = _xy(low)
+    for place, line in enumerate(lines):
+        text = space.add_text(line, height=height, dxfattribs={"layer": "TEXT", "style": "OpenSans"})
+        text.set_placement((x, y - (2.5 + 1.7 * place) * height), align=TextEntityAlignment.LEFT)

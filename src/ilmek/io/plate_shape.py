@@ -1,0 +1,59 @@
+"""A plate's lines made ready to be written: every curve as arcs, counter-clockwise, and how far that leaves it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.plane.biarcs import as_contour, deviation
+from ilmek.plane.contours import area, bounds
+from ilmek.report import Contour, Plate
+from ilmek.units import um
+
+TOLERANCE = 1e-6
+"""What arcs may leave a curve's points by, as a share of the plate's size."""
+
+MOST = 1 * um
+"""What arcs may leave a curve's points by at most [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlateShape:
+    """A plate's lines as contours of arcs [m].
+
+    error  the farthest that a point of the plate's outline stands from its contour [m]
+    bored  area of holes and cutouts [m^2]
+    """
+
+    outline: Contour
+    cutouts: tuple[Contour, ...]
+    paths: Mapping[str, Contour]
+    error: float
+    bored: float
+
+    @property
+    def size(self) -> float:
+        """The longer side of the box around the outline [m]."""
+        low, high = bounds(self.outline)
+        return max((high - low).real, (high - low).imag)
+
+    @staticmethod
+    def box(contour: Contour) -> tuple[complex, complex]:
+        """Lower left and upper right corner of the box around a contour [m]."""
+        return bounds(contour)
+
+
+def plate_shape(plate: Plate) -> PlateShape:
+    """The plate's lines as contours of arcs."""
+    points = _points(plate.outline)
+    tolerance = min(MOST, TOLERANCE * float(max(np.ptp(points.real), np.ptp(points.imag))))
+    outline = as_contour(plate.outline, tolerance)
+    cutouts = tuple(as_contour(cutout, tolerance) for cutout in plate.cutouts)
+    paths = {name: as_contour(path, tolerance) for name, path in plate.paths.items()}
+    bored = sum(area(cutout) for cutout in cutouts) + sum(np.pi * hole.radius**2 for hole in plate.holes)
+    return PlateShape(outline, cutouts, paths, deviation(points, outline), float(bored))
+
+
+def _points(outline: ComplexArray | Contour) -> ComplexArray:
+    return outline.points if isinstance(outline, Contour) else outline

@@ -1,0 +1,93 @@
+"""Plates as STEP solids (AP214, mm): the contours of the DXF, extruded. The only place that knows OCP.
+
+OCP is the extra `step`; where it is not installed, importing this module fails with ImportError. Its releases rename
+things, so that everything used of it is imported here, and the extra is pinned below the next one.
+"""
+
+from pathlib import Path
+
+import numpy as np
+from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
+from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakeWire
+from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.BRepGProp import BRepGProp
+from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
+from OCP.GC import GC_MakeArcOfCircle
+from OCP.gp import gp_Pnt, gp_Vec
+from OCP.GProp import GProp_GProps
+from OCP.IFSelect import IFSelect_ReturnStatus
+from OCP.Interface import Interface_Static
+from OCP.Message import Message, Message_Gravity
+from OCP.STEPControl import STEPControl_Reader, STEPControl_StepModelType, STEPControl_Writer
+from OCP.TCollection import TCollection_HAsciiString
+from OCP.TopoDS import TopoDS_Shape, TopoDS_Wire
+
+from ilmek.errors import OutputError
+from ilmek.io.plate_shape import PlateShape
+from ilmek.plane.contours import STRAIGHT, circle, on_piece
+from ilmek.report import Contour, Plate
+from ilmek.units import mm
+
+for _printer in Message.DefaultMessenger_s().Printers():
+    _printer.SetTraceLevel(Message_Gravity.Message_Fail)  # it tells of each transfer on standard output otherwise
+
+
+def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
+    """Write a plate as a solid. Raises OutputError where the solid is not sound or cannot be written."""
+    solid = _solid(plate, shape)
+    if not BRepCheck_Analyzer(solid).IsValid():
+        raise OutputError(f"{plate.name} makes no sound solid", do="look at its outline: does it cross itself?")
+    writer = STEPControl_Writer()  # it makes the settings known that are set next
+    Interface_Static.SetCVal_s("write.step.unit", "MM")
+    Interface_Static.SetCVal_s("write.step.product.name", plate.name)
+    writer.Transfer(solid, STEPControl_StepModelType.STEPControl_AsIs)
+    header = APIHeaderSection_MakeHeader(writer.Model(False))
+    header.SetName(TCollection_HAsciiString(plate.title))
+    header.SetAuthorValue(1, TCollection_HAsciiString("ilmek"))
+    header.SetOriginatingSystem(TCollection_HAsciiString("ilmek"))
+    if writer.Write(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise OutputError(f"{path} cannot be written as STEP")
+
+
+def read_step_volume(path: Path) -> float:
+    """Volume [m^3] of the solid in a file, read back. Raises OutputError where there is none."""
+    reader = STEPControl_Reader()
+    if reader.ReadFile(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise OutputError(f"{path} cannot be read back as STEP")
+    reader.TransferRoots()
+    found = GProp_GProps()
+    BRepGProp.VolumeProperties_s(reader.OneShape(), found)
+    return float(found.Mass()) * mm**3
+
+
+def _solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
+    """The plate from z = 0 up."""
+    face = BRepBuilderAPI_MakeFace(_wire(shape.outline), True)
+    for cut in (*shape.cutouts, *(circle(bore.at, bore.radius) for bore in plate.holes)):
+        hole = _wire(cut)
+        hole.Reverse()
+        face.Add(hole)
+    return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, plate.thickness / mm)).Shape()
+
+
+def _wire(contour: Contour) -> TopoDS_Wire:
+    """A contour's closed wire in the plane z = 0; arcs stay arcs."""
+    wire = BRepBuilderAPI_MakeWire()
+    points = [_point(complex(at)) for at in contour.points]
+    for place, bulge in enumerate(contour.bulges):
+        start, end = place, (place + 1) % len(points)
+        if abs(bulge) < STRAIGHT:
+            edge = BRepBuilderAPI_MakeEdge(points[start], points[end])
+        else:
+            ends = complex(contour.points[start]), complex(contour.points[end])
+            middle = complex(on_piece(*ends, float(bulge), _HALF)[0])
+            edge = BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(points[start], _point(middle), points[end]).Value())
+        wire.Add(edge.Edge())
+    return wire.Wire()
+
+
+_HALF = np.array([0.5])
+
+
+def _point(at: complex) -> gp_Pnt:
+    return gp_Pnt(at.real / mm, at.imag / mm, 0.0)

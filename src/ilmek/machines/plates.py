@@ -1,0 +1,91 @@
+"""Plates of machines for the workshop: links between pins, and discs on a shaft with their bore."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.elements.keyways import keyway_for
+from ilmek.errors import ParameterError
+from ilmek.plane.contours import area, keyed_bore, polygon, rounded_hull
+from ilmek.report import Contour, Hole, Plate
+from ilmek.units import format_quantity
+
+ZERO_MARK = 0.1
+"""Length of the scribed mark of the angle 0, as a share of the plate's radius there."""
+
+
+def link_plate(
+    name: str,
+    title: str,
+    pins: Sequence[tuple[str, complex]],
+    *,
+    hole_radius: float,
+    width: float,
+    thickness: float,
+    material: str,
+    number: int = 1,
+) -> Plate:
+    """A link's plate: a bored hole at each pin, and as much material around them as `width` asks for.
+
+    pins   names and places of the pins in the link's own frame [m], two or more
+    width  across a straight link [m]: twice the radius of its ends
+    Three pins or more make the hull of their ends. Raises ParameterError for pins in one place, or a width that the
+    holes leave no material.
+
+    >>> plate = link_plate("crank", "Crank", [("A", 0j), ("B", 0.06 + 0j)], hole_radius=0.005, width=0.024,
+    ...                    thickness=0.008, material="steel")
+    >>> round(plate.area, 9) == round(0.06 * 0.024 + np.pi * 0.012**2, 9)
+    True
+    """
+    if width <= 2 * hole_radius:
+        raise ParameterError(
+            f"a link {format_quantity(width, 'mm')} wide with holes of {format_quantity(2 * hole_radius, 'mm')}",
+            allowed="wider than its holes",
+        )
+    places = np.array([place for _, place in pins], dtype=complex)
+    apart = np.abs(places[:, None] - places[None, :])[np.triu_indices(len(places), 1)]
+    if len(places) < 2 or apart.min() < 2 * hole_radius:
+        raise ParameterError(
+            f"the holes of {name} run into one another", allowed=f"{format_quantity(2 * hole_radius, 'mm')} apart"
+        )
+    outline = rounded_hull(places, width / 2)
+    holes = tuple(Hole(place, hole_radius, pin) for pin, place in pins)
+    return Plate(name, title, outline, thickness, material, holes, area=area(outline), number=number)
+
+
+class Bore(NamedTuple):
+    """How a disc is bored for its shaft; `Plate(..., **bore._asdict())` is a plate bored so."""
+
+    holes: tuple[Hole, ...]
+    cutouts: tuple[Contour, ...]
+    notes: tuple[str, ...]
+
+
+def round_bore(diameter: float, *, key: bool = True) -> Bore:
+    """A bore about the origin; with the hub's keyway of DIN 6885-1, towards +x.
+
+    Raises ParameterError for a diameter that no parallel key is for.
+
+    >>> round_bore(0.025).notes
+    ('bore 25 mm H7, keyway 8 mm JS9, 28.3 mm across bore and keyway (DIN 6885-1)',)
+    """
+    said = f"bore {format_quantity(diameter, 'mm')} H7"
+    if not key:
+        return Bore((Hole(0j, diameter / 2, "bore"),), (), (said,))
+    way = keyway_for(diameter)
+    across = format_quantity(diameter + way.in_hub, "mm")
+    keyed = f"keyway {format_quantity(way.width, 'mm')} JS9, {across} across bore and keyway (DIN 6885-1)"
+    return Bore((), (keyed_bore(diameter / 2, way.width, way.in_hub),), (f"{said}, {keyed}",))
+
+
+def square_bore(side: float) -> Bore:
+    """The bore for a square shaft about the origin, its faces along the axes."""
+    corners = side / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
+    return Bore((), (polygon(corners),), (f"square bore {format_quantity(side, 'mm')} H9",))
+
+
+def zero_mark(radius: float, angle: float = 0.0) -> dict[str, ComplexArray]:
+    """The line to scribe at an angle [rad] of a disc, inwards from its edge at this radius [m]: a plate's `marks`."""
+    return {"zero": radius * np.array([1 - ZERO_MARK, 1.0]) * np.exp(1j * angle)}
