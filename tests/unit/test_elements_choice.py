@@ -58,7 +58,7 @@ def test_a_worm_that_locks_itself_wastes_more_than_half(friction) -> None:
 
 def test_a_motor_is_taken_by_its_power_not_its_torque() -> None:
     """9.4 N m at 230 rpm: a stepper of 12 N m (377 W), not the servo of 3000 W that has the nearer torque."""
-    assert smallest_motor(9.4, 230 * rpm).name == "stepper NEMA 34, 12 N m"
+    assert smallest_motor(9.4, 230 * rpm).name == "stepper NEMA 42, 12 N m"
     assert smallest_motor(7.0 * (1 + 1e-12)).torque == 7.0
     assert most_torque(3000 * rpm) == max(m.torque for m in MOTORS if m.speed >= 3000 * rpm)
     assert most_torque(4000 * rpm) == 0.0

@@ -1,84 +1,118 @@
-"""Motors and reducers: what torque arrives, what stays locked, which motor is enough.
+"""Motors: what they give at a speed, which is enough; reducers are in `reducers`, duty cycles in `duty`.
 
-A reducer of ratio i and efficiency eta: M_motor = M_load / (i eta). With the same friction losses driven backwards,
-eta_back = 2 - 1/eta, so a reducer that locks itself (eta_back <= 0) has eta <= 1/2: a worm can be self-locking or
-efficient, not both. Makers of worm gears count on it below 0.45 and call 0.45 to 0.55 unsure, for friction changes with
-speed, lubricant and warmth.                                           [inclined plane with friction; derived]
+    stepper:  T(w) = Th / sqrt(1 + (w / wc)^2)
+
+Th holding torque: the current of a winding of resistance and inductance at the step frequency, at a fixed voltage. The
+corner wc lies at 268 rpm here, so that two thirds are left at 300 rpm, and a quarter at 1000: what drives of 48 to 70 V
+reach.                                                       [Acarnley, Stepping Motors, chapter 5, without back e.m.f.]
 """
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.elements.catalogue import pick
+from ilmek.elements.reducers import Reducer, worm_efficiency
 from ilmek.units import rpm
 
+__all__ = [
+    "MOTORS",
+    "Motor",
+    "Reducer",
+    "find_motor",
+    "geared_motor",
+    "most_torque",
+    "smallest_motor",
+    "worm_efficiency",
+]
 
-@dataclass(frozen=True, slots=True)
-class Reducer:
-    """A speed reducer: ratio (input turns per output turn) and efficiency, above 0 and at most 1."""
-
-    ratio: float
-    efficiency: float
-
-    def motor_torque(self, load_torque: float) -> float:
-        """Torque at the input [N m] that moves a load torque at the output [N m]."""
-        return load_torque / (self.ratio * self.efficiency)
-
-    @property
-    def back_driving_efficiency(self) -> float:
-        """Efficiency when the load drives, 2 - 1/eta: nothing comes back where it is not above 0."""
-        return 2 - 1 / self.efficiency
-
-    @property
-    def self_locking(self) -> bool:
-        """Whether the load cannot drive it backwards: efficiency at most 1/2."""
-        return self.back_driving_efficiency <= 0
-
-
-def worm_efficiency(lead_angle: float, friction_angle: float) -> float:
-    """Efficiency of a worm: tan g / tan(g + r) of its lead angle g and the angle of friction r [rad].
-
-    It locks itself for g <= r, and then the efficiency is (1 - tan^2 r)/2 at most.
-    """
-    return math.tan(lead_angle) / math.tan(lead_angle + friction_angle)
+STEPPER, SERVO = "stepper", "servo"
 
 
 @dataclass(frozen=True, slots=True)
 class Motor:
-    """A class of motors, no maker's product: lasting torque [N m] up to a speed [rad/s]."""
+    """A class of motors, no maker's product: lasting torque [N m] up to a speed [rad/s].
+
+    peak     torque for a moment [N m]; of a stepper its holding torque
+    inertia  of the rotor [kg m²]      mass  [kg]
+    """
 
     name: str
     kind: str
     torque: float
     speed: float
+    peak: float
+    inertia: float
+    mass: float
 
     @property
     def power(self) -> float:
         """Torque times speed [W]."""
         return self.torque * self.speed
 
-
-def _stepper(frame: str, torque: float) -> Motor:
-    return Motor(f"stepper {frame}, {torque:g} N m", "stepper", torque, 300 * rpm)
-
-
-def _servo(power: float, turns: float) -> Motor:
-    torque = power / (turns * rpm)
-    return Motor(f"servo {power:g} W, {turns:g} rpm, {torque:.3g} N m", "servo", torque, turns * rpm)
-
-
-MOTORS = (
-    *(_stepper("NEMA 17", torque) for torque in (0.4,)),
-    *(_stepper("NEMA 23", torque) for torque in (1.0, 2.0)),
-    *(_stepper("NEMA 34", torque) for torque in (4.0, 7.0, 12.0)),
-    *(_servo(power, 3000.0) for power in (100.0, 200.0, 400.0, 750.0, 1000.0, 1500.0, 2000.0, 3000.0)),
-    *(_servo(power, 1500.0) for power in (2900.0, 4400.0, 5500.0, 7500.0, 11000.0, 15000.0)),
-)
-"""Classes to choose from. Steppers: the torque left at 300 rpm, about two thirds of holding. Servos: rated power and
-speed, torque = power / speed."""
+    def peak_at(self, speed: RealField) -> FloatArray:
+        """Most torque at a speed [N m]: a stepper's falls with it, a servo's stays up to its rated speed, then 0."""
+        speed = np.abs(speed)
+        if self.kind == STEPPER:
+            return np.asarray(self.peak / np.sqrt(1 + (speed / _CORNER) ** 2))
+        return np.where(speed <= self.speed * (1 + _ROUNDING), self.peak, 0.0)
 
 
 _ROUNDING = 1e-9
+_STEPPER_SPEED = 300 * rpm
+_LEFT = 2 / 3
+_CORNER = _STEPPER_SPEED / math.sqrt(_LEFT**-2 - 1)
+
+
+def _stepper(frame: str, torque: float, inertia: float, mass: float) -> Motor:
+    return Motor(
+        f"stepper {frame}, {torque:g} N m", STEPPER, torque, _STEPPER_SPEED, torque / _LEFT, inertia * 1e-4, mass
+    )
+
+
+def _servo(power: float, turns: float, peak: float, inertia: float, mass: float) -> Motor:
+    torque = power / (turns * rpm)
+    name = f"servo {power:g} W, {turns:g} rpm, {torque:.3g} N m"
+    return Motor(name, SERVO, torque, turns * rpm, peak * torque, inertia * 1e-4, mass)
+
+
+MOTORS = (
+    _stepper("NEMA 17", 0.4, 0.08, 0.40),
+    _stepper("NEMA 23", 1.0, 0.30, 0.80),
+    _stepper("NEMA 23", 2.0, 0.80, 1.60),
+    _stepper("NEMA 34", 4.0, 2.0, 2.8),
+    _stepper("NEMA 34", 7.0, 4.0, 5.0),
+    _stepper("NEMA 42", 12.0, 11.0, 9.0),
+    _servo(100.0, 3000.0, 3.0, 0.05, 0.5),
+    _servo(200.0, 3000.0, 3.0, 0.16, 0.9),
+    _servo(400.0, 3000.0, 3.0, 0.28, 1.3),
+    _servo(750.0, 3000.0, 3.0, 1.0, 2.5),
+    _servo(1000.0, 3000.0, 3.0, 2.0, 4.0),
+    _servo(1500.0, 3000.0, 3.0, 2.8, 5.0),
+    _servo(2000.0, 3000.0, 3.0, 4.0, 6.5),
+    _servo(3000.0, 3000.0, 3.0, 6.5, 9.0),
+    _servo(2900.0, 1500.0, 2.5, 46.0, 15.0),
+    _servo(4400.0, 1500.0, 2.5, 68.0, 20.0),
+    _servo(5500.0, 1500.0, 2.5, 89.0, 25.0),
+    _servo(7500.0, 1500.0, 2.5, 125.0, 35.0),
+    _servo(11000.0, 1500.0, 2.5, 281.0, 58.0),
+    _servo(15000.0, 1500.0, 2.5, 315.0, 70.0),
+)
+"""Classes to choose from. Steppers: the torque left at 300 rpm, two thirds of holding. Servos: rated power and speed,
+torque = power / speed, peak 2.5 or 3 times of it. Inertia (written in kg cm²) and mass are middling ones of the
+catalogues of such motors; a maker's may differ by a third."""
+
+
+def find_motor(name: str) -> Motor:
+    """The motor of a name; ParameterError, naming the nearest, where it is not in the table.
+
+    >>> find_motor("servo 400 W, 3000 rpm, 1.27 N m").mass
+    1.3
+    """
+    return pick({motor.name: motor for motor in MOTORS}, name, "motor")
 
 
 def smallest_motor(torque: float, speed: float = 0.0, kind: str | None = None) -> Motor | None:
