@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.limits import PlateCam
 from ilmek.cams.programme import TURN, Programme
+from ilmek.cams.trace import Cam
 from ilmek.report import Axis, Dot, Drawing, Mark, Plot, Series, Stroke
 from ilmek.units import format_quantity
 
@@ -45,34 +45,34 @@ def motion_plots(
     )
 
 
-def pressure_plot(cam: PlateCam, limit: float, at: float) -> Plot:
+def pressure_plot(cam: Cam, limit: float, at: float) -> Plot:
     """Pressure angle over the turn between +-limit [rad]; `at` [rad] marks the largest."""
     angle = sample_angles(cam.programme)
     bounds = tuple(Series(name, np.array([0.0, TURN]), np.full(2, y), True) for name, y in _bounds(limit))
-    series = (Series("pressure angle", angle, cam.pressure_angle(angle)), *bounds)
+    series = (Series("pressure angle", angle, cam.trace(angle).pressure_angle), *bounds)
     axis = Axis("pressure angle", "deg")
     return Plot("pressure-angle", "Pressure angle", _ANGLE, axis, series, (Mark(at, "largest"),))
 
 
-def curvature_plot(cam: PlateCam, at: float) -> Plot:
+def curvature_plot(cam: Cam, at: float) -> Plot:
     """Curvature of the pitch curve over the turn; `at` [rad] marks the sharpest convex place."""
     angle = sample_angles(cam.programme)
-    series = (Series("pitch curve", angle, cam.curvature(angle)),)
+    series = (Series("pitch curve", angle, cam.trace(angle).curvature),)
     note = "positive: convex; the radius of curvature is the reciprocal"
     title = "Curvature of the pitch curve"
     return Plot("curvature", title, _ANGLE, Axis("curvature", "1/m"), series, (Mark(at, "sharpest"),), note)
 
 
-def cam_drawing(cam: PlateCam, bore_side: float, guide_radius: float) -> Drawing:
+def cam_drawing(cam: Cam, bore_side: float, guide_radius: float) -> Drawing:
     """The cam to scale, zero of the cam angle to the right: surface, prime circle, pitch curve, square bore, guide."""
     angle = sample_angles(cam.programme, count=721)
     circle = np.exp(1j * np.linspace(0.0, TURN, 361))
     tip = _to_the_tip(cam, angle)
     corners = bore_side / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
-    pitch = (Stroke(cam.pitch(angle), "path", "pitch curve", closed=True),) if cam.roller_radius > 0 else ()
+    pitch = (Stroke(cam.trace(angle).pitch, "path", "pitch curve", closed=True),) if cam.roller_radius > 0 else ()
     strokes = (
         Stroke(guide_radius * circle, "construction", f"guide cam {format_quantity(guide_radius, 'mm')}", closed=True),
-        Stroke(cam.surface(angle), "outline", "cam", closed=True, filled=True),
+        Stroke(cam.trace(angle).surface, "outline", "cam", closed=True, filled=True),
         Stroke(
             cam.prime_radius * circle,
             "construction",
@@ -91,6 +91,6 @@ def _bounds(limit: float) -> tuple[tuple[str, float], ...]:
     return ("limit", limit), ("limit on the return", -limit)
 
 
-def _to_the_tip(cam: PlateCam, angle: FloatArray) -> ComplexArray:
-    surface = cam.surface(angle)
+def _to_the_tip(cam: Cam, angle: FloatArray) -> ComplexArray:
+    surface = cam.trace(angle).surface
     return np.array([0j, surface[np.argmax(np.abs(surface))]])

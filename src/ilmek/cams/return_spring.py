@@ -39,7 +39,7 @@ def lift_off(programme: Programme, held: Held) -> LiftOff:
 
     0 where the velocity jumps down, or where nothing presses at a place that asks for it.
     """
-    falls = _dropped(programme)
+    falls = velocity_drop(programme)
     if falls is not None:
         return LiftOff(0.0, falls)
 
@@ -119,13 +119,13 @@ def doubling_spring(programme: Programme, held: Held) -> Held:
     return replace(held, preload=preload, rate=preload / lift)
 
 
-def _dropped(programme: Programme) -> float | None:
+def velocity_drop(programme: Programme) -> float | None:
     """The cam angle [rad] where the velocity jumps down; None where it does not."""
     return next((jump.angle for jump in jumps(programme, 1) if jump.after < jump.before), None)
 
 
 def _refuse_drop(programme: Programme) -> None:
-    at = _dropped(programme)
+    at = velocity_drop(programme)
     if at is not None:
         where = format_quantity(at, "deg")
         raise ParameterError(

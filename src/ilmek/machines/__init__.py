@@ -5,6 +5,7 @@ import difflib
 from ilmek.errors import ParameterError
 from ilmek.machines.automated_loom import MACHINE as AUTOMATED_LOOM
 from ilmek.machines.beat_up import MACHINE as BEAT_UP
+from ilmek.machines.cam import MACHINE as CAM
 from ilmek.machines.function_four_bar import MACHINE as FUNCTION_FOUR_BAR
 from ilmek.machines.knotting_dyad import MACHINE as KNOTTING_DYAD
 from ilmek.machines.knotting_four_bar import MACHINE as KNOTTING_FOUR_BAR
@@ -22,6 +23,7 @@ MACHINES: dict[str, Machine] = {
         AUTOMATED_LOOM,
         WEAVER,
         BEAT_UP,
+        CAM,
         SHEDDING,
         WARP_TENSION,
         TUFTING,

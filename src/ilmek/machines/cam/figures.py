@@ -1,0 +1,147 @@
+"""The cam's figures: to scale and in motion, its diagrams over the turn, its forces."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ilmek.cams import figures as cam_figures
+from ilmek.cams.limits import convex_radius_min
+from ilmek.cams.pieces import supremum
+from ilmek.cams.programme import TURN, jumps
+from ilmek.machines.cam.design import CamDesign
+from ilmek.machines.cam.moving import moving
+from ilmek.machines.cam.parts import zero_mark
+from ilmek.plane import contours
+from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
+from ilmek.units import format_quantity, mm
+
+ANGLE = Axis("cam angle", "deg")
+CHORD = 0.02 * mm
+"""How far the drawn edge of a bore may lie beside its arc."""
+
+
+def figures(design: CamDesign) -> tuple[Figure, ...]:
+    """The cam to scale, in motion, and the plots in the order of the report."""
+    cam, params = design.cam, design.params
+    widest = supremum(lambda angle: np.abs(cam.trace(angle).pressure_angle), design.programme.knots)
+    plots = (
+        *cam_figures.motion_plots({"follower": design.programme}, params.speed, _marks(design), _jump_note(design)),
+        _jerk_plot(design),
+        *(() if cam.flat else (_pressure_angle_plot(design, widest.at),)),
+        cam_figures.curvature_plot(cam, convex_radius_min(cam).at),
+        _force_plot(design),
+        _torque_plot(design),
+        *(() if design.extremes.pressure is None else (_hertz_plot(design, design.extremes.pressure.at),)),
+    )
+    return drawing(design), moving(design), *(replace(plot, name=f"cam-{plot.name}") for plot in plots)
+
+
+def drawing(design: CamDesign) -> Drawing:
+    """The cam to scale, zero of the cam angle to the right, with the curves that make it."""
+    cam, hub = design.cam, design.hub
+    angle = cam_figures.sample_angles(design.programme, count=721)
+    trace = cam.trace(angle)
+    circle = np.exp(1j * np.linspace(0.0, TURN, 361))
+    cutter = design.params.cutter_radius
+    paths = []
+    if cam.roller_radius > 0:
+        paths.append(Stroke(trace.pitch, "path", "pitch curve", closed=True))
+    if cutter is not None and cutter != cam.roller_radius:
+        paths.append(Stroke(trace.parallel(cutter - cam.roller_radius), "path", "cutter path", closed=True))
+    tip = trace.surface[np.argmax(np.abs(trace.surface))]
+    first = complex(trace.pitch[0])
+    if design.params.follower in ("roller", "spherical"):
+        name = design.roller.name if design.roller else format_quantity(cam.roller_radius, "mm")
+        paths.append(
+            Stroke(first + cam.roller_radius * circle, "link", f"{design.params.follower} {name}", closed=True)
+        )
+    prime = f"{'base circle' if cam.flat else 'prime circle'} {format_quantity(cam.prime_radius, 'mm')}"
+    strokes = (
+        Stroke(trace.surface, "outline", "cam", closed=True, filled=True),
+        Stroke(cam.prime_radius * circle, "construction", prime, closed=True),
+        *paths,
+        Stroke(contours.along(hub.contour, CHORD), "outline", f"bore {format_quantity(hub.bore, 'mm')}", closed=True),
+        Stroke(zero_mark(design), "outline", "0"),
+        Stroke(np.array([0j, tip]), "dimension", format_quantity(float(np.abs(tip)), "mm")),
+    )
+    turned = "turns counter-clockwise; the follower stands on the right when the cam angle is 0"
+    said = f"{turned}; no surface guides the follower where the outline turns back" if design.undercut else turned
+    return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "", "point"),), note=said)
+
+
+def _marks(design: CamDesign) -> tuple[Mark, ...]:
+    begins = [
+        Mark(float(edge), segment.name)
+        for edge, segment in zip(design.programme.edges, design.programme.segments, strict=False)
+    ]
+    return tuple(begins)
+
+
+def _jump_note(design: CamDesign) -> str:
+    found = jumps(design.programme)
+    said = ", ".join(f"{jump.place} at {format_quantity(jump.angle, 'deg')}" for jump in found)
+    return f"the acceleration jumps {said}" if said else "the acceleration has no jump"
+
+
+def _jerk_plot(design: CamDesign) -> Plot:
+    angle = cam_figures.sample_angles(design.programme)
+    jerk = design.params.speed**3 * design.programme.at(angle).ddds
+    note = "between jumps of the acceleration, where it is endless" if jumps(design.programme) else ""
+    return _plot(
+        "jerk", "Jerk over the cam angle", Axis("jerk", "m/s^3"), (Series("follower", angle, jerk),), note=note
+    )
+
+
+def _pressure_angle_plot(design: CamDesign, at: float) -> Plot:
+    limit = design.params.limit
+    if limit is not None:
+        return cam_figures.pressure_plot(design.cam, limit, at)
+    angle = cam_figures.sample_angles(design.programme)
+    series = (Series("pressure angle", angle, design.cam.trace(angle).pressure_angle),)
+    return _plot(
+        "pressure-angle", "Pressure angle", Axis("pressure angle", "deg"), series, marks=(Mark(at, "largest"),)
+    )
+
+
+def _force_plot(design: CamDesign) -> Plot:
+    angle = cam_figures.sample_angles(design.programme)
+    state = design.state(angle)
+    spring = design.held.preload + design.held.rate * state.trace.course.s
+    series = (
+        Series("on the normal", angle, state.normal),
+        Series("along the motion", angle, state.force),
+        Series("spring", angle, spring, dashed=True),
+    )
+    note = "the follower stays on the cam as long as the force is above 0"
+    mark = Mark(design.extremes.normal.at, format_quantity(design.extremes.normal.value, "N"))
+    return _plot(
+        "contact-force", "Force between cam and follower", Axis("force", "N"), series, marks=(mark,), note=note
+    )
+
+
+def _torque_plot(design: CamDesign) -> Plot:
+    angle = cam_figures.sample_angles(design.programme)
+    rms = design.extremes.torque_rms
+    series = (
+        Series("torque", angle, design.state(angle).torque),
+        Series("root mean square", np.array([0.0, TURN]), np.full(2, rms), dashed=True),
+    )
+    mark = Mark(design.extremes.torque.at, format_quantity(design.extremes.torque.value, "N*m"))
+    note = "positive: the shaft drives the cam; negative: the follower presses it on"
+    return _plot("torque", "Torque of the shaft", Axis("torque", "N*m"), series, marks=(mark,), note=note)
+
+
+def _hertz_plot(design: CamDesign, at: float) -> Plot:
+    angle = cam_figures.sample_angles(design.programme)
+    series = (
+        Series("Hertz pressure", angle, design.hertz(angle)),
+        Series("limit", np.array([0.0, TURN]), np.full(2, design.pressure_limit), dashed=True),
+    )
+    title = "Pressure between cam and follower"
+    return _plot("hertz-pressure", title, Axis("pressure", "MPa"), series, marks=(Mark(at, "largest"),))
+
+
+def _plot(
+    name: str, title: str, y: Axis, series: tuple[Series, ...], *, marks: tuple[Mark, ...] = (), note: str = ""
+) -> Plot:
+    return Plot(name, title, ANGLE, y, series, marks, note)

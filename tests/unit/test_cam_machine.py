@@ -1,0 +1,224 @@
+"""The machine `cam`: the exact cases, every law and follower, rollers and hub, what it says, bad input."""
+
+import math
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from ilmek.cams.laws import LAWS
+from ilmek.cams.programme import TURN
+from ilmek.cli import main
+from ilmek.errors import ParameterError
+from ilmek.machines import MACHINES
+from ilmek.machines.cam import MACHINE, CamParams, design, report
+from ilmek.machines.cam.hub import Hub, bore_for, hub_for
+from ilmek.machines.cam.rollers import ROLLERS, Duty
+from ilmek.plane import contours
+from ilmek.units import deg, mm, rpm
+
+
+def made(**settings):
+    return design(CamParams.read(settings))
+
+
+def results(**settings):
+    return {result.name: result.value for result in report(made(**settings)).results}
+
+
+SHED = dict(law="harmonic", lift="60mm", rise="90deg")
+
+
+def test_is_in_the_catalogue() -> None:
+    assert MACHINES["cam"] is MACHINE
+
+
+@pytest.mark.parametrize("follower", ["knife", "roller"])
+def test_shedding_cam_from_its_pressure_angle(follower) -> None:
+    found = results(**SHED, follower=follower, pressure_angle_limit="30deg")
+    assert found["prime_radius"] == pytest.approx(78.16653826 * mm, rel=1e-9)
+    assert found["pressure_angle_max"] == pytest.approx(30 * deg, rel=1e-12)
+    assert found["pressure_angle_at"] == pytest.approx(36.948943 * deg, abs=1e-7)
+    assert found["curvature_radius_min"] == pytest.approx(73.94448725 * mm, rel=1e-9)
+    assert found["undercut"] is False
+    assert found["fall"] == pytest.approx(90 * deg)
+
+
+def test_area_is_that_of_the_parallel_curve() -> None:
+    """Steiner: A = A_pitch - R L + pi R^2 by sums over 20,000 places of the pitch curve."""
+    cam = made(**SHED, prime_radius="80mm", roller_radius="11mm")
+    angle = np.linspace(0, TURN, 20_001)[:-1]
+    pitch = cam.cam.trace(angle).pitch[::-1]
+    following = np.roll(pitch, -1)
+    inside = 0.5 * np.sum(np.imag(np.conj(pitch) * following))
+    strip = 11 * mm * np.sum(np.abs(following - pitch))
+    assert cam.area == pytest.approx(inside - strip + math.pi * (11 * mm) ** 2, rel=1e-7)
+
+
+def test_flat_follower_of_a_harmonic_cam_touches_a_circle() -> None:
+    """Rise and fall over half a turn each: a circle of Rb + L/2, whose centre lies L/2 off."""
+    found = made(law="harmonic", lift="20mm", rise="180deg", follower="flat", prime_radius="30mm")
+    surface = found.cam.trace(np.linspace(0, TURN, 97)).surface
+    assert np.abs(surface + 10 * mm) == pytest.approx(np.full(97, 40 * mm), rel=1e-12)
+    assert found.area == pytest.approx(math.pi * (40 * mm) ** 2, rel=1e-12)
+
+
+def test_flat_follower_has_the_smallest_base_circle_that_is_convex() -> None:
+    found = results(**SHED, follower="flat", curvature_least="2mm")
+    assert found["prime_radius"] == pytest.approx(62 * mm, rel=1e-9)
+    assert found["curvature_radius_min"] == pytest.approx(2 * mm, rel=1e-6)
+    assert found["pressure_angle_max"] == 0
+    assert found["undercut"] is False
+    assert found["face_span"] == pytest.approx([-60 * mm, 60 * mm], rel=1e-9)
+    assert results(**SHED, follower="flat", prime_radius="59mm")["undercut"] is True
+
+
+def test_offset_keeps_the_limit_on_the_rise_alone() -> None:
+    found = results(**SHED, follower="knife", pressure_angle_limit="25deg", offset="20mm")
+    assert found["pressure_angle_max"] == pytest.approx(25 * deg, rel=1e-9)
+    assert found["pressure_angle_fall_max"] > 25 * deg
+    assert found["prime_radius"] < results(**SHED, follower="knife", pressure_angle_limit="25deg")["prime_radius"]
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_every_law_makes_a_cam(law) -> None:
+    found = made(law=law, lift="20mm", rise="100deg", pressure_angle_limit="30deg")
+    assert math.isfinite(found.cam.prime_radius)
+    assert found.area > math.pi * (found.cam.prime_radius - found.cam.roller_radius) ** 2
+    assert math.isfinite(found.extremes.torque.value)
+
+
+def test_laws_take_their_parameters() -> None:
+    trapezoid = made(law="scca", law_parameters="b=0.25 c=0.5 d=0.25", lift="20mm")
+    named = made(law="modified-trapezoid", lift="20mm")
+    assert trapezoid.cam.prime_radius == pytest.approx(named.cam.prime_radius, rel=1e-9)
+    slow = made(law="harmonic", fall_law="3-4-5", fall="120deg", dwell="30deg")
+    assert [segment.law.name for segment in slow.programme.segments] == ["harmonic", "rest", "3-4-5", "rest"]
+
+
+@pytest.mark.parametrize(
+    ("rise", "dwell", "fall"), [("90deg", "0deg", 90), ("200deg", "0deg", 160), ("150deg", "100deg", 110)]
+)
+def test_fall_is_as_the_rise_where_it_fits(rise, dwell, fall) -> None:
+    found = made(rise=rise, dwell=dwell)
+    assert found.params.fall_angle == pytest.approx(fall * deg)
+    assert sum(segment.span for segment in found.programme.segments) == pytest.approx(TURN, abs=1e-12)
+
+
+def test_at_gives_the_motion_per_time() -> None:
+    at = results(**SHED, angle="30deg", speed="120rpm")["at"]
+    w, q = 120 * rpm, 2 * 30 * deg
+    assert at["position"] == pytest.approx(30 * mm * (1 - math.cos(q)))
+    assert at["velocity"] == pytest.approx(60 * mm * w * math.sin(q))
+    assert at["acceleration"] == pytest.approx(120 * mm * w**2 * math.cos(q))
+    assert at["jerk"] == pytest.approx(-240 * mm * w**3 * math.sin(q))
+
+
+def test_torque_of_a_load_alone_is_its_virtual_work() -> None:
+    found = results(**SHED, load="10N", mass="0kg", spring_rate="0N/mm", preload="0N")
+    assert found["torque_max"] == pytest.approx(10 * 60 * mm, rel=1e-9)
+    assert found["torque_range"] == pytest.approx([-0.6, 0.6], rel=1e-9)
+    assert found["lift_off_speed"] is None
+
+
+def test_chosen_spring_holds_up_to_its_speed() -> None:
+    found = results(lift="20mm", mass="2kg", load="0N", speed="200rpm", hold_speed="300rpm")
+    assert found["lift_off_speed"] == pytest.approx(300 * rpm, rel=1e-6)
+    assert found["spring_force_max"] == pytest.approx(2 * found["preload"], rel=1e-9)
+    assert found["hold_force_min"] > 0
+
+
+def test_spherical_and_crowned_followers_press_harder_than_a_line() -> None:
+    common = dict(lift="20mm", roller_radius="8mm", prime_radius="50mm")
+    line = results(**common)["hertz_pressure_max"]
+    crowned = results(**common, crown_radius="500mm")["hertz_pressure_max"]
+    ball = results(**common, follower="spherical")["hertz_pressure_max"]
+    assert line < crowned < ball
+    assert results(**{**common, "roller_radius": "0mm"}, follower="knife")["hertz_pressure_max"] is None
+
+
+def test_roller_of_a_table_lasts_as_long_as_its_rating_says() -> None:
+    """Under its dynamic rating a bearing lives a million turns."""
+    roller = ROLLERS["CF 10"]
+    assert Duty(roller.dynamic, roller.dynamic, 2.0, TURN).time(roller) == pytest.approx(1e6 / 2.0)
+
+
+def test_smallest_roller_that_lasts_is_taken() -> None:
+    light, heavy = (
+        made(lift="20mm", prime_radius="80mm"),
+        made(lift="20mm", prime_radius="80mm", load="4kN", life="1e4h"),
+    )
+    assert light.roller is not None
+    assert heavy.roller is not None
+    assert light.roller.name == "CF 5"
+    assert heavy.duty.time(heavy.roller) >= heavy.params.life
+    smaller = [one for one in ROLLERS.values() if one.diameter < heavy.roller.diameter]
+    assert not any(
+        made(lift="20mm", prime_radius="80mm", load="4kN", roller=one.name).duty.time(one) >= 3.6e7
+        for one in smaller[-1:]
+    )
+
+
+def test_hub_has_the_keyway_of_its_bore() -> None:
+    assert hub_for(20 * mm) == Hub(20 * mm, 6 * mm, 2.8 * mm)
+    assert hub_for(5 * mm).key_width == 0
+    hub = hub_for(38 * mm)
+    assert hub.area == pytest.approx(contours.area(hub.contour))
+    assert np.abs(contours.along(hub.contour, 0.01 * mm)).max() == pytest.approx(hub.reach, rel=1e-9)
+    torque = 16 / 1e9 * math.pi / 16 * 30e6 * 1e9 * (0.03**3) / 16
+    assert bore_for(torque * 0.999) == pytest.approx(30 * mm)
+
+
+def test_plate_has_the_area_of_the_cam_and_its_cutter_path() -> None:
+    found = report(made(**SHED, prime_radius="80mm", roller="CF 10", bore="20mm"))
+    (plate,) = found.plates
+    points = np.asarray(plate.outline)
+    assert 0.5 * np.sum(np.imag(np.conj(points) * np.roll(points, -1))) == pytest.approx(plate.area, rel=1e-5)
+    assert set(plate.paths) == {"pitch curve", "cutter path"}
+    assert np.max(np.abs(plate.paths["cutter path"] - plate.paths["pitch curve"])) == 0
+    assert len(plate.cutouts) == 1
+    (table,) = found.cam_tables
+    assert table.course(np.array([0.0, math.pi / 2]))[0] == pytest.approx([0.0, 60 * mm])
+
+
+def test_undercut_is_said_with_the_size_that_mends_it() -> None:
+    asked = dict(law="cycloidal", lift="20mm", rise="60deg", prime_radius="24mm", roller_radius="20mm")
+    found = report(made(**asked))
+    assert {result.name: result.value for result in found.results}["undercut"] is True
+    assert found.plates == ()
+    (said,) = [warning for warning in found.warnings if warning.startswith("undercut")]
+    mended = said.split("prime_radius=")[1].split(" ")[0]
+    assert not made(**{**asked, "prime_radius": mended}).undercut
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        (dict(rise="200deg", fall="170deg"), "rise \\+ dwell \\+ fall = 370 deg; they must fit one turn, 360 deg"),
+        (dict(rise="200deg", dwell="160deg"), "rise \\+ dwell = 360 deg; below 360 deg, so that a fall is left"),
+        (dict(rise="90"), "did you mean 90deg\\? a bare number is in radians"),
+        (dict(law="harmonik"), "did you mean harmonic\\?"),
+        (
+            dict(prime_radius="5mm", roller_radius="8mm"),
+            "above the roller's radius, 8 mm; the smallest for the pressure",
+        ),
+        (dict(prime_radius="15mm", offset="20mm"), "prime_radius=15 mm is too small; above the offset, 20 mm"),
+        (dict(roller="CF 11"), "no roller 'CF 11' in the table; the nearest offered is 'CF 1"),
+        (dict(roller="CF 10", roller_radius="8mm"), "roller and roller_radius are both given"),
+        (dict(follower="knife", roller_radius="8mm"), "set follower=roller or spherical"),
+        (dict(follower="spherical", roller_radius="0mm"), "set follower=knife"),
+        (dict(law_parameters="b"), "NAME=NUMBER"),
+        (dict(law_parameters="b=x"), "is not a number"),
+        (dict(law="scca", law_parameters="bb=0.2"), "law scca has no 'bb'"),
+        (dict(law="uniform", preload="5N", spring_rate="1N/mm", angle="400deg"), "angle=400 deg is out of bounds"),
+    ],
+)
+def test_bad_input_says_what_to_do(settings, said) -> None:
+    with pytest.raises(ParameterError, match=said):
+        made(**settings)
+
+
+def test_command_ends_with_2_and_no_traceback() -> None:
+    ran = CliRunner().invoke(main, ["design", "cam", "lift=60mm", "rise=200deg", "fall=200deg"])
+    assert ran.exit_code == 2
+    assert "Traceback" not in ran.output
