@@ -1,4 +1,4 @@
-"""A cam's programme: rises, falls and dwells that fill one turn.
+"""A cam's programme: rises, falls, dwells and parts of constant speed that fill one turn.
 
     s(theta) = base + change * law.s(u),   u = (theta - begin) / span     within each segment
 
@@ -9,19 +9,40 @@
 0.06
 """
 
+import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.laws import REST, Law
+from ilmek.cams.parts import Open, Segment, blend, bounds, dwell, even, fall, free, rise
 from ilmek.errors import ParameterError
 from ilmek.units import deg, format_quantity
 
+__all__ = [
+    "TURN",
+    "Course",
+    "Jump",
+    "Open",
+    "Programme",
+    "Segment",
+    "all_jumps",
+    "blend",
+    "dwell",
+    "even",
+    "fall",
+    "free",
+    "joined",
+    "jumps",
+    "rise",
+]
+
 TURN = 2 * math.pi
 _FIT = 1e-9
+_DERIVATIVES = ("", "velocity", "acceleration", "jerk")
 
 
 class Course(NamedTuple):
@@ -34,16 +55,6 @@ class Course(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Segment:
-    """A part of the turn: `change` [m] of the follower over `span` [rad] by a law."""
-
-    name: str
-    span: float
-    change: float
-    law: Law
-
-
-@dataclass(frozen=True, slots=True)
 class Jump:
     """A step in a derivative by the cam angle: of `order` 2 the acceleration [m/rad^2]."""
 
@@ -53,54 +64,63 @@ class Jump:
     after: float
     place: str
 
-
-def rise(span: float, lift: float, law: Law) -> Segment:
-    """The follower goes `lift` [m] outwards over `span` [rad]."""
-    return Segment("rise", span, lift, law)
-
-
-def fall(span: float, lift: float, law: Law) -> Segment:
-    """The follower comes back by `lift` [m] over `span` [rad]."""
-    return Segment("fall", span, -lift, law)
-
-
-def dwell(span: float) -> Segment:
-    """The follower stands still over `span` [rad]."""
-    return Segment("dwell", span, 0.0, REST)
+    def __str__(self) -> str:
+        """`the acceleration jumps from 0 to 0.12 m/rad^2 at 90 deg, from dwell to rise`."""
+        power = f"^{self.order}" if self.order > 1 else ""
+        step = f"from {self.before:.4g} to {self.after:.4g} m/rad{power}"
+        at = format_quantity(self.angle % TURN, "deg")
+        return f"the {_DERIVATIVES[self.order]} jumps {step} at {at}, {self.place}"
 
 
 @dataclass(frozen=True, slots=True)
 class Programme:
     """Segments that fill one turn and come back to where they began.
 
-    start  cam angle [rad] where the first segment begins
+    start     cam angle [rad] where the first segment begins
+    revolves  what the follower gains in a turn [m]: an indexing table, a feed; 0: it comes back
     Raises ParameterError where the segments do not fill the turn, or do not come back.
     """
 
     segments: tuple[Segment, ...]
     start: float = 0.0
+    revolves: float = 0.0
 
     def __post_init__(self) -> None:
-        spans = [segment.span for segment in self.segments]
-        if min(spans, default=0.0) <= 0 or abs(sum(spans) - TURN) > _FIT:
-            said = " + ".join(f"{segment.name} {format_quantity(segment.span / deg, '')}" for segment in self.segments)
-            raise ParameterError(
-                f"a cam of {said or 'no parts'} degrees", allowed="its parts must add up to 360 degrees"
-            )
-        left = sum(segment.change for segment in self.segments)
+        _check_turn(self.segments)
+        left = sum(segment.change for segment in self.segments) - self.revolves
         if abs(left) > _FIT * max(abs(segment.change) for segment in self.segments):
             shown = format_quantity(left, "mm")
+            if self.revolves:
+                gains = format_quantity(self.revolves, "mm")
+                raise ParameterError(f"the parts of a turn miss revolves={gains} by {shown}", do="let them add up")
             raise ParameterError(f"the follower ends a turn {shown} from where it began", allowed="it must come back")
 
     def shifted(self, angle: float) -> "Programme":
         """The same programme, later by `angle` [rad]."""
         return replace(self, start=self.start + angle)
 
+    def require_continuity(self, order: int) -> "Programme":
+        """The programme itself, where no derivative up to the order (0 to 3) jumps.
+
+        Raises ParameterError that names the first jump of the lowest derivative that has one.
+        """
+        found = all_jumps(self, order)
+        if found:
+            more = f", and {len(found) - 1} more" if len(found) > 1 else ""
+            allowed = f"no jump up to the {_DERIVATIVES[order]}"
+            raise ParameterError(f"{found[0]}{more}", allowed=allowed, do="take a smoother law, or a blend there")
+        return self
+
     @property
     def edges(self) -> FloatArray:
         """Where each segment begins, and where the last ends, from the start [rad]."""
-        ends = np.cumsum([segment.span for segment in self.segments[:-1]])
-        return np.concatenate(([0.0], ends, [TURN]))
+        ends = itertools.accumulate(segment.span for segment in self.segments[:-1])
+        return np.array([0.0, *ends, TURN])
+
+    @property
+    def bases(self) -> tuple[float, ...]:
+        """Displacement at which each segment begins [m]."""
+        return (0.0, *itertools.accumulate(segment.change for segment in self.segments[:-1]))
 
     @property
     def knots(self) -> FloatArray:
@@ -112,45 +132,98 @@ class Programme:
         ]
         return self.start + np.array([*inner, TURN])
 
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Least and greatest displacement over the first turn [m], overshoot of a law among it."""
+        return bounds(self.segments)
+
     def at(self, angle: FloatArray) -> Course:
         """Motion at cam angles [rad] of any shape and any turn; at a boundary, that of the segment which begins."""
-        phase = np.mod(angle - self.start, TURN)
-        edges = self.edges
-        index = np.searchsorted(edges[1:-1], phase, side="right")
-        out = np.empty((4, *phase.shape))
-        base = 0.0
-        for i, segment in enumerate(self.segments):
-            here = index == i
-            out[:, here] = _course(segment, base, (phase[here] - edges[i]) / segment.span)
-            base += segment.change
-        return Course(*out)
+        turns, phase = _turn_and_phase(np.asarray(angle - self.start))
+        flat = phase.ravel()
+        order = None if np.all(flat[1:] >= flat[:-1]) else np.argsort(flat, kind="stable")
+        rows = self._ascending(flat if order is None else flat[order])
+        if order is not None:
+            ordered, rows = rows, np.empty(rows.shape)
+            rows[:, order] = ordered
+        rows = rows.reshape(4, *phase.shape)
+        if self.revolves:
+            rows[0] += self.revolves * turns
+        return Course(*rows)
+
+    def _ascending(self, phase: FloatArray) -> FloatArray:
+        """Rows s, s', s'', s''' at ascending phases: each segment has a stretch of its own."""
+        edges, bases = self.edges, self.bases
+        ends = (0, *np.searchsorted(phase, edges[1:-1]), phase.size)
+        rows = np.zeros((4, phase.size))
+        for segment, edge, base, (first, last) in zip(
+            self.segments, edges, bases, itertools.pairwise(ends), strict=False
+        ):
+            if first == last:
+                continue
+            here = rows[:, first:last]
+            if segment.factor:
+                u = np.minimum((phase[first:last] - edge) * (1.0 / segment.span), 1.0)
+                here[0], here[1], here[2], here[3] = segment.motion(u)
+            here[0] += base
+        return rows
+
+
+def joined(parts: Sequence[Segment | Open], order: int = 2, start: float = 0.0, revolves: float = 0.0) -> Programme:
+    """A programme whose open parts are filled so that no derivative up to `order` (1 to 3) jumps at their ends.
+
+    An open part gets the polynomial whose derivatives 1..order are those of its neighbours.
+    Raises ParameterError for two open parts side by side, and where jumps remain that no open part could mend.
+
+    >>> sway = joined((even(1.0, 0.02), blend(1.0, 0.005), dwell(2.0), blend(TURN - 4.0, -0.025)))
+    >>> all_jumps(sway, 2)
+    ()
+    """
+    if order not in {1, 2, 3}:
+        raise ParameterError(f"continuity of order {order}", allowed="1 (velocity), 2 (acceleration), 3 (jerk)")
+    filled = []
+    for i, part in enumerate(parts):
+        if isinstance(part, Segment):
+            filled.append(part)
+            continue
+        before, after = parts[i - 1], parts[(i + 1) % len(parts)]
+        if isinstance(before, Open) or isinstance(after, Open):
+            raise ParameterError("two blends side by side", do="say the motion of one of them, or make them one")
+        orders = range(1, order + 1)
+        ends = [before.derivative(1.0, k) for k in orders], [after.derivative(0.0, k) for k in orders]
+        filled.append(replace(free(part.span, part.change, *ends), name=part.name))
+    return Programme(tuple(filled), start, revolves).require_continuity(order)
 
 
 def jumps(programme: Programme, order: int = 2) -> tuple[Jump, ...]:
     """Where the derivative of `order` (1 velocity, 2 acceleration, 3 jerk) jumps, in the order of the cam angle."""
     segments = programme.segments
     found = []
-    for i, segment in enumerate(segments):
-        previous = segments[i - 1]
-        begin = programme.start + float(programme.edges[i])
+    for i, (segment, edge) in enumerate(zip(segments, programme.edges, strict=False)):
+        previous, begin = segments[i - 1], programme.start + float(edge)
         place = f"from {previous.name} to {segment.name}"
-        found.append(Jump(begin, order, _one_side(previous, 1.0, order), _one_side(segment, 0.0, order), place))
-        for u in segment.law.breaks:
-            before, after = (_one_side(segment, float(np.nextafter(u, side)), order) for side in (0.0, 1.0))
-            found.append(Jump(begin + u * segment.span, order, before, after, f"inside the {segment.name}"))
-    scale = max(abs(segment.change) / segment.span**order for segment in segments)
+        found.append(Jump(begin, order, previous.derivative(1.0, order), segment.derivative(0.0, order), place))
+        found += [
+            Jump(begin + u * segment.span, order, *segment.sides(u, order), f"inside the {segment.name}")
+            for u in segment.law.breaks
+        ]
+    scale = max(segment.size / segment.span**order for segment in segments)
     return tuple(jump for jump in found if abs(jump.after - jump.before) > _FIT * scale)
 
 
-def _course(segment: Segment, base: float, u: FloatArray) -> FloatArray:
-    """Rows s, s', s'', s''' at u in [0, 1] of a segment that begins at displacement `base`."""
-    u = np.clip(u, 0.0, 1.0)
-    law, step = segment.law, segment.change
-    rows = (law.s(u), law.v(u) / segment.span, law.a(u) / segment.span**2, law.j(u) / segment.span**3)
-    out = step * np.stack([np.asarray(row) for row in rows])
-    out[0] += base
-    return out
+def all_jumps(programme: Programme, order: int = 3) -> tuple[Jump, ...]:
+    """The jumps of all derivatives up to `order`, the lowest derivative first."""
+    return tuple(itertools.chain.from_iterable(jumps(programme, k) for k in range(1, order + 1)))
 
 
-def _one_side(segment: Segment, u: float, order: int) -> float:
-    return float(_course(segment, 0.0, np.array(u))[order])
+def _check_turn(segments: tuple[Segment, ...]) -> None:
+    spans = [segment.span for segment in segments]
+    if min(spans, default=0.0) <= 0 or abs(sum(spans) - TURN) > _FIT:
+        said = " + ".join(f"{segment.name} {format_quantity(segment.span / deg, '')}" for segment in segments)
+        raise ParameterError(f"a cam of {said or 'no parts'} degrees", allowed="its parts must add up to 360 degrees")
+
+
+def _turn_and_phase(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Whole turns and the rest in [0, 2 pi)."""
+    turns = np.asarray(np.floor(angle * (1.0 / TURN)))
+    return turns, np.asarray(np.maximum(angle - turns * TURN, 0.0)) if np.any(turns) else angle

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from ilmek.arrays import RealField
-from ilmek.cams.laws.law import Law
+from ilmek.cams.laws.law import Law, Motion
 
 _TURN = 2.0 * math.pi
 
@@ -41,4 +41,13 @@ def j(u: RealField) -> RealField:
     return _TURN**2 * np.cos(_TURN * u)
 
 
-LAW = Law("cycloidal", s, v, a, j, 2.0, _TURN, _TURN**2, 1.5 * math.sqrt(3) * math.pi, _TURN / math.sqrt(2))
+def motion(u: RealField) -> Motion:
+    """All four, from one sine and one cosine."""
+    turned = _TURN * u
+    sin, cos = np.sin(turned), np.cos(turned)
+    return Motion(u - sin / _TURN, 1.0 - cos, _TURN * sin, _TURN**2 * cos)
+
+
+LAW = Law(
+    "cycloidal", s, v, a, j, 2.0, _TURN, _TURN**2, 1.5 * math.sqrt(3) * math.pi, _TURN / math.sqrt(2), at_once=motion
+)

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ilmek.arrays import RealField
-from ilmek.cams.laws.law import Law
+from ilmek.cams.laws.law import Law, Motion
 
 
 def s(u: RealField) -> RealField:
@@ -38,6 +38,15 @@ def j(u: RealField) -> RealField:
     return -0.5 * math.pi**3 * np.sin(math.pi * u)
 
 
+def motion(u: RealField) -> Motion:
+    """All four, from one sine and one cosine."""
+    turned = math.pi * u
+    sin, cos = np.sin(turned), np.cos(turned)
+    return Motion(0.5 - 0.5 * cos, 0.5 * math.pi * sin, 0.5 * math.pi**2 * cos, -0.5 * math.pi**3 * sin)
+
+
 _LARGEST = math.pi**2 / 2
 
-LAW = Law("harmonic", s, v, a, j, math.pi / 2, _LARGEST, math.inf, math.pi**3 / 8, _LARGEST / math.sqrt(2))
+LAW = Law(
+    "harmonic", s, v, a, j, math.pi / 2, _LARGEST, math.inf, math.pi**3 / 8, _LARGEST / math.sqrt(2), at_once=motion
+)

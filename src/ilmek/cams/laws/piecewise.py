@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, RealField
-from ilmek.cams.laws.law import Law, Parameters
+from ilmek.arrays import FloatArray, IntArray, RealField
+from ilmek.cams.laws.law import Law, Motion, Parameters
 
 _SAME = 1e-9
 """Below this share of a derivative's size its step at a knot, or its value at an end, is rounding."""
@@ -30,10 +30,26 @@ class Piecewise:
         """Values at u of any shape; at a knot, those of the piece that begins."""
         if len(self.rows) == 1:
             return _horner(self.rows[0], u)
-        u = np.asarray(u)
-        piece = np.searchsorted(self.knots[1:-1], u, side="right")
-        t = (u - self.knots[piece]) / (self.knots[piece + 1] - self.knots[piece])
-        return _horner(np.moveaxis(self.rows[piece], -1, 0), t)
+        piece, t = self.local(u)
+        return _horner(self.rows.T[:, piece], t)
+
+    def local(self, u: RealField) -> tuple[IntArray, FloatArray]:
+        """The piece that each u lies in, and t within it; at a knot, the piece that begins."""
+        u = np.asarray(u, float)
+        piece = np.asarray(np.searchsorted(self.knots[1:-1], u, side="right"))
+        return piece, np.asarray((u - self.knots[piece]) / np.diff(self.knots)[piece])
+
+    def motion(self, u: RealField) -> Motion:
+        """Values and the first three derivatives by u, in one pass of Horner's scheme."""
+        piece, t = self.local(u)
+        per_length = 1.0 / np.diff(self.knots)[piece]
+        value, first, second, third = np.zeros((4, *t.shape))
+        for coefficient in self.rows.T[::-1, piece]:
+            third = third * t + second
+            second = second * t + first
+            first = first * t + value
+            value = value * t + coefficient
+        return Motion(value, first * per_length, 2.0 * second * per_length**2, 6.0 * third * per_length**3)
 
     def derivative(self) -> "Piecewise":
         """The derivative by u."""
@@ -92,6 +108,7 @@ def law_of_pieces(name: str, s: Piecewise, parameters: Parameters) -> Law:
         parameters=parameters,
         lowest=float(lowest),
         highest=float(highest),
+        at_once=s.motion if len(s.rows) > 1 else None,
     )
 
 

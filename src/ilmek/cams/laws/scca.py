@@ -9,24 +9,37 @@ leaves over is run at constant velocity about the middle.                [Norton
 
 With b + c + d = 1 the peak is Ca = 4 pi^2 / ((pi^2 - 8)(b^2 - d^2) - 2 pi (pi - 2) b + pi^2).
 
-Counted from the middle, h = |u - 1/2| runs through the lengths E (even), D = d/2, C = c/2 and B = b/2; x1..x4 are its
-parts within each. With p = 2D/pi and q = 2B/pi one formula serves all zones:
+Counted from the middle, h = |u - 1/2| runs through the lengths E (even), D = d/2, C = c/2 and B = b/2; x1 and x3 are
+its parts within E and C. With p = 2D/pi and q = 2B/pi the angle y runs from 0 to pi/2 along the cosine, stays, and goes
+on to pi along the sine, so that one formula serves all zones:
 
-    |a| = Ca sin(x2/p) cos(x4/q)
-     v  = Ca (p sin((D - x2)/p) + C - x3 + q (1 - cos((B - x4)/q)))
-    |s - 1/2| = Ca ((p + C + q) x1 + (C + q) x2 + p^2 sin(x2/p) + x3 (C + q - x3/2) + q x4 - q^2 (1 - cos(x4/q)))
+    |a| = Ca sin y,    v = Ca (p max(cos y, 0) + C - x3 + q (1 + min(cos y, 0)))
+    |s - 1/2| = Ca ((p + C + q) x1 + x3 (C + q - x3/2) + w),
+    w = p ((C + q) y + p sin y) up to y = pi/2, and from there on q^2 (y + sin y) and what joins it
 """
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ilmek.arrays import RealField
-from ilmek.cams.laws.law import Family, Law, Parameters
+from ilmek.cams.laws.law import Family, Law, Motion, Parameters
 from ilmek.errors import ParameterError
 
 _ROUNDING = 1e-12
+_BY_ANGLE = 2.0 / math.pi
+_QUARTER = 0.5 * math.pi
+
+
+class _Zones(NamedTuple):
+    """Where u lies: side of the middle, parts of the even and the constant length, the angle y."""
+
+    side: RealField
+    x1: RealField
+    x3: RealField
+    y: RealField
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,71 +52,78 @@ class _Waves:
     sine: float
     peak: float
 
-    def _parts(self, u: RealField) -> tuple[RealField, RealField, RealField, RealField]:
-        """Parts of |u - 1/2| within the four zones."""
-        h = np.abs(u - 0.5)
-        bend = h - self.even
-        hold = bend - self.cosine
-        return np.minimum(h, self.even), _within(bend, self.cosine), _within(hold, self.constant), _ramp(hold, self)
+    @property
+    def p(self) -> float:
+        """Length over angle of the cosine."""
+        return _BY_ANGLE * self.cosine
+
+    @property
+    def q(self) -> float:
+        """Length over angle of the sine."""
+        return _BY_ANGLE * self.sine
+
+    def zones(self, u: RealField) -> _Zones:
+        """Where each u lies."""
+        d = np.asarray(u - 0.5)
+        x = np.abs(d)
+        x1: RealField = 0.0
+        if self.even > 0:
+            x1 = np.minimum(x, self.even)
+            x = x - x1
+        y = np.minimum(x, self.cosine) / self.p if self.p > 0 else _QUARTER * (x > 0)
+        x = np.maximum(x - self.cosine, 0.0)
+        x3 = np.minimum(x, self.constant) if self.constant > 0 else 0.0
+        if self.q > 0:
+            y = y + (x - x3) / self.q
+        return _Zones(np.sign(d), x1, x3, y)
 
     def s(self, u: RealField) -> RealField:
         """Displacement."""
-        x1, x2, x3, x4 = self._parts(u)
-        p, q = _TO_ANGLE * self.cosine, _TO_ANGLE * self.sine
-        hold = self.constant + q
-        way = (p + hold) * x1 + hold * x2 + x3 * (hold - 0.5 * x3) + q * x4
-        if p > 0:
-            way = way + p**2 * np.sin(x2 / p)
-        if q > 0:
-            way = way - 2.0 * q**2 * np.sin(0.5 * x4 / q) ** 2
-        return 0.5 + np.sign(u - 0.5) * self.peak * way
+        at = self.zones(u)
+        return self._s(at, np.sin(at.y))
 
     def v(self, u: RealField) -> RealField:
         """Velocity."""
-        _, x2, x3, x4 = self._parts(u)
-        p, q = _TO_ANGLE * self.cosine, _TO_ANGLE * self.sine
-        rate = self.constant - x3
-        if p > 0:
-            rate = rate + p * np.sin((self.cosine - x2) / p)
-        if q > 0:
-            rate = rate + 2.0 * q * np.sin(0.5 * (self.sine - x4) / q) ** 2
-        return self.peak * rate
+        at = self.zones(u)
+        return self._v(at, np.cos(at.y))
 
     def a(self, u: RealField) -> RealField:
         """Acceleration."""
-        _, x2, _, x4 = self._parts(u)
-        p, q = _TO_ANGLE * self.cosine, _TO_ANGLE * self.sine
-        size = np.sin(x2 / p) if p > 0 else self._beyond_even(u)
-        if q > 0:
-            size = size * np.cos(x4 / q)
-        return -self.peak * np.sign(u - 0.5) * size
+        at = self.zones(u)
+        return -self.peak * at.side * np.sin(at.y)
 
     def j(self, u: RealField) -> RealField:
         """Jerk."""
-        _, x2, _, x4 = self._parts(u)
-        p, q = _TO_ANGLE * self.cosine, _TO_ANGLE * self.sine
-        size = 0.0 * np.asarray(u)
-        if p > 0:
-            size = size - np.cos(x2 / p) * (self._beyond_even(u) if self.even > 0 else 1.0) / p
-        if q > 0:
-            size = size + np.sin(x4 / q) / q
-        return self.peak * size
+        at = self.zones(u)
+        return self._j(at, np.cos(at.y))
 
-    def _beyond_even(self, u: RealField) -> RealField:
-        """1 where the velocity changes, 0 where it does not."""
-        return np.maximum(np.sign(np.abs(u - 0.5) - self.even), 0.0)
+    def motion(self, u: RealField) -> Motion:
+        """All four, from one sine and one cosine."""
+        at = self.zones(u)
+        sin, cos = np.sin(at.y), np.cos(at.y)
+        return Motion(self._s(at, sin), self._v(at, cos), -self.peak * at.side * sin, self._j(at, cos))
 
+    def _s(self, at: _Zones, sin: RealField) -> RealField:
+        p, q, hold = self.p, self.q, self.constant + self.q
+        join = p * hold * _QUARTER + p**2 - q**2 * (_QUARTER + 1.0)
+        way = np.where(at.y > _QUARTER, q**2 * (at.y + sin) + join, p * hold * at.y + p**2 * sin)
+        if self.even > 0:
+            way = way + (p + hold) * at.x1
+        if self.constant > 0:
+            way = way + at.x3 * (hold - 0.5 * at.x3)
+        return 0.5 + self.peak * at.side * way
 
-_TO_ANGLE = 2.0 / math.pi
+    def _v(self, at: _Zones, cos: RealField) -> RealField:
+        slowing = self.p * np.maximum(cos, 0.0) + self.q * (1.0 + np.minimum(cos, 0.0))
+        return self.peak * (slowing + (self.constant - at.x3))
 
-
-def _within(x: RealField, length: float) -> RealField:
-    return np.minimum(np.maximum(x, 0.0), length)
-
-
-def _ramp(hold: RealField, waves: _Waves) -> RealField:
-    """The last zone has no upper bound: u ends with it."""
-    return np.maximum(hold - waves.constant, 0.0)
+    def _j(self, at: _Zones, cos: RealField) -> RealField:
+        before = -self.peak / self.p if self.p > 0 else 0.0
+        after = -self.peak / self.q if self.q > 0 else 0.0
+        rate = np.where(at.y > _QUARTER, after, before)
+        if self.even > 0:
+            rate = rate * (at.y > 0)
+        return rate * cos
 
 
 def family(name: str, b: float, c: float, d: float, parameters: Parameters) -> Law:
@@ -122,7 +142,7 @@ def family(name: str, b: float, c: float, d: float, parameters: Parameters) -> L
     least = min(b, d)
     jerk = math.pi * peak / least if least > 0 else math.inf
     peaks = _top(waves), peak, jerk, _torque(waves), peak * math.sqrt(0.5 * b + c + 0.5 * d)
-    return Law(name, waves.s, waves.v, waves.a, waves.j, *peaks, _breaks(waves), parameters)
+    return Law(name, waves.s, waves.v, waves.a, waves.j, *peaks, _breaks(waves), parameters, at_once=waves.motion)
 
 
 def law(b: float, c: float, d: float) -> Law:
@@ -136,19 +156,19 @@ def law(b: float, c: float, d: float) -> Law:
 
 def _peak(even: float, cosine: float, constant: float, sine: float) -> float:
     """Ca: what makes the way from the middle to the end 1/2."""
-    p, q = _TO_ANGLE * cosine, _TO_ANGLE * sine
+    p, q = _BY_ANGLE * cosine, _BY_ANGLE * sine
     hold = constant + q
     way = (p + hold) * even + hold * cosine + p**2 + constant * (hold - 0.5 * constant) + q * sine - q**2
     return 0.5 / way
 
 
 def _top(waves: _Waves) -> float:
-    return waves.peak * (_TO_ANGLE * (waves.cosine + waves.sine) + waves.constant)
+    return waves.peak * (_BY_ANGLE * (waves.cosine + waves.sine) + waves.constant)
 
 
 def _torque(waves: _Waves) -> float:
     """Largest |v a|, in the cosine's zone: Ca^2 (p cos y + C + q) sin y, stationary at 2 p cos^2 y + ... = p."""
-    p, hold = _TO_ANGLE * waves.cosine, waves.constant + _TO_ANGLE * waves.sine
+    p, hold = _BY_ANGLE * waves.cosine, waves.constant + _BY_ANGLE * waves.sine
     cos = 2.0 * p / (hold + math.sqrt(hold**2 + 8.0 * p**2))
     return waves.peak**2 * (p * cos + hold) * math.sqrt(1.0 - cos**2)
 

@@ -1,0 +1,115 @@
+"""Parts of a cam's programme: rises, falls, dwells, constant speed, and free parts between given ends.
+
+s = base + scale law.s(u),   s' = scale/span law.v(u),   ...        u = (theta - begin)/span in [0, 1]
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.cams.laws import LAWS, REST, Law, law_of
+from ilmek.cams.laws.law import Motion
+
+_BESIDE = 1e-12
+"""Share of a part at which a one-sided value is taken beside a break inside it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """A part of the turn: `change` [m] of the follower over `span` [rad] by a law.
+
+    scale  what the law is multiplied by [m]; None: by the change, as fits a law that goes from 0 to 1
+    """
+
+    name: str
+    span: float
+    change: float
+    law: Law
+    scale: float | None = None
+
+    @property
+    def factor(self) -> float:
+        """What the law is multiplied by [m]."""
+        return self.change if self.scale is None else self.scale
+
+    @property
+    def size(self) -> float:
+        """How far the follower moves about [m]: what its derivatives are small or large against."""
+        return abs(self.factor) * max(self.law.highest - self.law.lowest, _BESIDE)
+
+    def derivative(self, u: float, order: int) -> float:
+        """Derivative of an order (1 to 3) by the cam angle at u [m/rad, m/rad^2, m/rad^3]."""
+        curve = (self.law.s, self.law.v, self.law.a, self.law.j)[order]
+        return self.factor / self.span**order * float(curve(u))
+
+    def sides(self, at: float, order: int) -> tuple[float, float]:
+        """The derivative just before and just behind u = at inside the part."""
+        return self.derivative(at - _BESIDE, order), self.derivative(at + _BESIDE, order)
+
+    def motion(self, u: FloatArray) -> Motion:
+        """S from the part's begin, and its derivatives by the cam angle, at u."""
+        at, factor, rate = self.law.motion(u), self.factor, 1.0 / self.span
+        v, a, j = factor * rate, factor * rate**2, factor * rate**3
+        return Motion(factor * at.s, v * at.v, a * at.a, j * at.j)
+
+
+@dataclass(frozen=True, slots=True)
+class Open:
+    """A part whose law is not given: `joined` finds the polynomial that meets both neighbours."""
+
+    name: str
+    span: float
+    change: float
+
+
+def rise(span: float, lift: float, law: Law) -> Segment:
+    """The follower goes `lift` [m] outwards over `span` [rad]."""
+    return Segment("rise", span, lift, law)
+
+
+def fall(span: float, lift: float, law: Law) -> Segment:
+    """The follower comes back by `lift` [m] over `span` [rad]."""
+    return Segment("fall", span, -lift, law)
+
+
+def dwell(span: float) -> Segment:
+    """The follower stands still over `span` [rad]."""
+    return Segment("dwell", span, 0.0, REST)
+
+
+def even(span: float, change: float) -> Segment:
+    """The follower moves by `change` [m] over `span` [rad] at constant speed."""
+    return Segment("constant speed", span, change, LAWS["uniform"])
+
+
+def blend(span: float, change: float) -> Open:
+    """The follower moves by `change` [m] over `span` [rad] so that it joins both neighbours; for `joined`."""
+    return Open("blend", span, change)
+
+
+def free(span: float, change: float, start: Sequence[float] = (0.0, 0.0), end: Sequence[float] = (0.0, 0.0)) -> Segment:
+    """A polynomial part between given derivatives.
+
+    start, end  s', s'', s''' [m/rad, m/rad^2, m/rad^3] at the begin and at the end, as many as are to be met
+
+    >>> free(1.0, 0.0, (1.0, 0.0), (-1.0, 0.0)).law.highest > 0.3
+    True
+    """
+    scale = max(abs(change), *(abs(value) * span**k for row in (start, end) for k, value in enumerate(row, 1)), 0.0)
+    scale = scale or 1.0
+    first, last = (tuple(value * span**k / scale for k, value in enumerate(row, 1)) for row in (start, end))
+    law = law_of("polynomial", {"start": (0.0, *first), "end": (change / scale, *last)})
+    return Segment("blend", span, change, law, scale)
+
+
+def bounds(parts: Sequence[Segment]) -> tuple[float, float]:
+    """Least and greatest displacement [m] over parts in a row, from 0 at their begin; overshoot is counted."""
+    base, lowest, highest = 0.0, math.inf, -math.inf
+    for part in parts:
+        ends = base + part.factor * np.array([part.law.lowest, part.law.highest])
+        lowest, highest = min(lowest, float(ends.min())), max(highest, float(ends.max()))
+        base += part.change
+    return lowest, highest
