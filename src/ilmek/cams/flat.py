@@ -11,14 +11,15 @@ Harmonic rise and fall over half a turn each make a circle of radius Rb + L/2.  
 7; support function: do Carmo, Differential Geometry of Curves and Surfaces, 1-7]
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray, RealField
 from ilmek.cams.pieces import infimum, supremum
-from ilmek.cams.programme import Programme
+from ilmek.cams.programme import Course, Programme
 from ilmek.cams.trace import Trace, Traced
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import unit
@@ -54,17 +55,25 @@ class FlatCam(Traced):
             shown = format_quantity(self.prime_radius, "mm")
             raise ParameterError(f"prime_radius={shown} is too small", allowed="above 0 mm")
 
-    def trace(self, angle: FloatArray) -> Trace:
-        """Everything at cam angles [rad], in one pass; the pitch curve is the surface itself."""
-        at = self.programme.at(angle)
+    @property
+    def prime_bounds(self) -> tuple[float, float]:
+        """Between which base radii [m] the cam can be built: all above 0."""
+        return 0.0, math.inf
+
+    def resized(self, prime_radius: float) -> "FlatCam":
+        """The same cam with another prime radius [m]."""
+        return replace(self, prime_radius=prime_radius)
+
+    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+        """Everything at cam angles [rad], of the course there; the pitch curve is the surface itself."""
         normal = np.asarray(unit(-angle))
         return Trace(
             angle=angle,
-            course=at,
-            pitch=(self.prime_radius + at.s - 1j * at.ds) * normal,
+            course=course,
+            pitch=(self.prime_radius + course.s - 1j * course.ds) * normal,
             normal=normal,
             pressure_angle=np.zeros_like(angle),
-            flow=np.asarray(curvature_radius(at.s, at.dds, self.prime_radius)),
+            flow=np.asarray(curvature_radius(course.s, course.dds, self.prime_radius)),
             turning=np.ones_like(angle),
             roller_radius=0.0,
         )

@@ -13,14 +13,14 @@ circle's radius and the roller's, rocker l; its pressure angle is the deviation 
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import ClassVar, Literal
 
 import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray, RealField
-from ilmek.cams.programme import Programme
+from ilmek.cams.programme import Course, Programme
 from ilmek.cams.trace import Trace, Traced, trace_of_point
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import unit
@@ -64,21 +64,13 @@ class OscillatingCam(Traced):
     flat: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
-        least = max(abs(self.pivot - self.arm), self.roller_radius)
-        if not least < self.prime_radius < self.pivot + self.arm:
-            low, high = format_quantity(least, "mm"), format_quantity(self.pivot + self.arm, "mm")
+        least, most = self.prime_bounds
+        if not least < self.prime_radius < most:
+            shown, pivot, arm = (format_quantity(x, "mm") for x in (self.prime_radius, self.pivot, self.arm))
             raise ParameterError(
-                f"prime_radius={format_quantity(self.prime_radius, 'mm')} with pivot="
-                f"{format_quantity(self.pivot, 'mm')} and arm={format_quantity(self.arm, 'mm')}",
-                allowed=f"above {low}, below {high}",
-            )
-        swing = max(accumulate(part.change for part in self.programme.segments))
-        if self.start_angle + swing >= math.pi:
-            most = format_quantity(math.pi - self.start_angle, "deg")
-            raise ParameterError(
-                f"a swing of {format_quantity(swing, 'deg')} from {format_quantity(self.start_angle, 'deg')}",
-                allowed=f"below {most}, where arm and pivot are in line with the axis",
-                do="swing less, or take a smaller prime circle",
+                f"prime_radius={shown} with pivot={pivot}, arm={arm} and {format_quantity(self.swing, 'deg')} of swing",
+                allowed=f"above {format_quantity(least, 'mm')}, below {format_quantity(most, 'mm')}",
+                do="swing less, or change pivot or arm" if least >= most else "",
             )
 
     @property
@@ -86,10 +78,25 @@ class OscillatingCam(Traced):
         """The arm's angle psi [rad] where the displacement is 0."""
         return float(arm_angle(self.prime_radius, self.pivot, self.arm))
 
-    def trace(self, angle: FloatArray) -> Trace:
-        """Everything at cam angles [rad], in one pass."""
-        at = self.programme.at(angle)
-        psi = self.start_angle + at.s
-        motion = roller_motion(psi, at.ds, at.dds, pivot=self.pivot, arm=self.arm, side=self.side)
+    @property
+    def swing(self) -> float:
+        """How far the arm swings out from where the displacement is 0 [rad]."""
+        return max(accumulate(part.change for part in self.programme.segments))
+
+    @property
+    def prime_bounds(self) -> tuple[float, float]:
+        """Between which prime radii [m] the cam can be built: outside the roller, and the arm reaches all its way."""
+        c, arm = self.pivot, self.arm
+        most = math.sqrt(max(c**2 + arm**2 + 2 * c * arm * math.cos(min(self.swing, math.pi)), 0.0))
+        return max(abs(c - arm), self.roller_radius), most
+
+    def resized(self, prime_radius: float) -> "OscillatingCam":
+        """The same cam with another prime radius [m]."""
+        return replace(self, prime_radius=prime_radius)
+
+    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+        """Everything at cam angles [rad] where the follower's course is known there."""
+        psi = self.start_angle + course.s
+        motion = roller_motion(psi, course.ds, course.dds, pivot=self.pivot, arm=self.arm, side=self.side)
         way = (self.pivot - motion[0]) * (1j * self.side / self.arm)
-        return trace_of_point(angle, at, motion, way, self.roller_radius)
+        return trace_of_point(angle, course, motion, way, self.roller_radius)

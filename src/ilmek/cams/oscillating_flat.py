@@ -16,7 +16,7 @@ from the pivot), 0 for a face through the pivot. side +1: the face above the lin
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import ClassVar, Literal
 
@@ -24,7 +24,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.pieces import infimum, supremum
-from ilmek.cams.programme import Programme
+from ilmek.cams.programme import Course, Programme
 from ilmek.cams.trace import Trace, Traced
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import unit
@@ -52,16 +52,13 @@ class OscillatingFlatCam(Traced):
     flat: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        most = self.pivot + self.face_offset
+        most = self.prime_bounds[1]
         if not 0 < self.prime_radius < most:
-            shown = format_quantity(self.prime_radius, "mm")
-            raise ParameterError(f"prime_radius={shown}", allowed=f"above 0 mm, below {format_quantity(most, 'mm')}")
-        swing = max(accumulate(part.change for part in self.programme.segments))
-        if self.start_angle + swing >= math.pi / 2:
+            shown, pivot = format_quantity(self.prime_radius, "mm"), format_quantity(self.pivot, "mm")
             raise ParameterError(
-                f"a swing of {format_quantity(swing, 'deg')} from {format_quantity(self.start_angle, 'deg')}",
-                allowed=f"below {format_quantity(math.pi / 2 - self.start_angle, 'deg')}, where the face stands across",
-                do="swing less, or put the pivot further away",
+                f"prime_radius={shown} with pivot={pivot} and {format_quantity(self.swing, 'deg')} of swing",
+                allowed=f"above 0 mm, below {format_quantity(most, 'mm')}",
+                do="swing less, or put the pivot further away" if most <= 0 else "",
             )
 
     @property
@@ -69,19 +66,32 @@ class OscillatingFlatCam(Traced):
         """The face's angle psi [rad] where the displacement is 0."""
         return math.asin((self.prime_radius - self.face_offset) / self.pivot)
 
-    def trace(self, angle: FloatArray) -> Trace:
-        """Everything at cam angles [rad], in one pass; the pitch curve is the surface itself."""
-        at = self.programme.at(angle)
-        swung = self.pivot * unit(self.start_angle + at.s)
+    @property
+    def swing(self) -> float:
+        """How far the face swings out from where the displacement is 0 [rad]."""
+        return max(accumulate(part.change for part in self.programme.segments))
+
+    @property
+    def prime_bounds(self) -> tuple[float, float]:
+        """Between which base radii [m] the cam can be built: the face must not swing past a right angle."""
+        return 0.0, self.pivot * math.cos(min(self.swing, math.pi)) + self.face_offset
+
+    def resized(self, prime_radius: float) -> "OscillatingFlatCam":
+        """The same cam with another prime radius [m]."""
+        return replace(self, prime_radius=prime_radius)
+
+    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+        """Everything at cam angles [rad], of the course there; the pitch curve is the surface itself."""
+        swung = self.pivot * unit(self.start_angle + course.s)
         far = swung.imag + self.face_offset
-        first, second = swung.real * at.ds, swung.real * at.dds - swung.imag * at.ds**2
-        turning = 1 + self.side * at.ds
+        first, second = swung.real * course.ds, swung.real * course.dds - swung.imag * course.ds**2
+        turning = 1 + self.side * course.ds
         wander = first / turning
-        normal = 1j * self.side * unit(-self.side * (self.start_angle + at.s) - angle)
-        flow = far * turning + (second - wander * self.side * at.dds) / turning
+        normal = 1j * self.side * unit(-self.side * (self.start_angle + course.s) - angle)
+        flow = far * turning + (second - wander * self.side * course.dds) / turning
         return Trace(
             angle=angle,
-            course=at,
+            course=course,
             pitch=np.asarray((far - 1j * wander) * normal),
             normal=np.asarray(normal),
             pressure_angle=np.arctan2(self.side * self.face_offset, swung.real - self.side * wander),

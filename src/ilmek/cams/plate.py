@@ -4,14 +4,15 @@ The follower's line may pass beside the axis (`profile` has the formulas and the
 and touches as a roller of its radius does, in the plane of its motion; only the Hertz contact is a point's.
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams import profile
-from ilmek.cams.programme import Programme
+from ilmek.cams.programme import Course, Programme
 from ilmek.cams.trace import Trace, Traced, trace_of_point
 from ilmek.errors import ParameterError
 from ilmek.units import format_quantity
@@ -31,16 +32,24 @@ class PlateCam(Traced):
     flat: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
-        least = max(abs(self.offset), self.roller_radius)
+        least = self.prime_bounds[0]
         if self.prime_radius <= least:
             shown = format_quantity(self.prime_radius, "mm")
             raise ParameterError(f"prime_radius={shown} is too small", allowed=f"above {format_quantity(least, 'mm')}")
 
-    def trace(self, angle: FloatArray) -> Trace:
-        """Everything at cam angles [rad], in one pass."""
-        at = self.programme.at(angle)
-        centre = profile.reach(at.s, self.prime_radius, self.offset) - 1j * self.offset
-        return trace_of_point(angle, at, (centre, at.ds, at.dds), 1.0, self.roller_radius)
+    @property
+    def prime_bounds(self) -> tuple[float, float]:
+        """Between which prime radii [m] the cam can be built: outside the offset and the roller."""
+        return max(abs(self.offset), self.roller_radius), math.inf
+
+    def resized(self, prime_radius: float) -> "PlateCam":
+        """The same cam with another prime radius [m]."""
+        return replace(self, prime_radius=prime_radius)
+
+    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+        """Everything at cam angles [rad] where the follower's course is known there."""
+        centre = profile.reach(course.s, self.prime_radius, self.offset) - 1j * self.offset
+        return trace_of_point(angle, course, (centre, course.ds, course.dds), 1.0, self.roller_radius)
 
     def pressure_angle(self, angle: FloatArray) -> FloatArray:
         """Pressure angle [rad] at cam angles [rad]."""

@@ -83,6 +83,10 @@ class Cam(Protocol):
         """Least distance of the pitch curve from the axis; of the face, where the follower is flat."""
 
     @property
+    def prime_bounds(self) -> tuple[float, float]:
+        """Between which prime radii the cam can be built, both excluded [m]."""
+
+    @property
     def roller_radius(self) -> float:
         """Roller's (or ball's) radius; 0 for a knife edge and for a flat face."""
 
@@ -90,8 +94,14 @@ class Cam(Protocol):
     def flat(self) -> bool:
         """Whether the follower's face is flat, so that only a convex cam touches it."""
 
+    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+        """Everything at cam angles [rad] where the follower's course is known there."""
+
     def trace(self, angle: FloatArray) -> Trace:
         """Everything at cam angles [rad]."""
+
+    def resized(self, prime_radius: float) -> "Cam":
+        """The same cam with another prime radius [m]."""
 
 
 class Traced:
@@ -99,9 +109,15 @@ class Traced:
 
     __slots__ = ()
 
+    programme: Programme
+
+    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+        """Everything at cam angles [rad] where the follower's course is known there."""
+        raise NotImplementedError
+
     def trace(self, angle: FloatArray) -> Trace:
         """Everything at cam angles [rad], in one pass."""
-        raise NotImplementedError
+        return self.trace_of(angle, self.programme.at(angle))
 
     def pitch(self, angle: FloatArray) -> ComplexArray:
         """Pitch curve at cam angles [rad], in the cam's frame [m]."""
