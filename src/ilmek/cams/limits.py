@@ -25,6 +25,7 @@ __all__ = [
     "area",
     "concave_radius_min",
     "convex_radius_min",
+    "largest_cutter",
     "pressure_angle_max",
     "smallest_prime_radius",
     "undercut",
@@ -74,6 +75,15 @@ def undercut(cam: Cam, *, both_flanks: bool = False) -> bool:
     hollow = concave_radius_min(cam) if both_flanks or cam.flat else None
     hollowed = hollow is not None and (cam.flat or hollow.value <= cam.roller_radius)
     return bool(hollowed or convex_radius_min(cam).value <= cam.roller_radius)
+
+
+def largest_cutter(cam: Cam) -> float:
+    """The largest radius [m] of a cutter that gets into every hollow of the cam's surface; infinite where none is.
+
+    Where the pitch curve's centre of curvature lies outside, the surface's is the same: rho_surface = rho + Rr.
+    """
+    hollow = None if cam.flat else concave_radius_min(cam)
+    return math.inf if hollow is None else hollow.value + cam.roller_radius
 
 
 def area(cam: Cam) -> float:

@@ -14,7 +14,6 @@ circle's radius and the roller's, rocker l; its pressure angle is the deviation 
 
 import math
 from dataclasses import dataclass, replace
-from itertools import accumulate
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -81,7 +80,7 @@ class OscillatingCam(Traced):
     @property
     def swing(self) -> float:
         """How far the arm swings out from where the displacement is 0 [rad]."""
-        return max(accumulate(part.change for part in self.programme.segments))
+        return self.programme.bounds[1]
 
     @property
     def prime_bounds(self) -> tuple[float, float]:

@@ -17,7 +17,6 @@ from the pivot), 0 for a face through the pivot. side +1: the face above the lin
 
 import math
 from dataclasses import dataclass, replace
-from itertools import accumulate
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -69,7 +68,7 @@ class OscillatingFlatCam(Traced):
     @property
     def swing(self) -> float:
         """How far the face swings out from where the displacement is 0 [rad]."""
-        return max(accumulate(part.change for part in self.programme.segments))
+        return self.programme.bounds[1]
 
     @property
     def prime_bounds(self) -> tuple[float, float]:

@@ -22,6 +22,7 @@ from ilmek.units import format_quantity
 class PlateCam(Traced):
     """A plate cam with a translating roller or knife-edge follower; lengths in m, frame and signs as in `profile`.
 
+    prime_radius  distance of the roller's centre from the axis where the displacement is 0
     Raises ParameterError where the follower's line misses the prime circle or the roller fills it.
     """
 
@@ -39,8 +40,15 @@ class PlateCam(Traced):
 
     @property
     def prime_bounds(self) -> tuple[float, float]:
-        """Between which prime radii [m] the cam can be built: outside the offset and the roller."""
-        return max(abs(self.offset), self.roller_radius), math.inf
+        """Between which prime radii [m] the cam can be built: outside the offset and the roller, all round.
+
+        A displacement below 0, of a law that overshoots, needs as much more.
+        """
+        least = max(abs(self.offset), self.roller_radius)
+        lowest = self.programme.bounds[0]
+        if lowest >= 0:
+            return least, math.inf
+        return math.hypot(math.sqrt(least**2 - self.offset**2) - lowest, self.offset), math.inf
 
     def resized(self, prime_radius: float) -> "PlateCam":
         """The same cam with another prime radius [m]."""

@@ -1,0 +1,123 @@
+"""Conjugate plate cams: two plates on one shaft hold a double follower from both sides, without spring and play.
+
+What one roller goes out the other comes in; the second plate's programme is the rest of the way,
+
+    s2 = top - s1
+
+Two rollers (or two parallel faces) in one slide, the distance D apart with the shaft between them: the second plate is
+met half a turn further on, and its prime radius follows from D (both without offset: Rp2 = D - Rp1 - top). Two arms on
+one pivot with a fixed angle gamma between them, one on each side of the line to the axis: psi2 = gamma - psi1. Both
+plates share the frame of the shaft.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.cams.flat import FlatCam
+from ilmek.cams.oscillating import OscillatingCam
+from ilmek.cams.plate import PlateCam
+from ilmek.cams.programme import Programme
+from ilmek.cams.trace import Trace
+from ilmek.errors import ParameterError
+from ilmek.units import format_quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Two conjugate plates; the second is met at the cam angle + `lag` [rad] of its own programme."""
+
+    first: PlateCam | FlatCam | OscillatingCam
+    second: PlateCam | FlatCam | OscillatingCam
+    lag: float
+
+    def traces(self, angle: FloatArray) -> tuple[Trace, Trace]:
+        """Both plates' traces at the moments when the shaft stands at the angles [rad], in the shaft's frame."""
+        return self.first.trace(angle), self.second.trace(angle + self.lag)
+
+    def between(self, angle: FloatArray) -> ComplexArray:
+        """From the first roller's centre to the second's, in the shaft's frame [m]; of one length all round."""
+        first, second = self.traces(angle)
+        return np.asarray(second.pitch - first.pitch)
+
+
+def rest_of_the_way(programme: Programme) -> Programme:
+    """The programme top - s, begun where s is highest between two parts, so that it starts from 0 again."""
+    bases = programme.bases
+    highest = max(range(len(bases)), key=lambda place: bases[place])
+    turned = [
+        replace(part, change=-part.change, scale=None if part.scale is None else -part.scale)
+        for part in (*programme.segments[highest:], *programme.segments[:highest])
+    ]
+    return Programme(tuple(turned), start=programme.start + float(programme.edges[highest]))
+
+
+def conjugate(cam: PlateCam, distance: float, roller_radius: float | None = None) -> Pair:
+    """A plate and the one that holds its slide back: roller centres `distance` [m] apart on the slide's line.
+
+    roller_radius  of the second roller [m]; None: as the first
+    Raises ParameterError where the distance leaves the second plate no prime circle.
+    """
+    top = _top(cam.programme)
+    own = math.sqrt(cam.prime_radius**2 - cam.offset**2)
+    least = max(abs(cam.offset), cam.roller_radius if roller_radius is None else roller_radius)
+    reach = distance - own - top
+    if reach <= math.sqrt(least**2 - cam.offset**2):
+        _refuse(distance, own + top + math.sqrt(least**2 - cam.offset**2))
+    second = PlateCam(
+        programme=rest_of_the_way(cam.programme).shifted(math.pi),
+        prime_radius=math.hypot(reach, cam.offset),
+        offset=-cam.offset,
+        roller_radius=cam.roller_radius if roller_radius is None else roller_radius,
+    )
+    return Pair(cam, second, math.pi)
+
+
+def conjugate_faces(cam: FlatCam, distance: float) -> Pair:
+    """A plate between two parallel faces `distance` [m] apart, and the second plate that the other face needs.
+
+    Where s1(theta) + s1(theta + pi) = top both are one plate: a cam of constant breadth.
+    Raises ParameterError where the distance leaves the second plate no base circle.
+    """
+    radius = distance - cam.prime_radius - _top(cam.programme)
+    if radius <= 0:
+        _refuse(distance, cam.prime_radius + _top(cam.programme))
+    rest = rest_of_the_way(cam.programme).shifted(math.pi)
+    return Pair(cam, FlatCam(rest, radius, -cam.offset), math.pi)
+
+
+def conjugate_arms(
+    cam: OscillatingCam, between: float, arm: float | None = None, roller_radius: float | None = None
+) -> Pair:
+    """A plate and the one that holds its arm back by a second arm on the same pivot.
+
+    between  angle between the arms, over the shaft [rad]      arm, roller_radius  of the second; None: as the first
+    Raises ParameterError where the angle leaves the second arm no way to its plate.
+    """
+    length = cam.arm if arm is None else arm
+    radius = cam.roller_radius if roller_radius is None else roller_radius
+    top = _top(cam.programme)
+    start = between - cam.start_angle - top
+    if not 0 < start < math.pi:
+        least = cam.start_angle + top
+        raise ParameterError(
+            f"{format_quantity(between, 'deg')} between the arms",
+            allowed=f"above {format_quantity(least, 'deg')}, below {format_quantity(least + math.pi, 'deg')}",
+        )
+    prime = math.sqrt(cam.pivot**2 + length**2 - 2 * cam.pivot * length * math.cos(start))
+    rest = rest_of_the_way(cam.programme)
+    side: Literal[1, -1] = -1 if cam.side == 1 else 1
+    return Pair(cam, OscillatingCam(rest, prime, cam.pivot, length, side, radius), 0.0)
+
+
+def _top(programme: Programme) -> float:
+    """Displacement at the highest end of a part."""
+    return max(programme.bases)
+
+
+def _refuse(distance: float, least: float) -> None:
+    shown = format_quantity(distance, "mm")
+    raise ParameterError(f"distance={shown} between the followers", allowed=f"above {format_quantity(least, 'mm')}")
