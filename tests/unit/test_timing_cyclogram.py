@@ -5,7 +5,7 @@ import pytest
 
 from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
-from ilmek.timing.cyclogram import Cyclogram, Event, Moment, Relation, Segment, Track, check, check_all, draw
+from ilmek.timing.cyclogram import Cyclogram, Event, Moment, Relation, Segment, Track, check_all, draw
 from ilmek.units import deg, turn
 
 LAW = LAWS["3-4-5"]
@@ -25,7 +25,8 @@ def two() -> Cyclogram:
 
 @pytest.mark.parametrize(("gap", "ok"), [(5, True), (10, True), (10.001, False)])
 def test_b_starts_after_a_ends(gap: float, ok: bool) -> None:
-    judged = check(two(), Relation(Moment("B", "go"), Moment("A", "go", "end"), gap * deg, "they share the place"))
+    after = Relation(Moment("B", "go"), Moment("A", "go", "end"), gap * deg, "they share the place")
+    (judged,) = check_all(two(), (after,))
     assert (judged.ok, judged.value) == (ok, pytest.approx(10 * deg))
     assert judged.name == "B: go starts after A: go ends"
 
@@ -47,7 +48,7 @@ def test_events_stand_in_relations() -> None:
 )
 def test_a_relation_names_what_is_there(moment: Moment, said: str) -> None:
     with pytest.raises(ParameterError, match=said):
-        check(two(), Relation(moment, Moment("A", "go"), 0.0, ""))
+        check_all(two(), (Relation(moment, Moment("A", "go"), 0.0, ""),))
 
 
 def test_figure_has_lanes_as_shares_of_the_stroke() -> None:

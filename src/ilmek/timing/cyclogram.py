@@ -1,36 +1,68 @@
 """The cyclogram: every actuator's track on one master shaft, and the relations that must hold between them."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ilmek.errors import ParameterError
-from ilmek.report import Check, Lane, Mark, Timing, at_least
-from ilmek.timing.track import Event, Segment, Track, sample
+from ilmek.report import Check, Lane, Mark, Timing, at_least, at_most
+from ilmek.timing.crossings import passing_share, zone_windows
+from ilmek.timing.relations import Exclusion, Moment, Presence, Relation, Spans, Zone, fixed
+from ilmek.timing.track import Event, Limits, Segment, Track, joints, riding, sample
+from ilmek.timing.windows import Windows, separation
 from ilmek.units import deg, turn
 
-__all__ = ["Cyclogram", "Event", "Moment", "Relation", "Segment", "Track", "check", "check_all", "draw", "moment_angle"]
+__all__ = [
+    "Cyclogram",
+    "Event",
+    "Exclusion",
+    "Limits",
+    "Moment",
+    "Relation",
+    "Segment",
+    "Spans",
+    "Track",
+    "Zone",
+    "check_all",
+    "check_apart",
+    "draw",
+    "fixed",
+    "judged",
+    "moment_angle",
+    "present",
+    "riding",
+]
 
 
 @dataclass(frozen=True, slots=True)
 class Cyclogram:
-    """Tracks over one turn of the master shaft, which takes `period` [s].
+    """Tracks over one turn of the master shaft, which takes `period` [s], and what must hold between them.
 
-    Raises ParameterError for a period that is not positive or two tracks of one name.
+    Raises ParameterError for a period that is not positive, two tracks of one name, and a relation or an exclusion
+    that names what is not there.
     """
 
     name: str
     period: float
     tracks: tuple[Track, ...]
+    relations: tuple[Relation, ...] = ()
+    exclusions: tuple[Exclusion, ...] = ()
 
     def __post_init__(self) -> None:
-        if not self.period > 0:
+        if not 0 < self.period < math.inf:
             raise ParameterError(f"{self.name}: period {self.period:g} s", allowed="above 0 s")
         names = [track.name for track in self.tracks]
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
             raise ParameterError(f"{self.name}: two tracks are named {twice!r}", do="give each its own name")
+        for relation in self.relations:
+            moment_angle(self, relation.then)
+            moment_angle(self, relation.first)
+        for exclusion in self.exclusions:
+            present(self, exclusion.first)
+            present(self, exclusion.second)
 
     def track(self, name: str) -> Track:
         """The track of that name. Raises ParameterError where there is none."""
@@ -41,53 +73,68 @@ class Cyclogram:
         raise ParameterError(f"{self.name} has no track {name!r}", allowed=f"its tracks: {known}")
 
     @property
+    def units(self) -> dict[str, str]:
+        """Unit to show the positions of each track in."""
+        return {track.name: track.unit for track in self.tracks}
+
+    @property
     def speed(self) -> float:
         """Speed of the master shaft [rad/s]."""
         return turn / self.period
 
 
-@dataclass(frozen=True, slots=True)
-class Moment:
-    """An instant of a track: the start or end of one of its motions, or an event; `edge` is start, end or event."""
-
-    track: str
-    motion: str
-    edge: str = "start"
-
-
-@dataclass(frozen=True, slots=True)
-class Relation:
-    """`then` comes at least `gap` [rad of the master] after `first`, within one turn; `why` says what it guards."""
-
-    then: Moment
-    first: Moment
-    gap: float
-    why: str
-
-
 def moment_angle(cyclogram: Cyclogram, moment: Moment) -> float:
-    """Master angle of a moment [rad]. Raises ParameterError for a track, motion, event or edge that is not there."""
+    """Master angle of a moment [rad]; beyond the turn on a motion that runs through its end.
+
+    Raises ParameterError for a track, motion, event or edge that is not there, and a position never passed.
+    """
+    if moment.edge == "angle":
+        return moment.at
     track = cyclogram.track(moment.track)
     if moment.edge in ("start", "end"):
+        return track.segment(moment.motion).angle(float(moment.edge == "end"))
+    if moment.edge == "past":
         segment = track.segment(moment.motion)
-        return segment.start if moment.edge == "start" else segment.end
-    for event in track.events:
-        if moment.edge == "event" and event.name == moment.motion:
-            return event.angle
-    known = ", ".join(event.name for event in track.events)
-    raise ParameterError(f"{track.name} has no {moment.edge} {moment.motion!r}", allowed=f"its events: {known}")
+        return segment.angle(passing_share(track.name, segment, moment.at, track.unit))
+    if moment.edge == "event":
+        event = track.event(moment.motion)
+        return track.segment(event.on).angle(event.share) if event.on else event.angle
+    raise ParameterError(f"{track.name} has no {moment.edge} {moment.motion!r}", allowed="start, end, event or past")
 
 
-def check(cyclogram: Cyclogram, relation: Relation) -> Check:
-    """The gap between the two moments of a relation [rad] against what it demands."""
-    gap = moment_angle(cyclogram, relation.then) - moment_angle(cyclogram, relation.first)
-    name = f"{_said(relation.then)} after {_said(relation.first)}"
-    return at_least(name, round(gap, 12), round(relation.gap, 12), "deg", relation.why)
+def present(cyclogram: Cyclogram, presence: Presence) -> Windows:
+    """Windows of the master angle in which something is in a place. Raises ParameterError for an unknown track."""
+    if isinstance(presence, Spans):
+        return presence.windows
+    return zone_windows(cyclogram.track(presence.track), presence.low, presence.high)
 
 
 def check_all(cyclogram: Cyclogram, relations: Iterable[Relation]) -> tuple[Check, ...]:
-    """A check for each relation, in order."""
-    return tuple(check(cyclogram, relation) for relation in relations)
+    """The checks of relations, in order: the gap [rad] against what is demanded at least, then at most."""
+    return tuple(check for relation in relations for check in _checks(cyclogram, relation))
+
+
+def check_apart(cyclogram: Cyclogram, exclusion: Exclusion) -> Check:
+    """The least angle between the windows of two presences [rad], negative where they overlap, against the gap."""
+    apart = separation(present(cyclogram, exclusion.first), present(cyclogram, exclusion.second))
+    return at_least(exclusion.said(cyclogram.units), round(apart, 9), round(exclusion.gap, 9), "deg", exclusion.why)
+
+
+def judged(cyclogram: Cyclogram) -> tuple[Check, ...]:
+    """A check for every relation and every exclusion of the cyclogram."""
+    apart = (check_apart(cyclogram, exclusion) for exclusion in cyclogram.exclusions)
+    return (*check_all(cyclogram, cyclogram.relations), *apart)
+
+
+def _checks(cyclogram: Cyclogram, relation: Relation) -> Iterable[Check]:
+    then, first = (moment_angle(cyclogram, moment) for moment in (relation.then, relation.first))
+    gap = round(then + turn * relation.turns - first, 9)
+    said = relation.said(cyclogram.units)
+    if relation.gap > -math.inf:
+        least = round(relation.gap + relation.delay * cyclogram.speed, 9)
+        yield at_least(said, gap, least, "deg", relation.why)
+    if relation.most < math.inf:
+        yield at_most(f"{said}, at most", gap, round(relation.most, 9), "deg", relation.why)
 
 
 def draw(cyclogram: Cyclogram, title: str, note: str = "", step: float = 1 * deg) -> Timing:
@@ -97,13 +144,7 @@ def draw(cyclogram: Cyclogram, title: str, note: str = "", step: float = 1 * deg
 
 
 def _lane(track: Track, step: float) -> Lane:
-    joints = [angle for segment in track.segments for angle in (segment.start, segment.end)]
-    angle = np.unique(np.concatenate([np.linspace(0, turn, round(turn / step) + 1), np.clip(joints, 0, turn)]))
+    angle = np.unique(np.concatenate([np.linspace(0, turn, round(turn / step) + 1), joints(track)]))
     position = sample(track, angle).position
     share = (position - position.min()) / (track.stroke or 1.0)
     return Lane(track.name, track.actuator, angle, share, tuple(Mark(e.angle, e.name) for e in track.events))
-
-
-def _said(moment: Moment) -> str:
-    edge = {"start": "starts", "end": "ends", "event": ""}[moment.edge]
-    return f"{moment.track}: {moment.motion} {edge}".rstrip()

@@ -4,19 +4,20 @@
     position(q) = where the last segment ended                                                 between them: a dwell
 
 Over the master angle q the derivatives are h/beta v(u) and h/beta^2 a(u), with h = finish - begin and
-beta = end - start; over time they are multiplied by w and w^2, w = 2 pi / period.
+beta = end - start; over time they are multiplied by w and w^2, w = 2 pi / period. The last motion may run through the
+end of the turn into the next.
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.errors import ParameterError
-from ilmek.units import deg, format_quantity, turn
+from ilmek.units import format_quantity, turn
 
 Curve: TypeAlias = Callable[[RealField], RealField]
 _SAME = 1e-9
@@ -62,13 +63,58 @@ class Segment:
     finish: float
     law: MotionLaw
 
+    @property
+    def stroke(self) -> float:
+        """What it moves [SI], with its sign."""
+        return self.finish - self.begin
+
+    @property
+    def beta(self) -> float:
+        """The master angle it takes [rad]."""
+        return self.end - self.start
+
+    def angle(self, share: float) -> float:
+        """Master angle at a share of its time [rad]."""
+        return self.start + share * self.beta
+
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """A named instant of a track: master angle [rad]."""
+    """A named instant of a track: master angle [rad].
+
+    on, share   the motion it rides on, and the share of that motion's time at which it comes: it goes along where the
+                motion is shifted or stretched; without them it stands by itself
+    """
 
     name: str
     angle: float
+    on: str = ""
+    share: float = 0.0
+
+
+def riding(name: str, segment: Segment, share: float = 1.0) -> Event:
+    """The event at a share of a motion's time, 0 its start, 1 its end."""
+    return Event(name, segment.angle(share) % turn if segment.end > turn else segment.angle(share), segment.name, share)
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What an actuator can do: largest speed, acceleration and jerk [SI/s, SI/s^2, SI/s^3], least time of a motion [s].
+
+    Raises ParameterError for a limit that is not positive, or a time below 0.
+    """
+
+    speed: float = math.inf
+    acceleration: float = math.inf
+    jerk: float = math.inf
+    time: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("speed", "acceleration", "jerk"):
+            if not getattr(self, name) > 0:
+                raise ParameterError(f"{name} limit {getattr(self, name):g}", allowed="above 0; leave it out for none")
+        if not 0 <= self.time < math.inf:
+            raise ParameterError(f"least time of a motion {self.time:g} s", allowed="0 s or more")
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +125,11 @@ class Track:
     unit       the unit positions are shown in (SI inside)
     revolves   the position may end a whole number of these higher or lower than it began (a shaft that turns on);
                0: it must return
+    limits     of its actuator
+    held       a solver leaves it as it is
 
-    Raises ParameterError where segments overlap, leave the turn, do not join, or do not return.
+    Raises ParameterError where segments overlap, leave the turn, do not join, or do not return, and where an event is
+    not where the motion it rides on puts it.
     """
 
     name: str
@@ -89,20 +138,19 @@ class Track:
     events: tuple[Event, ...] = ()
     unit: str = "mm"
     revolves: float = 0.0
+    limits: Limits = Limits()
+    held: bool = False
 
     def __post_init__(self) -> None:
         for segment in self.segments:
-            _require_inside(self.name, segment)
+            _require_inside(self, segment)
         for first, then in zip(self.segments, self.segments[1:], strict=False):
             _require_apart(self.name, first, then)
             _require_joined(self, first, then, 0.0)
         if self.segments:
             _require_joined(self, self.segments[-1], self.segments[0], self.revolves)
         for event in self.events:
-            if not 0 <= event.angle <= turn:
-                raise ParameterError(
-                    f"{self.name}: event {event.name!r} at {_shown(event.angle)}", allowed="0..360 deg"
-                )
+            _require_event(self, event)
 
     def segment(self, name: str) -> Segment:
         """The motion of that name. Raises ParameterError where there is none."""
@@ -111,6 +159,19 @@ class Track:
                 return segment
         known = ", ".join(segment.name for segment in self.segments)
         raise ParameterError(f"{self.name} has no motion {name!r}", allowed=f"its motions: {known}")
+
+    def event(self, name: str) -> Event:
+        """The event of that name. Raises ParameterError where there is none."""
+        for event in self.events:
+            if event.name == name:
+                return event
+        known = ", ".join(event.name for event in self.events) or "none"
+        raise ParameterError(f"{self.name} has no event {name!r}", allowed=f"its events: {known}")
+
+    @property
+    def gain(self) -> float:
+        """What the position gains in a turn [SI]: 0, or a whole number of `revolves`."""
+        return self.segments[-1].finish - self.segments[0].begin if self.segments and self.revolves else 0.0
 
     @property
     def stroke(self) -> float:
@@ -133,11 +194,11 @@ def sample(track: Track, angle: FloatArray) -> TrackMotion:
     """The track's motion at master angles in [0, 2 pi] [rad]; at the joint of two segments the later one counts."""
     position = np.full(angle.shape, track.segments[0].begin if track.segments else 0.0)
     slope, bend = np.zeros(angle.shape), np.zeros(angle.shape)
-    for segment in track.segments:
+    for segment in laid(track):
         after = angle >= segment.start
         position[after], slope[after], bend[after] = segment.finish, 0.0, 0.0
         within = after & (angle <= segment.end)
-        stroke, beta = segment.finish - segment.begin, segment.end - segment.start
+        stroke, beta = segment.stroke, segment.beta
         u = (angle[within] - segment.start) / beta
         position[within] = segment.begin + stroke * segment.law.s(u)
         slope[within] = stroke / beta * segment.law.v(u)
@@ -145,16 +206,33 @@ def sample(track: Track, angle: FloatArray) -> TrackMotion:
     return TrackMotion(angle, position, slope, bend)
 
 
+def laid(track: Track) -> Iterator[Segment]:
+    """The motions as they lie over the turn: the end of one that runs through its end lies at its beginning too."""
+    last = track.segments[-1] if track.segments else None
+    if last is not None and last.end > turn + _SAME:
+        gone = track.gain
+        yield replace(
+            last, start=last.start - turn, end=last.end - turn, begin=last.begin - gone, finish=last.finish - gone
+        )
+    yield from track.segments
+
+
+def joints(track: Track) -> FloatArray:
+    """Master angles in [0, 2 pi] between which the track's law is one, ascending; both ends among them [rad]."""
+    ends = [angle for segment in laid(track) for angle in (segment.start, segment.end)]
+    return np.unique(np.clip(np.array([0.0, *ends, turn]), 0.0, turn))
+
+
 def peak_speed(track: Track, period: float) -> float:
     """Largest speed of the track [SI/s] at a period of the master shaft [s]: max |h| v_peak (w/beta)."""
     w = turn / period
-    return max((_stroke(part) * part.law.velocity_peak * w / _angle(part) for part in track.segments), default=0.0)
+    return max((abs(part.stroke) * part.law.velocity_peak * w / part.beta for part in track.segments), default=0.0)
 
 
 def peak_acceleration(track: Track, period: float) -> float:
     """Largest acceleration of the track [SI/s^2] at a period of the master shaft [s]: max |h| a_peak (w/beta)^2."""
     w = turn / period
-    peaks = (_stroke(part) * part.law.acceleration_peak * (w / _angle(part)) ** 2 for part in track.segments)
+    peaks = (abs(part.stroke) * part.law.acceleration_peak * (w / part.beta) ** 2 for part in track.segments)
     return max(peaks, default=0.0)
 
 
@@ -166,25 +244,31 @@ def shortest_period(track: Track, speed_limit: float, acceleration_limit: float)
     return max(peak_speed(track, 1.0) / speed_limit, math.sqrt(peak_acceleration(track, 1.0) / acceleration_limit))
 
 
-def _stroke(segment: Segment) -> float:
-    return abs(segment.finish - segment.begin)
-
-
-def _angle(segment: Segment) -> float:
-    return segment.end - segment.start
-
-
 def _shown(angle: float) -> str:
     return format_quantity(angle, "deg")
 
 
-def _require_inside(track: str, segment: Segment) -> None:
-    if not 0 <= segment.start < segment.end <= turn + _SAME * deg:
+def _require_inside(track: Track, segment: Segment) -> None:
+    first = track.segments[0].start
+    if not 0 <= segment.start < segment.end <= turn + max(first, 0.0) + _SAME:
         raise ParameterError(
-            f"{track}: {segment.name} runs from {_shown(segment.start)} to {_shown(segment.end)}",
-            allowed="a motion starts before it ends, both within 0..360 deg",
+            f"{track.name}: {segment.name} runs from {_shown(segment.start)} to {_shown(segment.end)}",
+            allowed="a motion starts before it ends, within 0..360 deg; the last may run on to where the first starts",
             do="move the start or the end",
         )
+
+
+def _require_event(track: Track, event: Event) -> None:
+    if not 0 <= event.angle <= turn:
+        raise ParameterError(f"{track.name}: event {event.name!r} at {_shown(event.angle)}", allowed="0..360 deg")
+    if event.on:
+        rides = track.segment(event.on).angle(event.share)
+        off = (event.angle - rides) / turn
+        if not 0 <= event.share <= 1 or abs(off - round(off)) > _SAME:
+            raise ParameterError(
+                f"{track.name}: event {event.name!r} at {_shown(event.angle)}, {event.share:g} of {event.on}",
+                allowed=f"a share from 0 to 1, here {_shown(rides)}",
+            )
 
 
 def _require_apart(track: str, first: Segment, then: Segment) -> None:

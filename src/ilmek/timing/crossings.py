@@ -1,0 +1,169 @@
+"""Where the motions of a track pass a position, and when it is between two: roots of the law, not samples.
+
+A motion from begin to finish passes position p at the share u of its time with begin + (finish - begin) s(u) = p, so at
+the master angle start + u (end - start): linear in start and end, whatever the law. That is what the solver lives by.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.errors import ParameterError
+from ilmek.num.brackets import bracketed_roots
+from ilmek.timing.track import MotionLaw, Segment, Track
+from ilmek.timing.windows import WHOLE, Windows, windows_of
+from ilmek.units import format_quantity, turn
+
+_GRID = np.linspace(0.0, 1.0, 129)
+_SAME, _AT_END = 1e-9, 1e-12
+"""Positions [SI] that are one; displacements of a law that are its end."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """An instant on a track's motions: number of the motion, share of its time, turns later."""
+
+    motion: int
+    share: float
+    turns: int = 0
+
+    def angle(self, track: Track) -> float:
+        """Master angle [rad], counted on through the turns."""
+        return track.segments[self.motion].angle(self.share) + turn * self.turns
+
+
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """A stay of a track in a zone: where it comes in and where it goes out."""
+
+    entry: Place
+    exit: Place
+
+
+def turning_shares(law: MotionLaw) -> FloatArray:
+    """Shares of the time at which a law turns back, with both ends: 0 and 1 alone for one that only rises."""
+    v = np.asarray(law.v(_GRID), dtype=float)
+    still = np.abs(v) <= _SAME
+    signs = np.where(still, 0.0, np.sign(v))
+    found = np.flatnonzero(signs[:-1] * signs[1:] < 0)
+    roots = bracketed_roots(lambda u: np.asarray(law.v(u), dtype=float), _GRID[found], _GRID[found + 1])
+    zeros = [u for u, left, here, right in zip(_GRID[1:], signs, signs[1:], signs[2:], strict=False)
+             if here == 0 and left * right < 0]  # fmt: skip
+    return np.unique(np.concatenate([[0.0, 1.0], roots, zeros]))
+
+
+def crossing_shares(segment: Segment, position: RealField) -> tuple[float, ...]:
+    """Shares of a motion's time at which it is at a position [SI], ascending; to rounding."""
+    found = (_crossed(segment, piece, float(position)) for piece in _pieces(segment))
+    return tuple(sorted({u for u in found if u is not None}))
+
+
+def passing_share(track: str, segment: Segment, position: float, unit: str = "mm") -> float:
+    """The share at which a motion first is at a position [SI]. Raises ParameterError where it never is."""
+    shares = crossing_shares(segment, position)
+    if not shares:
+        ends = " to ".join(format_quantity(end, unit) for end in (segment.begin, segment.finish))
+        raise ParameterError(
+            f"{track}: {segment.name} never passes {format_quantity(position, unit)}", allowed=f"it goes from {ends}"
+        )
+    return shares[0]
+
+
+def zone_windows(track: Track, low: float, high: float) -> Windows:
+    """Windows of the master angle in which a track is strictly between two positions [SI], their edges to rounding."""
+    stays = passages(track, low, high)
+    if stays is None:
+        return WHOLE
+    return windows_of((stay.entry.angle(track), stay.exit.angle(track)) for stay in stays)
+
+
+def passages(track: Track, low: float, high: float) -> tuple[Passage, ...] | None:
+    """The stays of a track strictly between two positions [SI] in the order of the turn; None where it never leaves."""
+    if not track.segments:
+        return None if low < 0 < high else ()
+    found: list[Passage] = []
+    for number, segment in enumerate(track.segments):
+        for inside in _inside(segment, low, high):
+            here = Passage(Place(number, inside[0]), Place(number, inside[1]))
+            if found and inside[0] == 0 and _rests_on(track, found[-1], number, low, high):
+                found[-1] = Passage(found[-1].entry, here.exit)
+            else:
+                found.append(here)
+    return _closed(track, found, low, high)
+
+
+def _closed(track: Track, found: list[Passage], low: float, high: float) -> tuple[Passage, ...] | None:
+    """The stays with the last one joined to the first where the track rests in the zone through the turn's end."""
+    if not found or found[0].entry != Place(0, 0.0) or not _rests_on(track, found[-1], len(track.segments), low, high):
+        return tuple(found)
+    if len(found) == 1:
+        return None
+    first, last = found[0], found[-1]
+    end = Place(first.exit.motion, first.exit.share, 1)
+    return (*found[1:-1], Passage(last.entry, end))
+
+
+def _rests_on(track: Track, stay: Passage, number: int, low: float, high: float) -> bool:
+    """Whether a stay goes on to the start of the motion of that number, the track resting in the zone."""
+    before = track.segments[number - 1]
+    meets = stay.exit == Place(number - 1, 1.0) and _within(before.finish, low, high)
+    return meets and _within(track.segments[number % len(track.segments)].begin, low, high)
+
+
+def _within(position: float, low: float, high: float) -> bool:
+    return low + _SAME < position < high - _SAME
+
+
+def _inside(segment: Segment, low: float, high: float) -> Iterator[tuple[float, float]]:
+    """Ranges of the share in which the motion is between both positions, ascending and apart."""
+    if segment.stroke == 0:
+        if _within(segment.begin, low, high):
+            yield 0.0, 1.0
+        return
+    held: tuple[float, float] | None = None
+    for piece in _pieces(segment):
+        span = _piece_inside(segment, piece, low, high)
+        if held and span and span[0] == held[1]:
+            held = (held[0], span[1])
+            continue
+        if held:
+            yield held
+        held = span
+    if held:
+        yield held
+
+
+def _pieces(segment: Segment) -> Iterator[tuple[float, float]]:
+    """Ranges of the share in which the motion goes one way."""
+    shares = turning_shares(segment.law)
+    return zip(shares[:-1].tolist(), shares[1:].tolist(), strict=True)
+
+
+def _piece_inside(segment: Segment, piece: tuple[float, float], low: float, high: float) -> tuple[float, float] | None:
+    ends = [_position(segment, u) for u in piece]
+    if min(ends) >= high - _SAME or max(ends) <= low + _SAME:
+        return None
+    enter, leave = (low, high) if ends[0] < ends[1] else (high, low)
+    start, end = (_crossed(segment, piece, at) for at in (enter, leave))
+    return piece[0] if start is None else start, piece[1] if end is None else end
+
+
+def _position(segment: Segment, u: float) -> float:
+    return segment.begin + segment.stroke * float(segment.law.s(u))
+
+
+def _crossed(segment: Segment, piece: tuple[float, float], position: float) -> float | None:
+    """The share within a piece at which the motion is at a position; None where it is not."""
+    if segment.stroke == 0 or not np.isfinite(position):
+        return None
+    goal = (position - segment.begin) / segment.stroke
+    ends = np.array([float(segment.law.s(u)) - goal for u in piece])
+    for u, off in zip(piece, ends, strict=True):
+        if abs(off) <= _AT_END:
+            return u
+    if ends[0] * ends[1] > 0:
+        return None
+    low, high = np.array([piece[0]]), np.array([piece[1]])
+    return float(bracketed_roots(lambda u: np.asarray(segment.law.s(u), dtype=float) - goal, low, high)[0])
