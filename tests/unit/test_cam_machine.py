@@ -13,6 +13,7 @@ from ilmek.errors import ParameterError
 from ilmek.machines import MACHINES
 from ilmek.machines.cam import MACHINE, CamParams, design, report
 from ilmek.machines.cam.hub import Hub, bore_for, hub_for
+from ilmek.machines.cam.results import results as numbers
 from ilmek.machines.cam.rollers import ROLLERS, Duty
 from ilmek.plane import contours
 from ilmek.units import deg, mm, rpm
@@ -23,7 +24,7 @@ def made(**settings):
 
 
 def results(**settings):
-    return {result.name: result.value for result in report(made(**settings)).results}
+    return {result.name: result.value for result in numbers(made(**settings))}
 
 
 SHED = dict(law="harmonic", lift="60mm", rise="90deg")
@@ -103,6 +104,37 @@ def test_fall_is_as_the_rise_where_it_fits(rise, dwell, fall) -> None:
     found = made(rise=rise, dwell=dwell)
     assert found.params.fall_angle == pytest.approx(fall * deg)
     assert sum(segment.span for segment in found.programme.segments) == pytest.approx(TURN, abs=1e-12)
+
+
+ARM = dict(motion="oscillating", lift="30mm", law="cycloidal", arm="90mm")
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        dict(follower="roller"),
+        dict(follower="spherical", side="leading"),
+        dict(follower="flat"),
+        dict(follower="flat", side="leading", face_offset="5mm"),
+    ],
+    ids=lambda more: "-".join(more.values()),
+)
+def test_arm_turns_the_shaft_by_its_virtual_work(more) -> None:
+    found = made(**ARM, **more, pressure_angle_limit="35deg")
+    angle = np.linspace(0.01, 6.2, 61)
+    state = found.state(angle)
+    assert state.torque == pytest.approx(state.force * state.trace.course.ds, abs=1e-9)
+    course = found.programme.at(angle)
+    moment = (0.5 * course.dds * 0.09 * found.params.speed**2 + 100) * 0.09
+    spring = found.held.preload + found.held.rate * course.s
+    assert state.force == pytest.approx(moment + spring, rel=1e-12)
+    assert not found.undercut
+
+
+def test_arm_of_the_smallest_size_keeps_the_limit() -> None:
+    found = {result.name: result.value for result in numbers(made(**ARM, pressure_angle_limit="35deg"))}
+    assert found["pressure_angle_max"] == pytest.approx(35 * deg, rel=1e-6)
+    assert found["swing"] == pytest.approx(1 / 3)
 
 
 def test_at_gives_the_motion_per_time() -> None:
@@ -200,13 +232,19 @@ def test_undercut_is_said_with_the_size_that_mends_it() -> None:
         (dict(law="harmonik"), "did you mean harmonic\\?"),
         (
             dict(prime_radius="5mm", roller_radius="8mm"),
-            "above the roller's radius, 8 mm; the smallest for the pressure",
+            "prime_radius=5 mm is too small; above 8 mm; the smallest for the limits is 3",
         ),
-        (dict(prime_radius="15mm", offset="20mm"), "prime_radius=15 mm is too small; above the offset, 20 mm"),
+        (
+            dict(prime_radius="15mm", offset="20mm"),
+            "=15 mm is too small; above 20 mm; the smallest for the",
+        ),
         (dict(roller="CF 11"), "no roller 'CF 11' in the table; the nearest offered is 'CF 1"),
         (dict(roller="CF 10", roller_radius="8mm"), "roller and roller_radius are both given"),
         (dict(follower="knife", roller_radius="8mm"), "set follower=roller or spherical"),
         (dict(follower="spherical", roller_radius="0mm"), "set follower=knife"),
+        (dict(arm="50mm"), "set motion=oscillating"),
+        (dict(motion="oscillating", offset="5mm"), "place the arm by arm and pivot"),
+        (dict(motion="oscillating", guide_friction="0.1"), "an arm has no guide"),
         (dict(law_parameters="b"), "NAME=NUMBER"),
         (dict(law_parameters="b=x"), "is not a number"),
         (dict(law="scca", law_parameters="bb=0.2"), "law scca has no 'bb'"),

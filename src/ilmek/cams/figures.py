@@ -1,6 +1,7 @@
 """What a cam looks like: motion diagrams, profile to scale, pressure angle and curvature over the turn."""
 
 from collections.abc import Mapping
+from typing import Literal
 
 import numpy as np
 
@@ -22,12 +23,19 @@ def sample_angles(*programmes: Programme, count: int = 361) -> FloatArray:
 
 
 def motion_plots(
-    programmes: Mapping[str, Programme], speed: float, marks: tuple[Mark, ...] = (), note: str = ""
+    programmes: Mapping[str, Programme],
+    speed: float,
+    marks: tuple[Mark, ...] = (),
+    note: str = "",
+    unit: Literal["mm", "deg"] = "mm",
 ) -> tuple[Plot, ...]:
-    """Displacement (with marks), velocity and acceleration (with a note) of followers by name, at a speed [rad/s]."""
+    """Displacement (with marks), velocity and acceleration (with a note) of followers by name, at a speed [rad/s].
+
+    unit  deg where the displacements are angles
+    """
     angle = sample_angles(*programmes.values())
     courses = {name: programme.at(angle) for name, programme in programmes.items()}
-    kinds = (("displacement", "mm", 0), ("velocity", "mm/s", 1), ("acceleration", "mm/s^2", 2))
+    kinds = (("displacement", unit, 0), ("velocity", f"{unit}/s", 1), ("acceleration", f"{unit}/s^2", 2))
     return tuple(
         Plot(
             name=kind,

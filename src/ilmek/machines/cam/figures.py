@@ -1,6 +1,7 @@
 """The cam's figures: to scale and in motion, its diagrams over the turn, its forces."""
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
@@ -25,9 +26,11 @@ def figures(design: CamDesign) -> tuple[Figure, ...]:
     cam, params = design.cam, design.params
     widest = supremum(lambda angle: np.abs(cam.trace(angle).pressure_angle), design.programme.knots)
     plots = (
-        *cam_figures.motion_plots({"follower": design.programme}, params.speed, _marks(design), _jump_note(design)),
+        *cam_figures.motion_plots(
+            {"follower": design.programme}, params.speed, _marks(design), _jump_note(design), _unit(design)
+        ),
         _jerk_plot(design),
-        *(() if cam.flat else (_pressure_angle_plot(design, widest.at),)),
+        *(() if cam.flat and widest.value == 0 else (_pressure_angle_plot(design, widest.at),)),
         cam_figures.curvature_plot(cam, convex_radius_min(cam).at),
         _force_plot(design),
         _torque_plot(design),
@@ -69,6 +72,10 @@ def drawing(design: CamDesign) -> Drawing:
     return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "", "point"),), note=said)
 
 
+def _unit(design: CamDesign) -> Literal["mm", "deg"]:
+    return "deg" if design.params.motion == "oscillating" else "mm"
+
+
 def _marks(design: CamDesign) -> tuple[Mark, ...]:
     begins = [
         Mark(float(edge), segment.name)
@@ -88,7 +95,11 @@ def _jerk_plot(design: CamDesign) -> Plot:
     jerk = design.params.speed**3 * design.programme.at(angle).ddds
     note = "between jumps of the acceleration, where it is endless" if jumps(design.programme) else ""
     return _plot(
-        "jerk", "Jerk over the cam angle", Axis("jerk", "m/s^3"), (Series("follower", angle, jerk),), note=note
+        "jerk",
+        "Jerk over the cam angle",
+        Axis("jerk", f"{_unit(design)}/s^3"),
+        (Series("follower", angle, jerk),),
+        note=note,
     )
 
 
@@ -106,10 +117,11 @@ def _pressure_angle_plot(design: CamDesign, at: float) -> Plot:
 def _force_plot(design: CamDesign) -> Plot:
     angle = cam_figures.sample_angles(design.programme)
     state = design.state(angle)
-    spring = design.held.preload + design.held.rate * state.trace.course.s
+    arc = design.params.per_unit
+    spring = (design.held.preload + design.held.rate * state.trace.course.s) / arc
     series = (
         Series("on the normal", angle, state.normal),
-        Series("along the motion", angle, state.force),
+        Series("along the motion", angle, state.force / arc),
         Series("spring", angle, spring, dashed=True),
     )
     note = "the follower stays on the cam as long as the force is above 0"

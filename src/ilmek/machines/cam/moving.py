@@ -4,6 +4,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.programme import TURN
+from ilmek.cams.trace import Trace
 from ilmek.machines.animation import frames
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.parts import zero_mark
@@ -11,37 +12,50 @@ from ilmek.plane import contours
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import mm
 
-UP = 1j
-"""The follower's way, which the formulas have along +x, is drawn upwards."""
-
 OUTLINE = 361
 CHORD = 0.05 * mm
 
 
 def moving(design: CamDesign) -> Animation:
-    """A turn of the cam, from the start of the rise on."""
+    """A turn of the cam, from the start of the rise on; a slide is drawn upright."""
     at = frames()
-    turned = UP * np.exp(1j * at)[:, None]
+    up = _up(design)
+    turned = up * np.exp(1j * at)[:, None]
     state = design.state(at)
-    centre = UP * state.trace.pitch * np.exp(1j * at)
+    centre = up * state.trace.pitch * np.exp(1j * at)
     surface = design.cam.trace(np.linspace(0.0, TURN, OUTLINE)).surface[:-1]
     bore = contours.along(design.hub.contour, CHORD)
     strokes = (
         MovingStroke(turned * surface, "outline", "cam", closed=True),
         MovingStroke(turned * bore, "outline", closed=True),
         MovingStroke(turned * zero_mark(design), "outline"),
-        *_follower(design, centre),
+        *_follower(design, state.trace, centre),
     )
     readings = (
-        Reading("lift", state.trace.course.s, "mm"),
+        Reading("lift", state.trace.course.s * design.params.per_unit, "mm"),
         Reading("pressure angle", state.trace.pressure_angle, "deg"),
         Reading("contact force", state.normal, "N"),
         Reading("torque", state.torque, "N*m"),
     )
     period = TURN / design.params.speed if design.params.speed > 0 else None
-    touched = MovingDot(UP * state.trace.surface * np.exp(1j * at), "", "point")
-    drawing = Drawing("cam-moving", "Cam in motion", _guide(design, centre), (Dot(0j, "", "pivot"),))
+    touched = MovingDot(up * state.trace.surface * np.exp(1j * at), "", "point")
+    dots = (Dot(0j, "", "pivot"), *((Dot(_pivot(design), "", "pivot"),) if _swings(design) else ()))
+    guide = () if _swings(design) else _guide(design, centre)
+    drawing = Drawing("cam-moving", "Cam in motion", guide, dots)
     return Animation(drawing, Axis("cam angle", "deg"), at, strokes, (touched,), True, 0, period, readings)
+
+
+def _swings(design: CamDesign) -> bool:
+    return design.params.motion == "oscillating"
+
+
+def _up(design: CamDesign) -> complex:
+    """Where +x of the formulas is drawn."""
+    return 1 + 0j if _swings(design) else 1j
+
+
+def _pivot(design: CamDesign) -> complex:
+    return complex(design.params.pivot_distance)
 
 
 def _reach(design: CamDesign) -> float:
@@ -49,26 +63,44 @@ def _reach(design: CamDesign) -> float:
     return 2.2 * design.params.lift + 0.6 * design.cam.prime_radius
 
 
-def _follower(design: CamDesign, centre: ComplexArray) -> tuple[MovingStroke, ...]:
-    """What touches the cam, and the stem above it."""
-    stem = centre[:, None] + UP * _reach(design) * np.array([0.0, 1.0])
-    radius = design.cam.roller_radius
+def _follower(design: CamDesign, trace: Trace, centre: ComplexArray) -> tuple[MovingStroke, ...]:
+    """What touches the cam, and what carries it."""
+    radius, name = design.cam.roller_radius, design.params.follower
+    carrier = _carrier(design, trace, centre)
     if design.cam.flat:
-        on_stem = UP * np.imag(centre)[:, None] + design.params.offset
-        span = _face(design)
-        face = on_stem + span * np.array([-1.0, 1.0])
-        return (
-            MovingStroke(face, "link", "flat follower"),
-            MovingStroke(on_stem + UP * _reach(design) * np.array([0.0, 1.0]), "link"),
-        )
+        return (MovingStroke(carrier, "link", "flat follower"), *_stem(design, centre))
     if radius == 0:
-        edge = 0.12 * design.cam.prime_radius
-        head = centre[:, None] + edge * np.array([-0.3 + 1j, 0.0, 0.3 + 1j])
-        return MovingStroke(head, "link", closed=True), MovingStroke(stem, "link", "knife")
+        return (MovingStroke(carrier, "link", name),)
     circle = radius * np.exp(1j * np.linspace(0.0, TURN, 49)[:-1])
-    return MovingStroke(centre[:, None] + circle, "outline", closed=True), MovingStroke(
-        stem, "link", design.params.follower
+    return (
+        MovingStroke(centre[:, None] + circle, "outline", closed=True),
+        MovingStroke(carrier, "link", name),
     )
+
+
+def _carrier(design: CamDesign, trace: Trace, centre: ComplexArray) -> ComplexArray:
+    """Stem, arm or face at every frame."""
+    up = _up(design)
+    if not design.cam.flat and _swings(design):
+        return np.stack([np.full_like(centre, _pivot(design)), centre], axis=1)
+    if not design.cam.flat:
+        return np.asarray(centre[:, None] + up * _reach(design) * np.array([0.0, 1.0]))
+    along = 1j * up * trace.normal * np.exp(1j * trace.angle)
+    if not _swings(design):
+        return np.asarray(
+            (up * np.imag(centre) + design.params.offset)[:, None] + _face(design) * np.array([-1.0, 1.0])
+        )
+    foot = _pivot(design) + design.params.face_offset * along * -1j
+    far = centre + 0.2 * (centre - foot)
+    return np.stack([np.full_like(centre, _pivot(design)), foot, far], axis=1)
+
+
+def _stem(design: CamDesign, centre: ComplexArray) -> tuple[MovingStroke, ...]:
+    """The stem of a flat face on a slide."""
+    if _swings(design):
+        return ()
+    foot = 1j * np.imag(centre)[:, None] + design.params.offset
+    return (MovingStroke(foot + 1j * _reach(design) * np.array([0.0, 1.0]), "link"),)
 
 
 def _face(design: CamDesign) -> float:

@@ -27,10 +27,20 @@ class MotionParams(Params):
     """The motion that is asked for: laws, lift and angles."""
 
     law: str = param("modified-sine", choices=tuple(LAWS), doc="motion law of the rise, and of the fall")
+    motion: str = param(
+        "translating", choices=("translating", "oscillating"), doc="how the follower moves: on a slide, or on an arm"
+    )
     law_parameters: str = param(
         "", doc="parameters of the law, like `b=0.25 c=0.5 d=0.25` or `u=0.3,0.7 s=0.2,0.9`; none: its defaults"
     )
-    lift: float = param(20 * mm, unit="mm", at_least=0.01 * mm, at_most=1.0, doc="lift of the follower", symbol="L")
+    lift: float = param(
+        20 * mm,
+        unit="mm",
+        at_least=0.01 * mm,
+        at_most=1.0,
+        doc="lift of the follower; of an arm along its arc",
+        symbol="L",
+    )
     rise: float = param(
         90 * deg, unit="deg", at_least=0.1 * deg, below=TURN, doc="cam angle of the rise", symbol="beta"
     )
@@ -105,6 +115,28 @@ class SizeParams(MotionParams):
         doc="distance of the follower's line from the axis; positive lowers the pressure angle of the rise",
         symbol="e",
     )
+    arm: float | None = param(
+        None,
+        unit="mm",
+        at_least=0.1 * mm,
+        at_most=10.0,
+        doc="length of the arm to roller, or to where mass, load and spring act; none: three times the lift",
+    )
+    pivot: float | None = param(
+        None,
+        unit="mm",
+        at_least=0.1 * mm,
+        at_most=10.0,
+        doc="distance of the arm's pivot from the cam's axis; none: 4/3 of the arm, 5/2 of a flat one",
+    )
+    side: str = param(
+        "trailing",
+        choices=("trailing", "leading"),
+        doc="whether the cam's surface drags the arm away from its pivot, or pushes it towards it",
+    )
+    face_offset: float = param(
+        0.0, unit="mm", at_least=-1.0, at_most=1.0, doc="how far an arm's flat face lies beyond its pivot"
+    )
     curvature_least: float = param(
         1 * mm,
         unit="mm",
@@ -127,6 +159,26 @@ class SizeParams(MotionParams):
         if self.follower == "knife" and self.roller_radius:
             shown = format_quantity(self.roller_radius, "mm")
             raise ParameterError(f"roller_radius={shown} with follower=knife", do="set follower=roller or spherical")
+
+        if self.motion == "translating" and not (self.arm is self.pivot is None and self.face_offset == 0):
+            raise ParameterError("an arm, pivot or face_offset with motion=translating", do="set motion=oscillating")
+        if self.motion == "oscillating" and self.offset:
+            raise ParameterError("an offset with motion=oscillating", do="place the arm by arm and pivot")
+
+    @property
+    def arm_length(self) -> float:
+        """Length of the arm [m]."""
+        return self.arm or 3 * self.lift
+
+    @property
+    def pivot_distance(self) -> float:
+        """Distance of the arm's pivot from the cam's axis [m]."""
+        return self.pivot or (2.5 if self.follower == "flat" else 4 / 3) * self.arm_length
+
+    @property
+    def per_unit(self) -> float:
+        """Length of arc by the follower's coordinate: 1 of a slide, whose coordinate is in m; the arm's [m], in rad."""
+        return self.arm_length if self.motion == "oscillating" else 1.0
 
     @property
     def limit(self) -> float | None:
@@ -195,6 +247,8 @@ class CamParams(SizeParams):
     def check_together(self) -> None:
         """Raise ParameterError where the parts of the request contradict each other."""
         SizeParams.check_together(self)
+        if self.motion == "oscillating" and self.guide_friction:
+            raise ParameterError("guide_friction with motion=oscillating", allowed="an arm has no guide")
 
 
 def read_law_parameters(text: str) -> Mapping[str, float | tuple[float, ...]]:

@@ -68,5 +68,6 @@ def cam_table(design: CamDesign) -> CamTable:
         at = design.programme.at(angle)
         return np.stack([at.s, at.ds, at.dds])
 
+    unit = "deg" if design.params.motion == "oscillating" else "mm"
     period = TURN / design.params.speed if design.params.speed > 0 else math.inf
-    return CamTable("cam", "Follower over the cam angle", course, design.programme.knots, "mm", period)
+    return CamTable("cam", "Follower over the cam angle", course, design.programme.knots, unit, period)

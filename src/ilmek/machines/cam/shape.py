@@ -2,32 +2,39 @@
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.flat import FlatCam
-from ilmek.cams.limits import convex_radius_min
-from ilmek.cams.pieces import Extremum, supremum
+from ilmek.cams.laws import Law
+from ilmek.cams.oscillating import OscillatingCam
+from ilmek.cams.oscillating_flat import OscillatingFlatCam
+from ilmek.cams.pieces import Extremum
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
+from ilmek.cams.sizing import Limits, pressure_prime, smallest_prime
 from ilmek.cams.trace import Cam
 from ilmek.errors import ParameterError
 from ilmek.machines.cam.params import LIMIT, NO_DWELL, CamParams
 from ilmek.units import format_quantity
 
-LARGEST = 1e3
-"""Prime radius [m] beyond which no roller's undercut is sought to be avoided."""
+_SIDES: dict[str, Literal[1, -1]] = {"trailing": 1, "leading": -1}
 
 
-def programme_of(params: CamParams) -> Programme:
-    """Rise, dwell, fall and rest; the rise begins at the cam angle 0."""
-    rising, falling = params.laws()
+def programme_of(params: CamParams, laws: tuple[Law, Law] | None = None) -> Programme:
+    """Rise, dwell, fall and rest [m; rad of an arm]; the rise begins at the cam angle 0.
+
+    laws  of rise and fall; None: those of the parameters
+    """
+    rising, falling = laws or params.laws()
     rest = TURN - params.rise - params.dwell - params.fall_angle
+    lift = params.lift / params.per_unit
     segments = [
-        rise(params.rise, params.lift, rising),
+        rise(params.rise, lift, rising),
         *([dwell(params.dwell)] if params.dwell > NO_DWELL else []),
-        fall(params.fall_angle + (rest if rest <= NO_DWELL else 0.0), params.lift, falling),
+        fall(params.fall_angle + (rest if rest <= NO_DWELL else 0.0), lift, falling),
         *([dwell(rest)] if rest > NO_DWELL else []),
     ]
     return Programme(tuple(segments))
@@ -49,60 +56,63 @@ class Size:
 
 
 def size_of(params: CamParams, programme: Programme) -> Size:
-    """The prime radius: the given one, or the smallest for the limit; the base circle's of a flat follower."""
-    smallest = _for_convex(params, programme) if params.follower == "flat" else _for_pressure(params, programme)
-    return Size(params.prime_radius or max(smallest.value, params.roller_radius or 0.0), smallest)
+    """The prime radius: the given one, or the smallest for the limit; the base circle's of a flat follower.
+
+    Raises ParameterError where none is given and none does.
+    """
+    smallest = smallest_of(params, programme)
+    return Size(params.prime_radius or smallest.value, smallest)
+
+
+def smallest_of(params: CamParams, programme: Programme) -> Extremum:
+    """The smallest prime radius for the limit; NaN where none does and one is given.
+
+    Of a slide with a roller the limit of the pressure angle alone counts; of any other cam that a surface exists too.
+    """
+    if params.motion == "translating" and params.follower != "flat":
+        found = pressure_prime(programme, Limits(rise=params.limit or LIMIT), params.offset)
+        # A nearly flat rise asks for next to nothing: the circle must still hold the offset and the roller.
+        room = max(abs(params.offset), params.roller_radius or 0.0)
+        return found if found.value > room else Extremum(found.at, room * (1 + 1e-9))
+    limits = Limits(convex=params.curvature_least) if params.follower == "flat" else Limits(params.limit or LIMIT)
+    try:
+        size = smallest_prime(_cam(params, programme, None, params.roller_radius or 0.0), limits)
+    except ParameterError:
+        if params.prime_radius is None:
+            raise
+        return Extremum(0.0, math.nan)
+    return Extremum(size.at, size.prime_radius)
 
 
 def cam_of(params: CamParams, programme: Programme, size: Size, roller_radius: float) -> Cam:
     """The cam of a size and a roller. Raises ParameterError, naming the smallest size, where it cannot exist."""
-    prime, offset = size.prime_radius, params.offset
-    if params.follower == "flat":
-        return FlatCam(programme, prime, offset)
-    if prime <= max(abs(offset), roller_radius):
-        shown, asked = (format_quantity(value, "mm") for value in (prime, max(abs(offset), roller_radius)))
-        word = "the offset" if abs(offset) >= roller_radius else "the roller's radius"
-        do = f"the smallest for the pressure angle is {format_quantity(size.smallest.value, 'mm')}"
-        raise ParameterError(f"prime_radius={shown} is too small", allowed=f"above {word}, {asked}", do=do)
-    return PlateCam(programme, prime, offset, roller_radius)
+    try:
+        return _cam(params, programme, size.prime_radius, roller_radius)
+    except ParameterError as error:
+        least = size.smallest.value
+        do = f"the smallest for the limits is {format_quantity(least, 'mm')}" if least > 0 else error.do
+        raise ParameterError(error.given, allowed=error.allowed, do=do) from None
 
 
 def size_without_undercut(params: CamParams, programme: Programme, roller_radius: float) -> float:
-    """The least prime radius [m], from the pressure angle's on, at which the pitch curve suits a roller; inf: none."""
-    low = max(size_of(params, programme).smallest.value, abs(params.offset), roller_radius) * (1 + 1e-9)
-
-    def suits(prime: float) -> bool:
-        return convex_radius_min(PlateCam(programme, prime, params.offset)).value > roller_radius
-
-    high = low
-    while not suits(high):
-        low, high = high, 2 * high
-        if high > LARGEST:
-            return math.inf
-    for _ in range(40):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if suits(middle) else (middle, high)
-    return high
+    """The least prime radius [m] that keeps the limit and suits a roller; inf where none does."""
+    try:
+        return smallest_prime(_cam(params, programme, None, roller_radius), Limits(params.limit)).prime_radius
+    except ParameterError:
+        return math.inf
 
 
-def _for_pressure(params: CamParams, programme: Programme) -> Extremum:
-    """Rp = sqrt(d^2 + e^2), d = sup(|s' - e| / tan(limit) - s) over the rise."""
-    slope = math.tan(params.limit or LIMIT)
-
-    def demand(angle: FloatArray) -> FloatArray:
-        at = programme.at(angle)
-        return np.asarray(np.abs(at.ds - params.offset) / slope - at.s)
-
-    worst = supremum(demand, part_knots(programme, "rise"))
-    return Extremum(worst.at, math.hypot(max(worst.value, 0.0), params.offset))
-
-
-def _for_convex(params: CamParams, programme: Programme) -> Extremum:
-    """Rb = sup(-(s + s'')) + least radius of curvature, over the turn."""
-
-    def demand(angle: FloatArray) -> FloatArray:
-        at = programme.at(angle)
-        return np.asarray(-(at.s + at.dds))
-
-    worst = supremum(demand, programme.knots)
-    return Extremum(worst.at, max(worst.value, 0.0) + params.curvature_least)
+def _cam(params: CamParams, programme: Programme, prime_radius: float | None, roller_radius: float) -> Cam:
+    """The cam of a prime radius [m]; of any that can be built where none is given."""
+    flat, pivot, side = params.follower == "flat", params.pivot_distance, _SIDES[params.side]
+    if params.motion == "translating" and flat:
+        return FlatCam(programme, prime_radius or 1.0, params.offset)
+    if params.motion == "translating":
+        return PlateCam(programme, prime_radius or 10.0, params.offset, roller_radius)
+    if flat:
+        any_size = 0.5 * (pivot * math.cos(params.lift / params.arm_length) + params.face_offset)
+        return OscillatingFlatCam(programme, prime_radius or any_size, pivot, params.face_offset, side)
+    arm, swing = params.arm_length, params.lift / params.arm_length
+    low = max(abs(pivot - arm), roller_radius)
+    any_size = 0.5 * (low + math.sqrt(pivot**2 + arm**2 + 2 * pivot * arm * math.cos(swing)))
+    return OscillatingCam(programme, prime_radius or any_size, pivot, arm, side, roller_radius)

@@ -9,10 +9,10 @@ from ilmek.cams.contact import Held
 from ilmek.cams.laws import LAWS
 from ilmek.cams.pieces import supremum
 from ilmek.cams.programme import Programme, jumps
+from ilmek.errors import ParameterError
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.params import LIMIT, CamParams
 from ilmek.machines.cam.rollers import ROLLERS, Duty
-from ilmek.machines.cam.shape import programme_of, size_of
+from ilmek.machines.cam.shape import programme_of, smallest_of
 from ilmek.report import Column, Table
 from ilmek.units import deg
 
@@ -40,21 +40,21 @@ def _law_table(design: CamDesign) -> Table:
 
 def _law_row(design: CamDesign, name: str) -> tuple[float | int | str, ...]:
     """A law's row; the spring is left as it is, the torque is that of load, spring and mass without friction."""
-    asked: CamParams = replace(
-        design.params,
-        law=name,
-        law_parameters=design.params.law_parameters if name == design.params.law else "",
-        fall_law=None,
-        fall_law_parameters="",
-        prime_radius=None,
-        pressure_angle_limit=design.params.limit or LIMIT,
-    )
-    programme, speed = programme_of(asked), asked.speed
-    law = programme.segments[0].law
-    rate = speed / min(asked.rise, asked.fall_angle)
+    params, speed = design.params, design.params.speed
+    law = params.laws()[0] if name == params.law else LAWS[name]
+    programme = programme_of(params, (law, law))
+    rate = speed / min(params.rise, params.fall_angle)
     peaks = (law.velocity_peak * rate, law.acceleration_peak * rate**2, law.jerk_peak * rate**3)
-    size = size_of(asked, programme).smallest.value
-    return name, size, *(asked.lift * peak for peak in peaks), _torque(programme, design.held), len(jumps(programme))
+    size = _smallest(design, programme)
+    return name, size, *(params.lift * peak for peak in peaks), _torque(programme, design.held), len(jumps(programme))
+
+
+def _smallest(design: CamDesign, programme: Programme) -> float:
+    """The smallest prime radius [m] by another law; NaN where there is none."""
+    try:
+        return smallest_of(design.params, programme).value
+    except ParameterError:
+        return math.nan
 
 
 def _torque(programme: Programme, held: Held) -> float:
@@ -102,7 +102,7 @@ def _point_table(design: CamDesign) -> Table:
     )
     values = (
         angle,
-        state.trace.course.s,
+        state.trace.course.s * design.params.per_unit,
         surface.real,
         surface.imag,
         state.trace.pressure_angle,

@@ -1,0 +1,150 @@
+"""Forces between cam and follower over the turn, for the parameters: pressed, turned, rolled, squeezed.
+
+Whatever an arm carries is said at the length of the arm; inside it is a moment of inertia, moments, and a rate by the
+angle, so that the formulas of a slide hold with the coordinate in rad.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.cams.contact import Held, Touch, pressed
+from ilmek.cams.hertz import LINE_YIELD, POINT_YIELD, contact_modulus, ellipse_contact, line_contact
+from ilmek.cams.pieces import Extremum, Function, infimum, integral, supremum
+from ilmek.cams.programme import TURN, Programme
+from ilmek.cams.return_spring import doubling_spring, least_preload, least_rate, velocity_drop
+from ilmek.cams.trace import Cam, Trace
+from ilmek.elements.materials import MATERIALS
+from ilmek.machines.cam.params import CamParams
+from ilmek.machines.cam.rollers import POWER, Duty
+from ilmek.plane.vectors import dot, unit
+
+POISSON = 0.3
+"""Of steels; of irons and light metals within a tenth, which moves the pressure by a hundredth."""
+
+_SIDES = {"trailing": 1, "leading": -1}
+
+MARGIN = 1.2
+"""Speed up to which a spring that is chosen holds, over the speed of the cam."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Cam and follower at cam angles: geometry, need along the motion [N], force on the normal [N], torque [N m]."""
+
+    trace: Trace
+    force: FloatArray
+    normal: FloatArray
+    torque: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Extremes:
+    """What is largest over the turn, and where; `pressure` is the Hertz pressure [Pa], None for a knife's edge."""
+
+    normal: Extremum
+    torque: Extremum
+    back_torque: Extremum
+    torque_rms: float
+    pressure: Extremum | None
+
+
+def held_by(params: CamParams, programme: Programme) -> Held:
+    """Mass, load and return spring; what is not given of the spring is the least that holds up to the hold speed."""
+    hold = MARGIN * params.speed if params.hold_speed is None else params.hold_speed
+    arc = params.per_unit
+    rate, preload = (params.spring_rate or 0.0) * arc**2, (params.preload or 0.0) * arc
+    bare = Held(hold, params.mass * arc**2, rate, preload, params.load * arc)
+    if velocity_drop(programme) is not None:
+        return replace(bare, speed=params.speed)
+    if params.spring_rate is None and params.preload is None:
+        bare = doubling_spring(programme, bare)
+    elif params.preload is None:
+        bare = replace(bare, preload=least_preload(programme, bare))
+    elif params.spring_rate is None:
+        bare = replace(bare, rate=least_rate(programme, bare))
+    return replace(bare, speed=params.speed)
+
+
+def duty_of(params: CamParams, cam: Cam, held: Held) -> Duty:
+    """What a roller bears over the turn; it turns against its stud, which an arm carries with it."""
+
+    def borne(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+        state = state_of(params, cam, held, angle)
+        swung = _SIDES[params.side] * state.trace.course.ds if params.motion == "oscillating" else 0.0
+        spin = np.abs(state.trace.flow / cam.roller_radius - 1 - swung)
+        return np.maximum(state.normal, 0.0), spin
+
+    def worn(angle: FloatArray) -> FloatArray:
+        force, spin = borne(angle)
+        return np.asarray(force**POWER * spin)
+
+    knots = cam.programme.knots
+    turns = integral(lambda angle: borne(angle)[1], knots)
+    mean = (integral(worn, knots) / turns) ** (1 / POWER)
+    return Duty(mean, supremum(lambda angle: borne(angle)[0], knots).value, turns / TURN, params.speed)
+
+
+def state_of(params: CamParams, cam: Cam, held: Held, angle: FloatArray) -> State:
+    """Geometry and forces at cam angles [rad]."""
+    trace = cam.trace(angle)
+    force = held.force(trace.course.s, trace.course.dds)
+    sliding = 0.0 if params.follower == "roller" else params.sliding_friction
+    touch = Touch(trace.surface, trace.normal, _way(params, trace))
+    found = pressed(touch, trace.course.ds, force, sliding=sliding, guide=params.guide_friction)
+    return State(trace, force, found.normal, found.torque)
+
+
+def _way(params: CamParams, trace: Trace) -> ComplexArray:
+    """Velocity of the follower at the touched place by its coordinate, in the cam's frame."""
+    way = trace.normal * np.exp(-1j * trace.pressure_angle)
+    if params.motion == "translating":
+        return np.asarray(way)
+    pivot = params.pivot_distance * unit(-trace.angle)
+    turned = np.sign(dot(way, 1j * (trace.pitch - pivot)))
+    return np.asarray(turned * 1j * (trace.surface - pivot))
+
+
+def pressure_of(params: CamParams, state: State, width: float) -> FloatArray:
+    """Hertz pressure [Pa] on a face of a width [m]; NaN where cam and follower cannot touch so."""
+    first, second = MATERIALS[params.material], MATERIALS[params.follower_material]
+    modulus = contact_modulus(first.modulus, POISSON, second.modulus, POISSON)
+    round_follower = 1 / state.trace.roller_radius if state.trace.roller_radius > 0 else 0.0
+    along = state.trace.surface_curvature + round_follower
+    if params.follower == "spherical" or params.crown_radius is not None:
+        across = round_follower if params.crown_radius is None else 1 / params.crown_radius
+        return ellipse_contact(state.normal, along, across, modulus).pressure
+    return line_contact(state.normal / width, along, modulus).pressure
+
+
+def pressure_limit(params: CamParams) -> float:
+    """Where the weaker of both materials first yields, below its surface [Johnson, Contact Mechanics]."""
+    if params.pressure_limit is not None:
+        return params.pressure_limit
+    strength = min(MATERIALS[name].strength for name in (params.material, params.follower_material))
+    point = params.follower == "spherical" or params.crown_radius is not None
+    return strength * (POINT_YIELD if point else LINE_YIELD)
+
+
+def extremes_of(params: CamParams, cam: Cam, held: Held, width: float) -> Extremes:
+    """What is largest over the turn, on a face of a width [m]."""
+    knots = cam.programme.knots
+
+    def of(pick: str) -> Function:
+        def value(angle: FloatArray) -> FloatArray:
+            return np.asarray(getattr(state_of(params, cam, held, angle), pick))
+
+        return value
+
+    def hertz(angle: FloatArray) -> FloatArray:
+        return pressure_of(params, state_of(params, cam, held, angle), width)
+
+    return Extremes(
+        normal=supremum(of("normal"), knots),
+        torque=supremum(of("torque"), knots),
+        back_torque=infimum(of("torque"), knots),
+        torque_rms=math.sqrt(integral(lambda angle: of("torque")(angle) ** 2, knots) / TURN),
+        pressure=None if params.follower == "knife" else supremum(hertz, knots),
+    )

@@ -1,0 +1,155 @@
+"""The numbers that a design of a cam answers with, by the names of the JSON."""
+
+import math
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.cams import flat, limits, oscillating_flat
+from ilmek.cams.flat import FlatCam
+from ilmek.cams.oscillating_flat import OscillatingFlatCam
+from ilmek.cams.pieces import Extremum, infimum, supremum
+from ilmek.cams.programme import Jump, jumps
+from ilmek.elements.materials import MATERIALS
+from ilmek.machines.cam.design import CamDesign
+from ilmek.report import Json, Result
+
+
+def results(design: CamDesign) -> tuple[Result, ...]:
+    """Size, motion, forces, parts, and the follower at the cam angle asked for."""
+    return (
+        *_size_results(design),
+        *_motion_results(design),
+        *_force_results(design),
+        *_part_results(design),
+        *_at(design),
+    )
+
+
+def pressure_angle_on(design: CamDesign, knots: FloatArray) -> Extremum:
+    """Largest |pressure angle| [rad] over a part of the turn."""
+    return supremum(lambda angle: np.abs(design.cam.trace(angle).pressure_angle), knots)
+
+
+def _size_results(design: CamDesign) -> tuple[Result, ...]:
+    cam, face = design.cam, design.params.follower == "flat"
+    on_rise, on_fall = (pressure_angle_on(design, knots) for knots in (design.rise_knots, design.fall_knots))
+    convex, hollow = limits.convex_radius_min(cam), limits.concave_radius_min(cam)
+    word = "base radius: least distance of the face from the axis" if face else "prime radius of the pitch curve, Rp"
+    curve = "surface" if face else "pitch curve"
+    return (
+        Result("prime_radius", cam.prime_radius, "mm", word),
+        Result("prime_radius_min", design.size.smallest.value, "mm", "smallest for the limit"),
+        Result("pressure_angle_max", on_rise.value, "deg", "largest pressure angle on the rise"),
+        Result("pressure_angle_at", on_rise.at, "deg", "cam angle of it"),
+        Result("pressure_angle_fall_max", on_fall.value, "deg", "largest pressure angle on the fall"),
+        Result("curvature_radius_min", convex.value, "mm", f"least radius of curvature of the {curve}, convex"),
+        Result("curvature_at", convex.at, "deg", "cam angle of it"),
+        Result("concave_radius_min", hollow.value if hollow else None, "mm", f"least radius of the {curve}, concave"),
+        Result("undercut", design.undercut, "", "whether no surface can guide the follower"),
+        Result("area", design.area, "cm^2", "area inside the surface, bore not taken off"),
+        *((_face(design),) if face else ()),
+    )
+
+
+def _face(design: CamDesign) -> Result:
+    """Where the contact wanders along a flat face: from the stem of a slide, from the pivot of an arm."""
+    cam = design.cam
+    if isinstance(cam, OscillatingFlatCam):
+        span: Json = list(oscillating_flat.face_span(cam))
+    elif isinstance(cam, FlatCam):
+        span = list(flat.face_span(cam))
+    meaning = "from where to where the contact wanders along the face, from its stem or pivot"
+    return Result("face_span", span, "mm", meaning)
+
+
+def _motion_results(design: CamDesign) -> tuple[Result, ...]:
+    params, programme, speed = design.params, design.programme, design.params.speed
+    length = "rad" if params.motion == "oscillating" else "m"
+
+    def peak(order: int) -> float:
+        return supremum(lambda angle: np.abs(programme.at(angle)[order]), programme.knots).value * speed**order
+
+    found: Json = [_jump_as_json(jump, speed) for order in (1, 2) for jump in jumps(programme, order)]
+    return (
+        Result("lift", params.lift, "mm", "lift of the follower; of an arm along its arc"),
+        *((Result("swing", params.lift / params.per_unit, "deg", "swing of the arm"),) if length == "rad" else ()),
+        Result("rise", params.rise, "deg", "cam angle of the rise"),
+        Result("dwell", params.dwell, "deg", "cam angle for which it stays lifted"),
+        Result("fall", params.fall_angle, "deg", "cam angle of the fall"),
+        Result("velocity_max", peak(1), f"{length}/s", "largest velocity"),
+        Result("acceleration_max", peak(2), f"{length}/s^2", "largest acceleration"),
+        Result("jerk_max", peak(3), f"{length}/s^3", "largest jerk between jumps of the acceleration"),
+        Result("jumps", found, "", "where the velocity (order 1) or the acceleration (order 2) jumps", shown=False),
+    )
+
+
+def _jump_as_json(jump: Jump, speed: float) -> dict[str, Json]:
+    rate = speed**jump.order
+    sides: dict[str, Json] = {"before": jump.before * rate, "after": jump.after * rate}
+    return {"angle": jump.angle, "order": jump.order, "place": jump.place, **sides}
+
+
+def _force_results(design: CamDesign) -> tuple[Result, ...]:
+    extremes, held, speed = design.extremes, design.held, design.params.speed
+    torque = extremes.torque if extremes.torque.value >= -extremes.back_torque.value else extremes.back_torque
+    least = infimum(lambda angle: design.state(angle).force, design.programme.knots)
+    lift_off, arc = design.lift_off.speed, design.params.per_unit
+    preload, rate = held.preload / arc, held.rate / arc**2
+    return (
+        Result("torque_max", abs(torque.value), "N*m", "largest torque of the shaft, forwards or back"),
+        Result("torque_at", torque.at, "deg", "cam angle of it"),
+        Result("torque_range", [extremes.back_torque.value, extremes.torque.value], "N*m", "least and largest torque"),
+        Result("torque_rms", extremes.torque_rms, "N*m", "root mean square of the torque over the turn"),
+        Result("power_max", max(extremes.torque.value, 0.0) * speed, "W", "largest power of the shaft"),
+        Result("contact_force_max", extremes.normal.value, "N", "largest force between cam and follower"),
+        Result("contact_force_at", extremes.normal.at, "deg", "cam angle of it"),
+        Result("hold_force_min", least.value / arc, "N", "least force along the motion; below 0 it lifts off"),
+        Result("spring_rate", rate, "N/mm", "rate of the return spring"),
+        Result("preload", preload, "N", "force of the return spring at the lowest place"),
+        Result("spring_force_max", preload + rate * design.params.lift, "N", "its force at the full lift"),
+        Result(
+            "lift_off_speed",
+            lift_off if math.isfinite(lift_off) else None,
+            "rpm",
+            "speed of the cam from which the follower lifts off; none: it never does",
+        ),
+        *_hertz_results(design),
+    )
+
+
+def _hertz_results(design: CamDesign) -> tuple[Result, ...]:
+    pressure = design.extremes.pressure
+    value = None if pressure is None else pressure.value
+    return (
+        Result("hertz_pressure_max", value, "MPa", "largest Hertz pressure; none: a knife's edge has no such pressure"),
+        Result("hertz_at", None if pressure is None else pressure.at, "deg", "cam angle of it"),
+        Result("hertz_pressure_limit", design.pressure_limit, "MPa", "pressure that is allowed"),
+    )
+
+
+def _part_results(design: CamDesign) -> tuple[Result, ...]:
+    hub, roller, duty = design.hub, design.roller, design.duty
+    density = MATERIALS[design.params.material].density
+    mass = max(design.area - hub.area, 0.0) * design.face_width * density
+    life = duty.time(roller) if roller and duty else math.inf
+    return (
+        Result("roller", roller.name if roller else None, "", "cam follower from the table"),
+        Result("roller_radius", design.cam.roller_radius, "mm", "radius of what touches the cam; 0 of knife and flat"),
+        Result("roller_life", life if math.isfinite(life) else None, "h", "time that the roller lasts"),
+        Result("roller_speed", duty.turns * duty.speed if duty else None, "rpm", "mean speed of the roller"),
+        Result("face_width", design.face_width, "mm", "thickness of the cam"),
+        Result("bore", hub.bore, "mm", "bore of the cam"),
+        Result("keyway", {"width": hub.key_width, "depth": hub.key_depth}, "mm", "keyway in the cam"),
+        Result("mass", mass, "kg", "mass of the cam, bored"),
+    )
+
+
+def _at(design: CamDesign) -> tuple[Result, ...]:
+    """The follower at the cam angle asked for; where a derivative jumps, that of the part which begins."""
+    if design.params.angle is None:
+        return ()
+    course, speed = design.programme.at(np.array(design.params.angle)), design.params.speed
+    names = ("position", "velocity", "acceleration", "jerk")
+    found: Json = {name: float(course[order]) * speed**order for order, name in enumerate(names)}
+    return (Result("at", found, "", "the follower at the cam angle asked for, per time at the speed; SI"),)
