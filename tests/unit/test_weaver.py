@@ -111,7 +111,7 @@ def test_steps_must_follow_each_other() -> None:
 def test_the_machine_reads_its_parameters() -> None:
     made = MACHINE.report(MACHINE.design(WeaverParams.read({"cycle": "2.2s", "law": "cycloidal", "tubes": "8"})))
     assert made.as_json()["results"]["knots_per_minute"] == pytest.approx(60 / 2.2)
-    assert {figure.name for figure in made.figures} == {"knot", "acceleration", "cam-torque"}
+    assert {"knot", "weaver-plan", "weaver-moving"} <= {figure.name for figure in made.figures}
 
 
 @pytest.mark.parametrize("law", SMOOTH_LAWS)
@@ -133,15 +133,15 @@ def test_the_torque_of_the_tools_is_the_change_of_their_energy(law: str) -> None
 
 
 def test_the_selector_has_time_for_the_longest_way_while_a_knot_is_tied() -> None:
-    """From the cut at 62 deg to the next grasp at 28.5 deg: 1.81 s of 2 s, where the longest way takes 1.1 s."""
+    """From the cut to the next grasp, 0.62 and 0.285 of the first step: 1.81 s of 2 s; the longest way takes 1.12 s."""
     head = design(WeaverParams())
-    assert head.selector_window == pytest.approx(2 * (360 - 62 + 28.5) / 360)
-    assert head.colour_change < head.colour_change_longest == pytest.approx(0.18 / 0.2 + 0.2)
+    assert head.selector_window == pytest.approx(2 * (360 - 0.62 * 104 + 0.285 * 104) / 360)
+    assert head.colour_change < head.colour_change_longest == pytest.approx(0.18 / 0.2 + 0.2 + 1 / 50)
     assert head.colour_change_longest < head.selector_window
 
 
 def test_tools_too_heavy_for_a_motor_on_the_shaft_are_said() -> None:
     heavy = report(design(WeaverParams(tool_mass=50.0)))
     assert heavy.as_json()["results"]["motor"] is None
-    assert any("no stepper gives 72 Nm at 30 rpm" in said for said in heavy.warnings)
+    assert any("no stepper gives 22.3 Nm at 30 rpm" in said for said in heavy.warnings)
     assert not report(design(WeaverParams())).warnings

@@ -7,7 +7,11 @@ is in four steps; within a step the motions have fixed shares of it, so that mov
     2 open       side grippers pull back; the handler turns home; they go forward, the opener parts the warps
     3 knot       side grippers go on along the screw, linear and turning, until the pile crosses; the centre gripper
                  comes, closes; side grippers open
-    4 press      side grippers return; the sley pushes the knot down; the centre gripper opens; both return
+    4 press      side grippers turn back; the centre gripper draws the ends out between the warps; side grippers and
+                 opener return; the sley pushes the knot down; the centre gripper opens; the sley returns
+
+The thesis lets the centre gripper go "finally", and does not say when it goes back. It must go back before: ends that
+it lets go behind the warps stay there, and no knot is tied.
 """
 
 import math
@@ -89,10 +93,11 @@ def relations(gap: float) -> tuple[Relation, ...]:
         (Moment(CENTRE_MOTION, "forward", "start"), Moment(SIDE_MOTION, "cross", "end")),
         (Moment(CENTRE_GRASP, "close", "start"), Moment(CENTRE_MOTION, "forward", "end")),
         (Moment(SIDE_GRASP, "open", "start"), Moment(CENTRE_GRASP, "close", "end")),
-        (Moment(SIDE_MOTION, "return", "start"), Moment(SIDE_GRASP, "open", "end")),
-        (Moment(SLEY, "down", "start"), Moment(SIDE_GRASP, "open", "end")),
+        (Moment(SIDE_MOTION, "turn back", "start"), Moment(SIDE_GRASP, "open", "end")),
+        (Moment(CENTRE_MOTION, "return", "start"), Moment(SIDE_GRASP, "open", "end")),
+        (Moment(SIDE_MOTION, "return", "start"), Moment(CENTRE_MOTION, "return", "end")),
+        (Moment(SLEY, "down", "start"), Moment(CENTRE_MOTION, "return", "end")),
         (Moment(CENTRE_GRASP, "open", "start"), Moment(SLEY, "down", "end")),
-        (Moment(CENTRE_MOTION, "return", "start"), Moment(CENTRE_GRASP, "open", "end")),
         (Moment(SLEY, "up", "start"), Moment(SLEY, "down", "end")),
     )
     return tuple(Relation(then, first, gap, SOURCE) for then, first in order)
@@ -104,8 +109,8 @@ def _law(name: str) -> MotionLaw:
 
 def _side_grasp(steps: Steps, by: Strokes) -> Track:
     parts = (
-        steps.motion("close", 1, (0.90, 1.0), (0.0, by.jaw), by.law),
-        steps.motion("open", 3, (0.86, 0.98), (by.jaw, 0.0), by.law),
+        steps.motion("close", 1, (0.905, 1.0), (0.0, by.jaw), by.law),
+        steps.motion("open", 3, (0.85, 0.985), (by.jaw, 0.0), by.law),
     )
     events = (Event("pile held", parts[0].end), Event("pile released", parts[1].end))
     return Track(SIDE_GRASP, "cam 1", parts, events)
@@ -115,18 +120,19 @@ def _side_motion(steps: Steps, by: Strokes) -> Track:
     """With the warp opener on it, and from the opened warps on the screw that turns the grippers."""
     far = by.opening + by.crossing
     parts = (
-        steps.motion("pull back", 2, (0.03, 0.22), (0.0, -by.back), by.law),
-        steps.motion("open warps", 2, (0.61, 1.0), (-by.back, by.opening), by.law),
-        steps.motion("cross", 3, (0.0, 0.45), (by.opening, far), by.law),
-        steps.motion("return", 4, (0.02, 0.50), (far, 0.0), by.law),
+        steps.motion("pull back", 2, (0.02, 0.215), (0.0, -by.back), by.law),
+        steps.motion("open warps", 2, (0.62, 1.0), (-by.back, by.opening), by.law),
+        steps.motion("cross", 3, (0.0, 0.26), (by.opening, far), by.law),
+        steps.motion("turn back", 4, (0.015, 0.24), (far, by.opening), by.law),
+        steps.motion("return", 4, (0.35, 0.64), (by.opening, 0.0), by.law),
     )
     return Track(SIDE_MOTION, "cam 2", parts, (Event("warps open", parts[1].end), Event("pile crossed", parts[2].end)))
 
 
 def _centre_grasp(steps: Steps, by: Strokes) -> Track:
     parts = (
-        steps.motion("close", 3, (0.71, 0.83), (0.0, by.jaw), by.law),
-        steps.motion("open", 4, (0.55, 0.66), (by.jaw, 0.0), by.law),
+        steps.motion("close", 3, (0.695, 0.83), (0.0, by.jaw), by.law),
+        steps.motion("open", 4, (0.685, 0.80), (by.jaw, 0.0), by.law),
     )
     events = (Event("knot held", parts[0].end), Event("knot released", parts[1].end))
     return Track(CENTRE_GRASP, "cam 3", parts, events)
@@ -134,19 +140,19 @@ def _centre_grasp(steps: Steps, by: Strokes) -> Track:
 
 def _centre_motion(steps: Steps, by: Strokes) -> Track:
     parts = (
-        steps.motion("forward", 3, (0.47, 0.68), (0.0, by.centre), by.law),
-        steps.motion("return", 4, (0.68, 1.0), (by.centre, 0.0), by.law),
+        steps.motion("forward", 3, (0.275, 0.68), (0.0, by.centre), by.law),
+        steps.motion("return", 4, (0.015, 0.335), (by.centre, 0.0), by.law),
     )
-    return Track(CENTRE_MOTION, "cam 4", parts)
+    return Track(CENTRE_MOTION, "cam 4", parts, (Event("ends drawn out", parts[1].end),))
 
 
 def _handler(steps: Steps, by: Strokes) -> Track:
     drawn, shown = TUBE_TURN + DRAW_TURN, TUBE_TURN + DRAW_TURN + PRESENT_TURN
     parts = (
-        steps.motion("to tube", 1, (0.0, 0.25), (0.0, TUBE_TURN), by.law),
-        steps.motion("draw", 1, (0.32, 0.58), (TUBE_TURN, drawn), by.law),
-        steps.motion("present", 1, (0.66, 0.88), (drawn, shown), by.law),
-        steps.motion("home", 2, (0.25, 0.58), (shown, 2 * math.pi), by.law),
+        steps.motion("to tube", 1, (0.0, 0.27), (0.0, TUBE_TURN), by.law),
+        steps.motion("draw", 1, (0.30, 0.60), (TUBE_TURN, drawn), by.law),
+        steps.motion("present", 1, (0.65, 0.89), (drawn, shown), by.law),
+        steps.motion("home", 2, (0.23, 0.605), (shown, 2 * math.pi), by.law),
     )
     events = (Event("grasp", steps.angle(1, 0.285)), Event("cut", steps.angle(1, 0.62)))
     return Track(HANDLER, "cam 5", parts, events, unit="deg", revolves=2 * math.pi)
@@ -154,7 +160,7 @@ def _handler(steps: Steps, by: Strokes) -> Track:
 
 def _sley(steps: Steps, by: Strokes) -> Track:
     parts = (
-        steps.motion("down", 4, (0.12, 0.52), (0.0, by.sley), by.law),
-        steps.motion("up", 4, (0.68, 1.0), (by.sley, 0.0), by.law),
+        steps.motion("down", 4, (0.35, 0.67), (0.0, by.sley), by.law),
+        steps.motion("up", 4, (0.685, 1.0), (by.sley, 0.0), by.law),
     )
     return Track(SLEY, "gear", parts, (Event("knot down", parts[0].end),))

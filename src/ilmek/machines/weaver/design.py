@@ -3,10 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ilmek.carpet.tied_knot import Tied
 from ilmek.machines.weaver import moves
 from ilmek.machines.weaver.cyclogram import CENTRE_MOTION, DRAW_TURN, HANDLER, SIDE_MOTION, SLEY, Steps, Strokes
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.machines.weaver.drive import Drive, drive_for
+from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
+from ilmek.machines.weaver.knot import on_the_pair, tied_by
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, peak_acceleration, peak_speed, shortest_period
@@ -34,7 +37,8 @@ class Weaver:
 
     cyclogram        at the cycle it keeps            peaks  by track, in order of the cyclogram
     cycle            the time of a knot [s]: what was asked for, or the shortest that the limits allow
-    handler_radius   of the handler's tip [m], such that it draws the pile yarn of a knot
+    drawn            pile yarn drawn for a knot [m]     handler_radius  of the handler's tip [m], such that it draws it
+    grippers         in plan view                       tied  the knot that their motions tie, proved
     carriage_step    time of a step to the next knot [s]      carriage_window  time in which no gripper is in the warps
     travel           time of each further pitch [s]           colour_change    mean time to bring another tube in line
     drive            of the cam shaft, by the tools' inertia
@@ -44,7 +48,10 @@ class Weaver:
     cyclogram: Cyclogram
     peaks: Mapping[str, TrackPeaks]
     cycle: float
+    drawn: float
     handler_radius: float
+    grippers: Grippers
+    tied: Tied
     carriage_step: float
     carriage_window: float
     travel: float
@@ -75,22 +82,33 @@ class Weaver:
     @property
     def screw_lead(self) -> float:
         """Advance of the side grippers' screw per turn [m]."""
-        return self.params.crossing * turn / self.params.crossing_turn
+        return self.grippers.crossing * turn / self.grippers.turn
+
+    @property
+    def in_knot(self) -> float:
+        """Pile yarn that stays in the carpet for a knot [m]: the bill's less what is shorn off both ends."""
+        return self.params.billed - 2 * self.params.cut_waste
+
+    @property
+    def knot_tied(self) -> str | None:
+        """Kind of the knot that is tied on the pair of warps; None where none is."""
+        return on_the_pair(self.tied)
 
 
 def design(params: WeaverParams) -> Weaver:
     """The head that ties a knot in the time asked for, or in the shortest that speeds and accelerations allow."""
     steps = Steps(params.prepare_end, params.open_end, params.knot_end, params.press_end)
+    drawn = params.knot_yarn or max(params.billed, yarn_needed(params))
+    radius, grippers = drawn / DRAW_TURN, grippers_for(params, drawn)
     strokes = Strokes(
         params.jaw,
         params.pull_back,
         params.opening,
-        params.crossing,
+        grippers.crossing,
         params.centre_stroke,
         params.sley_stroke,
         params.law,
     )
-    radius = params.knot_yarn / DRAW_TURN
     asked = knot_cyclogram(steps, strokes, params.cycle)
     cycle = max(params.cycle, *(_peaks(track, asked.period, radius, params).shortest for track in asked.tracks))
     kept = knot_cyclogram(steps, strokes, cycle)
@@ -99,7 +117,10 @@ def design(params: WeaverParams) -> Weaver:
         kept,
         {track.name: _peaks(track, cycle, radius, params) for track in kept.tracks},
         cycle,
+        drawn,
         radius,
+        grippers,
+        tied_by(kept, grippers, params.jaw),
         moves.step_time(params),
         carriage_window(kept),
         moves.travel_time(params, carriage_window(kept)),

@@ -1,15 +1,17 @@
-"""What may be asked of a knotting head."""
+"""What may be asked of a knotting head. Phases, strokes and dimensions are choices of ours: the thesis prints none."""
 
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
+from ilmek.carpet.ground import warp_density, yarn_diameter
+from ilmek.carpet.knots import WRAPS, PileParams, knot_length
+from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.errors import ParameterError
 from ilmek.params import Params, param
-from ilmek.units import deg, format_quantity, mm, turn
+from ilmek.units import deg, format_quantity, g, m, mm, turn
 
 LEAST_STEP = 10 * deg
 """Least angle of a step of the turn."""
-
 
 PAIR = 6 * mm
 """Usual distance of the pair of warps in the opener's slots."""
@@ -17,7 +19,7 @@ PAIR = 6 * mm
 
 @dataclass(frozen=True, slots=True)
 class WeaverParams(Params):
-    """What may be asked of a knotting head. Phases and strokes are choices of ours: the thesis prints none."""
+    """What may be asked of a knotting head."""
 
     cycle: float = param(
         2.0,
@@ -27,19 +29,39 @@ class WeaverParams(Params):
         doc="time of a knot that is asked for; longer where limits demand it",
     )
     law: str = param("modified-sine", choices=SMOOTH_LAWS, doc="law of all motions")
-    prepare_end: float = param(100 * deg, unit="deg", above=0.0, below=turn, doc="cam angle at which the pile is ready")
-    open_end: float = param(172 * deg, unit="deg", above=0.0, below=turn, doc="cam angle at which the warps are open")
+    prepare_end: float = param(104 * deg, unit="deg", above=0.0, below=turn, doc="cam angle at which the pile is ready")
+    open_end: float = param(180 * deg, unit="deg", above=0.0, below=turn, doc="cam angle at which the warps are open")
     knot_end: float = param(250 * deg, unit="deg", above=0.0, below=turn, doc="cam angle at which the knot is made")
-    press_end: float = param(345 * deg, unit="deg", above=0.0, at_most=turn, doc="cam angle at which all are back")
+    press_end: float = param(352 * deg, unit="deg", above=0.0, at_most=turn, doc="cam angle at which all are back")
     relation_gap: float = param(1 * deg, unit="deg", at_least=0.0, below=turn, doc="least gap of motions in sequence")
-    jaw: float = param(0.003, unit="mm", above=0.0, at_most=0.05, doc="opening of the grippers' jaws")
+    knot: str = param("symmetric", choices=tuple(WRAPS), doc="kind of knot that is asked for")
+    jaw: float = param(0.004, unit="mm", above=0.0, at_most=0.05, doc="opening of the grippers' jaws")
     pull_back: float = param(0.008, unit="mm", above=0.0, at_most=0.1, doc="side grippers back, to free the handler")
     opening: float = param(0.020, unit="mm", above=0.0, at_most=0.3, doc="side grippers and opener forward")
-    crossing: float = param(0.020, unit="mm", above=0.0, at_most=0.3, doc="side grippers along the screw")
-    crossing_turn: float = param(180 * deg, unit="deg", above=0.0, at_most=turn, doc="what the screw turns them by")
+    crossing: float | None = param(
+        None, unit="mm", above=0.0, at_most=0.3, doc="side grippers along the screw; none: room for the centre gripper"
+    )
+    crossing_turn: float | None = param(
+        None, unit="deg", above=0.0, at_most=turn / 2, doc="what the screw turns them by; none: until the ends cross"
+    )
+    overlap: float = param(0.0015, unit="mm", at_least=5e-4, at_most=0.05, doc="ends past the middle when they cross")
+    finger: float = param(0.002, unit="mm", above=0.0, at_most=0.05, doc="thickness of the grippers' rods and arms")
+    clearance: float = param(0.0005, unit="mm", at_least=0.0, at_most=0.05, doc="least room between what moves")
+    pair_opened: float | None = param(
+        None, unit="mm", above=0.0, at_most=0.1, doc="the pair of warps in the opener's slots; none: 6 mm, or room"
+    )
+    tail: float = param(0.002, unit="mm", at_least=0.0, at_most=0.05, doc="yarn held in a side gripper, each end")
     centre_stroke: float = param(0.025, unit="mm", above=0.0, at_most=0.3, doc="centre gripper forward")
     sley_stroke: float = param(0.025, unit="mm", above=0.0, at_most=0.3, doc="sley down")
-    knot_yarn: float = param(0.045, unit="mm", above=0.0, at_most=0.3, doc="pile yarn drawn for a knot, waste included")
+    knot_yarn: float | None = param(
+        None, unit="mm", above=0.0, at_most=0.3, doc="pile yarn drawn for a knot, waste included; none: the yarn bill's"
+    )
+    pile_height: float = param(8 * mm, unit="mm", at_least=0.0, at_most=100 * mm, doc="pile above the knots, shorn")
+    cut_waste: float = param(1 * mm, unit="mm", at_least=0.0, at_most=100 * mm, doc="shorn off each end of a knot")
+    yarn_density: float = param(0.8 * g / m, unit="g/m", above=0.0, at_most=0.1, doc="mass per length of the pile yarn")
+    warp_diameter: float | None = param(
+        None, unit="mm", above=0.0, at_most=10 * mm, doc="diameter of a warp; none: of the usual wool warp"
+    )
     speed_limit: float = param(
         1.0, unit="m/s", at_least=1e-3, at_most=100.0, doc="allowed speed of grippers, sley and handler's tip"
     )
@@ -47,7 +69,12 @@ class WeaverParams(Params):
         20.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="allowed acceleration of the same"
     )
     tool_mass: float = param(0.15, unit="kg", at_least=0.0, at_most=100.0, doc="mass that each cam moves")
-    knot_pitch: float = param(0.004, unit="mm", at_least=1e-6, at_most=0.1, doc="distance of neighbouring knots")
+    knot_pitch: float = param(
+        0.004, unit="mm", at_least=1 / FINEST, at_most=1 / COARSEST, doc="distance of neighbouring knots"
+    )
+    row_pitch: float | None = param(
+        None, unit="mm", at_least=1 / FINEST, at_most=1 / COARSEST, doc="distance of rows; none: as of the knots"
+    )
     carriage_speed: float = param(0.25, unit="m/s", at_least=1e-3, at_most=100.0, doc="speed of the head along the row")
     carriage_acceleration: float = param(
         2.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="acceleration of the head along the row"
@@ -62,7 +89,7 @@ class WeaverParams(Params):
     selector_jerk: float = param(50.0, unit="m/s^3", at_least=1e-3, at_most=1e9, doc="jerk of the colour selector")
 
     def check_together(self) -> None:
-        """The steps of the turn follow each other, each with angle enough."""
+        """The steps of the turn follow each other, each with angle enough; the opener makes room for a gripper."""
         ends = {"prepare_end": self.prepare_end, "open_end": self.open_end, "knot_end": self.knot_end}
         before, at = "the beginning of the turn", 0.0
         for name, end in (*ends.items(), ("press_end", self.press_end)):
@@ -72,3 +99,41 @@ class WeaverParams(Params):
                     allowed=f"at least {format_quantity(at + LEAST_STEP, 'deg')}",
                 )
             before, at = name, end
+        if self.pair_opened is not None and self.pair_opened < self.centre_room:
+            shown, room = (format_quantity(size, "mm") for size in (self.pair_opened, self.centre_room))
+            raise ParameterError(
+                f"pair_opened={shown} leaves the centre gripper no way between the warps",
+                allowed=f"at least {room}: a warp, the gripper's finger and its clearances",
+                do="open the pair wider, or take a thinner finger",
+            )
+
+    @property
+    def quality(self) -> Quality:
+        """The carpet's quality by the distances of its knots."""
+        return Quality(1 / self.knot_pitch, 1 / (self.row_pitch or self.knot_pitch))
+
+    @property
+    def warp(self) -> float:
+        """Diameter of a warp [m]."""
+        return self.warp_diameter or yarn_diameter(warp_density(self.quality))
+
+    @property
+    def yarn(self) -> float:
+        """Diameter of the pile yarn [m]."""
+        return yarn_diameter(self.yarn_density)
+
+    @property
+    def billed(self) -> float:
+        """Pile yarn of a knot by the yarn bill [m], what is shorn off included."""
+        pile = PileParams(pile_height=self.pile_height, cut_waste=self.cut_waste, warp_diameter=self.warp_diameter)
+        return knot_length(self.knot, self.quality, self.yarn_density, pile)
+
+    @property
+    def centre_room(self) -> float:
+        """Least distance of the pair that lets the centre gripper between [m]."""
+        return self.warp + self.finger + 2 * self.clearance
+
+    @property
+    def pair(self) -> float:
+        """Distance of the pair of warps in the opener's slots [m]."""
+        return self.pair_opened or max(PAIR, self.centre_room)

@@ -5,6 +5,8 @@ import numpy as np
 from ilmek.machines.weaver.cyclogram import HANDLER, relations
 from ilmek.machines.weaver.design import HAND_KNOT, Weaver
 from ilmek.machines.weaver.drive import inertia_torque
+from ilmek.machines.weaver.knot_report import knot_checks, knot_results, knot_warnings
+from ilmek.machines.weaver.plan_view import moving, plan_view
 from ilmek.report import Axis, Check, Column, Plot, Report, Result, Series, Table, Timing, at_most
 from ilmek.timing.cyclogram import check_all, draw
 from ilmek.timing.track import sample
@@ -20,7 +22,7 @@ def report(weaver: Weaver) -> Report:
         _results(weaver),
         checks(weaver),
         (_peaks_table(weaver), _motions_table(weaver)),
-        (timing(weaver), _accelerations(weaver), _torque(weaver)),
+        (timing(weaver), plan_view(weaver), moving(weaver), _accelerations(weaver), _torque(weaver)),
         _warnings(weaver),
     )
 
@@ -41,6 +43,7 @@ def checks(weaver: Weaver) -> tuple[Check, ...]:
         *check_all(weaver.cyclogram, relations(params.relation_gap)),
         at_most("carriage: step to the next knot", weaver.carriage_step, weaver.carriage_window, "s", "tools out"),
         at_most("knot cycle", weaver.cycle, HAND_KNOT, "s", "best hand weaver: 25 knots a minute"),
+        *knot_checks(weaver),
     )
 
 
@@ -67,9 +70,7 @@ def _results(weaver: Weaver) -> tuple[Result, ...]:
             "m/s^2",
             "largest acceleration of each track",
         ),
-        Result("yarn_drawn", weaver.params.knot_yarn, "mm", "pile yarn drawn for a knot"),
-        Result("handler_radius", weaver.handler_radius, "mm", "radius at which the handler draws that yarn"),
-        Result("screw_lead", weaver.screw_lead, "mm", "advance of the side grippers' screw for a turn"),
+        *knot_results(weaver),
         Result("colour_change_time", weaver.colour_change, "s", "mean time to bring another tube in line"),
         Result("colour_change_longest", weaver.colour_change_longest, "s", "time from the first tube to the last"),
         Result(
@@ -143,7 +144,7 @@ def _torque(weaver: Weaver) -> Plot:
 
 def _warnings(weaver: Weaver) -> tuple[str, ...]:
     asked, drive = weaver.params.cycle, weaver.drive
-    said = []
+    said = list(knot_warnings(weaver))
     if weaver.cycle > asked:
         longer = f"a knot takes {weaver.cycle:.3g} s, not the {asked:.3g} s asked for"
         said.append(f"{longer}: the limits of the {weaver.limiting} allow no less")

@@ -1,0 +1,141 @@
+"""Which knot the head ties: the way of the yarn's two ends over one turn of the cyclogram, and the proof.
+
+Each end is held by its side gripper from the moment its jaws are closed until they open, then by the centre gripper
+from closed jaws to open ones. The places of the tips follow from the cams' positions at every cam angle. Between two
+angles at which a motion begins or ends, a tip goes along one curve, by the position of its cam, whatever the law; so
+the curve's length over a part of that way is at most the way times sqrt(1 + (rho turn / crossing)²). The first end's
+way backwards, then the second's, is the yarn: `carpet.tied_knot` proves its knot, with the warps as they stand in the
+opener. A yarn that is let go, missed, or led while the warps close, ties none, and the words say why.
+"""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from jaxtyping import Complex, Float
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.carpet.knot_word import Word, knot
+from ilmek.carpet.tied_knot import Tied, tied_knot
+from ilmek.errors import CarpetError
+from ilmek.machines.weaver.cyclogram import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
+from ilmek.machines.weaver.grippers import Grippers, crossing_point
+from ilmek.timing.cyclogram import Cyclogram
+from ilmek.timing.track import Track, sample
+from ilmek.units import format_quantity
+
+SAMPLES = (101, 801, 6401)
+"""Places along a motion: more where the yarn comes so near a warp that fewer do not tell its side."""
+
+NOTHING = 1e-9
+"""Metres that are rounding."""
+
+PAIR: Word = (2, 3)
+"""The pair among the warps of the plan view; on either side of it one more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Led:
+    """The way of one end: places [m], and bounds of the way between each two [m]."""
+
+    places: Complex[np.ndarray, " n"]
+    lengths: Float[np.ndarray, " parts"]
+
+
+def tied_by(cyclogram: Cyclogram, grippers: Grippers, jaw: float) -> Tied:
+    """The knot that a turn of the cyclogram ties with these grippers; none where order or hand-over are wrong."""
+    wrong = _order(cyclogram, grippers) or _hand_over(grippers, jaw)
+    if wrong:
+        return Tied(None, (), False, f"no knot: {wrong}")
+    said = ""
+    for samples in SAMPLES:
+        try:
+            return _tied(cyclogram, grippers, samples)
+        except CarpetError as error:
+            said = error.given
+    return Tied(None, (), False, f"no knot: {said}")
+
+
+def on_the_pair(tied: Tied) -> str | None:
+    """The kind of the knot that is tied on the pair; None: none, or on other warps."""
+    return tied.knot.kind if tied.knot is not None and tied.knot.warps == PAIR else None
+
+
+def told(tied: Tied) -> str:
+    """What the proof says, the pair's warps called 1 and 2."""
+    kind = on_the_pair(tied)
+    return tied.words if kind is None else knot(kind).name
+
+
+def led(cyclogram: Cyclogram, grippers: Grippers, samples: int) -> Led:
+    """The way of the left end from where its gripper holds it to where the centre gripper lets it go."""
+    held, taken = _angle(cyclogram, SIDE_GRASP, "close"), _angle(cyclogram, CENTRE_GRASP, "close")
+    let_go = _start(cyclogram, CENTRE_GRASP, "open")
+    side = _positions(cyclogram.track(SIDE_MOTION), held, taken, samples)
+    centre = _positions(cyclogram.track(CENTRE_MOTION), taken, let_go, samples)
+    there, then = grippers.tip(side), grippers.centre(centre)
+    over = np.abs(then[:1] - there[-1:])
+    lengths = (np.abs(np.diff(side)) * grippers.reach_bound, over, np.abs(np.diff(centre)))
+    return Led(np.concatenate([there, then]), np.concatenate(lengths) * (1 + 1e-9))
+
+
+def _tied(cyclogram: Cyclogram, grippers: Grippers, samples: int) -> Tied:
+    left = led(cyclogram, grippers, samples)
+    first, second = left.places, -np.conj(left.places)
+    points: ComplexArray = np.concatenate([first[::-1], second])
+    between = np.abs(second[:1] - first[:1])  # the yarn at the beginning, straight before the warps
+    lengths = np.concatenate([left.lengths[::-1], between, left.lengths])
+    bounds = np.maximum(lengths, np.abs(np.diff(points)))
+    return tied_knot(points, grippers.warps, keep_out=grippers.warp / 2, lengths=bounds)
+
+
+def _order(cyclogram: Cyclogram, grippers: Grippers) -> str:
+    """What is wrong with the order of holding, letting go and the warps; "" where nothing is."""
+    taken, released = _angle(cyclogram, CENTRE_GRASP, "close"), _start(cyclogram, SIDE_GRASP, "open")
+    if released < taken:
+        shown = [format_quantity(angle, "deg") for angle in (released, taken)]
+        return f"the side grippers let the pile go at {shown[0]}, before the centre gripper holds it at {shown[1]}"
+    angle = np.linspace(0.0, 2 * np.pi, 1441)
+    side = sample(cyclogram.track(SIDE_MOTION), angle).position
+    centre = grippers.centre(sample(cyclogram.track(CENTRE_MOTION), angle).position)
+    among = np.minimum(centre.imag, grippers.tip(side).imag) < grippers.warp / 2
+    closing = among & (side < grippers.opening * (1 - 1e-9))
+    if closing.any():
+        at = format_quantity(float(angle[np.argmax(closing)]), "deg")
+        return f"at {at} the warps are not held open, with a gripper between them"
+    return ""
+
+
+def _hand_over(grippers: Grippers, jaw: float) -> str:
+    """Whether the centre gripper's jaws, one above and one below the arms, find both ends; "" where they do.
+
+    The ends cross the middle at -+h/2 about the gripper's height, less the nearer they are to the warps.
+    """
+    tip = grippers.end
+    if tip.real <= 0:
+        return f"the ends do not cross: each stops {format_quantity(-tip.real, 'mm')} before the middle"
+    share = (grippers.pair / 2) / (grippers.pair / 2 + tip.real)
+    needed = share * grippers.lift + grippers.yarn
+    if needed > jaw:
+        shown = format_quantity(needed, "mm"), format_quantity(jaw, "mm")
+        return f"the ends cross {shown[0]} high, the centre gripper's jaws open {shown[1]}"
+    room = -tip.imag - grippers.finger / 2 - grippers.depth
+    if room < -NOTHING:
+        return f"the centre gripper's tip runs {format_quantity(-room, 'mm')} into the side grippers' arms"
+    return "" if crossing_point(grippers).imag < -grippers.warp / 2 else "the ends cross before the warps"
+
+
+def _positions(track: Track, begin: float, end: float, samples: int) -> FloatArray:
+    """Positions of a track [m] from one master angle to another [rad], evenly apart in each motion."""
+    joints = [edge for part in track.segments for edge in (part.start, part.end) if begin < edge < end]
+    at = sample(track, np.unique(np.array([begin, *joints, end]))).position
+    ways = [np.linspace(one, then, samples) for one, then in pairwise(at) if one != then]
+    return np.concatenate([at[:1], *ways])
+
+
+def _angle(cyclogram: Cyclogram, track: str, motion: str) -> float:
+    return cyclogram.track(track).segment(motion).end
+
+
+def _start(cyclogram: Cyclogram, track: str, motion: str) -> float:
+    return cyclogram.track(track).segment(motion).start

@@ -1,0 +1,113 @@
+"""The grippers in plan view: where they are when they begin to turn and when the ends cross, and a turn in motion."""
+
+import numpy as np
+from jaxtyping import Complex, Float
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.machines.weaver.cyclogram import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
+from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.grippers import Grippers
+from ilmek.machines.weaver.knot import led, told
+from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
+from ilmek.timing.track import sample
+from ilmek.units import mm, turn
+
+FRAMES = 90
+ALONG, EACH = 90, 41
+ROD = 14 * mm
+"""How much of a rod is drawn."""
+
+_RING = np.exp(1j * turn * np.arange(24) / 24)
+
+
+def plan_view(weaver: Weaver) -> Drawing:
+    """Side grippers before they turn, dashed, and where their ends cross; the way of the ends; the centre gripper."""
+    by = weaver.grippers
+    start, end = (_bent(by, np.array([at])) for at in (by.opening, by.opening + by.crossing))
+    way = by.tip(np.linspace(by.opening, by.opening + by.crossing, EACH))
+    grip = np.array([-1j * by.depth, 1j * ROD])
+    strokes = (
+        *(Stroke(place + by.warp / 2 * _RING, "outline", closed=True, filled=True) for place in by.warps),
+        *(Stroke(one[0], "construction") for one in (start, _mirrored(start))),
+        *(Stroke(one, "path") for one in (way, _mirrored(way))),
+        Stroke(end[0], "link", "side gripper"),
+        Stroke(_mirrored(end)[0], "link"),
+        Stroke(grip, "outline", "centre gripper"),
+        Stroke(_yarn(weaver), "yarn"),
+    )
+    dots = tuple(Dot(complex(place), "", "point") for place in (by.end, -by.end.conjugate()))
+    note = f"{told(weaver.tied)}; the pile is upwards, seen along the warps; dashed: before the grippers turn"
+    return Drawing("weaver-plan", "The ends of the pile round the pair of warps", strokes, dots, note=note)
+
+
+def moving(weaver: Weaver) -> Animation:
+    """The grippers over a turn of the cams, the warps parted by the opener, and the yarn where its ends went."""
+    by, angle = weaver.grippers, np.arange(FRAMES) * (turn / FRAMES)
+    side = sample(weaver.cyclogram.track(SIDE_MOTION), angle).position
+    centre = sample(weaver.cyclogram.track(CENTRE_MOTION), angle).position
+    bars, tip = _bent(by, side), by.centre(centre)
+    at, places = _led(weaver)
+    known = np.maximum(np.searchsorted(at, angle, side="right"), 1)
+    yarn = np.stack([_evenly(places[:until]) for until in known])
+    strokes = (
+        *_warps(weaver, side),
+        MovingStroke(yarn, "outline", "yarn"),
+        MovingStroke(bars, "link", "left gripper"),
+        MovingStroke(_mirrored(bars), "link", "right gripper"),
+        MovingStroke(np.stack([tip, tip + 1j * 2 * ROD], -1), "outline", "centre gripper"),
+    )
+    dots = tuple(MovingDot(ends, "", "point") for ends in (bars[:, -1], _mirrored(bars)[:, -1]))
+    still = Drawing(
+        "weaver-moving",
+        "A knot in plan view",
+        (),
+        note="The yarn lies where its ends went, not yet tightened; the pile is upwards.",
+    )
+    readings = (Reading("screw", by.turned(side), "deg"), Reading("side grippers", side, "mm"))
+    return Animation(still, Axis("cam angle", "deg"), angle, strokes, dots, period=weaver.cycle, readings=readings)
+
+
+def _bent(by: Grippers, position: FloatArray) -> Complex[np.ndarray, "n 3"]:
+    """Rod and arm of the left gripper: far end of the rod, its elbow, the tip."""
+    tip = by.tip(position)
+    elbow = -by.axis + 1j * tip.imag
+    return np.stack([elbow + 1j * ROD, elbow, tip], -1)
+
+
+def _mirrored(points: ComplexArray) -> ComplexArray:
+    return np.asarray(-np.conj(points))
+
+
+def _yarn(weaver: Weaver) -> ComplexArray:
+    """The whole way of both ends: the knot as it lies."""
+    left = led(weaver.cyclogram, weaver.grippers, EACH).places
+    return np.concatenate([left[::-1], _mirrored(left)])
+
+
+def _led(weaver: Weaver) -> tuple[FloatArray, ComplexArray]:
+    """Cam angles at which the left end is led [rad], and its places then [m]."""
+    by, tracks = weaver.grippers, weaver.cyclogram
+    held, taken = tracks.track(SIDE_GRASP).segment("close").end, tracks.track(CENTRE_GRASP).segment("close").end
+    freed = tracks.track(CENTRE_GRASP).segment("open").start
+    by_side, by_centre = np.linspace(held, taken, 6 * EACH), np.linspace(taken, freed, 2 * EACH)
+    side = by.tip(sample(tracks.track(SIDE_MOTION), by_side).position)
+    centre = by.centre(sample(tracks.track(CENTRE_MOTION), by_centre).position)
+    return np.concatenate([by_side, by_centre]), np.concatenate([side, centre])
+
+
+def _evenly(way: ComplexArray) -> Complex[np.ndarray, " along"]:
+    """The yarn by the way of its left end until now: the way backwards, then its mirror image, in even steps."""
+    whole = np.concatenate([way[::-1], _mirrored(way)])
+    length = np.append(0.0, np.cumsum(np.abs(np.diff(whole))))
+    even = np.linspace(0.0, length[-1], ALONG)
+    return np.asarray(np.interp(even, length, whole.real) + 1j * np.interp(even, length, whole.imag))
+
+
+def _warps(weaver: Weaver, side: Float[np.ndarray, " n"]) -> tuple[MovingStroke, ...]:
+    """The pair, which the opener parts, and their neighbours, which it pushes aside."""
+    by, pitch = weaver.grippers, weaver.params.quality.warp_pitch
+    share = np.clip(side / by.opening, 0.0, 1.0)
+    closed = pitch * np.array([-1.5, -0.5, 0.5, 1.5])
+    places = closed + share[:, None] * (by.warps.real - closed)
+    rings = places[:, :, None] + by.warp / 2 * _RING
+    return tuple(MovingStroke(rings[:, k], "outline", closed=True) for k in range(len(closed)))
