@@ -5,7 +5,7 @@ import math
 import pytest
 
 from ilmek.elements.bearings import BEARINGS, bearings_for
-from ilmek.elements.materials import MATERIALS
+from ilmek.elements.materials import MATERIALS, find_material, hertz_limit
 from ilmek.elements.motors import MOTORS, Reducer, most_torque, smallest_motor, worm_efficiency
 from ilmek.elements.shafts import (
     SQUARE_SHEAR,
@@ -17,6 +17,7 @@ from ilmek.elements.shafts import (
     square_twist,
     stock_side,
 )
+from ilmek.errors import ParameterError
 from ilmek.machines import warp_tension
 from ilmek.units import GPa, deg, mm, rpm
 
@@ -101,7 +102,25 @@ def test_stock_bars() -> None:
 
 def test_materials_are_of_their_kind() -> None:
     assert MATERIALS["structural steel"].modulus == 210 * GPa
-    for material in MATERIALS.values():
-        assert 60 * GPa <= material.modulus <= 215 * GPa
-        assert 2600 <= material.density <= 8000
+    for name, material in MATERIALS.items():
+        if name != "POM":
+            assert 60 * GPa <= material.modulus <= 215 * GPa
+            assert 2600 <= material.density <= 9000
         assert material.source.startswith("EN ")
+        assert material.strength <= material.tensile
+        assert 0.25 < material.poisson < 0.4
+        assert material.fatigue is None or material.fatigue <= 0.45 * material.tensile
+        assert material.hertz is None or material.hertz > 0.6 * material.strength
+    assert MATERIALS["structural steel"].shear_modulus == pytest.approx(80.77 * GPa, rel=1e-3)
+
+
+def test_the_softer_surface_limits_the_pressure() -> None:
+    """ISO 6336-5: case-hardened 1500 MPa, hot-rolled steel HB + 190; no limit is known of austenitic steel."""
+    hard, soft, stainless = (
+        find_material(name) for name in ("case-hardened steel", "structural steel", "stainless steel")
+    )
+    assert hertz_limit(hard, soft) == pytest.approx(300e6)
+    assert hertz_limit(hard, hard, 1.2) == pytest.approx(1250e6)
+    assert hertz_limit(hard, stainless) is None
+    with pytest.raises(ParameterError, match="nearest offered is 'structural steel'"):
+        find_material("constructional steel")
