@@ -1,0 +1,273 @@
+"""A follower of one mass or more on springs, driven by a cam: what it does instead of what the cam says.
+
+Masses hang in a row on springs and dampers, the first on the cam's surface y, which moves as the law says:
+
+    M x'' + C x' + K x = (k1 y + c1 y') e1                                 [Norton, Cam Design and Manufacturing, 10]
+
+K holds the springs of the row and the return springs r to the frame. With z = x - y, how far each mass lags,
+
+    M z'' + C z' + K z = -m y'' - r y
+
+is linear with a smooth right side between the knots of the motion. In its natural modes each is one number q with
+q' = mu q + f, and so
+
+    q(t + h) = e^(mu h) q(t) + integral of e^(mu (h - s)) f(t + s) ds
+
+exactly; the integral is taken by Gauss' rule over panels short against every natural period, exact to rounding. Steps
+of the cam's velocity are kicks. The same steps, closed into a ring, give the motion that repeats turn by turn.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.cams.follower_model import Follower, Stage, one_mass
+from ilmek.cams.laws import Law
+from ilmek.cams.programme import TURN, Course, Programme, jumps
+from ilmek.errors import ParameterError
+from ilmek.report import Axis, Plot, Series
+
+__all__ = [
+    "Follower",
+    "Response",
+    "Stage",
+    "one_mass",
+    "residual_of",
+    "response_plot",
+    "rise_response",
+    "steady_response",
+]
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+_REACH = 2.0
+"""Largest |mu h| of a panel: Gauss' rule with 12 points is exact to rounding within it."""
+
+_MOST_PANELS = 200_000
+_BESIDE = 1e-12
+_RESONANT = 1e-9
+_DEFECTIVE = 1e7
+_APART = 1e-10
+
+
+@dataclass(frozen=True, slots=True)
+class Response:
+    """What a follower does, at ascending places; rows of the arrays are its masses, from the cam outwards.
+
+    at            time of a rise [s], or cam angle of a turn [rad]
+    cam           displacement that the cam asks for [m]
+    displacement, velocity, acceleration   of the masses [m, m/s, m/s^2]
+    contact       force on the cam [N], below 0 where it would have to pull: there the follower leaves it
+    """
+
+    at: FloatArray
+    cam: FloatArray
+    displacement: FloatArray
+    velocity: FloatArray
+    acceleration: FloatArray
+    contact: FloatArray
+
+    @property
+    def lag(self) -> FloatArray:
+        """How far each mass is from where the cam would have it [m]."""
+        return np.asarray(self.displacement - self.cam)
+
+
+def rise_response(
+    follower: Follower, law: Law, lift: float, time: float, *, after: float = 1.0, count: int = 401
+) -> Response:
+    """The follower from rest over a rise of `lift` [m] in `time` [s], and for `after` rises' time beyond it.
+
+    count  even places over all that time; the knots of the law are added
+    Raises ParameterError for a time that is not above 0, and a follower too stiff to be followed.
+    """
+    motion = _of_law(law, after)
+    return _response(follower, motion, _even(0.0, 1.0 + after, count), (_rate(time), lift, time), _from_rest)
+
+
+def steady_response(follower: Follower, programme: Programme, speed: float, count: int = 721) -> Response:
+    """The motion that repeats every turn of a cam at a speed [rad/s], over one turn from the programme's start.
+
+    Raises ParameterError where an undamped follower resonates with a multiple of the speed, or is too stiff.
+    """
+    motion = _of_programme(programme)
+    places = _even(programme.start, programme.start + TURN, count)
+    return _response(follower, motion, places, (speed, 1.0, 1.0), _repeating)
+
+
+def residual_of(follower: Follower, law: Law, time: float) -> FloatArray:
+    """Amplitude that each mass swings with after a rise in `time` [s], at its end, in lifts: summed over the modes.
+
+    For one mass without return spring it is `vibration.residual` at time x frequency / 2 pi.
+    """
+    motion = _of_law(law, 0.0)
+    modes = _modes(follower, _rate(time))
+    _, states = _states(modes, motion, np.array([0.0, 1.0]), _from_rest)
+    # What stays is where the return springs hold the masses back.
+    swing = states[:, -1] + modes.driven @ np.array([1.0, 0.0]) / modes.rates
+    oscillates = np.abs(modes.rates.imag) > _BESIDE * np.abs(modes.rates)
+    return np.asarray(np.abs(modes.shapes[: follower.masses.size] * (swing * oscillates)).sum(axis=1))
+
+
+def response_plot(responses: Mapping[str, Response], *, over_a_turn: bool = False) -> Plot:
+    """Lag of the last mass, of responses by name, over the time of a rise or over the cam angle of a turn."""
+    series = tuple(Series(name, response.at, response.lag[-1]) for name, response in responses.items())
+    x = Axis("cam angle", "deg") if over_a_turn else Axis("time", "ms")
+    return Plot("follower", "How far the follower's mass lags", x, Axis("lag", "mm"), series)
+
+
+@dataclass(frozen=True, slots=True)
+class _Motion:
+    """What drives the follower: s, s', s'' by place; knots; and steps of s' at places."""
+
+    course: Callable[[FloatArray], FloatArray]
+    knots: FloatArray
+    kicks: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Modes:
+    """Natural modes over the place: q' = rates q + driven (s, s''), state = Re shapes q, with state (z, z')."""
+
+    rates: ComplexArray
+    shapes: ComplexArray
+    driven: ComplexArray
+    kicked: ComplexArray
+
+
+def _rate(time: float) -> float:
+    if not 0 < time < math.inf:
+        raise ParameterError(f"a rise in {time:g} s", allowed="above 0")
+    return 1.0 / time
+
+
+def _of_law(law: Law, after: float) -> _Motion:
+    def course(u: FloatArray) -> FloatArray:
+        at = law.motion(np.minimum(u, 1.0))
+        still = u >= 1.0
+        return np.array([np.where(still, law.s(1.0), at.s), np.where(still, 0.0, at.v), np.where(still, 0.0, at.a)])
+
+    ends = (0.0, *law.breaks, 1.0, *([1.0 + after] if after else []))
+    return _Motion(course, np.array(ends), ((0.0, float(law.v(0.0))), (1.0, -float(law.v(1.0)))))
+
+
+def _of_programme(programme: Programme) -> _Motion:
+    def course(angle: FloatArray) -> FloatArray:
+        at: Course = programme.at(angle)
+        return np.array(at[:3])
+
+    kicks = tuple((jump.angle, jump.after - jump.before) for jump in jumps(programme, 1))
+    return _Motion(course, programme.knots, kicks)
+
+
+def _modes(follower: Follower, speed: float) -> _Modes:
+    if not (speed > 0 and math.isfinite(speed)):
+        raise ParameterError(f"a follower driven at {speed:g} rad/s", allowed="above 0")
+    n, mass = follower.masses.size, follower.masses[:, None]
+    system = np.zeros((2 * n, 2 * n))
+    system[:n, n:] = np.eye(n)
+    system[n:, :n] = -follower.stiffness / mass / speed**2
+    for damping in (follower.damping, follower.damping * (1.0 + _APART)):
+        system[n:, n:] = -damping / mass / speed
+        rates, shapes = np.linalg.eig(system)
+        # At critical damping two modes are one; a trace more of it parts them.
+        if np.linalg.cond(shapes / np.abs(shapes).max(axis=0)) < _DEFECTIVE:
+            break
+    inverse = np.linalg.inv(shapes)
+    force = np.zeros((2 * n, 2))
+    force[n:, 0] = -follower.return_rates / follower.masses / speed**2
+    force[n:, 1] = -1.0
+    return _Modes(
+        *(np.asarray(part, complex) for part in (rates, shapes, inverse @ force, -inverse[:, n:].sum(axis=1)))
+    )
+
+
+def _states(
+    modes: _Modes, motion: _Motion, places: FloatArray, begin: Callable[[ComplexArray, ComplexArray], ComplexArray]
+) -> tuple[FloatArray, ComplexArray]:
+    """Places (with knots, panels' ends) and the modes' states there, (modes, places), after the kicks."""
+    edges = _panels(np.unique(np.concatenate([motion.knots, places])), float(np.max(np.abs(modes.rates))))
+    length = np.diff(edges)
+    grow = np.exp(modes.rates[:, None] * length)
+    gain = _gains(modes, motion, edges)
+    for at, step in motion.kicks:
+        first = int(np.searchsorted(edges, at - _BESIDE))
+        kick = modes.kicked * step
+        gain[:, first] += kick
+    state = np.empty((modes.rates.size, edges.size), complex)
+    state[:, 0] = begin(np.exp(modes.rates * (edges[-1] - edges[0])), _march(grow, gain, 0.0 * modes.rates)[:, -1])
+    return edges, _march(grow, gain, state[:, 0])
+
+
+def _march(grow: ComplexArray, gain: ComplexArray, start: ComplexArray) -> ComplexArray:
+    """States at all edges: kicks (and what came by) are added at the edge, then the panel is crossed."""
+    state = np.empty(gain.shape, complex)
+    state[:, 0] = start + gain[:, 0]
+    for i in range(gain.shape[1] - 1):
+        state[:, i + 1] = grow[:, i] * state[:, i] + gain[:, i + 1]
+    return state
+
+
+def _gains(modes: _Modes, motion: _Motion, edges: FloatArray) -> ComplexArray:
+    """What the cam adds to each mode over the panel that ends at each edge; nothing at the first."""
+    half = 0.5 * np.diff(edges)
+    ahead = half[:, None] * (1.0 - _NODES)
+    course = motion.course(edges[1:, None] - ahead)
+    force = np.einsum("mf,fpn->mpn", modes.driven, course[[0, 2]])
+    added = np.exp(modes.rates[:, None, None] * ahead) * force * (half[:, None] * _WEIGHTS)
+    return np.concatenate([np.zeros((modes.rates.size, 1)), added.sum(axis=-1)], axis=1)
+
+
+def _panels(edges: FloatArray, fastest: float) -> FloatArray:
+    """The edges with panels between them that no mode outruns."""
+    apart = np.concatenate([[True], np.diff(edges) > _BESIDE])
+    edges = edges[apart]
+    counts = np.ceil(np.diff(edges) * max(fastest / _REACH, 4.0)).astype(int)
+    if counts.sum() > _MOST_PANELS:
+        raise ParameterError(
+            f"a follower that swings {fastest:g} rad in the unit of the motion", do="take it as rigid: it follows"
+        )
+    pieces = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(edges[:-1], edges[1:], counts, strict=True)]
+    return np.concatenate([*pieces, edges[-1:]])
+
+
+def _from_rest(_grown: ComplexArray, _gained: ComplexArray) -> ComplexArray:
+    return 0.0 * _gained
+
+
+def _repeating(grown: ComplexArray, gained: ComplexArray) -> ComplexArray:
+    """The state that comes back after a turn: q = grown q + gained."""
+    if np.min(np.abs(1.0 - grown)) < _RESONANT:
+        raise ParameterError(
+            "the follower resonates: a natural frequency is a multiple of the cam's speed and nothing damps it",
+            do="give it damping, or another speed",
+        )
+    return gained / (1.0 - grown)
+
+
+def _even(first: float, last: float, count: int) -> FloatArray:
+    return np.linspace(first, last, max(count, 2))
+
+
+def _response(
+    follower: Follower,
+    motion: _Motion,
+    places: FloatArray,
+    units: tuple[float, float, float],
+    begin: Callable[[ComplexArray, ComplexArray], ComplexArray],
+) -> Response:
+    """The response in SI units; `units`: places a second, metres of a displacement, and of a place what is shown."""
+    speed, scale, shown = units
+    modes, n = _modes(follower, speed), follower.masses.size
+    edges, states = _states(modes, motion, places, begin)
+    keep = np.isin(edges, np.concatenate([places, motion.knots]))
+    edges, z = edges[keep], (modes.shapes @ states[:, keep]).real * scale
+    s, ds, _ = motion.course(edges) * scale
+    displacement, velocity = s + z[:n], speed * (ds + z[n:])
+    stage = follower.stages[0]
+    push = stage.stiffness * z[0] + stage.damping * speed * z[n]
+    forces = follower.stiffness @ z[:n] + follower.damping @ (speed * z[n:]) + np.outer(follower.return_rates, s)
+    acceleration = -forces / follower.masses[:, None]
+    return Response(edges * shown, s, displacement, velocity, acceleration, follower.preload - push)

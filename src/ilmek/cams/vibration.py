@@ -1,0 +1,144 @@
+"""Residual vibration: what a springy follower still swings by when the cam has stopped lifting it.
+
+A mass on a spring whose foot follows the cam: z = x - y is how far it lags. Over u = t/T, z in lifts L,
+
+    z'' + 2 zeta W z' + W^2 z = -a(u),     W = 2 pi T/tau                  [Norton, Cam Design and Manufacturing, 10-12]
+
+T time of the rise, tau natural period of the follower, T/tau the time ratio. After the rise z swings freely, with
+
+    amplitude = |integral of a(u) e^(m (1 - u)) du| / (W sqrt(1 - zeta^2)),   m = W (-zeta + i sqrt(1 - zeta^2))
+
+at its end: without damping the Fourier transform of the law's acceleration at the follower's frequency, over W. In
+closed form, n = T/tau, zeta = 0:
+
+    uniform |sin pi n| / (pi n)          parabolic 4 sin^2(pi n/2) / (pi n)^2
+    harmonic |cos pi n| / |4 n^2 - 1|    cycloidal |sin pi n| / (pi n |n^2 - 1|)
+"""
+
+import itertools
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.cams.laws import Law
+from ilmek.cams.pieces import crossing
+from ilmek.errors import ParameterError
+from ilmek.report import Axis, Plot, Series
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+_BLOCK = 1 << 20
+"""Values of the integrand at a time."""
+
+_LEAST_SHARE, _MOST_SHARE = 1e-5, 0.5
+_GRID = 24
+"""Time ratios looked at within one, where the lobes of a spectrum are one wide."""
+
+
+def residual(law: Law, ratio: RealField, damping: float = 0.0) -> FloatArray:
+    """Amplitude at the end of the rise, in lifts, for time ratios T/tau above 0 of any shape.
+
+    damping  share zeta of the critical, 0 to below 1
+    A law whose velocity jumps at its ends kicks the follower there, which is counted.
+    Raises ParameterError for a damping or a time ratio out of these bounds.
+
+    >>> from ilmek.cams.laws import LAWS
+    >>> round(float(residual(LAWS["harmonic"], 1.5)), 12)
+    0.0
+    """
+    if not 0 <= damping < 1:
+        raise ParameterError(f"damping={damping:g} of the critical", allowed="0 to below 1")
+    ratios = np.asarray(ratio, float)
+    if ratios.size and not np.min(ratios) > 0:
+        raise ParameterError(f"a time ratio of {np.min(ratios):g}", allowed="above 0")
+    u, weights = _nodes(law, float(np.max(ratios, initial=1.0)))
+    acceleration = weights * np.asarray(law.a(u))
+    flat, rows = ratios.ravel(), max(1, _BLOCK // u.size)
+    blocks = [_transform(law, u, acceleration, flat[at : at + rows], damping) for at in range(0, flat.size, rows)]
+    return np.concatenate(blocks).reshape(ratios.shape) if blocks else ratios
+
+
+def _transform(law: Law, u: FloatArray, weighted: FloatArray, ratios: FloatArray, damping: float) -> FloatArray:
+    swing = math.sqrt(1.0 - damping**2)
+    w = 2 * math.pi * ratios
+    m = w * complex(-damping, swing)
+    kicks = float(law.v(0.0)) * np.exp(m) - float(law.v(1.0))
+    return np.asarray(np.abs(np.exp(m[:, None] * (1.0 - u)) @ weighted + kicks) / (w * swing))
+
+
+def _nodes(law: Law, ratio: float) -> tuple[FloatArray, FloatArray]:
+    """Gauss' nodes over panels of at most a third of a natural period, and their weights."""
+    knots = np.array([0.0, *law.breaks, 1.0])
+    edges = [np.linspace(a, b, 5 + math.ceil(3 * ratio * (b - a))) for a, b in itertools.pairwise(knots)]
+    low = np.concatenate([row[:-1] for row in edges])
+    half = 0.5 * (np.concatenate([row[1:] for row in edges]) - low)
+    return (low[:, None] + half[:, None] * (1.0 + _NODES)).ravel(), (half[:, None] * _WEIGHTS).ravel()
+
+
+def least_ratio(law: Law, share: float, damping: float = 0.0) -> float:
+    """Least time ratio from which on, for all greater ones too, the residual amplitude is at most a share of the lift.
+
+    A spectrum has zeros that a speed a little off misses; this is the bound that holds all the way up.
+    Raises ParameterError for a share outside 1e-5..0.5 and for a law whose acceleration is endless.
+
+    >>> from ilmek.cams.laws import LAWS
+    >>> round(least_ratio(LAWS["cycloidal"], 0.01), 3)
+    2.796
+    """
+    if not _LEAST_SHARE <= share <= _MOST_SHARE:
+        allowed = f"{_LEAST_SHARE:g} to {_MOST_SHARE:g}"
+        raise ParameterError(f"residual share {share:g} of the lift", allowed=allowed)
+    if not math.isfinite(law.acceleration_peak):
+        raise ParameterError(f"law {law.name}: its velocity jumps", allowed="a law of finite acceleration")
+    # A rise in no time at all leaves the whole lift, so the spectrum begins above any share.
+    most = _bounded(law, share * math.sqrt(1.0 - damping**2))
+    ratios = np.arange(1, math.ceil(most * _GRID) + 2) / _GRID
+    sizes = residual(law, ratios, damping)
+    inner = sizes[1:-1]
+    tops = 1 + np.flatnonzero((inner >= sizes[:-2]) & (inner >= sizes[2:]) & (inner > 0.95 * share))
+    for top in tops[::-1]:
+        place, peak = _summit(law, damping, float(ratios[top - 1]), float(ratios[top + 1]))
+        if peak > share:
+            below = top + 1 + int(np.argmax(sizes[top + 1 :] <= share))
+            return _last_above(law, share, damping, place, float(ratios[below]))
+    last = int(np.flatnonzero(sizes > share)[-1])
+    return _last_above(law, share, damping, float(ratios[last]), float(ratios[last + 1]))
+
+
+def _summit(law: Law, damping: float, low: float, high: float) -> tuple[float, float]:
+    """Place and height of the one top between two time ratios."""
+    for _ in range(5):
+        ratios = np.linspace(low, high, 17)
+        sizes = residual(law, ratios, damping)
+        top = min(max(int(np.argmax(sizes)), 1), 15)
+        low, high = float(ratios[top - 1]), float(ratios[top + 1])
+    return float(ratios[top]), float(sizes[top])
+
+
+def _last_above(law: Law, share: float, damping: float, above: float, below: float) -> float:
+    def excess(ratio: FloatArray) -> FloatArray:
+        return residual(law, ratio, damping) - share
+
+    return crossing(excess, below, above)
+
+
+def _bounded(law: Law, share: float) -> float:
+    """A time ratio beyond which the residual is below the share: twice by parts, |z| <= variation of a / W^2."""
+    knots = np.array([0.0, *law.breaks, 1.0])
+    u = np.concatenate([np.linspace(a + 1e-12, b - 1e-12, 200) for a, b in itertools.pairwise(knots)])
+    variation = np.sum(np.abs(np.diff(np.concatenate([[0.0], np.asarray(law.a(u)), [0.0]]))))
+    ratio = math.sqrt(float(variation) / share) / (2 * math.pi)
+    if math.isfinite(law.jerk_peak):
+        jerk = np.sum(np.abs(np.diff(np.concatenate([[0.0], np.asarray(law.j(u)), [0.0]]))))
+        ratio = min(ratio, (float(jerk) / share) ** (1 / 3) / (2 * math.pi))
+    return 1.05 * ratio + 1.0
+
+
+def spectrum_plot(laws: Mapping[str, Law], most: float = 6.0, damping: float = 0.0, count: int = 601) -> Plot:
+    """Residual amplitude over the time ratio, for laws compared at equal lift and time."""
+    ratios = np.linspace(most / count, most, count)
+    series = tuple(Series(name, ratios, residual(law, ratios, damping)) for name, law in laws.items())
+    x = Axis("time of the rise over natural period of the follower")
+    note = f"damping {100 * damping:g} % of the critical" if damping else "without damping"
+    return Plot("residual-vibration", "What swings on after the rise", x, Axis("amplitude over lift"), series, (), note)
