@@ -103,9 +103,15 @@ class LoomDesign:
 
         A step to the next knot that is longer than the heads leave for it lengthens the knot.
         """
-        head = self.weaver
-        late = max(0.0, head.carriage_step - head.carriage_window)
-        return Times(head.cycle + late, head.colour_change, head.travel, self.row_cyclogram.period)
+        return times_at(self.weaver, self.knot_pitch, self.row_cyclogram.period)
+
+
+def times_at(head: weaver.Weaver, knot_pitch: float, weft: float) -> Times:
+    """What the acts of weaving take [s] with a head at a pitch of the knots [m], and wefts and beats of a row [s]."""
+    moved = replace(head.params, knot_pitch=knot_pitch)
+    late = max(0.0, weaver.step_time(moved) - head.carriage_window)
+    travel = weaver.travel_time(moved, head.carriage_window)
+    return Times(head.cycle + late, head.colour_change, travel, weft)
 
 
 def design(params: AutomatedLoomParams) -> LoomDesign:

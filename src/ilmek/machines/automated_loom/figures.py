@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.loom.sharing import halves, share
+from ilmek.loom.sharing import halves, heads_that_fit, share
 from ilmek.machines import weaver
 from ilmek.machines.automated_loom.design import LoomDesign, frame_width
-from ilmek.machines.automated_loom.time import estimated_time
+from ilmek.machines.automated_loom.time import estimated_time, estimated_time_at
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.timing.cyclogram import draw
 from ilmek.units import format_quantity
@@ -55,7 +55,7 @@ def figures(loom: LoomDesign) -> tuple[Figure, ...]:
         "Four steps of 90° and the warps' harmonic motion: thesis, 3.3; shuttle, beat and take-up placed within them."
     )
     row = draw(loom.row_cyclogram, "One row: two wefts, two beats", note)
-    return (front(loom), row, weaver.timing(loom.weaver), time_against_heads(loom))
+    return (front(loom), row, weaver.timing(loom.weaver), time_against_heads(loom), time_against_pitch(loom))
 
 
 def time_against_heads(loom: LoomDesign) -> Plot:
@@ -77,6 +77,26 @@ def time_against_heads(loom: LoomDesign) -> Plot:
         (Mark(float(loom.heads), "this loom"),),
         note,
     )
+
+
+_FINER = (0.4, 0.5, 0.75, 1.0, 1.5, 2.0)
+"""Pitches of the scaling's curves, in this loom's."""
+
+
+def time_against_pitch(loom: LoomDesign) -> Plot:
+    """How the weaving time of the same carpet scales: over the number of heads, a curve for each pitch of the warps."""
+    params = loom.params
+    series = []
+    for factor in _FINER:
+        pitch = factor * params.pitch
+        columns = round(params.width / (2 * pitch))
+        heads = np.arange(1, heads_that_fit(columns, 2 * pitch, params.head_width) + 1)
+        total = np.array([estimated_time_at(loom, pitch, int(number)) for number in heads])
+        label = f"{format_quantity(pitch, 'mm', 3)}: {format_quantity(0.5 / pitch, '1/dm', 3)}"
+        series.append(Series(label, heads.astype(float), total, dashed=factor != 1.0))
+    note = "warp pitch and knots across; rows by the same measure; head, wefts and beats as of this loom"
+    axes = Axis("heads"), Axis("time", "h")
+    return Plot("weaving-time-pitch", "Weaving time, heads and pitch", *axes, tuple(series), note=note)
 
 
 def front(loom: LoomDesign) -> Drawing:

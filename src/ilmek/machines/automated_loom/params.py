@@ -85,6 +85,16 @@ class AutomatedLoomParams(Params):
         158 * deg, unit="deg", above=0.0, below=turn / 2, doc="cam angle at which the beater is back"
     )
     take_up_end: float = param(178 * deg, unit="deg", above=0.0, at_most=turn / 2, doc="cam angle, of the second half")
+    head_mass: float = param(8.0, unit="kg", at_least=0.1, at_most=500.0, doc="mass of a head on its carriage")
+    tube_mass: float = param(0.05, unit="kg", at_least=0.0, at_most=10.0, doc="mass of a yarn tube with its yarn")
+    shuttle_mass: float = param(0.5, unit="kg", at_least=0.0, at_most=50.0, doc="mass of the shuttle with its weft")
+    frame_height: float = param(2.0, unit="m", at_least=0.3, at_most=10.0, doc="height of the frame's columns")
+    rail_sag: float = param(0.2 * mm, unit="mm", at_least=1e-6, at_most=0.05, doc="allowed sag of the heads' rail")
+    drive_efficiency: float = param(0.7, at_least=0.01, at_most=1.0, doc="efficiency from the mains to a shaft")
+    standby_power: float = param(10.0, unit="W", at_least=0.0, at_most=1e4, doc="power of an axis that stands still")
+    prices: str | None = param(
+        None, doc="prices other than those of the table: `bearing each = 9; servo per W = 1`, or @FILE with such lines"
+    )
 
     @property
     def pitch(self) -> float:

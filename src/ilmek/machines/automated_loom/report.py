@@ -8,9 +8,12 @@ import numpy as np
 from ilmek.machines import beat_up, shedding, warp_tension, weaver
 from ilmek.machines.automated_loom.cyclogram import SHUTTLE, relations
 from ilmek.machines.automated_loom.design import LoomDesign, warp_tension_of
+from ilmek.machines.automated_loom.energy import axes, energy_of
 from ilmek.machines.automated_loom.figures import figures
+from ilmek.machines.automated_loom.frame import BOW_LIMIT, BUCKLING_SAFETY, STEEL, STRESS_SAFETY, Frame
 from ilmek.machines.automated_loom.knotting import arms_of
-from ilmek.machines.automated_loom.time import estimated_time
+from ilmek.machines.automated_loom.parts import Part, PartsList, parts_of_loom
+from ilmek.machines.automated_loom.time import estimated_time, time_shares
 from ilmek.machines.rounding import settled
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.timing.cyclogram import check_all
@@ -23,16 +26,16 @@ HEAVY = 0.25
 
 def report(loom: LoomDesign) -> Report:
     """Everything that the loom's design says; checks of a machine carry its name."""
-    parts = parts_of(loom)
-    checks = (*_checks(loom), *(check for part in parts for check in _prefixed(part)))
+    parts, listed = parts_of(loom), parts_of_loom(loom)
+    checks = (*_checks(loom), *_frame_checks(listed.frame), *(check for part in parts for check in _prefixed(part)))
     warnings = (*_warnings(loom), *(f"{part.machine}: {said}" for part in parts for said in part.warnings))
     return Report(
         "automated-loom",
         "Automated loom",
         loom.params.as_dict(),
-        (*_results(loom), *(_nested(part) for part in parts)),
+        (*_results(loom, listed), *(_nested(part) for part in parts)),
         checks,
-        (_heads_table(loom), _parts_table(loom), _row_table(loom)),
+        (_heads_table(loom), _parts_table(listed), _prices_table(listed), _row_table(loom)),
         figures(loom),
         warnings,
     )
@@ -51,15 +54,34 @@ def parts_of(loom: LoomDesign) -> tuple[Report, ...]:
     )
 
 
-def bottleneck(loom: LoomDesign) -> str:
-    """What takes most of a row: knotting, or wefts and beats."""
-    row = estimated_time(loom) / loom.rows
-    return "knotting" if row > 2 * loom.times.weft else "wefts and beats"
+def _results(loom: LoomDesign, listed: PartsList) -> tuple[Result, ...]:
+    params = loom.params
+    return (
+        *_time_results(loom),
+        Result("heads", loom.heads, "1", "knotting heads"),
+        Result("heads_max", loom.heads_max, "1", "the most that can share a row without meeting"),
+        Result("rows", loom.rows, "1", "rows of knots"),
+        Result("columns", loom.columns, "1", "knots of a row"),
+        Result("knots", loom.rows * loom.columns, "1", "knots of the carpet"),
+        Result("warps", loom.warps, "1", "warps: two for each knot of a row"),
+        Result("warp_pitch", params.pitch, "mm", "distance of two warps"),
+        Result("tension", warp_tension_of(params), "N", "tension of a warp"),
+        *_beat_results(loom),
+        Result("colour_change_time", loom.times.colour_change, "s", "mean time to bring another yarn in line"),
+        Result("tube", {"diameter": loom.tube[0], "wall": loom.tube[1]}, "mm", "stock tube of the warp cylinders"),
+        *_whole_results(loom, listed),
+    )
 
 
-def _results(loom: LoomDesign) -> tuple[Result, ...]:
-    params, times = loom.params, loom.times
+def _time_results(loom: LoomDesign) -> tuple[Result, ...]:
+    """What a knot, a row and the carpet take, and where the time goes."""
+    times, shares = loom.times, time_shares(loom)
     estimate, knots = estimated_time(loom), loom.rows * loom.columns
+    parts: Json = {
+        "knotting": shares.knotting,
+        "colour changes": shares.colour_changes,
+        "wefts and beats": shares.wefts,
+    }
     return (
         Result("cycle_time_knot", times.knot, "s", "time of a knot of one head"),
         Result(
@@ -68,19 +90,27 @@ def _results(loom: LoomDesign) -> tuple[Result, ...]:
         Result("row_time", estimate / loom.rows, "s", "a row with its knots, estimated"),
         Result("knots_per_minute", 60 * knots / estimate, "1", "of all heads, wefts included, estimated"),
         Result("weaving_time", estimate, "h", "the carpet, estimated; a programme tells it exactly"),
-        Result("bottleneck", bottleneck(loom), "", "what takes most of a row"),
-        Result("heads", loom.heads, "1", "knotting heads"),
-        Result("heads_max", loom.heads_max, "1", "the most that can share a row without meeting"),
-        Result("rows", loom.rows, "1", "rows of knots"),
-        Result("columns", loom.columns, "1", "knots of a row"),
-        Result("knots", knots, "1", "knots of the carpet"),
-        Result("warps", loom.warps, "1", "warps: two for each knot of a row"),
-        Result("warp_pitch", params.pitch, "mm", "distance of two warps"),
-        Result("tension", warp_tension_of(params), "N", "tension of a warp"),
-        *_beat_results(loom),
-        Result("colour_change_time", times.colour_change, "s", "mean time to bring another yarn in line"),
-        Result("tube", {"diameter": loom.tube[0], "wall": loom.tube[1]}, "mm", "stock tube of the warp cylinders"),
-        Result("mass", _mass(loom), "kg", "cams with shaft, three cylinders, beat-up; frame and heads not counted"),
+        Result("time_shares", parts, "%", "where the time goes"),
+        Result("bottleneck", shares.bottleneck, "", "what takes most of the time"),
+        Result("utilisation", shares.utilisation, "%", "time that a head ties or changes colour, of all"),
+    )
+
+
+def _whole_results(loom: LoomDesign, listed: PartsList) -> tuple[Result, ...]:
+    """Energy, mass and price of the whole."""
+    energy, frame = energy_of(loom), listed.frame
+    shares: Json = {name: joules / energy.time for name, joules in energy.shares.items()}
+    return (
+        Result("power_mean", energy.power, "W", "mean power from the mains while it weaves"),
+        Result("power_shares", shares, "W", "of it, what takes it"),
+        Result("energy_per_area", energy.per_area, "kWh/m^2", "energy for a square metre of carpet"),
+        Result("energy", energy.total, "kWh", "energy for the carpet"),
+        Result("axes", axes(loom), "1", "driven axes"),
+        Result("frame_column", frame.column.name, "", "square hollow section of the two columns"),
+        Result("frame_rail", frame.rail.name, "", "square hollow section of the heads' rail"),
+        Result("frame_mass", frame.mass, "kg", "mass of the frame"),
+        Result("mass", listed.mass, "kg", "mass of all parts that are weighed: motors, reducers, bearings are not"),
+        Result("price", listed.price, "", "price of all parts by the table of prices, in its currency"),
     )
 
 
@@ -109,11 +139,6 @@ def _beat_results(loom: LoomDesign) -> tuple[Result, ...]:
             "greatest torque on the crank shaft of all crank-rockers",
         ),
     )
-
-
-def _mass(loom: LoomDesign) -> float:
-    beating = sum(loom.beat_up.masses.values()) + loom.beat_up.params.beater_mass
-    return loom.shedding.stack.mass + 3 * loom.warp_tension.mass + loom.beaters * beating
 
 
 def _nested(part: Report) -> Result:
@@ -146,6 +171,18 @@ def _checks(loom: LoomDesign) -> tuple[Check, ...]:
     )
 
 
+def _frame_checks(frame: Frame) -> tuple[Check, ...]:
+    stress = STEEL.strength / STRESS_SAFETY
+    return (
+        at_most("frame: stress of a column", frame.column_stress, stress, "MPa", "half of yield, S235"),
+        at_most(
+            "frame: bow of a column", frame.column_bow, BOW_LIMIT, "mm", "as the cylinders' deflection, thesis 3.1"
+        ),
+        at_least("frame: against buckling", frame.buckling_factor, BUCKLING_SAFETY, "1", "Euler's load"),
+        at_most("frame: sag of the heads' rail", frame.rail_sag, frame.task.sag_limit, "mm", "rail_sag"),
+    )
+
+
 def _least_room(loom: LoomDesign) -> float:
     """The least opening of the shed while the shuttle is in it [m]; it is least when it enters and when it leaves."""
     passing = loom.row_cyclogram.track(SHUTTLE).segment("pass")
@@ -163,50 +200,31 @@ def _heads_table(loom: LoomDesign) -> Table:
     return Table("loom-heads", "Weaving time by number of heads, estimated", columns, tuple(rows))
 
 
-def _parts_table(loom: LoomDesign) -> Table:
-    tube, stack, cylinder, beating = loom.tube, loom.shedding.stack, loom.warp_tension, loom.beat_up
-    outer, wall = (format_quantity(size, "mm") for size in tube)
-    bar, prime = (format_quantity(size, "mm") for size in (loom.shedding.shaft.bar, loom.shedding.cam.prime_radius))
-    rows = (
-        ("knotting head", loom.heads, f"five cams, {loom.params.colours} tubes", "not weighed"),
-        ("shedding cam", loom.warps, f"prime radius {prime}", f"{loom.warps * stack.cam_mass:.4g} kg"),
-        (
-            "guide cam",
-            loom.warps,
-            f"radius {stack.guide_radius * 1e3:.4g} mm",
-            f"{loom.warps * stack.guide_mass:.4g} kg",
-        ),
-        ("cam shaft", 1, f"square {bar}, {loom.shedding.params.spans + 1} supports", "with the cams"),
-        ("cylinder", 3, f"tube {outer} x {wall}", f"{3 * cylinder.mass:.4g} kg"),
-        ("beater", 1, "comb across all warps", f"{loom.beaters * beating.params.beater_mass:.4g} kg"),
-        ("crank-rocker", loom.beaters, "on one crank shaft", f"{loom.beaters * sum(beating.masses.values()):.4g} kg"),
-        *_motors(loom),
+def _parts_table(listed: PartsList) -> Table:
+    columns = (
+        Column("part"),
+        Column("number"),
+        Column("what"),
+        Column("material"),
+        Column("mass of one", "kg", 3),
+        Column("mass of all", "kg"),
+        Column("price of all"),
     )
-    columns = (Column("part"), Column("number"), Column("what"), Column("mass, all"))
+    rows = tuple(
+        (part.name, part.number, part.what, part.material, part.mass, _weighed(part), part.price(listed.prices))
+        for part in listed.parts
+    )
     return Table("loom-parts", "Parts of the loom", columns, rows)
 
 
-def _motors(loom: LoomDesign) -> tuple[tuple[str, int, str, str], ...]:
-    """The motors that the machines chose, and the power that the others ask."""
-    beat = loom.beaters * loom.beat_up.peaks["drive_torque"].value
-    cams, cylinder = loom.shedding.drive, loom.warp_tension
-    head = loom.weaver.drive.motor
-    return (
-        ("motor of a head", loom.heads, head.name if head else "none is enough", "not weighed"),
-        (
-            "motor of the cam shaft",
-            1,
-            f"{cams.motor.name if cams.motor else 'none is enough'}, reducer {cams.reducer.ratio:g}:1",
-            "not weighed",
-        ),
-        (
-            "motor of a cylinder",
-            3,
-            f"{cylinder.motor.name if cylinder.motor else 'none is enough'}, reducer {cylinder.reducer.ratio:g}:1",
-            "not weighed",
-        ),
-        ("drive of the beat-up", 1, f"{format_quantity(beat, 'Nm')} at the crank", "not weighed"),
-    )
+def _weighed(part: Part) -> float:
+    return part.number * part.mass
+
+
+def _prices_table(listed: PartsList) -> Table:
+    columns = (Column("kind of part"), Column("each"), Column("per kg"), Column("per m"), Column("per W"))
+    rows = tuple((kind, r.each, r.per_kg, r.per_m, r.per_W) for kind, r in listed.prices.items())
+    return Table("loom-prices", "Prices reckoned with; set others with `prices`", columns, rows)
 
 
 def _row_table(loom: LoomDesign) -> Table:

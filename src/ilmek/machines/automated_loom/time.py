@@ -9,9 +9,12 @@ the estimate; a programme has it.
 from dataclasses import dataclass, replace
 
 from ilmek.arrays import Indices
+from ilmek.carpet.design import knot_grid
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import Size
 from ilmek.errors import LoomError
-from ilmek.loom.programme import Programme, heads_for, least_time, make_programme
-from ilmek.machines.automated_loom.design import LoomDesign, design
+from ilmek.loom.programme import Programme, Times, heads_for, least_time, make_programme
+from ilmek.machines.automated_loom.design import LoomDesign, design, times_at
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.weaver.design import HAND_KNOT
 
@@ -81,7 +84,50 @@ def production_time(programme: Programme) -> Production:
 
 def estimated_time(loom: LoomDesign, heads: int | None = None) -> float:
     """Weaving time [s] without a chart, for the loom's heads or another number."""
-    changes = loom.params.changes_per_knot
-    times = loom.times
-    knot = times.knot + changes * times.colour_change
-    return least_time(loom.rows, loom.columns, heads or loom.heads, replace(times, knot=knot))
+    return least_time(loom.rows, loom.columns, heads or loom.heads, _with_changes(loom, loom.times))
+
+
+def estimated_time_at(loom: LoomDesign, pitch: float, heads: int) -> float:
+    """Weaving time [s] of the same carpet on warps of another pitch [m], rows closer by the same measure.
+
+    Wefts, beats and the knot itself take what they take on this loom; steps of the carriage are of the other pitch.
+    """
+    finer = loom.params.pitch / pitch
+    quality = loom.params.quality
+    size = Size(loom.params.width, loom.params.length)
+    rows, columns = knot_grid(size, Quality(quality.across * finer, quality.along * finer))
+    return least_time(rows, columns, heads, _with_changes(loom, times_at(loom.weaver, 2 * pitch, loom.times.weft)))
+
+
+@dataclass(frozen=True, slots=True)
+class Shares:
+    """Where the estimated time goes: shares of tying, of colour changes, and of wefts with beats; together 1.
+
+    utilisation  share of the time that a head ties or changes colour, as the mean of the heads
+    """
+
+    knotting: float
+    colour_changes: float
+    wefts: float
+    utilisation: float
+
+    @property
+    def bottleneck(self) -> str:
+        """The largest share, in words."""
+        named = {"knotting": self.knotting, "colour changes": self.colour_changes, "wefts and beats": self.wefts}
+        return max(named, key=lambda name: named[name])
+
+
+def time_shares(loom: LoomDesign) -> Shares:
+    """Where the estimated time of a loom goes."""
+    times, changes, total = loom.times, loom.params.changes_per_knot, estimated_time(loom)
+    wefts = loom.rows * times.weft / total
+    change = changes * times.colour_change
+    knotting = (1 - wefts) * times.knot / (times.knot + change)
+    busy = loom.rows * loom.columns * (times.knot + change) / loom.heads
+    return Shares(knotting, 1 - wefts - knotting, wefts, busy / total)
+
+
+def _with_changes(loom: LoomDesign, times: Times) -> Times:
+    """The times with the mean of the colour changes in the knot's."""
+    return replace(times, knot=times.knot + loom.params.changes_per_knot * times.colour_change)

@@ -1,0 +1,175 @@
+"""The loom's frame: two columns that bear the warps' pull, and beams across: heads' rail, top, bottom.
+
+Columns: the cylinders at their ends are drawn together by all warps, half of the pull on each column, off its axis by
+the radius e of the cylinder; half the weight of what the frame carries comes on top, P in all, as if at e too.
+Eccentric compression of a column of height h, pinned at both ends [Timoshenko and Gere,
+Theory of Elastic Stability, 1.13, the secant formula], with q = h/2 sqrt(P/(E I)):
+
+    stress = P/A + P e c / (I cos q),   bow = e (1/cos q - 1),   buckling at P = pi^2 E I / h^2
+
+The rail: simply supported, its own weight and the heads side by side in its middle, which is the worst they can do.
+Sections are the lightest square hollow ones of a table that keep the limits.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.elements import beams
+from ilmek.elements.materials import GRAVITY, MATERIALS
+from ilmek.errors import LoomError
+from ilmek.units import format_quantity, mm
+
+STEEL = MATERIALS["structural steel"]
+
+SECTIONS = tuple(
+    (side * mm, wall * mm)
+    for side, wall in (
+        (40, 3),
+        (50, 3),
+        (60, 4),
+        (80, 4),
+        (80, 6),
+        (100, 5),
+        (100, 8),
+        (120, 6),
+        (120, 10),
+        (150, 8),
+        (180, 8),
+        (200, 10),
+        (250, 12),
+        (300, 12),
+        (350, 16),
+        (400, 16),
+    )
+)
+"""Sides and walls of square hollow sections [m]: a choice from EN 10219-2 and EN 10210-2."""
+
+STRESS_SAFETY, BUCKLING_SAFETY = 2.0, 4.0
+"""Against yield, and against Euler's load; judgements of ours."""
+
+BOW_LIMIT = 1 * mm
+"""Of a column [m]: as much as the thesis allows the cylinders that it holds [3.1]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A square hollow section with sharp corners: side and wall [m]."""
+
+    side: float
+    wall: float
+
+    @property
+    def area(self) -> float:
+        """Area [m^2]."""
+        return self.side**2 - (self.side - 2 * self.wall) ** 2
+
+    @property
+    def inertia(self) -> float:
+        """Second moment of area [m^4]."""
+        hollow = beams.square_inertia(self.side) - beams.square_inertia(self.side - 2 * self.wall)
+        return float(hollow)
+
+    @property
+    def line_mass(self) -> float:
+        """Mass per length [kg/m]."""
+        return self.area * STEEL.density
+
+    @property
+    def name(self) -> str:
+        """Like `100 x 5 mm`."""
+        return f"{format_quantity(self.side / mm, '')} x {format_quantity(self.wall, 'mm')}"
+
+
+@dataclass(frozen=True, slots=True)
+class FrameTask:
+    """What the frame bears.
+
+    width, height   between the columns, and of them [m]      depth   of the feet [m]
+    pull            of all warps [N]                           lever   of the pull off a column's axis [m]
+    carried         mass on the columns [kg]
+    heads_mass, heads_width   of all heads side by side [kg, m]
+    sag_limit       of the heads' rail [m]
+    """
+
+    width: float
+    height: float
+    depth: float
+    pull: float
+    lever: float
+    carried: float
+    heads_mass: float
+    heads_width: float
+    sag_limit: float
+
+    @property
+    def force(self) -> float:
+        """Compression of a column [N]."""
+        return (self.pull + self.carried * GRAVITY) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """The frame, designed: sections, stress [Pa] and bow [m] of a column, its factor against buckling, sag [m] of the
+    rail, mass of all [kg].
+    """
+
+    task: FrameTask
+    column: Section
+    rail: Section
+    column_stress: float
+    column_bow: float
+    buckling_factor: float
+    rail_sag: float
+    mass: float
+
+
+def frame_for(task: FrameTask) -> Frame:
+    """The frame of the lightest sections. Raises LoomError where none of the table is strong or stiff enough."""
+    sections = sorted((Section(*size) for size in SECTIONS), key=lambda section: section.area)
+    column = next((section for section in sections if _column_holds(task, section)), None)
+    rail = next((section for section in sections if rail_sag(task, section) <= task.sag_limit), None)
+    if column is None or rail is None:
+        what = "columns" if column is None else "rail"
+        raise LoomError(
+            f"no section of the table is enough for the frame's {what}",
+            allowed=f"up to {sections[-1].name}",
+            do="set a lower tension or a narrower carpet" if column is None else "set a larger rail_sag or fewer heads",
+        )
+    stress, bow = eccentric(task.force, task.lever, task.height, column)
+    beams_across = 2 * (task.width + 2 * task.depth)
+    mass = column.line_mass * (2 * task.height + beams_across) + rail.line_mass * task.width
+    return Frame(task, column, rail, stress, bow, euler(task.height, column) / task.force, rail_sag(task, rail), mass)
+
+
+def eccentric(force: float, lever: float, height: float, section: Section) -> tuple[float, float]:
+    """Greatest stress [Pa] and bow [m] of a column under a force [N] off its axis; inf from Euler's load on."""
+    q = height / 2 * math.sqrt(force / (STEEL.modulus * section.inertia))
+    if q >= math.pi / 2:
+        return math.inf, math.inf
+    bending = force * lever * section.side / 2 / (section.inertia * math.cos(q))
+    return force / section.area + bending, lever * (1 / math.cos(q) - 1)
+
+
+def euler(height: float, section: Section) -> float:
+    """Load at which a column pinned at both ends buckles [N]: pi^2 E I / h^2."""
+    return math.pi**2 * STEEL.modulus * section.inertia / height**2
+
+
+def rail_sag(task: FrameTask, section: Section) -> float:
+    """Deflection [m] in the middle of the rail under its own weight and the heads, spread over their width there.
+
+    Of a load w over the middle b of a span l: w b (8 l^3 - 4 l b^2 + b^3) / (384 E I); for b = l the whole span's.
+    """
+    span, stiff = task.width, STEEL.modulus * section.inertia
+    own = beams.deflection_max(section.line_mass * GRAVITY, span, STEEL.modulus, section.inertia)
+    wide = min(task.heads_width, span)
+    heads = task.heads_mass * GRAVITY * (8 * span**3 - 4 * span * wide**2 + wide**3) / (384 * stiff)
+    return float(np.add(own, heads))
+
+
+def _column_holds(task: FrameTask, section: Section) -> bool:
+    stress, bow = eccentric(task.force, task.lever, task.height, section)
+    strong = stress * STRESS_SAFETY <= STEEL.strength and bow <= BOW_LIMIT
+    return strong and euler(task.height, section) >= BUCKLING_SAFETY * task.force

@@ -1,0 +1,182 @@
+"""The loom's parts: what, how many, of what, how heavy, how dear."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ilmek.elements.motors import Motor, smallest_motor
+from ilmek.machines.automated_loom.design import LoomDesign, frame_width
+from ilmek.machines.automated_loom.energy import axes
+from ilmek.machines.automated_loom.frame import Frame, FrameTask, frame_for
+from ilmek.machines.automated_loom.prices import Rates, read_prices
+from ilmek.timing.track import peak_acceleration, peak_speed
+from ilmek.units import format_quantity, mm
+
+STEEL = "structural steel"
+
+PULLEY = 20 * mm
+"""Radius of the pulleys of carriages and shuttle [m]: chosen."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A line of the parts list.
+
+    kind    by which it is priced                  mass    of one [kg]; nan: bought, not weighed
+    length  of one [m], power  of one [W]: where its price goes by them
+    """
+
+    name: str
+    number: int
+    what: str
+    material: str
+    kind: str
+    mass: float = float("nan")
+    length: float = 0.0
+    power: float = 0.0
+
+    @property
+    def mass_all(self) -> float:
+        """Mass of all of them [kg], 0 where they are not weighed."""
+        return self.number * self.mass if self.mass == self.mass else 0.0
+
+    def price(self, prices: Mapping[str, Rates]) -> float:
+        """Price of all of them."""
+        weighed = self.mass if self.mass == self.mass else 0.0
+        return self.number * prices[self.kind].price(weighed, self.length, self.power)
+
+
+@dataclass(frozen=True, slots=True)
+class PartsList:
+    """The parts of a loom, its frame among them, and the prices they are reckoned with."""
+
+    parts: tuple[Part, ...]
+    frame: Frame
+    prices: Mapping[str, Rates]
+
+    @property
+    def mass(self) -> float:
+        """Mass of all parts that are weighed [kg]."""
+        return sum(part.mass_all for part in self.parts)
+
+    @property
+    def price(self) -> float:
+        """Price of all parts."""
+        return sum(part.price(self.prices) for part in self.parts)
+
+
+def parts_of_loom(loom: LoomDesign) -> PartsList:
+    """The parts list. Raises LoomError where no section carries the frame, ParameterError for prices not to be read."""
+    prices = read_prices(loom.params.prices)
+    carried = (*_shedding(loom), *_cylinders(loom), *_beating(loom), *_heads(loom), *_shuttle(loom))
+    frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried)))
+    lines = (
+        *carried,
+        Part("frame", 1, f"columns {frame.column.name}, rail {frame.rail.name}", STEEL, "welded frame", frame.mass),
+        Part("control", 1, f"{axes(loom)} axes", "", "control"),
+        Part("axis of the control", axes(loom), "amplifier place, cable, switch", "", "axis of the control"),
+    )
+    return PartsList(lines, frame, prices)
+
+
+def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
+    """What the frame of this loom bears, with the mass of the parts that it carries [kg]."""
+    params, cylinder = loom.params, loom.warp_tension
+    return FrameTask(
+        width=frame_width(params),
+        height=params.frame_height,
+        depth=_DEPTH * params.frame_height,
+        pull=cylinder.params.warps * cylinder.params.tension,
+        lever=loom.tube[0] / 2,
+        carried=carried,
+        heads_mass=loom.heads * params.head_mass,
+        heads_width=loom.heads * params.head_width,
+        sag_limit=params.rail_sag,
+    )
+
+
+_DEPTH = 0.3
+"""Feet of the frame to the front and to the back, over its height."""
+
+
+def _shedding(loom: LoomDesign) -> tuple[Part, ...]:
+    stack, shaft, cams = loom.shedding.stack, loom.shedding.shaft, loom.shedding
+    prime, bar = (format_quantity(size, "mm") for size in (cams.cam.prime_radius, shaft.bar))
+    guide = format_quantity(stack.guide_radius, "mm")
+    steel = cams.params.density
+    return (
+        Part("shedding cam", loom.warps, f"prime radius {prime}", STEEL, "laser-cut part", stack.cam_mass),
+        Part("guide cam", loom.warps, f"radius {guide}", STEEL, "laser-cut part", stack.guide_mass),
+        Part("cam shaft", 1, f"square {bar}", STEEL, "steel bar", shaft.bar**2 * shaft.length * steel, shaft.length),
+        Part("bearing of the cam shaft", cams.params.spans + 1, "ends, and steadies between", "", "bearing"),
+        *_motor("motor of the cam shaft", 1, cams.drive.motor, cams.drive.motor_torque, cams.drive.motor_speed),
+        _reducer("reducer of the cam shaft", 1, cams.drive.reducer.ratio, cams.drive.motor),
+    )
+
+
+def _cylinders(loom: LoomDesign) -> tuple[Part, ...]:
+    cylinder = loom.warp_tension
+    tube = f"tube {' x '.join(format_quantity(size, 'mm') for size in loom.tube)}"
+    return (
+        Part("cylinder", 3, tube, STEEL, "steel tube", cylinder.mass),
+        Part("bearing of a cylinder", 6, "flanged", "", "bearing"),
+        *_motor("motor of a cylinder", 3, cylinder.motor, cylinder.motor_torque, cylinder.motor_speed),
+        _reducer("reducer of a cylinder", 3, cylinder.reducer.ratio, cylinder.motor),
+    )
+
+
+def _beating(loom: LoomDesign) -> tuple[Part, ...]:
+    beat, number = loom.beat_up, loom.beaters
+    torque = number * beat.peaks["drive_torque"].value
+    beater = number * beat.params.beater_mass
+    return (
+        Part("comb of the beater", 1, "a leaf between two warps", STEEL, "laser-cut part", beater),
+        *(
+            Part(f"{name} of the beat-up", number, format_quantity(beat.lengths[name], "mm"), STEEL, "machined link", m)
+            for name, m in beat.masses.items()
+        ),
+        *_motor("motor of the beat-up", 1, smallest_motor(torque, beat.params.speed), torque, beat.params.speed),
+    )
+
+
+def _heads(loom: LoomDesign) -> tuple[Part, ...]:
+    params, head, wide = loom.params, loom.weaver, frame_width(loom.params)
+    limits = head.params
+    thrust = params.head_mass * limits.carriage_acceleration
+    selected = limits.tubes * params.tube_mass * limits.selector_acceleration
+    return (
+        Part("knotting head", loom.heads, "five cams and their tools", "", "head mechanism", params.head_mass),
+        Part("yarn tube", loom.heads * limits.tubes, "one for each colour", "", "yarn tube", params.tube_mass),
+        *_motor("motor of a head", loom.heads, head.drive.motor, head.drive.torque_max, head.cyclogram.speed),
+        Part("rail of the heads", 1, "with a belt for each head", "", "linear axis", length=wide),
+        *_axis("motor of a carriage", loom.heads, thrust, limits.carriage_speed),
+        *_axis("motor of the colours", loom.heads, selected, limits.selector_speed),
+    )
+
+
+def _shuttle(loom: LoomDesign) -> tuple[Part, ...]:
+    params, row = loom.params, loom.row_cyclogram
+    track = row.track("shuttle")
+    thrust = params.shuttle_mass * peak_acceleration(track, row.period)
+    return (
+        Part("shuttle", 1, "with its bobbin", "", "machined link", params.shuttle_mass),
+        Part("axis of the shuttle", 1, "belt drive", "", "linear axis", length=track.stroke),
+        *_axis("motor of the shuttle", 1, thrust, peak_speed(track, row.period)),
+    )
+
+
+def _axis(name: str, number: int, thrust: float, speed: float) -> tuple[Part, ...]:
+    """The motor of a belt axis for a thrust [N] at a speed [m/s], on a pulley without a gear."""
+    torque, turns = thrust * PULLEY, speed / PULLEY
+    return _motor(name, number, smallest_motor(torque, turns), torque, turns)
+
+
+def _motor(name: str, number: int, motor: Motor | None, torque: float, speed: float) -> tuple[Part, ...]:
+    """A motor of the catalogue; where none is enough, one made to measure, priced as a servo by its power."""
+    if motor is not None:
+        return (Part(name, number, motor.name, "", motor.kind, power=motor.power),)
+    said = f"to measure: {format_quantity(torque, 'Nm', 3)} at {format_quantity(speed, 'rpm', 3)}"
+    return (Part(name, number, said, "", "servo", power=torque * speed),)
+
+
+def _reducer(name: str, number: int, ratio: float, motor: Motor | None) -> Part:
+    return Part(name, number, f"{ratio:g}:1", "", "reducer", power=motor.power if motor else 0.0)

@@ -1,0 +1,118 @@
+"""What a loom's parts cost: a small table to be edited.
+
+    price of a part = number * (each + per_kg mass + per_m length + per_W power)
+
+Each kind of part has its rates; the table's own are round numbers of ours, of no maker and no year, in a currency of
+your choice: put your own there. A table to read has a line for each rate that is other than ours:
+
+    laser-cut part per kg = 4.5
+    servo each = 380            # with its drive
+    servo per W = 0.6
+"""
+
+import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from ilmek.errors import ParameterError
+
+_RATES = {"each": "each", "per kg": "per_kg", "per m": "per_m", "per W": "per_W"}
+
+
+@dataclass(frozen=True, slots=True)
+class Rates:
+    """Rates of one kind of part: for each piece, and for its mass [1/kg], length [1/m] and power [1/W]."""
+
+    each: float = 0.0
+    per_kg: float = 0.0
+    per_m: float = 0.0
+    per_W: float = 0.0
+
+    def price(self, mass: float = 0.0, length: float = 0.0, power: float = 0.0) -> float:
+        """Price of one piece of a mass [kg], length [m] and power [W].
+
+        >>> Rates(each=10.0, per_kg=2.0).price(mass=3.0)
+        16.0
+        """
+        return self.each + self.per_kg * mass + self.per_m * length + self.per_W * power
+
+
+PRICES: Mapping[str, Rates] = {
+    "laser-cut part": Rates(each=0.5, per_kg=4.0),
+    "steel bar": Rates(each=20.0, per_kg=2.0),
+    "steel tube": Rates(each=60.0, per_kg=3.0),
+    "welded frame": Rates(per_kg=5.0),
+    "machined link": Rates(each=25.0, per_kg=15.0),
+    "head mechanism": Rates(each=600.0, per_kg=80.0),
+    "cam of a head": Rates(each=30.0, per_kg=10.0),
+    "yarn tube": Rates(each=15.0),
+    "bearing": Rates(each=15.0),
+    "linear axis": Rates(each=150.0, per_m=300.0),
+    "stepper": Rates(each=90.0, per_W=0.5),
+    "servo": Rates(each=350.0, per_W=0.5),
+    "reducer": Rates(each=180.0, per_W=0.2),
+    "control": Rates(each=3000.0),
+    "axis of the control": Rates(each=120.0),
+}
+"""Rates by kind of part."""
+
+
+def read_prices(text: str | None) -> Mapping[str, Rates]:
+    """The table of prices with the lines of a text in it, `KIND each|per kg|per m|per W = NUMBER`.
+
+    Lines are parted by new lines or semicolons; what follows a # is a remark. Raises ParameterError for a line that
+    cannot be read, an unknown kind (naming the nearest) and a price below 0.
+
+    >>> read_prices("bearing each = 9; servo per W = 1")["bearing"].each
+    9.0
+    """
+    prices = dict(PRICES)
+    for line in (text or "").replace(";", "\n").splitlines():
+        said = line.split("#", 1)[0].strip()
+        if said:
+            kind, rate, value = _line(said)
+            prices[kind] = replace(prices[kind], **{rate: value})
+    return prices
+
+
+def written(prices: Mapping[str, Rates] = PRICES) -> str:
+    """A table as a text that `read_prices` reads: to be edited.
+
+    >>> read_prices(written()) == PRICES
+    True
+    """
+    lines = [
+        f"{kind} {said} = {getattr(rates, name):g}"
+        for kind, rates in prices.items()
+        for said, name in _RATES.items()
+        if getattr(rates, name)
+    ]
+    return "\n".join(lines)
+
+
+def _line(said: str) -> tuple[str, str, float]:
+    """Kind, rate and value of a line."""
+    left, _, right = said.partition("=")
+    name = left.strip().strip('"')
+    rate = next((short for short in _RATES if name.endswith(f" {short}")), None)
+    if rate is None or not right.strip():
+        raise ParameterError(
+            f"prices: {said!r} is no price",
+            allowed=f"KIND {' | '.join(_RATES)} = NUMBER",
+            do="write it like: bearing each = 12.5",
+        )
+    kind = name.removesuffix(rate).strip()
+    if kind not in PRICES:
+        near = difflib.get_close_matches(kind, PRICES, n=1, cutoff=0.4)
+        hint = f"did you mean {near[0]}?" if near else ""
+        raise ParameterError(f"prices: {kind!r} is no kind of part", allowed=", ".join(PRICES), do=hint)
+    try:
+        value = float(right)
+    except ValueError:
+        value = -1.0
+    if not 0 <= value < _DEAREST:
+        raise ParameterError(f"prices: {said!r}", allowed="a plain number, 0 or more", do="leave the currency out")
+    return kind, _RATES[rate], value
+
+
+_DEAREST = 1e9

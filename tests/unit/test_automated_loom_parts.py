@@ -1,0 +1,160 @@
+"""The loom's parts list, prices, frame and energy."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ilmek.errors import LoomError, ParameterError
+from ilmek.machines.automated_loom import AutomatedLoomParams, design, report
+from ilmek.machines.automated_loom.energy import energy_of, positive_work
+from ilmek.machines.automated_loom.frame import (
+    SECTIONS,
+    STEEL,
+    FrameTask,
+    Section,
+    eccentric,
+    euler,
+    frame_for,
+    rail_sag,
+)
+from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.automated_loom.prices import PRICES, read_prices
+from ilmek.machines.automated_loom.time import estimated_time, estimated_time_at, time_shares
+
+LOOM = design(AutomatedLoomParams())
+LISTED = parts_of_loom(LOOM)
+TASK = LISTED.frame.task
+
+
+def test_a_price_list_from_a_text_changes_what_it_names_and_nothing_else():
+    prices = read_prices("bearing each = 9  # a remark\n\nservo per W = 1; control each = 0")
+    assert prices["bearing"].each == 9
+    assert prices["servo"] == replace(PRICES["servo"], per_W=1.0)
+    assert prices["control"].each == 0
+    assert {kind for kind in PRICES if prices[kind] != PRICES[kind]} == {"bearing", "servo", "control"}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("bearing = 9", "is no price"),
+        ("bearing each", "is no price"),
+        ("baering each = 9", "did you mean bearing"),
+        ("bearing each = -1", "0 or more"),
+        ("bearing each = 9 EUR", "leave the currency out"),
+        ("bearing each = nan", "0 or more"),
+    ],
+)
+def test_a_line_that_is_no_price_is_told(text, said):
+    with pytest.raises(ParameterError) as caught:
+        read_prices(text)
+    assert said in str(caught.value)
+
+
+def test_the_price_is_linear_in_every_rate():
+    """Twice all rates, twice the price; and the sum over kinds priced alone is the whole."""
+    double = {
+        k: replace(r, each=2 * r.each, per_kg=2 * r.per_kg, per_m=2 * r.per_m, per_W=2 * r.per_W)
+        for k, r in PRICES.items()
+    }
+    assert sum(part.price(double) for part in LISTED.parts) == pytest.approx(2 * LISTED.price)
+    assert LISTED.price > 0
+
+
+def test_the_list_has_a_part_for_every_warp_head_and_axis():
+    numbers = {part.name: part.number for part in LISTED.parts}
+    assert numbers["shedding cam"] == numbers["guide cam"] == LOOM.warps == 600
+    assert numbers["knotting head"] == numbers["motor of a head"] == numbers["motor of a carriage"] == LOOM.heads
+    assert numbers["cylinder"] == 3
+    assert numbers["yarn tube"] == LOOM.heads * LOOM.params.colours
+    motors = sum(part.number for part in LISTED.parts if part.name.startswith("motor"))
+    assert motors == numbers["axis of the control"]
+
+
+def test_mass_and_price_of_the_report_are_those_of_its_table():
+    made = report(LOOM)
+    results = {result.name: result.value for result in made.results}
+    rows = next(table for table in made.tables if table.name == "loom-parts").rows
+    assert results["price"] == pytest.approx(sum(float(row[6]) for row in rows))
+    assert results["mass"] == pytest.approx(sum(float(row[5]) for row in rows if row[5] == row[5]))
+    assert results["power_mean"] == pytest.approx(sum(results["power_shares"].values()))
+    assert sum(results["time_shares"].values()) == pytest.approx(1.0)
+    assert results["energy_per_area"] * 1.2 * 1.8 == pytest.approx(results["power_mean"] * results["weaving_time"])
+
+
+def test_work_of_a_torque_counts_only_where_it_drives():
+    assert positive_work(lambda q: 3.0 * np.sin(q)) == pytest.approx(6.0, rel=1e-5)
+    assert positive_work(lambda q: -np.ones_like(q)) == 0.0
+
+
+def test_energy_without_losses_or_standby_is_the_work_alone():
+    bare = design(AutomatedLoomParams(drive_efficiency=1.0, standby_power=0.0))
+    usual = energy_of(LOOM)
+    work = energy_of(bare)
+    assert work.shares["standing by"] == 0
+    assert usual.total - usual.shares["standing by"] == pytest.approx(work.total / 0.7)
+
+
+def test_column_formulas_at_their_limits():
+    section = Section(0.1, 0.005)
+    assert section.area == pytest.approx(0.0019)
+    assert section.inertia == pytest.approx((0.1**4 - 0.09**4) / 12)
+    load = euler(2.0, section)
+    stress, bow = eccentric(1e-3 * load, 0.0, 2.0, section)
+    assert (stress, bow) == (pytest.approx(1e-3 * load / section.area), 0.0)
+    # Small loads: the bow of a couple P e at both ends, P e h^2 / (8 E I).
+    small = 1e-6 * load
+    expected = small * 0.05 * 2.0**2 / (8 * STEEL.modulus * section.inertia)
+    assert eccentric(small, 0.05, 2.0, section)[1] == pytest.approx(expected, rel=1e-5)
+    assert eccentric(1.01 * load, 0.05, 2.0, section) == (math.inf, math.inf)
+
+
+@given(st.floats(0.0, 1.0))
+def test_sag_of_a_load_over_the_middle_is_its_influence_line_integrated(share):
+    """Deflection in the middle of a point load at a from an end: P a (3 l^2 - 4 a^2) / (48 E I), a <= l/2."""
+    section, span = Section(0.1, 0.005), 1.3
+    wide = share * span
+    task = replace(TASK, width=span, heads_mass=40.0, heads_width=wide)
+    own = rail_sag(replace(task, heads_mass=0.0), section)
+    places = (span - wide) / 2 + (np.arange(2000) + 0.5) / 2000 * wide / 2
+    influence = places * (3 * span**2 - 4 * places**2) / (48 * STEEL.modulus * section.inertia)
+    assert rail_sag(task, section) - own == pytest.approx(40.0 * 9.81 * float(influence.mean()), rel=1e-6)
+
+
+@given(st.floats(1e3, 1e5), st.floats(0.5, 4.0), st.floats(0.01, 0.2))
+def test_the_frame_keeps_its_limits_with_the_lightest_section(pull, width, lever):
+    task = FrameTask(width, 2.0, 0.6, pull, lever, 500.0, 30.0, 0.3, 2e-4)
+    frame = frame_for(task)
+    assert frame.column_stress <= STEEL.strength / 2
+    assert frame.buckling_factor >= 4
+    assert frame.column_bow <= 1e-3
+    assert frame.rail_sag <= task.sag_limit
+    lighter = [Section(*size) for size in SECTIONS if Section(*size).area < frame.rail.area]
+    assert all(rail_sag(task, section) > task.sag_limit for section in lighter)
+
+
+def test_a_frame_that_no_section_makes_is_told():
+    with pytest.raises(LoomError, match="rail"):
+        frame_for(replace(TASK, width=50.0))
+    with pytest.raises(LoomError, match="columns"):
+        frame_for(replace(TASK, pull=1e8))
+
+
+def test_time_at_the_own_pitch_is_the_time_and_half_the_pitch_is_four_times_the_knots():
+    own = estimated_time(LOOM)
+    assert estimated_time_at(LOOM, LOOM.params.pitch, LOOM.heads) == pytest.approx(own)
+    wefts = LOOM.rows * LOOM.times.weft
+    half = estimated_time_at(LOOM, LOOM.params.pitch / 2, LOOM.heads)
+    assert half == pytest.approx(4 * (own - wefts) + 2 * wefts)  # four times the knots, twice the rows
+
+
+def test_shares_of_the_time_name_the_bottleneck():
+    assert time_shares(LOOM).bottleneck == "knotting"
+    quick = design(
+        AutomatedLoomParams(width=0.4, length=0.2, knot_cycle=0.3, head_acceleration=1e4, heads=1, shed_speed=0.02)
+    )
+    assert time_shares(quick).bottleneck == "wefts and beats"
