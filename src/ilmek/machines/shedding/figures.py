@@ -10,12 +10,16 @@ from ilmek.cams.programme import TURN, jumps
 from ilmek.elements import beams
 from ilmek.elements.figures import deflection_plot
 from ilmek.machines.shedding.design import SheddingDesign
+from ilmek.machines.shedding.draped import stack_torque
+from ilmek.machines.shedding.study import Study
+from ilmek.machines.shedding.warp import taut
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series
 from ilmek.units import format_quantity
 
 
-def figures(design: SheddingDesign) -> tuple[Figure, ...]:
+def figures(studied: Study) -> tuple[Figure, ...]:
     """The cam to scale and the plots, in the order of the report."""
+    design = studied.design
     cam, shaft = design.cam, design.shaft
     drawn: tuple[Drawing | Plot, ...] = (
         cam_figures.cam_drawing(cam, shaft.bar, design.stack.guide_radius),
@@ -25,6 +29,8 @@ def figures(design: SheddingDesign) -> tuple[Figure, ...]:
         cam_figures.pressure_plot(cam, design.params.pressure_angle_limit, pressure_angle_max(cam).at),
         cam_figures.curvature_plot(cam, convex_radius_min(cam).at),
         torque_plot(design),
+        stagger_plot(studied),
+        *tension_plots(studied),
         deflection_plot(
             shaft.load,
             shaft.span,
@@ -48,6 +54,46 @@ def torque_plot(design: SheddingDesign) -> Plot:
     note = "positive: the shaft lifts the warps; negative: the warps press the shaft on"
     title = "Torque of the warps on the shaft"
     return Plot("torque", title, Axis("cam angle", "deg"), Axis("torque", "Nm"), series, (mark,), note)
+
+
+def stagger_plot(studied: Study) -> Plot:
+    """Torque of cams all at once beside that of the flattest phases, or of those taken."""
+    design = studied.design
+    other = design.shed if design.params.phase == "staggered" else studied.flattest
+    angle = cam_figures.sample_angles(*other.even.programmes, *other.odd.programmes, design.even)
+    spread = format_quantity(other.spread, "deg")
+    name = f"{other.groups} groups over {spread}" if other.groups > 1 else "nothing is flatter"
+    series = (
+        Series("all at once", angle, studied.together.torque(angle)),
+        Series(name, angle, other.torque(angle), dashed=True),
+    )
+    first, last = other.window()
+    note = f"the shed is open enough for {format_quantity(last - first, 'deg')} with {name}"
+    title = "Torque of cams all at once and one after another"
+    return Plot("stagger", title, Axis("cam angle", "deg"), Axis("torque", "Nm"), series, note=note)
+
+
+def tension_plots(studied: Study) -> tuple[Plot, ...]:
+    """Tension of a warp over the turn, and the torque of warps draped over the cams; nothing without a tension."""
+    design, yarn = studied.design, studied.yarn
+    warp = taut(design.params)
+    if warp is None:
+        return ()
+    angle = cam_figures.sample_angles(design.even, design.odd)
+    knife = (
+        Series("even", angle, warp.tension_at(design.even.at(angle).s)),
+        Series("odd", angle, warp.tension_at(design.odd.at(angle).s), dashed=True),
+    )
+    tension = Plot("tension", "Tension of a warp", Axis("cam angle", "deg"), Axis("tension", "N"), knife)
+    if yarn is None:
+        return (tension,)
+    torques = (
+        Series("knife edge", angle, design.torque(angle)),
+        Series("draped over the cam", yarn.angle, stack_torque(design.shed, yarn), dashed=True),
+    )
+    note = "a warp lies on the whole nose, and is lifted where it stands beside the follower's line too"
+    title = "Torque by a knife edge on the cam and by the yarn draped over it"
+    return tension, Plot("draped", title, Axis("cam angle", "deg"), Axis("torque", "Nm"), torques, note=note)
 
 
 def shuttle_marks(design: SheddingDesign) -> tuple[Mark, ...]:

@@ -6,25 +6,22 @@ from collections.abc import Callable
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.laws import LAWS, SMOOTH_LAWS
-from ilmek.cams.limits import (
-    PlateCam,
-    area,
-    concave_radius_min,
-    convex_radius_min,
-    pressure_angle_max,
-    smallest_prime_radius,
-)
+from ilmek.cams.limits import area, concave_radius_min, convex_radius_min, pressure_angle_max
 from ilmek.cams.pieces import supremum
-from ilmek.cams.programme import TURN, Programme, jumps
-from ilmek.elements import shafts
+from ilmek.cams.programme import TURN, jumps
 from ilmek.elements.motors import MOTORS
 from ilmek.elements.shafts import STOCK_SIDES
 from ilmek.machines.rounding import settled
-from ilmek.machines.shedding.design import SheddingDesign, lifting, turn_knots
+from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.figures import figures
-from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
-from ilmek.units import deg, format_quantity, mm, rpm
+from ilmek.machines.shedding.parts import cam_tables, plates
+from ilmek.machines.shedding.phases import window_asked
+from ilmek.machines.shedding.study import Study, study
+from ilmek.machines.shedding.tables import cycle_phases, tables
+from ilmek.machines.shedding.warp import lifting_work
+from ilmek.machines.shedding.warp_report import warp_checks, warp_results, warp_warnings
+from ilmek.report import Check, Json, Report, Result, at_least, at_most
+from ilmek.units import format_quantity, mm, rpm
 
 THESIS = "thesis, 3.2"
 FOIL = 0.4 * mm
@@ -36,15 +33,24 @@ SPEED_LIMIT = 5 * rpm
 
 def report(design: SheddingDesign) -> Report:
     """Everything that the design says."""
+    studied = study(design)
     return Report(
         machine="shedding",
         title="Shedding cams",
         parameters=design.params.as_dict(),
-        results=(*_cam_results(design), *_motion_results(design), *_shaft_results(design), *_drive_results(design)),
-        checks=_checks(design),
-        tables=(_phase_table(design), _law_table(design), _side_table(design), _cam_table(design)),
-        figures=figures(design),
-        warnings=_warnings(design),
+        results=(
+            *_cam_results(design),
+            *_motion_results(design),
+            *warp_results(studied),
+            *_shaft_results(design),
+            *_drive_results(design),
+        ),
+        checks=(*_checks(studied), *warp_checks(design)),
+        tables=tables(studied),
+        figures=figures(studied),
+        warnings=(*_warnings(design), *warp_warnings(studied)),
+        plates=plates(design),
+        cam_tables=cam_tables(design),
     )
 
 
@@ -88,6 +94,10 @@ def _motion_results(design: SheddingDesign) -> tuple[Result, ...]:
         Result("shed_opening", _peak(design.opening, design), "mm", "largest distance between even and odd warps"),
         Result("shuttle_start", first, "deg", "shaft angle from which the even shed is open enough for the shuttle"),
         Result("shuttle_end", last, "deg", "shaft angle to which it is; the odd shed follows half a turn later"),
+        Result("shuttle_window", last - first, "deg", "for what angle it is"),
+        Result("phase_groups", design.shed.groups, "1", "groups of each parity's cams that move one after another"),
+        Result("phase_spread", design.shed.spread, "deg", "angle from the first group to the last"),
+        Result("shed_overlap", _overlap(design), "deg", "of one parity coming down while the other goes up, each time"),
         Result("shuttle_time", (last - first) / speed, "s", "time that each shed is open enough for the shuttle"),
         Result("turn_time", TURN / speed, "s", "time of a turn: two sheds"),
         Result("velocity_max", speed * _peak(lambda q: design.even.at(q).ds, design), "mm/s", "largest warp velocity"),
@@ -102,8 +112,24 @@ def _motion_results(design: SheddingDesign) -> tuple[Result, ...]:
     )
 
 
-def _shaft_results(design: SheddingDesign) -> tuple[Result, ...]:
+def _directions(design: SheddingDesign) -> Json:
+    """Load, slope and deflection of the weight alone and of the warps alone; None where the load is given."""
     shaft = design.shaft
+    if shaft.directions is None:
+        return None
+    shares = dict(zip(("weight", "pull"), shaft.directions.shares(), strict=True))
+    loads = {"weight": shaft.directions.weight, "pull": shaft.directions.pull}
+    return {
+        "angle": float(np.angle(shaft.directions.resultant)),
+        **{
+            name: {"load": loads[name], "slope": share * shaft.slope, "deflection": share * shaft.deflection}
+            for name, share in shares.items()
+        },
+    }
+
+
+def _shaft_results(design: SheddingDesign) -> tuple[Result, ...]:
+    shaft, seat = design.shaft, design.shaft.seat
     return (
         Result("shaft_load", shaft.load, "kN/m", "load of the shaft, with its safety"),
         Result("shaft_length", shaft.length, "m", "length of the shaft between its first and last support"),
@@ -121,12 +147,18 @@ def _shaft_results(design: SheddingDesign) -> tuple[Result, ...]:
         Result("shaft_deflection", shaft.deflection, "mm", "its deflection between them"),
         Result("shaft_twist", shaft.twist, "deg", "its twist from end to end under the largest torque"),
         Result("shaft_stress", shaft.stress, "MPa", "its equivalent stress in bending and torsion, with the safety"),
+        Result("warps_across", design.across_max.value, "N", "largest force of the lifted warps across the shaft"),
+        Result("shaft_directions", _directions(design), "", "weight and warps apart, with the safety [N/m, m, rad]"),
+        Result("bearing", seat.bearing.name if seat.bearing else None, "", "bearing of the shaft"),
+        Result("bearing_load", seat.reaction, "N", "on the most loaded bearing, without the safety"),
+        Result("bearing_life", seat.life if seat.bearing else None, "h", "nine of ten live so long"),
+        Result("journal", seat.journal, "mm", "least diameter of the journal, in torsion"),
     )
 
 
 def _drive_results(design: SheddingDesign) -> tuple[Result, ...]:
     drive, speed = design.drive, design.params.speed
-    work = float(design.params.warps // 2 * _work_of_a_warp(design))
+    work = float(design.params.warps // 2 * lifting_work(design.params))
     return (
         Result("shaft_torque_max", drive.torque_max.value, "Nm", "largest torque that lifts the warps"),
         Result("shaft_torque_min", drive.torque_min.value, "Nm", "largest torque of the warps on the way back"),
@@ -140,28 +172,39 @@ def _drive_results(design: SheddingDesign) -> tuple[Result, ...]:
     )
 
 
-def cycle_phases(design: SheddingDesign) -> tuple[tuple[str, str, float, float], ...]:
-    """Parity, phase, first and last shaft angle [rad] of each part of the turn; angles of the odd warps pass a turn."""
-    return tuple(
-        (parity, segment.name, float(programme.start + begin), float(programme.start + begin + segment.span))
-        for parity, programme in (("even", design.even), ("odd", design.odd))
-        for begin, segment in zip(programme.edges, programme.segments, strict=False)
-    )
+def _overlap(design: SheddingDesign) -> float:
+    """Angle for which warps of both parities are off their lines [rad], at each change of the shed."""
+    return max(0.0, design.params.lifted_angle + design.shed.spread - TURN / 2)
 
 
 def _peak(function: Callable[[FloatArray], FloatArray], design: SheddingDesign) -> float:
-    return supremum(lambda angle: np.abs(function(angle)), turn_knots(design.even, design.odd)).value
+    return supremum(lambda angle: np.abs(function(angle)), design.shed.knots).value
 
 
-def _work_of_a_warp(design: SheddingDesign) -> float:
-    """Work [J] of lifting one warp: F L, or 2 T (sqrt(L^2 + H^2) - H), what its tension does while it lengthens."""
-    params = design.params
-    if params.tension is None or params.half_span is None:
-        return params.warp_force * params.lift
-    return 2 * params.tension * (math.hypot(params.lift, params.half_span) - params.half_span)
+def _bearing_checks(design: SheddingDesign) -> tuple[Check, ...]:
+    seat, params = design.shaft.seat, design.params
+    life = at_least("life of the bearings", seat.life, params.bearing_life, "h", "ISO 281, bearing_life")
+    if seat.bearing is None:
+        return (life,)
+    return (
+        life,
+        at_least("bore of the bearing for the torque", seat.bearing.bore, seat.journal, "mm", "torsion, von Mises"),
+        at_most("bore of the bearing in the bar", seat.bearing.bore, design.shaft.bar, "mm", "journal of the bar"),
+    )
 
 
-def _checks(design: SheddingDesign) -> tuple[Check, ...]:
+def _window_checks(studied: Study) -> tuple[Check, ...]:
+    """The shuttle's window against what is asked for, if anything is."""
+    design, whole = studied.design, studied.together.window()
+    first, last = design.shuttle_window
+    asked = design.params.shuttle_angle
+    if asked is None and design.params.phase == "flattest":
+        asked = window_asked(design.params, whole[1] - whole[0])
+    return () if asked is None else (at_least("window of the shuttle", last - first, asked, "deg", "shuttle_angle"),)
+
+
+def _checks(studied: Study) -> tuple[Check, ...]:
+    design = studied.design
     params, cam, shaft, drive = design.params, design.cam, design.shaft, design.drive
     pressure = settled(pressure_angle_max(cam).value, params.pressure_angle_limit)
     lifted, width = settled(params.lifted_angle, TURN / 2), settled(params.warps * params.warp_pitch, shaft.length)
@@ -179,6 +222,7 @@ def _checks(design: SheddingDesign) -> tuple[Check, ...]:
         ),
         at_least("prime radius round the bore", cam.prime_radius, prime_radius_for_bore(design), "mm", "bore_wall"),
         at_least("shed for the shuttle", opening, params.shuttle_height, "mm", "shuttle_height"),
+        *_window_checks(studied),
         at_most("one parity down while the other is up", lifted, TURN / 2, "deg", f"{THESIS}, Fig. 3.19"),
         at_most("width of the cams on the shaft", width, shaft.length, "mm", "shaft_length"),
         at_most("slope of the shaft", shaft.slope, params.slope_limit, "rad", f"{THESIS} and eq. 3.5"),
@@ -187,6 +231,7 @@ def _checks(design: SheddingDesign) -> tuple[Check, ...]:
         ),
         at_most("twist of the shaft", shaft.twist, params.twist_limit, "deg", "twist_limit: the far cams lag by it"),
         at_most("stress of the shaft", shaft.stress, params.strength, "MPa", "yield strength, von Mises"),
+        *_bearing_checks(design),
         at_most(
             "motor torque",
             settled(drive.motor_torque, drive.motor_limit),
@@ -197,88 +242,8 @@ def _checks(design: SheddingDesign) -> tuple[Check, ...]:
     )
 
 
-def _phase_table(design: SheddingDesign) -> Table:
-    columns = (Column("warps"), Column("phase"), Column("from", "deg"), Column("to", "deg"), Column("time", "s"))
-    rows = tuple(
-        (parity, name, start, end, (end - start) / design.params.speed)
-        for parity, name, start, end in cycle_phases(design)
-    )
-    return Table("shedding-phases", "The cycle on the shaft's angle", columns, rows)
-
-
-def _law_table(design: SheddingDesign) -> Table:
-    """What each motion law would give for the same lift, angles and pressure angle."""
-    columns = (
-        Column("law"),
-        Column("prime radius", "mm"),
-        Column("convex radius", "mm"),
-        Column("velocity", "mm/s"),
-        Column("acceleration", "mm/s^2"),
-        Column("acceleration jumps"),
-    )
-    rows = tuple(_law_row(design, name) for name in SMOOTH_LAWS)
-    return Table("shedding-laws", "Motion laws compared at equal lift, angles and pressure angle", columns, rows)
-
-
-def _law_row(design: SheddingDesign, name: str) -> tuple[float | int | str, ...]:
-    params, law, shortest = design.params, LAWS[name], min(design.params.rise, design.params.fall_angle)
-    programme: Programme = lifting(params, name)
-    prime = smallest_prime_radius(programme, params.pressure_angle_limit).value
-    # The roller may be larger than this law's prime circle; the pitch curve does not ask for it.
-    radius = convex_radius_min(PlateCam(programme, prime)).value
-    rate = params.speed / shortest
-    velocity, acceleration = params.lift * rate * law.velocity_peak, params.lift * rate**2 * law.acceleration_peak
-    return name, prime, radius, velocity, acceleration, len(jumps(programme))
-
-
-def _side_table(design: SheddingDesign) -> Table:
-    """The shaft for other safeties on the same load: the thesis' Table 3.2 with its columns in their places."""
-    shaft, params = design.shaft, design.params
-    columns = (
-        Column("factor on the load"),
-        Column("side for the slope", "mm"),
-        Column("side for the deflection", "mm"),
-    )
-
-    def row(factor: float) -> tuple[float, float, float]:
-        load = factor * shaft.load
-        return (
-            factor,
-            shafts.square_side(shafts.inertia_for_slope(load, shaft.span, params.modulus, params.slope_limit)),
-            shafts.square_side(
-                shafts.inertia_for_deflection(load, shaft.span, params.modulus, params.deflection_limit)
-            ),
-        )
-
-    return Table("shedding-shaft", "Square shaft by load", columns, tuple(row(f) for f in (0.5, 0.75, 1.0, 1.5, 2.0)))
-
-
-def _cam_table(design: SheddingDesign) -> Table:
-    """The cam in steps of 5 degrees, to be drawn or cut."""
-    angle = np.arange(0, 360, 5) * deg
-    surface, cam = design.cam.surface(angle), design.cam
-    columns = (
-        Column("cam angle", "deg"),
-        Column("lift", "mm"),
-        Column("x", "mm"),
-        Column("y", "mm"),
-        Column("pressure angle", "deg"),
-        Column("curvature", "1/m"),
-    )
-    values = (
-        angle,
-        cam.programme.at(angle).s,
-        surface.real,
-        surface.imag,
-        cam.pressure_angle(angle),
-        cam.curvature(angle),
-    )
-    rows = tuple(tuple(float(value) for value in row) for row in zip(*values, strict=True))
-    return Table("shedding-cam-points", "Points of the cam's surface", columns, rows)
-
-
 def _warnings(design: SheddingDesign) -> tuple[str, ...]:
-    params, hollow = design.params, concave_radius_min(design.cam)
+    params = design.params
     said = []
     if design.params.speed > SPEED_LIMIT * (1 + 1e-9):
         shown = format_quantity(params.speed, "rpm")
@@ -286,18 +251,15 @@ def _warnings(design: SheddingDesign) -> tuple[str, ...]:
     if design.stack.thickness < FOIL:
         thin, foil = (format_quantity(value, "mm") for value in (design.stack.thickness, FOIL))
         said.append(f"cams {thin} thick are foil and buckle: below {foil} spread the warps over several cam shafts")
-    if hollow is not None and params.roller_radius == 0:
-        shown, where = format_quantity(hollow.value, "mm"), format_quantity(hollow.at, "deg")
-        said.append(
-            f"the cam is hollow (radius {shown} at {where}): a taut warp bridges the hollow and is lifted a little "
-            "earlier and let down a little later than the law says"
-        )
     if design.cam.prime_radius < prime_radius_for_bore(design):
         shown = format_quantity(prime_radius_for_bore(design), "mm")
         said.append(f"the square bore does not fit into the cam: set prime_radius={shown.replace(' ', '')} or more")
     if params.shaft_bar is None and design.shaft.bar > STOCK_SIDES[-1]:
         bar, largest = (format_quantity(side, "mm") for side in (design.shaft.bar, STOCK_SIDES[-1]))
         said.append(f"the shaft needs a bar of {bar}, beyond the {largest} of stock: set more spans")
+    if params.bearing is None and design.shaft.seat.bearing is None:
+        load, asked = format_quantity(design.shaft.seat.reaction, "N"), format_quantity(params.bearing_life, "h")
+        said.append(f"no insert bearing on the bar lives {asked} under {load}: set more spans, or name a bearing")
     if params.motor_torque is None and design.drive.motor is None:
         largest = max(MOTORS, key=lambda motor: motor.torque).name
         needed, speed = (

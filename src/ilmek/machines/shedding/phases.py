@@ -1,0 +1,207 @@
+"""How the cams of a parity stand on the shaft: all at once, in groups one after another, or as flat as may be.
+
+The cams of a parity form g groups, taken in turn along the shaft; group k is later by delta_k, evenly from -a/2 to a/2.
+
+    M(theta) = sum over groups of n_k F(s_k) s'_k,   s_k = s(theta - delta_k)
+    opening  = least lifted warp of one parity - most lifted of the other
+
+The opening depends on the first and the last group alone. Where one warp's torque is m sin(2 theta), g groups give
+m |sum n_k e^(2 i delta_k)|: for a given spread nothing is flatter than two groups at its ends, cos(a) of the torque
+(each term has the least real part there, and the ends are alike), while g even ones give sin(g a / (g - 1)) /
+(g sin(a / (g - 1))). Other laws and tensions have more harmonics, so that `flattest` looks at every number of groups
+and every spread that leaves the shuttle its window, and takes the least of the greatest |M|.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.cams.pieces import Extremum, crossing, infimum, integral, supremum
+from ilmek.cams.programme import TURN, Course, Programme
+from ilmek.machines.shedding.params import SheddingParams
+from ilmek.machines.shedding.warp import LIFTED, warp_force
+
+GRID = 2049
+"""Angles at which the shed is looked at, besides the ends of the motions; its edges are then found to rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parity:
+    """The cams of a parity: the programme of each group, and its number of cams."""
+
+    programmes: tuple[Programme, ...]
+    numbers: tuple[int, ...]
+
+    def courses(self, angle: FloatArray) -> tuple[Course, ...]:
+        """Motions of the groups."""
+        return tuple(programme.at(angle) for programme in self.programmes)
+
+
+@dataclass(frozen=True, slots=True)
+class Shed:
+    """Both parities: `spread` [rad] is the angle between the first and the last group of each."""
+
+    params: SheddingParams
+    even: Parity
+    odd: Parity
+    spread: float
+
+    @property
+    def groups(self) -> int:
+        """Groups of each parity."""
+        return len(self.even.programmes)
+
+    @property
+    def offsets(self) -> FloatArray:
+        """What each group is later by than the middle [rad]."""
+        return offsets(self.spread, self.groups)
+
+    @property
+    def knots(self) -> FloatArray:
+        """Shaft angles of one turn [rad] between which all groups move smoothly."""
+        return turn_knots(*self.even.programmes, *self.odd.programmes)
+
+    def torque(self, angle: FloatArray) -> FloatArray:
+        """Torque of the warps on the shaft [N m], quasi-static."""
+        total = np.zeros_like(angle)
+        for parity in (self.even, self.odd):
+            for number, at in zip(parity.numbers, parity.courses(angle), strict=True):
+                total += number * warp_force(self.params, at.s) * at.ds
+        return total
+
+    def across(self, angle: FloatArray) -> FloatArray:
+        """Force of all lifted warps across the shaft [N]."""
+        total = np.zeros_like(angle)
+        for parity in (self.even, self.odd):
+            for number, at in zip(parity.numbers, parity.courses(angle), strict=True):
+                lifted = at.s > LIFTED * self.params.lift
+                total += number * np.where(lifted, warp_force(self.params, at.s), 0.0)
+        return total
+
+    def opening(self, angle: FloatArray) -> FloatArray:
+        """Distance [m] of the least lifted even warp over the most lifted odd one; negative in the odd shed."""
+        even, odd = ([at.s for at in parity.courses(angle)] for parity in (self.even, self.odd))
+        up = np.min(even, axis=0) - np.max(odd, axis=0)
+        down = np.min(odd, axis=0) - np.max(even, axis=0)
+        return np.asarray(np.where(up >= down, np.maximum(up, 0.0), -np.maximum(down, 0.0)))
+
+    def room(self, angle: FloatArray) -> FloatArray:
+        """What the even shed is higher than the shuttle [m]; negative where that does not fit."""
+        lowest = np.min([at.s for at in self.even.courses(angle)], axis=0)
+        highest = np.max([at.s for at in self.odd.courses(angle)], axis=0)
+        return np.asarray(lowest - highest - self.params.shuttle_height)
+
+    def window(self) -> tuple[float, float]:
+        """Longest interval of shaft angles in which the even shed has the shuttle's height; its middle twice if none.
+
+        Found on a grid, its edges to rounding. An angle past a turn belongs to the next one.
+        """
+        angle = np.unique(np.concatenate([self.knots, np.linspace(0.0, TURN, GRID)]))
+        edges = np.diff(np.concatenate([[False], self.room(angle) >= 0, [False]]).astype(np.int8))
+        begins, ends = np.flatnonzero(edges > 0), np.flatnonzero(edges < 0) - 1
+        if begins.size == 0:
+            return self.params.rise, self.params.rise
+        longest = int(np.argmax(angle[ends] - angle[begins]))
+        first, last = int(begins[longest]), int(ends[longest])
+        return (
+            crossing(self.room, float(angle[max(first - 1, 0)]), float(angle[first])),
+            crossing(self.room, float(angle[min(last + 1, angle.size - 1)]), float(angle[last])),
+        )
+
+    def peaks(self) -> tuple[Extremum, Extremum]:
+        """Largest and least torque over the turn [N m]."""
+        return supremum(self.torque, self.knots), infimum(self.torque, self.knots)
+
+    def rms(self) -> float:
+        """Root mean square of the torque over the turn [N m]."""
+        return float(np.sqrt(integral(lambda angle: self.torque(angle) ** 2, self.knots) / TURN))
+
+
+def offsets(spread: float, groups: int) -> FloatArray:
+    """What each group is later by [rad]: evenly from -spread/2 to spread/2; one group stands in the middle."""
+    return np.linspace(-spread / 2, spread / 2, groups) if groups > 1 else np.zeros(1)
+
+
+def turn_knots(*programmes: Programme) -> FloatArray:
+    """Shaft angles of one turn [rad] between which all programmes move smoothly."""
+    inner = np.mod(np.concatenate([programme.knots for programme in programmes]), TURN)
+    return np.unique(np.concatenate([inner, [0.0, TURN]]))
+
+
+def shed_of(params: SheddingParams, even: Programme, spread: float = 0.0, groups: int = 1) -> Shed:
+    """The shed of cams by the programme `even`, odd ones half a turn later, in groups over a spread [rad]."""
+    if spread == 0:
+        groups = 1
+    evens = params.warps // 2
+    even_cams, odd_cams = (
+        Parity(
+            tuple(even.shifted(later + float(offset)) for offset in offsets(spread, groups)),
+            tuple(number // groups + (place < number % groups) for place in range(groups)),
+        )
+        for later, number in ((0.0, evens), (TURN / 2, params.warps - evens))
+    )
+    return Shed(params, even_cams, odd_cams, spread)
+
+
+def chosen_shed(params: SheddingParams, even: Programme) -> Shed:
+    """The shed as the phase asks."""
+    if params.phase == "together":
+        return shed_of(params, even)
+    if params.phase == "staggered":
+        return shed_of(params, even, params.stagger, params.stagger_groups)
+    return flattest(params, even)
+
+
+def window_asked(params: SheddingParams, together: float) -> float:
+    """Cam angle for which the shed must stay open enough [rad]: as asked for, or half of that of cams `together`."""
+    return together / 2 if params.shuttle_angle is None else params.shuttle_angle
+
+
+def flattest(params: SheddingParams, even: Programme) -> Shed:
+    """The groups and the spread of least |torque| that leave the shuttle its window; all at once where none does."""
+    first, last = shed_of(params, even).window()
+    widest = _widest(params, even, last - first, window_asked(params, last - first))
+    most = max(min(params.stagger_groups, params.warps // 2), 1)
+    found = [_flattest_spread(params, even, groups, widest) for groups in range(2, most + 1)]
+    best = min(found, default=(np.inf, 0.0, 1))
+    return shed_of(params, even, best[1], best[2])
+
+
+def _widest(params: SheddingParams, even: Programme, together: float, window: float) -> float:
+    """The largest spread [rad] that leaves a window [rad] of what there is `together`.
+
+    The window shrinks by the spread, and quicker where the other parity is in the way: then by halving.
+    """
+    low, high = 0.0, min(together - window, TURN / 2)
+    if high <= 0:
+        return 0.0
+    for spread in (high * (1 - _SPARE), *[0.0] * _HALVINGS):
+        tried = spread or (low + high) / 2
+        first, last = shed_of(params, even, tried, 2).window()
+        if last - first >= window:
+            if spread:
+                return spread
+            low = tried
+        else:
+            high = tried
+    return low
+
+
+def _flattest_spread(params: SheddingParams, even: Programme, groups: int, widest: float) -> tuple[float, float, int]:
+    """Greatest |torque| [N m] and spread [rad] of the flattest of so many groups, by grids that close in on it."""
+    angle = np.arange(_TABLE) * (TURN / _TABLE)
+    together = shed_of(params, even).torque(angle)
+    low, high = 0.0, widest
+    for _ in range(_ZOOMS):
+        spreads = np.linspace(low, high, _SPREADS)
+        at = angle - spreads[:, None, None] * offsets(1.0, groups)[:, None]
+        mean = np.interp(at, angle, together, period=TURN).mean(axis=1)
+        peaks = np.max(np.abs(mean), axis=1)
+        best = int(np.argmin(peaks))
+        low, high = float(spreads[max(best - 1, 0)]), float(spreads[min(best + 1, _SPREADS - 1)])
+    return float(peaks[best]), float(spreads[best]), groups
+
+
+_SPARE, _HALVINGS = 1e-9, 20
+_TABLE, _SPREADS, _ZOOMS = 720, 17, 4

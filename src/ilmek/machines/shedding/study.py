@@ -1,0 +1,25 @@
+"""What a report asks of a design beyond the design itself, reckoned once."""
+
+from dataclasses import dataclass
+
+from ilmek.machines.shedding.design import SheddingDesign
+from ilmek.machines.shedding.draped import Bridged, Draped, bridged, draped
+from ilmek.machines.shedding.phases import Shed, flattest, shed_of
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """A design, its cams all at once and as flat as may be, its warps as yarns on the cams."""
+
+    design: SheddingDesign
+    together: Shed
+    flattest: Shed
+    yarn: Draped | None
+    bridged: Bridged | None
+
+
+def study(design: SheddingDesign) -> Study:
+    """The study of a design."""
+    params, even = design.params, design.even
+    flat = design.shed if params.phase == "flattest" else flattest(params, even)
+    return Study(design, shed_of(params, even), flat, draped(params, design.cam), bridged(design.cam))

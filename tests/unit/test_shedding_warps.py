@@ -1,0 +1,174 @@
+"""The warps on their cams: tension from the geometry, the yarn draped over the cam, bearings, plates, motions."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+
+from ilmek.errors import ParameterError
+from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams
+from ilmek.machines.shedding.draped import bridged, capstan, draped, hull, nose_radius
+from ilmek.machines.shedding.warp import lifting_work, taut, warp_force
+from ilmek.report import Report
+from ilmek.units import deg, mm
+
+ELASTIC = dict(tension=15.0, front_span=0.25, back_span=0.4, warp_stiffness=1800.0, warp_length=1.5)
+
+
+def made(**settings_given) -> SheddingDesign:
+    return MACHINE.design(SheddingParams(**settings_given))
+
+
+@functools.cache
+def answer(**settings_given) -> Report:
+    return MACHINE.report(made(**settings_given))
+
+
+def result(report: Report, name: str):
+    return next(result.value for result in report.results if result.name == name)
+
+
+@pytest.mark.parametrize(
+    ("front", "back", "stiffness", "give", "lift"),
+    [(0.05, 2.0, 1e5, 0.0, 0.2), (0.3, 0.1, 1800.0, 0.5, 0.06), (0.2, 0.2, 1.0, 0.0, 0.01), (1.0, 0.4, 1e4, 1.0, 0.1)],
+)
+def test_force_is_the_rate_of_the_work(front, back, stiffness, give, lift) -> None:
+    """Virtual work: F = dW/ds of the stretched warp, whatever its spans."""
+    asked = dict(tension=15.0, front_span=front, back_span=back, warp_stiffness=stiffness, compensation=give)
+    step = 1e-4 * lift
+    low, high = (lifting_work(SheddingParams(lift=lift + side, **asked)) for side in (-step, step))
+    force = float(warp_force(SheddingParams(lift=lift, **asked), np.array(lift)))
+    assert (high - low) / (2 * step) == pytest.approx(force, rel=1e-6)
+
+
+def test_equal_spans_without_stiffness_are_the_half_span() -> None:
+    one, other = made(tension=15.0, half_span=0.17), made(tension=15.0, front_span=0.17, back_span=0.17)
+    assert one.drive.torque_max.value == pytest.approx(other.drive.torque_max.value, rel=1e-14)
+
+
+def test_a_warp_of_cotton_gains_tension_in_the_shed() -> None:
+    """dL = 7.10 + 4.47 mm; 1800 N over 1.5 m gives 1.2 N for each millimetre."""
+    longer = math.hypot(0.25, 0.06) - 0.25 + math.hypot(0.4, 0.06) - 0.4
+    report = answer(**ELASTIC)
+    assert result(report, "warp_lengthening") == pytest.approx(longer)
+    assert result(report, "warp_tension_max") == pytest.approx(15 + 1200 * longer)
+    assert result(report, "warp_strain") == pytest.approx(longer / 1.5)
+    assert answer(compensation=1.0, **ELASTIC).checks[-1].value == 0.0
+
+
+def test_a_short_warp_that_nothing_gives_way_for_is_strained_too_far() -> None:
+    report = answer(tension=15.0, front_span=0.17, back_span=0.17, warp_stiffness=1800.0)
+    assert [check.name for check in report.failed] == ["strain of a lifted warp"]
+
+
+def test_hull_of_a_star() -> None:
+    angle = np.arange(10) * (2 * math.pi / 10)
+    star = np.where(np.arange(10) % 2 == 0, 1.0, 0.4) * np.exp(1j * angle)
+    assert sorted(hull(star).tolist()) == [0, 2, 4, 6, 8]
+
+
+def test_a_yarn_bridges_the_foot_of_rise_and_fall() -> None:
+    """The concave arcs of the thesis' cam near 0 and 180 deg; the bridge stands over the law, symmetric to 90 deg."""
+    found = bridged(made().cam)
+    assert found is not None
+    assert len(found.arcs) == 2
+    end, foot = sorted(found.arcs)
+    assert 300 * deg < foot[0]
+    assert foot[1] < 45 * deg
+    assert foot[1] + end[0] == pytest.approx(math.pi)
+    assert foot[0] - 2 * math.pi + end[1] == pytest.approx(math.pi)
+    assert 0.1 * mm < found.excess < 1 * mm
+
+
+def test_a_convex_cam_has_no_bridge() -> None:
+    assert bridged(made(prime_radius=0.5).cam) is None
+
+
+def test_a_draped_yarn_does_the_work_that_lengthens_it() -> None:
+    """Integral of the torque up to the top = T0 dL + k dL^2 / 2; over the turn nothing is left."""
+    design = made(**ELASTIC)
+    yarn, warp = draped(design.params, design.cam), taut(design.params)
+    assert yarn is not None
+    top = int(np.argmax(yarn.longer))
+    longer = yarn.longer[top]
+    energy = warp.tension * longer + warp.rate * longer**2 / 2
+    assert np.trapezoid(yarn.torque[: top + 1], yarn.angle[: top + 1]) == pytest.approx(energy, rel=2e-3)
+    assert abs(np.trapezoid(yarn.torque, yarn.angle)) < 2e-3 * energy
+    assert np.all(yarn.longer >= taut(design.params).lengthening(design.even.at(yarn.angle).s) - 1e-6)
+    assert yarn.lifted > math.pi
+
+
+def test_holds_within_reach_of_the_nose_are_said() -> None:
+    report = answer(tension=15.0, half_span=0.1)
+    assert result(report, "draped") is None
+    assert any("stands within the 138.2 mm that the cams reach" in said for said in report.warnings)
+
+
+def test_nose_of_the_harmonic_cam() -> None:
+    """At the top s' = 0 and s'' = -2 L: radius r^2 / (r + 2 L) with r = Rp + L."""
+    cam = made().cam
+    r = cam.prime_radius + 0.06
+    assert nose_radius(cam) == pytest.approx(r**2 / (r + 0.12), rel=1e-6)
+    assert capstan(0.25, math.pi) == pytest.approx(math.exp(0.25 * math.pi))
+
+
+def test_area_of_the_harmonic_cam() -> None:
+    """A = 1/2 int (Rp + s)^2: pi Rp^2 + pi Rp L / 2 + 3 pi L^2 / 16, the lift being over half a turn."""
+    cam, report = made().cam, answer()
+    exact = math.pi * (cam.prime_radius**2 + cam.prime_radius * 0.06 / 2 + 3 * 0.06**2 / 16)
+    assert result(report, "cam_area") == pytest.approx(exact, rel=1e-12)
+    plate = report.plates[0]
+    corners = plate.outline
+    polygon = 0.5 * float(np.sum((np.conj(corners) * np.roll(corners, -1)).imag))
+    assert plate.area == pytest.approx(exact)
+    assert polygon == pytest.approx(plate.area, rel=1e-4)
+    assert result(report, "cam_mass") == pytest.approx((plate.area - made().shaft.bar ** 2) * plate.thickness * 7850)
+
+
+def test_weight_and_pull_add_as_vectors() -> None:
+    square, along = made(), made(pull_angle=0.0)
+    parts = square.shaft.directions
+    assert square.shaft.load == pytest.approx(math.hypot(parts.weight, parts.pull))
+    assert along.shaft.load == pytest.approx(along.shaft.directions.weight + along.shaft.directions.pull)
+    told = result(answer(), "shaft_directions")
+    for name in ("slope", "deflection"):
+        whole = math.hypot(told["weight"][name], told["pull"][name])
+        assert whole == pytest.approx(getattr(square.shaft, name))
+    assert result(answer(shaft_load=14e3), "shaft_directions") is None
+
+
+def test_bearings_live_or_are_said_not_to() -> None:
+    seat = made().shaft.seat
+    assert seat.bearing is not None
+    assert seat.journal <= seat.bearing.bore <= made().shaft.bar
+    assert seat.reaction == pytest.approx(made().shaft.load / 2 * 1.2 / 2)
+    revolutions = seat.life * 5 / 60
+    assert revolutions == pytest.approx((seat.bearing.dynamic / seat.reaction) ** 3 * 1e6)
+    assert made(bearing="ucf 207").shaft.seat.bearing.name == "UCF 207"
+    with pytest.raises(ParameterError, match="nearest offered"):
+        made(bearing="UCF 2070")
+
+
+def test_motions_for_the_controller_are_those_of_the_warps() -> None:
+    even, odd = answer().cam_tables
+    assert (even.name, odd.name) == ("even-warps", "odd-warps")
+    assert even.period == pytest.approx(12.0)
+    angle = np.linspace(0, 2 * math.pi, 50)
+    np.testing.assert_allclose(odd.course(angle), even.course(angle + math.pi), atol=1e-12)
+    assert even.course(np.array([math.pi / 2]))[0, 0] == pytest.approx(60 * mm)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (dict(front_span=0.2, tension=15.0), "back_span is missing"),
+        (dict(front_span=0.2, back_span=0.2, half_span=0.1, tension=15.0), "half_span beside front_span"),
+        (dict(front_span=0.2, back_span=0.2), "tension is missing"),
+        (dict(warp_stiffness=1800.0), "warp_stiffness without tension"),
+        (dict(tension=15.0, half_span=0.2, warp_length=0.3), "shorter than the spans; at least 0.4 m"),
+    ],
+)
+def test_half_a_warp_is_refused(asked, said) -> None:
+    with pytest.raises(ParameterError, match=said):
+        made(**asked)
