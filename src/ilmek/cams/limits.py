@@ -45,7 +45,7 @@ def pressure_angle_max(cam: Cam, part: Part = "turn") -> Extremum:
         trace = cam.trace(angle)
         return np.where(_within(part, trace.course.ds), np.abs(trace.pressure_angle), 0.0)
 
-    return supremum(leaning, cam.programme.knots)
+    return supremum(leaning, cam.knots)
 
 
 def convex_radius_min(cam: Cam) -> Extremum:
@@ -54,7 +54,7 @@ def convex_radius_min(cam: Cam) -> Extremum:
     A flat face's pitch curve is the surface; its radius is not above 0 where no surface can guide the face.
     Infinite where the curve is nowhere convex.
     """
-    sharpest = supremum(_bend(cam), cam.programme.knots)
+    sharpest = supremum(_bend(cam), cam.knots)
     return Extremum(sharpest.at, cam.prime_radius / math.tan(sharpest.value) if sharpest.value > 0 else math.inf)
 
 
@@ -63,7 +63,7 @@ def concave_radius_min(cam: Cam) -> Extremum | None:
 
     The outer flank of a groove needs it above the roller's radius.
     """
-    hollow = infimum(_bend(cam), cam.programme.knots)
+    hollow = infimum(_bend(cam), cam.knots)
     return Extremum(hollow.at, -cam.prime_radius / math.tan(hollow.value)) if hollow.value < 0 else None
 
 
@@ -87,13 +87,13 @@ def largest_cutter(cam: Cam) -> float:
 
 
 def area(cam: Cam) -> float:
-    """Area [m^2] inside the cam's surface, without undercut: A = 1/2 integral of (K . n) flow_K  (Green)."""
+    """Area [m^2] inside a plate cam's surface, without undercut: A = 1/2 integral of (K . n) flow_K  (Green)."""
 
     def sector(angle: FloatArray) -> FloatArray:
         trace = cam.trace(angle)
         return np.asarray(0.5 * dot(trace.surface, trace.normal) * (trace.flow - trace.roller_radius * trace.turning))
 
-    return integral(sector, cam.programme.knots)
+    return integral(sector, cam.knots)
 
 
 def smallest_prime_radius(programme: Programme, pressure_angle_limit: float, offset: float = 0.0) -> Extremum:

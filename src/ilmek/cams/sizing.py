@@ -76,7 +76,7 @@ def smallest_prime(cam: Cam, limits: Limits) -> Size:
     which is then refined to rounding. Raises ParameterError where none will.
     """
     sizes = _sizes(cam)
-    angle = _grid(cam.programme.knots)
+    angle = _grid(cam.knots)
     course = cam.programme.at(angle)
 
     def fits(size: float) -> bool:
@@ -92,7 +92,7 @@ def smallest_prime(cam: Cam, limits: Limits) -> Size:
             do="allow more, give the motion a larger angle, or change offset, arm or pivot",
         )
     if first == 0:
-        return Size(float(sizes[0]), "the follower's own size", float(cam.programme.knots[0]))
+        return Size(float(sizes[0]), "the follower's own size", float(cam.knots[0]))
     found = _refined(cam, limits, float(sizes[first - 1]), float(sizes[min(first + 1, sizes.size - 1)]))
     worst = _worst(cam.resized(found), limits)
     return Size(found, _binding(cam.resized(found), limits, worst.at), worst.at)
@@ -180,7 +180,7 @@ def _excess(cam: Cam, trace: Trace, limits: Limits) -> FloatArray:
 
 
 def _worst(cam: Cam, limits: Limits) -> Extremum:
-    return supremum(lambda angle: _excess(cam, cam.trace(angle), limits), cam.programme.knots)
+    return supremum(lambda angle: _excess(cam, cam.trace(angle), limits), cam.knots)
 
 
 def _binding(cam: Cam, limits: Limits, at: float) -> str:
@@ -205,7 +205,7 @@ def _sizes(cam: Cam) -> FloatArray:
     low, high = cam.prime_bounds
     if math.isfinite(high):
         return low + (high - low) * np.linspace(_NEAR, 1 - _NEAR, _SIZES)
-    at = cam.programme.at(_grid(cam.programme.knots))
+    at = cam.programme.at(_grid(cam.knots))
     scale = float(np.max(np.abs(at.s)) + np.max(np.abs(at.ds)) + np.max(np.abs(at.dds))) or 1.0
     return np.concatenate([[low + _NEAR * (low + scale)], low + scale * np.geomspace(1e-4, 1e3, _SIZES)])
 

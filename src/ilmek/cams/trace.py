@@ -83,6 +83,10 @@ class Cam(Protocol):
         """Least distance of the pitch curve from the axis; of the face, where the follower is flat."""
 
     @property
+    def knots(self) -> FloatArray:
+        """Cam angles [rad], ascending over the cam, between which it is smooth."""
+
+    @property
     def prime_bounds(self) -> tuple[float, float]:
         """Between which prime radii the cam can be built, both excluded [m]."""
 
@@ -110,6 +114,11 @@ class Traced:
     __slots__ = ()
 
     programme: Programme
+
+    @property
+    def knots(self) -> FloatArray:
+        """Cam angles [rad], ascending over the turn, between which the cam is smooth."""
+        return self.programme.knots
 
     def trace_of(self, angle: FloatArray, course: Course) -> Trace:
         """Everything at cam angles [rad] where the follower's course is known there."""
