@@ -1,0 +1,235 @@
+"""Thousands of plate cams at once: smallest prime radius, pressure angle, curvature, undercut, area, torque.
+
+Each design is a rise, a fall by the same law and a rest, with a translating roller, knife or ball; the numbers are
+those of `sizing`, `limits` and `contact` for a single one. Designs of one law share its samples: with s = L s(u) and
+ds = L v(u)/beta all bounds are searched on one grid of u for all of them, and refined only where it may matter.
+"""
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from ilmek.arrays import FloatArray
+from ilmek.cams.laws import Law
+from ilmek.cams.programme import TURN
+from ilmek.errors import ParameterError
+
+PerDesign = Float[np.ndarray, " designs"]
+
+_COARSE = 64
+"""Points of the first grid over a law, shared by its pieces, at least _LEAST in each."""
+
+_LEAST = 13
+_ZOOM = 9
+_ZOOMS = 2
+_INSIDE = 1e-12
+"""How far inside its piece a one-sided value is taken, over the whole law."""
+
+_CLOSE = 0.05
+"""Pieces whose coarse top is within this share of the design's best are refined too."""
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What is asked of many cams, one entry a design; lengths in m, angles in rad.
+
+    law    place of the motion law in the list that goes with it
+    fall   angle of the fall         limit   pressure angle on the rise
+    offset, roller_radius            0: in line, a knife's edge
+    mass, speed, rate, preload, load as of `contact.Held`; 0 where not given
+    """
+
+    law: Int[np.ndarray, " designs"]
+    lift: PerDesign
+    rise: PerDesign
+    fall: PerDesign
+    limit: PerDesign
+    offset: PerDesign
+    roller_radius: PerDesign
+    mass: PerDesign
+    speed: PerDesign
+    rate: PerDesign
+    preload: PerDesign
+    load: PerDesign
+
+    def __post_init__(self) -> None:
+        if np.any(self.rise + self.fall > TURN * (1 + 1e-12)):
+            raise ParameterError("a rise and a fall that do not fit one turn", allowed="together at most 360 deg")
+        if np.any((self.limit <= 0) | (self.limit >= math.pi / 2)):
+            raise ParameterError("a limit of the pressure angle", allowed="above 0 deg, below 90 deg")
+
+
+@dataclass(frozen=True, slots=True)
+class Swept:
+    """What the cams are, one entry a design.
+
+    prime_radius, pressure_angle_max (on the rise), curvature_radius_min (pitch curve, convex), undercut, area and
+    torque_max (largest size) as a single design has them; a prime radius that the offset or the roller would fill is
+    an undercut, its area NaN
+    """
+
+    prime_radius: PerDesign
+    pressure_angle_max: PerDesign
+    curvature_radius_min: PerDesign
+    undercut: Bool[np.ndarray, " designs"]
+    area: PerDesign
+    torque_max: PerDesign
+
+
+def wanted(count: int, **given: object) -> Wanted:
+    """Designs from numbers and arrays; what is not given is 0, the fall as the rise or the rest of the turn.
+
+    >>> wanted(2, law=0, lift=0.02, rise=np.array([1.5, 4.0]), limit=0.5).fall.round(4).tolist()
+    [1.5, 2.2832]
+    """
+    fields = dict.fromkeys(Wanted.__slots__, 0.0) | given
+    if "fall" not in given:
+        fields["fall"] = np.minimum(fields["rise"], TURN - np.asarray(fields["rise"]))  # type: ignore[call-overload]
+    arrays = {name: np.broadcast_to(np.asarray(value, dtype=float), (count,)) for name, value in fields.items()}
+    return Wanted(**(arrays | {"law": arrays["law"].astype(np.int64)}))
+
+
+def sweep(laws: Sequence[Law], designs: Wanted) -> Swept:
+    """All designs, law by law. Raises IndexError for a law that is not in the list."""
+    count = designs.law.size
+    rows = np.empty((5, count))
+    for place in np.unique(designs.law):
+        here = np.flatnonzero(designs.law == place)
+        rows[:, here] = _of_law(laws[place], designs, here)
+    prime, pressure, bend, area, torque = rows
+    radius = 1 / bend
+    filled = prime <= np.maximum(np.abs(designs.offset), designs.roller_radius)
+    return Swept(
+        prime_radius=prime,
+        pressure_angle_max=np.arctan(pressure),
+        curvature_radius_min=radius,
+        undercut=filled | (radius <= designs.roller_radius),
+        area=np.where(filled, np.nan, area),
+        torque_max=torque,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Way:
+    """Rise or fall of the designs of a law: columns (designs, 1), or (pairs, 1) where only some are refined."""
+
+    law: Law
+    base: FloatArray
+    lift: FloatArray
+    span: FloatArray
+
+    def of(self, rows: Int[np.ndarray, " rows"]) -> "_Way":
+        return _Way(self.law, self.base[rows], self.lift[rows], self.span[rows])
+
+    def s(self, u: FloatArray) -> FloatArray:
+        return np.asarray(self.base + self.lift * self.law.s(u))
+
+    def ds(self, u: FloatArray) -> FloatArray:
+        return np.asarray(self.lift / self.span * self.law.v(u))
+
+    def dds(self, u: FloatArray) -> FloatArray:
+        return np.asarray(self.lift / self.span**2 * self.law.a(u))
+
+
+_Value = Callable[[_Way, FloatArray, Callable[[FloatArray], FloatArray]], FloatArray]
+"""A number of a way at u, with the rows of a per-design column picked by the last argument."""
+
+
+def _of_law(law: Law, designs: Wanted, here: Int[np.ndarray, " rows"]) -> FloatArray:
+    """Prime radius, tangent of the pressure angle, largest curvature, area, torque of the designs of one law."""
+    column = {name: getattr(designs, name)[here][:, None] for name in Wanted.__slots__ if name != "law"}
+    lift, offset, roller = column["lift"], column["offset"], column["roller_radius"]
+    rising = _Way(law, np.zeros_like(lift), lift, column["rise"])
+    falling = _Way(law, lift, -lift, column["fall"])
+    slope = np.tan(column["limit"])
+
+    demand = _top(rising, lambda way, u, pick: np.abs(way.ds(u) - pick(offset)) / pick(slope) - way.s(u))
+    prime = np.hypot(np.maximum(demand, 0.0)[:, None], offset)
+    near = np.sqrt(np.maximum(prime**2 - offset**2, 0.0))
+
+    def leaning(way: _Way, u: FloatArray, pick: Callable[[FloatArray], FloatArray]) -> FloatArray:
+        return np.asarray(np.abs(way.ds(u) - pick(offset)) / (way.s(u) + pick(near)))
+
+    def bend(way: _Way, u: FloatArray, pick: Callable[[FloatArray], FloatArray]) -> FloatArray:
+        e, r, ds = pick(offset), way.s(u) + pick(near), way.ds(u)
+        along = r**2 + (ds - e) ** 2
+        return np.asarray((r * (r - way.dds(u)) + (ds - e) * (2 * ds - e)) / (along * np.sqrt(along)))
+
+    inertia = column["mass"] * column["speed"] ** 2
+    pushed = column["preload"] + column["load"]
+
+    def torque(way: _Way, u: FloatArray, pick: Callable[[FloatArray], FloatArray]) -> FloatArray:
+        force = pick(inertia) * way.dds(u) + pick(column["rate"]) * way.s(u) + pick(pushed)
+        return np.asarray(np.abs(force * way.ds(u)))
+
+    with np.errstate(divide="ignore", invalid="ignore"):
+        rest = TURN - column["rise"] - column["fall"]
+        resting = np.where(rest > 1e-9, 1 / prime, -np.inf)[:, 0]
+        sharpest = np.maximum(np.maximum(_top(rising, bend), _top(falling, bend)), resting)
+        pressure = _top(rising, leaning)
+    area = _sector(rising, near, offset, roller) + _sector(falling, near, offset, roller)
+    area += 0.5 * rest * (prime - roller) ** 2
+    turning = np.maximum(_top(rising, torque), _top(falling, torque))
+    return np.stack([prime[:, 0], pressure, sharpest, area[:, 0], turning])
+
+
+def _sector(way: _Way, near: FloatArray, offset: FloatArray, roller: FloatArray) -> FloatArray:
+    """A part's share of the area inside the surface: 1/2 integral of (K . n) flow_K, as `limits.area` (Green)."""
+    u, weight = _nodes(way.law)
+    r, ds, dds = way.s(u) + near, way.ds(u), way.dds(u)
+    square = r**2 + (ds - offset) ** 2
+    flow = np.sqrt(square)
+    turning = (r * (r - dds) + (ds - offset) * (2 * ds - offset)) / square
+    out = (r**2 - offset * (ds - offset)) / flow - roller
+    inside = 0.5 * out * (flow - roller * turning)
+    return np.asarray(way.span * np.sum(weight * inside, axis=1, keepdims=True))
+
+
+def _nodes(law: Law) -> tuple[FloatArray, FloatArray]:
+    """Gauss' nodes and weights over the pieces of a law."""
+    edges = np.array([0.0, *law.breaks, 1.0])
+    half = 0.5 * np.diff(edges)[:, None]
+    middle = 0.5 * (edges[1:] + edges[:-1])[:, None]
+    return (middle + half * _NODES).ravel(), (half * _WEIGHTS).ravel()
+
+
+def _top(way: _Way, value: _Value) -> PerDesign:
+    """Least upper bound over u of a value of each design, piece by piece, one-sided at the breaks."""
+    edges = np.array([0.0, *way.law.breaks, 1.0])
+    count = max(_LEAST, _COARSE // (edges.size - 1))
+    pieces = [np.linspace(low + _INSIDE, high - _INSIDE, count) for low, high in itertools.pairwise(edges)]
+    coarse = [value(way, u, lambda column: column) for u in pieces]
+    tops = np.stack([np.max(rows, axis=1) for rows in coarse])
+    best = np.max(tops, axis=0)
+    spread = best - np.min(np.stack([np.min(rows, axis=1) for rows in coarse]), axis=0)
+    for u, rows, top in zip(pieces, coarse, tops, strict=True):
+        close = np.flatnonzero(top >= best - _CLOSE * spread)
+        if close.size:
+            best[close] = np.maximum(best[close], _refined(way, value, close, u, rows[close]))
+    return np.asarray(best)
+
+
+def _refined(
+    way: _Way, value: _Value, rows: Int[np.ndarray, " rows"], u: FloatArray, found: FloatArray
+) -> Float[np.ndarray, " rows"]:
+    """The top of some designs in one piece: zooming grids, and the vertex of the parabola through the last three."""
+    some, grid = way.of(rows), np.broadcast_to(u, found.shape)
+    row = np.arange(rows.size)
+    for _ in range(_ZOOMS):
+        at = np.argmax(found, axis=1)
+        low, high = grid[row, np.maximum(at - 1, 0)], grid[row, np.minimum(at + 1, grid.shape[1] - 1)]
+        grid = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, _ZOOM)
+        found = value(some, grid, lambda column: column[rows])
+    at = np.clip(np.argmax(found, axis=1), 1, _ZOOM - 2)
+    before, middle, after = found[row, at - 1], found[row, at], found[row, at + 1]
+    curve = before - 2 * middle + after
+    with np.errstate(divide="ignore", invalid="ignore"):
+        vertex = middle - (after - before) ** 2 / (8 * curve)
+    inside = (curve < 0) & (np.abs(after - before) <= -2 * curve)
+    return np.asarray(np.where(inside, vertex, np.max(found, axis=1)))
