@@ -135,10 +135,19 @@ def _bounded(law: Law, share: float) -> float:
     return 1.05 * ratio + 1.0
 
 
-def spectrum_plot(laws: Mapping[str, Law], most: float = 6.0, damping: float = 0.0, count: int = 601) -> Plot:
-    """Residual amplitude over the time ratio, for laws compared at equal lift and time."""
+def spectrum_plot(
+    laws: Mapping[str, Law], most: float = 6.0, damping: float = 0.0, count: int = 601, *, decibels: bool = False
+) -> Plot:
+    """Residual amplitude over the time ratio up to `most`, for laws compared at equal lift and time.
+
+    decibels  20 log10 of the amplitude over the lift, down to -100: lobes that a linear axis flattens to nothing
+    """
     ratios = np.linspace(most / count, most, count)
-    series = tuple(Series(name, ratios, residual(law, ratios, damping)) for name, law in laws.items())
+    sizes = {name: residual(law, ratios, damping) for name, law in laws.items()}
+    if decibels:
+        sizes = {name: 20 * np.log10(np.maximum(size, 1e-5)) for name, size in sizes.items()}
+    series = tuple(Series(name, ratios, size) for name, size in sizes.items())
     x = Axis("time of the rise over natural period of the follower")
+    y = Axis("amplitude over lift, dB" if decibels else "amplitude over lift")
     note = f"damping {100 * damping:g} % of the critical" if damping else "without damping"
-    return Plot("residual-vibration", "What swings on after the rise", x, Axis("amplitude over lift"), series, (), note)
+    return Plot("residual-vibration", "What swings on after the rise", x, y, series, (), note)
