@@ -1,0 +1,120 @@
+"""Screws: force and torque with friction, both ways; buckling and critical speed; a guide that turns by being pushed.
+
+    T = F d/2 tan(λ + ρ),   η = tan λ / tan(λ + ρ);   pushed back:  T' = F d/2 tan(λ - ρ),   η' = tan(λ - ρ) / tan λ
+    tan λ = P / (π d),   tan ρ = μ / cos α
+
+d pitch diameter, P lead, λ lead angle, μ friction, α half the thread's angle (15° trapezoidal, 0 square; a ball screw
+has an effective μ of 0.003 to 0.01). The force turns the nut or screw only for λ > ρ, the torque pushes only for
+λ + ρ < 90°: in between both ways are free.                             [Shigley, 8-2; ISO 2904 for the thread's sizes]
+"""
+
+import math
+from dataclasses import dataclass
+
+from ilmek.errors import ParameterError
+from ilmek.units import deg, format_quantity, mm
+
+
+@dataclass(frozen=True, slots=True)
+class Screw:
+    """A screw: pitch diameter, lead, core diameter [m], coefficient of friction, half of the thread's angle [rad].
+
+    >>> ball = Screw(0.02, 0.005, 0.0171, 0.005)
+    >>> round(ball.efficiency, 3), round(ball.back_driving_efficiency, 3), ball.self_locking
+    (0.941, 0.937, False)
+    """
+
+    diameter: float
+    lead: float
+    core: float
+    friction: float
+    flank: float = 0.0
+
+    @property
+    def lead_angle(self) -> float:
+        """λ [rad]."""
+        return math.atan2(self.lead, math.pi * self.diameter)
+
+    @property
+    def friction_angle(self) -> float:
+        """ρ [rad]."""
+        return math.atan(self.friction / math.cos(self.flank))
+
+    @property
+    def self_locking(self) -> bool:
+        """Whether a force along it cannot turn it: λ <= ρ."""
+        return self.lead_angle <= self.friction_angle
+
+    @property
+    def jams(self) -> bool:
+        """Whether a torque cannot push along it, so steep it is: λ + ρ >= 90°."""
+        return self.lead_angle + self.friction_angle >= math.pi / 2
+
+    @property
+    def efficiency(self) -> float:
+        """Of turning into pushing; 0 where it jams."""
+        return 0.0 if self.jams else math.tan(self.lead_angle) / math.tan(self.lead_angle + self.friction_angle)
+
+    @property
+    def back_driving_efficiency(self) -> float:
+        """Of pushing into turning; 0 where it locks itself."""
+        return max(0.0, math.tan(self.lead_angle - self.friction_angle) / math.tan(self.lead_angle))
+
+    def torque(self, force: float) -> float:
+        """Torque [N m] that pushes against a force [N]; inf where it jams."""
+        turned = self.lead_angle + self.friction_angle
+        return math.inf if self.jams else force * self.diameter / 2 * math.tan(turned)
+
+    def holding_torque(self, force: float) -> float:
+        """Torque [N m] that a force [N] turns with; negative where it locks: what lowers the load."""
+        return force * self.diameter / 2 * math.tan(self.lead_angle - self.friction_angle)
+
+    def turning_force(self, torque: float) -> float:
+        """Force [N] along a steep screw that turns against a torque [N m]; inf where it locks itself.
+
+        The guide of a gripper that must turn as it moves: its pin in a steep groove. Equal to holding_torque backwards.
+        """
+        return math.inf if self.self_locking else torque / self.holding_torque(1.0)
+
+    def buckling_force(self, length: float, modulus: float, ends: str = "clamped-hinged") -> float:
+        """Force [N] at which the core buckles after Euler: c π² E I / l² [Shigley, 4-12].
+
+        Valid while its stress stays below half the yield strength
+        """
+        inertia = math.pi * self.core**4 / 64
+        return END_FIXITY[ends] * math.pi**2 * modulus * inertia / length**2
+
+
+END_FIXITY = {"clamped-free": 0.25, "hinged": 1.0, "clamped-hinged": 2.0, "clamped": 4.0}
+"""Euler's c by the ends [theory; designers take 1.2 for clamped ends that give]."""
+
+
+def collar_torque(force: float, diameter: float, friction: float) -> float:
+    """Torque [N m] of a collar of a mean diameter [m] under a force [N]: μ F d / 2."""
+    return friction * force * diameter / 2
+
+
+_TRAPEZOIDAL = {8: 1.5, 10: 2, 12: 3, 14: 3, 16: 4, 18: 4, 20: 4, 24: 5, 28: 5, 32: 6, 36: 6, 40: 7, 44: 7, 50: 8}
+"""Preferred pitch [mm] of each nominal diameter [mm], ISO 2902 and 2904."""
+
+
+def trapezoidal(nominal: float, starts: int = 1, friction: float = 0.12) -> Screw:
+    """The Tr screw of a nominal diameter [m] with one start or more; steel on bronze in oil.
+
+    Raises ParameterError, naming the nearest, for a diameter that is not preferred.
+
+    d2 = d - P / 2,   d3 = d - P - 2 ac, ac = 0.15 mm for P 1.5, 0.25 mm up to 5, 0.5 mm above [ISO 2904]
+    >>> screw = trapezoidal(0.020)
+    >>> round(screw.diameter, 6), round(screw.core, 6), screw.self_locking
+    (0.018, 0.0155, True)
+    """
+    size = min(_TRAPEZOIDAL, key=lambda one: abs(one * mm - nominal))
+    if abs(size * mm - nominal) > 1e-6:
+        raise ParameterError(
+            f"no trapezoidal screw of {format_quantity(nominal, 'mm')} in the table",
+            allowed=f"the nearest offered is Tr {size}",
+            do="take it, or one of " + " ".join(map(str, _TRAPEZOIDAL)),
+        )
+    pitch = _TRAPEZOIDAL[size]
+    clearance = 0.15 if pitch < 2 else 0.25 if pitch <= 5 else 0.5
+    return Screw((size - pitch / 2) * mm, starts * pitch * mm, (size - pitch - 2 * clearance) * mm, friction, 15 * deg)

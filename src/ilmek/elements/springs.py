@@ -1,0 +1,178 @@
+"""Helical compression springs of round wire: rate, stress, buckling, surge, geometry; the lightest for a task.
+
+    k = G d⁴ / (8 D³ n),   τ = Kw 8 F D / (π d³),   Kw = (4 C - 1) / (4 C - 4) + 0.615 / C,   C = D / d
+    f = sqrt(k / m) / 2,   no buckling for α L0 / D < π sqrt(2 (E - G) / (2 G + E)), about 2.6
+
+D mean diameter of the coil, d of the wire, n active coils, m their mass, α 0.5 between parallel plates. Ends are closed
+and ground: two coils more, solid length (n + 2) d.   [EN 13906-1; Shigley, 10-1 to 10-5, eq. 10-9, 10-12, 10-25; Wahl]
+"""
+
+import math
+from dataclasses import dataclass
+
+from ilmek.elements.catalogue import pick
+from ilmek.units import GPa, MPa, mm
+
+
+@dataclass(frozen=True, slots=True)
+class Wire:
+    """Spring wire: tensile strength A / d^power [Pa, d in mm], share borne in shear, G, E [Pa], density [kg/m³]."""
+
+    name: str
+    strength: float
+    power: float
+    share: float
+    shear_modulus: float
+    modulus: float
+    density: float
+
+    def allowed(self, diameter: float) -> float:
+        """Shear stress [Pa] that a wire of a diameter [m] bears at rest."""
+        return self.share * self.strength * math.exp(-self.power * math.log(diameter / mm))
+
+
+WIRES: dict[str, Wire] = {
+    wire.name: wire
+    for wire in (
+        Wire("music wire", 2211 * MPa, 0.145, 0.45, 81.7 * GPa, 203.4 * GPa, 7850.0),
+        Wire("oil-tempered wire", 1855 * MPa, 0.187, 0.50, 77.2 * GPa, 196.5 * GPa, 7850.0),
+        Wire("chrome-vanadium wire", 2005 * MPa, 0.168, 0.50, 77.2 * GPa, 203.4 * GPa, 7850.0),
+        Wire("chrome-silicon wire", 1974 * MPa, 0.108, 0.50, 77.2 * GPa, 203.4 * GPa, 7850.0),
+        Wire("stainless wire", 1867 * MPa, 0.146, 0.35, 69.0 * GPa, 193.0 * GPa, 7900.0),
+    )
+}
+"""By name [Shigley, tables 10-4 to 10-6; ASTM A228, A229, A232, A401, A313]; for wires of about 0.5 to 6 mm."""
+
+WIRE_DIAMETERS = tuple(
+    size * mm
+    for size in (
+        0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 1.0, 1.1, 1.2, 1.25, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 2.0, 2.2,
+        2.25, 2.4, 2.5, 2.8, 3.0, 3.2, 3.5, 3.6, 3.8, 4.0, 4.5, 5.0, 5.5, 6.0,
+    )
+)  # fmt: skip
+"""Preferred diameters of EN 10270-1 [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class CompressionSpring:
+    """A spring: wire's material and diameter, mean coil diameter [m], active coils, free length [m].
+
+    >>> inch = 0.0254
+    >>> spring = CompressionSpring("music wire", 0.037 * inch, 0.400 * inch, 10.5, 2.06 * inch)
+    >>> round(spring.rate / 175.1268, 2), round(spring.solid_length / inch, 4)
+    (4.13, 0.4625)
+    """
+
+    wire: str
+    wire_diameter: float
+    diameter: float
+    coils: float
+    free_length: float
+
+    @property
+    def index(self) -> float:
+        """C = D / d."""
+        return self.diameter / self.wire_diameter
+
+    @property
+    def rate(self) -> float:
+        """K [N/m]."""
+        return WIRES[self.wire].shear_modulus * self.wire_diameter**4 / (8 * self.diameter**3 * self.coils)
+
+    @property
+    def wahl(self) -> float:
+        """Wahl's factor of the coil's curvature and the direct shear."""
+        return (4 * self.index - 1) / (4 * self.index - 4) + 0.615 / self.index
+
+    def stress(self, force: float) -> float:
+        """Largest shear stress in the wire [Pa]."""
+        return self.wahl * 8 * force * self.diameter / (math.pi * self.wire_diameter**3)
+
+    @property
+    def allowed(self) -> float:
+        """Shear stress [Pa] that its wire bears."""
+        return WIRES[self.wire].allowed(self.wire_diameter)
+
+    @property
+    def solid_length(self) -> float:
+        """Length with all coils touching [m]."""
+        return (self.coils + 2) * self.wire_diameter
+
+    @property
+    def solid_stress(self) -> float:
+        """Shear stress pressed solid [Pa]."""
+        return self.stress(self.rate * (self.free_length - self.solid_length))
+
+    @property
+    def mass(self) -> float:
+        """Of the active coils [kg]: a third of it moves along."""
+        return WIRES[self.wire].density * math.pi**2 / 4 * self.wire_diameter**2 * self.diameter * self.coils
+
+    @property
+    def surge(self) -> float:
+        """Its own lowest frequency between plates [Hz]: to be 15 to 20 times that of its motion."""
+        return math.sqrt(self.rate / self.mass) / 2
+
+    def buckling_deflection(self, end: float = 0.5) -> float:
+        """Deflection at which it buckles [m]; inf where it never does. `end` α: 0.5 parallel plates, 1 pivoted, 2 free.
+
+        y = L0 C1 (1 - sqrt(1 - C2 (D / α L0)²)), C1 = E / 2 (E - G), C2 = 2 π² (E - G) / (2 G + E) [Shigley, 10-10]
+        """
+        wire = WIRES[self.wire]
+        apart = wire.modulus - wire.shear_modulus
+        inside = (
+            1
+            - 2
+            * math.pi**2
+            * apart
+            / (2 * wire.shear_modulus + wire.modulus)
+            * (self.diameter / (end * self.free_length)) ** 2
+        )
+        return self.free_length * wire.modulus / (2 * apart) * (1 - math.sqrt(inside)) if inside > 0 else math.inf
+
+
+CLASH = 0.15
+"""Travel left to the solid length, of the whole deflection [Shigley, 10-3]."""
+
+
+def choose_spring(
+    rate: float,
+    preload: float,
+    travel: float,
+    *,
+    wire: str = "music wire",
+    outer: float = math.inf,
+    inner: float = 0.0,
+    length: float = math.inf,
+    surge: float = 0.0,
+    end: float = 0.5,
+) -> CompressionSpring | None:
+    """The lightest spring of a rate [N/m] with a preload [N] and a travel [m] from there; None where none does.
+
+    outer, inner  the room for it across [m]      length  room when preloaded [m]
+    surge         least own frequency [Hz]        end     as of `buckling_deflection`
+    It bears being pressed solid, has three active coils or more, an index of 4 to 16, and does not buckle.
+    Raises ParameterError for a wire that is not in the table.
+
+    >>> spring = choose_spring(2000.0, 20.0, 0.02, inner=0.01)
+    >>> spring.wire_diameter, round(spring.rate, 6), spring.solid_stress <= spring.allowed
+    (0.0016, 2000.0, True)
+    """
+    kind = pick(WIRES, wire, "spring wire")
+    deflection = preload / rate + travel
+    fitting = []
+    for thick in WIRE_DIAMETERS:
+        for quarters in range(16, 65):
+            mean = thick * quarters / 4
+            coils = kind.shear_modulus * thick**4 / (8 * mean**3 * rate)
+            if coils < 3 or mean + thick > outer or mean - thick < inner:
+                continue
+            spring = CompressionSpring(kind.name, thick, mean, coils, (coils + 2) * thick + (1 + CLASH) * deflection)
+            if (
+                spring.free_length - preload / rate <= length
+                and spring.solid_stress <= spring.allowed
+                and spring.surge >= surge
+                and spring.buckling_deflection(end) > deflection
+            ):
+                fitting.append(spring)
+    return min(fitting, key=lambda spring: spring.mass, default=None)
