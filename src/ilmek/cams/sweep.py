@@ -25,7 +25,7 @@ _COARSE = 64
 
 _LEAST = 13
 _ZOOM = 9
-_ZOOMS = 2
+_ZOOMS = 4
 _INSIDE = 1e-12
 """How far inside its piece a one-sided value is taken, over the whole law."""
 
