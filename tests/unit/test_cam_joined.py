@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ilmek.cams.laws import LAWS, SMOOTH_LAWS
+from ilmek.cams.laws import LAWS, SMOOTH_LAWS, law_of
 from ilmek.cams.programme import TURN, Programme, all_jumps, blend, dwell, even, fall, free, joined, jumps, rise
 from ilmek.errors import ParameterError
 
@@ -132,3 +132,10 @@ def test_any_order_of_angles_is_the_angles_one_by_one(law, angles, start) -> Non
     u = (math.fmod(angles[0] - start, TURN) + TURN) % TURN / 1.7
     if u < 1:
         assert whole[0, 0] == pytest.approx(0.03 * float(law.s(u)), abs=1e-15)
+
+
+def test_a_law_that_does_not_end_at_one_is_no_rise() -> None:
+    half = law_of("polynomial", {"end": (0.5, 0, 0)})
+    said = "rise: its law polynomial goes from 0 to 0.5; from 0 to 1; take `free`"
+    with pytest.raises(ParameterError, match=said):
+        Programme((rise(1.0, 0.02, half), fall(1.0, 0.02, LAWS["3-4-5"]), dwell(TURN - 2.0)))

@@ -78,7 +78,7 @@ class Programme:
 
     start     cam angle [rad] where the first segment begins
     revolves  what the follower gains in a turn [m]: an indexing table, a feed; 0: it comes back
-    Raises ParameterError where the segments do not fill the turn, or do not come back.
+    Raises ParameterError where the segments do not fill the turn, do not come back, or have a law that is no rise.
     """
 
     segments: tuple[Segment, ...]
@@ -87,6 +87,7 @@ class Programme:
 
     def __post_init__(self) -> None:
         _check_turn(self.segments)
+        _check_laws(self.segments)
         left = sum(segment.change for segment in self.segments) - self.revolves
         if abs(left) > _FIT * max(abs(segment.change) for segment in self.segments):
             shown = format_quantity(left, "mm")
@@ -221,6 +222,16 @@ def _check_turn(segments: tuple[Segment, ...]) -> None:
     if min(spans, default=0.0) <= 0 or abs(sum(spans) - TURN) > _FIT:
         said = " + ".join(f"{segment.name} {format_quantity(segment.span / deg, '')}" for segment in segments)
         raise ParameterError(f"a cam of {said or 'no parts'} degrees", allowed="its parts must add up to 360 degrees")
+
+
+def _check_laws(segments: tuple[Segment, ...]) -> None:
+    """Raise ParameterError where a law does not begin at 0 and end at what its part moves by."""
+    for segment in segments:
+        law, factor = segment.law, segment.factor
+        off = max(abs(factor * law.first), abs(factor * law.last - segment.change))
+        if off > _FIT * segment.size:
+            given = f"{segment.name}: its law {law.name} goes from {law.first:g} to {law.last:g}"
+            raise ParameterError(given, allowed="from 0 to 1", do="take `free` for a part with ends of its own")
 
 
 def _turn_and_phase(angle: FloatArray) -> tuple[FloatArray, FloatArray]:

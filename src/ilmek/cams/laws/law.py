@@ -46,6 +46,7 @@ class Law:
     breaks              u inside the rise where a or j is not smooth; a and j are one-sided there
     parameters          what the law was made with; `law_of(name, parameters)` makes it again
     lowest, highest     bounds of s: a law that overshoots leaves [0, 1]
+    first, last         s at u = 0 and u = 1
     at_once             all four curves by one call, where that is quicker
     """
 
@@ -63,6 +64,8 @@ class Law:
     parameters: Parameters = field(default_factory=dict, hash=False)
     lowest: float = 0.0
     highest: float = 1.0
+    first: float = 0.0
+    last: float = 1.0
     at_once: Callable[[RealField], Motion] | None = None
 
     def motion(self, u: RealField) -> Motion:

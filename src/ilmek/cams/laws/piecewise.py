@@ -16,7 +16,7 @@ _SAME = 1e-9
 
 
 _EXACT = 1e-12
-"""Bounds so near to 0 or 1 are meant to be just that."""
+"""Values so near to a whole number are meant to be it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,10 +87,10 @@ def law_of_pieces(name: str, s: Piecewise, parameters: Parameters) -> Law:
     v = s.derivative()
     a = v.derivative()
     j = a.derivative()
-    lowest, highest = (round(bound) if abs(bound - round(bound)) < _EXACT else bound for bound in s.bounds())
+    ends = np.array([0.0, 1.0])
+    lowest, highest, first, last = (_meant(value) for value in (*s.bounds(), *np.asarray(s(ends)).tolist()))
     velocity, acceleration = v.peak(), a.peak()
     torque, rms = v.times(a).peak(), float(np.sqrt(a.times(a).integral()))
-    ends = np.array([0.0, 1.0])
     stays = np.all(np.abs(v(ends)) <= _SAME * velocity)
     joins = np.all(np.abs(a(ends)) <= _SAME * acceleration) and np.all(np.abs(a.steps()) <= _SAME * acceleration)
     return Law(
@@ -106,10 +106,16 @@ def law_of_pieces(name: str, s: Piecewise, parameters: Parameters) -> Law:
         acceleration_rms=rms if stays else float("inf"),
         breaks=tuple(float(knot) for knot in s.knots[1:-1]),
         parameters=parameters,
-        lowest=float(lowest),
-        highest=float(highest),
+        lowest=lowest,
+        highest=highest,
+        first=first,
+        last=last,
         at_once=s.motion if len(s.rows) > 1 else None,
     )
+
+
+def _meant(value: float) -> float:
+    return float(round(value)) if abs(value - round(value)) < _EXACT else value
 
 
 def _horner(coefficients: FloatArray, t: RealField) -> RealField:
