@@ -9,7 +9,7 @@ end of the turn into the next.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol, TypeAlias, runtime_checkable
 
@@ -49,7 +49,23 @@ class MotionLaw(Protocol):
 
     @property
     def acceleration_peak(self) -> float:
-        """Largest |a|."""
+        """Largest |a|; inf where the velocity jumps."""
+
+    @property
+    def jerk_peak(self) -> float:
+        """Largest third derivative; inf where the acceleration jumps."""
+
+    @property
+    def lowest(self) -> float:
+        """Least s: below 0 for a law that overshoots."""
+
+    @property
+    def highest(self) -> float:
+        """Largest s."""
+
+    @property
+    def parameters(self) -> Mapping[str, float | tuple[float, ...]]:
+        """What the law was made with, by which files keep it beside its name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,8 +191,8 @@ class Track:
 
     @property
     def stroke(self) -> float:
-        """Largest minus least position [SI]; laws are taken not to overshoot."""
-        ends = [end for segment in self.segments for end in (segment.begin, segment.finish)]
+        """Largest minus least position [SI]."""
+        ends = [part.begin + s * part.stroke for part in self.segments for s in (part.law.lowest, part.law.highest)]
         return max(ends) - min(ends) if ends else 0.0
 
 
@@ -250,7 +266,7 @@ def _shown(angle: float) -> str:
 
 def _require_inside(track: Track, segment: Segment) -> None:
     first = track.segments[0].start
-    if not 0 <= segment.start < segment.end <= turn + max(first, 0.0) + _SAME:
+    if segment.start >= turn or not 0 <= segment.start < segment.end <= turn + max(first, 0.0) + _SAME:
         raise ParameterError(
             f"{track.name}: {segment.name} runs from {_shown(segment.start)} to {_shown(segment.end)}",
             allowed="a motion starts before it ends, within 0..360 deg; the last may run on to where the first starts",

@@ -1,0 +1,213 @@
+"""What a solver of cyclograms may change, and what it must keep, as rows of a linear programme.
+
+Unknown are the starts and ends of all motions of tracks that are not held, events that stand by themselves in a
+relation, and one number r that is to be large. Every row says  form >= 0:  a relation, an exclusion (the instant at
+which a motion passes a position is linear in its start and end), the order of a track, a limit, or that a motion takes
+at least its share of r:
+
+    at a given period      beta >= r w sqrt(|h| Ca / weight)       r = 1/sqrt(largest acceleration over its weight)
+    for the least period   beta >= r |h| Cv / V,  r sqrt(|h| Ca / A),  r cbrt(|h| Cj / J),  r t          r = w
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.timing.crossings import Place, passages, passing_share
+from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, Spans, Track, moment_angle
+from ilmek.timing.relations import Presence
+from ilmek.timing.track import Segment
+from ilmek.units import turn
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Form:
+    """A number that depends linearly on the unknowns: constant + weights . x; r is the first unknown."""
+
+    weights: FloatArray
+    constant: float = 0.0
+
+    def __add__(self, other: "Form") -> "Form":
+        return Form(self.weights + other.weights, self.constant + other.constant)
+
+    def __sub__(self, other: "Form") -> "Form":
+        return Form(self.weights - other.weights, self.constant - other.constant)
+
+    def shifted(self, by: float) -> "Form":
+        """The form and a constant more."""
+        return Form(self.weights, self.constant + by)
+
+    def scaled(self, by: float) -> "Form":
+        """The form times a constant."""
+        return Form(by * self.weights, by * self.constant)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Row:
+    """form >= 0, what it is in words, and its kind: relation, exclusion, order, turn, limit or motion."""
+
+    form: Form
+    said: str
+    kind: str
+
+
+@dataclass(frozen=True, slots=True)
+class Unknowns:
+    """The places of the unknowns, and the forms of all instants.
+
+    place   (track, motion, edge) -> place; edge is start, end or event
+    """
+
+    cyclogram: Cyclogram
+    place: Mapping[tuple[str, str, str], int] = field(repr=False)
+
+    @property
+    def size(self) -> int:
+        """How many there are."""
+        return 1 + len(self.place)
+
+    @property
+    def present(self) -> FloatArray:
+        """Their values now; r is 0."""
+        found = (moment_angle(self.cyclogram, Moment(*key)) for key in self.place)
+        return np.array([0.0, *found])
+
+    def constant(self, value: float) -> Form:
+        """A number."""
+        return Form(np.zeros(self.size), value)
+
+    def growth(self, rate: float) -> Form:
+        """Rate times r."""
+        return Form(np.eye(1, self.size)[0] * rate)
+
+    def moment(self, moment: Moment) -> Form:
+        """An instant."""
+        key = (moment.track, moment.motion, moment.edge)
+        if key in self.place:
+            return Form(np.eye(self.size)[self.place[key]])
+        if moment.edge in ("past", "event") and not self.cyclogram.track(moment.track).held:
+            track = self.cyclogram.track(moment.track)
+            if moment.edge == "past":
+                segment = track.segment(moment.motion)
+                return self.share(track, segment, passing_share(track.name, segment, moment.at, track.unit))
+            event = track.event(moment.motion)
+            if event.on:
+                return self.share(track, track.segment(event.on), event.share)
+        return self.constant(moment_angle(self.cyclogram, moment))
+
+    def share(self, track: Track, segment: Segment, u: float) -> Form:
+        """The instant at a share of a motion's time."""
+        start = self.moment(Moment(track.name, segment.name, "start"))
+        return start + self.beta(track, segment).scaled(u)
+
+    def beta(self, track: Track, segment: Segment) -> Form:
+        """The master angle that a motion takes."""
+        start, end = (self.moment(Moment(track.name, segment.name, edge)) for edge in ("start", "end"))
+        return end - start
+
+    def at(self, track: Track, place: Place) -> Form:
+        """The instant of a place on a track's motions."""
+        return self.share(track, track.segments[place.motion], place.share).shifted(turn * place.turns)
+
+
+def unknowns(cyclogram: Cyclogram) -> Unknowns:
+    """The unknowns of a cyclogram."""
+    keys = [
+        (track.name, segment.name, edge)
+        for track in cyclogram.tracks
+        if not track.held
+        for segment in track.segments
+        for edge in ("start", "end")
+    ]
+    moments = [moment for relation in cyclogram.relations for moment in (relation.then, relation.first)]
+    keys += [
+        (moment.track, moment.motion, "event")
+        for moment in moments
+        if moment.edge == "event" and _stands_alone(cyclogram.track(moment.track), moment.motion)
+    ]
+    return Unknowns(cyclogram, {key: place for place, key in enumerate(dict.fromkeys(keys), 1)})
+
+
+def _stands_alone(track: Track, event: str) -> bool:
+    return not track.held and not track.event(event).on
+
+
+def standing_rows(known: Unknowns, *, period_free: bool) -> list[Row]:
+    """Rows of all relations, and of the order of each track in the turn."""
+    rows = [row for relation in known.cyclogram.relations for row in _relation(known, relation, period_free)]
+    rows += [row for track in known.cyclogram.tracks if not track.held for row in _order(known, track)]
+    events = [key for key in known.place if key[2] == "event"]
+    for key in events:
+        at, said = known.moment(Moment(*key)), f"{key[0]}: {key[1]} within the turn"
+        rows += [Row(at, said, "turn"), Row(known.constant(turn) - at, said, "turn")]
+    return rows
+
+
+def _relation(known: Unknowns, relation: Relation, period_free: bool) -> Iterator[Row]:
+    units = known.cyclogram.units
+    gap = (known.moment(relation.then) - known.moment(relation.first)).shifted(turn * relation.turns)
+    delay = relation.delay
+    late = known.growth(delay) if period_free else known.constant(delay * known.cyclogram.speed)
+    said = relation.said(units)
+    if relation.gap > -math.inf:
+        yield Row((gap - late).shifted(-relation.gap), said, "relation")
+    if relation.most < math.inf:
+        yield Row(known.constant(relation.most) - gap, f"{said}, at most", "relation")
+
+
+def _order(known: Unknowns, track: Track) -> Iterator[Row]:
+    """Motions one after the other, within the turn unless the track runs through its end now."""
+    if not track.segments:
+        return
+    starts = [known.share(track, part, 0.0) for part in track.segments]
+    ends = [known.share(track, part, 1.0) for part in track.segments]
+    for part, start, end in zip(track.segments, starts, ends, strict=True):
+        yield Row(end - start, f"{track.name}: {part.name} ends after it starts", "order")
+        if part.stroke == 0:
+            kept = f"{track.name}: {part.name} keeps its angle"
+            yield Row((end - start).shifted(-part.beta), kept, "order")
+    pairs = zip(track.segments, track.segments[1:], ends, starts[1:], strict=False)
+    for first, then, end, start in pairs:
+        yield Row(start - end, f"{track.name}: {then.name} starts after {first.name} ends", "order")
+    yield Row(starts[0], f"{track.name}: {track.segments[0].name} starts within the turn", "turn")
+    last, through = track.segments[-1], track.segments[-1].end > turn + 1e-9
+    limit = starts[0].shifted(turn) if through else known.constant(turn)
+    yield Row(limit - ends[-1], f"{track.name}: {last.name} ends within the turn", "turn")
+    if through:
+        yield Row(known.constant(turn - 1e-9) - starts[-1], f"{track.name}: {last.name} starts within the turn", "turn")
+
+
+def exclusion_rows(known: Unknowns, exclusion: Exclusion) -> Iterator[tuple[tuple[Row, ...], ...]]:
+    """For every two stays the ways to keep them apart: the one there is now, or both orders where they overlap."""
+    for a in _stays(known, exclusion.first):
+        for b in _stays(known, exclusion.second):
+            yield _ways(known, exclusion, a, b)
+
+
+def _ways(
+    known: Unknowns, exclusion: Exclusion, a: tuple[Form, Form], b: tuple[Form, Form]
+) -> tuple[tuple[Row, ...], ...]:
+    x, said = known.present, exclusion.said(known.cyclogram.units)
+    now = [float(form.weights @ x) + form.constant for form in (*a, *b)]
+    after = -math.floor((now[2] - now[0]) / turn)
+    ways = []
+    for shift in (after, after - 1):
+        gaps = (b[0] - a[1]).shifted(turn * shift), (a[0] - b[1]).shifted(turn * (1 - shift))
+        ways.append(tuple(Row(gap.shifted(-exclusion.gap), said, "exclusion") for gap in gaps))
+        if shift == after and min(float(gap.weights @ x) + gap.constant for gap in gaps) >= 0:
+            break
+    return tuple(ways)
+
+
+def _stays(known: Unknowns, presence: Presence) -> list[tuple[Form, Form]]:
+    """Where something comes into a place and where it goes out; a whole turn where it never leaves."""
+    if isinstance(presence, Spans):
+        return [(known.constant(window.start), known.constant(window.end)) for window in presence.windows]
+    track = known.cyclogram.track(presence.track)
+    stays = passages(track, presence.low, presence.high)
+    if stays is None:
+        return [(known.constant(0.0), known.constant(turn))]
+    return [(known.at(track, stay.entry), known.at(track, stay.exit)) for stay in stays]
