@@ -136,6 +136,6 @@ def test_any_order_of_angles_is_the_angles_one_by_one(law, angles, start) -> Non
 
 def test_a_law_that_does_not_end_at_one_is_no_rise() -> None:
     half = law_of("polynomial", {"end": (0.5, 0, 0)})
-    said = "rise: its law polynomial goes from 0 to 0.5; from 0 to 1; take `free`"
+    said = "rise: its law polynomial goes from 0 to 0.5; from 0 to 1; let it end at 1, or take `free`"
     with pytest.raises(ParameterError, match=said):
         Programme((rise(1.0, 0.02, half), fall(1.0, 0.02, LAWS["3-4-5"]), dwell(TURN - 2.0)))

@@ -31,6 +31,7 @@ def test_all_at_once_are_the_four_curves(name) -> None:
 
 def test_values_may_come_from_a_file() -> None:
     assert law_of("spline", {"u": [0.5], "s": [0.4], "degree": 3}).parameters["degree"] == 3.0
+    assert law_of("spline", {"u": 0.5, "s": 0.4}) is law_of("spline", {"u": (0.5,), "s": [0.4]})
     assert law_of("scca", {"b": 0, "c": 1, "d": 0}) is law_of("scca", {"b": 0.0, "c": np.float64(1), "d": 0})
 
 
@@ -120,7 +121,8 @@ def test_an_overshooting_law_knows_its_true_bounds() -> None:
         ("scca", {"b": -0.1, "c": 0.4, "d": 0.1}, "none below 0"),
         ("spline", {"u": (0.5, 0.4), "s": (0.1, 0.2)}, "u = 0.5, 0.4; ascending between 0 and 1"),
         ("spline", {"u": (0.5,), "s": (0.1, 0.2)}, "1 places u, 2 values s"),
-        ("spline", {"u": 0.5}, "u=0.5; a row of numbers"),
+        ("spline", {"u": 0.5}, "1 places u, 3 values s"),
+        ("spline", {"u": "half"}, "u='half'; a number"),
         ("spline", {"degree": 4}, "degree=4; 3, 5 or 7"),
         ("spline", {"degree": 3, "start": (0, 0)}, "2 values at an end; of this degree s'"),
         ("polynomial", {"start": (0, 0, 0, 0, 0)}, "start has 5 values; at most s, s', s'', s'''"),

@@ -231,7 +231,7 @@ def _check_laws(segments: tuple[Segment, ...]) -> None:
         off = max(abs(factor * law.first), abs(factor * law.last - segment.change))
         if off > _FIT * segment.size:
             given = f"{segment.name}: its law {law.name} goes from {law.first:g} to {law.last:g}"
-            raise ParameterError(given, allowed="from 0 to 1", do="take `free` for a part with ends of its own")
+            raise ParameterError(given, allowed="from 0 to 1", do="let it end at 1, or take `free` for a part")
 
 
 def _turn_and_phase(angle: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -50,9 +50,10 @@ FAMILIES: Mapping[str, Family] = MappingProxyType(
 def law_of(name: str, parameters: Mapping[str, Any] = NONE) -> Law:
     """The law of a name with its parameters; those not given are the family's defaults.
 
-    Numbers may be of any kind, rows any sequence. The same name and values give the same object.
+    Numbers may be of any kind, rows any sequence, a row of one its number. The same name and values give the same
+    object.
     Raises ParameterError for a name or parameter that does not exist (the nearest is offered), a value that is no
-    number (no row of numbers), and values that the law cannot take.
+    number, and values that the law cannot take.
 
     >>> law_of("modified-sine", {"constant_velocity": 0.5}).parameters
     {'constant_velocity': 0.5}
@@ -74,12 +75,12 @@ def _made(name: str, values: tuple[tuple[str, float | tuple[float, ...]], ...]) 
 
 
 def _value(law: str, key: str, given: object, like: object) -> float | tuple[float, ...]:
-    """The given value as a number, or as a row of numbers, as the default is."""
+    """The given value as a number, or as a row of numbers where the default is one."""
     if isinstance(like, tuple) and isinstance(given, Sequence) and not isinstance(given, str):
         return tuple(_number(law, key, item) for item in given)
-    if isinstance(like, tuple):
-        raise ParameterError(f"law {law}: {key}={given!r}", allowed="a row of numbers")
     number = _number(law, key, given)
+    if isinstance(like, tuple):
+        return (number,)
     if not math.isfinite(number):
         raise ParameterError(f"law {law}: {key}={given!r}", allowed="a finite number")
     return number
