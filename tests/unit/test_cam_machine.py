@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from examples.draw_cam import cam as drawn
 
 from ilmek.cams.laws import LAWS
 from ilmek.cams.programme import TURN
@@ -28,6 +29,17 @@ def results(**settings):
 
 
 SHED = dict(law="harmonic", lift="60mm", rise="90deg")
+
+
+def test_cam_of_the_guide_is_what_its_page_says() -> None:
+    found = {result.name: result.value for result in numbers(drawn())}
+    assert found["prime_radius"] == pytest.approx(52.5 * mm, abs=0.05 * mm)
+    assert found["roller"] == "CF 5"
+    assert found["bore"] == 12 * mm
+    assert found["spring_rate"] == pytest.approx(1980, abs=10)
+    assert found["preload"] == pytest.approx(79, abs=0.5)
+    assert found["lift_off_speed"] == pytest.approx(360 * rpm, rel=1e-6)
+    assert found["torque_max"] == pytest.approx(8.1, abs=0.05)
 
 
 def test_is_in_the_catalogue() -> None:
