@@ -1,1 +1,1 @@
-"""Machine elements: beams, shafts, bearings, motors and reducers, materials."""
+"""Machine elements: beams, shafts, bearings, springs, gears, belts, screws, motors and reducers, tubes, materials."""

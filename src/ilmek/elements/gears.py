@@ -14,17 +14,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ilmek.elements.involute import PRESSURE_ANGLE, involute
 from ilmek.errors import IlmekError
-from ilmek.units import deg, format_quantity, mm
+from ilmek.units import format_quantity, mm
 
 MODULES = tuple(module * mm for module in (0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0))
 """Preferred modules [m]: series I of ISO 54."""
 
-PRESSURE_ANGLE = 20 * deg
-
-_TEETH = (18, 20, 22, 24, 26, 28, 30, 34, 38, 43, 50, 60, 75, 100, 150, 300, 400)
-_FORM = (0.309, 0.322, 0.331, 0.337, 0.346, 0.353, 0.359, 0.371, 0.384, 0.397, 0.409, 0.422, 0.435, 0.447, 0.460, 0.472,
-         0.480)  # fmt: skip
+_TEETH = (12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 24, 26, 28, 30, 34, 38, 43, 50, 60, 75, 100, 150, 300, 400)
+_FORM = (0.245, 0.261, 0.277, 0.290, 0.296, 0.303, 0.309, 0.314, 0.322, 0.328, 0.331, 0.337, 0.346, 0.353, 0.359, 0.371,
+         0.384, 0.397, 0.409, 0.422, 0.435, 0.447, 0.460, 0.472, 0.480)  # fmt: skip
 _RACK = 0.485
 """Lewis' form factor of 20 deg full teeth [Shigley, table 14-2]."""
 
@@ -58,7 +57,7 @@ class EqualGears:
         >>> round(EqualGears(0.075, 0.001, 74, 0.005).profile_shift, 6)
         1.048757
         """
-        more = _involute(self.pressure_angle) - _involute(PRESSURE_ANGLE)
+        more = involute(self.pressure_angle) - involute(PRESSURE_ANGLE)
         return self.teeth * more / math.tan(PRESSURE_ANGLE)
 
     def force(self, torque: float) -> float:
@@ -75,7 +74,7 @@ class EqualGears:
 
 
 def lewis(teeth: int) -> float:
-    """Lewis' form factor of 20 deg full teeth, even in 1 / z between the table's; below 18 teeth that of 18.
+    """Lewis' form factor of 20 deg full teeth, even in 1 / z between the table's; below 12 teeth that of 12.
 
     >>> lewis(20), round(lewis(200), 3), round(lewis(10**9), 3)
     (0.322, 0.466, 0.485)
@@ -112,7 +111,3 @@ def equal_gears(
             do="move the axes apart, or take a finer module",
         )
     return next((one for one in fitting if one.bending(one.force(torque)) <= stress), fitting[-1])
-
-
-def _involute(angle: float) -> float:
-    return math.tan(angle) - angle

@@ -1,0 +1,164 @@
+"""Synchronous belts: pulleys, length, teeth in mesh, forces; belts of stock pitches.
+
+    L = 2 a cos φ + π (r1 + r2) + 2 φ (r2 - r1),   sin φ = (r2 - r1) / a,   r = p z / 2 π
+    zm = z1 (π - 2 φ) / 2 π,   Fu = T / r1,   Fv >= Fu / 2
+
+p pitch, z teeth, a distance of the axes, r1 <= r2 pitch radii, zm teeth of the small pulley in mesh, Fu pull, Fv
+pretension of each side: then the slack side is just not loose, and the tight side has Fv + Fu / 2.
+                                                                                  [ISO 5295; exact, uncrossed belt]
+"""
+
+import math
+from dataclasses import dataclass
+
+from ilmek.elements.catalogue import pick
+from ilmek.errors import ParameterError
+from ilmek.units import format_quantity, mm
+
+
+@dataclass(frozen=True, slots=True)
+class BeltType:
+    """A profile of belts.
+
+    pitch  [m]      widths  offered [m]      least_teeth  of a pulley
+    pull   that a tooth in mesh bears, a width [N/m], at rest (a third less at 1000 rpm); None: ask the maker
+    """
+
+    name: str
+    pitch: float
+    widths: tuple[float, ...]
+    least_teeth: int
+    pull: float | None
+
+
+def _belt(name: str, pitch: float, widths: tuple[float, ...], least: int, pull: float | None) -> BeltType:
+    """Pitch and widths in mm, pull of a tooth in N/cm, as catalogues have it."""
+    return BeltType(name, pitch * mm, tuple(w * mm for w in widths), least, None if pull is None else pull * 100)
+
+
+BELTS: dict[str, BeltType] = {
+    belt.name: belt
+    for belt in (
+        _belt("T5", 5, (6, 10, 16, 25), 10, 24.0),
+        _belt("T10", 10, (16, 25, 32, 50), 12, 50.0),
+        _belt("AT5", 5, (10, 16, 25, 32), 15, 35.0),
+        _belt("AT10", 10, (16, 25, 32, 50), 15, 73.0),
+        _belt("HTD 3M", 3, (6, 9, 15), 10, None),
+        _belt("HTD 5M", 5, (9, 15, 25), 14, None),
+        _belt("HTD 8M", 8, (20, 30, 50, 85), 22, None),
+        _belt("HTD 14M", 14, (40, 55, 85, 115), 28, None),
+    )
+}
+"""By name: pitches and widths of DIN 7721 (T), makers' AT and ISO 13050 (H profiles, HTD); pulls of polyurethane belts
+with steel cords as makers give them, rounded down."""
+
+MESHING = 12
+"""Teeth in mesh that count at most: more do not share the pull evenly [makers' rule]."""
+
+
+@dataclass(frozen=True, slots=True)
+class BeltDrive:
+    """A belt on two pulleys: profile, teeth of the small and the large pulley, teeth of the belt.
+
+    >>> drive = BeltDrive(BELTS["AT5"], 20, 40, 120)
+    >>> round(drive.distance * 1e3, 3), round(drive.meshing, 2)
+    (224.435, 9.55)
+    """
+
+    belt: BeltType
+    small: int
+    large: int
+    teeth: int
+
+    def __post_init__(self) -> None:
+        if not self.belt.least_teeth <= self.small <= self.large:
+            raise ParameterError(
+                f"pulleys of {self.small} and {self.large} teeth for {self.belt.name}",
+                allowed=f"{self.belt.least_teeth} or more, the small one first",
+            )
+        if belt_length(self.belt, self.small, self.large, self._least) > self.length:
+            least = math.ceil(belt_length(self.belt, self.small, self.large, self._least) / self.belt.pitch)
+            raise ParameterError(
+                f"a belt of {self.teeth} teeth about pulleys of {self.small} and {self.large}",
+                allowed=f"{least} or more, so that the pulleys stand apart",
+                do="take a longer belt or smaller pulleys",
+            )
+
+    @property
+    def length(self) -> float:
+        """Of the belt [m]."""
+        return self.teeth * self.belt.pitch
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Pitch radii [m]."""
+        return self.belt.pitch * self.small / (2 * math.pi), self.belt.pitch * self.large / (2 * math.pi)
+
+    @property
+    def distance(self) -> float:
+        """Of the axes [m], for which the belt is just as long; exact, by Newton."""
+        first, second = self.radii
+        a = max(self._least, (self.length - math.pi * (first + second)) / 2)
+        for _ in range(30):
+            # dL/da = 2 cos φ
+            slope = 2 * math.sqrt(1 - ((second - first) / a) ** 2)
+            a = max(a + (self.length - belt_length(self.belt, self.small, self.large, a)) / slope, self._least)
+        return a
+
+    @property
+    def meshing(self) -> float:
+        """Teeth of the small pulley in mesh."""
+        first, second = self.radii
+        return self.small * (math.pi - 2 * math.asin((second - first) / self.distance)) / (2 * math.pi)
+
+    def pull(self, torque: float) -> float:
+        """Force Fu [N] of a torque on the small pulley [N m]."""
+        return abs(torque) / self.radii[0]
+
+    def pretension(self, torque: float) -> float:
+        """Least force in each side at rest [N]."""
+        return self.pull(torque) / 2
+
+    def shaft_load(self, torque: float) -> float:
+        """Force that presses the shafts together at rest [N]: 2 Fv cos φ."""
+        first, second = self.radii
+        return 2 * self.pretension(torque) * math.sqrt(1 - ((second - first) / self.distance) ** 2)
+
+    def width_for(self, torque: float, service: float = 1.4) -> float | None:
+        """The narrowest stock width [m] that bears a torque with a service factor; None: none, or ask the maker."""
+        if self.belt.pull is None:
+            return None
+        least = service * self.pull(torque) / (self.belt.pull * min(int(self.meshing), MESHING))
+        return next((width for width in self.belt.widths if width >= least), None)
+
+    @property
+    def _least(self) -> float:
+        """Distance at which the pulleys touch [m]."""
+        return sum(self.radii)
+
+
+def find_belt(name: str) -> BeltType:
+    """The profile of a name; ParameterError, naming the nearest, where it is not in the table."""
+    return pick(BELTS, name, "belt")
+
+
+def belt_length(belt: BeltType, small: int, large: int, distance: float) -> float:
+    """Length [m] of a belt about two pulleys at a distance of axes [m]. Raises ParameterError where they overlap."""
+    first, second = belt.pitch * small / (2 * math.pi), belt.pitch * large / (2 * math.pi)
+    if distance < (first + second) * (1 - 1e-12):
+        raise ParameterError(
+            f"pulley axes {format_quantity(distance, 'mm')} apart",
+            allowed=f"{format_quantity(first + second, 'mm')} or more",
+            do="move them apart or take smaller pulleys",
+        )
+    angle = math.asin((second - first) / distance)
+    return 2 * distance * math.cos(angle) + math.pi * (first + second) + 2 * angle * (second - first)
+
+
+def belt_at(belt: BeltType, small: int, large: int, distance: float) -> BeltDrive:
+    """The drive with the whole number of teeth nearest to a wanted distance of axes [m]; see its own `distance`.
+
+    >>> round(belt_at(BELTS["HTD 5M"], 20, 40, 0.2).distance, 5)
+    0.19936
+    """
+    return BeltDrive(belt, small, large, round(belt_length(belt, small, large, distance) / belt.pitch))
