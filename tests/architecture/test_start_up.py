@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-HEAVY = ("numpy", "scipy", "numba", "matplotlib", "PIL", "reportlab", "jinja2")
+HEAVY = ("numpy", "scipy", "numba", "matplotlib", "PIL", "reportlab", "jinja2", "ezdxf", "OCP")
 
 
 @pytest.mark.parametrize(

@@ -1,15 +1,18 @@
 """`ilmek design`: one machine, designed from its parameters and reported."""
 
+import importlib
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import click
 
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import check_json, console, give_json, note, passed, show_checks, show_table
 from ilmek.errors import ParameterError
-from ilmek.io.output import check_file, write_whole
+from ilmek.io.output import check_file, check_free, write_whole
 from ilmek.machines import find_machine
 from ilmek.report import Column, Report, Result, Table
 from ilmek.units import format_number, format_quantity, from_si, printed_unit
@@ -20,6 +23,7 @@ Examples:
   ilmek design beat-up
   ilmek design beat-up --set swing=30deg --set crank_rotation=180deg --json -
   ilmek design shedding --set lift=60mm --set pressure_angle_limit=30deg --report shedding.html
+  ilmek design beat-up --workshop parts --force
 
 The parameters of a machine: ilmek machines MACHINE
 """
@@ -31,24 +35,57 @@ The parameters of a machine: ilmek machines MACHINE
 @click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", help="Set a parameter; a value takes its unit.")
 @json_option
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a page to read.")
-def command(
-    name: str, more: tuple[str, ...], settings: tuple[str, ...], json_to: str | None, page_to: Path | None
+@click.option(
+    "--workshop",
+    "parts_to",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Write plates (DXF, STEP) and cam tables for controllers.",
+)
+@click.option("--tolerance", metavar="ERROR", help="Of cam tables: 1um, 0.01deg, or a share of the stroke. [0.001%]")
+@click.option("--force", is_flag=True, help="Replace a workshop folder whose files ilmek made.")
+def command(  # noqa: PLR0917 - click calls it by name
+    name: str,
+    more: tuple[str, ...],
+    settings: tuple[str, ...],
+    json_to: str | None,
+    page_to: Path | None,
+    parts_to: Path | None,
+    tolerance: str | None,
+    force: bool,
 ) -> None:
     """Design MACHINE and report it: results, checks against limits, warnings."""
     check_json(json_to)
     if page_to is not None:
         check_file(page_to)
+    write_parts = _parts_writer(parts_to, tolerance, force=force)
     machine = find_machine(name)
     params = machine.params.read(read_settings((*settings, *more)))
     report = machine.report(machine.design(params))
+    made = write_parts(report) if write_parts is not None else None
     if page_to is not None:
         write_whole(page_to, machine_page(report))
-    if not give_json(json_to, report.as_json()):
+    files = {} if made is None else {"files": made.files}
+    if not give_json(json_to, {**report.as_json(), **files}):
         show_report(report)
         if page_to is not None:
             console().print(f"report: {page_to}")
-    for warning in report.warnings:
+        if made is not None:
+            console().print(f"workshop: {made.said}")
+    for warning in (*report.warnings, *(() if made is None else made.notes)):
         note(warning)
+
+
+def _parts_writer(folder: Path | None, tolerance: str | None, *, force: bool) -> Callable[[Report], Any] | None:
+    """What writes the workshop's files, loaded where it is asked for: it takes a library that nothing else needs."""
+    if folder is None:
+        if force or tolerance is not None:
+            raise click.UsageError("--force and --tolerance belong to --workshop DIR")
+        return None
+    check_free(folder, force=force)
+    job = importlib.import_module("ilmek.jobs.workshop")
+    asked = job.Tolerance() if tolerance is None else job.read_tolerance(tolerance)
+    return partial(job.write_workshop, folder=folder, tolerance=asked, force=force)
 
 
 def read_settings(settings: Iterable[str]) -> dict[str, str]:

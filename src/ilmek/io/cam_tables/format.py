@@ -1,0 +1,101 @@
+"""What a format of cam tables is, and how all of them write numbers and names."""
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from ilmek.io.cam_tables.sampling import Rule, Sampled
+from ilmek.report import CamTable
+from ilmek.units import deg, parse_unit, turn
+
+
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """A table's points in the units of a controller: degrees of the master, the table's unit of the slave.
+
+    x  master      y  slave      v, a  first and second derivative of y by x
+    """
+
+    x: Float[np.ndarray, " nodes"]
+    y: Float[np.ndarray, " nodes"]
+    v: Float[np.ndarray, " nodes"]
+    a: Float[np.ndarray, " nodes"]
+
+
+def no_more(table: CamTable, sampled: Sampled) -> dict[str, float]:  # noqa: ARG001 - one of many
+    """Nothing more to set: the `settings` of most formats."""
+    return {}
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A controller's format.
+
+    name   of the format, and of its files: NAME.name.suffix       title  what it is, for a person
+    rule   how the controller goes from point to point, and how many points it takes
+    write  the file's text      advice  what to set in the controller      settings  the numbers to set, by name
+    """
+
+    name: str
+    suffix: str
+    title: str
+    rule: Rule
+    write: Callable[[CamTable, Sampled], str]
+    advice: str
+    settings: Callable[[CamTable, Sampled], dict[str, float]] = no_more
+
+
+def rows(table: CamTable, sampled: Sampled) -> Rows:
+    """The points in the units of a controller."""
+    nodes, factor = sampled.nodes, parse_unit(table.unit).factor
+    x = nodes.angle / deg
+    x[-1] = turn / deg
+    return Rows(x, nodes.s / factor, nodes.ds * deg / factor, nodes.dds * deg**2 / factor)
+
+
+def number(value: float) -> str:
+    """A number that is a real one in every language: with a point, no sign of zero.
+
+    >>> number(1.0), number(-0.0), number(1e-7), number(2 / 3)
+    ('1.0', '0.0', '1.0E-07', '0.666666666667')
+    """
+    text = f"{value + 0.0:.12g}"
+    digits, exponent, power = text.partition("e")
+    return (digits if "." in digits else f"{digits}.0") + (f"E{power}" if exponent else "")
+
+
+def identifier(name: str) -> str:
+    """A name as programming languages take it.
+
+    >>> identifier("side-gripper motion"), identifier("2nd cam")
+    ('side_gripper_motion', 'cam_2nd_cam')
+    """
+    text = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_") or "cam"
+    return text if text[0].isalpha() else f"cam_{text}"
+
+
+def remarks(table: CamTable, sampled: Sampled) -> tuple[str, ...]:
+    """What a person should know of a table, in lines for a comment."""
+    factor = parse_unit(table.unit).factor
+    gained = f"; it gains {number(table.revolves / factor)} {table.unit} a turn" if table.revolves else ""
+    return (
+        f"{table.title} ({table.name})",
+        f"master 0 to 360 deg, slave in {table.unit}, from 0{gained}",
+        f"the axis stands at {number(sampled.offset / factor)} {table.unit} where the table says 0",
+        f"{len(sampled.nodes.angle)} points, {sampled.interpolation} between them",
+        f"error at most {sampled.error / factor:.3g} {table.unit}",
+    )
+
+
+def comment(lines: Sequence[str]) -> str:
+    """Lines as comments of IEC 61131-3."""
+    return "".join(f"(* {line.replace('*)', '* )')} *)\n" for line in lines)
+
+
+def wrapped(items: Sequence[str], count: int = 8) -> str:
+    """Items with commas between, so many a line."""
+    lines = [", ".join(items[start : start + count]) for start in range(0, len(items), count)]
+    return ",\n    ".join(lines)

@@ -1,0 +1,62 @@
+"""IEC 61131-3 structured text: a function block that carries its own table, for any controller of that language.
+
+Even steps, straight lines between them: the index is a division, and no library is asked for. The block counts whole
+turns of a master that runs on, and a slave that gains a stroke a turn gains it.
+"""
+
+from ilmek.io.cam_tables.format import Format, comment, identifier, number, remarks, rows, wrapped
+from ilmek.io.cam_tables.sampling import Rule, Sampled
+from ilmek.report import CamTable
+
+_BLOCK = """\
+FUNCTION_BLOCK {name}
+VAR_INPUT
+    master : LREAL; (* deg, any turn *)
+END_VAR
+VAR_OUTPUT
+    position : LREAL; (* {unit} *)
+END_VAR
+VAR CONSTANT
+    steps : DINT := {steps};
+    gained : LREAL := {gained}; (* {unit} a turn *)
+    table : ARRAY[0..{steps}] OF LREAL := [
+    {values}];
+END_VAR
+VAR
+    turns : DINT;
+    place : LREAL;
+    index : DINT;
+END_VAR
+turns := TRUNC(master / 360.0);
+IF master < 360.0 * DINT_TO_LREAL(turns) THEN
+    turns := turns - 1;
+END_IF;
+place := (master / 360.0 - DINT_TO_LREAL(turns)) * DINT_TO_LREAL(steps);
+index := MIN(TRUNC(place), steps - 1);
+position := table[index] + (place - DINT_TO_LREAL(index)) * (table[index + 1] - table[index])
+    + gained * DINT_TO_LREAL(turns);
+END_FUNCTION_BLOCK
+"""
+
+
+def write(table: CamTable, sampled: Sampled) -> str:
+    """The function block."""
+    points = rows(table, sampled)
+    block = _BLOCK.format(
+        name=identifier(table.name),
+        unit=table.unit,
+        steps=len(points.y) - 1,
+        gained=number(float(points.y[-1])),
+        values=wrapped([number(value) for value in points.y]),
+    )
+    return comment(remarks(table, sampled)) + block
+
+
+FORMAT = Format(
+    "iec",
+    "st",
+    "IEC 61131-3 structured text: array of positions in even steps",
+    Rule("linear", even=True, least=37),
+    write,
+    "call the block each cycle and give its position to the axis",
+)

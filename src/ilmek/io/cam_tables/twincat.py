@@ -1,0 +1,73 @@
+"""TwinCAT NC camming: a table of positions, and a motion function.
+
+The table of positions has uneven steps and is interpolated by the cyclic spline (MC_INTERPOLATIONTYPE_SPLINE). The
+motion function joins its points by polynomials of the fifth degree, of the kind motion to motion, with velocity and
+acceleration as derivatives by the master. [Beckhoff, TF5050: MC_CAM_REF, MC_MotionFunctionPoint]
+"""
+
+from ilmek.io.cam_tables.format import Format, comment, identifier, number, remarks, rows, wrapped
+from ilmek.io.cam_tables.sampling import Rule, Sampled
+from ilmek.report import CamTable
+
+_LIST = """\
+VAR_GLOBAL
+    {name}_points : {type} := [
+    {points}];
+    {name} : MC_CAM_REF := (pArray := ADR({name}_points), ArraySize := SIZEOF({name}_points),
+        TableType := {table}, NoOfRows := {rows}, NoOfColumns := {columns});
+END_VAR
+"""
+
+
+def write_positions(table: CamTable, sampled: Sampled) -> str:
+    """The table of positions: master and slave, point after point."""
+    points = rows(table, sampled)
+    pairs = [f"{number(x)}, {number(y)}" for x, y in zip(points.x, points.y, strict=True)]
+    text = _LIST.format(
+        name=identifier(table.name),
+        type=f"ARRAY[1..{len(pairs)}, 1..2] OF LREAL",
+        points=wrapped(pairs, 4),
+        table="MC_TABLETYPE_NONEQUIDISTANT",
+        rows=len(pairs),
+        columns=2,
+    )
+    return comment(remarks(table, sampled)) + text
+
+
+def write_motion(table: CamTable, sampled: Sampled) -> str:
+    """The motion function: a point with its derivatives, and the polynomial to the next."""
+    points = rows(table, sampled)
+    said = [
+        f"(PointIndex := {place}, FunctionType := MOTIONFUNCTYPE_POLYNOM5_MM, PointType := MOTIONPOINTTYPE_MOTION,"
+        f" RelIndexNextPoint := 1, MasterPos := {number(x)}, SlavePos := {number(y)}, SlaveVelo := {number(v)},"
+        f" SlaveAcc := {number(a)}, SlaveJerk := 0.0)"
+        for place, (x, y, v, a) in enumerate(zip(points.x, points.y, points.v, points.a, strict=True), start=1)
+    ]
+    text = _LIST.format(
+        name=identifier(table.name),
+        type=f"ARRAY[1..{len(said)}] OF MC_MotionFunctionPoint",
+        points=wrapped(said, 1),
+        table="MC_TABLETYPE_MOTIONFUNCTION",
+        rows=len(said),
+        columns=1,
+    )
+    return comment(remarks(table, sampled)) + text
+
+
+POSITIONS = Format(
+    "twincat-positions",
+    "st",
+    "TwinCAT: table of positions, uneven steps",
+    Rule("spline", least=5),
+    write_positions,
+    "MC_CamIn with MC_INTERPOLATIONTYPE_SPLINE, cyclic, relative start",
+)
+
+MOTION = Format(
+    "twincat-motion",
+    "st",
+    "TwinCAT: motion function",
+    Rule("quintic"),
+    write_motion,
+    "MC_CamIn, relative start",
+)

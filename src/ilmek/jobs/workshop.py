@@ -1,0 +1,224 @@
+"""A design's plates and motions as files for the workshop and the controller, with an index, whole or not at all."""
+
+import importlib
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from ilmek.errors import OutputError, ParameterError, UnitError
+from ilmek.io.cam_tables import FORMATS
+from ilmek.io.cam_tables.format import Format
+from ilmek.io.cam_tables.sampling import sample, stroke
+from ilmek.io.dxf import read_dxf, write_dxf
+from ilmek.io.json_file import write_json
+from ilmek.io.output import output_folder
+from ilmek.io.plate_shape import PlateShape
+from ilmek.plane.contours import area
+from ilmek.report import CamTable, Plate, Report
+from ilmek.units import format_quantity, parse_quantity, parse_unit, turn
+
+_Named = TypeVar("_Named", Plate, CamTable)
+
+INDEX = "workshop.json"
+AREA_ERROR = 1e-4
+"""What a file's area may differ from the design's by, as a share of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerance:
+    """What a controller's course may leave the exact one by: a share of each stroke; or a quantity, for those slaves
+    that move by quantities of its kind.
+
+    kind  the dimension of the quantity; None: there is none
+    """
+
+    share: float = 1e-5
+    quantity: float = 0.0
+    kind: tuple[int, int, int, int] | None = None
+
+    def of(self, table: CamTable) -> float:
+        """The tolerance of a table [SI]."""
+        if self.kind == parse_unit(table.unit).dimension:
+            return self.quantity
+        return self.share * (stroke(table) or 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Workshop:
+    """The files that were written, and where.
+
+    entries  of the index, one a file: what it is of, how exact, how many points
+    """
+
+    folder: Path
+    entries: tuple[dict[str, Any], ...]
+
+    @property
+    def files(self) -> list[str]:
+        """The paths of all files, the index last."""
+        return [str(self.folder / name) for name in (*(entry["file"] for entry in self.entries), INDEX)]
+
+    @property
+    def said(self) -> str:
+        """How many files of which kind, in a line."""
+        kinds = [entry["kind"] for entry in self.entries]
+        drawn = ", ".join(f"{kinds.count(kind)} {kind.upper()}" for kind in ("dxf", "step") if kind in kinds)
+        tables = len(kinds) - kinds.count("dxf") - kinds.count("step")
+        parts = ", ".join(part for part in (drawn, f"{tables} cam tables" if tables else "") if part)
+        return f"{self.folder}: {parts}; exactness in {INDEX}"
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a person should know: a tolerance missed, a slave that moves at 0, an extra that is not there."""
+        return (*self._missed(), *self._moving(), *self._without_step())
+
+    def _missed(self) -> Iterator[str]:
+        for entry in self.entries:
+            if not entry.get("kept", True):
+                left, asked = (format_quantity(entry[name], entry["unit"]) for name in ("error", "tolerance"))
+                yield f"{entry['file']}: {entry['points']} points leave an error of {left}, asked for {asked}"
+
+    def _moving(self) -> Iterator[str]:
+        moving = sorted({entry["of"] for entry in self.entries if abs(entry.get("start_speed", 0.0)) > _STILL})
+        for name in moving:
+            yield f"{name} moves at the master angle 0: couple it while the master stands, or ramp in"
+
+    def _without_step(self) -> Iterator[str]:
+        kinds = {entry["kind"] for entry in self.entries}
+        if "dxf" in kinds and "step" not in kinds:
+            yield "no STEP files: they need the extra step, pip install 'ilmek[step]'"
+
+
+_STILL = 1e-9
+"""Speed of a slave below which it stands [SI]."""
+
+
+def read_tolerance(text: str) -> Tolerance:
+    """A tolerance as written: `1um`, `0.01deg`, or a share like `0.001%`.
+
+    Raises ParameterError for what is neither a length nor an angle nor a share, or is not above 0.
+
+    >>> read_tolerance("1um").quantity, read_tolerance("0.01%").share
+    (1e-06, 0.0001)
+    """
+    for unit in ("1", "m", "rad"):
+        try:
+            value = parse_quantity(text, unit)
+        except UnitError:
+            continue
+        if value <= 0 or (unit == "1" and value >= 1):
+            break
+        return Tolerance(share=value) if unit == "1" else Tolerance(quantity=value, kind=parse_unit(unit).dimension)
+    raise ParameterError(
+        f"tolerance {text!r}", allowed="a length, an angle, or a share of the stroke", do="write 1um, 0.01deg or 0.001%"
+    )
+
+
+def write_workshop(
+    report: Report, folder: Path, tolerance: Tolerance | None = None, *, force: bool = False
+) -> Workshop:
+    """Write the report's plates and cam tables into a folder, with an index.
+
+    force  replace a folder whose files ilmek made
+    Raises OutputError where there is nothing to write, a plate does not enclose the area of its design, or the folder
+    cannot be written; then nothing is.
+    """
+    if not (report.plates or report.cam_tables):
+        raise OutputError(
+            f"{report.machine} has no plates and no cam tables", do="leave out --workshop; its page: --report FILE.html"
+        )
+    plates, tables = _own_names(report.plates), _own_names(report.cam_tables)
+    asked = tolerance or Tolerance()
+    with output_folder(folder, force=force) as work:
+        files = [
+            *(entry for name, plate in plates.items() for entry in _plate_files(plate, work, name)),
+            *(entry for name, table in tables.items() for entry in _table_files(table, work, name, asked)),
+        ]
+        write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
+    return Workshop(folder, tuple(files))
+
+
+def _own_names(parts: Sequence[_Named]) -> dict[str, _Named]:
+    """The parts by names for files: letters, digits and hyphens, each its own."""
+    named: dict[str, _Named] = {}
+    for part in parts:
+        plain: str = re.sub(r"[^a-z0-9]+", "-", part.name.lower()).strip("-") or "part"
+        ways = [plain, *(f"{plain}-{number}" for number in range(2, len(parts) + 1))]
+        named[next(way for way in ways if way not in named)] = part
+    return named
+
+
+def _plate_files(plate: Plate, work: Path, name: str) -> Iterator[dict[str, Any]]:
+    shape = write_dxf(work / f"{name}.dxf", plate)
+    facts = read_dxf(work / f"{name}.dxf")
+    known = area(shape.outline) if plate.area is None else plate.area
+    off = abs(facts.area / known - 1)
+    if facts.errors or not off <= AREA_ERROR:
+        found, meant = (format_quantity(value, "cm^2") for value in (facts.area, known))
+        raise OutputError(
+            f"plate {plate.name} cannot be drawn: its outline encloses {found}, its design says {meant}",
+            do="look at its checks: an undercut cam crosses itself",
+        )
+    common = {
+        "of": plate.name,
+        "title": plate.title,
+        "material": plate.material,
+        "thickness": plate.thickness,
+        "number": plate.number,
+        "area": facts.area - facts.bored,
+    }
+    yield {
+        "file": f"{name}.dxf",
+        "kind": "dxf",
+        **common,
+        "area_error": off,
+        "error": shape.error,
+        "points": facts.points,
+    }
+    step = _step()
+    if step is not None:
+        write, volume = step
+        write(work / f"{name}.step", plate, shape)
+        read = volume(work / f"{name}.step")
+        exact = (known - shape.bored) * plate.thickness
+        yield {"file": f"{name}.step", "kind": "step", **common, "volume": read, "volume_error": abs(read / exact - 1)}
+
+
+def _step() -> tuple[Callable[[Path, Plate, PlateShape], None], Callable[[Path], float]] | None:
+    """Writer and reader of STEP, where the extra `step` is installed."""
+    try:
+        adapter = importlib.import_module("ilmek.io.step")
+    except ImportError:
+        return None
+    return adapter.write_step, adapter.read_step_volume
+
+
+def _table_files(table: CamTable, work: Path, name: str, tolerance: Tolerance) -> Iterator[dict[str, Any]]:
+    for kind in FORMATS.values():
+        yield _table_file(table, work, f"{name}.{kind.name}.{kind.suffix}", kind, tolerance.of(table))
+
+
+def _table_file(table: CamTable, work: Path, file: str, kind: Format, tolerance: float) -> dict[str, Any]:
+    sampled = sample(table, kind.rule, tolerance)
+    (work / file).write_text(kind.write(table, sampled), encoding="ascii", errors="replace", newline="\n")
+    return {
+        "file": file,
+        "kind": kind.name,
+        "of": table.name,
+        "title": table.title,
+        "format": kind.title,
+        "unit": table.unit,
+        "points": len(sampled.nodes.angle),
+        "interpolation": sampled.interpolation,
+        "error": sampled.error,
+        "error_at": sampled.at,
+        "tolerance": tolerance,
+        "kept": sampled.kept,
+        "offset": sampled.offset,
+        "revolves": table.revolves,
+        "start_speed": float(sampled.nodes.ds[0]) * turn / table.period,
+        "advice": kind.advice,
+        **kind.settings(table, sampled),
+    }
