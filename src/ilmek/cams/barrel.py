@@ -17,6 +17,7 @@ An end cam is the lower flank alone, with a spring; a barrel's groove has both.
 """
 
 import math
+from abc import abstractmethod
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import ClassVar, Literal
@@ -46,13 +47,13 @@ class Barrel(Traced):
     roller_radius: float
     roller_width: float
 
+    @abstractmethod
     def motion(self, course: Course) -> tuple[ComplexField, ComplexField, ComplexField]:
         """Roller's centre B = z + i y and its derivatives by the cam angle [m]."""
-        raise NotImplementedError
 
+    @abstractmethod
     def way(self, course: Course) -> ComplexField:
         """Unit direction in which the roller goes as the displacement grows."""
-        raise NotImplementedError
 
     def trace_of(self, angle: FloatArray, course: Course) -> Trace:
         """Everything at cam angles [rad], of the course there, in the development at the mean radius."""

@@ -14,6 +14,7 @@ that is no longer above 0. Surface, cutter path and both flanks of a groove are 
 Positive curvature is convex.  [do Carmo, Differential Geometry of Curves and Surfaces, 1-5, parallel curves]
 """
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -108,7 +109,7 @@ class Cam(Protocol):
         """The same cam with another prime radius [m]."""
 
 
-class Traced:
+class Traced(ABC):
     """The curves of a cam one by one, for whoever needs only one; each reckons the whole trace."""
 
     __slots__ = ()
@@ -120,9 +121,9 @@ class Traced:
         """Cam angles [rad], ascending over the turn, between which the cam is smooth."""
         return self.programme.knots
 
+    @abstractmethod
     def trace_of(self, angle: FloatArray, course: Course) -> Trace:
         """Everything at cam angles [rad] where the follower's course is known there."""
-        raise NotImplementedError
 
     def trace(self, angle: FloatArray) -> Trace:
         """Everything at cam angles [rad], in one pass."""
