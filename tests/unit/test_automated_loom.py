@@ -60,7 +60,7 @@ def test_results_and_figures() -> None:
     assert results["shedding"]["prime_radius"] == pytest.approx(78.16653826 * mm)
     assert results["warp_tension"]["torque"] == pytest.approx(630.0)
     assert results["weaver"]["cycle_time_knot"] == results["cycle_time_knot"] == 2.0
-    assert [type(figure) for figure in made.figures] == [Drawing, Timing, Timing, Plot]
+    assert [type(figure) for figure in made.figures] == [Drawing, Timing, Timing, Plot, Plot]
 
 
 def test_the_arms_are_made_for_the_pitch_and_the_knot_of_the_carpet() -> None:

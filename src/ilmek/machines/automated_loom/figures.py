@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ilmek.carpet.quality import FINEST
 from ilmek.loom.sharing import halves, heads_that_fit, share
 from ilmek.machines import weaver
 from ilmek.machines.automated_loom.design import LoomDesign, frame_width
@@ -89,6 +90,8 @@ def time_against_pitch(loom: LoomDesign) -> Plot:
     series = []
     for factor in _FINER:
         pitch = factor * params.pitch
+        if max(0.5 / pitch, params.quality.along / factor) > FINEST:
+            continue
         columns = round(params.width / (2 * pitch))
         heads = np.arange(1, heads_that_fit(columns, 2 * pitch, params.head_width) + 1)
         total = np.array([estimated_time_at(loom, pitch, int(number)) for number in heads])

@@ -7,7 +7,8 @@ Theory of Elastic Stability, 1.13, the secant formula], with q = h/2 sqrt(P/(E I
 
     stress = P/A + P e c / (I cos q),   bow = e (1/cos q - 1),   buckling at P = pi^2 E I / h^2
 
-The rail: simply supported, its own weight and the heads side by side in its middle, which is the worst they can do.
+The rail: each span between columns and posts simply supported, its own weight and as many heads as find room side by
+side in its middle, which is the worst they can do.
 Sections are the lightest square hollow ones of a table that keep the limits.
 """
 
@@ -89,8 +90,8 @@ class FrameTask:
     width, height   between the columns, and of them [m]      depth   of the feet [m]
     pull            of all warps [N]                           lever   of the pull off a column's axis [m]
     carried         mass on the columns [kg]
-    heads_mass, heads_width   of all heads side by side [kg, m]
-    sag_limit       of the heads' rail [m]
+    heads           that ride on the rail                      head_mass, head_width  of one [kg, m]
+    rail_spans      of the rail, between columns and posts     sag_limit  of the rail [m]
     """
 
     width: float
@@ -99,8 +100,10 @@ class FrameTask:
     pull: float
     lever: float
     carried: float
-    heads_mass: float
-    heads_width: float
+    heads: int
+    head_mass: float
+    head_width: float
+    rail_spans: int
     sag_limit: float
 
     @property
@@ -135,11 +138,14 @@ def frame_for(task: FrameTask) -> Frame:
         raise LoomError(
             f"no section of the table is enough for the frame's {what}",
             allowed=f"up to {sections[-1].name}",
-            do="set a lower tension or a narrower carpet" if column is None else "set a larger rail_sag or fewer heads",
+            do="set a lower tension or a narrower carpet"
+            if column is None
+            else "set a shorter rail_span or a larger rail_sag",
         )
     stress, bow = eccentric(task.force, task.lever, task.height, column)
-    beams_across = 2 * (task.width + 2 * task.depth)
-    mass = column.line_mass * (2 * task.height + beams_across) + rail.line_mass * task.width
+    upright = column.line_mass * task.height * (2 + 0.5 * (task.rail_spans - 1))  # posts reach to the rail, half-way up
+    across = column.line_mass * 2 * (task.width + 2 * task.depth)
+    mass = upright + across + rail.line_mass * task.width
     return Frame(task, column, rail, stress, bow, euler(task.height, column) / task.force, rail_sag(task, rail), mass)
 
 
@@ -162,11 +168,12 @@ def rail_sag(task: FrameTask, section: Section) -> float:
 
     Of a load w over the middle b of a span l: w b (8 l^3 - 4 l b^2 + b^3) / (384 E I); for b = l the whole span's.
     """
-    span, stiff = task.width, STEEL.modulus * section.inertia
+    span, stiff = task.width / task.rail_spans, STEEL.modulus * section.inertia
     own = beams.deflection_max(section.line_mass * GRAVITY, span, STEEL.modulus, section.inertia)
-    wide = min(task.heads_width, span)
-    heads = task.heads_mass * GRAVITY * (8 * span**3 - 4 * span * wide**2 + wide**3) / (384 * stiff)
-    return float(np.add(own, heads))
+    number = min(task.heads, math.ceil(span / task.head_width))
+    wide = min(number * task.head_width, span)
+    force = number * task.head_mass * GRAVITY
+    return float(np.add(own, force * (8 * span**3 - 4 * span * wide**2 + wide**3) / (384 * stiff)))
 
 
 def _column_holds(task: FrameTask, section: Section) -> bool:

@@ -89,6 +89,9 @@ class AutomatedLoomParams(Params):
     tube_mass: float = param(0.05, unit="kg", at_least=0.0, at_most=10.0, doc="mass of a yarn tube with its yarn")
     shuttle_mass: float = param(0.5, unit="kg", at_least=0.0, at_most=50.0, doc="mass of the shuttle with its weft")
     frame_height: float = param(2.0, unit="m", at_least=0.3, at_most=10.0, doc="height of the frame's columns")
+    rail_span: float = param(
+        2.0, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the heads' rail between columns and posts"
+    )
     rail_sag: float = param(0.2 * mm, unit="mm", at_least=1e-6, at_most=0.05, doc="allowed sag of the heads' rail")
     drive_efficiency: float = param(0.7, at_least=0.01, at_most=1.0, doc="efficiency from the mains to a shaft")
     standby_power: float = param(10.0, unit="W", at_least=0.0, at_most=1e4, doc="power of an axis that stands still")

@@ -1,5 +1,6 @@
 """The loom's parts: what, how many, of what, how heavy, how dear."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -88,8 +89,10 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         pull=cylinder.params.warps * cylinder.params.tension,
         lever=loom.tube[0] / 2,
         carried=carried,
-        heads_mass=loom.heads * params.head_mass,
-        heads_width=loom.heads * params.head_width,
+        heads=loom.heads,
+        head_mass=params.head_mass,
+        head_width=params.head_width,
+        rail_spans=math.ceil(frame_width(params) / params.rail_span - 1e-9),
         sag_limit=params.rail_sag,
     )
 
