@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from ilmek.carpet.tied_knot import Tied
 from ilmek.machines.weaver import moves
+from ilmek.machines.weaver.cams import HeadCam, cams_for
 from ilmek.machines.weaver.cyclogram import CENTRE_MOTION, DRAW_TURN, HANDLER, SIDE_MOTION, SLEY, Steps, Strokes
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.machines.weaver.drive import Drive, drive_for
@@ -41,7 +42,7 @@ class Weaver:
     grippers         in plan view                       tied  the knot that their motions tie, proved
     carriage_step    time of a step to the next knot [s]      carriage_window  time in which no gripper is in the warps
     travel           time of each further pitch [s]           colour_change    mean time to bring another tube in line
-    drive            of the cam shaft, by the tools' inertia
+    cams             one for each track                 drive  of the cam shaft
     """
 
     params: WeaverParams
@@ -56,6 +57,7 @@ class Weaver:
     carriage_window: float
     travel: float
     colour_change: float
+    cams: tuple[HeadCam, ...]
     drive: Drive
 
     @property
@@ -112,6 +114,7 @@ def design(params: WeaverParams) -> Weaver:
     asked = knot_cyclogram(steps, strokes, params.cycle)
     cycle = max(params.cycle, *(_peaks(track, asked.period, radius, params).shortest for track in asked.tracks))
     kept = knot_cyclogram(steps, strokes, cycle)
+    cams = cams_for(params, kept, radius)
     return Weaver(
         params,
         kept,
@@ -125,7 +128,8 @@ def design(params: WeaverParams) -> Weaver:
         carriage_window(kept),
         moves.travel_time(params, carriage_window(kept)),
         moves.colour_change_time(params),
-        drive_for(kept, {HANDLER: radius}, params.tool_mass),
+        cams,
+        drive_for(cams, kept.speed),
     )
 
 

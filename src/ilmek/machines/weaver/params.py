@@ -69,6 +69,21 @@ class WeaverParams(Params):
         20.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="allowed acceleration of the same"
     )
     tool_mass: float = param(0.15, unit="kg", at_least=0.0, at_most=100.0, doc="mass that each cam moves")
+    lever: float = param(2.0, above=0.05, at_most=20.0, doc="motion of a tool over its cam's follower")
+    pinion: float = param(
+        0.006, unit="mm", at_least=1e-3, at_most=0.1, doc="radius of the handler's pinion on the rack of its cam"
+    )
+    closure: str = param("spring", choices=("spring", "groove"), doc="what holds the followers to their cams")
+    contact_force: float = param(5.0, unit="N", at_least=0.0, at_most=1e4, doc="least force of a sprung roller")
+    pressure_angle_limit: float = param(
+        30 * deg, unit="deg", at_least=5 * deg, at_most=60 * deg, doc="largest pressure angle of the cams"
+    )
+    roller_radius: float = param(0.0065, unit="mm", at_least=1e-3, at_most=0.05, doc="radius of the cams' rollers")
+    cam_thickness: float = param(0.008, unit="mm", at_least=5e-4, at_most=0.05, doc="thickness of a cam")
+    cam_gap: float = param(0.003, unit="mm", at_least=0.0, at_most=0.05, doc="gap between cams, and beside them")
+    shaft: float = param(0.015, unit="mm", at_least=0.007, at_most=0.1, doc="diameter of the cam shaft")
+    head_width: float = param(0.080, unit="mm", at_least=0.01, at_most=1.0, doc="width of the head, along the row")
+    cam_room: float = param(0.250, unit="mm", at_least=0.02, at_most=2.0, doc="room for a cam's diameter in the head")
     knot_pitch: float = param(
         0.004, unit="mm", at_least=1 / FINEST, at_most=1 / COARSEST, doc="distance of neighbouring knots"
     )
@@ -80,6 +95,9 @@ class WeaverParams(Params):
         2.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="acceleration of the head along the row"
     )
     carriage_jerk: float = param(100.0, unit="m/s^3", at_least=1e-3, at_most=1e9, doc="jerk of the head along the row")
+    cutter_acceleration: float = param(
+        50.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="acceleration of the cutter's blade"
+    )
     tubes: int = param(16, at_least=1, at_most=255, doc="yarn tubes, one for each colour")
     tube_pitch: float = param(0.012, unit="mm", at_least=1e-6, at_most=1.0, doc="distance of neighbouring tubes")
     selector_speed: float = param(0.2, unit="m/s", at_least=1e-3, at_most=100.0, doc="speed of the colour selector")
@@ -87,6 +105,10 @@ class WeaverParams(Params):
         1.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="acceleration of the colour selector"
     )
     selector_jerk: float = param(50.0, unit="m/s^3", at_least=1e-3, at_most=1e9, doc="jerk of the colour selector")
+    tube_mass: float = param(0.02, unit="kg", at_least=0.0, at_most=10.0, doc="a yarn tube with its share of the slide")
+    selector_pulley: float = param(
+        0.010, unit="mm", at_least=1e-3, at_most=0.2, doc="pitch radius of the pulley that draws the tubes"
+    )
 
     def check_together(self) -> None:
         """The steps of the turn follow each other, each with angle enough; the opener makes room for a gripper."""

@@ -2,9 +2,17 @@
 
 import numpy as np
 
+from ilmek.machines.weaver.cam_report import (
+    cam_checks,
+    cam_results,
+    cam_tables,
+    cams_drawing,
+    cams_table,
+    plates,
+    torque_plot,
+)
 from ilmek.machines.weaver.cyclogram import HANDLER, relations
 from ilmek.machines.weaver.design import HAND_KNOT, Weaver
-from ilmek.machines.weaver.drive import inertia_torque
 from ilmek.machines.weaver.knot_report import knot_checks, knot_results, knot_warnings
 from ilmek.machines.weaver.plan_view import moving, plan_view
 from ilmek.report import Axis, Check, Column, Plot, Report, Result, Series, Table, Timing, at_most
@@ -21,9 +29,18 @@ def report(weaver: Weaver) -> Report:
         weaver.params.as_dict(),
         _results(weaver),
         checks(weaver),
-        (_peaks_table(weaver), _motions_table(weaver)),
-        (timing(weaver), plan_view(weaver), moving(weaver), _accelerations(weaver), _torque(weaver)),
+        (_peaks_table(weaver), cams_table(weaver), _motions_table(weaver)),
+        (
+            timing(weaver),
+            plan_view(weaver),
+            moving(weaver),
+            cams_drawing(weaver),
+            _accelerations(weaver),
+            torque_plot(weaver),
+        ),
         _warnings(weaver),
+        plates(weaver),
+        cam_tables(weaver),
     )
 
 
@@ -44,6 +61,7 @@ def checks(weaver: Weaver) -> tuple[Check, ...]:
         at_most("carriage: step to the next knot", weaver.carriage_step, weaver.carriage_window, "s", "tools out"),
         at_most("knot cycle", weaver.cycle, HAND_KNOT, "s", "best hand weaver: 25 knots a minute"),
         *knot_checks(weaver),
+        *cam_checks(weaver),
     )
 
 
@@ -54,7 +72,6 @@ def timing(weaver: Weaver) -> Timing:
 
 
 def _results(weaver: Weaver) -> tuple[Result, ...]:
-    drive = weaver.drive
     return (
         Result("cycle_time_knot", weaver.cycle, "s", "time of a knot"),
         Result("cycle_time_shortest", weaver.shortest, "s", "the shortest that speeds and accelerations allow"),
@@ -82,10 +99,7 @@ def _results(weaver: Weaver) -> tuple[Result, ...]:
         Result("carriage_step_time", weaver.carriage_step, "s", "time of the step to the next knot"),
         Result("carriage_window", weaver.carriage_window, "s", "time in which no tool is in the warps"),
         Result("carriage_travel_time", weaver.travel, "s", "time of each further pitch"),
-        Result("cam_torque_max", drive.torque_max, "Nm", "greatest torque on the cam shaft, of the tools' inertia"),
-        Result("cam_torque_rms", drive.torque_rms, "Nm", "root mean square of the same"),
-        Result("cam_power_max", drive.power_max, "W", "greatest power of the same, to and fro"),
-        Result("motor", drive.motor.name if drive.motor else None, "", "class of motor that gives it without a gear"),
+        *cam_results(weaver),
     )
 
 
@@ -134,14 +148,6 @@ def _accelerations(weaver: Weaver) -> Plot:
     )
 
 
-def _torque(weaver: Weaver) -> Plot:
-    angle = np.linspace(0, turn, 1441)
-    torque = inertia_torque(weaver.cyclogram, {HANDLER: weaver.handler_radius}, weaver.params.tool_mass, angle)
-    note = "of the tools' inertia alone; friction, springs and the pull of the yarn come on top"
-    axes = Axis("cam angle", "deg"), Axis("torque", "Nm")
-    return Plot("cam-torque", "Torque on the head's cam shaft", *axes, (Series("tools", angle, torque),), note=note)
-
-
 def _warnings(weaver: Weaver) -> tuple[str, ...]:
     asked, drive = weaver.params.cycle, weaver.drive
     said = list(knot_warnings(weaver))
@@ -150,5 +156,5 @@ def _warnings(weaver: Weaver) -> tuple[str, ...]:
         said.append(f"{longer}: the limits of the {weaver.limiting} allow no less")
     if drive.motor is None:
         needed = f"{drive.torque_max:.3g} Nm at {weaver.cyclogram.speed / rpm:.3g} rpm"
-        said.append(f"no stepper gives {needed} on the cam shaft itself: lighter tools, a longer cycle, or a gear")
+        said.append(f"no motor of the table gives {needed} of the cam shaft: lighter tools or a longer cycle")
     return tuple(said)

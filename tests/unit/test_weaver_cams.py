@@ -1,0 +1,130 @@
+"""The head's cams: motion kept, limits met, forces by energy; drive, cutter, selector, plates and tables."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ilmek.cams import limits as cam_limits
+from ilmek.machines.weaver import WeaverParams, design, report
+from ilmek.machines.weaver.cams import FASTER, WALL, programme_of, torque_at
+from ilmek.machines.weaver.cyclogram import HANDLER, SLEY
+from ilmek.machines.weaver.limits import cut_share, cutting_time, cycle_limits
+from ilmek.timing.track import sample
+from ilmek.units import deg, mm, turn
+
+HEAD = design(WeaverParams())
+ANGLE = np.linspace(0.0, turn, 2001)
+
+
+def test_every_follower_moves_as_its_track_asks() -> None:
+    for track, cam in zip(HEAD.cyclogram.tracks, HEAD.cams, strict=True):
+        asked, given = sample(track, ANGLE), cam.programme.at(ANGLE)
+        stays = track.segments[-1].end if track.name == HANDLER else 7.0
+        forward = stays > ANGLE
+        lowest = asked.position.min()
+        assert (given.s * cam.ratio)[forward] == pytest.approx((asked.position - lowest)[forward], abs=1e-9)
+        assert (given.ds * cam.ratio)[forward] == pytest.approx(asked.slope[forward], abs=1e-9)
+
+
+def test_the_handlers_rack_comes_back_while_the_handler_stands() -> None:
+    track = HEAD.cyclogram.track(HANDLER)
+    programme = programme_of(track, 1 / HEAD.params.pinion)
+    back = [part for part in programme.segments if part.name == "back"]
+    assert back[0].change == pytest.approx(-turn * HEAD.params.pinion)
+    behind = programme.at(ANGLE).ds < -1e-9
+    assert (ANGLE[behind] > track.segments[-1].end).all()
+
+
+@pytest.mark.parametrize("limit", [20, 35])
+def test_cams_are_as_small_as_the_limits_let_them(limit: float) -> None:
+    """Against the exact bounds of `cams.limits`."""
+    params = WeaverParams(pressure_angle_limit=limit * deg)
+    for cam in design(params).cams:
+        exact = cam_limits.smallest_prime_radius(cam.programme, limit * deg).value
+        hub = 0.7 * params.shaft + WALL + params.roller_radius
+        grown = cam.cam.prime_radius > max(exact, hub) + 1.001 * mm
+        assert cam.cam.prime_radius >= exact - 1e-6
+        assert cam_limits.pressure_angle_max(cam.cam).value == pytest.approx(cam.pressure_angle, rel=5e-4)
+        assert cam_limits.area(cam.cam) == pytest.approx(cam.area, rel=1e-4)
+        sharpest = cam_limits.convex_radius_min(cam.cam).value
+        assert cam.convex_radius == pytest.approx(sharpest, rel=2e-3)
+        if grown:  # then the roller asked for it: a step smaller it would not have had its room
+            smaller = cam.cam.resized(cam.cam.prime_radius / 1.07)
+            assert cam_limits.convex_radius_min(smaller).value < 1.25 * params.roller_radius
+
+
+@pytest.mark.parametrize("closure", ["spring", "groove"])
+def test_the_cams_torque_does_only_the_brakes_work(closure: str) -> None:
+    """Springs and inertia give back what they take; the brake keeps its force times the rack's way forward."""
+    head = design(WeaverParams(closure=closure))
+    even = np.arange(20_000) * (turn / 20_000)
+    handler = next(cam for cam in head.cams if cam.name == HANDLER)
+    braked = handler.brake * turn * head.params.pinion
+    work = float(np.mean(torque_at(head.cams, even))) * turn
+    assert work == pytest.approx(braked, rel=2e-3)
+    assert head.drive.power_mean == pytest.approx(braked / head.cycle, rel=5e-3)
+    assert head.drive.torque_max == pytest.approx(float(np.abs(torque_at(head.cams, even)).max()), rel=1e-3)
+
+
+def test_springs_hold_the_followers_and_no_more() -> None:
+    for cam in HEAD.cams:
+        assert cam.force.min() >= HEAD.params.contact_force - 1e-9
+        assert cam.lift_off >= FASTER * HEAD.cyclogram.speed
+    bare = design(WeaverParams(contact_force=0.0))
+    jaws = [cam for cam in bare.cams if cam.name.endswith("grasp")]
+    assert all(cam.lift_off == pytest.approx(FASTER * bare.cyclogram.speed, rel=1e-6) for cam in jaws)
+
+
+def test_a_groove_needs_no_spring_and_room_on_its_outer_flank() -> None:
+    made = report(design(WeaverParams(closure="groove")))
+    assert set(made.as_json()["results"]["spring_rate"].values()) == {0.0}
+    assert any(check.name.startswith("roller in the groove") for check in made.checks)
+
+
+def test_the_inertia_of_a_cam_is_between_those_of_its_circles() -> None:
+    for cam in HEAD.cams:
+        inner = float(np.abs(cam.trace.surface).min())
+        assert cam.mass * inner**2 / 2 < cam.inertia < cam.mass * cam.radius**2 / 2
+
+
+def test_five_cams_on_the_shaft_and_the_sleys_on_a_geared_one() -> None:
+    results = report(HEAD).as_json()["results"]
+    assert results["cam_stack_width"] == pytest.approx(5 * HEAD.params.cam_thickness + 6 * HEAD.params.cam_gap)
+    assert [cam.actuator for cam in HEAD.cams if cam.name == SLEY] == ["gear"]
+    failed = [check.name for check in report(design(WeaverParams(head_width=0.05, cam_room=0.15))).failed]
+    assert failed == ["cams beside each other", "diameter, side-gripper motion"]
+
+
+@pytest.mark.parametrize("faster", [0.999, 1.001])
+def test_the_limits_of_the_cycle_are_where_they_are_said(faster: float) -> None:
+    """Designed for a cycle a little shorter or longer than a limit, the head breaks or keeps it."""
+    found = cycle_limits(HEAD)
+    assert max(found, key=lambda name: found[name]) == "tools"
+    free = WeaverParams(cycle=faster * found["cutter"], acceleration_limit=1e4)
+    head = design(free)
+    assert (cutting_time(head) <= cut_share(head) * head.cycle) == (faster > 1)
+
+
+def test_plates_and_tables_of_all_tracks() -> None:
+    made = report(HEAD)
+    assert len(made.plates) == len(made.cam_tables) == 6
+    for plate, cam in zip(made.plates, HEAD.cams, strict=True):
+        one, then = plate.outline, np.roll(plate.outline, -1)
+        polygon = float(np.sum((np.conj(one) * then).imag)) / 2
+        assert polygon == pytest.approx(cam.area, rel=1e-9)
+        assert plate.area == pytest.approx(cam.area)
+    for table in made.cam_tables:
+        rows = table.course(ANGLE)
+        assert rows.shape == (3, len(ANGLE))
+        assert np.gradient(rows[0], ANGLE)[1:-1] == pytest.approx(rows[1][1:-1], abs=2e-2 * np.abs(rows[1]).max())
+        assert table.knots[0] == 0.0
+        assert table.knots[-1] == pytest.approx(turn)
+        assert rows[0][-1] - rows[0][0] == pytest.approx(table.revolves, abs=1e-12)
+
+
+def test_the_selector_and_the_masses() -> None:
+    results = report(HEAD).as_json()["results"]
+    assert results["selector_step"] == pytest.approx(2 * math.pi * 0.010 / 200)
+    assert results["mass"] == pytest.approx(sum(results["masses"].values()))
+    assert results["cutting_force"] == pytest.approx(96.0)
