@@ -7,6 +7,7 @@ from ilmek.machines.automated_loom import MACHINE as AUTOMATED_LOOM
 from ilmek.machines.beat_up import MACHINE as BEAT_UP
 from ilmek.machines.cam import MACHINE as CAM
 from ilmek.machines.function_four_bar import MACHINE as FUNCTION_FOUR_BAR
+from ilmek.machines.hammer import MACHINE as HAMMER
 from ilmek.machines.knotting_dyad import MACHINE as KNOTTING_DYAD
 from ilmek.machines.knotting_four_bar import MACHINE as KNOTTING_FOUR_BAR
 from ilmek.machines.machine import Machine
@@ -25,6 +26,7 @@ MACHINES: dict[str, Machine] = {
         BEAT_UP,
         CAM,
         SHEDDING,
+        HAMMER,
         WARP_TENSION,
         TUFTING,
         KNOTTING_FOUR_BAR,

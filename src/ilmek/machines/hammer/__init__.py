@@ -1,0 +1,20 @@
+"""The hammer: the comb that beats knots and wefts to the fell, all across the carpet at once.       [thesis 3.3]
+
+Either leaves on the guide cams, which a vertical axis pulls down with the whole cam system, or a comb on crank-rockers
+(`beat_up`). The fabric's resistance tells where the row ends up, the comb as a beam on the fell how evenly.
+"""
+
+from ilmek.machines.hammer.design import Hammer, design
+from ilmek.machines.hammer.params import HammerParams
+from ilmek.machines.hammer.report import report
+from ilmek.machines.machine import Machine
+
+__all__ = ["MACHINE", "Hammer", "HammerParams", "design", "report"]
+
+MACHINE = Machine(
+    name="hammer",
+    summary="comb that beats the rows: force per warp, rows it leaves, uniformity, stroke or crank-rockers",
+    params=HammerParams,
+    design=design,
+    report=report,
+)

@@ -1,0 +1,129 @@
+"""The vertical axes of the comb on the guide cams: motion, force, motor.                                [thesis 3.3]
+
+The whole cam system goes down by the stroke, presses, and comes up again within a step of the cams' turn, twice a turn:
+
+    F(t) = m x'' - (1 - c) m g + P(x),      x downwards, c the share of the weight that is balanced
+
+P the fell's force: it rises as the fabric has it while the comb goes its last way, stands while the comb presses, and
+falls by what the fell gives back on the way up. A screw of the lead p turns F into F p / (2 pi eta), a belt on a pulley
+of radius r into F r / eta; against the way it goes, times eta instead. The axes share the force evenly.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.cams.laws import LAWS
+from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
+from ilmek.elements.duty import Cycle, Drive, size_motor
+from ilmek.elements.materials import GRAVITY
+from ilmek.elements.motors import SERVO
+from ilmek.machines.hammer.comb import comb_mass
+from ilmek.machines.hammer.fabric import Fabric
+from ilmek.machines.hammer.params import STACK, HammerParams
+
+SAMPLES = 720
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """The comb's vertical drive.
+
+    programme  stroke over the cams' angle, downwards [m]      mass  that moves: cams and comb [kg]
+    angle      of the samples over a turn [rad]                travel, speed, acceleration of them [m, s]
+    force      of all axes, downwards [N]                      press  what the comb presses with [N]
+    inertia_force  largest m x'' [N]                            balance  what holds the weight [N], (1 - c) m g
+    cycle      of one axis' motor shaft without reducer        drive  servo of one axis; None: no one bears it
+    power_max  of all axes [W]                                 meets  speed of the comb where it meets the row [m/s]
+    """
+
+    programme: Programme
+    mass: float
+    angle: FloatArray
+    travel: FloatArray
+    speed: FloatArray
+    acceleration: FloatArray
+    force: FloatArray
+    press: FloatArray
+    inertia_force: float
+    balance: float
+    cycle: Cycle
+    drive: Drive | None
+    power_max: float
+    meets: float
+
+
+def stroke_programme(params: HammerParams) -> Programme:
+    """Two strokes a turn: rest while the shed opens, then down, press and up within the step."""
+    law = LAWS[params.law]
+    press = params.press_share * params.step
+    way = (params.step - press) / 2
+    rest = TURN / 2 - params.step
+    once = (
+        *([dwell(rest)] if rest > 0 else []),
+        rise(way, params.stroke, law),
+        *([dwell(press)] if press > 0 else []),
+        fall(way, params.stroke, law),
+    )
+    return Programme((*once, *once))
+
+
+def axis_for(params: HammerParams, fabric: Fabric, force: float) -> Axis:
+    """The drive that presses with a force [N] for each warp."""
+    programme = stroke_programme(params)
+    angle = np.arange(SAMPLES) * (TURN / SAMPLES)
+    at, rate = programme.at(angle), params.shed_speed
+    speed, acceleration = at.ds * rate, at.dds * rate**2
+    stack = STACK * params.width if params.stack_mass is None else params.stack_mass
+    mass = comb_mass(params) + stack
+    balance = (1 - params.counterbalance) * mass * GRAVITY
+    press = params.warps * _fell_force(params, fabric, force, at.s, speed)
+    total = mass * acceleration - balance + press
+    arm = params.lead / TURN if params.axis == "screw" else params.pulley_radius
+    resisting = press - balance
+    driven = resisting * speed >= 0
+    lost = np.where(driven, 1 / params.axis_efficiency, params.axis_efficiency)
+    cycle = Cycle(
+        speed=speed / arm,
+        acceleration=acceleration / arm,
+        torque=resisting * lost * arm / params.shared,
+        inertia=mass * arm**2 / params.shared,
+    )
+    down = speed > 0
+    contact = down & (press > 0)
+    return Axis(
+        programme=programme,
+        mass=mass,
+        angle=angle,
+        travel=at.s,
+        speed=speed,
+        acceleration=acceleration,
+        force=total,
+        press=press,
+        inertia_force=mass * float(np.max(np.abs(acceleration))),
+        balance=balance,
+        cycle=cycle,
+        drive=size_motor(cycle, kind=SERVO),
+        power_max=float(np.max(np.abs(total * speed))),
+        meets=float(speed[contact].max()) if contact.any() else 0.0,
+    )
+
+
+def _fell_force(
+    params: HammerParams, fabric: Fabric, force: float, travel: FloatArray, speed: FloatArray
+) -> FloatArray:
+    """Force of one warp on the comb [N] along the stroke, which ends where the force is reached."""
+    forces = np.concatenate([[0.0], np.geomspace(force * 1e-4, force, _TABLE)])
+    left = params.stroke - travel
+    going = np.interp(float(fabric.travel(force)) - left, np.asarray(fabric.travel(forces)), forces, left=0.0)
+    back = np.interp(float(fabric.fell(force)) - left, np.asarray(fabric.fell(forces)), forces, left=0.0)
+    return np.asarray(np.where(speed >= -_STILL, going, back))
+
+
+_TABLE, _STILL = 200, 1e-12
+
+
+def stroke_needed(fabric: Fabric, force: float) -> float:
+    """Least stroke [m] in which the comb meets the row, packs it and presses the fell back."""
+    return float(fabric.travel(force))

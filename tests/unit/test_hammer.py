@@ -1,0 +1,240 @@
+"""The hammer: what the fabric answers, how evenly the comb presses, what drives it, what is refused."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ilmek.errors import ParameterError
+from ilmek.machines.hammer import MACHINE, Hammer, HammerParams
+from ilmek.machines.hammer.fabric import Fabric
+from ilmek.machines.hammer.fell_beam import krylov, pressed
+from ilmek.report import Drawing, Plot, Report
+from ilmek.units import mm
+
+FELL = Fabric(tension=15.0, laid=6 * mm, jammed=3 * mm, packing=1 * mm, warp_rate=1200.0, cloth_rate=3600.0)
+forces = st.floats(1e-6, 1e4)
+
+
+@functools.cache
+def made(**asked) -> Hammer:
+    return MACHINE.design(HammerParams(**asked))
+
+
+@functools.cache
+def answer(**asked) -> Report:
+    return MACHINE.report(made(**asked))
+
+
+def result(report: Report, name: str):
+    return next(result.value for result in report.results if result.name == name)
+
+
+@given(force=forces)
+def test_the_row_resists_with_what_it_is_pressed_with(force) -> None:
+    assert FELL.resistance(FELL.spacing(force)) == pytest.approx(force, rel=1e-6, abs=1e-9)
+
+
+@given(force=forces, more=st.floats(1.001, 10.0))
+def test_more_force_packs_closer_and_more_tension_looser(force, more) -> None:
+    tighter = Fabric(15.0 * more, FELL.laid, FELL.jammed, FELL.packing, FELL.warp_rate, FELL.cloth_rate)
+    assert FELL.spacing(force * more) < FELL.spacing(force) < tighter.spacing(force)
+    assert tighter.bump > FELL.bump
+    assert FELL.energy(force * more) > FELL.energy(force)
+
+
+def test_no_force_leaves_the_row_laid_and_an_endless_one_jams_it() -> None:
+    assert FELL.spacing(0.0) == FELL.laid
+    assert FELL.spacing(1e12) == pytest.approx(FELL.jammed, rel=1e-9)
+    assert FELL.energy(0.0) == 0.0
+
+
+def test_far_laid_rows_resist_as_greenwood_and_cowhig_found() -> None:
+    """R (p - D) is one number, K T, whatever p, where the row comes from afar."""
+    far = Fabric(15.0, 1e6, 3 * mm, 1 * mm, 1200.0, 3600.0)
+    for spacing in (3.1 * mm, 4 * mm, 20 * mm):
+        assert far.resistance(spacing) * (spacing - 3 * mm) == pytest.approx(15e-3, rel=1e-7)
+
+
+def test_the_fell_gives_way_as_warp_and_cloth_until_the_cloth_is_slack() -> None:
+    """20 N: 15 N of tension times 1 + 1200/3600; there the cloth has given all its 15 N over 3600 N/m."""
+    assert FELL.bump == pytest.approx(20.0)
+    assert FELL.fell(20.0) == pytest.approx(15 / 3600)
+    assert FELL.fell(10.0) == pytest.approx(10 / 4800)
+    assert FELL.fell(32.0) == pytest.approx(17 / 1200)
+
+
+@pytest.mark.parametrize("force", [1.0, 10.0, 20.0, 45.0])
+def test_work_is_the_area_under_the_force_along_the_combs_way(force) -> None:
+    way = np.linspace(0.0, force, 200_001)
+    area = np.trapezoid(way, FELL.travel(way))
+    assert FELL.energy(force) == pytest.approx(area, rel=1e-7)
+    assert FELL.struck(FELL.energy(force)) == pytest.approx(force, rel=1e-9)
+
+
+@pytest.mark.parametrize("force", [2.0, 10.0, 30.0])
+def test_stiffness_of_the_fell_is_the_slope_of_its_force(force) -> None:
+    step = 1e-5 * force
+    slope = 2 * step / float(FELL.travel(force + step) - FELL.travel(force - step))
+    assert FELL.rate(float(FELL.spacing(force))) == pytest.approx(slope, rel=1e-6)
+
+
+def test_krylov_functions_are_each_others_derivatives() -> None:
+    z, step = np.linspace(0.0, 3.0, 31), 1e-5
+    slope = (krylov(z + step) - krylov(z - step)) / (2 * step)
+    k = krylov(z)
+    np.testing.assert_allclose(slope, [-4 * k[3], k[0], k[1], k[2]], rtol=1e-8, atol=1e-8)
+
+
+@pytest.mark.parametrize("rigidity", [1e7, 350e3, 2e3, 20.0])
+def test_comb_held_at_its_ends_by_hetenyi(rigidity) -> None:
+    """Middle over ends: cosh u cos u / (cosh^2 u cos^2 u + sinh^2 u sin^2 u), u = l W / 2."""
+    found = pressed(1.2, np.array([0.0, 1.2]), rigidity, 1.6e6)
+    u = found.number / 2
+    c, s = math.cosh(u) * math.cos(u), math.sinh(u) * math.sin(u)
+    middle = found.share[np.argmin(np.abs(found.x - 0.6))]
+    assert middle / found.share[0] == pytest.approx(c / (c**2 + s**2), rel=1e-9)
+
+
+@pytest.mark.parametrize("places", [(0.6,), (0.3, 0.9), (0.0, 0.5, 1.2), (0.1, 0.35, 0.8)])
+def test_comb_on_the_fell_against_finite_elements(places) -> None:
+    """600 beam elements on springs, pushed down by 1 at the supports."""
+    width, rigidity, foundation, count = 1.2, 4e3, 1.6e6, 600
+    found = pressed(width, np.array(places), rigidity, foundation)
+    step = width / count
+    stiff = rigidity / step**3 * np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
+    bed = (
+        foundation * step / 420 * np.array([[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
+    )
+    whole = np.zeros((2 * count + 2, 2 * count + 2))
+    for element in range(count):
+        whole[2 * element : 2 * element + 4, 2 * element : 2 * element + 4] += stiff + bed
+    held = [2 * round(place / step) for place in places]
+    free = np.setdiff1d(np.arange(2 * count + 2), held)
+    moved = np.zeros(2 * count + 2)
+    moved[held] = 1.0
+    moved[free] = np.linalg.solve(whole[np.ix_(free, free)], -whole[np.ix_(free, held)].sum(axis=1))
+    line = moved[::2]
+    wanted = np.interp(found.x, np.linspace(0, width, count + 1), line) / np.trapezoid(line, dx=step) * width
+    np.testing.assert_allclose(found.share, wanted, rtol=1e-3, atol=1e-4)
+
+
+def test_a_rigid_comb_presses_evenly() -> None:
+    assert pressed(1.2, np.array([0.2, 0.7]), 1e15, 1e6).uniformity == 1.0
+
+
+@pytest.mark.parametrize("rigidity", [1e8, 1e15])
+def test_a_rigid_comb_on_one_support_tilts_until_its_moments_balance(rigidity) -> None:
+    found = pressed(1.2, np.array([0.4]), rigidity, 1e6)
+    assert np.trapezoid(found.share * (found.x - 0.4), found.x) == pytest.approx(0.0, abs=1e-4)
+    assert np.trapezoid(found.share, found.x) == pytest.approx(1.2, rel=1e-4)
+    assert found.share[[0, -1]] == pytest.approx([2.0, 0.0], abs=0.02)
+
+
+def test_mean_of_the_shares_is_one() -> None:
+    found = pressed(4.0, np.array([0.0, 1.3, 4.0]), 1e4, 1.6e6)
+    fine = np.interp(np.linspace(0, 4.0, 4001), found.x, found.share)
+    assert np.trapezoid(fine, dx=1e-3) / 4.0 == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("drive", ["comb", "linkage"])
+def test_the_report_is_whole(drive) -> None:
+    report = answer(drive=drive)
+    names = [figure.name for figure in report.figures]
+    assert len(set(names)) == len(names) == (7 if drive == "comb" else 5)
+    assert [type(figure) for figure in report.figures].count(Drawing) == 1
+    for figure in report.figures:
+        for series in figure.series if isinstance(figure, Plot) else ():
+            assert series.x.shape == series.y.shape
+            assert np.all(np.isfinite(series.y))
+    for table in report.tables:
+        assert {len(row) for row in table.rows} == {len(table.columns)}
+    assert {table.name for table in report.tables} == {"hammer-rows", "hammer-blow", "hammer-across"}
+
+
+def test_the_thesis_loom_is_beaten_to_its_rows() -> None:
+    """25 rows a decimetre, 10 N for each of 600 warps; the deepest comb needed presses within a tenth."""
+    design, report = made(), answer()
+    assert report.failed == ()
+    assert design.rows_along == pytest.approx(250.0)
+    assert result(report, "force") == pytest.approx(6000.0)
+    assert design.comb.line.uniformity >= 0.9
+    one_less = made(comb_depth=design.params.depth - 10 * mm)
+    assert one_less.comb.line.uniformity < 0.9
+
+
+def test_cams_and_comb_go_down_together() -> None:
+    """574.9 kg class: m a of the stroke, the weight held, the power of both axes."""
+    axis = made().axis
+    assert axis is not None
+    assert axis.mass == pytest.approx(550.0 + made().comb.mass)
+    way = (1 - 0.15) / 2 * 3.0
+    assert np.max(np.abs(axis.acceleration)) == pytest.approx(5.527957 * 0.1 / way**2, rel=1e-3)
+    assert axis.balance == pytest.approx(axis.mass * 9.81)
+    assert np.max(axis.press) == pytest.approx(6000.0, rel=1e-6)
+    np.testing.assert_allclose(axis.force, axis.mass * axis.acceleration - axis.balance + axis.press)
+    assert axis.drive is not None
+
+
+def test_a_balanced_comb_asks_for_the_press_alone() -> None:
+    axis = made(counterbalance=1.0).axis
+    assert axis is not None
+    assert np.max(axis.force) == pytest.approx(6000.0, abs=axis.inertia_force)
+    assert axis.balance == 0.0
+
+
+def test_work_of_the_press_over_a_turn_packs_two_rows() -> None:
+    """Over a turn the axes do what packs: gravity and inertia give all back, the fell what it stretched."""
+    design = made()
+    axis = design.axis
+    assert axis is not None
+    work = np.sum(axis.press * axis.speed) * (12.0 / axis.speed.size)
+    assert work == pytest.approx(2 * 600 * design.fabric.packing_work(design.spacing), rel=0.03)
+
+
+def test_force_of_the_linkage_goes_with_the_square_of_its_speed() -> None:
+    slow, quick = made(drive="linkage"), made(drive="linkage", beat_speed=31.0)
+    assert quick.force == pytest.approx(4 * slow.force)
+    assert quick.spacing < slow.spacing
+    needed = result(answer(drive="linkage"), "speed_needed")
+    reached = made(drive="linkage", beat_speed=needed)
+    assert reached.spacing == pytest.approx(reached.params.rows)
+
+
+def test_a_slow_linkage_leaves_the_rows_loose_and_says_so() -> None:
+    report = answer(drive="linkage")
+    assert "distance of the rows" in [check.name for check in report.failed]
+    assert any("rows a decimetre where 25 are wanted" in said for said in report.warnings)
+
+
+def test_the_stroke_for_the_controller_comes_back_twice_a_turn() -> None:
+    (table,) = answer().cam_tables
+    angle = np.linspace(0, math.pi, 40)
+    np.testing.assert_allclose(table.course(angle), table.course(angle + math.pi), atol=1e-12)
+    assert table.course(np.array([0.0, math.pi / 4]))[0] == pytest.approx([0.0, 0.0])
+    assert float(table.course(np.array([3 * math.pi / 4]))[0, 0]) == pytest.approx(0.1)
+
+
+def test_wide_carpets_hold_the_comb_more_often() -> None:
+    wide = made(warps=4000, warp_pitch=1 * mm)
+    assert (wide.params.places, wide.params.shared) == (4, 4)
+    assert wide.comb.line.uniformity >= 0.9
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (dict(jammed_pitch="5mm"), "rows 4 mm apart; between jammed_pitch=5 mm and laid_pitch=6 mm"),
+        (dict(laid_pitch="3.5mm"), "between jammed_pitch=3 mm and laid_pitch=3.5 mm"),
+        (dict(leaf_thickness="2mm"), "leaf_thickness=2 mm on a warp pitch of 2 mm; below 2 mm"),
+        (dict(support_inset="700mm"), "at most half of the width, 600 mm"),
+        (dict(drive="hand"), "one of comb, linkage"),
+        (dict(tension="0N"), "out of bounds"),
+    ],
+)
+def test_what_cannot_be_is_refused(asked, said) -> None:
+    with pytest.raises(ParameterError, match=said):
+        HammerParams.read(asked)
