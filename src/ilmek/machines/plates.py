@@ -1,6 +1,6 @@
 """Plates of machines for the workshop: links between pins, and discs on a shaft with their bore."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +14,10 @@ from ilmek.units import format_quantity
 
 ZERO_MARK = 0.1
 """Length of the scribed mark of the angle 0, as a share of the plate's radius there."""
+
+
+PIN_SHARE = 1 / 3
+"""Diameter of a link's pin as a share of its width, where a design says none."""
 
 
 def link_plate(
@@ -53,6 +57,46 @@ def link_plate(
     outline = rounded_hull(places, width / 2)
     holes = tuple(Hole(place, hole_radius, pin) for pin, place in pins)
     return Plate(name, title, outline, thickness, material, holes, area=area(outline), number=number)
+
+
+def link_plates(
+    links: Mapping[str, Sequence[tuple[str, complex]]],
+    *,
+    width: float,
+    thickness: float,
+    material: str,
+    number: int = 1,
+) -> tuple[Plate, ...]:
+    """The plates of a linkage's links, bored for pins of a third of their width.
+
+    links  link -> names and places of its pins in its own frame [m]
+    A pin so near to one before it that their holes would leave no bridge between them is left out, and a link that has
+    fewer than two left has no plate: it is made otherwise.
+    """
+    hole = PIN_SHARE * width / 2
+    bored = {name: _apart(pins, 3 * hole) for name, pins in links.items()}
+    return tuple(
+        link_plate(
+            name,
+            name.capitalize(),
+            pins,
+            hole_radius=hole,
+            width=width,
+            thickness=thickness,
+            material=material,
+            number=number,
+        )
+        for name, pins in bored.items()
+        if len(pins) > 1
+    )
+
+
+def _apart(pins: Sequence[tuple[str, complex]], least: float) -> list[tuple[str, complex]]:
+    kept: list[tuple[str, complex]] = []
+    for pin in pins:
+        if all(abs(pin[1] - other) >= least for _, other in kept):
+            kept.append(pin)
+    return kept
 
 
 class Bore(NamedTuple):

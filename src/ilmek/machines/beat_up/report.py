@@ -16,8 +16,9 @@ from ilmek.machines.beat_up.running_report import (
     running_warnings,
     shaking_results,
 )
+from ilmek.machines.plates import link_plates
 from ilmek.machines.rounding import settled
-from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
+from ilmek.report import Check, Column, Json, Plate, Report, Result, Table, at_least, at_most
 from ilmek.synthesis.crank_rocker import grashof_margin
 from ilmek.synthesis.crank_rocker_selection import DEVIATIONS, RATIO_LIMIT
 from ilmek.units import format_quantity, minute, turn
@@ -47,7 +48,20 @@ def report(design: BeatUp) -> Report:
         tables=(_link_table(design), _dead_centre_table(design), _peak_table(design), front_table(family)),
         figures=(*figures(design, running), *family_figures(family)),
         warnings=(*_warnings(design), *running_warnings(running)),
+        plates=_plates(design),
     )
+
+
+def _plates(design: BeatUp) -> tuple[Plate, ...]:
+    """Crank, coupler and rocker, which carries the beater, by their width and thickness."""
+    params, lengths = design.params, {name: complex(length) for name, length in design.lengths.items()}
+    links = {
+        "crank": (("D", 0j), ("C", lengths["crank"])),
+        "coupler": (("C", 0j), ("B", lengths["coupler"])),
+        "rocker": (("A", 0j), ("B", lengths["rocker"]), ("E", lengths["beater"])),
+    }
+    material = f"of density {format_quantity(params.density, 'kg/m^3')}"
+    return link_plates(links, width=params.width, thickness=params.thickness, material=material)
 
 
 def _geometry(design: BeatUp) -> tuple[Result, ...]:

@@ -91,6 +91,12 @@ class TuftingParams(Params):
     phase: float = param(
         0.0, unit="deg", at_least=-turn, at_most=turn, doc="angle by which each crank runs behind the one before"
     )
+    link_width: float = param(
+        30 * mm, unit="mm", at_least=SMALL, at_most=LARGE, doc="width of the links' plates; masses do not follow"
+    )
+    link_thickness: float = param(
+        10 * mm, unit="mm", at_least=SMALL, at_most=LARGE, doc="thickness of the links' plates; masses do not follow"
+    )
     crank_angle: float | None = param(
         None,
         unit="deg",

@@ -5,11 +5,12 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.dynamics.peaks import Peak
+from ilmek.machines.plates import link_plates
 from ilmek.machines.rounding import settled
 from ilmek.machines.tufting.design import Tufting
 from ilmek.machines.tufting.figures import figures
 from ilmek.machines.tufting.model import PINS, State, inertias
-from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
+from ilmek.report import Check, Column, Json, Plate, Report, Result, Table, at_least, at_most
 from ilmek.units import deg, format_quantity, mm, turn
 
 PAPER = "Xu et al., needle multi-linkage mechanism"
@@ -33,7 +34,21 @@ def report(design: Tufting) -> Report:
         tables=(_link_table(design), _peak_table(design)),
         figures=figures(design),
         warnings=_warnings(design),
+        plates=_plates(design),
     )
+
+
+def _plates(design: Tufting) -> tuple[Plate, ...]:
+    """The five links; the needle bar is turned, not cut."""
+    p = design.params
+    links = {
+        "crank": (("O", 0j), ("A", complex(p.crank))),
+        "coupler": (("A", 0j), ("B", complex(p.coupler))),
+        "rocker": (("C", 0j), ("B", complex(p.rocker))),
+        "arm": (("C", 0j), ("D", complex(p.arm))),
+        "rod": (("D", 0j), ("E", complex(p.rod))),
+    }
+    return link_plates(links, width=p.link_width, thickness=p.link_thickness, material="steel", number=p.bars)
 
 
 def _motion(design: Tufting) -> tuple[Result, ...]:
