@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ilmek.cams import profile
 from ilmek.cams.barrel import BarrelArmCam, BarrelCam
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.laws import LAWS
@@ -94,3 +95,17 @@ def test_push_without_friction_gives_all_work_to_the_follower(kind, law, side) -
         pivot = 160 * mm * np.exp(-1j * angle)
         moved = np.abs(trace.surface - pivot) * trace.course.ds
     np.testing.assert_allclose(lever, moved * np.cos(trace.pressure_angle), atol=1e-12)
+
+
+@given(law=st.sampled_from(SMOOTH), offset=st.floats(-20e-3, 20e-3), prime=st.floats(30e-3, 90e-3))
+@settings(max_examples=10)
+def test_the_closed_forms_of_a_roller_in_a_slide_are_the_traces(law, offset, prime) -> None:
+    cam = PlateCam(motion(law, 25 * mm, 100 * deg, 0.3), prime, offset, 9 * mm)
+    angle = np.linspace(0.0, TURN, 100)
+    trace = cam.trace(angle)
+    at = trace.course
+    np.testing.assert_allclose(cam.curvature(angle), trace.curvature, rtol=1e-11, atol=1e-10)
+    np.testing.assert_allclose(cam.pressure_angle(angle), trace.pressure_angle, atol=1e-13)
+    np.testing.assert_allclose(profile.normal(angle, at.s, at.ds, prime, offset), trace.normal, atol=1e-13)
+    touched = profile.profile_point(angle, at.s, at.ds, prime, offset, roller_radius=9 * mm)
+    np.testing.assert_allclose(touched, trace.surface, atol=1e-15)

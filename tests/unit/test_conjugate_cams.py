@@ -5,14 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from ilmek.cams.conjugate import conjugate, conjugate_arms, conjugate_faces, rest_of_the_way
+from ilmek.cams.conjugate import conjugate, conjugate_arms, conjugate_faces, rest_of_the_way, smallest_conjugate
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.groove import Groove
 from ilmek.cams.laws import LAWS
-from ilmek.cams.limits import concave_radius_min, convex_radius_min, largest_cutter, undercut
+from ilmek.cams.limits import concave_radius_min, convex_radius_min, largest_cutter, pressure_angle_max, undercut
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
+from ilmek.cams.sizing import Limits
 from ilmek.errors import ParameterError
 from ilmek.units import deg, mm
 
@@ -48,6 +49,13 @@ def test_both_rollers_of_a_slide_touch_their_plates_all_round(offset) -> None:
     np.testing.assert_allclose(gaps(second.pitch, pair.second.surface(FINE)), 8 * mm, rtol=1e-5)
     line = pair.between(ANGLE) * np.exp(1j * ANGLE)
     np.testing.assert_allclose(line, -130 * mm, atol=1e-12)
+
+
+def test_the_smallest_pair_uses_the_limit_up_on_both_ways() -> None:
+    pair = smallest_conjugate(PlateCam(motion(25 * mm), 1.0, 5 * mm, 8 * mm), Limits(rise=32 * deg))
+    for cam in (pair.first, pair.second):
+        assert pressure_angle_max(cam, "rise").value == pytest.approx(32 * deg, rel=1e-9)
+    np.testing.assert_allclose(np.abs(pair.between(ANGLE)), abs(pair.between(ANGLE)[0]), rtol=1e-12)
 
 
 @pytest.mark.parametrize("side", [1, -1])

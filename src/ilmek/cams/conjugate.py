@@ -21,6 +21,7 @@ from ilmek.cams.flat import FlatCam
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import Programme
+from ilmek.cams.sizing import Limits, smallest_prime
 from ilmek.cams.trace import Trace
 from ilmek.errors import ParameterError
 from ilmek.units import format_quantity
@@ -74,6 +75,19 @@ def conjugate(cam: PlateCam, distance: float, roller_radius: float | None = None
         roller_radius=cam.roller_radius if roller_radius is None else roller_radius,
     )
     return Pair(cam, second, math.pi)
+
+
+def smallest_conjugate(cam: PlateCam, limits: Limits) -> Pair:
+    """The pair whose plates are both as small as the limits allow; the cam's own prime radius does not matter.
+
+    Each plate pushes where its own roller goes out, so that the limit of the rise is the second's on the way back.
+    Raises ParameterError where a plate cannot keep the limits.
+    """
+    first = cam.resized(smallest_prime(cam, limits).prime_radius)
+    rest = replace(cam, programme=rest_of_the_way(cam.programme), offset=-cam.offset)
+    second = smallest_prime(rest, limits).prime_radius
+    reaches = [math.sqrt(radius**2 - cam.offset**2) for radius in (first.prime_radius, second)]
+    return conjugate(first, sum(reaches) + _top(cam.programme))
 
 
 def conjugate_faces(cam: FlatCam, distance: float) -> Pair:
