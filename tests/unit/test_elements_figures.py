@@ -1,0 +1,48 @@
+"""Figures of elements: gears that mesh without cutting into one another, a beam's lines in both planes."""
+
+import math
+
+import numpy as np
+import pytest
+from examples.draw_gears import OUT, pair
+
+from ilmek.elements.beams import Beam, LineLoad, PointLoad, bend
+from ilmek.elements.figures import beam_plots, gear_drawing
+from ilmek.elements.involute import outline
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.1, 0.37, 0.5])
+def test_flanks_touch_and_never_cut(turned) -> None:
+    """At any turn the first gear's points lie outside of the second's teeth, and one touches: conjugate flanks."""
+    gears = pair()
+    pitch = 2 * math.pi / gears.first.teeth
+    first = outline(gears.first, gears.tip_radii[0], points=200) * np.exp(1j * turned * pitch)
+    seen = (first - gears.distance) * np.exp(-1j * (math.pi / gears.second.teeth + math.pi))
+    seen = seen * np.exp(1j * turned * pitch / gears.ratio)
+    near = seen[(np.abs(seen) < gears.tip_radii[1]) & (np.abs(seen) > gears.second.base_radius)]
+    step = 2 * math.pi / gears.second.teeth
+    from_tooth = np.abs((np.angle(near) + step / 2) % step - step / 2)
+    room = (from_tooth - gears.second.half_thickness(np.abs(near))) * np.abs(near)
+    assert -2e-7 < np.min(room) < 2e-5
+
+
+def test_gears_of_the_drawing_stand_at_their_distance() -> None:
+    gears = pair()
+    drawn = gear_drawing(gears)
+    assert gears.distance == pytest.approx(0.070)
+    assert not gears.first.undercut
+    assert [abs(dot.at) for dot in drawn.dots] == pytest.approx([0, 0.070])
+    assert f"contact ratio {gears.contact_ratio:.3f}" in drawn.note
+    assert (OUT / "gear-pair.svg").exists()
+
+
+def test_beam_is_drawn_in_each_plane_and_together() -> None:
+    weight, pull = LineLoad(0.0, 1.6, 400.0), LineLoad(0.2, 1.4, 7500j)
+    bent = bend(Beam(1.6, (0.2, 1.4), (weight, pull, PointLoad(0.0, 900.0))))
+    for plot, most in zip(beam_plots(bent, 2e6), (bent.moment_max, bent.deflection_max(2e6)), strict=True):
+        vertical, horizontal, together = plot.series
+        np.testing.assert_allclose(np.hypot(vertical.y, horizontal.y), together.y)
+        assert np.max(together.y) == pytest.approx(most.size, rel=1e-3)
+        assert plot.marks[0].x == most.at
+    alone = beam_plots(bend(Beam(1.6, (0.2, 1.4), (weight,))), 2e6)[0]
+    assert [series.label for series in alone.series] == ["vertical"]
