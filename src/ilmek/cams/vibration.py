@@ -28,8 +28,8 @@ from ilmek.errors import ParameterError
 from ilmek.report import Axis, Plot, Series
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
-_BLOCK = 1 << 20
-"""Values of the integrand at a time."""
+_BLOCK = 64
+"""Time ratios at a time: with the greatest of them goes the number of panels."""
 
 _LEAST_SHARE, _MOST_SHARE = 1e-5, 0.5
 _GRID = 24
@@ -52,14 +52,14 @@ def residual(law: Law, ratio: RealField, damping: float = 0.0) -> FloatArray:
     ratios = np.asarray(ratio, float)
     if ratios.size and not np.min(ratios) > 0:
         raise ParameterError(f"a time ratio of {np.min(ratios):g}", allowed="above 0")
-    u, weights = _nodes(law, float(np.max(ratios, initial=1.0)))
-    acceleration = weights * np.asarray(law.a(u))
-    flat, rows = ratios.ravel(), max(1, _BLOCK // u.size)
-    blocks = [_transform(law, u, acceleration, flat[at : at + rows], damping) for at in range(0, flat.size, rows)]
+    flat = ratios.ravel()
+    blocks = [_transform(law, flat[at : at + _BLOCK], damping) for at in range(0, flat.size, _BLOCK)]
     return np.concatenate(blocks).reshape(ratios.shape) if blocks else ratios
 
 
-def _transform(law: Law, u: FloatArray, weighted: FloatArray, ratios: FloatArray, damping: float) -> FloatArray:
+def _transform(law: Law, ratios: FloatArray, damping: float) -> FloatArray:
+    u, weights = _nodes(law, float(np.max(ratios)))
+    weighted = weights * np.asarray(law.a(u))
     swing = math.sqrt(1.0 - damping**2)
     w = 2 * math.pi * ratios
     m = w * complex(-damping, swing)
@@ -68,9 +68,9 @@ def _transform(law: Law, u: FloatArray, weighted: FloatArray, ratios: FloatArray
 
 
 def _nodes(law: Law, ratio: float) -> tuple[FloatArray, FloatArray]:
-    """Gauss' nodes over panels of at most a third of a natural period, and their weights."""
+    """Gauss' nodes over panels of at most a natural period, and their weights: 12 are exact to rounding on it."""
     knots = np.array([0.0, *law.breaks, 1.0])
-    edges = [np.linspace(a, b, 5 + math.ceil(3 * ratio * (b - a))) for a, b in itertools.pairwise(knots)]
+    edges = [np.linspace(a, b, 4 + math.ceil(ratio * (b - a))) for a, b in itertools.pairwise(knots)]
     low = np.concatenate([row[:-1] for row in edges])
     half = 0.5 * (np.concatenate([row[1:] for row in edges]) - low)
     return (low[:, None] + half[:, None] * (1.0 + _NODES)).ravel(), (half[:, None] * _WEIGHTS).ravel()

@@ -219,6 +219,10 @@ class CamParams(SizeParams):
         0.0, at_least=0.0, below=1.0, doc="coefficient of friction between cam and a follower that slides on it"
     )
     guide_friction: float = param(0.0, at_least=0.0, below=1.0, doc="coefficient of friction in the follower's guide")
+    linkage_stiffness: float | None = param(
+        None, unit="N/mm", above=0.0, at_most=1e12, doc="stiffness between the cam and the mass; none: rigid"
+    )
+    linkage_damping: float = param(0.05, at_least=0.0, at_most=10.0, doc="damping of that linkage, of the critical")
     material: str = param("heat-treatable steel", choices=tuple(MATERIALS), doc="material of the cam")
     follower_material: str = param("heat-treatable steel", choices=tuple(MATERIALS), doc="material of the follower")
     pressure_limit: float | None = param(

@@ -12,6 +12,7 @@ from ilmek.machines.cam.figures import figures
 from ilmek.machines.cam.parts import cam_table, plates
 from ilmek.machines.cam.results import pressure_angle_on, results
 from ilmek.machines.cam.shape import size_without_undercut
+from ilmek.machines.cam.springy import springy, springy_checks, springy_figures, springy_results, springy_table
 from ilmek.machines.cam.tables import tables
 from ilmek.machines.rounding import settled
 from ilmek.report import Check, Report, at_least, at_most
@@ -20,14 +21,15 @@ from ilmek.units import format_quantity
 
 def report(design: CamDesign) -> Report:
     """Everything that the design says."""
+    gives = springy(design)
     return Report(
         machine="cam",
         title="Cam",
         parameters=design.params.as_dict(),
-        results=results(design),
-        checks=_checks(design),
-        tables=tables(design),
-        figures=figures(design),
+        results=(*results(design), *(springy_results(gives) if gives else ())),
+        checks=(*_checks(design), *(springy_checks(gives) if gives else ())),
+        tables=(*tables(design), *((springy_table(gives),) if gives else ())),
+        figures=(*figures(design), *(springy_figures(gives) if gives else ())),
         warnings=_warnings(design),
         plates=plates(design),
         cam_tables=(cam_table(design),),

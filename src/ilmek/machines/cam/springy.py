@@ -1,0 +1,143 @@
+"""A follower that gives: its mass hangs on a linkage of finite stiffness, lags behind the cam and swings on.
+
+Reckoned in the follower's own coordinate, m of a slide or rad of an arm, as `forces` does; said along its arc.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.cams.follower_dynamics import Follower, Response, one_mass, residual_of, steady_response
+from ilmek.cams.laws import LAWS, SMOOTH_LAWS, Law
+from ilmek.cams.vibration import least_ratio, residual
+from ilmek.errors import ParameterError
+from ilmek.machines.cam.design import CamDesign
+from ilmek.machines.cam.params import CamParams
+from ilmek.report import Axis, Check, Column, Figure, Mark, Plot, Result, Series, Table, at_least
+
+SHARE = 0.01
+"""Residual vibration that the table of laws asks for, of the lift."""
+
+BESIDE = ("harmonic", "modified-sine", "cycloidal", "4-5-6-7")
+"""Laws drawn beside the cam's own."""
+
+SOURCE = "Norton, Cam Design and Manufacturing, 10-12"
+
+
+@dataclass(frozen=True, slots=True)
+class Springy:
+    """The follower on its linkage, and what it does over a turn; `arc`: length of arc by its coordinate."""
+
+    params: CamParams
+    follower: Follower
+    response: Response
+    arc: float
+
+    @property
+    def frequency(self) -> float:
+        """Natural frequency [Hz]."""
+        return float(self.follower.frequencies[0]) / (2 * math.pi)
+
+    @property
+    def times(self) -> tuple[float, float]:
+        """Times of the rise and of the fall [s]."""
+        return self.params.rise / self.params.speed, self.params.fall_angle / self.params.speed
+
+    def residuals(self) -> tuple[float, float]:
+        """Amplitudes left after the rise and after the fall, each from rest, along the arc [m]."""
+        left = (
+            float(residual_of(self.follower, law, time)[0])
+            for law, time in zip(self.params.laws(), self.times, strict=True)
+        )
+        rise, fall = left
+        return self.params.lift * rise, self.params.lift * fall
+
+
+def springy(design: CamDesign) -> Springy | None:
+    """The follower on its linkage; None where it is rigid.
+
+    Raises ParameterError for a follower without mass, or a cam that does not turn.
+    """
+    params, held, arc = design.params, design.held, design.params.per_unit
+    if params.linkage_stiffness is None:
+        return None
+    if not (params.mass > 0 and params.speed > 0):
+        wrong = "mass" if not params.mass > 0 else "speed"
+        raise ParameterError(f"linkage_stiffness with {wrong}=0", allowed=f"{wrong} above 0", do="or leave it out")
+    preload = held.preload + held.load
+    stiffness = params.linkage_stiffness * arc**2
+    follower = one_mass(held.mass, stiffness, params.linkage_damping, held.rate, preload)
+    return Springy(params, follower, steady_response(follower, design.programme, params.speed), arc)
+
+
+def springy_results(made: Springy) -> tuple[Result, ...]:
+    """Frequency, time ratio, lag, what swings on, and the force on the cam."""
+    after_rise, after_fall = made.residuals()
+    lag = made.arc * float(np.max(np.abs(made.response.lag)))
+    return (
+        Result("natural_frequency", made.frequency, "Hz", "of the follower on its linkage"),
+        Result("time_ratio", made.times[0] * made.frequency, "", "time of the rise over the natural period"),
+        Result("lag_max", lag, "mm", "largest distance of the mass from where the cam would have it"),
+        Result("residual_vibration", after_rise, "mm", "amplitude that the mass swings on with after the rise"),
+        Result("residual_vibration_fall", after_fall, "mm", "amplitude that it swings on with after the fall"),
+        Result("contact_springy_min", _least_force(made), "N", "least force on the cam along the motion, with the lag"),
+    )
+
+
+def springy_checks(made: Springy) -> tuple[Check, ...]:
+    """That the follower on its linkage stays on the cam."""
+    return (at_least("force on the cam of the follower that gives", _least_force(made), 0.0, "N", SOURCE),)
+
+
+def springy_table(made: Springy) -> Table:
+    """What swings on by each law at this lift, time and follower, and up to which speed it is little."""
+    columns = (
+        Column("law"),
+        Column("residual vibration", "mm"),
+        Column("time ratio for 1 % of the lift"),
+        Column("speed for 1 % of the lift", "rpm"),
+    )
+    own, damping = made.params.laws()[0], made.params.linkage_damping
+    rows = []
+    for name in SMOOTH_LAWS:
+        law = own if name == own.name else LAWS[name]
+        left = made.params.lift * float(residual_of(made.follower, law, made.times[0])[0])
+        ratio = least_ratio(law, SHARE, damping) if damping < 1 and math.isfinite(law.acceleration_peak) else math.nan
+        rows.append((name, left, ratio, made.params.rise * made.frequency / ratio))
+    return Table("cam-vibration", "What swings on after the rise, by law", columns, tuple(rows))
+
+
+def springy_figures(made: Springy) -> tuple[Figure, ...]:
+    """Lag over the turn, and residual vibration over the speed."""
+    response = made.response
+    lag = Series("mass", response.at, made.arc * response.lag[0])
+    over_turn = Plot(
+        "cam-lag",
+        "How far the mass lags behind the cam",
+        Axis("cam angle", "deg"),
+        Axis("lag", "mm"),
+        (lag,),
+        note=f"natural frequency {made.frequency:.4g} Hz, damping {100 * made.params.linkage_damping:g} %",
+    )
+    return (over_turn,) if made.params.linkage_damping >= 1 else (over_turn, _over_speed(made))
+
+
+def _over_speed(made: Springy) -> Plot:
+    params = made.params
+    own = params.laws()[0]
+    speeds = params.speed * np.linspace(0.1, 3.0, 240)
+    ratios = made.frequency * params.rise / speeds
+    laws: dict[str, Law] = {own.name: own, **{name: LAWS[name] for name in BESIDE if name != own.name}}
+    series = tuple(
+        Series(name, speeds, params.lift * residual(law, ratios, params.linkage_damping), dashed=law is not own)
+        for name, law in laws.items()
+    )
+    marks = (Mark(params.speed, "speed"),)
+    x, y = Axis("speed of the cam", "rpm"), Axis("amplitude", "mm")
+    note = "without the return spring's share"
+    return Plot("cam-vibration", "What swings on after the rise, over the speed", x, y, series, marks, note)
+
+
+def _least_force(made: Springy) -> float:
+    return float(np.min(made.response.contact)) / made.arc
