@@ -5,12 +5,20 @@ import math
 import numpy as np
 import pytest
 
-from ilmek.cams.conjugate import conjugate, conjugate_arms, conjugate_faces, rest_of_the_way, smallest_conjugate
+from ilmek.cams.conjugate import (
+    conjugate,
+    conjugate_arms,
+    conjugate_faces,
+    conjugate_swinging_faces,
+    rest_of_the_way,
+    smallest_conjugate,
+)
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.groove import Groove
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import concave_radius_min, convex_radius_min, largest_cutter, pressure_angle_max, undercut
 from ilmek.cams.oscillating import OscillatingCam
+from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
 from ilmek.cams.sizing import Limits
@@ -80,6 +88,23 @@ def test_two_faces_hold_two_plates_and_a_symmetric_one_alone() -> None:
     breadth = Programme((rise(math.pi, 10 * mm, LAWS["3-4-5"]), fall(math.pi, 10 * mm, LAWS["3-4-5"])))
     alone = conjugate_faces(FlatCam(breadth, 40 * mm), 90 * mm)
     np.testing.assert_allclose(alone.first.surface(ANGLE), alone.second.surface(ANGLE), atol=1e-14)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_two_faces_of_a_rocker_touch_their_plates_all_round(side) -> None:
+    first = OscillatingFlatCam(motion(10 * deg), 50 * mm, 110 * mm, 3 * mm, side)
+    pair = conjugate_swinging_faces(first, 66 * deg, 4 * mm)
+    for angle in ANGLE[::10]:
+        headings = []
+        for cam, trace in zip((pair.first, pair.second), pair.traces(np.array([angle])), strict=True):
+            normal = complex(trace.normal[0])
+            face = (normal.conjugate() * 110 * mm * np.exp(-1j * angle)).real + cam.face_offset
+            touched = np.max((normal.conjugate() * cam.surface(FINE)).real)
+            assert touched == pytest.approx(face, rel=1e-6)
+            headings.append(normal)
+        assert math.acos(-(headings[0] * headings[1].conjugate()).real) == pytest.approx(66 * deg, rel=1e-9)
+    with pytest.raises(ParameterError, match="30 deg between the faces; above"):
+        conjugate_swinging_faces(first, 30 * deg)
 
 
 def test_a_distance_without_room_names_the_least() -> None:

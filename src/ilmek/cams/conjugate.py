@@ -5,9 +5,9 @@ What one roller goes out the other comes in; the second plate's programme is the
     s2 = top - s1
 
 Two rollers (or two parallel faces) in one slide, the distance D apart with the shaft between them: the second plate is
-met half a turn further on, and its prime radius follows from D (both without offset: Rp2 = D - Rp1 - top). Two arms on
-one pivot with a fixed angle gamma between them, one on each side of the line to the axis: psi2 = gamma - psi1. Both
-plates share the frame of the shaft.
+met half a turn further on, and its prime radius follows from D (both without offset: Rp2 = D - Rp1 - top). Two arms or
+two faces on one pivot with a fixed angle gamma between them, one on each side of the line to the axis:
+psi2 = gamma - psi1. Both plates share the frame of the shaft.
 """
 
 import math
@@ -19,6 +19,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.oscillating import OscillatingCam
+from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import Programme
 from ilmek.cams.sizing import Limits, smallest_prime
@@ -31,8 +32,8 @@ from ilmek.units import format_quantity
 class Pair:
     """Two conjugate plates; the second is met at the cam angle + `lag` [rad] of its own programme."""
 
-    first: PlateCam | FlatCam | OscillatingCam
-    second: PlateCam | FlatCam | OscillatingCam
+    first: PlateCam | FlatCam | OscillatingCam | OscillatingFlatCam
+    second: PlateCam | FlatCam | OscillatingCam | OscillatingFlatCam
     lag: float
 
     def traces(self, angle: FloatArray) -> tuple[Trace, Trace]:
@@ -40,7 +41,10 @@ class Pair:
         return self.first.trace(angle), self.second.trace(angle + self.lag)
 
     def between(self, angle: FloatArray) -> ComplexArray:
-        """From the first roller's centre to the second's, in the shaft's frame [m]; of one length all round."""
+        """From the first roller's centre to the second's, in the shaft's frame [m]; of one length all round.
+
+        Of faces, from one place of contact to the other.
+        """
         first, second = self.traces(angle)
         return np.asarray(second.pitch - first.pitch)
 
@@ -125,6 +129,30 @@ def conjugate_arms(
     rest = rest_of_the_way(cam.programme)
     side: Literal[1, -1] = -1 if cam.side == 1 else 1
     return Pair(cam, OscillatingCam(rest, prime, cam.pivot, length, side, radius), 0.0)
+
+
+def conjugate_swinging_faces(cam: OscillatingFlatCam, between: float, face_offset: float = 0.0) -> Pair:
+    """A plate and the one that holds its face back by a second face on the same pivot.
+
+    between  angle between the faces, over the shaft [rad]
+    face_offset  how far the second face lies beyond the pivot, away from its cam [m]
+    Raises ParameterError where the angle leaves the second plate no base circle.
+    """
+    top = _top(cam.programme)
+    start = between - cam.start_angle - top
+    prime = cam.pivot * math.sin(start) + face_offset
+    if not (prime > 0 and start + top < math.pi / 2):
+        first = cam.start_angle + top
+        least, most = (
+            first + end for end in (-math.asin(max(-1.0, min(face_offset / cam.pivot, 1.0))), math.pi / 2 - top)
+        )
+        raise ParameterError(
+            f"{format_quantity(between, 'deg')} between the faces",
+            allowed=f"above {format_quantity(least, 'deg')}, below {format_quantity(most, 'deg')}",
+        )
+    rest = rest_of_the_way(cam.programme)
+    side: Literal[1, -1] = -1 if cam.side == 1 else 1
+    return Pair(cam, OscillatingFlatCam(rest, prime, cam.pivot, face_offset, side), 0.0)
 
 
 def _top(programme: Programme) -> float:
