@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ilmek.cams.laws import law_of
 from ilmek.errors import ParameterError
 from ilmek.timing.s_curve import AxisLimits, SCurve, move_time, s_curve
 
@@ -75,6 +76,24 @@ def test_no_random_profile_of_the_same_limits_is_quicker(speed, acceleration, je
         other = SCurve(0.0, ramp, hold, cruise * ramp)
         covered = integrated(other, jerk)[0]
         assert move_time(covered, AxisLimits(speed, acceleration, jerk)) <= other.time * (1 + 1e-9)
+
+
+@given(SIZES, SIZES, SIZES, SIZES)
+def test_the_law_of_a_move_has_its_course(distance, speed, acceleration, jerk):
+    move = s_curve(distance, AxisLimits(speed, acceleration, jerk))
+    law = law_of("s-curve", {"ramp": min(0.25, move.ramp / move.time), "cruise": move.cruise / move.time})
+    _, top_speed, top_acceleration = integrated(move, jerk)
+    assert law.velocity_peak * distance / move.time == pytest.approx(top_speed, rel=1e-6)
+    assert law.acceleration_peak * distance / move.time**2 == pytest.approx(top_acceleration, rel=1e-6)
+    assert law.jerk_peak * distance / move.time**3 == pytest.approx(jerk, rel=1e-6)
+
+
+@given(st.floats(0.01, 0.25), st.floats(0.0, 1.0))
+def test_the_laws_torque_and_rms_are_those_of_its_curves(ramp, share):
+    law = law_of("s-curve", {"ramp": ramp, "cruise": share * (1 - 4 * ramp)})
+    u = (np.arange(20_000) + 0.5) / 20_000
+    assert law.torque_peak == pytest.approx(float(np.max(law.v(u) * law.a(u))), rel=1e-3)
+    assert law.acceleration_rms == pytest.approx(math.sqrt(float(np.mean(law.a(u) ** 2))), rel=1e-3)
 
 
 def test_no_move_takes_no_time_and_bad_limits_are_told():

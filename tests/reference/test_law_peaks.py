@@ -133,7 +133,7 @@ def test_cubic_has_the_least_rms_and_parabolic_the_least_acceleration() -> None:
 
 def test_names_are_those_of_the_documentation() -> None:
     names = "uniform modified-uniform parabolic cubic harmonic cycloidal 3-4-5 4-5-6-7 modified-sine modified-trapezoid"
-    assert list(LAWS) == [*names.split(), "scca", "spline", "polynomial"]
+    assert list(LAWS) == [*names.split(), "scca", "spline", "polynomial", "s-curve"]
     assert set(LAWS) - set(SMOOTH_LAWS) == {"uniform"}
     assert all(LAWS[name].name == name for name in LAWS)
 

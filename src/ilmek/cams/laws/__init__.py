@@ -18,6 +18,7 @@ from ilmek.cams.laws import (
     polynomial,
     polynomial_345,
     polynomial_4567,
+    s_curve,
     scca,
     spline,
     uniform,
@@ -42,6 +43,7 @@ FAMILIES: Mapping[str, Family] = MappingProxyType(
         "scca": scca.FAMILY,
         "spline": spline.FAMILY,
         "polynomial": polynomial.FAMILY,
+        "s-curve": s_curve.FAMILY,
     }
 )
 """How each law is made, and what parameters it takes."""
