@@ -14,6 +14,7 @@ from ilmek.errors import ParameterError
 from ilmek.machines import MACHINES
 from ilmek.machines.cam import MACHINE, CamParams, design, report
 from ilmek.machines.cam.hub import Hub, bore_for, hub_for
+from ilmek.machines.cam.parts import cam_table, plates
 from ilmek.machines.cam.results import results as numbers
 from ilmek.machines.cam.rollers import ROLLERS, Duty
 from ilmek.plane import contours
@@ -143,6 +144,50 @@ def test_arm_turns_the_shaft_by_its_virtual_work(more) -> None:
     assert not found.undercut
 
 
+@pytest.mark.parametrize(
+    "more",
+    [
+        dict(kind="grooved"),
+        dict(kind="grooved", motion="oscillating"),
+        dict(kind="conjugate", offset="5mm"),
+        dict(kind="conjugate", follower="flat"),
+        dict(kind="conjugate", motion="oscillating", side="leading"),
+    ],
+    ids=lambda more: "-".join(more.values()),
+)
+def test_cam_that_leads_both_ways_needs_no_spring(more) -> None:
+    """What pulls the follower back presses on the other flank or cam; the work is the same."""
+    found = made(law="cycloidal", lift="30mm", rise="100deg", speed="300rpm", load="20N", **more)
+    state = found.state(np.linspace(0.01, 6.2, 61))
+    assert state.force.min() < 0 < state.force.max()
+    assert np.sign(state.normal) == pytest.approx(np.sign(state.force))
+    assert state.torque == pytest.approx(state.force * state.trace.course.ds, abs=1e-9)
+    assert found.held.rate == found.held.preload == 0
+    assert not found.undercut
+    assert math.isfinite(found.extremes.pressure.value)
+
+
+def test_groove_keeps_the_limit_both_ways_and_is_cut_into_a_disc() -> None:
+    found = made(law="modified-sine", lift="30mm", kind="grooved", fall="70deg", pressure_angle_limit="32deg")
+    numbers_found = {result.name: result.value for result in numbers(found)}
+    assert numbers_found["pressure_angle_fall_max"] == pytest.approx(32 * deg, rel=1e-9)
+    assert numbers_found["pressure_angle_max"] < 32 * deg
+    (plate,) = plates(found)
+    assert set(plate.paths) == {"pitch curve", "inner flank", "outer flank", "cutter path"}
+    apart = np.abs(np.asarray(plate.paths["outer flank"]) - np.asarray(plate.paths["inner flank"]))
+    assert apart == pytest.approx(np.full(apart.size, numbers_found["groove_width"]))
+    most = np.abs(np.asarray(plate.paths["outer flank"])).max()
+    assert plate.area == pytest.approx(math.pi * (most + 5 * mm) ** 2, rel=1e-5)
+
+
+def test_conjugate_cams_are_two_plates_of_one_prime_circle() -> None:
+    found = made(law="cycloidal", lift="30mm", kind="conjugate", rise="120deg")
+    other = {result.name: result.value for result in numbers(found)}["second"]
+    assert other["prime_radius"] == pytest.approx(found.cam.prime_radius)
+    assert other["pressure_angle_max"] == pytest.approx(30 * deg, rel=1e-6)
+    assert [plate.name for plate in plates(found)] == ["cam", "cam-2"]
+
+
 def test_arm_of_the_smallest_size_keeps_the_limit() -> None:
     found = {result.name: result.value for result in numbers(made(**ARM, pressure_angle_limit="35deg"))}
     assert found["pressure_angle_max"] == pytest.approx(35 * deg, rel=1e-6)
@@ -214,15 +259,14 @@ def test_hub_has_the_keyway_of_its_bore() -> None:
 
 
 def test_plate_has_the_area_of_the_cam_and_its_cutter_path() -> None:
-    found = report(made(**SHED, prime_radius="80mm", roller="CF 10", bore="20mm"))
-    (plate,) = found.plates
+    found = made(**SHED, prime_radius="80mm", roller="CF 10", bore="20mm")
+    (plate,) = plates(found)
     points = np.asarray(plate.outline)
     assert 0.5 * np.sum(np.imag(np.conj(points) * np.roll(points, -1))) == pytest.approx(plate.area, rel=1e-5)
     assert set(plate.paths) == {"pitch curve", "cutter path"}
     assert np.max(np.abs(plate.paths["cutter path"] - plate.paths["pitch curve"])) == 0
     assert len(plate.cutouts) == 1
-    (table,) = found.cam_tables
-    assert table.course(np.array([0.0, math.pi / 2]))[0] == pytest.approx([0.0, 60 * mm])
+    assert cam_table(found).course(np.array([0.0, math.pi / 2]))[0] == pytest.approx([0.0, 60 * mm])
 
 
 def test_undercut_is_said_with_the_size_that_mends_it() -> None:
@@ -257,6 +301,8 @@ def test_undercut_is_said_with_the_size_that_mends_it() -> None:
         (dict(arm="50mm"), "set motion=oscillating"),
         (dict(motion="oscillating", offset="5mm"), "place the arm by arm and pivot"),
         (dict(motion="oscillating", guide_friction="0.1"), "an arm has no guide"),
+        (dict(kind="grooved", follower="flat"), "a groove leads a roller"),
+        (dict(kind="grooved", preload="5N"), "leave it out: the cam leads both ways"),
         (dict(law_parameters="b"), "NAME=NUMBER"),
         (dict(law_parameters="b=x"), "is not a number"),
         (dict(law="scca", law_parameters="bb=0.2"), "law scca has no 'bb'"),

@@ -11,7 +11,8 @@ T = N (c x n) = F s': the whole of it without friction.
 
 Friction takes part in two places. A sliding follower is dragged along by the cam's surface, the push is q = n + mu t;
 a straight guide holds its side force and resists with mu_g |q x way|. Then N = F / (q . way - mu_g |q x way| sign(s'))
-and T = N (c x q). Where the bracket is not above 0 the follower jams, NaN.    [Norton, Cam Design and Manufacturing, 9]
+and T = N (c x q). Where the bracket is not above 0 the follower jams, NaN. A groove pulls too, N < 0, and friction
+then has the other sign.                                              [Norton, Cam Design and Manufacturing, 9]
 """
 
 from dataclasses import dataclass
@@ -70,8 +71,9 @@ def pressed(touch: Touch, ds: RealField, force: RealField, *, sliding: float = 0
     """
     forward = 1j * np.asarray(touch.normal)
     slip = dot(1j * np.asarray(touch.point) - ds * touch.way, forward)
-    push = touch.normal + sliding * np.sign(slip) * forward
-    resisted = guide * np.abs(cross(touch.way, push)) * np.sign(ds)
+    sense = np.where(np.asarray(force) < 0, -1.0, 1.0)
+    push = touch.normal + sense * sliding * np.sign(slip) * forward
+    resisted = sense * guide * np.abs(cross(touch.way, push)) * np.sign(ds)
     along = dot(push, touch.way) - resisted
     with np.errstate(divide="ignore", invalid="ignore"):
         normal = np.where(along > 0, force / along, np.nan)

@@ -25,14 +25,11 @@ from ilmek.machines.cam.forces import (
 from ilmek.machines.cam.hub import Hub, bore_for, hub_for
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.rollers import ROLLERS, Duty, Roller, find_roller
-from ilmek.machines.cam.shape import Size, cam_of, part_knots, programme_of, size_of
+from ilmek.machines.cam.shape import Cams, Size, cam_of, cams_of, part_knots, programme_of, size_of
 from ilmek.units import mm
 
 ROOM = 0.8
 """Radius of a roller that is chosen, at most, over the least radius of the pitch curve and over the prime radius."""
-
-MARGIN = 1.2
-"""Speed up to which a spring that is chosen holds, over the speed of the cam."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +39,7 @@ class CamDesign:
     params: CamParams
     programme: Programme
     size: Size
-    cam: Cam
+    cams: Cams
     held: Held
     roller: Roller | None
     duty: Duty | None
@@ -52,6 +49,11 @@ class CamDesign:
     area: float
     face_width: float
     pressure_limit: float
+
+    @property
+    def cam(self) -> Cam:
+        """The cam; of conjugate ones that which lifts."""
+        return self.cams.cam
 
     @property
     def rise_knots(self) -> FloatArray:
@@ -66,11 +68,13 @@ class CamDesign:
     @property
     def undercut(self) -> bool:
         """Whether no surface can guide the follower."""
-        return limits.undercut(self.cam)
+        cam, pair = self.cams
+        other = pair is not None and limits.undercut(pair.second)
+        return other or limits.undercut(cam, both_flanks=self.params.kind == "grooved")
 
     def state(self, angle: FloatArray) -> State:
         """Geometry and forces at cam angles [rad]."""
-        return state_of(self.params, self.cam, self.held, angle)
+        return state_of(self.params, self.cams, self.held, angle)
 
     def hertz(self, angle: FloatArray) -> FloatArray:
         """Hertz pressure [Pa] at cam angles [rad]; NaN where cam and follower cannot touch so."""
@@ -83,42 +87,42 @@ def design(params: CamParams) -> CamDesign:
     size = size_of(params, programme)
     held = held_by(params, programme)
     bare = cam_of(params, programme, size, params.roller_radius or 0.0)
-    roller, cam = _with_roller(params, bare, size, held)
+    roller, cams = _with_roller(params, bare, size, held)
     width = params.face_width or (roller.width if roller else 10 * mm)
-    extremes = extremes_of(params, cam, held, width)
+    extremes = extremes_of(params, cams, held, width)
     torque = max(abs(extremes.torque.value), abs(extremes.back_torque.value))
     return CamDesign(
         params=params,
         programme=programme,
         size=size,
-        cam=cam,
+        cams=cams,
         held=held,
         roller=roller,
-        duty=duty_of(params, cam, held) if params.follower == "roller" else None,
+        duty=duty_of(params, cams, held) if params.follower == "roller" else None,
         hub=hub_for(params.bore or bore_for(torque if math.isfinite(torque) else 0.0)),
-        lift_off=lift_off(programme, held),
+        lift_off=LiftOff(math.inf, 0.0) if params.led else lift_off(programme, held),
         extremes=extremes,
-        area=limits.area(cam),
+        area=limits.area(cams.cam),
         face_width=width,
         pressure_limit=pressure_limit(params),
     )
 
 
-def _with_roller(params: CamParams, bare: Cam, size: Size, held: Held) -> tuple[Roller | None, Cam]:
+def _with_roller(params: CamParams, bare: Cam, size: Size, held: Held) -> tuple[Roller | None, Cams]:
     """The roller, and the cam for what touches it: as given, from the table, or half of what there is room for.
 
     The table's smallest roller that lasts is taken; where none does, the largest for which there is room.
     """
 
-    def fitted(radius: float) -> Cam:
-        return cam_of(params, bare.programme, size, radius)
+    def fitted(radius: float) -> Cams:
+        return cams_of(params, bare.programme, size, radius)
 
     if params.roller is not None:
         roller = find_roller(params.roller)
         return roller, fitted(roller.radius)
     if params.roller_radius is not None or params.follower in ("knife", "flat"):
-        return None, bare
-    room = min(limits.convex_radius_min(bare).value, bare.prime_radius)
+        return None, fitted(params.roller_radius or 0.0)
+    room = _room(params, bare)
     fitting = [roller for roller in ROLLERS.values() if roller.radius <= ROOM * room]
     if params.follower == "spherical" or not fitting:
         return None, fitted(0.5 * room)
@@ -127,3 +131,10 @@ def _with_roller(params: CamParams, bare: Cam, size: Size, held: Held) -> tuple[
         if duty.largest <= roller.force_limit and duty.time(roller) >= params.life:
             return roller, fitted(roller.radius)
     return fitting[-1], fitted(fitting[-1].radius)
+
+
+def _room(params: CamParams, bare: Cam) -> float:
+    """Radius [m] below which a roller is undercut nowhere and leaves something of the prime circle."""
+    room = min(limits.convex_radius_min(bare).value, bare.prime_radius)
+    hollow = limits.concave_radius_min(bare) if params.kind == "grooved" else None
+    return room if hollow is None else min(room, hollow.value)

@@ -9,14 +9,17 @@ from ilmek.cams import figures as cam_figures
 from ilmek.cams.limits import convex_radius_min
 from ilmek.cams.pieces import supremum
 from ilmek.cams.programme import TURN, jumps
+from ilmek.cams.trace import Trace
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.moving import moving
-from ilmek.machines.cam.parts import zero_mark
+from ilmek.machines.cam.parts import rim_radius, zero_mark
 from ilmek.plane import contours
 from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.units import format_quantity, mm
 
 ANGLE = Axis("cam angle", "deg")
+_CIRCLE = np.exp(1j * np.linspace(0.0, TURN, 361))
+
 CHORD = 0.02 * mm
 """How far the drawn edge of a bore may lie beside its arc."""
 
@@ -42,27 +45,13 @@ def figures(design: CamDesign) -> tuple[Figure, ...]:
 def drawing(design: CamDesign) -> Drawing:
     """The cam to scale, zero of the cam angle to the right, with the curves that make it."""
     cam, hub = design.cam, design.hub
-    angle = cam_figures.sample_angles(design.programme, count=721)
-    trace = cam.trace(angle)
-    circle = np.exp(1j * np.linspace(0.0, TURN, 361))
-    cutter = design.params.cutter_radius
-    paths = []
-    if cam.roller_radius > 0:
-        paths.append(Stroke(trace.pitch, "path", "pitch curve", closed=True))
-    if cutter is not None and cutter != cam.roller_radius:
-        paths.append(Stroke(trace.parallel(cutter - cam.roller_radius), "path", "cutter path", closed=True))
+    trace = cam.trace(cam_figures.sample_angles(design.programme, count=721))
     tip = trace.surface[np.argmax(np.abs(trace.surface))]
-    first = complex(trace.pitch[0])
-    if design.params.follower in ("roller", "spherical"):
-        name = design.roller.name if design.roller else format_quantity(cam.roller_radius, "mm")
-        paths.append(
-            Stroke(first + cam.roller_radius * circle, "link", f"{design.params.follower} {name}", closed=True)
-        )
     prime = f"{'base circle' if cam.flat else 'prime circle'} {format_quantity(cam.prime_radius, 'mm')}"
     strokes = (
-        Stroke(trace.surface, "outline", "cam", closed=True, filled=True),
-        Stroke(cam.prime_radius * circle, "construction", prime, closed=True),
-        *paths,
+        *_bodies(design, trace),
+        Stroke(cam.prime_radius * _CIRCLE, "construction", prime, closed=True),
+        *_paths(design, trace),
         Stroke(contours.along(hub.contour, CHORD), "outline", f"bore {format_quantity(hub.bore, 'mm')}", closed=True),
         Stroke(zero_mark(design), "outline", "0"),
         Stroke(np.array([0j, tip]), "dimension", format_quantity(float(np.abs(tip)), "mm")),
@@ -70,6 +59,38 @@ def drawing(design: CamDesign) -> Drawing:
     turned = "turns counter-clockwise; the follower stands on the right when the cam angle is 0"
     said = f"{turned}; no surface guides the follower where the outline turns back" if design.undercut else turned
     return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "", "point"),), note=said)
+
+
+def _bodies(design: CamDesign, trace: Trace) -> tuple[Stroke, ...]:
+    """Edges of what is solid: the cam, the disc with its groove, or both conjugate cams."""
+    if design.params.kind == "grooved":
+        outer = trace.parallel(design.cam.roller_radius)
+        return (
+            Stroke(rim_radius(design) * _CIRCLE, "outline", "disc", closed=True, filled=True),
+            Stroke(trace.surface, "outline", "inner flank", closed=True),
+            Stroke(outer, "outline", "outer flank", closed=True),
+        )
+    first = Stroke(trace.surface, "outline", "cam", closed=True, filled=True)
+    if design.cams.pair is None:
+        return (first,)
+    second = design.cams.pair.second
+    surface = second.trace(cam_figures.sample_angles(second.programme, count=721)).surface
+    return first, Stroke(surface, "outline", "second cam", closed=True)
+
+
+def _paths(design: CamDesign, trace: Trace) -> tuple[Stroke, ...]:
+    """Pitch curve, the path of a cutter that is not as the roller, and the roller where the rise begins."""
+    cam, follower, paths = design.cam, design.params.follower, []
+    cutter = design.params.cutter_radius
+    if cam.roller_radius > 0:
+        paths.append(Stroke(trace.pitch, "path", "pitch curve", closed=True))
+    if cutter is not None and cutter != cam.roller_radius:
+        paths.append(Stroke(trace.parallel(cutter - cam.roller_radius), "path", "cutter path", closed=True))
+    if follower in ("roller", "spherical"):
+        name = design.roller.name if design.roller else format_quantity(cam.roller_radius, "mm")
+        at = complex(trace.pitch[0]) + cam.roller_radius * _CIRCLE
+        paths.append(Stroke(at, "link", f"{follower} {name}", closed=True))
+    return tuple(paths)
 
 
 def _unit(design: CamDesign) -> Literal["mm", "deg"]:
@@ -104,14 +125,16 @@ def _jerk_plot(design: CamDesign) -> Plot:
 
 
 def _pressure_angle_plot(design: CamDesign, at: float) -> Plot:
-    limit = design.params.limit
-    if limit is not None:
-        return cam_figures.pressure_plot(design.cam, limit, at)
+    """Pressure angle, and the limit on the rise; of a cam that leads both ways on the fall too."""
+    limit, ends = design.params.limit, np.array([0.0, TURN])
     angle = cam_figures.sample_angles(design.programme)
-    series = (Series("pressure angle", angle, design.cam.trace(angle).pressure_angle),)
-    return _plot(
-        "pressure-angle", "Pressure angle", Axis("pressure angle", "deg"), series, marks=(Mark(at, "largest"),)
-    )
+    series = [Series("pressure angle", angle, design.cam.trace(angle).pressure_angle)]
+    if limit is not None:
+        series.append(Series("limit", ends, np.full(2, limit), dashed=True))
+    if limit is not None and design.params.led:
+        series.append(Series("limit on the fall", ends, np.full(2, -limit), dashed=True))
+    axis, mark = Axis("pressure angle", "deg"), Mark(at, "largest")
+    return _plot("pressure-angle", "Pressure angle", axis, tuple(series), marks=(mark,))
 
 
 def _force_plot(design: CamDesign) -> Plot:
@@ -122,9 +145,11 @@ def _force_plot(design: CamDesign) -> Plot:
     series = (
         Series("on the normal", angle, state.normal),
         Series("along the motion", angle, state.force / arc),
-        Series("spring", angle, spring, dashed=True),
+        *(() if design.params.led else (Series("spring", angle, spring, dashed=True),)),
     )
     note = "the follower stays on the cam as long as the force is above 0"
+    if design.params.led:
+        note = "below 0 the other flank or cam holds the follower"
     mark = Mark(design.extremes.normal.at, format_quantity(design.extremes.normal.value, "N"))
     return _plot(
         "contact-force", "Force between cam and follower", Axis("force", "N"), series, marks=(mark,), note=note

@@ -10,15 +10,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.contact import Held, Touch, pressed
+from ilmek.cams.contact import Held, Pressed, Touch, pressed
 from ilmek.cams.hertz import LINE_YIELD, POINT_YIELD, contact_modulus, ellipse_contact, line_contact
 from ilmek.cams.pieces import Extremum, Function, infimum, integral, supremum
 from ilmek.cams.programme import TURN, Programme
 from ilmek.cams.return_spring import doubling_spring, least_preload, least_rate, velocity_drop
-from ilmek.cams.trace import Cam, Trace
+from ilmek.cams.trace import Trace
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.rollers import POWER, Duty
+from ilmek.machines.cam.shape import Cams
 from ilmek.plane.vectors import dot, unit
 
 POISSON = 0.3
@@ -32,12 +33,18 @@ MARGIN = 1.2
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """Cam and follower at cam angles: geometry, need along the motion [N], force on the normal [N], torque [N m]."""
+    """Cam and follower at cam angles.
+
+    trace    geometry of the cam                    force   need along the motion [N; N m of an arm]
+    normal   force on the normal [N], below 0 where the follower lifts off, or is held by the other flank or cam
+    torque   of the shaft [N m]                     bend    curvature of the surface that is pressed on [1/m]
+    """
 
     trace: Trace
     force: FloatArray
     normal: FloatArray
     torque: FloatArray
+    bend: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +60,8 @@ class Extremes:
 
 def held_by(params: CamParams, programme: Programme) -> Held:
     """Mass, load and return spring; what is not given of the spring is the least that holds up to the hold speed."""
+    if params.led:
+        return Held(params.speed, params.mass * params.per_unit**2, load=params.load * params.per_unit)
     hold = MARGIN * params.speed if params.hold_speed is None else params.hold_speed
     arc = params.per_unit
     rate, preload = (params.spring_rate or 0.0) * arc**2, (params.preload or 0.0) * arc
@@ -68,33 +77,46 @@ def held_by(params: CamParams, programme: Programme) -> Held:
     return replace(bare, speed=params.speed)
 
 
-def duty_of(params: CamParams, cam: Cam, held: Held) -> Duty:
+def duty_of(params: CamParams, cams: Cams, held: Held) -> Duty:
     """What a roller bears over the turn; it turns against its stud, which an arm carries with it."""
 
     def borne(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
-        state = state_of(params, cam, held, angle)
+        state = state_of(params, cams, held, angle)
         swung = _SIDES[params.side] * state.trace.course.ds if params.motion == "oscillating" else 0.0
-        spin = np.abs(state.trace.flow / cam.roller_radius - 1 - swung)
-        return np.maximum(state.normal, 0.0), spin
+        spin = np.abs(state.trace.flow / cams.cam.roller_radius - 1 - swung)
+        return _size(params, state.normal), spin
 
     def worn(angle: FloatArray) -> FloatArray:
         force, spin = borne(angle)
         return np.asarray(force**POWER * spin)
 
-    knots = cam.programme.knots
+    knots = cams.cam.programme.knots
     turns = integral(lambda angle: borne(angle)[1], knots)
     mean = (integral(worn, knots) / turns) ** (1 / POWER)
     return Duty(mean, supremum(lambda angle: borne(angle)[0], knots).value, turns / TURN, params.speed)
 
 
-def state_of(params: CamParams, cam: Cam, held: Held, angle: FloatArray) -> State:
+def state_of(params: CamParams, cams: Cams, held: Held, angle: FloatArray) -> State:
     """Geometry and forces at cam angles [rad]."""
-    trace = cam.trace(angle)
+    trace = cams.cam.trace(angle)
     force = held.force(trace.course.s, trace.course.dds)
+    found = _pressed(params, trace, force)
+    bend, back = trace.surface_curvature, force < 0
+    if cams.pair is not None:
+        other = cams.pair.second.trace(angle + cams.pair.lag)
+        second = _pressed(params, other, -force)
+        bend = np.where(back, other.surface_curvature, bend)
+        normal = np.where(back, -second.normal, found.normal)
+        return State(trace, force, normal, np.where(back, second.torque, found.torque), bend)
+    if params.kind == "grooved":
+        bend = np.where(back, -trace.curvature_at(cams.cam.roller_radius), bend)
+    return State(trace, force, found.normal, found.torque, bend)
+
+
+def _pressed(params: CamParams, trace: Trace, force: FloatArray) -> Pressed:
     sliding = 0.0 if params.follower == "roller" else params.sliding_friction
     touch = Touch(trace.surface, trace.normal, _way(params, trace))
-    found = pressed(touch, trace.course.ds, force, sliding=sliding, guide=params.guide_friction)
-    return State(trace, force, found.normal, found.torque)
+    return pressed(touch, trace.course.ds, force, sliding=sliding, guide=params.guide_friction)
 
 
 def _way(params: CamParams, trace: Trace) -> ComplexArray:
@@ -112,11 +134,16 @@ def pressure_of(params: CamParams, state: State, width: float) -> FloatArray:
     first, second = MATERIALS[params.material], MATERIALS[params.follower_material]
     modulus = contact_modulus(first.modulus, POISSON, second.modulus, POISSON)
     round_follower = 1 / state.trace.roller_radius if state.trace.roller_radius > 0 else 0.0
-    along = state.trace.surface_curvature + round_follower
+    along, normal = state.bend + round_follower, _size(params, state.normal)
     if params.follower == "spherical" or params.crown_radius is not None:
         across = round_follower if params.crown_radius is None else 1 / params.crown_radius
-        return ellipse_contact(state.normal, along, across, modulus).pressure
-    return line_contact(state.normal / width, along, modulus).pressure
+        return ellipse_contact(normal, along, across, modulus).pressure
+    return line_contact(normal / width, along, modulus).pressure
+
+
+def _size(params: CamParams, normal: FloatArray) -> FloatArray:
+    """Size of the force [N]: of a cam that leads both ways either sign presses, else what is below 0 does not."""
+    return np.asarray(np.abs(normal) if params.led else np.maximum(normal, 0.0))
 
 
 def pressure_limit(params: CamParams) -> float:
@@ -128,21 +155,21 @@ def pressure_limit(params: CamParams) -> float:
     return strength * (POINT_YIELD if point else LINE_YIELD)
 
 
-def extremes_of(params: CamParams, cam: Cam, held: Held, width: float) -> Extremes:
+def extremes_of(params: CamParams, cams: Cams, held: Held, width: float) -> Extremes:
     """What is largest over the turn, on a face of a width [m]."""
-    knots = cam.programme.knots
+    knots = cams.cam.programme.knots
 
     def of(pick: str) -> Function:
         def value(angle: FloatArray) -> FloatArray:
-            return np.asarray(getattr(state_of(params, cam, held, angle), pick))
+            return np.asarray(getattr(state_of(params, cams, held, angle), pick))
 
         return value
 
     def hertz(angle: FloatArray) -> FloatArray:
-        return pressure_of(params, state_of(params, cam, held, angle), width)
+        return pressure_of(params, state_of(params, cams, held, angle), width)
 
     return Extremes(
-        normal=supremum(of("normal"), knots),
+        normal=supremum(lambda angle: _size(params, of("normal")(angle)), knots),
         torque=supremum(of("torque"), knots),
         back_torque=infimum(of("torque"), knots),
         torque_rms=math.sqrt(integral(lambda angle: of("torque")(angle) ** 2, knots) / TURN),

@@ -7,7 +7,7 @@ from ilmek.cams.programme import TURN
 from ilmek.cams.trace import Trace
 from ilmek.machines.animation import frames
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.parts import zero_mark
+from ilmek.machines.cam.parts import rim_radius, zero_mark
 from ilmek.plane import contours
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import mm
@@ -27,9 +27,11 @@ def moving(design: CamDesign) -> Animation:
     bore = contours.along(design.hub.contour, CHORD)
     strokes = (
         MovingStroke(turned * surface, "outline", "cam", closed=True),
+        *(MovingStroke(turned * edge, "outline", closed=True) for edge in _more_edges(design)),
         MovingStroke(turned * bore, "outline", closed=True),
         MovingStroke(turned * zero_mark(design), "outline"),
         *_follower(design, state.trace, centre),
+        *_second_follower(design, at),
     )
     readings = (
         Reading("lift", state.trace.course.s * design.params.per_unit, "mm"),
@@ -43,6 +45,33 @@ def moving(design: CamDesign) -> Animation:
     guide = () if _swings(design) else _guide(design, centre)
     drawing = Drawing("cam-moving", "Cam in motion", guide, dots)
     return Animation(drawing, Axis("cam angle", "deg"), at, strokes, (touched,), True, 0, period, readings)
+
+
+def _more_edges(design: CamDesign) -> tuple[ComplexArray, ...]:
+    """A groove's outer flank and rim; the second of two conjugate cams."""
+    turn = np.linspace(0.0, TURN, OUTLINE)
+    if design.params.kind == "grooved":
+        return (
+            design.cam.trace(turn).parallel(design.cam.roller_radius)[:-1],
+            rim_radius(design) * np.exp(1j * turn)[:-1],
+        )
+    return (design.cams.pair.second.trace(turn).surface[:-1],) if design.cams.pair else ()
+
+
+def _second_follower(design: CamDesign, at: FloatArray) -> tuple[MovingStroke, ...]:
+    """The roller or face of the second conjugate cam, and what joins it to the first."""
+    pair = design.cams.pair
+    if pair is None:
+        return ()
+    up, (first, second) = _up(design), pair.traces(at)
+    ends = [up * trace.pitch * np.exp(1j * at) for trace in (first, second)]
+    if design.cam.flat:
+        foot = 1j * np.imag(ends[1]) + design.params.offset
+        return (MovingStroke(foot[:, None] + _face(design) * np.array([-1.0, 1.0]), "link", "second face"),)
+    circle = pair.second.roller_radius * np.exp(1j * np.linspace(0.0, TURN, 49)[:-1])
+    joint = np.full_like(ends[1], _pivot(design)) if _swings(design) else ends[0]
+    rod = MovingStroke(np.stack([joint, ends[1]], axis=1), "link", "second roller")
+    return (MovingStroke(ends[1][:, None] + circle, "outline", closed=True), rod)
 
 
 def _swings(design: CamDesign) -> bool:

@@ -85,7 +85,11 @@ class MotionParams(Params):
 class SizeParams(MotionParams):
     """The cam's size, or the limit that sets it, and its follower."""
 
-    kind: str = param("plate", choices=("plate",), doc="what the cam is")
+    kind: str = param(
+        "plate",
+        choices=("plate", "grooved", "conjugate"),
+        doc="a plate with a spring, a groove, or two plates on a shaft",
+    )
     follower: str = param("roller", choices=FOLLOWERS, doc="what touches the cam")
     pressure_angle_limit: float | None = param(
         None,
@@ -134,6 +138,20 @@ class SizeParams(MotionParams):
         choices=("trailing", "leading"),
         doc="whether the cam's surface drags the arm away from its pivot, or pushes it towards it",
     )
+    distance: float | None = param(
+        None,
+        unit="mm",
+        at_least=0.1 * mm,
+        at_most=10.0,
+        doc="between the followers of conjugate cams on a slide; none: so that both have one prime circle",
+    )
+    between: float | None = param(
+        None,
+        unit="deg",
+        at_least=1 * deg,
+        below=TURN,
+        doc="angle between the arms of conjugate cams; none: so that both have one prime circle",
+    )
     face_offset: float = param(
         0.0, unit="mm", at_least=-1.0, at_most=1.0, doc="how far an arm's flat face lies beyond its pivot"
     )
@@ -160,10 +178,19 @@ class SizeParams(MotionParams):
             shown = format_quantity(self.roller_radius, "mm")
             raise ParameterError(f"roller_radius={shown} with follower=knife", do="set follower=roller or spherical")
 
+        if self.kind == "grooved" and self.follower != "roller":
+            raise ParameterError(f"kind=grooved with follower={self.follower}", allowed="a groove leads a roller")
+        if self.kind == "conjugate" and self.motion == "oscillating" and self.follower == "flat":
+            raise ParameterError("conjugate cams of an arm with flat faces", do="take rollers, or a slide")
         if self.motion == "translating" and not (self.arm is self.pivot is None and self.face_offset == 0):
             raise ParameterError("an arm, pivot or face_offset with motion=translating", do="set motion=oscillating")
         if self.motion == "oscillating" and self.offset:
             raise ParameterError("an offset with motion=oscillating", do="place the arm by arm and pivot")
+
+    @property
+    def led(self) -> bool:
+        """Whether the cam leads the follower both ways, without a spring."""
+        return self.kind != "plate"
 
     @property
     def arm_length(self) -> float:
@@ -241,6 +268,9 @@ class CamParams(SizeParams):
         None, unit="mm", at_least=1 * mm, at_most=1.0, doc="bore; none: the smallest whose shaft bears the torque"
     )
     wall: float = param(4 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="least wall between keyway and surface")
+    rim: float = param(
+        5 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="rim of a grooved cam outside the groove, and web under it"
+    )
     cutter_radius: float | None = param(
         None, unit="mm", at_least=0.1 * mm, at_most=0.5, doc="radius of the cutter; none: as the roller's"
     )
@@ -251,6 +281,8 @@ class CamParams(SizeParams):
     def check_together(self) -> None:
         """Raise ParameterError where the parts of the request contradict each other."""
         SizeParams.check_together(self)
+        if self.led and (self.spring_rate or self.preload):
+            raise ParameterError(f"a spring with kind={self.kind}", do="leave it out: the cam leads both ways")
         if self.motion == "oscillating" and self.guide_friction:
             raise ParameterError("guide_friction with motion=oscillating", allowed="an arm has no guide")
 

@@ -5,10 +5,14 @@ import math
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.pieces import infimum
+from ilmek.cams import limits
+from ilmek.cams.pieces import infimum, integral, supremum
 from ilmek.cams.programme import TURN
+from ilmek.cams.trace import Cam
+from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.design import CamDesign
-from ilmek.report import CamTable, Plate
+from ilmek.plane import contours
+from ilmek.report import CamTable, Contour, Plate
 from ilmek.units import format_quantity
 
 POINTS = 1440
@@ -16,42 +20,100 @@ POINTS = 1440
 
 
 def plates(design: CamDesign) -> tuple[Plate, ...]:
-    """The cam as a plate; nothing where no surface can guide its follower."""
+    """The cam as a plate, or both conjugate ones; nothing where no surface can guide the follower."""
     if design.undercut:
         return ()
-    angle = outline_angles(design)
-    trace, params, hub = design.cam.trace(angle), design.params, design.hub
-    cutter = params.cutter_radius or design.cam.roller_radius
-    reach = infimum(lambda at: np.abs(design.cam.trace(at).surface), design.programme.knots).value
-    paths = {"pitch curve": trace.pitch} if design.cam.roller_radius > 0 else {}
-    if cutter > 0:
-        paths["cutter path"] = trace.parallel(cutter - design.cam.roller_radius)
-    key = f"keyway {format_quantity(hub.key_width, 'mm')} wide, {format_quantity(hub.key_depth, 'mm')} deep, DIN 6885-1"
-    notes = (f"cutter of {format_quantity(2 * cutter, 'mm')}",) if cutter > 0 else ()
-    plate = Plate(
-        name="cam",
-        title=f"Cam, lift {format_quantity(params.lift, 'mm')}",
-        outline=trace.surface,
-        thickness=design.face_width,
-        material=params.material,
-        cutouts=(hub.contour,) if reach > hub.reach else (),
-        paths=paths,
-        marks={"zero": zero_mark(design)},
-        area=design.area,
-        notes=(*notes, f"bore {format_quantity(hub.bore, 'mm')} H7", *((key,) if hub.key_width else ())),
-    )
-    return (plate,)
+    title = f"Cam, lift {format_quantity(design.params.lift, 'mm')}"
+    if design.params.kind == "grooved":
+        return (_grooved(design, title),)
+    if design.cams.pair is None:
+        return (_plate(design, design.cam, "cam", title),)
+    first, second = design.cams.pair.first, design.cams.pair.second
+    return _plate(design, first, "cam", title), _plate(design, second, "cam-2", f"Second {title[0].lower()}{title[1:]}")
 
 
-def outline_angles(design: CamDesign) -> FloatArray:
-    """Cam angles of a contour [rad], from TURN down, so that its points run counter-clockwise; the last not the first.
+def rim_radius(design: CamDesign) -> float:
+    """Radius [m] of the disc that a groove is cut into."""
+    flank = supremum(lambda at: np.abs(design.cam.trace(at).parallel(design.cam.roller_radius)), design.programme.knots)
+    return flank.value + design.params.rim
+
+
+def mass_of(design: CamDesign) -> float:
+    """Mass of the cam, bored, or of both [kg]."""
+    density, hub, width = MATERIALS[design.params.material].density, design.hub.area, design.face_width
+    if design.params.kind == "grooved":
+        groove = 2 * design.cam.roller_radius * integral(lambda at: design.cam.trace(at).flow, design.programme.knots)
+        disc = math.pi * rim_radius(design) ** 2
+        return float(density * max((disc - hub) * (width + design.params.rim) - groove * width, 0.0))
+    other = limits.area(design.cams.pair.second) - hub if design.cams.pair else 0.0
+    return density * width * max(design.area - hub + other, 0.0)
+
+
+def outline_angles(cam: Cam) -> FloatArray:
+    """Cam angles of a contour [rad], downwards, so that its points run counter-clockwise; the last is not the first.
 
     Every knot is among them: the curvature jumps there.
     """
     even = np.linspace(0.0, TURN, POINTS, endpoint=False)
-    knots = np.mod(design.programme.knots, TURN)
+    knots = np.mod(cam.programme.knots, TURN)
     apart = np.min(np.abs(even[:, None] - knots), axis=1) > 0.25 * TURN / POINTS
     return np.unique(np.concatenate([even[apart], knots]))[::-1]
+
+
+def _plate(design: CamDesign, cam: Cam, name: str, title: str) -> Plate:
+    trace, params = cam.trace(outline_angles(cam)), design.params
+    cutter = params.cutter_radius or cam.roller_radius
+    paths = {"pitch curve": trace.pitch} if cam.roller_radius > 0 else {}
+    if cutter > 0:
+        paths["cutter path"] = trace.parallel(cutter - cam.roller_radius)
+    return Plate(
+        name=name,
+        title=title,
+        outline=trace.surface,
+        thickness=design.face_width,
+        material=params.material,
+        cutouts=_cutouts(design, cam),
+        paths=paths,
+        marks={"zero": zero_mark(design)},
+        area=limits.area(cam),
+        notes=((f"cutter of {format_quantity(2 * cutter, 'mm')}",) if cutter > 0 else ()) + _hub_notes(design),
+    )
+
+
+def _grooved(design: CamDesign, title: str) -> Plate:
+    """A disc with the groove's flanks as paths: it is not cut through."""
+    cam, params = design.cam, design.params
+    trace, disc = cam.trace(outline_angles(cam)), contours.circle(0j, rim_radius(design))
+    cutter = min(params.cutter_radius or cam.roller_radius, cam.roller_radius)
+    depth, width = (format_quantity(size, "mm") for size in (design.face_width, 2 * cam.roller_radius))
+    inner, outer = trace.surface, trace.parallel(cam.roller_radius)
+    paths = {"pitch curve": trace.pitch, "inner flank": inner, "outer flank": outer}
+    paths["cutter path"] = trace.parallel(cutter - cam.roller_radius)
+    return Plate(
+        name="cam",
+        title=title,
+        outline=disc,
+        thickness=design.face_width + params.rim,
+        material=params.material,
+        cutouts=_cutouts(design, cam),
+        paths=paths,
+        marks={"zero": zero_mark(design)},
+        area=contours.area(disc),
+        notes=(f"groove {width} wide, {depth} deep", *_hub_notes(design)),
+    )
+
+
+def _cutouts(design: CamDesign, cam: Cam) -> tuple[Contour, ...]:
+    """The bore, where it leaves something of the cam."""
+    reach = infimum(lambda at: np.abs(cam.trace(at).surface), cam.programme.knots).value
+    return (design.hub.contour,) if reach > design.hub.reach else ()
+
+
+def _hub_notes(design: CamDesign) -> tuple[str, ...]:
+    hub = design.hub
+    width, depth = format_quantity(hub.key_width, "mm"), format_quantity(hub.key_depth, "mm")
+    key = (f"keyway {width} wide, {depth} deep, DIN 6885-1",) if hub.key_width else ()
+    return (f"bore {format_quantity(hub.bore, 'mm')} H7", *key)
 
 
 def zero_mark(design: CamDesign) -> ComplexArray:

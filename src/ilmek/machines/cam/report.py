@@ -57,11 +57,20 @@ def _checks(design: CamDesign) -> tuple[Check, ...]:
             "mm",
             f"{norton}, 7: rho > roller radius",
         ),
-        at_least("speed of lift-off", design.lift_off.speed, speed, "rpm", "m w^2 s'' + k s + P + load >= 0"),
         at_most("jump of the velocity", max(drops, default=0.0), 0.0, "m/s", "an endless force"),
         at_most("jump of the acceleration", max(bumps, default=0.0), params.jump_limit, "m/s^2", "jump_limit"),
         at_least("wall between keyway and surface", room, params.wall, "mm", "wall"),
     ]
+    if not params.led:
+        source = "m w^2 s'' + k s + P + load >= 0"
+        checks.insert(1, at_least("speed of lift-off", design.lift_off.speed, speed, "rpm", source))
+    hollow = limits.concave_radius_min(cam)
+    if params.kind == "grooved" and hollow is not None:
+        source = f"{norton}, 7: the outer flank"
+        checks.insert(1, at_least("concave radius of the pitch curve", hollow.value, cam.roller_radius, "mm", source))
+    if params.limit is not None and params.led and not cam.flat:
+        found = settled(pressure_angle_on(design, design.fall_knots).value, params.limit)
+        checks.insert(0, at_most("pressure angle on the fall", found, params.limit, "deg", f"{norton}, 7.2"))
     if params.limit is not None and not (params.follower == "flat" and params.motion == "translating"):
         found = settled(pressure_angle_on(design, design.rise_knots).value, params.limit)
         checks.insert(0, at_most("pressure angle on the rise", found, params.limit, "deg", f"{norton}, 7.2"))

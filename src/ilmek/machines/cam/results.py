@@ -10,8 +10,8 @@ from ilmek.cams.flat import FlatCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.pieces import Extremum, infimum, supremum
 from ilmek.cams.programme import Jump, jumps
-from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.design import CamDesign
+from ilmek.machines.cam.parts import mass_of
 from ilmek.report import Json, Result
 
 
@@ -49,7 +49,25 @@ def _size_results(design: CamDesign) -> tuple[Result, ...]:
         Result("undercut", design.undercut, "", "whether no surface can guide the follower"),
         Result("area", design.area, "cm^2", "area inside the surface, bore not taken off"),
         *((_face(design),) if face else ()),
+        *_other(design),
     )
+
+
+def _other(design: CamDesign) -> tuple[Result, ...]:
+    """The second of two conjugate cams; the groove."""
+    if design.params.kind == "grooved":
+        return (Result("groove_width", 2 * design.cam.roller_radius, "mm", "width of the groove"),)
+    if design.cams.pair is None:
+        return ()
+    cam = design.cams.pair.second
+    other: Json = {
+        "prime_radius": cam.prime_radius,
+        "pressure_angle_max": limits.pressure_angle_max(cam).value,
+        "curvature_radius_min": limits.convex_radius_min(cam).value,
+        "undercut": limits.undercut(cam),
+        "area": limits.area(cam),
+    }
+    return (Result("second", other, "", "the second cam, which brings the follower back; SI", shown=False),)
 
 
 def _face(design: CamDesign) -> Result:
@@ -130,8 +148,6 @@ def _hertz_results(design: CamDesign) -> tuple[Result, ...]:
 
 def _part_results(design: CamDesign) -> tuple[Result, ...]:
     hub, roller, duty = design.hub, design.roller, design.duty
-    density = MATERIALS[design.params.material].density
-    mass = max(design.area - hub.area, 0.0) * design.face_width * density
     life = duty.time(roller) if roller and duty else math.inf
     return (
         Result("roller", roller.name if roller else None, "", "cam follower from the table"),
@@ -141,7 +157,7 @@ def _part_results(design: CamDesign) -> tuple[Result, ...]:
         Result("face_width", design.face_width, "mm", "thickness of the cam"),
         Result("bore", hub.bore, "mm", "bore of the cam"),
         Result("keyway", {"width": hub.key_width, "depth": hub.key_depth}, "mm", "keyway in the cam"),
-        Result("mass", mass, "kg", "mass of the cam, bored"),
+        Result("mass", mass_of(design), "kg", "mass of the cam, bored; of both conjugate ones"),
     )
 
 

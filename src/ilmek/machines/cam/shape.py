@@ -2,11 +2,12 @@
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.cams.conjugate import Pair, conjugate, conjugate_arms, conjugate_faces
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.laws import Law
 from ilmek.cams.oscillating import OscillatingCam
@@ -70,18 +71,54 @@ def smallest_of(params: CamParams, programme: Programme) -> Extremum:
     Of a slide with a roller the limit of the pressure angle alone counts; of any other cam that a surface exists too.
     """
     if params.motion == "translating" and params.follower != "flat":
-        found = pressure_prime(programme, Limits(rise=params.limit or LIMIT), params.offset)
+        found = pressure_prime(programme, asked_of(params), params.offset)
         # A nearly flat rise asks for next to nothing: the circle must still hold the offset and the roller.
         room = max(abs(params.offset), params.roller_radius or 0.0)
         return found if found.value > room else Extremum(found.at, room * (1 + 1e-9))
-    limits = Limits(convex=params.curvature_least) if params.follower == "flat" else Limits(params.limit or LIMIT)
     try:
-        size = smallest_prime(_cam(params, programme, None, params.roller_radius or 0.0), limits)
+        size = smallest_prime(_cam(params, programme, None, params.roller_radius or 0.0), asked_of(params))
     except ParameterError:
         if params.prime_radius is None:
             raise
         return Extremum(0.0, math.nan)
     return Extremum(size.at, size.prime_radius)
+
+
+def asked_of(params: CamParams) -> Limits:
+    """The limits that set the size: a cam that leads both ways pushes on the fall too."""
+    if params.follower == "flat":
+        return Limits(convex=params.curvature_least)
+    limit = params.limit or LIMIT
+    return Limits(rise=limit, back=limit if params.led else None)
+
+
+class Cams(NamedTuple):
+    """The cam, and with conjugate cams the pair of it and the other one."""
+
+    cam: Cam
+    pair: Pair | None = None
+
+
+def cams_of(params: CamParams, programme: Programme, size: Size, roller_radius: float) -> Cams:
+    """The cam of a size and a roller, and what holds its follower from the other side.
+
+    Raises ParameterError, naming the smallest size, where it cannot exist.
+    """
+    cam = cam_of(params, programme, size, roller_radius)
+    return Cams(cam, _pair(params, cam) if params.kind == "conjugate" else None)
+
+
+def _pair(params: CamParams, cam: Cam) -> Pair:
+    """Both plates; where nothing is said the second has the prime circle of the first."""
+    lift = params.lift / params.per_unit
+    if isinstance(cam, OscillatingCam):
+        return conjugate_arms(cam, params.between or 2 * cam.start_angle + lift)
+    if isinstance(cam, FlatCam):
+        return conjugate_faces(cam, params.distance or 2 * cam.prime_radius + lift)
+    if not isinstance(cam, PlateCam):
+        raise TypeError(cam)
+    own = math.sqrt(cam.prime_radius**2 - cam.offset**2)
+    return conjugate(cam, params.distance or 2 * own + lift)
 
 
 def cam_of(params: CamParams, programme: Programme, size: Size, roller_radius: float) -> Cam:
@@ -97,7 +134,7 @@ def cam_of(params: CamParams, programme: Programme, size: Size, roller_radius: f
 def size_without_undercut(params: CamParams, programme: Programme, roller_radius: float) -> float:
     """The least prime radius [m] that keeps the limit and suits a roller; inf where none does."""
     try:
-        return smallest_prime(_cam(params, programme, None, roller_radius), Limits(params.limit)).prime_radius
+        return smallest_prime(_cam(params, programme, None, roller_radius), asked_of(params)).prime_radius
     except ParameterError:
         return math.inf
 
