@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ilmek.cams.barrel import BarrelArmCam, BarrelCam, undercut_in_space
+from ilmek.cams.barrel import BarrelArmCam, BarrelCam, cutter_error, undercut_in_space
 from ilmek.cams.groove import Groove
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import concave_radius_min, convex_radius_min, pressure_angle_max, undercut
@@ -92,6 +92,18 @@ def test_undercut_in_space_begins_earlier_on_one_flank_than_laid_flat() -> None:
     assert worst is not None
     assert worst.value < 0
     assert undercut_in_space(BarrelCam(steep.programme, 30 * mm, 2 * least, 10 * mm), both_flanks=False) is not None
+
+
+def test_a_smaller_cutter_errs_at_the_rollers_ends_by_the_turn_of_the_normals() -> None:
+    """A screw: the normals at mean radius and end differ by da = atan(p/R) - atan(p/rho); the error is of da^2."""
+    least, most = cutter_error(BARREL, 9 * mm)
+    assert max(abs(least), abs(most)) < 1e-8
+    pitch = 2 * 40 * mm / (100 * deg)
+    turned = math.atan(pitch / (50 * mm)) - math.atan(pitch / (44 * mm))
+    for radius in (8 * mm, 4 * mm):
+        least, most = cutter_error(BARREL, radius)
+        assert most < 1e-8
+        assert least == pytest.approx(-(9 * mm - radius) * (1 - math.cos(turned)), rel=0.1)
 
 
 def test_a_barrels_groove_laid_flat_is_as_wide_as_the_roller() -> None:

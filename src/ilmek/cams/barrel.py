@@ -189,6 +189,44 @@ def undercut_in_space(cam: Barrel, *, both_flanks: bool = True) -> Extremum | No
     return worst if worst.value <= 0 else None
 
 
+def cutter_error(cam: Barrel, radius: float, side: Literal[1, -1] = -1, count: int = 181) -> tuple[float, float]:
+    """How far a flank cut by a cutter of another radius [m] stands off the roller, at least and at most [m].
+
+    The cutter's axis is radial as the roller's is, its centre runs beside the roller's so that the flank is exact at
+    the mean radius; towards the roller's ends the normals turn, and the cutter leaves (below 0) or takes too much. Of
+    poses evenly over the turn, at both ends of the roller. 0 for a cutter as large as the roller.
+    """
+    angle = np.linspace(float(cam.knots[0]), float(cam.knots[-1]), count)
+    middle = cam.trace(angle)
+    first = np.asarray(cam.motion(middle.course)[1])
+    beside = side * (cam.roller_radius - radius)
+    centre = np.asarray(cam.motion(middle.course)[0]) + beside * middle.normal
+    speed = first - 1j * beside * middle.turning * middle.normal
+    gaps = []
+    for depth in cam.depths:
+        along = speed - 1j * depth
+        cut = centre + side * radius * 1j * along / np.abs(along)
+        gaps.append(_gaps(cam, angle, depth + 1j * cut.imag, cut.real))
+    return float(np.min(gaps)), float(np.max(gaps))
+
+
+def _gaps(cam: Barrel, angle: FloatArray, level: np.ndarray, up: FloatArray) -> FloatArray:
+    """Distance of points, seen at cam angles as (x + i y, z), from the roller's mantle in the pose that is nearest."""
+    later = np.linspace(-_LATER, _LATER, 61)
+    poses = angle[:, None] + later
+    centre = np.asarray(cam.motion(cam.programme.at(poses))[0])
+    turned = level[:, None] * unit(later)
+    apart = np.hypot(turned.imag - centre.imag, up[:, None] - centre.real)
+    row, best = np.arange(angle.size), np.clip(np.argmin(apart, axis=1), 1, later.size - 2)
+    before, here, after = (apart[row, best + step] for step in (-1, 0, 1))
+    # The least of the parabola through the nearest pose and its neighbours.
+    return np.asarray(here - (after - before) ** 2 / (8 * (after - 2 * here + before)) - cam.roller_radius)
+
+
+_LATER = 0.1
+"""How much earlier or later [rad] the roller may come nearest to a point that was cut at a cam angle."""
+
+
 def _check_roller(prime_radius: float, roller_width: float) -> None:
     if not prime_radius > roller_width / 2:
         shown, least = format_quantity(prime_radius, "mm"), format_quantity(roller_width / 2, "mm")
