@@ -126,6 +126,15 @@ def test_one_mass_on_a_massless_shaft() -> None:
         assert rayleigh(beam, rigidity, loaded) == pytest.approx(exact)
 
 
+def test_masses_off_the_shaft_and_no_mass_at_all_are_refused() -> None:
+    with pytest.raises(ParameterError, match="a mass at 1200 mm"):
+        frequencies(Beam(1.0, (0.0, 1.0)), 1.0, 1.0, [Mass(1.2, 1.0)])
+    with pytest.raises(ParameterError, match="without mass"):
+        frequencies(Beam(1.0, (0.0, 1.0)), 1.0, 0.0, [Mass(1.0, 1.0)])
+    with pytest.raises(ParameterError, match="hinged, cantilever"):
+        uniform_root(1, "free")
+
+
 @settings(max_examples=15)
 @given(
     st.lists(st.tuples(st.integers(1, 19), st.floats(0.1, 20)), min_size=2, max_size=4, unique_by=lambda one: one[0])

@@ -26,6 +26,17 @@ def test_shigley_example_10_1() -> None:
     assert longer.buckling_deflection() < longer.free_length
 
 
+def test_shigley_example_10_4() -> None:
+    """Music wire 0.092 in, outside 9/16 in, 5 to 35 lbf: amplitude 29.7 kpsi, 1.18 by Sines, unpeened.
+
+    The book takes Bergsträsser's factor 1.287 for Wahl's 1.303.
+    """
+    spring = CompressionSpring("music wire", 0.092 * INCH, (9 / 16 - 0.092) * INCH, 21.0, 4.125 * INCH)
+    assert spring.wahl == pytest.approx(1.303, abs=5e-4)
+    assert spring.stress(15 * POUND) / KPSI == pytest.approx(29.7 * 1.303 / 1.287, rel=2e-3)
+    assert spring.fatigue_safety(5 * POUND, 35 * POUND) == pytest.approx(1.18 * 1.287 / 1.303, rel=5e-3)
+
+
 def test_wahls_factor() -> None:
     """C 10: 1.1448; C 4: 1.4038 [Wahl's diagram]."""
     found = [CompressionSpring("music wire", 1e-3, c * 1e-3, 5.0, 0.05).wahl for c in (10, 4)]
@@ -54,6 +65,12 @@ def test_chosen_spring_keeps_all_its_limits(rate, preload, travel) -> None:
 
 def test_no_spring_for_an_impossible_task() -> None:
     assert choose_spring(1000.0, 5000.0, 0.05) is None
+    for wrong in ((0.0, 5.0, 0.01), (100.0, -1.0, 0.01)):
+        with pytest.raises(ParameterError, match="a rate above 0"):
+            choose_spring(*wrong)
+    lasting = choose_spring(2000.0, 20.0, 0.02, fatigue=1.2)
+    assert lasting is not None
+    assert lasting.fatigue_safety(20.0, 60.0) >= 1.2
     with pytest.raises(ParameterError, match="nearest offered is 'music wire'"):
         choose_spring(1000.0, 5.0, 0.05, wire="musik wire")
     assert set(WIRES) >= {"music wire", "stainless wire"}
@@ -102,4 +119,8 @@ def test_euler() -> None:
     hinged = screw.buckling_force(1.0, 210e9, "hinged")
     assert hinged == pytest.approx(math.pi**3 * 210e9 * (20 * mm) ** 4 / 64)
     assert screw.buckling_force(1.0, 210e9, "clamped") == pytest.approx(4 * hinged)
+    with pytest.raises(ParameterError, match="one of clamped-free"):
+        screw.buckling_force(1.0, 210e9, "loose")
+    with pytest.raises(ParameterError, match="lead above 0"):
+        Screw(22 * mm, 0.0, 20 * mm, 0.1)
     assert set(END_FIXITY) == {"clamped-free", "hinged", "clamped-hinged", "clamped"}

@@ -7,6 +7,7 @@ place and the largest values are exact: these lie at ends of pieces or where the
 All of them are complex as the loads are (see `beam`). [Gere and Goodno, Mechanics of Materials, 9.2 to 9.4]
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -87,6 +88,17 @@ class Bent:
     def deflection_max(self, rigidity: float) -> Extreme:
         """Largest deflection [m]."""
         return self._extreme(_DEFLECTION, 1 / rigidity)
+
+    def rigidity_for(self, *, slope: float = math.inf, deflection: float = math.inf) -> float:
+        """Least E I [N m²] that keeps a slope in the supports [rad] and a deflection anywhere [m].
+
+        >>> from ilmek.elements.beam import LineLoad
+        >>> from ilmek.elements.bending import bend
+        >>> bent = bend(Beam(2.0, (0.0, 2.0), (LineLoad(0.0, 2.0, 24.0),)))
+        >>> round(bent.rigidity_for(slope=0.008), 6), round(bent.rigidity_for(deflection=0.005), 6)
+        (1000.0, 1000.0)
+        """
+        return max(self.slope_at_supports(1.0).size / slope, self.deflection_max(1.0).size / deflection)
 
     def _at(self, x: RealField, order: int, factor: float) -> ComplexArray:
         x = np.asarray(x, dtype=float)

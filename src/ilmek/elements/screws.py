@@ -30,6 +30,13 @@ class Screw:
     friction: float
     flank: float = 0.0
 
+    def __post_init__(self) -> None:
+        if not (self.diameter > 0 and self.lead > 0 and self.friction >= 0):
+            raise ParameterError(
+                f"a screw of diameter {self.diameter:g} m, lead {self.lead:g} m and friction {self.friction:g}",
+                allowed="diameter and lead above 0, friction 0 or more",
+            )
+
     @property
     def lead_angle(self) -> float:
         """λ [rad]."""
@@ -81,6 +88,8 @@ class Screw:
 
         Valid while its stress stays below half the yield strength
         """
+        if ends not in END_FIXITY:
+            raise ParameterError(f"ends {ends!r}", allowed="one of " + ", ".join(END_FIXITY))
         inertia = math.pi * self.core**4 / 64
         return END_FIXITY[ends] * math.pi**2 * modulus * inertia / length**2
 

@@ -21,6 +21,7 @@ from ilmek.elements.beam import Beam, PointLoad
 from ilmek.elements.bending import bend
 from ilmek.elements.materials import GRAVITY
 from ilmek.errors import ParameterError
+from ilmek.units import format_quantity
 
 _ELEMENTS = 24
 
@@ -69,6 +70,7 @@ def frequencies(
     beam            its supports and clamped ends; loads do not matter      rigidity  E I [N m²]
     linear_density  [kg/m]; 0 for a shaft without mass, which then needs masses
     """
+    _check(beam, linear_density, masses)
     nodes = _nodes(beam, masses)
     place = {float(at): number for number, at in enumerate(nodes)}
     stiffness, inertia = _assembled(nodes, rigidity, linear_density)
@@ -93,6 +95,17 @@ def rayleigh(beam: Beam, rigidity: float, masses: Sequence[Mass]) -> float:
     weights = np.array([mass.mass for mass in masses])
     line = np.abs(_deflections(beam, rigidity, masses, per=None))
     return float(np.sqrt(GRAVITY * np.sum(weights * line) / np.sum(weights * line**2)))
+
+
+def _check(beam: Beam, linear_density: float, masses: Sequence[Mass]) -> None:
+    off = [mass.at for mass in masses if not 0 <= mass.at <= beam.length]
+    if off:
+        raise ParameterError(
+            f"a mass at {format_quantity(off[0], 'mm')}",
+            allowed=f"0 to {format_quantity(beam.length, 'mm')}, the shaft's length",
+        )
+    if not (linear_density > 0 or any(mass.mass > 0 and mass.at not in beam.supports for mass in masses)):
+        raise ParameterError("a shaft without mass and nothing on it", do="give it a mass along it, or masses on it")
 
 
 def _deflections(beam: Beam, rigidity: float, masses: Sequence[Mass], *, per: float | None) -> ComplexArray:
