@@ -222,11 +222,46 @@ class Animation:
 
 
 @dataclass(frozen=True, slots=True)
+class LawCurve:
+    """A motion law to draw: s, v and a on places u from 0 to 1; twice the same u where a or v jumps."""
+
+    name: str
+    u: FloatArray
+    s: FloatArray
+    v: FloatArray
+    a: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """A motion of a lane: from `begin` to `finish` [SI] over master angles [rad], by the law of a name."""
+
+    name: str
+    start: float
+    end: float
+    begin: float
+    finish: float
+    law: str
+
+
+@dataclass(frozen=True, slots=True)
+class Shade:
+    """A window of a lane: master angles [rad], what it is, and whether it is one that must not be."""
+
+    start: float
+    end: float
+    label: str = ""
+    bad: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Lane:
     """One track of a cyclogram: position of an actuator over the master angle.
 
     angle     master angle [rad], ascending from 0 to 2 pi     position  0 to 1 of the stroke
     events    named master angles [rad]
+    moves     its motions, where they are known, in order, and the `unit` their positions are shown in
+    shades    windows to be shaded
     """
 
     name: str
@@ -234,17 +269,35 @@ class Lane:
     angle: FloatArray
     position: FloatArray
     events: tuple[Mark, ...] = ()
+    moves: tuple[Move, ...] = ()
+    unit: str = ""
+    shades: tuple[Shade, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """What must come after what: from a place to a place, each the number of a lane and a master angle [rad]."""
+
+    first: tuple[int, float]
+    then: tuple[int, float]
+    label: str
+    ok: bool = True
 
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """A cyclogram to draw: lanes over one turn of the master shaft, which takes `period` [s]."""
+    """A cyclogram to draw: lanes over one turn of the master shaft, which takes `period` [s].
+
+    laws    of the lanes' moves      links  between instants of the lanes
+    """
 
     name: str
     title: str
     period: float
     lanes: tuple[Lane, ...]
     note: str = ""
+    laws: tuple[LawCurve, ...] = ()
+    links: tuple[Link, ...] = ()
 
 
 Figure: TypeAlias = Plot | Drawing | Animation | Timing

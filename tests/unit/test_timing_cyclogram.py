@@ -5,7 +5,8 @@ import pytest
 
 from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
-from ilmek.timing.cyclogram import Cyclogram, Event, Moment, Relation, Segment, Track, check_all, draw
+from ilmek.timing.cyclogram import Cyclogram, Event, Moment, Relation, Segment, Track, check_all
+from ilmek.timing.figures import draw
 from ilmek.units import deg, turn
 
 LAW = LAWS["3-4-5"]

@@ -1,4 +1,4 @@
-"""The command line: `ilmek weave`, `chart`, `machines`, `design`, `mechanism`, `knot`, `reproduce`, `inspect`.
+"""The command line: `ilmek weave`, `chart`, `design`, `mechanism`, `cyclogram`, `knot` and the others below.
 
 Nothing heavy is imported here: a command's module is loaded when the command is run, so that `ilmek --help` is quick.
 """
@@ -27,6 +27,7 @@ main = Frame(
         "machines": ("ilmek.cli.machines", "The machines, or one machine's parameters."),
         "design": ("ilmek.cli.design", "Design one machine and report it."),
         "mechanism": ("ilmek.cli.mechanism", "A mechanism from a file: how it is built, its motion, a page to read."),
+        "cyclogram": ("ilmek.cli.cyclogram", "A cyclogram from a file: judged, solved, tabled, drawn."),
         "knot": ("ilmek.cli.knot", "Which knot the motion of a gripper ties, proved."),
         "reproduce": ("ilmek.cli.reproduce", "Every number of four published papers, computed and judged."),
         "inspect": ("ilmek.cli.inspect", "Look into a loom programme: rows, colours, statistics."),

@@ -13,7 +13,7 @@ points = {}
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -31,6 +31,18 @@ def toml_text(data: Mapping[str, Any]) -> str:
         if isinstance(table, Mapping):
             parts += _tables(_key(key), table)
     return "\n\n".join(parts) + "\n"
+
+
+def toml_section(path: Sequence[str], table: Mapping[str, Any], *, many: bool = False) -> str:
+    """A table, or an entry of a list of tables, under a heading of its own; what it holds stands in one line each.
+
+    >>> print(toml_section(("tracks", "the die"), {"unit": "mm"}))
+    [tracks."the die"]
+    unit = "mm"
+    """
+    heading = ".".join(map(_key, path))
+    lines = (_line(key, value) for key, value in table.items())
+    return "\n".join([f"[[{heading}]]" if many else f"[{heading}]", *lines])
 
 
 def _tables(heading: str, table: Mapping[str, Any]) -> list[str]:
@@ -60,6 +72,8 @@ def _value(value: Any) -> str:
         return f"{{ {inside} }}" if inside else "{}"
     if isinstance(value, list | tuple):
         return f"[{', '.join(_value(inner) for inner in value)}]"
+    if isinstance(value, bool):
+        return "true" if value else "false"
     return _text(value) if isinstance(value, str) else repr(value)
 
 

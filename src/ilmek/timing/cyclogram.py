@@ -4,15 +4,13 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-import numpy as np
-
 from ilmek.errors import ParameterError
-from ilmek.report import Check, Lane, Mark, Timing, at_least, at_most
+from ilmek.report import Check, at_least, at_most
 from ilmek.timing.crossings import passing_share, zone_windows
 from ilmek.timing.relations import Exclusion, Moment, Presence, Relation, Spans, Zone, fixed
-from ilmek.timing.track import Event, Limits, Segment, Track, joints, riding, sample
+from ilmek.timing.track import Event, Limits, Segment, Track, riding
 from ilmek.timing.windows import Windows, separation
-from ilmek.units import deg, turn
+from ilmek.units import turn
 
 __all__ = [
     "Cyclogram",
@@ -27,7 +25,6 @@ __all__ = [
     "Zone",
     "check_all",
     "check_apart",
-    "draw",
     "fixed",
     "judged",
     "moment_angle",
@@ -135,16 +132,3 @@ def _checks(cyclogram: Cyclogram, relation: Relation) -> Iterable[Check]:
         yield at_least(said, gap, least, "deg", relation.why)
     if relation.most < math.inf:
         yield at_most(f"{said}, at most", gap, round(relation.most, 9), "deg", relation.why)
-
-
-def draw(cyclogram: Cyclogram, title: str, note: str = "", step: float = 1 * deg) -> Timing:
-    """The cyclogram as a figure: each track as a share of its stroke, sampled each `step` [rad] and at every joint."""
-    lanes = tuple(_lane(track, step) for track in cyclogram.tracks)
-    return Timing(cyclogram.name, title, cyclogram.period, lanes, note)
-
-
-def _lane(track: Track, step: float) -> Lane:
-    angle = np.unique(np.concatenate([np.linspace(0, turn, round(turn / step) + 1), joints(track)]))
-    position = sample(track, angle).position
-    share = (position - position.min()) / (track.stroke or 1.0)
-    return Lane(track.name, track.actuator, angle, share, tuple(Mark(e.angle, e.name) for e in track.events))

@@ -22,7 +22,6 @@ from ilmek.viz.style import shown_unit, with_unit
 from ilmek.viz.svg import svg
 from ilmek.viz.writing import amount, cells, count, fixed, number, quantity, sign, words
 
-_KINDS: Mapping[type, str] = {Timing: "wide", Animation: "moves"}
 _TEMPLATES = Path(__file__).parent / "templates"
 
 
@@ -54,7 +53,7 @@ class CarpetPage:
 
 @dataclass(frozen=True, slots=True)
 class _Drawn:
-    """A figure with its drawing; of the kind "wide" it takes the whole width of the page, "moves" is driven."""
+    """A figure with its drawing; of the kind "wide" it takes the whole width; "moves" and "wide timed" are driven."""
 
     figure: Figure
     svg: Markup
@@ -97,7 +96,8 @@ def carpet_page(page: CarpetPage) -> str:
         length=sum(need.length for need in page.bill.needs),
         priced=any(need.price is not None for need in page.bill.needs),
         sections=sections,
-        moves=any(map(_moves, sections)),
+        moves=any(_holds(section, "moves") for section in sections),
+        timed=any(_holds(section, "wide timed") for section in sections),
         checks=_failures_first(judged),
         files=page.files,
     )
@@ -112,21 +112,28 @@ def machine_page(report: Report) -> str:
         lead=f"{len(report.checks) - len(report.failed)} of {len(report.checks)} checks hold" if report.checks else "",
         failed=report.failed,
         section=section,
-        moves=_moves(section),
+        moves=_holds(section, "moves"),
+        timed=_holds(section, "wide timed"),
         checks=_failures_first([_Judged(report.title, check) for check in report.checks]),
     )
 
 
 def _section(place: int, report: Report) -> _Section:
     drawn = tuple(
-        _Drawn(figure, Markup(svg(figure, f"m{place}-{order}")), _KINDS.get(type(figure), ""))
+        _Drawn(figure, Markup(svg(figure, f"m{place}-{order}")), _kind(figure))
         for order, figure in enumerate(report.figures, 1)
     )
     return _Section(f"m{place}", report, drawn)
 
 
-def _moves(section: _Section) -> bool:
-    return any(drawn.kind == "moves" for drawn in section.figures)
+def _kind(figure: Figure) -> str:
+    if isinstance(figure, Timing):
+        return "wide timed" if figure.laws else "wide"
+    return "moves" if isinstance(figure, Animation) else ""
+
+
+def _holds(section: _Section, kind: str) -> bool:
+    return any(drawn.kind == kind for drawn in section.figures)
 
 
 def _failures_first(judged: Sequence[_Judged]) -> list[_Judged]:

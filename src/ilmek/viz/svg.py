@@ -31,5 +31,5 @@ def svg(figure: Figure, prefix: str = "") -> str:
         elif isinstance(figure, Animation):
             sheet, over = draw_animation(figure)
         else:
-            sheet = draw_timing(figure)
+            sheet, over = draw_timing(figure)
         return inline_svg(sheet, figure.title, slug(f"{prefix}-{figure.name}"), over)

@@ -1,48 +1,66 @@
 """Cyclograms: what every actuator does over one turn of the master shaft.
 
-Tracks lie under one another over a common master angle; a motion is drawn as the curve of its position, a dwell lies
-flat. The events of a track are ticks with names above its curve. The lower axis is the angle, the upper one the time.
+Tracks lie under one another over a common master angle; a motion is drawn as the curve of its position with its name
+and law below it, a dwell lies flat. The events of a track are ticks with names above its curve; its stays in a place
+that another track needs are shaded, arrows say what must come after what. The lower axis is the angle, the upper one
+the time. Where the laws of the motions are known, their curves are laid over the sheet, and a short script of the page
+(`timing.js`) moves a cursor over them.
 """
+
+import json
+from xml.sax.saxutils import escape
 
 import numpy as np
 
-from ilmek.report import Lane, Timing
-from ilmek.units import deg
+from ilmek.report import Lane, Move, Shade, Timing
+from ilmek.units import deg, format_number, format_quantity, parse_unit
 from ilmek.viz.flags import Flag, flags
 from ilmek.viz.frame import Box, grid, lower_axis, paper, upper_axis
 from ilmek.viz.scale import ticks
 from ilmek.viz.sheet import Sheet, circle
-from ilmek.viz.style import AXIS, INK, MUTED, SMALL, STRONG, colour, text_width, tint
+from ilmek.viz.style import AXIS, INK, MUTED, SMALL, STRONG, colour, shown_unit, text_width, tint
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 WIDTH = 600.0
 _RIGHT, _TOP, _BOTTOM = 16.0, 30.0, 30.0
-_STROKE, _GAP, _TIER = 26.0, 9.0, 9.5
-"""Height of a full stroke, air between tracks, height of a line of event names [pt]."""
+_STROKE, _GAP, _TIER, _LAW = 26.0, 9.0, 9.5, 8.0
+"""Height of a full stroke, air between tracks, height of a line of event names, and of one of laws [pt]."""
+_FINE = 6.4
+"""Size of the names of motions and laws [pt]."""
+_BAD, _SHADE = "#c0392b", "#8a94a0"
 _TURN = 360.0
 
 
-def draw_timing(timing: Timing) -> Sheet:
-    """The tracks stacked, the first on top."""
+def draw_timing(timing: Timing) -> tuple[Sheet, str]:
+    """The sheet with the tracks stacked, the first on top, and the SVG of the curves that a script may change."""
     names = [text_width(lane.name, STRONG, bold=True) for lane in timing.lanes]
     actuators = [text_width(lane.actuator, SMALL) for lane in timing.lanes]
     left = 18.0 + max([40.0, *names, *actuators])
     flown = [_flags(lane, WIDTH - left - _RIGHT) for lane in timing.lanes]
-    heights = [_STROKE + _GAP + _TIER * (1 + max((flag.tier for flag in lane), default=-1)) for lane in flown]
+    heights = [_height(lane, lane_flags) for lane, lane_flags in zip(timing.lanes, flown, strict=True)]
     box = Box(left, _BOTTOM, WIDTH - left - _RIGHT, sum(heights) + 2.0)
     sheet = Sheet(WIDTH, box.top + _TOP)
     paper(sheet, box)
     _axes(sheet, box, timing.period)
-    ceiling = box.top - 1.0
+    ceiling, floors, over = box.top - 1.0, [], []
     for number, (lane, lane_flags, height) in enumerate(zip(timing.lanes, flown, heights, strict=True)):
         ceiling -= height
-        floor = complex(left, ceiling + _GAP / 2)
-        _motion(sheet, lane, floor, box.width, colour(number))
+        floor = complex(left, ceiling + _GAP / 2 + (_LAW if lane.moves else 0.0))
+        floors.append(floor)
+        for shade in lane.shades:
+            _shade(sheet, shade, floor, box.width)
+        over.append(_motion(sheet, lane, floor, box.width, colour(number)))
         _events(sheet, lane, lane_flags, floor)
         _name(sheet, lane, floor + 1j * _STROKE / 2)
         if number + 1 < len(timing.lanes):
             sheet.line(1j * ceiling + np.array([box.left, box.right]), color=AXIS, linewidth=0.4)
-    return sheet
+    _links(sheet, timing, floors, box.width)
+    return sheet, "".join(over) + (_run(timing, sheet, box, floors) if timing.laws else "")
+
+
+def _height(lane: Lane, lane_flags: list[Flag]) -> float:
+    tiers = 1 + max((flag.tier for flag in lane_flags), default=-1)
+    return _STROKE + _GAP + _TIER * tiers + (_LAW if lane.moves else 0.0)
 
 
 def _flags(lane: Lane, width: float) -> list[Flag]:
@@ -50,16 +68,75 @@ def _flags(lane: Lane, width: float) -> list[Flag]:
     return flags(places, [text_width(event.label, SMALL) + 7.0 for event in lane.events], width)
 
 
-def _motion(sheet: Sheet, lane: Lane, floor: complex, width: float, shade: str) -> None:
-    """The curve of the position over its baseline, which begins at `floor`."""
+def _motion(sheet: Sheet, lane: Lane, floor: complex, width: float, shade: str) -> str:
+    """The curve of the position over its baseline, which begins at `floor`; as SVG where its laws are known."""
     angle, position = thinned_curve(np.asarray(lane.angle, dtype=float), np.asarray(lane.position, dtype=float))
     points = thinned_line(floor + angle / deg / _TURN * width + 1j * _STROKE * position)
     finite = points[np.isfinite(points)]
+    sheet.line(floor + np.array([0, width]), color=AXIS, linewidth=0.5, zorder=2.2)
     if len(finite):
         feet = np.array([finite[-1].real, finite[0].real]) + 1j * floor.imag
         sheet.area(np.concatenate([finite, feet]), facecolor=tint(shade, 0.16), linewidth=0, zorder=0.8)
-    sheet.line(floor + np.array([0, width]), color=AXIS, linewidth=0.5, zorder=2.2)
-    sheet.line(points, color=shade, linewidth=1.6, zorder=3)
+    if not lane.moves:
+        sheet.line(points, color=shade, linewidth=1.6, zorder=3)
+        return ""
+    for move in lane.moves:
+        _law(sheet, move, floor, width)
+    through = "L".join(f"{at.real:.1f} {sheet.height - at.imag:.1f}" for at in finite)
+    boxes = "".join(_hover(sheet, lane, move, floor, width) for move in lane.moves)
+    return f'<path data-lane="" d="M{through}" fill="none" stroke="{shade}" stroke-width="1.6"/>{boxes}'
+
+
+def _law(sheet: Sheet, move: Move, floor: complex, width: float) -> None:
+    """Name and law of a motion below its part of the baseline, as much of it as has room there."""
+    room = (min(move.end, _TURN * deg) - max(move.start, 0.0)) / deg / _TURN * width
+    middle = (min(move.end, _TURN * deg) + max(move.start, 0.0)) / 2 / deg / _TURN * width
+    said = (f"{move.name} · {move.law}", move.law if move.law == move.name else move.name)
+    fits = next((words for words in said if text_width(words, _FINE) <= room + 2.0), None)
+    if fits:
+        place = floor + middle - 1.8j
+        sheet.text(place, fits, fontsize=_FINE, color=MUTED, ha="center", va="top", zorder=5)
+
+
+def _hover(sheet: Sheet, lane: Lane, move: Move, floor: complex, width: float) -> str:
+    """What a browser says of a motion under the pointer."""
+    left, right = (at / deg / _TURN * width for at in (max(move.start, 0.0), min(move.end, _TURN * deg)))
+    ends = f"{format_quantity(move.begin, lane.unit)} → {format_quantity(move.finish, lane.unit)}"
+    angles = f"{format_number(move.start / deg)}°..{format_number(move.end / deg)}°"
+    said = escape(f"{lane.name}: {move.name}, {move.law}, {angles}, {ends}")
+    top = sheet.height - floor.imag - _STROKE
+    place = f'x="{floor.real + left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{_STROKE + _LAW:g}"'
+    return f'<rect {place} fill="transparent"><title>{said}</title></rect>'
+
+
+def _shade(sheet: Sheet, shade: Shade, floor: complex, width: float) -> None:
+    """A window behind the curve, in two where it runs through the end of the turn; its name at its foot."""
+    ends = np.array([shade.start, shade.end]) / deg
+    spans = [(ends[0], min(ends[1], _TURN))] + ([(0.0, ends[1] - _TURN)] if ends[1] > _TURN else [])
+    look = (_BAD, 0.42) if shade.bad else (_SHADE, 0.22)
+    for start, end in spans:
+        corners = np.array([start, end, end, start]) / _TURN * width + 1j * _STROKE * np.array([0, 0, 1, 1])
+        sheet.area(floor + corners, facecolor=tint(*look), linewidth=0, zorder=0.85 if shade.bad else 0.7)
+    if shade.label and not shade.bad:
+        middle = (spans[0][0] + spans[0][1]) / 2 / _TURN * width
+        sheet.text(
+            floor + middle + 2.5j, shade.label, fontsize=_FINE, color=INK, ha="center", va="baseline", zorder=1.4
+        )
+
+
+def _links(sheet: Sheet, timing: Timing, floors: list[complex], width: float) -> None:
+    """An arrow from each instant to the one that must come after it; red where that does not hold."""
+    for link in timing.links:
+        ends = [floors[lane] + angle / deg / _TURN * width for lane, angle in (link.first, link.then)]
+        up = np.sign(ends[1].imag - ends[0].imag)
+        lift = (_STROKE * 0.5, _STROKE * 0.5) if up == 0 else (_STROKE * max(up, 0.0), _STROKE * max(-up, 0.0))
+        start, end = ends[0] + 1j * lift[0], ends[1] + 1j * lift[1]
+        if abs(end - start) < 4.0:
+            continue
+        shade, ahead = (MUTED if link.ok else _BAD), (end - start) / abs(end - start)
+        sheet.line(np.array([start, end - 3.0 * ahead]), color=shade, linewidth=0.8, linestyle=(0, (3, 2)), zorder=3.2)
+        head = end + ahead * np.array([0, -4.6 + 1.9j, -4.6 - 1.9j])
+        sheet.area(head, facecolor=shade, linewidth=0, zorder=3.3)
 
 
 def _events(sheet: Sheet, lane: Lane, lane_flags: list[Flag], floor: complex) -> None:
@@ -93,3 +170,33 @@ def _axes(sheet: Sheet, box: Box, period: float) -> None:
     upper_axis(sheet, box, [box.left + t * factor / period * box.width for t in times], times, f"time [{unit}]")
     for x in (box.left, box.right):
         sheet.line(x + 1j * np.array([box.low, box.top]), color=AXIS, linewidth=0.7)
+
+
+def _run(timing: Timing, sheet: Sheet, box: Box, floors: list[complex]) -> str:
+    """The cursor, and what the script needs, as JSON: laws as tables, motions, where the lanes lie."""
+    numbers = {law.name: place for place, law in enumerate(timing.laws)}
+    lanes = []
+    for lane, floor in zip(timing.lanes, floors, strict=True):
+        factor = parse_unit(lane.unit).factor
+        moves = [
+            [_short(one) for one in (move.start / deg, move.end / deg, move.begin / factor, move.finish / factor)]
+            + [numbers[move.law]]
+            for move in lane.moves
+        ]
+        lanes.append({"floor": round(sheet.height - floor.imag, 2), "unit": shown_unit(lane.unit), "moves": moves})
+    run = {
+        "left": round(box.left, 2),
+        "width": round(box.width, 2),
+        "stroke": _STROKE,
+        "period": timing.period,
+        "lanes": lanes,
+        "laws": [[[_short(y) for y in row] for row in (law.s, law.v, law.a)] for law in timing.laws],
+    }
+    low, high = sheet.height - box.top, sheet.height - box.low
+    cursor = f'<path data-cursor="" d="M0 {low:.1f}V{high:.1f}" stroke="{INK}" stroke-width="1" visibility="hidden"/>'
+    data = json.dumps(run, separators=(",", ":"), ensure_ascii=False)
+    return f"{cursor}<metadata>{escape(data)}</metadata>"
+
+
+def _short(value: float) -> float:
+    return float(f"{value:.6g}")

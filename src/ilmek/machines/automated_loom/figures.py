@@ -10,7 +10,7 @@ from ilmek.machines import weaver
 from ilmek.machines.automated_loom.design import LoomDesign, frame_width
 from ilmek.machines.automated_loom.time import estimated_time, estimated_time_at
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
-from ilmek.timing.cyclogram import draw
+from ilmek.timing.figures import draw
 from ilmek.units import format_quantity
 
 _MOST_LINES = 40

@@ -16,7 +16,8 @@ from ilmek.machines.weaver.design import HAND_KNOT, Weaver
 from ilmek.machines.weaver.knot_report import knot_checks, knot_results, knot_warnings
 from ilmek.machines.weaver.plan_view import moving, plan_view
 from ilmek.report import Axis, Check, Column, Plot, Report, Result, Series, Table, Timing, at_most
-from ilmek.timing.cyclogram import check_all, draw
+from ilmek.timing.cyclogram import check_all
+from ilmek.timing.figures import draw
 from ilmek.timing.track import sample
 from ilmek.units import rpm, turn
 

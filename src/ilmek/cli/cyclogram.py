@@ -1,0 +1,105 @@
+"""`ilmek cyclogram`: a cyclogram from a file, judged, solved, tabled and drawn."""
+
+from pathlib import Path
+
+import click
+
+from ilmek.cli.options import json_option
+from ilmek.cli.terminal import check_json, console, give_json, note, passed, show_checks, show_table
+from ilmek.errors import ParameterError
+from ilmek.io.cyclogram_file import read_cyclogram, write_cyclogram
+from ilmek.io.output import check_file, write_whole
+from ilmek.io.table_csv import csv_text
+from ilmek.jobs.cyclogram import GOALS, binding_words, columns, report, solve
+from ilmek.report import Report
+from ilmek.timing.solver import Solution
+from ilmek.units import format_number, format_quantity
+from ilmek.viz.page import machine_page
+
+EXAMPLES = """\b
+Examples:
+  ilmek cyclogram examples/press.toml
+  ilmek cyclogram examples/press.toml --solve acceleration --report press.html
+  ilmek cyclogram examples/press.toml --solve period --out quick.toml
+  ilmek cyclogram examples/press.toml --csv motions.csv --steps 720
+  ilmek cyclogram examples/press.toml --solve period --json -
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--solve", "goal", type=click.Choice(tuple(GOALS)), help="Make the acceleration, or the period, least.")
+@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a page to read.")
+@click.option("--csv", "csv_to", metavar="-|FILE", help="Write all motions as CSV; - is standard output.")
+@click.option("--steps", type=click.IntRange(1, 1_000_000), default=360, show_default=True, help="Rows of the CSV.")
+@click.option(
+    "--out", "file_to", type=click.Path(path_type=Path), metavar="FILE.toml", help="Write the cyclogram again."
+)
+@json_option
+def command(
+    *,
+    file: Path,
+    goal: str | None,
+    page_to: Path | None,
+    csv_to: str | None,
+    steps: int,
+    file_to: Path | None,
+    json_to: str | None,
+) -> None:
+    """Read the cyclogram in FILE (TOML or JSON), judge what must hold, and place its motions better."""
+    _check_places(csv_to, page_to, file_to, json_to)
+    given = read_cyclogram(file)
+    solution = solve(given, goal) if goal else None
+    found = solution.cyclogram if solution else given
+    said = report(found, solution)
+    if page_to is not None:
+        write_whole(page_to, machine_page(said))
+    if file_to is not None:
+        write_cyclogram(file_to, found)
+    table = csv_text(columns(found, steps)) if csv_to else ""
+    quiet = give_json(json_to, said.as_json()) if json_to else False
+    if csv_to == "-":
+        click.echo(table, nl=False)
+    elif csv_to:
+        write_whole(Path(csv_to), table)
+    if not quiet and csv_to != "-":
+        _show(said, solution)
+        for kind, place in (("report", page_to), ("cyclogram", file_to), ("table", csv_to)):
+            if place is not None:
+                console().print(f"{kind}: {place}")
+    elif said.failed:
+        note(f"checks: {passed(said.checks)}")
+
+
+def _check_places(csv_to: str | None, page_to: Path | None, file_to: Path | None, json_to: str | None) -> None:
+    """Raise before any work where an output has no place, or two have the same."""
+    check_json(json_to)
+    if csv_to == json_to == "-":
+        raise ParameterError("both --csv and --json go to standard output", do="give one of them a file")
+    if file_to is not None and file_to.suffix.lower() not in (".toml", ".json"):
+        raise ParameterError(f"--out {file_to} ends in {file_to.suffix!r}", allowed=".toml or .json")
+    for place in (page_to, file_to, Path(csv_to) if csv_to not in (None, "-") else None):
+        if place is not None:
+            check_file(place)
+
+
+def _show(said: Report, solution: Solution | None) -> None:
+    """The motions, the checks, and what was won."""
+    console().print(said.title)
+    for table in said.tables:
+        if table.name != "binding":
+            rows = [tuple(_cell(cell) for cell in row) for row in table.rows]
+            show_table([column.heading for column in table.columns], rows)
+    if said.checks:
+        show_checks(said.checks)
+    if solution is not None:
+        before, after = (format_quantity(value, solution.unit) for value in (solution.before, solution.after))
+        times = format_number(solution.before / solution.after, 3)
+        console().print(f"{solution.measure}: {before} -> {after}, {times} times less; no other of this order has less")
+        console().print("what binds, in the order of the turn:")
+        for line in binding_words(solution):
+            console().print(f"  {line}")
+
+
+def _cell(cell: float | int | str) -> str:
+    return cell if isinstance(cell, str) else format_quantity(cell, "deg")

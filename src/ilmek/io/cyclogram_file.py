@@ -1,0 +1,322 @@
+"""Cyclograms in and out, as TOML or JSON: tracks with their laws, relations, exclusions, limits.
+
+    name = "press"
+    period = "1s"
+
+    [tracks.die]
+    actuator = "cam 1"                          # unit = "mm"; held, revolves, limits where there are some
+    limits = { acceleration = "60m/s^2" }
+
+    [tracks.die.motions]                        # a law with parameters: { name = "scca", ... }
+    down = { start = "170deg", end = "215deg", from = "0mm", to = "100mm", law = "modified-sine" }
+
+    [tracks.die.events]
+    pressed = { on = "down", share = 1.0 }      # or passing = "30mm", or angle = "200deg"
+
+    [[relations]]
+    then = { track = "die", starts = "up" }     # ends, event, or past with at = "30mm"; or { angle = "90deg" }
+    first = { track = "die", ends = "down" }
+    gap = "10deg"                               # most, turns, delay, why
+
+    [[exclusions]]
+    first = { track = "die", above = "30mm" }   # below, name; or { name = "reed", windows = [["80deg", "120deg"]] }
+    second = { track = "feeder", above = "50mm" }
+    gap = "2deg"
+
+Numbers are SI and radians; text takes its unit. What is written is read again without loss, every number to its last
+bit: an angle or a position is written in its unit where that gives the same number again, else as it is.
+"""
+
+import json
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ilmek.cams.laws import LAWS
+from ilmek.errors import IlmekError, MechanismError, ParameterError
+from ilmek.io.cyclogram_entries import Entry
+from ilmek.io.output import write_whole
+from ilmek.io.places import Places, json_places, toml_places
+from ilmek.io.schema import Sheet
+from ilmek.io.text_file import read_text
+from ilmek.io.toml_text import toml_section, toml_text
+from ilmek.timing.crossings import passing_share
+from ilmek.timing.cyclogram import Cyclogram, Event, Exclusion, Limits, Moment, Relation, Segment, Spans, Track, Zone
+from ilmek.timing.relations import Presence
+from ilmek.timing.track import MotionLaw, riding
+from ilmek.timing.windows import windows_of
+from ilmek.units import parse_quantity, parse_unit
+
+LARGEST = 1_000_000
+"""Most bytes of a cyclogram file."""
+
+_EDGES = {"starts": "start", "ends": "end", "event": "event", "past": "past"}
+_LIMITS = {"speed": "/s", "acceleration": "/s^2", "jerk": "/s^3"}
+
+
+def read_cyclogram(path: Path) -> Cyclogram:
+    """The cyclogram of a .toml or .json file.
+
+    Raises ParameterError, naming the file, the line and the key, for whatever is wrong with it.
+    """
+    noun = "cyclogram file, .toml or .json"
+    try:
+        text = read_text(path, noun=noun, largest=LARGEST, error=ParameterError, do="check the path")
+        if path.suffix.lower() not in (".toml", ".json"):
+            raise ParameterError(f"ends in {path.suffix!r}", allowed="a cyclogram file is .toml or .json")
+    except ParameterError as error:
+        raise ParameterError(f"cyclogram file {path} {error.given}", allowed=error.allowed, do=error.do) from None
+    return parse_cyclogram(text, name=str(path), toml=path.suffix.lower() == ".toml")
+
+
+def parse_cyclogram(text: str, *, name: str = "cyclogram", toml: bool = True) -> Cyclogram:
+    """The cyclogram of a TOML or JSON text; `name` is what messages call the text. Raises as `read_cyclogram`."""
+    data, places = _data(text, name, toml)
+    try:
+        return _cyclogram(Entry(data, (), Sheet(name, places)))
+    except MechanismError as error:
+        raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
+
+
+def write_cyclogram(path: Path, cyclogram: Cyclogram) -> None:
+    """Write a .toml or .json file, whole or not at all. Raises OutputError; ParameterError for another ending."""
+    writers = {".toml": cyclogram_toml, ".json": cyclogram_json}
+    writer = writers.get(path.suffix.lower())
+    if writer is None:
+        raise ParameterError(f"cyclogram file {path} ends in {path.suffix!r}", allowed=".toml or .json")
+    write_whole(path, writer(cyclogram))
+
+
+def cyclogram_toml(cyclogram: Cyclogram) -> str:
+    """The cyclogram as TOML text."""
+    data = cyclogram_data(cyclogram)
+    parts = [toml_text({key: data[key] for key in ("name", "period")}).rstrip()]
+    for name, track in data["tracks"].items():
+        deep = ("motions", "events")
+        parts.append(toml_section(("tracks", name), {key: value for key, value in track.items() if key not in deep}))
+        parts += [toml_section(("tracks", name, key), track[key]) for key in deep if track.get(key)]
+    for key in ("relations", "exclusions"):
+        parts += [toml_section((key,), entry, many=True) for entry in data.get(key, ())]
+    return "\n\n".join(parts) + "\n"
+
+
+def cyclogram_json(cyclogram: Cyclogram) -> str:
+    """The cyclogram as JSON text."""
+    return json.dumps(cyclogram_data(cyclogram), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _data(text: str, name: str, toml: bool) -> tuple[Any, Places]:
+    """The data and the line of each key. Raises ParameterError, naming the line, for a text that is none."""
+    try:
+        return (tomllib.loads(text), toml_places(text)) if toml else (json.loads(text), json_places(text))
+    except tomllib.TOMLDecodeError as error:
+        said, _, place = str(error).removesuffix(")").rpartition(" (at ")
+        raise ParameterError(f"{name}, {place or 'end'}: {said[:1].lower()}{said[1:]}", do="mend that line") from None
+    except json.JSONDecodeError as error:
+        raise ParameterError(f"{name}, line {error.lineno}: {error.msg.lower()}", do="mend that line") from None
+    except IlmekError as error:
+        raise ParameterError(f"{name}, {error.given}", allowed=error.allowed, do="give each its own name") from None
+    except (RecursionError, ValueError):  # brackets in brackets, or a number of thousands of digits
+        raise ParameterError(f"{name} is no cyclogram, though it may be {'TOML' if toml else 'JSON'}") from None
+
+
+def _cyclogram(root: Entry) -> Cyclogram:
+    root.keys("name", "period", "tracks", "relations", "exclusions", needs=("period", "tracks"))
+    tracks = tuple(_track(name, entry) for name, entry in root.table("tracks").entries())
+    units = {track.name: track.unit for track in tracks}
+    known = Cyclogram(root.text("name", "cyclogram"), root.quantity("period", "s"), tracks) if tracks else None
+    if known is None:
+        root.refuse(ParameterError("has no tracks", allowed="at least one table [tracks.NAME]"))
+    with root.blamed():
+        relations = tuple(_relation(entry, units) for entry in root.rows("relations"))
+        exclusions = tuple(_exclusion(entry, units) for entry in root.rows("exclusions"))
+        for relation, entry in zip(relations, root.rows("relations"), strict=True):
+            with entry.blamed():
+                replace(known, relations=(relation,))
+        for exclusion, entry in zip(exclusions, root.rows("exclusions"), strict=True):
+            with entry.blamed():
+                replace(known, exclusions=(exclusion,))
+        return Cyclogram(known.name, known.period, tracks, relations, exclusions)
+
+
+def _track(name: str, entry: Entry) -> Track:
+    entry.keys("actuator", "unit", "revolves", "limits", "held", "motions", "events")
+    with entry.blamed():
+        unit = entry.text("unit", "mm")
+        parse_unit(unit)
+        parts = tuple(_motion(part, one, unit) for part, one in entry.table("motions").entries())
+        bare = Track(name, entry.text("actuator", ""), parts, (), unit, entry.quantity("revolves", unit, 0.0))
+        events = tuple(_event(bare, event, one) for event, one in entry.table("events").entries())
+        limits = _limits(entry.table("limits"), unit)
+        return Track(name, bare.actuator, parts, events, unit, bare.revolves, limits, held=entry.flag("held"))
+
+
+def _motion(name: str, entry: Entry, unit: str) -> Segment:
+    entry.keys("start", "end", "from", "to", "law", needs=("start", "end", "from", "to", "law"))
+    angles = entry.quantity("start", "rad"), entry.quantity("end", "rad")
+    return Segment(name, *angles, entry.quantity("from", unit), entry.quantity("to", unit), entry.law("law"))
+
+
+def _event(track: Track, name: str, entry: Entry) -> Event:
+    entry.keys("angle", "on", "share", "passing")
+    with entry.blamed():
+        if not entry.has("on"):
+            return Event(name, entry.quantity("angle", "rad"))
+        segment = track.segment(entry.text("on"))
+        if entry.has("passing"):
+            place = entry.quantity("passing", track.unit)
+            return riding(name, segment, passing_share(track.name, segment, place, track.unit))
+        made = riding(name, segment, entry.quantity("share", "1", 1.0))
+        angle = entry.quantity("angle", "rad", made.angle)
+        return Event(name, angle, made.on, made.share)
+
+
+def _limits(entry: Entry, unit: str) -> Limits:
+    entry.keys(*_LIMITS, "time")
+    with entry.blamed():
+        found = {key: entry.quantity(key, unit + per, math.inf) for key, per in _LIMITS.items()}
+        return Limits(**found, time=entry.quantity("time", "s", 0.0))
+
+
+def _relation(entry: Entry, units: Mapping[str, str]) -> Relation:
+    entry.keys("then", "first", "gap", "most", "turns", "delay", "why", needs=("then", "first"))
+    with entry.blamed():
+        least = -math.inf if entry.has("most") else 0.0
+        return Relation(
+            _moment(entry.table("then"), units),
+            _moment(entry.table("first"), units),
+            entry.quantity("gap", "rad", least),
+            entry.text("why", ""),
+            entry.quantity("most", "rad", math.inf),
+            entry.whole("turns"),
+            entry.quantity("delay", "s", 0.0),
+        )
+
+
+def _moment(entry: Entry, units: Mapping[str, str]) -> Moment:
+    if entry.has("angle"):
+        entry.keys("angle")
+        return Moment("", "", "angle", entry.quantity("angle", "rad"))
+    edge = next((key for key in _EDGES if entry.has(key)), "starts")
+    entry.keys("track", edge, *(["at"] if edge == "past" else []), needs=("track", edge))
+    track = _known(entry, units)
+    at = entry.quantity("at", units[track]) if edge == "past" else 0.0
+    return Moment(track, entry.text(edge), _EDGES[edge], at)
+
+
+def _known(entry: Entry, units: Mapping[str, str]) -> str:
+    """The track that an entry names; it is there."""
+    track = entry.text("track")
+    if track not in units:
+        entry.refuse(ParameterError(f"there is no track {track!r}", allowed=f"tracks: {', '.join(units)}"), "track")
+    return track
+
+
+def _exclusion(entry: Entry, units: Mapping[str, str]) -> Exclusion:
+    entry.keys("first", "second", "gap", "why", needs=("first", "second"))
+    with entry.blamed():
+        first, second = (_presence(entry.table(key), units) for key in ("first", "second"))
+        return Exclusion(first, second, entry.quantity("gap", "rad", 0.0), entry.text("why", "never both"))
+
+
+def _presence(entry: Entry, units: Mapping[str, str]) -> Presence:
+    if entry.has("windows"):
+        entry.keys("name", "windows")
+        with entry.blamed():
+            return Spans(entry.text("name", "windows"), windows_of(entry.pairs("windows", "rad")))
+    entry.keys("track", "above", "below", "name", needs=("track",))
+    track = _known(entry, units)
+    ends = entry.quantity("above", units[track], -math.inf), entry.quantity("below", units[track], math.inf)
+    return Zone(track, *ends, entry.text("name", ""))
+
+
+def cyclogram_data(cyclogram: Cyclogram) -> dict[str, Any]:
+    """The cyclogram as the data of a file."""
+    units = cyclogram.units
+    data: dict[str, Any] = {
+        "name": cyclogram.name,
+        "period": _written(cyclogram.period, "s"),
+        "tracks": {track.name: _track_data(track) for track in cyclogram.tracks},
+        "relations": [_relation_data(relation, units) for relation in cyclogram.relations],
+        "exclusions": [_exclusion_data(exclusion, units) for exclusion in cyclogram.exclusions],
+    }
+    return {key: value for key, value in data.items() if value != []}
+
+
+def _track_data(track: Track) -> dict[str, Any]:
+    limits = {
+        key: _written(getattr(track.limits, key), track.unit + per)
+        for key, per in _LIMITS.items()
+        if getattr(track.limits, key) < math.inf
+    }
+    if track.limits.time:
+        limits["time"] = _written(track.limits.time, "s")
+    data = {
+        "actuator": track.actuator,
+        "unit": track.unit,
+        "revolves": _written(track.revolves, track.unit) if track.revolves else 0,
+        "held": track.held,
+        "limits": limits,
+        "motions": {part.name: _motion_data(part, track.unit) for part in track.segments},
+        "events": {event.name: _event_data(event) for event in track.events},
+    }
+    return {key: value for key, value in data.items() if value or key in ("actuator", "unit")}
+
+
+def _motion_data(part: Segment, unit: str) -> dict[str, Any]:
+    angles = {key: _written(value, "deg") for key, value in (("start", part.start), ("end", part.end))}
+    ends = {key: _written(value, unit) for key, value in (("from", part.begin), ("to", part.finish))}
+    return {**angles, **ends, "law": _law_data(part.law)}
+
+
+def _law_data(law: MotionLaw) -> str | dict[str, Any]:
+    if law.name in LAWS and LAWS[law.name].parameters == law.parameters:
+        return law.name
+    found = {key: list(value) if isinstance(value, tuple) else value for key, value in law.parameters.items()}
+    return {"name": law.name, **found} if found else law.name
+
+
+def _event_data(event: Event) -> dict[str, Any]:
+    rides = {"on": event.on, "share": event.share} if event.on else {}
+    return {"angle": _written(event.angle, "deg"), **rides}
+
+
+def _relation_data(one: Relation, units: Mapping[str, str]) -> dict[str, Any]:
+    data: dict[str, Any] = {"then": _moment_data(one.then, units), "first": _moment_data(one.first, units)}
+    if one.gap > -math.inf:
+        data["gap"] = _written(one.gap, "deg")
+    if one.most < math.inf:
+        data["most"] = _written(one.most, "deg")
+    return data | {key: getattr(one, key) for key in ("turns", "delay", "why") if getattr(one, key)}
+
+
+def _moment_data(one: Moment, units: Mapping[str, str]) -> dict[str, Any]:
+    if one.edge == "angle":
+        return {"angle": _written(one.at, "deg")}
+    edge = next(key for key, value in _EDGES.items() if value == one.edge)
+    at = {"at": _written(one.at, units[one.track])} if one.edge == "past" else {}
+    return {"track": one.track, edge: one.motion, **at}
+
+
+def _exclusion_data(one: Exclusion, units: Mapping[str, str]) -> dict[str, Any]:
+    both = {key: _presence_data(getattr(one, key), units) for key in ("first", "second")}
+    return {**both, "gap": _written(one.gap, "deg"), "why": one.why}
+
+
+def _presence_data(one: Presence, units: Mapping[str, str]) -> dict[str, Any]:
+    if isinstance(one, Spans):
+        return {"name": one.name, "windows": [[window.start, window.end] for window in one.windows]}
+    ends = {key: _written(at, units[one.track]) for key, at in (("above", one.low), ("below", one.high))
+            if math.isfinite(at)}  # fmt: skip
+    return {"track": one.track, **ends, **({"name": one.name} if one.name else {})}
+
+
+def _written(value: float, unit: str) -> str | float:
+    """The number in its unit where that is read as the same number again, else as it is."""
+    shown = value / parse_unit(unit).factor
+    tries: Sequence[str] = [f"{shown:.{digits}g}{unit}" for digits in (4, 8, 12, 16, 17)]
+    plain = [text for text in tries if unit not in ("", "1") and parse_quantity(text, unit) == value]
+    return plain[0] if plain else float(value)

@@ -1,0 +1,158 @@
+"""A cyclogram of one's own: judged, solved, reported, tabled."""
+
+from typing import Any
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.errors import ParameterError
+from ilmek.io.cyclogram_file import cyclogram_data
+from ilmek.report import Check, Column, Report, Result, Table, at_most
+from ilmek.timing.cyclogram import Cyclogram, Track, judged
+from ilmek.timing.figures import draw
+from ilmek.timing.solver import Binding, Solution, least_acceleration, least_period, require_possible
+from ilmek.timing.track import peak_acceleration, peak_speed, sample
+from ilmek.units import deg, format_number, format_quantity, from_si, turn
+
+GOALS = {"acceleration": least_acceleration, "period": least_period}
+"""What a cyclogram can be solved for."""
+
+
+def solve(cyclogram: Cyclogram, goal: str) -> Solution:
+    """The cyclogram solved for a goal. Raises ParameterError for an unknown one, and as the solver."""
+    if goal not in GOALS:
+        raise ParameterError(f"--solve {goal}", allowed=" or ".join(GOALS))
+    return GOALS[goal](cyclogram)
+
+
+def report(cyclogram: Cyclogram, solution: Solution | None = None) -> Report:
+    """What a cyclogram holds; of a solved one also what was won and what binds.
+
+    Raises ParameterError where what is asked of it cannot hold together, wherever the motions lie.
+    """
+    checks = (*judged(cyclogram), *_limit_checks(cyclogram))
+    if solution is None and not all(check.ok for check in checks):
+        require_possible(cyclogram)
+    note = "Shaded: a stay in a place that another track needs too. Arrows: what must come after what."
+    tables = [_motions_table(cyclogram), _tracks_table(cyclogram)]
+    results = [
+        Result("period", cyclogram.period, "s", "a turn of the master shaft"),
+        Result("tracks", _peaks(cyclogram), "", "largest speed and acceleration of each track", shown=False),
+        Result("cyclogram", cyclogram_data(cyclogram), "", "the cyclogram, as a file keeps it", shown=False),
+    ]
+    if solution is not None:
+        results += _won(solution)
+        tables.insert(0, _binding_table(solution))
+    return Report(
+        machine="cyclogram",
+        title=f"Cyclogram: {cyclogram.name}",
+        parameters={},
+        results=tuple(results),
+        checks=checks,
+        tables=tuple(tables),
+        figures=(draw(cyclogram, cyclogram.name, note),),
+    )
+
+
+def columns(cyclogram: Cyclogram, steps: int) -> dict[str, FloatArray]:
+    """Master angle, time, and position, speed and acceleration of every track as columns, units in the headings."""
+    angle = np.linspace(0.0, turn, steps + 1)
+    w = cyclogram.speed
+    found = {"master angle [deg]": angle / deg, "time [s]": angle / w}
+    for track in cyclogram.tracks:
+        motion, unit = sample(track, angle), track.unit or "1"
+        scale = from_si(1.0, track.unit)
+        found[f"{track.name} position [{unit}]"] = motion.position * scale
+        found[f"{track.name} velocity [{unit}/s]"] = motion.slope * w * scale
+        found[f"{track.name} acceleration [{unit}/s^2]"] = motion.bend * w**2 * scale
+    return found
+
+
+def binding_words(solution: Solution) -> list[str]:
+    """What binds, a line each, in the order of the turn."""
+    return [f"{one.said}: {_cost(one, solution)}" for one in solution.binding]
+
+
+def _cost(one: Binding, solution: Solution) -> str:
+    if one.kind == "motion":
+        return f"{format_number(100 * one.share, 3)} % of what the turn is needed for"
+    if one.kind in ("order", "turn"):
+        return "no room between" if one.kind == "order" else "the turn ends there"
+    grows = "period" if solution.goal == "period" else "acceleration"
+    return f"a degree less would lower the {grows} by {format_number(100 * one.cost * deg, 3)} %"
+
+
+def _limit_checks(cyclogram: Cyclogram) -> list[Check]:
+    """Largest speed and acceleration of each track with such limits, and its shortest motion."""
+    checks = []
+    for track in cyclogram.tracks:
+        limits, unit, said = track.limits, track.unit, f"limit of {track.actuator or track.name}"
+        speed, acceleration = peak_speed(track, cyclogram.period), peak_acceleration(track, cyclogram.period)
+        if np.isfinite(limits.speed):
+            checks.append(at_most(f"{track.name}: speed", _cut(speed), limits.speed, f"{unit}/s", said))
+        if np.isfinite(limits.acceleration):
+            name = f"{track.name}: acceleration"
+            checks.append(at_most(name, _cut(acceleration), limits.acceleration, f"{unit}/s^2", said))
+    return checks
+
+
+def _cut(value: float) -> float:
+    """The value without what rounding left in its tenth digit."""
+    return float(f"{value:.9g}")
+
+
+def _peaks(cyclogram: Cyclogram) -> dict[str, Any]:
+    return {
+        track.name: {
+            "speed": peak_speed(track, cyclogram.period),
+            "acceleration": peak_acceleration(track, cyclogram.period),
+        }
+        for track in cyclogram.tracks
+    }
+
+
+def _won(solution: Solution) -> list[Result]:
+    binding = [{"said": one.said, "kind": one.kind, "share": one.share, "cost": one.cost} for one in solution.binding]
+    return [
+        Result("goal", solution.goal, "", "what was made least"),
+        Result("before", solution.before, solution.unit, f"{solution.measure}, as given"),
+        Result("after", solution.after, solution.unit, f"{solution.measure}, solved: the least in this order"),
+        Result("binding", binding, "", "what binds, in the order of the turn", shown=False),
+    ]  # fmt: skip
+
+
+def _binding_table(solution: Solution) -> Table:
+    columns = (Column("what binds"), Column("kind"), Column("what it does"))
+    rows = tuple((one.said, one.kind, _cost(one, solution)) for one in solution.binding)
+    return Table("binding", "What binds, in the order of the turn", columns, rows, brief=True)
+
+
+def _motions_table(cyclogram: Cyclogram) -> Table:
+    columns = (
+        *(Column("track"), Column("motion"), Column("from", "deg"), Column("to", "deg")),
+        *(Column("position from"), Column("position to"), Column("law")),
+    )
+    rows = tuple(
+        (track.name, part.name, part.start, part.end, _at(track, part.begin), _at(track, part.finish), part.law.name)
+        for track in cyclogram.tracks
+        for part in track.segments
+    )
+    return Table("motions", "Motions", columns, rows)
+
+
+def _tracks_table(cyclogram: Cyclogram) -> Table:
+    columns = (Column("track"), Column("actuator"), Column("largest speed"), Column("largest acceleration"))
+    rows = tuple(
+        (
+            track.name,
+            track.actuator,
+            format_quantity(peak_speed(track, cyclogram.period), f"{track.unit or '1'}/s"),
+            format_quantity(peak_acceleration(track, cyclogram.period), f"{track.unit or '1'}/s^2"),
+        )
+        for track in cyclogram.tracks
+    )
+    return Table("tracks", "Tracks", columns, rows, brief=True)
+
+
+def _at(track: Track, position: float) -> str:
+    return format_quantity(position, track.unit)

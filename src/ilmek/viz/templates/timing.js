@@ -1,0 +1,92 @@
+for (const figure of document.querySelectorAll("figure.timed")) {
+  const svg = figure.querySelector("svg");
+  const run = JSON.parse(svg.querySelector("metadata").textContent);
+  const controls = figure.querySelector(".controls"), button = controls.querySelector("button");
+  const slider = controls.querySelector("input"), answer = controls.querySelector("output");
+  const values = figure.querySelector(".timed-values"), rows = [...values.querySelectorAll("tbody tr")];
+  const cursor = svg.querySelector("[data-cursor]"), orders = [...controls.querySelectorAll("[data-order]")];
+  const moving = run.lanes.filter((lane) => lane.moves.length), curves = [...svg.querySelectorAll("[data-lane]")];
+  const speed = 360 / run.period, last = run.laws.length ? run.laws[0][0].length - 1 : 0;
+  // A law between two places of its table: cubic where the next derivative is known too.
+  function lawAt(law, order, u) {
+    const x = u * last, k = Math.min(Math.floor(x), last - 1), t = x - k, y = law[order];
+    if (order === 2) return y[k] + t * (y[k + 1] - y[k]);
+    const d = law[order + 1], h = 1 / last, r = 1 - t;
+    return y[k] * (1 + 2 * t) * r * r + y[k + 1] * t * t * (3 - 2 * t) + h * (d[k] * t * r * r - d[k + 1] * t * t * r);
+  }
+  // Position, velocity or acceleration of a lane at a master angle, by degrees; and the motion it is in.
+  function at(lane, angle, order) {
+    let value = order ? 0 : lane.moves.length ? lane.moves[0][2] : 0;
+    for (const [start, end, begin, finish, law] of lane.moves) {
+      if (angle < start) break;
+      const beta = end - start, h = finish - begin;
+      if (angle > end) value = order ? 0 : finish;
+      else value = (order ? 0 : begin) + (h / beta ** order) * lawAt(run.laws[law], order, (angle - start) / beta);
+    }
+    return value * speed ** order;
+  }
+  const motion = (lane, angle) => lane.moves.findIndex(([start, end]) => angle >= start && angle < end);
+  const told = (value, unit) => (Math.abs(value) < 1e-9 ? "0" : Number(value.toPrecision(4)).toString().replace("-", "−")) +
+    (unit && unit !== "°" ? " " : "") + unit;
+  const angles = (lane) => [...new Set([...Array(361).keys(), ...lane.moves.flatMap(([start, end]) =>
+    [...Array(25).keys()].map((k) => start + (k / 24) * (end - start)))])]
+    .filter((angle) => angle >= 0 && angle <= 360).sort((a, b) => a - b);
+  const original = curves.map((curve) => curve.getAttribute("d"));
+  function draw(order) {
+    moving.forEach((lane, number) => {
+      if (!order) return curves[number].setAttribute("d", original[number]);
+      const over = angles(lane), course = over.map((angle) => at(lane, angle, order));
+      const most = Math.max(...course.map(Math.abs)) || 1, middle = lane.floor - run.stroke / 2;
+      const points = over.map((angle, k) => `${(run.left + (angle / 360) * run.width).toFixed(1)} ` +
+        (middle - (course[k] / most) * (run.stroke / 2)).toFixed(2));
+      curves[number].setAttribute("d", "M" + points.join("L"));
+    });
+    orders.forEach((one, place) => one.setAttribute("aria-pressed", place === order));
+  }
+  let angle = 0, before = 0, asked = 0;
+  function show() {
+    cursor.setAttribute("transform", `translate(${(run.left + (angle / 360) * run.width).toFixed(2)} 0)`);
+    slider.value = angle;
+    answer.textContent = `${angle.toFixed(1)}°`;
+    slider.setAttribute("aria-valuetext", answer.textContent);
+    rows.forEach((row, number) => {
+      const lane = run.lanes[number], [named, ...cells] = row.querySelectorAll("td"), now = motion(lane, angle);
+      named.textContent = now < 0 ? "dwell" : named.dataset.names.split("|")[now];
+      cells.forEach((cell, order) => (cell.textContent = lane.moves.length
+        ? told(at(lane, angle, order), lane.unit + ["", "/s", "/s²"][order]) : ""));
+    });
+  }
+  function step(now) {
+    angle = (angle + (Math.min(now - before, 100) / 8000) * 360) % 360;
+    before = now;
+    show();
+    asked = requestAnimationFrame(step);
+  }
+  function play(on) {
+    cancelAnimationFrame(asked);
+    asked = 0;
+    button.textContent = on ? "Pause" : "Play";
+    button.setAttribute("aria-pressed", on);
+    before = performance.now();
+    if (on) asked = requestAnimationFrame(step);
+  }
+  function point(event) {
+    const box = svg.getBoundingClientRect(), view = svg.viewBox.baseVal;
+    const x = ((event.clientX - box.left) / box.width) * view.width;
+    angle = Math.min(Math.max(((x - run.left) / run.width) * 360, 0), 360);
+    play(false);
+    show();
+  }
+  svg.addEventListener("pointerdown", point);
+  svg.addEventListener("pointermove", (event) => event.buttons && point(event));
+  svg.style.touchAction = "pan-y";
+  slider.addEventListener("input", () => { play(false); angle = Number(slider.value); show(); });
+  button.addEventListener("click", () => play(!asked));
+  orders.forEach((one, order) => one.addEventListener("click", () => draw(order)));
+  addEventListener("beforeprint", () => { play(false); draw(0); });
+  cursor.setAttribute("visibility", "visible");
+  controls.hidden = values.hidden = false;
+  const hash = /^#at=([\d.]+)(?:,([012]))?$/.exec(location.hash);
+  if (hash) { angle = Math.min(Number(hash[1]), 360); draw(Number(hash[2] || 0)); }
+  show();
+}
