@@ -10,7 +10,7 @@ from ilmek.cams.vibration import residual
 from ilmek.errors import ParameterError
 from ilmek.machines.cam import MACHINE
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.springy import springy, springy_results
+from ilmek.machines.cam.springy import springy, springy_checks, springy_results
 from ilmek.report import Plot
 
 ASKED = {"lift": "20mm", "rise": "90deg", "mass": "2kg", "speed": "300rpm", "law": "modified-sine"}
@@ -64,6 +64,12 @@ def test_a_soft_linkage_leaves_the_cam_before_the_rigid_follower_does() -> None:
     plots = {figure.name: figure for figure in report.figures if isinstance(figure, Plot)}
     assert len(plots["cam-vibration"].series) == 4
     assert plots["cam-lag"].series[0].y.max() <= found["lag_max"]
+
+
+def test_a_groove_pulls_too() -> None:
+    made = springy(design(linkage_stiffness="200N/mm", kind="grooved"))
+    assert made is not None
+    assert springy_checks(made) == ()
 
 
 @pytest.mark.parametrize(
