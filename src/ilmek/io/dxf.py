@@ -67,6 +67,7 @@ def dxf_document(plate: Plate, shape: PlateShape) -> Drawing:
     document = new("R2010", setup=["linetypes", "styles", "dimstyles"], units=MM)
     for name, (colour, linetype, weight) in LAYERS.items():
         document.layers.add(name, color=colour, linetype=linetype, lineweight=weight)
+    document.layers.get("0").dxf.lineweight = LAYERS["DIMENSION"][2]  # where lines of dimensions stand in their blocks
     height = text_height(shape)
     document.header["$LTSCALE"] = height / 4
     space = document.modelspace()
