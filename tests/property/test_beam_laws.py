@@ -37,7 +37,7 @@ def first_moment(load) -> complex:
     return 2 * half * (middle * load.value(middle) + load.gradient * half * half / 3)
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(beams())
 def test_equilibrium_and_supports(drawn) -> None:
     beam = Beam(LENGTH, *drawn)
@@ -52,7 +52,7 @@ def test_equilibrium_and_supports(drawn) -> None:
         assert abs(bent.slope(end, 1.0)) < 1e-11 * strength
 
 
-@settings(max_examples=20)
+@settings(max_examples=12)
 @given(beams())
 def test_line_moment_and_shear_are_continuous_where_they_must_be(drawn) -> None:
     """y and y' everywhere; M but at couples and clamps, V but at forces and supports."""
@@ -71,7 +71,7 @@ def test_line_moment_and_shear_are_continuous_where_they_must_be(drawn) -> None:
         assert np.all(np.abs(ends) < 1e-10 * strength)
 
 
-@settings(max_examples=20)
+@settings(max_examples=12)
 @given(supports, loads, loads)
 def test_superposition(at, first, second) -> None:
     x = np.linspace(0, LENGTH, 33)
@@ -80,7 +80,7 @@ def test_superposition(at, first, second) -> None:
     np.testing.assert_allclose(together, apart, atol=1e-9)
 
 
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(supports, place, place)
 def test_maxwells_reciprocity(at, one, other) -> None:
     """A unit force here deflects there as one there deflects here; a unit couple likewise by the slope."""

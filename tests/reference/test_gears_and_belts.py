@@ -39,6 +39,7 @@ def test_shigley_table_14_2() -> None:
     assert [lewis(teeth) for teeth in (12, 17, 18, 24, 60, 400)] == [0.245, 0.303, 0.309, 0.337, 0.422, 0.480]
 
 
+@settings(max_examples=25)
 @given(st.floats(1e-9, 20.0))
 def test_inverse_involute(value) -> None:
     assert involute(involute_angle(value)) == pytest.approx(value, rel=1e-10)
@@ -125,6 +126,7 @@ def test_belt_about_equal_pulleys() -> None:
     assert drive.shaft_load(3.0) == pytest.approx(drive.pull(3.0)) == pytest.approx(3.0 / (150 * mm / 2 / math.pi))
 
 
+@settings(max_examples=15)
 @given(st.integers(15, 40), st.integers(0, 60), st.integers(1, 100))
 def test_belt_is_as_long_as_its_teeth(small, more, spare) -> None:
     belt, large = BELTS["AT5"], small + more

@@ -50,7 +50,7 @@ def test_surge_is_that_of_a_rod_between_walls() -> None:
     assert spring.surge == pytest.approx(closed)
 
 
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(st.floats(200, 20000), st.floats(1, 200), st.floats(0.002, 0.05))
 def test_chosen_spring_keeps_all_its_limits(rate, preload, travel) -> None:
     spring = choose_spring(rate, preload, travel, inner=8 * mm, outer=60 * mm)
@@ -87,6 +87,7 @@ def test_shigley_example_8_1() -> None:
     assert Screw(30 * mm, 8 * mm, 28 * mm, 0.09).self_locking
 
 
+@settings(max_examples=25)
 @given(st.floats(1, 89), st.floats(0.001, 0.5), st.floats(0, 15))
 def test_a_screw_loses_power_both_ways(lead_angle, friction, flank) -> None:
     diameter = 10 * mm

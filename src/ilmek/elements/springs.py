@@ -140,6 +140,9 @@ class CompressionSpring:
         return self.free_length * wire.modulus / (2 * apart) * (1 - math.sqrt(inside)) if inside > 0 else math.inf
 
 
+INDICES = tuple(half / 2 for half in range(8, 33))
+"""Of coils that wind well: 4 to 16."""
+
 ZIMMERLI, ZIMMERLI_PEENED = 241 * MPa, 398 * MPa
 
 CLASH = 0.15
@@ -164,7 +167,7 @@ def choose_spring(
     outer, inner  the room for it across [m]      length  room when preloaded [m]
     surge         least own frequency [Hz]        end     as of `buckling_deflection`
     fatigue       least safety in the long run, over the travel
-    It bears being pressed solid, has three active coils or more, an index of 4 to 16, and does not buckle.
+    It bears being pressed solid, has three active coils or more, one of `INDICES`, and does not buckle.
     Raises ParameterError for a wire that is not in the table.
 
     >>> spring = choose_spring(2000.0, 20.0, 0.02, inner=0.01)
@@ -180,8 +183,8 @@ def choose_spring(
     deflection = preload / rate + travel
     fitting = []
     for thick in WIRE_DIAMETERS:
-        for quarters in range(16, 65):
-            mean = thick * quarters / 4
+        for index in INDICES:
+            mean = thick * index
             coils = kind.shear_modulus * thick**4 / (8 * mean**3 * rate)
             if coils < 3 or mean + thick > outer or mean - thick < inner:
                 continue
