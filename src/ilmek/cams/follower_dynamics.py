@@ -115,7 +115,7 @@ def response_plot(responses: Mapping[str, Response], *, over_a_turn: bool = Fals
     """Lag of the last mass, of responses by name, over the time of a rise or over the cam angle of a turn."""
     series = tuple(Series(name, response.at, response.lag[-1]) for name, response in responses.items())
     x = Axis("cam angle", "deg") if over_a_turn else Axis("time", "ms")
-    return Plot("follower", "How far the follower's mass lags", x, Axis("lag", "mm"), series)
+    return Plot("follower", "Mass less cam: behind it below 0, beyond it above", x, Axis("mass less cam", "mm"), series)
 
 
 @dataclass(frozen=True, slots=True)

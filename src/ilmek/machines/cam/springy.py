@@ -116,9 +116,9 @@ def springy_figures(made: Springy) -> tuple[Figure, ...]:
     lag = Series("mass", response.at, made.arc * response.lag[0])
     over_turn = Plot(
         "cam-lag",
-        "How far the mass lags behind the cam",
+        "Mass less cam: behind it below 0, beyond it above",
         Axis("cam angle", "deg"),
-        Axis("lag", "mm"),
+        Axis("mass less cam", "mm"),
         (lag,),
         note=f"natural frequency {made.frequency:.4g} Hz, damping {100 * made.params.linkage_damping:g} %",
     )
@@ -128,7 +128,7 @@ def springy_figures(made: Springy) -> tuple[Figure, ...]:
 def _over_speed(made: Springy) -> Plot:
     params = made.params
     own = params.laws()[0]
-    speeds = params.speed * np.linspace(0.1, 3.0, 240)
+    speeds = params.speed * np.linspace(0.2, 1.5, 240)
     ratios = made.frequency * params.rise / speeds
     laws: dict[str, Law] = {own.name: own, **{name: LAWS[name] for name in BESIDE if name != own.name}}
     series = tuple(
