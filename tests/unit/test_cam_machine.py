@@ -219,11 +219,12 @@ def test_chosen_spring_holds_up_to_its_speed() -> None:
 
 def test_spherical_and_crowned_followers_press_harder_than_a_line() -> None:
     common = dict(lift="20mm", roller_radius="8mm", prime_radius="50mm")
-    line = results(**common)["hertz_pressure_max"]
-    crowned = results(**common, crown_radius="500mm")["hertz_pressure_max"]
-    ball = results(**common, follower="spherical")["hertz_pressure_max"]
+    line, crowned, ball = (
+        made(**common, **more).extremes.pressure.value
+        for more in ({}, {"crown_radius": "500mm"}, {"follower": "spherical"})
+    )
     assert line < crowned < ball
-    assert results(**{**common, "roller_radius": "0mm"}, follower="knife")["hertz_pressure_max"] is None
+    assert made(follower="knife", prime_radius="50mm").extremes.pressure is None
 
 
 def test_roller_of_a_table_lasts_as_long_as_its_rating_says() -> None:
@@ -233,19 +234,12 @@ def test_roller_of_a_table_lasts_as_long_as_its_rating_says() -> None:
 
 
 def test_smallest_roller_that_lasts_is_taken() -> None:
-    light, heavy = (
-        made(lift="20mm", prime_radius="80mm"),
-        made(lift="20mm", prime_radius="80mm", load="4kN", life="1e4h"),
-    )
-    assert light.roller is not None
+    heavy = made(lift="20mm", prime_radius="80mm", load="4kN", life="1e4h")
     assert heavy.roller is not None
-    assert light.roller.name == "CF 5"
     assert heavy.duty.time(heavy.roller) >= heavy.params.life
-    smaller = [one for one in ROLLERS.values() if one.diameter < heavy.roller.diameter]
-    assert not any(
-        made(lift="20mm", prime_radius="80mm", load="4kN", roller=one.name).duty.time(one) >= 3.6e7
-        for one in smaller[-1:]
-    )
+    smaller = [one.name for one in ROLLERS.values() if one.diameter < heavy.roller.diameter]
+    less = made(lift="20mm", prime_radius="80mm", load="4kN", life="1e4h", roller=smaller[-1])
+    assert less.duty.time(less.roller) < heavy.params.life
 
 
 def test_hub_has_the_keyway_of_its_bore() -> None:

@@ -18,12 +18,16 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 
-_HALVINGS = 54
+_STEPS = 20
+_SLOPE = -1.75
+"""Logarithm of the curvatures' ratio by that of the axes' ratio: -1.5 of a circle to -2 of a line. Steps with the slope
+between leave an error of 1/7 each time, at the worst."""
+
+_NOT_ROUND = -1e-9
+"""Logarithm of the axes' ratio of an ellipse that is nearly a circle, of which the formula of the ratio is 0/0."""
+
 _MEANS = 6
 """Steps of the arithmetic-geometric mean: from a ratio of 1e-6 down to rounding."""
-
-_THINNEST = 1e-6
-"""The thinnest ellipse sought, least axis over greatest; beyond it the contact is a line."""
 
 LINE_YIELD, POINT_YIELD = 1.79, 1.60
 """Pressure over yield strength at which steel first yields, below the surface, after von Mises [Johnson, 4.5, 6.2]."""
@@ -92,13 +96,13 @@ def _touching(curvature: RealField) -> RealField:
 
 
 def _slimness(ratio: RealField) -> RealField:
-    """Least over greatest semi-axis for a ratio of curvatures >= 1, by halving its logarithm."""
-    low, high = np.full(np.shape(ratio), math.log(_THINNEST)), np.zeros(np.shape(ratio))
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        rounder = _ratio(np.exp(middle)) < ratio
-        low, high = np.where(rounder, low, middle), np.where(rounder, middle, high)
-    return np.where(ratio > 1, np.exp(0.5 * (low + high)), np.where(np.isnan(ratio), np.nan, 1.0))
+    """Least over greatest semi-axis for a ratio of curvatures >= 1."""
+    wanted = np.log(ratio)
+    found = wanted / _SLOPE
+    for _ in range(_STEPS):
+        found = np.minimum(found, _NOT_ROUND)
+        found = found - (np.log(_ratio(np.exp(found))) - wanted) / _SLOPE
+    return np.where(ratio > 1, np.exp(np.minimum(found, 0.0)), 1.0)
 
 
 def _ratio(slim: RealField) -> RealField:
