@@ -57,7 +57,7 @@ def test_curvature_of_the_shedding_cam() -> None:
 
 
 @given(lift=st.floats(5e-3, 0.2), span=st.floats(30 * deg, 175 * deg), limit=st.floats(10 * deg, 60 * deg))
-@settings(max_examples=40)
+@settings(max_examples=20)
 def test_harmonic_closed_form_everywhere(lift, span, limit) -> None:
     found = smallest_prime_radius(opposed(lift, span), limit)
     assert found.value == pytest.approx(harmonic_prime_radius(lift, span, limit), rel=1e-12)
@@ -69,7 +69,7 @@ def test_harmonic_closed_form_everywhere(lift, span, limit) -> None:
     limit=st.floats(15 * deg, 50 * deg),
     offset=st.floats(-0.02, 0.02),
 )
-@settings(max_examples=40)
+@settings(max_examples=15)
 def test_the_smallest_prime_circle_uses_the_limit_up_and_no_more(law, span, limit, offset) -> None:
     programme = opposed(60 * mm, span, law)
     smallest = smallest_prime_radius(programme, limit, offset).value
