@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray, NumberArray, RealField
+from ilmek.arrays import ComplexArray, FloatArray, IntArray, NumberArray, RealField
 from ilmek.elements.beam import Beam
 
 DEGREE = 5
@@ -107,16 +107,15 @@ class Bent:
         return _horner(np.moveaxis(powers, -1, 0), np.asarray(x - self.breaks[piece]))
 
     def _extreme(self, order: int, factor: float) -> Extreme:
+        rows, widths = derived(self.coefficients, order), np.diff(self.breaks)
+        scaled = rows * widths[:, None] ** np.arange(rows.shape[1])
         found = Extreme(0.0, 0j)
-        for left, width, row in zip(
-            self.breaks[:-1], np.diff(self.breaks), derived(self.coefficients, order), strict=True
-        ):
-            scaled = row * width ** np.arange(len(row))
-            places = np.concatenate(([0.0, 1.0], _turns(scaled)))
-            values = _horner(scaled, places)
+        for piece in _worth(scaled):
+            places = np.concatenate(([0.0, 1.0], _turns(scaled[piece])))
+            values = _horner(scaled[piece], places)
             worst = int(np.argmax(np.abs(values)))
             if abs(values[worst]) > found.size * (1 + 1e-12):
-                found = Extreme(float(left + width * places[worst]), complex(values[worst]))
+                found = Extreme(float(self.breaks[piece] + widths[piece] * places[worst]), complex(values[worst]))
         return Extreme(found.at, found.value * factor)
 
 
@@ -133,6 +132,14 @@ def _horner(coefficients: NumberArray, x: FloatArray) -> ComplexArray:
     for power in coefficients[::-1]:
         value = np.asarray(value * x + power)
     return value
+
+
+def _worth(scaled: NumberArray) -> IntArray:
+    """The pieces that can hold the largest value: |p| <= its ends' + max |p''| / 8, against the largest at an end."""
+    powers = np.arange(scaled.shape[1])
+    ends = np.maximum(np.abs(scaled[:, 0]), np.abs(scaled.sum(axis=1)))
+    above = np.abs(scaled) @ (powers * (powers - 1)) / 8
+    return np.flatnonzero(ends + above >= np.max(ends) * (1 - 1e-12))
 
 
 def _turns(row: ComplexArray) -> FloatArray:
