@@ -324,7 +324,7 @@ def _blame(rows: Sequence[Row], known: Unknowns) -> None:
     weights = np.array([[*row.form.weights, 1.0] for row in rows])
     least = -np.array([row.form.constant for row in rows])
     goal = np.eye(1, weights.shape[1], weights.shape[1] - 1)[0]
-    bounds = [(1e-3, None), *[(None, None)] * (weights.shape[1] - 2), (0.0, None)]
+    bounds = [(1e-6, None), *[(None, None)] * (weights.shape[1] - 2), (0.0, None)]
     found = linprog(goal, A_ub=-weights, b_ub=-least, bounds=bounds, method="highs-ds")
     y = -np.asarray(found.ineqlin.marginals)
     guilty = [place for place in np.argsort(-y, kind="stable") if y[place] > _BINDS]
@@ -333,6 +333,8 @@ def _blame(rows: Sequence[Row], known: Unknowns) -> None:
     said = list(dict.fromkeys(rows[place].said for place in guilty if rows[place].kind != "motion"))
     raise ParameterError(
         f"{known.cyclogram.name}: a relation loop in the cyclogram cannot hold: {'; '.join(said)}",
-        allowed=f"together they ask for {format_quantity(over, 'deg')} more than there is",
+        allowed=f"together they ask for {format_quantity(over, 'deg')} more than there is"
+        if over > 1e-5
+        else "together they leave no angle for the motions",
         do="loosen one of them, or give the turn more time" if limited else "loosen one of them",
     )

@@ -35,6 +35,7 @@ def draw_timing(timing: Timing) -> tuple[Sheet, str]:
     """The sheet with the tracks stacked, the first on top, and the SVG of the curves that a script may change."""
     names = [text_width(lane.name, STRONG, bold=True) for lane in timing.lanes]
     actuators = [text_width(lane.actuator, SMALL) for lane in timing.lanes]
+    actuators += [text_width(_shared_law(lane), _FINE) for lane in timing.lanes]
     left = 18.0 + max([40.0, *names, *actuators])
     flown = [_flags(lane, WIDTH - left - _RIGHT) for lane in timing.lanes]
     heights = [_height(lane, lane_flags) for lane, lane_flags in zip(timing.lanes, flown, strict=True)]
@@ -81,17 +82,25 @@ def _motion(sheet: Sheet, lane: Lane, floor: complex, width: float, shade: str) 
         sheet.line(points, color=shade, linewidth=1.6, zorder=3)
         return ""
     for move in lane.moves:
-        _law(sheet, move, floor, width)
+        _law(sheet, move, floor, width, shared=bool(_shared_law(lane)))
     through = "L".join(f"{at.real:.1f} {sheet.height - at.imag:.1f}" for at in finite)
     boxes = "".join(_hover(sheet, lane, move, floor, width) for move in lane.moves)
     return f'<path data-lane="" d="M{through}" fill="none" stroke="{shade}" stroke-width="1.6"/>{boxes}'
 
 
-def _law(sheet: Sheet, move: Move, floor: complex, width: float) -> None:
-    """Name and law of a motion below its part of the baseline, as much of it as has room there."""
+def _shared_law(lane: Lane) -> str:
+    """The law of all motions of a lane; nothing where there are several."""
+    laws = {move.law for move in lane.moves}
+    return laws.pop() if len(laws) == 1 else ""
+
+
+def _law(sheet: Sheet, move: Move, floor: complex, width: float, *, shared: bool) -> None:
+    """Name and law of a motion below its part of the baseline, as much of it as has room there; a shared law stands
+    beside the lane.
+    """
     room = (min(move.end, _TURN * deg) - max(move.start, 0.0)) / deg / _TURN * width
     middle = (min(move.end, _TURN * deg) + max(move.start, 0.0)) / 2 / deg / _TURN * width
-    said = (f"{move.name} · {move.law}", move.law if move.law == move.name else move.name)
+    said = (move.name,) if shared else (f"{move.name} · {move.law}", move.name)
     fits = next((words for words in said if text_width(words, _FINE) <= room + 2.0), None)
     if fits:
         place = floor + middle - 1.8j
@@ -151,12 +160,16 @@ def _events(sheet: Sheet, lane: Lane, lane_flags: list[Flag], floor: complex) ->
 
 
 def _name(sheet: Sheet, lane: Lane, middle: complex) -> None:
-    """Name of the track and of its actuator, left of the axis."""
+    """Name of the track, of its actuator, and of the law that all its motions share, left of the axis."""
     right = {"ha": "right", "va": "center_baseline"}
     shift = 5.2j if lane.actuator else 0j
     sheet.text(middle - 8.0 + shift, lane.name, fontsize=STRONG, weight="bold", **right)
     if lane.actuator:
         sheet.text(middle - 8.0 - 5.6j, lane.actuator, fontsize=SMALL, color=MUTED, **right)
+    if _shared_law(lane):
+        sheet.text(
+            middle - 8.0 - (14.6j if lane.actuator else 8j), _shared_law(lane), fontsize=_FINE, color=MUTED, **right
+        )
 
 
 def _axes(sheet: Sheet, box: Box, period: float) -> None:
