@@ -10,12 +10,16 @@ from ilmek.cams.barrel import BarrelArmCam, BarrelCam
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import area
-from ilmek.cams.oscillating import OscillatingCam
+from ilmek.cams.oscillating import OscillatingCam, roller_motion
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
+from ilmek.cams.programme import TURN, Course, Programme, dwell, fall, rise
 from ilmek.cams.strip import WedgeCam
-from ilmek.cams.trace import Cam
+from ilmek.cams.trace import Cam, trace_of_point
+from ilmek.linkage.fourbar import four_bar
+from ilmek.linkage.quality import transmission_angle
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import plan
 from ilmek.units import deg, mm
 
 SMOOTH = ["3-4-5", "cycloidal", "4-5-6-7", "modified-sine"]
@@ -109,3 +113,27 @@ def test_the_closed_forms_of_a_roller_in_a_slide_are_the_traces(law, offset, pri
     np.testing.assert_allclose(profile.normal(angle, at.s, at.ds, prime, offset), trace.normal, atol=1e-13)
     touched = profile.profile_point(angle, at.s, at.ds, prime, offset, roller_radius=9 * mm)
     np.testing.assert_allclose(touched, trace.surface, atol=1e-15)
+
+
+@given(
+    shift=st.floats(5e-3, 15e-3),
+    coupler=st.floats(40e-3, 80e-3),
+    arm=st.floats(60e-3, 120e-3),
+    share=st.floats(0.0, 1.0),
+    side=st.sampled_from([1, -1]),
+)
+@settings(max_examples=15)
+def test_any_arm_on_any_eccentric_circle_is_a_four_bar(shift, coupler, arm, share, side) -> None:
+    """Pressure angle = what the transmission angle lacks to 90 deg; curvature = that of the coupler's circle."""
+    near, far = abs(coupler - arm) + shift + 2e-3, coupler + arm - shift - 2e-3
+    pivot = near + share * (far - near)
+    angle = np.linspace(0.0, TURN, 37)
+    moved = solve(plan(four_bar(pivot, shift, coupler, arm, branch=side)), angle, 1.0).require()
+    psi, dpsi, ddpsi = (-side * moved.angle("rocker"), -side * moved.omega("rocker"), -side * moved.alpha("rocker"))
+    centre = roller_motion(psi + np.pi, dpsi, ddpsi, pivot=pivot, arm=arm, side=side)
+    way = (pivot - centre[0]) * (1j * side / arm)
+    trace = trace_of_point(angle, Course(psi, dpsi, ddpsi, psi), centre, way, 0.0)
+    np.testing.assert_allclose(np.abs(trace.pitch - shift), coupler, rtol=1e-11)
+    np.testing.assert_allclose(trace.curvature, 1 / coupler, rtol=1e-7)
+    leaning = np.abs(np.pi / 2 - transmission_angle(moved, "B"))
+    np.testing.assert_allclose(np.abs(trace.pressure_angle), leaning, atol=1e-10)
