@@ -120,7 +120,7 @@ def least_period(cyclogram: Cyclogram) -> Solution:
     ]
     _, rows, answer = _best(known, standing_rows(known, period_free=True), motions)
     binding = _binding([*rows, *motions], answer, power=1)
-    period = turn / answer.x[0]
+    period = turn / float(answer.x[0])
     quick = _placed(known, answer.x, period)
     eased = least_acceleration(replace(quick, period=period * (1 + 1e-12))).cyclogram
     return Solution(eased, "period", cyclogram.period, eased.period, "period", "s", binding)
