@@ -62,6 +62,12 @@ def test_names_where_the_acceleration_jumps(name, places) -> None:
     assert jumps(shed(name), order=1) == ()
 
 
+def test_whole_turns_are_the_begin_of_the_first_part() -> None:
+    law = LAWS["uniform"]
+    saw = Programme((rise(1.0, 0.01, law), fall(2 * math.pi - 1.0, 0.01, law)))
+    np.testing.assert_allclose(saw.at(2 * math.pi * np.arange(-300, 301)).ds, 0.01, rtol=1e-12)
+
+
 def test_size_of_the_jump() -> None:
     first = jumps(shed("harmonic"))[0]
     assert (first.before, first.after) == pytest.approx((0.0, 0.12))

@@ -42,6 +42,7 @@ __all__ = [
 
 TURN = 2 * math.pi
 _FIT = 1e-9
+_WHOLE = 4.5e-16
 _DERIVATIVES = ("", "velocity", "acceleration", "jerk")
 
 
@@ -235,6 +236,7 @@ def _check_laws(segments: tuple[Segment, ...]) -> None:
 
 
 def _turn_and_phase(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Whole turns and the rest in [0, 2 pi)."""
-    turns = np.asarray(np.floor(angle * (1.0 / TURN)))
+    """Whole turns and the rest in [0, 2 pi); what is a whole turn but for rounding is one."""
+    count = angle / TURN
+    turns = np.asarray(np.floor(count + _WHOLE * np.abs(count)))
     return turns, np.asarray(np.maximum(angle - turns * TURN, 0.0)) if np.any(turns) else angle
