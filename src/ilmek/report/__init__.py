@@ -4,13 +4,49 @@ A machine returns a `Report`; the command line, the web page and the JSON are ma
 machine. Values are SI; the unit beside a value is the one to show it in.
 """
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.report.workshop import CamTable, Contour, Hole, Plate
+
+__all__ = [
+    "Animation",
+    "Axis",
+    "CamTable",
+    "Check",
+    "Column",
+    "Contour",
+    "Dot",
+    "Drawing",
+    "Figure",
+    "Hole",
+    "Json",
+    "Lane",
+    "LawCurve",
+    "Link",
+    "Mark",
+    "Move",
+    "MovingDot",
+    "MovingStroke",
+    "Plate",
+    "Plot",
+    "Reading",
+    "Report",
+    "Result",
+    "Series",
+    "Shade",
+    "Stroke",
+    "Table",
+    "Timing",
+    "at_least",
+    "at_most",
+    "check_as_json",
+    "plain",
+]
 
 Json: TypeAlias = float | int | bool | str | Mapping[str, Any] | Sequence[Any] | None
 """What JSON can hold; what is inside of groups is Json again, which a checker at run time cannot follow."""
@@ -301,74 +337,6 @@ class Timing:
 
 
 Figure: TypeAlias = Plot | Drawing | Animation | Timing
-
-
-@dataclass(frozen=True, slots=True)
-class Hole:
-    """A round hole of a plate: centre and radius [m], and what it is for."""
-
-    at: complex
-    radius: float
-    label: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Contour:
-    """A closed line of straight pieces and exact arcs [m]; `ilmek.plane.contours` reckons with it.
-
-    points  corners and joints, counter-clockwise, the first not said again at the end
-    bulges  of the piece from each point to the next: tan(sweep/4), above 0 where it turns left, 0 where it is straight
-    """
-
-    points: ComplexArray
-    bulges: FloatArray
-
-
-@dataclass(frozen=True, slots=True)
-class Plate:
-    """A flat part for the workshop, in its own frame [m].
-
-    outline   the closed contour: exact, as a `Contour`; or points of it, counter-clockwise, the first not said again at
-              the end, close enough that arcs can be laid through them (a curve: 720 a turn or more; corners and both
-              ends of straight edges among them)
-    holes     round holes             cutouts  closed contours inside the outline: a bore with its keyway, a groove
-    paths     closed curves that guide a tool or an eye, not cut through, by name: `cutter path`, `pitch curve`
-    marks     lines to scribe, by name: `zero` at the angle 0
-    area      inside the outline [m^2], holes and cutouts not taken off, reckoned apart from the points; None: not known
-    number    pieces to be made        notes  what else the workshop must know: fits, a keyway's standard
-    """
-
-    name: str
-    title: str
-    outline: ComplexArray | Contour
-    thickness: float
-    material: str
-    holes: tuple[Hole, ...] = ()
-    cutouts: tuple[ComplexArray | Contour, ...] = ()
-    paths: Mapping[str, ComplexArray | Contour] = field(default_factory=dict)
-    marks: Mapping[str, ComplexArray] = field(default_factory=dict)
-    area: float | None = None
-    number: int = 1
-    notes: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class CamTable:
-    """A motion of a slave axis over one turn of the master, for a controller's electronic cam.
-
-    course    master angles [rad], of any shape, to the rows s, s', s'' by the master angle [SI, SI/rad, SI/rad^2]
-    knots     master angles, ascending from 0 to 2 pi, between which the course is smooth [rad]
-    unit      the unit that a controller is given positions in
-    period    time of a turn [s]      revolves  what the slave gains in a turn [SI]; 0: it returns
-    """
-
-    name: str
-    title: str
-    course: Callable[[FloatArray], FloatArray]
-    knots: FloatArray
-    unit: str
-    period: float
-    revolves: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
