@@ -64,13 +64,16 @@ def test_an_index_tells_of_every_file_how_exact_it_is(tmp_path: Path) -> None:
         elif entry["kind"] == "step":
             assert entry["volume_error"] < 1e-9
         else:
-            assert entry["error"] <= entry["tolerance"] == pytest.approx(1e-5 * 0.04)
+            assert entry["error"] <= entry["tolerance"] == pytest.approx(1e-6)
             assert entry["kept"]
 
 
 def test_a_tolerance_is_a_length_an_angle_or_a_share_of_the_stroke() -> None:
     assert read_tolerance("2um").of(table()) == pytest.approx(2e-6)
     assert read_tolerance("2um").of(table(unit="deg")) == pytest.approx(2e-5)  # the usual share of 2 rad
+    assert Tolerance().of(table(unit="deg")) == pytest.approx(2e-5)
+    assert Tolerance().of(table()) == pytest.approx(1e-6)  # a share of 40 mm would be finer than anybody asks
+    assert Tolerance(share=1e-5).of(table()) == pytest.approx(4e-7)
     assert read_tolerance("0.01deg").of(table(unit="deg")) == pytest.approx(math.radians(0.01))
     assert read_tolerance("0.1%").of(table()) == pytest.approx(4e-5)
     for wrong in ("3N", "-1um", "0", "200%", "fine"):

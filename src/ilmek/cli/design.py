@@ -42,7 +42,7 @@ The parameters of a machine: ilmek machines MACHINE
     metavar="DIR",
     help="Write plates (DXF, STEP) and cam tables for controllers.",
 )
-@click.option("--tolerance", metavar="ERROR", help="Of cam tables: 1um, 0.01deg, or a share of the stroke. [0.001%]")
+@click.option("--tolerance", metavar="ERROR", help="Of cam tables: 1um, 0.01deg, 0.01% of the stroke.")
 @click.option("--force", is_flag=True, help="Replace a workshop folder whose files ilmek made.")
 def command(  # noqa: PLR0917 - click calls it by name
     name: str,

@@ -17,7 +17,7 @@ from ilmek.io.output import output_folder
 from ilmek.io.plate_shape import PlateShape
 from ilmek.plane.contours import area
 from ilmek.report import CamTable, Plate, Report
-from ilmek.units import format_quantity, parse_quantity, parse_unit, turn
+from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, turn, um
 
 _Named = TypeVar("_Named", Plate, CamTable)
 
@@ -26,23 +26,32 @@ AREA_ERROR = 1e-4
 """What a file's area may differ from the design's by, as a share of it."""
 
 
+FINEST = {parse_unit("m").dimension: 1 * um, parse_unit("rad").dimension: 1e-3 * deg}
+"""By the kind of slave, the tolerance that nobody needs finer without saying so [SI]."""
+
+SHARE = 1e-5
+"""The tolerance where none is said, as a share of the stroke, if that is not finer than `FINEST`."""
+
+
 @dataclass(frozen=True, slots=True)
 class Tolerance:
-    """What a controller's course may leave the exact one by: a share of each stroke; or a quantity, for those slaves
-    that move by quantities of its kind.
+    """What a controller's course may leave the exact one by.
 
-    kind  the dimension of the quantity; None: there is none
+    share     of each stroke; None: not said
+    quantity  for those slaves that move by quantities of its kind, a dimension [SI]; None: not said
     """
 
-    share: float = 1e-5
-    quantity: float = 0.0
+    share: float | None = None
+    quantity: float | None = None
     kind: tuple[int, int, int, int] | None = None
 
     def of(self, table: CamTable) -> float:
         """The tolerance of a table [SI]."""
-        if self.kind == parse_unit(table.unit).dimension:
+        kind = parse_unit(table.unit).dimension
+        if self.quantity is not None and self.kind == kind:
             return self.quantity
-        return self.share * (stroke(table) or 1.0)
+        travel = stroke(table) or 1.0
+        return max(SHARE * travel, FINEST.get(kind, 0.0)) if self.share is None else self.share * travel
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,7 +192,12 @@ def _plate_files(plate: Plate, work: Path, name: str) -> Iterator[dict[str, Any]
         write(work / f"{name}.step", plate, shape)
         read = volume(work / f"{name}.step")
         exact = (known - shape.bored) * plate.thickness
-        yield {"file": f"{name}.step", "kind": "step", **common, "volume": read, "volume_error": abs(read / exact - 1)}
+        off = abs(read / exact - 1)
+        if not off <= AREA_ERROR:
+            raise OutputError(
+                f"plate {plate.name} makes no sound solid: {off:.2%} of its volume is missing or too much"
+            )
+        yield {"file": f"{name}.step", "kind": "step", **common, "volume": read, "volume_error": off}
 
 
 def _step() -> tuple[Callable[[Path, Plate, PlateShape], None], Callable[[Path], float]] | None:
