@@ -144,7 +144,12 @@ def test_take_up_sets_the_motor_speed() -> None:
 
 def test_report_is_whole() -> None:
     report = answer()
-    assert [figure.name for figure in report.figures] == ["warp-tension-deflection", "warp-tension-section"]
+    assert [figure.name for figure in report.figures] == [
+        "warp-tension-side",
+        "warp-tension-deflection",
+        "warp-tension-section",
+        "warp-tension-rows",
+    ]
     for table in report.tables:
         assert {len(row) for row in table.rows} == {len(table.columns)}
     names = [result.name for result in report.results]

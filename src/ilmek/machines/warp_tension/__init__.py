@@ -9,7 +9,8 @@ takes an efficiency of 0.9 where self-locking allows one half.
 """
 
 from ilmek.machines.machine import Machine
-from ilmek.machines.warp_tension.design import WarpTensionDesign, WarpTensionParams, design
+from ilmek.machines.warp_tension.design import WarpTensionDesign, design
+from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.machines.warp_tension.report import report
 
 __all__ = ["MACHINE", "WarpTensionDesign", "WarpTensionParams", "design", "report"]

@@ -13,82 +13,23 @@ from dataclasses import dataclass
 
 from ilmek.cams.laws import LAWS
 from ilmek.elements import beams, shafts
-from ilmek.elements.materials import GRAVITY, MATERIALS
+from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import Motor, Reducer, geared_motor, most_torque
+from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.errors import ParameterError
-from ilmek.params import Params, param
-from ilmek.units import MPa, N, format_quantity, m, mm, ms, s, turn
-
-STEEL = MATERIALS["structural steel"]
+from ilmek.machines.warp_tension.params import WarpTensionParams
+from ilmek.units import format_quantity, mm, turn
 
 INNER_RADIUS = 65 * mm
 """The thesis' tube, 140 x 5 mm."""
+
+LIGHTEST = "lightest"
 
 TAKE_UP_LAW = LAWS["3-4-5"]
 """How the cylinder turns on by a row: from rest to rest; its motor must reach 15/8 of the mean speed."""
 
 RATIOS = (100.0, 150.0, 200.0, 300.0, 500.0, 1000.0)
 """The thesis' reducer, and larger ones, a worm behind a first stage, for wide looms."""
-
-
-@dataclass(frozen=True, slots=True)
-class WarpTensionParams(Params):
-    """What is asked of the cylinder; the defaults are the thesis' loom."""
-
-    warps: int = param(600, at_least=1, at_most=100_000, doc="warps on the cylinder", symbol="n")
-    tension: float = param(15 * N, unit="N", at_least=1e-6, at_most=1e4, doc="tension of a warp", symbol="T")
-    width: float = param(
-        1.2 * m, unit="m", at_least=1 * mm, at_most=20.0, doc="cylinder between its bearings", symbol="l"
-    )
-    outer_radius: float | None = param(
-        None,
-        unit="mm",
-        at_least=0.1 * mm,
-        at_most=2.0,
-        doc="outer radius; none: the least whole millimetre that keeps slope, deflection and wall",
-        symbol="Ro",
-    )
-    inner_radius: float | None = param(
-        None,
-        unit="mm",
-        at_least=0.0,
-        at_most=2.0,
-        doc="inner radius, 0: solid; none: 65 mm, or what the limits ask of a tube of that wall",
-        symbol="Ri",
-    )
-    wall: float = param(
-        5 * mm, unit="mm", at_least=0.01 * mm, at_most=0.5, doc="wall of the tube where a radius is chosen"
-    )
-    modulus: float = param(STEEL.modulus, unit="GPa", at_least=1 * MPa, at_most=1e13, doc="Young's modulus", symbol="E")
-    density: float = param(STEEL.density, unit="kg/m^3", at_least=1.0, at_most=25e3, doc="density of the tube")
-    strength: float = param(
-        STEEL.strength, unit="MPa", at_least=1 * MPa, at_most=1e10, doc="yield strength of the tube"
-    )
-    slope_limit: float = param(0.004, unit="rad", at_least=1e-9, below=0.5, doc="largest slope at the bearings")
-    deflection_limit: float = param(1 * mm, unit="mm", at_least=1e-9, at_most=0.1, doc="largest deflection")
-    ratio: float | None = param(
-        None, at_least=1e-3, at_most=1e5, doc="ratio of the reducer; none: from 100 on, that with the least motor"
-    )
-    efficiency: float = param(0.45, at_least=0.01, at_most=1.0, doc="efficiency of the reducer")
-    self_locking: bool = param(True, doc="the reducer must hold the warps by itself; no: a brake holds them")
-    motor_torque: float | None = param(
-        None, unit="Nm", at_least=1e-6, at_most=1e4, doc="torque of the motor; none: the smallest that is enough"
-    )
-    row_pitch: float = param(
-        4 * mm, unit="mm", at_least=0.001 * mm, at_most=0.1, doc="carpet taken up for each row of knots"
-    )
-    take_up_time: float = param(1 * s, unit="s", at_least=1 * ms, at_most=3600.0, doc="time to take up a row")
-    carpet_length: float = param(1.8 * m, unit="m", at_least=1 * mm, at_most=1000.0, doc="length of the carpet")
-    carpet_thickness: float = param(
-        0.0, unit="mm", at_least=0.0, at_most=0.1, doc="thickness of carpet wound on the cylinder; 0: it is led away"
-    )
-
-    def check_together(self) -> None:
-        """Raise ParameterError where the tube has no wall."""
-        if self.outer_radius is not None and self.inner_radius is not None and self.outer_radius <= self.inner_radius:
-            inner = format_quantity(self.inner_radius, "mm")
-            given = f"outer_radius={format_quantity(self.outer_radius, 'mm')} is not above inner_radius={inner}"
-            raise ParameterError(given, allowed=f"above {inner}", do="give radii, not diameters, or leave it out")
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,6 +149,9 @@ def peak_rate(params: WarpTensionParams, outer: float) -> float:
 
 def _tube(params: WarpTensionParams) -> tuple[float, float]:
     """Inner and outer radius [m]: as given; the other by the wall; both, the first millimetre that keeps the limits."""
+    if params.tube is not None:
+        chosen = lightest_tube(params) if params.tube.strip().casefold() == LIGHTEST else find_tube(params.tube)
+        return chosen.inner_radius, chosen.outer_radius
     inner, outer, wall = params.inner_radius, params.outer_radius, params.wall
     if outer is not None:
         return (max(outer - wall, 0.0) if inner is None else inner), outer
@@ -223,6 +167,20 @@ def _tube(params: WarpTensionParams) -> tuple[float, float]:
         given = f"no tube with a wall of {format_quantity(wall, 'mm')} keeps slope and deflection"
         raise ParameterError(given, do="set a larger wall or inner_radius")
     return found
+
+
+def lightest_tube(params: WarpTensionParams) -> Tube:
+    """The lightest stock tube that keeps slope and deflection. Raises ParameterError where none does."""
+    for tube in sorted(TUBES.values(), key=lambda tube: tube.area):
+        if keeps_limits(params, tube.inner_radius, tube.outer_radius):
+            return tube
+    widest = max(TUBES.values(), key=lambda tube: tube.inertia)
+    pull = format_quantity(params.warps * params.tension / params.width, "kN/m")
+    raise ParameterError(
+        f"no stock tube carries {pull} of warps over {format_quantity(params.width, 'm')}",
+        allowed=f"up to {widest.name} mm, with {format_quantity(params.deflection_limit, 'mm')} of deflection",
+        do="set a lower tension, or a narrower loom",
+    )
 
 
 def _drive(params: WarpTensionParams, torque: float, rate: float) -> tuple[Reducer, Motor | None, float]:

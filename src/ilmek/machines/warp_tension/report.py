@@ -7,6 +7,14 @@ from ilmek.elements.bearings import BEARINGS, bearings_for
 from ilmek.elements.figures import deflection_plot, tube_drawing
 from ilmek.elements.motors import MOTORS
 from ilmek.machines.rounding import settled
+from ilmek.machines.warp_tension.cylinder_report import (
+    cylinder_checks,
+    cylinder_results,
+    cylinders_table,
+    side_view,
+    stock_table,
+    tension_plot,
+)
 from ilmek.machines.warp_tension.design import WarpTensionDesign, outer_radii_min
 from ilmek.report import Check, Column, Figure, Report, Result, Table, at_most
 from ilmek.units import format_number, format_quantity, mm, turn
@@ -22,10 +30,16 @@ def report(design: WarpTensionDesign) -> Report:
         machine="warp-tension",
         title="Warp tension",
         parameters=design.params.as_dict(),
-        results=(*_cylinder_results(design), *_drive_results(design)),
-        checks=_checks(design),
-        tables=(_bearing_table(design), _tube_table(design), _efficiency_table(design)),
-        figures=_figures(design),
+        results=(*_cylinder_results(design), *_drive_results(design), *cylinder_results(design)),
+        checks=(*_checks(design), *cylinder_checks(design)),
+        tables=(
+            cylinders_table(design),
+            stock_table(design),
+            _bearing_table(design),
+            _tube_table(design),
+            _efficiency_table(design),
+        ),
+        figures=(side_view(design), *_figures(design), tension_plot(design)),
         warnings=_warnings(design),
     )
 

@@ -1,0 +1,238 @@
+"""The three cylinders: what pulls at each, how it bends, its bearings and shaft ends.
+
+    upper    the warps wind off it and pull down: T n / l, and its weight with them
+    lower    the carpet winds on it and pulls up, against its weight
+    spacer   the warps go over it by an angle phi, from behind to straight down: the resultant of both strands,
+             T n / l (-i + i exp(i phi)), 2 T sin(phi/2) a warp, and its weight; its slots take the tube's outside away
+
+Loads are complex, x to the front, y upwards. A cylinder bends in the plane of its load, as a beam between its bearings.
+The warps slip over the spacer: on its other side they pull with T exp(mu phi) while they move [Euler, Eytelwein].
+
+Bearings: the load is the reaction; life after ISO 281 in turns of the cylinder, which are few: so what counts is the
+static safety C0 / P0, 1.5 and more [ISO 76: 1 to 2 for ball bearings of ordinary demands]. A shaft end of the bearing's
+bore carries the reaction at an overhang e and, on the driven side, the torque:
+
+    sigma = 32 R e / (pi d³),   tau = 16 M / (pi d³),   sigma_v = sqrt(sigma² + 3 tau²)              [von Mises]
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.carpet.ground import WARP_DENSITY_PER_PITCH, yarn_diameter
+from ilmek.elements import beams
+from ilmek.elements.bearing_table import CYLINDRICAL, DEEP_GROOVE, INSERT
+from ilmek.elements.bearings import (
+    ROLLING_BEARINGS,
+    RollingBearing,
+    equivalent_load,
+    find_bearing,
+    hours,
+    life,
+    slope_limit,
+    static_load,
+)
+from ilmek.elements.materials import GRAVITY, MATERIALS
+from ilmek.elements.tubes import TUBES, Tube, find_tube
+from ilmek.errors import ParameterError
+from ilmek.machines.warp_tension.design import WarpTensionDesign, tube_weight
+from ilmek.machines.warp_tension.params import WarpTensionParams
+from ilmek.units import format_quantity, hour, mm
+
+STATIC_SAFETY = 1.5
+STUB = MATERIALS["heat-treatable steel"]
+STUB_SAFETY = 1.5
+THESIS_BEARING = "UCF 207"
+TAUT = 0.6
+"""Most of the pitch that a warp takes up: drawn tight it is thinner than as yarn, and leaves room for metal."""
+
+LEAST_WALL = 3 * mm
+"""Metal under the slots of the spacer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cylinder:
+    """A cylinder between its bearings.
+
+    inner, outer   radii of its section that bears [m]: under the slots, of the spacer      tube  stock, or None
+    load, bare     on it per length, x to the front, y upwards [N/m], with and without its own weight
+    slope, deflection, stress, slope_bare, deflection_bare   of the load; and without the own weight
+    torque         at its driven end [N m]        mass    of the tube [kg]
+    bearing        life [turns], time of it at the take-up's mean speed [s], static safety
+    stub_stress    von Mises, in the shaft end [Pa]
+    """
+
+    name: str
+    outer: float
+    inner: float
+    tube: Tube | None
+    bare: complex
+    load: complex
+    slope_bare: float
+    deflection_bare: float
+    slope: float
+    deflection: float
+    stress: float
+    reaction: float
+    torque: float
+    mass: float
+    bearing: RollingBearing
+    life: float
+    time: float
+    static_safety: float
+    stub_stress: float
+
+    @property
+    def stub_safety(self) -> float:
+        """Yield strength of the shaft end over its stress."""
+        return STUB.strength / self.stub_stress if self.stub_stress > 0 else math.inf
+
+
+@dataclass(frozen=True, slots=True)
+class Slots:
+    """The spacer's slots: pitch, width, depth [m], and the warp's diameter in them."""
+
+    pitch: float
+    width: float
+    depth: float
+    warp: float
+
+    @property
+    def land(self) -> float:
+        """Metal left between two slots [m]."""
+        return self.pitch - self.width
+
+
+def slots_of(params: WarpTensionParams) -> Slots:
+    """The spacer's slots, one for each warp."""
+    usual = min(yarn_diameter(WARP_DENSITY_PER_PITCH * params.pitch), TAUT * params.pitch)
+    warp = params.warp_diameter or usual
+    depth = warp if params.slot_depth is None else params.slot_depth
+    return Slots(params.pitch, params.slot_width or 1.1 * warp, depth, warp)
+
+
+def cylinders(design: WarpTensionDesign) -> tuple[Cylinder, Cylinder, Cylinder]:
+    """Upper and lower cylinder, and the spacer."""
+    params, tube = design.params, stock(design.inner_radius, design.outer_radius)
+    sizes = design.outer_radius, design.inner_radius
+    upper = _cylinder(design, "upper", sizes, tube, -1j * design.load, design.torque)
+    lower = _cylinder(design, "lower", sizes, tube, 1j * design.load, design.torque_full)
+    chosen = _spacer_tube(params, design.load)
+    solid = (chosen.outer_radius, chosen.inner_radius) if chosen else sizes
+    under = (solid[0] - slots_of(params).depth, solid[1])
+    spacer = _cylinder(design, "spacer", under, chosen or tube, spacer_load(params, design.load), 0.0)
+    return upper, lower, spacer
+
+
+def spacer_load(params: WarpTensionParams, load: float) -> complex:
+    """Resultant of the warps on the spacer per length [N/m]: one strand goes down, the other back."""
+    return complex(load * (-1j + 1j * np.exp(1j * params.spacer_wrap)))
+
+
+def tension_beyond(params: WarpTensionParams) -> float:
+    """Tension of a warp on the other side of the spacer while it slips [N]."""
+    return params.tension * math.exp(params.friction * params.spacer_wrap)
+
+
+def stock(inner: float, outer: float) -> Tube | None:
+    """The stock tube of these radii [m]; None where none is."""
+    return next((t for t in TUBES.values() if abs(t.outer_radius - outer) + abs(t.inner_radius - inner) < 1e-7), None)
+
+
+def _cylinder(  # noqa: PLR0917
+    design: WarpTensionDesign,
+    name: str,
+    sizes: tuple[float, float],
+    tube: Tube | None,
+    bare: complex,
+    torque: float,
+) -> Cylinder:
+    params, (outer, inner) = design.params, sizes
+    weight = tube_weight(params, inner, outer)
+    load = bare - 1j * weight
+    inertia = float(beams.tube_inertia(outer, inner))
+    span = (params.width, params.modulus, inertia)
+    size = abs(load)
+    reaction = float(beams.reaction(size, params.width))
+    slope = float(beams.slope_max(size, *span))
+    bearing = bearing_for(params, reaction, torque, slope)
+    turns = params.row_pitch / outer / params.row_time
+    lives = life(bearing.dynamic, equivalent_load(bearing, reaction), bearing.kind)
+    return Cylinder(
+        name,
+        outer,
+        inner,
+        tube,
+        bare,
+        load,
+        float(beams.slope_max(abs(bare), *span)),
+        float(beams.deflection_max(abs(bare), *span)),
+        slope,
+        float(beams.deflection_max(size, *span)),
+        float(beams.bending_stress(beams.moment_max(size, params.width), outer, inertia)),
+        reaction,
+        torque,
+        weight / GRAVITY * params.width,
+        bearing,
+        lives,
+        hours(lives, turns) * hour,
+        bearing.static / static_load(bearing, reaction),
+        stub_stress(params, reaction, torque, bearing.bore),
+    )
+
+
+def bearing_for(params: WarpTensionParams, reaction: float, torque: float, slope: float) -> RollingBearing:
+    """The bearing by its designation; or the thesis', or where that is not enough the least that is.
+
+    Flanged inserts come first, as the thesis has them, then deep-groove ball and cylindrical roller bearings, each by
+    its bore; the largest ball bearing where none is enough: the checks say so.
+    """
+    if params.bearing is not None:
+        return find_bearing(params.bearing)
+    offered = sorted(ROLLING_BEARINGS.values(), key=lambda one: (_KINDS.index(one.kind), one.bore, one.mass))
+    kept = [one for one in offered if one.kind != INSERT or one.name.startswith("UCF")]
+    usual = find_bearing(THESIS_BEARING)
+    enough = (one for one in (usual, *kept) if _enough(params, one, reaction, torque, slope))
+    return next(enough, max(kept, key=lambda one: one.static * (one.kind == DEEP_GROOVE)))
+
+
+def stub_stress(params: WarpTensionParams, reaction: float, torque: float, diameter: float) -> float:
+    """Von Mises stress in a shaft end [Pa]."""
+    section = math.pi * diameter**3 / 32
+    return math.hypot(reaction * params.stub / section, math.sqrt(3) * torque / (2 * section))
+
+
+_KINDS = (INSERT, DEEP_GROOVE, CYLINDRICAL)
+
+
+def _enough(params: WarpTensionParams, bearing: RollingBearing, reaction: float, torque: float, slope: float) -> bool:
+    strong = STUB.strength >= STUB_SAFETY * stub_stress(params, reaction, torque, bearing.bore)
+    bears = bearing.static >= STATIC_SAFETY * static_load(bearing, reaction)
+    return strong and bears and slope <= slope_limit(bearing)
+
+
+def _spacer_tube(params: WarpTensionParams, load: float) -> Tube | None:
+    """The spacer's tube: as said, or the lightest that keeps the limits under its slots; None where none does."""
+    depth = slots_of(params).depth
+    if params.spacer_tube is not None:
+        tube = find_tube(params.spacer_tube)
+        if tube.wall <= depth:
+            raise ParameterError(
+                f"slots of {format_quantity(depth, 'mm')} cut through a spacer of {tube.name} mm",
+                allowed=f"less than {format_quantity(tube.wall, 'mm')}",
+                do="set a smaller slot_depth, or a tube with a thicker wall",
+            )
+        return tube
+    walls = (tube for tube in TUBES.values() if tube.wall >= depth + LEAST_WALL)
+    return next((tube for tube in sorted(walls, key=lambda tube: tube.area) if _keeps(params, tube, load, depth)), None)
+
+
+def _keeps(params: WarpTensionParams, tube: Tube, load: float, depth: float) -> bool:
+    outer, inner = tube.outer_radius - depth, tube.inner_radius
+    size = abs(spacer_load(params, load) - 1j * tube_weight(params, inner, outer))
+    span = (params.width, params.modulus, beams.tube_inertia(outer, inner))
+    return bool(
+        beams.slope_max(size, *span) <= params.slope_limit
+        and beams.deflection_max(size, *span) <= params.deflection_limit
+    )

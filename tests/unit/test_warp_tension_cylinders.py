@@ -1,0 +1,150 @@
+"""Three cylinders under the warps and their own weight; bearings, shaft ends, slots; the tension over a row."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ilmek.elements.beam import Beam, LineLoad
+from ilmek.elements.bearings import find_bearing
+from ilmek.elements.bending import bend
+from ilmek.errors import ParameterError
+from ilmek.machines.warp_tension import MACHINE, WarpTensionParams
+from ilmek.machines.warp_tension.cylinders import cylinders, slots_of, spacer_load, stub_stress, tension_beyond
+from ilmek.machines.warp_tension.design import keeps_limits, lightest_tube
+from ilmek.machines.warp_tension.tension import course, shed_lengthening, tension_of
+from ilmek.units import deg, mm, turn
+
+DESIGN = MACHINE.design(WarpTensionParams())
+
+
+def results(**given: str) -> dict:
+    return MACHINE.report(MACHINE.design(WarpTensionParams.read(given))).as_json()["results"]
+
+
+def failed(**given: str) -> list[str]:
+    return [check.name for check in MACHINE.report(MACHINE.design(WarpTensionParams.read(given))).failed]
+
+
+def test_the_weight_adds_above_and_relieves_below() -> None:
+    upper, lower, _ = cylinders(DESIGN)
+    assert abs(upper.load) == pytest.approx(DESIGN.load + DESIGN.self_weight)
+    assert abs(lower.load) == pytest.approx(DESIGN.load - DESIGN.self_weight)
+    assert upper.deflection == pytest.approx(DESIGN.deflection_loaded)
+    assert upper.deflection_bare == lower.deflection_bare == pytest.approx(DESIGN.deflection)
+
+
+@pytest.mark.parametrize("wrap", [0, 60, 90, 180])
+def test_the_spacer_bears_both_strands(wrap: float) -> None:
+    load = spacer_load(WarpTensionParams(spacer_wrap=wrap * deg), 7500.0)
+    assert abs(load) == pytest.approx(2 * 7500.0 * math.sin(wrap * deg / 2), abs=1e-9)
+    assert load.real <= 1e-9
+    assert load.imag <= 1e-9
+
+
+def test_every_cylinder_bends_as_a_beam_of_its_section() -> None:
+    """Against the general beam with the same complex load."""
+    width, modulus = DESIGN.params.width, DESIGN.params.modulus
+    for one in cylinders(DESIGN):
+        rigidity = modulus * math.pi / 4 * (one.outer**4 - one.inner**4)
+        bent = bend(Beam(width, (0.0, width), (LineLoad(0.0, width, one.load),)))
+        assert bent.deflection_max(rigidity).size == pytest.approx(one.deflection, rel=1e-9)
+        assert bent.slope_at_supports(rigidity).size == pytest.approx(one.slope, rel=1e-9)
+
+
+def test_the_lightest_stock_tube_is_the_lightest_that_keeps_the_limits() -> None:
+    found = lightest_tube(DESIGN.params)
+    assert keeps_limits(DESIGN.params, found.inner_radius, found.outer_radius)
+    assert results(tube="lightest")["cylinder_tube"]["upper"] == found.name
+    assert results(tube="140 x 5")["deflection"] == pytest.approx(DESIGN.deflection)
+    assert found.area < math.pi * (0.070**2 - 0.065**2)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"tube": "141x5"}, "the nearest offered is '140x5'"),
+        ({"bearing": "UCF 270"}, "the nearest offered is 'UCF"),
+        ({"tube": "140x5", "outer_radius": "70mm"}, "leave the radii out"),
+        ({"spacer_tube": "110x5", "slot_depth": "6mm"}, "cut through a spacer"),
+        ({"tube": "lightest", "width": "20m"}, "no stock tube carries"),
+    ],
+)
+def test_what_is_not_in_the_tables_is_said_with_the_nearest(given: dict[str, str], said: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        results(**given)
+    assert said in str(caught.value)
+
+
+def test_the_thesis_bearing_lives_long_and_stands_safe() -> None:
+    """UCF 207: C 25.7 kN, C0 15.4 kN; 4.6 kN with the tube's weight."""
+    found = results()
+    load = found["cylinder_reaction"]["upper"]
+    assert found["bearing"]["upper"] == "UCF 207"
+    assert found["bearing_life"]["upper"] == pytest.approx((25700 / load) ** 3 * 1e6)
+    assert found["bearing_static_safety"]["upper"] == pytest.approx(15400 / load)
+    turns = 0.004 / (turn * 0.070) / 150.0
+    assert found["bearing_time"]["upper"] == pytest.approx(found["bearing_life"]["upper"] / turns)
+
+
+def test_a_wide_loom_takes_larger_bearings_and_small_ones_fail() -> None:
+    wide = results(warps="3200", width="4m")
+    assert find_bearing(wide["bearing"]["upper"]).static >= 1.5 * wide["cylinder_reaction"]["upper"]
+    assert "static safety, UCF 207" in failed(warps="3200", width="4m", bearing="UCF 207")
+
+
+def test_stress_of_a_shaft_end() -> None:
+    bending, twisting = 32 * 4500 * 0.04 / (math.pi * 0.035**3), 16 * 630 / (math.pi * 0.035**3)
+    assert stub_stress(DESIGN.params, 4500.0, 630.0, 0.035) == pytest.approx(
+        math.hypot(bending, math.sqrt(3) * twisting)
+    )
+
+
+@pytest.mark.parametrize("pitch", ["0.5mm", "2mm", "10mm"])
+def test_slots_have_the_warps_pitch_and_leave_metal(pitch: str) -> None:
+    slots = slots_of(WarpTensionParams.read({"warp_pitch": pitch}))
+    assert slots.warp < slots.width < slots.pitch
+    assert slots.depth == slots.warp
+
+
+def test_slots_that_do_not_fit_fail() -> None:
+    assert failed(warp_diameter="1.8mm") == []
+    assert failed(slot_width="1mm") == ["warp in its slot"]
+    assert failed(slot_width="2.5mm") == ["land between slots"]
+
+
+def test_the_tension_over_a_row_is_the_stretch_of_a_spring() -> None:
+    """EA / L = 2.1 N/tex of 857 tex over 1.5 m: 1200 N/m."""
+    found = tension_of(DESIGN)
+    assert found.rate == pytest.approx(2.1e6 * 3 / 7 * 1e-3 * 2 / 1.5)
+    assert found.woven - found.rest == pytest.approx(found.rate * 0.004 * 0.03)
+    assert found.locked - found.woven == pytest.approx(found.rate * 0.004)
+    assert found.shed - found.woven == pytest.approx(found.rate * 2 * (math.hypot(0.17, 0.06) - 0.17))
+    assert found.correction * DESIGN.outer_radius * found.rate == pytest.approx(found.woven - found.rest)
+
+
+def test_no_lift_no_lengthening() -> None:
+    assert shed_lengthening(0.0, 0.17) == 0.0
+
+
+@pytest.mark.parametrize("between", [1, 3])
+def test_every_take_up_brings_the_tension_back(between: int) -> None:
+    design = MACHINE.design(WarpTensionParams(rows_between=between))
+    at, over = course(design, 6)
+    found = tension_of(design)
+    assert over[-1] == pytest.approx(found.rest)
+    assert over.min() == pytest.approx(found.rest)
+    assert over[at == between].tolist() == pytest.approx([found.woven, found.rest, found.rest])
+    assert (np.diff(at) >= 0).all()
+
+
+def test_warps_that_slip_on_the_spacer_pull_more_behind_it() -> None:
+    assert tension_beyond(WarpTensionParams(spacer_wrap=math.pi / 2, friction=0.2)) == pytest.approx(
+        15 * math.exp(0.1 * math.pi)
+    )
+
+
+def test_a_step_of_the_motor_is_fine_enough() -> None:
+    found = tension_of(DESIGN)
+    assert found.step == pytest.approx(found.rate * 70 * mm * turn / 200 / 200)
+    assert failed(free_length="20mm", ratio="1", motor_torque="1e4Nm") != []
