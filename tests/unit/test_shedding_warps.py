@@ -172,3 +172,32 @@ def test_motions_for_the_controller_are_those_of_the_warps() -> None:
 def test_half_a_warp_is_refused(asked, said) -> None:
     with pytest.raises(ParameterError, match=said):
         made(**asked)
+
+
+def test_inertia_of_the_harmonic_cam() -> None:
+    """Polar moment of the cam's face: 1/4 of the integral of (Rp + s)^4; guide cams are discs."""
+    cam, stack = made().cam, made().stack
+    angle = np.linspace(0, 2 * math.pi, 20_001)
+    polar = np.trapezoid((cam.prime_radius + cam.programme.at(angle).s) ** 4, angle) / 4
+    disc = math.pi / 2 * stack.guide_radius**4
+    assert stack.inertia == pytest.approx(600 * 7850 * 1e-3 * (polar + disc), rel=1e-5)
+
+
+def test_shaft_turns_far_below_its_critical_speed_and_does_not_tire() -> None:
+    """First critical speed of the span: (pi / l)^2 sqrt(E I / m'); 205 MPa of corner stress would tire S235."""
+    shaft, stack = made().shaft, made().stack
+    wanted = (math.pi / 1.2) ** 2 * math.sqrt(200e9 * shaft.bar**4 / 12 / (stack.mass / 1.2))
+    assert shaft.critical == pytest.approx(wanted, rel=1e-9)
+    thin, thick = made(shaft_bar=30 * mm), made(shaft_bar=80 * mm)
+    assert thin.shaft.endurance < 1 < thick.shaft.endurance
+    assert "fatigue of the shaft" in [check.name for check in answer(shaft_bar=30 * mm).failed]
+
+
+def test_motor_over_the_turn() -> None:
+    """180 sin 2q up, and down what the reducer's losses leave: rms and mean of both halves."""
+    drive = made().drive
+    assert drive.duty is not None
+    up, down = 1.8 / 0.85, 1.8 * (2 - 1 / 0.85)
+    assert drive.duty.rms == pytest.approx(math.hypot(up, down) / 2, rel=1e-6)
+    assert drive.duty.power_mean == pytest.approx((up - down) / math.pi * drive.motor_speed, rel=1e-4)
+    assert drive.duty.inertia_ratio == pytest.approx(made().stack.inertia / 100**2 / drive.motor.inertia)

@@ -7,8 +7,8 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.machines.hammer.axis import Axis as VerticalAxis
 from ilmek.machines.hammer.design import Hammer
-from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
-from ilmek.units import dm, format_quantity, mm
+from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
+from ilmek.units import dm, format_quantity
 
 
 def figures(design: Hammer) -> tuple[Figure, ...]:
@@ -97,42 +97,29 @@ def axis_plots(axis: VerticalAxis) -> tuple[Plot, Plot]:
     return stroke, force
 
 
-SHOWN = 7
-"""Warps drawn."""
+SHOWN, ROWS = 7, 5
+"""Warps and rows drawn."""
 
 
 def drawing(design: Hammer) -> Drawing:
-    """The comb in front of some warps: bar, leaves between the warps, rows below; to scale but for the rows' waves."""
+    """The comb at the beat, between some warps: its leaves over the last row, the rows below; to scale."""
     params = design.params
-    pitch, rows = params.warp_pitch, 6
-    half = SHOWN * pitch / 2
-    top = params.leaf_height
-    leaves = tuple(
-        Stroke(_box(x - params.leaf / 2, 0.0, params.leaf, top), "link", closed=True, filled=True)
-        for x in np.arange(SHOWN + 1) * pitch - half
+    pitch, top, half = params.warp_pitch, params.leaf_height, SHOWN * params.warp_pitch / 2
+    places = np.arange(SHOWN + 1) * pitch - half
+    leaves = tuple(Stroke(_box(x - params.leaf / 2, 0.0, params.leaf, top), "outline", "", True, True) for x in places)
+    low = -(ROWS + 0.5) * design.spacing
+    warps = tuple(Stroke(np.array([x + 1j * low, x + 1.4j * top]), "yarn") for x in places[:-1] + pitch / 2)
+    rows = tuple(
+        Stroke(np.array([-half - pitch, half + pitch]) - 1j * n * design.spacing, "path", "" if n else "last row")
+        for n in range(ROWS + 1)
     )
-    low = -rows * design.spacing
-    warps = tuple(
-        Stroke(np.array([complex(x, low), complex(x, 1.6 * top)]), "yarn")
-        for x in (np.arange(SHOWN) + 0.5) * pitch - half
+    bar = _box(-half - pitch, top, 2 * half + 2 * pitch, 0.3 * top)
+    said = Stroke(half + 1.8 * pitch - 1j * np.array([1, 2]) * design.spacing, "dimension", "rows")
+    strokes = (*warps, *rows, *leaves, Stroke(bar, "outline", "comb, cut off above", True), said)
+    note = (
+        f"Front view at the beat: rows {format_quantity(design.spacing, 'mm')} apart, {design.rows_along * dm:.4g}/dm."
     )
-    fell = tuple(
-        Stroke(np.array([-half, half]) - 1j * n * design.spacing, "path", "" if n > 1 else "row")
-        for n in range(1, rows)
-    )
-    strokes = (
-        *warps,
-        *fell,
-        *leaves,
-        Stroke(
-            _box(-half - pitch / 2, top, 2 * half + pitch, 4 * mm), "outline", "bar of the comb, cut off above", True
-        ),
-        Stroke(
-            half + pitch - 1j * np.array([1, 2]) * design.spacing, "dimension", format_quantity(design.spacing, "mm")
-        ),
-    )
-    note = f"Front view at the beat: {design.rows_along * dm:.4g} rows a decimetre."
-    return Drawing("hammer-comb", "Comb between the warps", strokes, (Dot(0j, "fell", "point"),), note=note)
+    return Drawing("hammer-comb", "Comb between the warps", strokes, note=note)
 
 
 def _box(x: float, y: float, width: float, height: float) -> ComplexArray:

@@ -14,12 +14,15 @@ a parity may stand one after another instead of all at once: `phases`; tension a
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from ilmek.arrays import FloatArray
 from ilmek.cams import limits
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
 from ilmek.cams.pieces import Extremum, supremum
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
+from ilmek.elements.duty import Cycle, Duty, duty
 from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor
 from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
 from ilmek.machines.shedding.phases import Shed, chosen_shed
@@ -28,7 +31,10 @@ from ilmek.machines.shedding.shaft import Shaft, shaft_for
 
 @dataclass(frozen=True, slots=True)
 class Stack:
-    """The cams on the shaft: thickness of cam and guide [m], guide radius [m], masses [kg]."""
+    """The cams on the shaft: thickness of cam and guide [m], guide radius [m], masses [kg], turning inertia [kg m^2].
+
+    Cams and guide cams are weighed bored; the stack with the shaft in its bores.
+    """
 
     thickness: float
     guide_thickness: float
@@ -36,6 +42,7 @@ class Stack:
     cam_mass: float
     guide_mass: float
     mass: float
+    inertia: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +50,7 @@ class Drive:
     """What turns the shaft: torque [N m] and its rms over the turn, motor torque needed [N m], motor and its limit.
 
     motor_limit  lasting torque of the motor; where none is strong enough, the most any gives at that speed
+    duty         of the motor over a turn, the stack's inertia with it; None without one of the table
     """
 
     torque_max: Extremum
@@ -53,6 +61,7 @@ class Drive:
     motor_speed: float
     motor: Motor | None
     motor_limit: float
+    duty: Duty | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,13 +115,20 @@ def design(params: SheddingParams) -> SheddingDesign:
     cam = PlateCam(even, params.prime_radius or smallest.value, roller_radius=params.roller_radius)
     thickness = params.cam_thickness or params.warp_pitch / 2
     guide_radius = cam.prime_radius + params.lift - params.roller_radius + params.guide_height
+    thicknesses = thickness, params.warp_pitch - thickness
     areas = limits.area(cam), math.pi * guide_radius**2
-    solid = areas[0] * thickness + areas[1] * (params.warp_pitch - thickness)
+    mass, inertia = (
+        params.warps * params.density * sum(part * thick for part, thick in zip(parts, thicknesses, strict=True))
+        for parts in (areas, (polar_moment(cam), math.pi / 2 * guide_radius**4))
+    )
     shed = chosen_shed(params, even)
-    drive = _drive(params, shed)
+    drive = _drive(params, shed, inertia)
     across = supremum(shed.across, shed.knots)
     torque = max(drive.torque_max.value, -drive.torque_min.value)
-    shaft = shaft_for(params, params.warps * solid * params.density, across.value, torque)
+    shaft = shaft_for(params, mass, across.value, torque)
+    bored = [
+        max(part - shaft.bar**2, 0.0) * thick * params.density for part, thick in zip(areas, thicknesses, strict=True)
+    ]
     return SheddingDesign(
         params=params,
         cam=cam,
@@ -121,27 +137,27 @@ def design(params: SheddingParams) -> SheddingDesign:
         odd=odd,
         shed=shed,
         across_max=across,
-        stack=_stack(params, areas, thickness, guide_radius, shaft.bar),
+        stack=Stack(*thicknesses, guide_radius, bored[0], bored[1], mass, inertia),
         shaft=shaft,
         drive=drive,
         shuttle_window=shed.window(),
     )
 
 
-def _stack(
-    params: SheddingParams, areas: tuple[float, float], thickness: float, guide_radius: float, bore: float
-) -> Stack:
-    """Masses of a cam and of a guide (bored), and of the stack with its shaft."""
-    guide_thickness = params.warp_pitch - thickness
-    solid = areas[0] * thickness + areas[1] * guide_thickness
-    cam_mass = max(areas[0] - bore**2, 0.0) * thickness * params.density
-    guide_mass = max(areas[1] - bore**2, 0.0) * guide_thickness * params.density
-    mass = params.warps * solid * params.density
-    return Stack(thickness, guide_thickness, guide_radius, cam_mass, guide_mass, mass)
+def polar_moment(cam: PlateCam) -> float:
+    """Second moment of the cam's face about its axis, bore not taken off [m^4]: integral of r^4 / 4 over the angle."""
+    surface = cam.surface(np.arange(_POINTS) * (TURN / _POINTS))
+    after = np.roll(surface, -1)
+    across = np.abs((np.conj(surface) * after).imag)
+    squares = np.abs(surface) ** 2 + np.abs(after) ** 2 + (np.conj(surface) * after).real
+    return float(np.sum(across * squares)) / 12
 
 
-def _drive(params: SheddingParams, shed: Shed) -> Drive:
-    """Torque over the turn, and the motor behind the reducer."""
+_POINTS = 1440
+
+
+def _drive(params: SheddingParams, shed: Shed, inertia: float) -> Drive:
+    """Torque over the turn, and the motor behind the reducer, which turns the stack's inertia [kg m^2] too."""
     most, least = shed.peaks()
     rms = shed.rms()
     reducer = Reducer(params.ratio, params.efficiency)
@@ -151,4 +167,8 @@ def _drive(params: SheddingParams, shed: Shed) -> Drive:
     speed = params.speed * params.ratio
     motor = smallest_motor(needed, speed) if params.motor_torque is None else None
     limit = params.motor_torque or (motor.torque if motor else most_torque(speed))
-    return Drive(most, least, rms, reducer, needed, speed, motor, limit)
+    if motor is None:
+        return Drive(most, least, rms, reducer, needed, speed, None, limit, None)
+    angle = np.arange(_POINTS) * (TURN / _POINTS)
+    cycle = Cycle(np.full_like(angle, params.speed), np.zeros_like(angle), shed.torque(angle), inertia)
+    return Drive(most, least, rms, reducer, needed, speed, motor, limit, duty(cycle, motor, reducer))

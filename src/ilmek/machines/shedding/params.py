@@ -153,6 +153,13 @@ class SheddingParams(WarpParams):
     strength: float = param(
         195 * MPa, unit="MPa", at_least=1 * MPa, at_most=1e10, doc="yield strength of the shaft; S235 to 150 mm"
     )
+    tensile: float = param(
+        360 * MPa,
+        unit="MPa",
+        at_least=1 * MPa,
+        at_most=1e10,
+        doc="tensile strength of the shaft, for its fatigue; S235",
+    )
     bearing: str | None = param(None, doc="bearing of the shaft, by designation; none: the lightest that lives")
     bearing_life: float = param(
         20_000 * hour, unit="h", at_least=1 * hour, at_most=1e6 * hour, doc="life that is asked of the bearings"

@@ -79,6 +79,7 @@ def _cam_results(design: SheddingDesign) -> tuple[Result, ...]:
         Result("cam_mass", stack.cam_mass, "kg", "mass of a cam, bored"),
         Result("guide_mass", stack.guide_mass, "kg", "mass of a guide cam, bored"),
         Result("mass", stack.mass, "kg", "mass of all cams, guide cams and the shaft between them"),
+        Result("inertia", stack.inertia, "kg*m^2", "moment of inertia of all that about the shaft"),
     )
 
 
@@ -147,6 +148,8 @@ def _shaft_results(design: SheddingDesign) -> tuple[Result, ...]:
         Result("shaft_deflection", shaft.deflection, "mm", "its deflection between them"),
         Result("shaft_twist", shaft.twist, "deg", "its twist from end to end under the largest torque"),
         Result("shaft_stress", shaft.stress, "MPa", "its equivalent stress in bending and torsion, with the safety"),
+        Result("shaft_endurance", shaft.endurance, "1", "safety against fatigue without end, beside that of the load"),
+        Result("shaft_critical_speed", shaft.critical, "rpm", "lowest critical speed, cams and all"),
         Result("warps_across", design.across_max.value, "N", "largest force of the lifted warps across the shaft"),
         Result("shaft_directions", _directions(design), "", "weight and warps apart, with the safety [N/m, m, rad]"),
         Result("bearing", seat.bearing.name if seat.bearing else None, "", "bearing of the shaft"),
@@ -157,7 +160,7 @@ def _shaft_results(design: SheddingDesign) -> tuple[Result, ...]:
 
 
 def _drive_results(design: SheddingDesign) -> tuple[Result, ...]:
-    drive, speed = design.drive, design.params.speed
+    drive, speed, duty = design.drive, design.params.speed, design.drive.duty
     work = float(design.params.warps // 2 * lifting_work(design.params))
     return (
         Result("shaft_torque_max", drive.torque_max.value, "Nm", "largest torque that lifts the warps"),
@@ -169,6 +172,9 @@ def _drive_results(design: SheddingDesign) -> tuple[Result, ...]:
         Result("motor_speed", drive.motor_speed, "rpm", "speed of the motor"),
         Result("motor_power", drive.motor_torque * drive.motor_speed, "W", "largest power of the motor"),
         Result("motor", drive.motor.name if drive.motor else None, "", "class of motor chosen"),
+        Result("motor_torque_rms", duty.rms if duty else None, "Nm", "root mean square of its torque over the turn"),
+        Result("motor_power_mean", duty.power_mean if duty else None, "W", "what goes in, the reducer's losses in it"),
+        Result("inertia_ratio", duty.inertia_ratio if duty else None, "1", "cams over rotor, on the motor's shaft"),
     )
 
 
@@ -231,6 +237,8 @@ def _checks(studied: Study) -> tuple[Check, ...]:
         ),
         at_most("twist of the shaft", shaft.twist, params.twist_limit, "deg", "twist_limit: the far cams lag by it"),
         at_most("stress of the shaft", shaft.stress, params.strength, "MPa", "yield strength, von Mises"),
+        at_least("fatigue of the shaft", shaft.endurance, 1.0, "1", "Goodman, hot rolled, 99 %"),
+        at_most("speed of the shaft", params.speed, shaft.critical / 2, "rpm", "half of its critical speed"),
         *_bearing_checks(design),
         at_most(
             "motor torque",

@@ -15,7 +15,10 @@ from dataclasses import dataclass
 
 from ilmek.elements import beams, bearings, shafts
 from ilmek.elements.bearing_table import INSERT, RollingBearing
+from ilmek.elements.fatigue import Loading, endurance_limit, goodman
 from ilmek.elements.materials import GRAVITY
+from ilmek.elements.sections import square_section
+from ilmek.elements.whirl import uniform_speed
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.units import turn
 
@@ -65,6 +68,8 @@ class Shaft:
     span     from support to support [m]            torque  largest of the warps, with the safety [N m]
     side_*   least side for a limit [m]             bar     side of the bar taken [m]
     slope, deflection, stress   of that bar         twist   of that bar from end to end, without the safety [rad]
+    endurance   safety against fatigue without end, the load's own safety in it [Goodman]
+    critical    lowest critical speed of a span with its cams [rad/s]
     directions  weight and warps apart; None where the load is given      seat  its bearings
     """
 
@@ -81,6 +86,8 @@ class Shaft:
     deflection: float
     twist: float
     stress: float
+    endurance: float
+    critical: float
     directions: Directions | None
     seat: Seat
 
@@ -108,8 +115,11 @@ def shaft_for(params: SheddingParams, mass: float, across: float, torque: float)
     by_deflection = shafts.square_side(shafts.inertia_for_deflection(load, span, modulus, params.deflection_limit))
     by_twist = shafts.side_for_twist(torque, length, modulus, params.twist_limit)
     by_strength = shafts.side_for_strength(moment, safety * torque, params.strength)
-    bar = params.shaft_bar or _bar(max(by_slope, by_deflection, by_twist, by_strength))
-    inertia = beams.square_inertia(bar)
+    least = max(by_slope, by_deflection, by_twist, by_strength)
+    bar = params.shaft_bar or _bar(least)
+    while params.shaft_bar is None and _endurance(params, moment, safety * torque, bar) < 1:
+        bar = _bar(bar + _STEP)
+    inertia = float(beams.square_inertia(bar))
     return Shaft(
         load=load,
         length=length,
@@ -124,9 +134,18 @@ def shaft_for(params: SheddingParams, mass: float, across: float, torque: float)
         deflection=float(beams.deflection_max(load, span, modulus, inertia)),
         twist=shafts.square_twist(torque, length, modulus, bar),
         stress=shafts.square_stress(moment, safety * torque, bar),
+        endurance=_endurance(params, moment, safety * torque, bar),
+        critical=uniform_speed(1, "hinged", span, modulus * inertia, mass / length),
         directions=directions,
         seat=seat_for(params, load / safety * span, safety * torque, bar),
     )
+
+
+def _endurance(params: SheddingParams, moment: float, torque: float, bar: float) -> float:
+    """Safety of the hot rolled bar against fatigue: the load stands, the bar turns; the torque goes to and fro."""
+    section = square_section(bar)
+    limit = endurance_limit(params.tensile, section.size, "hot-rolled")
+    return goodman(Loading(moment, 0.0, torque_amplitude=torque), section, endurance=limit, tensile=params.tensile)
 
 
 def seat_for(params: SheddingParams, span_load: float, torque: float, bar: float) -> Seat:
@@ -147,6 +166,10 @@ def seat_for(params: SheddingParams, span_load: float, torque: float, bar: float
         return Seat(reaction, journal, None, 0.0)
     lives = bearings.life(bearing.dynamic, bearings.equivalent_load(bearing, reaction), bearing.kind)
     return Seat(reaction, journal, bearing, lives * turn / params.speed)
+
+
+_STEP = 1e-3
+"""Less than from one stock bar to the next [m]."""
 
 
 def _bar(least: float) -> float:
