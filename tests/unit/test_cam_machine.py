@@ -180,6 +180,37 @@ def test_groove_keeps_the_limit_both_ways_and_is_cut_into_a_disc() -> None:
     assert plate.area == pytest.approx(math.pi * (most + 5 * mm) ** 2, rel=1e-5)
 
 
+@pytest.mark.parametrize("kind", ["barrel", "face", "wedge"])
+def test_strip_turns_the_shaft_by_its_virtual_work(kind) -> None:
+    """tan mu = s'/rho: the mean radius of the limit is the largest s' over tan mu."""
+    asked = dict(law="cycloidal", lift="30mm", rise="90deg", speed="300rpm", load="0N")
+    found = made(**asked, kind=kind, pressure_angle_limit="28deg")
+    assert found.cam.prime_radius == pytest.approx(2 * 30 * mm / (90 * deg) / math.tan(28 * deg), rel=1e-6)
+    state = found.state(np.linspace(0.01, 1.5, 41))
+    assert state.torque == pytest.approx(state.force * state.trace.course.ds, abs=1e-9)
+    assert state.normal * np.cos(state.trace.pressure_angle) == pytest.approx(state.force, abs=1e-9)
+    assert not found.undercut
+    assert found.params.led == (kind == "barrel") == (found.held.rate == 0)
+
+
+def test_friction_in_the_guide_of_a_barrel_costs_what_it_rubs() -> None:
+    found = made(law="cycloidal", lift="30mm", kind="barrel", guide_friction="0.1", speed="600rpm")
+    state = found.state(np.linspace(0.01, 6.2, 61))
+    ds = state.trace.course.ds
+    rubbed = 0.1 * np.abs(state.normal * np.sin(state.trace.pressure_angle) * ds)
+    assert state.torque - state.force * ds == pytest.approx(rubbed, abs=1e-9)
+    assert state.force.min() < 0
+
+
+def test_wedge_is_a_plate_of_its_area() -> None:
+    found = made(law="modified-sine", lift="25mm", rise="120deg", dwell="30deg", kind="wedge", roller="CF 6")
+    (plate,) = plates(found)
+    points = np.asarray(plate.outline)
+    assert 0.5 * np.sum(np.imag(np.conj(points) * np.roll(points, -1))) == pytest.approx(plate.area, rel=1e-5)
+    travel = {result.name: result.value for result in numbers(found)}["travel"]
+    assert np.ptp(points.real) == pytest.approx(travel, rel=1e-9)
+
+
 def test_conjugate_cams_are_two_plates_of_one_prime_circle() -> None:
     found = made(law="cycloidal", lift="30mm", kind="conjugate", rise="120deg")
     other = {result.name: result.value for result in numbers(found)}["second"]
@@ -297,6 +328,9 @@ def test_undercut_is_said_with_the_size_that_mends_it() -> None:
         (dict(motion="oscillating", guide_friction="0.1"), "an arm has no guide"),
         (dict(kind="grooved", follower="flat"), "a groove leads a roller"),
         (dict(kind="grooved", preload="5N"), "leave it out: the cam leads both ways"),
+        (dict(kind="barrel", follower="flat"), "kind=barrel with follower=flat; roller"),
+        (dict(kind="wedge", motion="oscillating"), "a slide in line with the cam"),
+        (dict(kind="face", offset="3mm"), "an offset with kind=face"),
         (dict(law_parameters="b"), "NAME=NUMBER"),
         (dict(law_parameters="b=x"), "is not a number"),
         (dict(law="scca", law_parameters="bb=0.2"), "law scca has no 'bb'"),

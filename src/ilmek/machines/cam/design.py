@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from ilmek.arrays import FloatArray
 from ilmek.cams import limits
+from ilmek.cams.barrel import Barrel, undercut_in_space
 from ilmek.cams.contact import Held
 from ilmek.cams.programme import Programme
 from ilmek.cams.return_spring import LiftOff, lift_off
@@ -25,8 +26,7 @@ from ilmek.machines.cam.forces import (
 from ilmek.machines.cam.hub import Hub, bore_for, hub_for
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.rollers import ROLLERS, Duty, Roller, find_roller
-from ilmek.machines.cam.shape import Cams, Size, cam_of, cams_of, part_knots, programme_of, size_of
-from ilmek.units import mm
+from ilmek.machines.cam.shape import Cams, Size, cam_of, cams_of, part_knots, programme_of, roller_width, size_of
 
 ROOM = 0.8
 """Radius of a roller that is chosen, at most, over the least radius of the pitch curve and over the prime radius."""
@@ -70,7 +70,9 @@ class CamDesign:
         """Whether no surface can guide the follower."""
         cam, pair = self.cams
         other = pair is not None and limits.undercut(pair.second)
-        return other or limits.undercut(cam, both_flanks=self.params.kind == "grooved")
+        both = self.params.kind in ("grooved", "barrel")
+        round_ = isinstance(cam, Barrel) and undercut_in_space(cam, both_flanks=both) is not None
+        return other or round_ or limits.undercut(cam, both_flanks=both)
 
     def state(self, angle: FloatArray) -> State:
         """Geometry and forces at cam angles [rad]."""
@@ -88,7 +90,7 @@ def design(params: CamParams) -> CamDesign:
     held = held_by(params, programme)
     bare = cam_of(params, programme, size, params.roller_radius or 0.0)
     roller, cams = _with_roller(params, bare, size, held)
-    width = params.face_width or (roller.width if roller else 10 * mm)
+    width = roller_width(params, cams.cam.roller_radius)
     extremes = extremes_of(params, cams, held, width)
     torque = max(abs(extremes.torque.value), abs(extremes.back_torque.value))
     return CamDesign(
@@ -102,7 +104,7 @@ def design(params: CamParams) -> CamDesign:
         hub=hub_for(params.bore or bore_for(torque if math.isfinite(torque) else 0.0)),
         lift_off=LiftOff(math.inf, 0.0) if params.led else lift_off(programme, held),
         extremes=extremes,
-        area=limits.area(cams.cam),
+        area=math.nan if params.laid_flat else limits.area(cams.cam),
         face_width=width,
         pressure_limit=pressure_limit(params),
     )
@@ -136,5 +138,5 @@ def _with_roller(params: CamParams, bare: Cam, size: Size, held: Held) -> tuple[
 def _room(params: CamParams, bare: Cam) -> float:
     """Radius [m] below which a roller is undercut nowhere and leaves something of the prime circle."""
     room = min(limits.convex_radius_min(bare).value, bare.prime_radius)
-    hollow = limits.concave_radius_min(bare) if params.kind == "grooved" else None
+    hollow = limits.concave_radius_min(bare) if params.kind in ("grooved", "barrel") else None
     return room if hollow is None else min(room, hollow.value)

@@ -10,6 +10,7 @@ from ilmek.cams.limits import convex_radius_min
 from ilmek.cams.pieces import supremum
 from ilmek.cams.programme import TURN, jumps
 from ilmek.cams.trace import Trace
+from ilmek.machines.cam import strips
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.moving import moving
 from ilmek.machines.cam.parts import rim_radius, zero_mark
@@ -27,7 +28,7 @@ CHORD = 0.02 * mm
 def figures(design: CamDesign) -> tuple[Figure, ...]:
     """The cam to scale, in motion, and the plots in the order of the report."""
     cam, params = design.cam, design.params
-    widest = supremum(lambda angle: np.abs(cam.trace(angle).pressure_angle), design.programme.knots)
+    widest = supremum(lambda angle: np.abs(cam.trace(angle).pressure_angle), design.cam.knots)
     plots = (
         *cam_figures.motion_plots(
             {"follower": design.programme}, params.speed, _marks(design), _jump_note(design), _unit(design)
@@ -44,6 +45,8 @@ def figures(design: CamDesign) -> tuple[Figure, ...]:
 
 def drawing(design: CamDesign) -> Drawing:
     """The cam to scale, zero of the cam angle to the right, with the curves that make it."""
+    if design.params.laid_flat:
+        return strips.drawing(design)
     cam, hub = design.cam, design.hub
     trace = cam.trace(cam_figures.sample_angles(design.programme, count=721))
     tip = trace.surface[np.argmax(np.abs(trace.surface))]

@@ -83,14 +83,14 @@ def duty_of(params: CamParams, cams: Cams, held: Held) -> Duty:
     def borne(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
         state = state_of(params, cams, held, angle)
         swung = _SIDES[params.side] * state.trace.course.ds if params.motion == "oscillating" else 0.0
-        spin = np.abs(state.trace.flow / cams.cam.roller_radius - 1 - swung)
+        spin = np.abs(state.trace.flow / cams.cam.roller_radius - (0 if params.laid_flat else 1) - swung)
         return _size(params, state.normal), spin
 
     def worn(angle: FloatArray) -> FloatArray:
         force, spin = borne(angle)
         return np.asarray(force**POWER * spin)
 
-    knots = cams.cam.programme.knots
+    knots = cams.cam.knots
     turns = integral(lambda angle: borne(angle)[1], knots)
     mean = (integral(worn, knots) / turns) ** (1 / POWER)
     return Duty(mean, supremum(lambda angle: borne(angle)[0], knots).value, turns / TURN, params.speed)
@@ -100,23 +100,35 @@ def state_of(params: CamParams, cams: Cams, held: Held, angle: FloatArray) -> St
     """Geometry and forces at cam angles [rad]."""
     trace = cams.cam.trace(angle)
     force = held.force(trace.course.s, trace.course.dds)
-    found = _pressed(params, trace, force)
+    found = _pressed(params, trace, force, cams.cam.prime_radius)
     bend, back = trace.surface_curvature, force < 0
     if cams.pair is not None:
         other = cams.pair.second.trace(angle + cams.pair.lag)
-        second = _pressed(params, other, -force)
+        second = _pressed(params, other, -force, cams.pair.second.prime_radius)
         bend = np.where(back, other.surface_curvature, bend)
         normal = np.where(back, -second.normal, found.normal)
         return State(trace, force, normal, np.where(back, second.torque, found.torque), bend)
-    if params.kind == "grooved":
+    if params.led:
         bend = np.where(back, -trace.curvature_at(cams.cam.roller_radius), bend)
     return State(trace, force, found.normal, found.torque, bend)
 
 
-def _pressed(params: CamParams, trace: Trace, force: FloatArray) -> Pressed:
+def _pressed(params: CamParams, trace: Trace, force: FloatArray, radius: float) -> Pressed:
+    if params.laid_flat:
+        return _pressed_flat(params, trace, force, radius)
     sliding = 0.0 if params.follower == "roller" else params.sliding_friction
     touch = Touch(trace.surface, trace.normal, _way(params, trace))
     return pressed(touch, trace.course.ds, force, sliding=sliding, guide=params.guide_friction)
+
+
+def _pressed_flat(params: CamParams, trace: Trace, force: FloatArray, radius: float) -> Pressed:
+    """N = F / (cos mu - mu_g |sin mu| sign(s')), T = N rho sin mu: the cam runs square to the follower's way."""
+    sense = np.where(force < 0, -1.0, 1.0) * np.sign(trace.course.ds)
+    cosine, sine = np.cos(trace.pressure_angle), np.sin(trace.pressure_angle)
+    along = cosine - params.guide_friction * np.abs(sine) * sense
+    with np.errstate(divide="ignore", invalid="ignore"):
+        normal = np.where(along > 0, force / along, np.nan)
+    return Pressed(np.asarray(normal), np.asarray(normal * radius * sine))
 
 
 def _way(params: CamParams, trace: Trace) -> ComplexArray:
@@ -157,7 +169,7 @@ def pressure_limit(params: CamParams) -> float:
 
 def extremes_of(params: CamParams, cams: Cams, held: Held, width: float) -> Extremes:
     """What is largest over the turn, on a face of a width [m]."""
-    knots = cams.cam.programme.knots
+    knots = cams.cam.knots
 
     def of(pick: str) -> Function:
         def value(angle: FloatArray) -> FloatArray:

@@ -6,6 +6,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.programme import TURN
 from ilmek.cams.trace import Trace
 from ilmek.machines.animation import frames
+from ilmek.machines.cam import strips
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.parts import rim_radius, zero_mark
 from ilmek.plane import contours
@@ -18,6 +19,8 @@ CHORD = 0.05 * mm
 
 def moving(design: CamDesign) -> Animation:
     """A turn of the cam, from the start of the rise on; a slide is drawn upright."""
+    if design.params.laid_flat:
+        return strips.moving(design)
     at = frames()
     up = _up(design)
     turned = up * np.exp(1j * at)[:, None]

@@ -87,8 +87,8 @@ class SizeParams(MotionParams):
 
     kind: str = param(
         "plate",
-        choices=("plate", "grooved", "conjugate"),
-        doc="a plate with a spring, a groove, or two plates on a shaft",
+        choices=("plate", "grooved", "conjugate", "barrel", "face", "wedge"),
+        doc="a plate with a spring, a groove, two plates on a shaft, a barrel's groove, a barrel's end, a wedge",
     )
     follower: str = param("roller", choices=FOLLOWERS, doc="what touches the cam")
     pressure_angle_limit: float | None = param(
@@ -104,7 +104,8 @@ class SizeParams(MotionParams):
         unit="mm",
         at_least=1e-3 * mm,
         at_most=10.0,
-        doc="prime radius; base radius of a flat follower; none: the smallest for the limit",
+        doc="prime radius; base radius of a flat follower, mean radius of a barrel, travel for a radian of a wedge; "
+        "none: the smallest for the limit",
         symbol="Rp",
     )
     roller_radius: float | None = param(
@@ -177,7 +178,12 @@ class SizeParams(MotionParams):
         if self.follower == "knife" and self.roller_radius:
             shown = format_quantity(self.roller_radius, "mm")
             raise ParameterError(f"roller_radius={shown} with follower=knife", do="set follower=roller or spherical")
+        if self.laid_flat:
+            self._check_strip()
+        else:
+            self._check_plate()
 
+    def _check_plate(self) -> None:
         if self.kind == "grooved" and self.follower != "roller":
             raise ParameterError(f"kind=grooved with follower={self.follower}", allowed="a groove leads a roller")
         if self.kind == "conjugate" and self.motion == "oscillating" and self.follower == "flat":
@@ -187,10 +193,23 @@ class SizeParams(MotionParams):
         if self.motion == "oscillating" and self.offset:
             raise ParameterError("an offset with motion=oscillating", do="place the arm by arm and pivot")
 
+    def _check_strip(self) -> None:
+        allowed = ("roller", "knife", "spherical") if self.kind == "wedge" else ("roller",)
+        if self.follower not in allowed:
+            raise ParameterError(f"kind={self.kind} with follower={self.follower}", allowed=f"{', '.join(allowed)}")
+        for name, wrong in (("motion=oscillating", self.motion == "oscillating"), ("an offset", self.offset != 0)):
+            if wrong:
+                raise ParameterError(f"{name} with kind={self.kind}", allowed="a slide in line with the cam")
+
     @property
     def led(self) -> bool:
         """Whether the cam leads the follower both ways, without a spring."""
-        return self.kind != "plate"
+        return self.kind in ("grooved", "conjugate", "barrel")
+
+    @property
+    def laid_flat(self) -> bool:
+        """Whether the cam is reckoned as a strip that passes under its follower."""
+        return self.kind in ("barrel", "face", "wedge")
 
     @property
     def arm_length(self) -> float:
@@ -283,6 +302,8 @@ class CamParams(SizeParams):
         SizeParams.check_together(self)
         if self.led and (self.spring_rate or self.preload):
             raise ParameterError(f"a spring with kind={self.kind}", do="leave it out: the cam leads both ways")
+        if self.laid_flat and self.sliding_friction:
+            raise ParameterError(f"sliding_friction with kind={self.kind}", allowed="0", do="leave it out")
         if self.motion == "oscillating" and self.guide_friction:
             raise ParameterError("guide_friction with motion=oscillating", allowed="an arm has no guide")
 

@@ -10,6 +10,7 @@ from ilmek.cams.pieces import infimum, integral, supremum
 from ilmek.cams.programme import TURN
 from ilmek.cams.trace import Cam
 from ilmek.elements.materials import MATERIALS
+from ilmek.machines.cam import strips
 from ilmek.machines.cam.design import CamDesign
 from ilmek.plane import contours
 from ilmek.report import CamTable, Contour, Plate
@@ -24,6 +25,8 @@ def plates(design: CamDesign) -> tuple[Plate, ...]:
     if design.undercut:
         return ()
     title = f"Cam, lift {format_quantity(design.params.lift, 'mm')}"
+    if design.params.laid_flat:
+        return (strips.plate(design, title),) if design.params.kind == "wedge" else ()
     if design.params.kind == "grooved":
         return (_grooved(design, title),)
     if design.cams.pair is None:
@@ -34,15 +37,22 @@ def plates(design: CamDesign) -> tuple[Plate, ...]:
 
 def rim_radius(design: CamDesign) -> float:
     """Radius [m] of the disc that a groove is cut into."""
-    flank = supremum(lambda at: np.abs(design.cam.trace(at).parallel(design.cam.roller_radius)), design.programme.knots)
+    flank = supremum(lambda at: np.abs(design.cam.trace(at).parallel(design.cam.roller_radius)), design.cam.knots)
     return flank.value + design.params.rim
+
+
+def area_of(design: CamDesign) -> float:
+    """Area of the face [m^2], bore not taken off; NaN of a barrel or end cam."""
+    return strips.area(design) if design.params.laid_flat else design.area
 
 
 def mass_of(design: CamDesign) -> float:
     """Mass of the cam, bored, or of both [kg]."""
+    if design.params.laid_flat:
+        return strips.mass(design)
     density, hub, width = MATERIALS[design.params.material].density, design.hub.area, design.face_width
     if design.params.kind == "grooved":
-        groove = 2 * design.cam.roller_radius * integral(lambda at: design.cam.trace(at).flow, design.programme.knots)
+        groove = 2 * design.cam.roller_radius * integral(lambda at: design.cam.trace(at).flow, design.cam.knots)
         disc = math.pi * rim_radius(design) ** 2
         return float(density * max((disc - hub) * (width + design.params.rim) - groove * width, 0.0))
     other = limits.area(design.cams.pair.second) - hub if design.cams.pair else 0.0
@@ -55,7 +65,7 @@ def outline_angles(cam: Cam) -> FloatArray:
     Every knot is among them: the curvature jumps there.
     """
     even = np.linspace(0.0, TURN, POINTS, endpoint=False)
-    knots = np.mod(cam.programme.knots, TURN)
+    knots = np.mod(cam.knots, TURN)
     apart = np.min(np.abs(even[:, None] - knots), axis=1) > 0.25 * TURN / POINTS
     return np.unique(np.concatenate([even[apart], knots]))[::-1]
 
@@ -105,7 +115,7 @@ def _grooved(design: CamDesign, title: str) -> Plate:
 
 def _cutouts(design: CamDesign, cam: Cam) -> tuple[Contour, ...]:
     """The bore, where it leaves something of the cam."""
-    reach = infimum(lambda at: np.abs(cam.trace(at).surface), cam.programme.knots).value
+    reach = infimum(lambda at: np.abs(cam.trace(at).surface), cam.knots).value
     return (design.hub.contour,) if reach > design.hub.reach else ()
 
 

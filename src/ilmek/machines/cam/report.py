@@ -38,7 +38,10 @@ def report(design: CamDesign) -> Report:
 
 def least_surface_radius(design: CamDesign) -> float:
     """Least distance of the surface from the axis [m]."""
-    return infimum(lambda angle: np.abs(design.cam.trace(angle).surface), design.programme.knots).value
+    if design.params.laid_flat:
+        wedge = design.params.kind == "wedge"
+        return math.inf if wedge else design.cam.prime_radius - design.face_width / 2
+    return infimum(lambda angle: np.abs(design.cam.trace(angle).surface), design.cam.knots).value
 
 
 def _checks(design: CamDesign) -> tuple[Check, ...]:
@@ -59,13 +62,13 @@ def _checks(design: CamDesign) -> tuple[Check, ...]:
         ),
         at_most("jump of the velocity", max(drops, default=0.0), 0.0, "m/s", "an endless force"),
         at_most("jump of the acceleration", max(bumps, default=0.0), params.jump_limit, "m/s^2", "jump_limit"),
-        at_least("wall between keyway and surface", room, params.wall, "mm", "wall"),
+        *((at_least("wall between keyway and surface", room, params.wall, "mm", "wall"),) if room < math.inf else ()),
     ]
     if not params.led:
         source = "m w^2 s'' + k s + P + load >= 0"
         checks.insert(1, at_least("speed of lift-off", design.lift_off.speed, speed, "rpm", source))
     hollow = limits.concave_radius_min(cam)
-    if params.kind == "grooved" and hollow is not None:
+    if params.kind in ("grooved", "barrel") and hollow is not None:
         source = f"{norton}, 7: the outer flank"
         checks.insert(1, at_least("concave radius of the pitch curve", hollow.value, cam.roller_radius, "mm", source))
     if params.limit is not None and params.led and not cam.flat:

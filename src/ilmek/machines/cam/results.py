@@ -11,8 +11,16 @@ from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.pieces import Extremum, infimum, supremum
 from ilmek.cams.programme import Jump, jumps
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.parts import mass_of
+from ilmek.machines.cam.hub import Hub
+from ilmek.machines.cam.parts import area_of, mass_of
 from ilmek.report import Json, Result
+
+_PRIME = "prime radius of the pitch curve, Rp"
+_SIZES = {
+    **dict.fromkeys(("plate", "grooved", "conjugate"), _PRIME),
+    **dict.fromkeys(("barrel", "face"), "mean radius, of the middle of the roller"),
+    "wedge": "travel of the wedge for a radian of the programme",
+}
 
 
 def results(design: CamDesign) -> tuple[Result, ...]:
@@ -33,21 +41,22 @@ def pressure_angle_on(design: CamDesign, knots: FloatArray) -> Extremum:
 
 def _size_results(design: CamDesign) -> tuple[Result, ...]:
     cam, face = design.cam, design.params.follower == "flat"
-    on_rise, on_fall = (pressure_angle_on(design, knots) for knots in (design.rise_knots, design.fall_knots))
+    on_rise = pressure_angle_on(design, design.rise_knots)
+    on_fall = None if design.params.kind == "wedge" else pressure_angle_on(design, design.fall_knots).value
     convex, hollow = limits.convex_radius_min(cam), limits.concave_radius_min(cam)
-    word = "base radius: least distance of the face from the axis" if face else "prime radius of the pitch curve, Rp"
+    word = "base radius: least distance of the face from the axis" if face else _SIZES[design.params.kind]
     curve = "surface" if face else "pitch curve"
     return (
         Result("prime_radius", cam.prime_radius, "mm", word),
         Result("prime_radius_min", design.size.smallest.value, "mm", "smallest for the limit"),
         Result("pressure_angle_max", on_rise.value, "deg", "largest pressure angle on the rise"),
         Result("pressure_angle_at", on_rise.at, "deg", "cam angle of it"),
-        Result("pressure_angle_fall_max", on_fall.value, "deg", "largest pressure angle on the fall"),
+        Result("pressure_angle_fall_max", on_fall, "deg", "largest pressure angle on the fall"),
         Result("curvature_radius_min", convex.value, "mm", f"least radius of curvature of the {curve}, convex"),
         Result("curvature_at", convex.at, "deg", "cam angle of it"),
         Result("concave_radius_min", hollow.value if hollow else None, "mm", f"least radius of the {curve}, concave"),
         Result("undercut", design.undercut, "", "whether no surface can guide the follower"),
-        Result("area", design.area, "cm^2", "area inside the surface, bore not taken off"),
+        Result("area", _finite(area_of(design)), "cm^2", "area of the face, bore not taken off; none: of no one face"),
         *((_face(design),) if face else ()),
         *_other(design),
     )
@@ -55,7 +64,10 @@ def _size_results(design: CamDesign) -> tuple[Result, ...]:
 
 def _other(design: CamDesign) -> tuple[Result, ...]:
     """The second of two conjugate cams; the groove."""
-    if design.params.kind == "grooved":
+    if design.params.kind == "wedge":
+        travel = design.cam.prime_radius * float(design.cam.knots[-1])
+        return (Result("travel", travel, "mm", "travel of the wedge"),)
+    if design.params.kind in ("grooved", "barrel"):
         return (Result("groove_width", 2 * design.cam.roller_radius, "mm", "width of the groove"),)
     if design.cams.pair is None:
         return ()
@@ -111,7 +123,7 @@ def _jump_as_json(jump: Jump, speed: float) -> dict[str, Json]:
 def _force_results(design: CamDesign) -> tuple[Result, ...]:
     extremes, held, speed = design.extremes, design.held, design.params.speed
     torque = extremes.torque if extremes.torque.value >= -extremes.back_torque.value else extremes.back_torque
-    least = infimum(lambda angle: design.state(angle).force, design.programme.knots)
+    least = infimum(lambda angle: design.state(angle).force, design.cam.knots)
     lift_off, arc = design.lift_off.speed, design.params.per_unit
     preload, rate = held.preload / arc, held.rate / arc**2
     return (
@@ -155,10 +167,20 @@ def _part_results(design: CamDesign) -> tuple[Result, ...]:
         Result("roller_life", life if math.isfinite(life) else None, "h", "time that the roller lasts"),
         Result("roller_speed", duty.turns * duty.speed if duty else None, "rpm", "mean speed of the roller"),
         Result("face_width", design.face_width, "mm", "thickness of the cam"),
+        *(() if design.params.kind == "wedge" else _hub_results(hub)),
+        Result("mass", mass_of(design), "kg", "mass of the cam, bored; of both where there are two"),
+    )
+
+
+def _hub_results(hub: Hub) -> tuple[Result, ...]:
+    return (
         Result("bore", hub.bore, "mm", "bore of the cam"),
         Result("keyway", {"width": hub.key_width, "depth": hub.key_depth}, "mm", "keyway in the cam"),
-        Result("mass", mass_of(design), "kg", "mass of the cam, bored; of both conjugate ones"),
     )
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def _at(design: CamDesign) -> tuple[Result, ...]:

@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.cams.barrel import BarrelCam
 from ilmek.cams.conjugate import Pair, conjugate, conjugate_arms, conjugate_faces
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.laws import Law
@@ -16,10 +17,12 @@ from ilmek.cams.pieces import Extremum
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
 from ilmek.cams.sizing import Limits, pressure_prime, smallest_prime
+from ilmek.cams.strip import WedgeCam
 from ilmek.cams.trace import Cam
 from ilmek.errors import ParameterError
 from ilmek.machines.cam.params import LIMIT, NO_DWELL, CamParams
-from ilmek.units import format_quantity
+from ilmek.machines.cam.rollers import ROLLERS
+from ilmek.units import format_quantity, mm
 
 _SIDES: dict[str, Literal[1, -1]] = {"trailing": 1, "leading": -1}
 
@@ -70,7 +73,7 @@ def smallest_of(params: CamParams, programme: Programme) -> Extremum:
 
     Of a slide with a roller the limit of the pressure angle alone counts; of any other cam that a surface exists too.
     """
-    if params.motion == "translating" and params.follower != "flat":
+    if params.motion == "translating" and params.follower != "flat" and not params.laid_flat:
         found = pressure_prime(programme, asked_of(params), params.offset)
         # A nearly flat rise asks for next to nothing: the circle must still hold the offset and the roller.
         room = max(abs(params.offset), params.roller_radius or 0.0)
@@ -139,8 +142,18 @@ def size_without_undercut(params: CamParams, programme: Programme, roller_radius
         return math.inf
 
 
+def roller_width(params: CamParams, roller_radius: float) -> float:
+    """Width of the cam's face [m]: as given, as the roller's of the table, or 10 mm."""
+    known = (roller.width for roller in ROLLERS.values() if math.isclose(roller.radius, roller_radius))
+    return params.face_width or next(known, 10 * mm)
+
+
 def _cam(params: CamParams, programme: Programme, prime_radius: float | None, roller_radius: float) -> Cam:
     """The cam of a prime radius [m]; of any that can be built where none is given."""
+    if params.kind == "wedge":
+        return WedgeCam(programme, (prime_radius or 1.0) * TURN, roller_radius, used=params.rise + params.dwell)
+    if params.laid_flat:
+        return BarrelCam(programme, prime_radius or 10.0, roller_radius, roller_width(params, roller_radius))
     flat, pivot, side = params.follower == "flat", params.pivot_distance, _SIDES[params.side]
     if params.motion == "translating" and flat:
         return FlatCam(programme, prime_radius or 1.0, params.offset)
