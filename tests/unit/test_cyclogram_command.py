@@ -122,3 +122,29 @@ def test_the_drawing_carries_laws_windows_arrows_and_what_the_script_needs() -> 
     start, end, begin, finish, _ = run_of["lanes"][1]["moves"][0]
     down = solved().cyclogram.track("die").segment("down")
     assert (start * deg, end * deg, begin, finish) == pytest.approx((down.start, down.end, 0.0, 100.0), rel=1e-5)
+
+
+@pytest.mark.parametrize("name", ["weaver", "automated-loom:row", "automated-loom:knot"])
+def test_cyclograms_of_machines_hold_and_are_solved(name: str, tmp_path: Path) -> None:
+    place = tmp_path / "machine.json"
+    code, said, _ = run(name, "--solve", "acceleration", "--out", str(place))
+    assert code == 0
+    assert "FAIL" not in said
+    again = read_cyclogram(place)
+    assert again.relations
+    assert all(check.ok for check in judged(again))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["automated-loom"], "automated-loom:knot or automated-loom:row"),
+        (["automated-loom:weft"], "automated-loom:knot or automated-loom:row"),
+        (["beat-up"], "beat-up has no cyclogram; machines with some: automated-loom, weaver"),
+        ([PRESS, "--set", "cycle=1s"], "is no machine whose parameters could be set"),
+    ],
+)
+def test_a_machine_without_that_cyclogram_is_said(arguments: list[str], said: str) -> None:
+    code, _, told = run(*arguments)
+    assert code == 2
+    assert said in told

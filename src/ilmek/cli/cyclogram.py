@@ -4,13 +4,14 @@ from pathlib import Path
 
 import click
 
+from ilmek.cli.design import read_settings
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import check_json, console, give_json, note, passed, show_checks, show_table
 from ilmek.errors import ParameterError
-from ilmek.io.cyclogram_file import read_cyclogram, write_cyclogram
+from ilmek.io.cyclogram_file import write_cyclogram
 from ilmek.io.output import check_file, write_whole
 from ilmek.io.table_csv import csv_text
-from ilmek.jobs.cyclogram import GOALS, binding_words, columns, report, solve
+from ilmek.jobs.cyclogram import GOALS, binding_words, columns, find, report, solve
 from ilmek.report import Report
 from ilmek.timing.solver import Solution
 from ilmek.units import format_number, format_quantity
@@ -23,11 +24,14 @@ Examples:
   ilmek cyclogram examples/press.toml --solve period --out quick.toml
   ilmek cyclogram examples/press.toml --csv motions.csv --steps 720
   ilmek cyclogram examples/press.toml --solve period --json -
+  ilmek cyclogram weaver --solve acceleration
+  ilmek cyclogram automated-loom:row --set heads=4 --out row.toml
 """
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("file", type=click.Path(path_type=Path))
+@click.argument("file", metavar="FILE|MACHINE")
+@click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", help="Set a parameter of the machine.")
 @click.option("--solve", "goal", type=click.Choice(tuple(GOALS)), help="Make the acceleration, or the period, least.")
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a page to read.")
 @click.option("--csv", "csv_to", metavar="-|FILE", help="Write all motions as CSV; - is standard output.")
@@ -38,7 +42,8 @@ Examples:
 @json_option
 def command(
     *,
-    file: Path,
+    file: str,
+    settings: tuple[str, ...],
     goal: str | None,
     page_to: Path | None,
     csv_to: str | None,
@@ -46,9 +51,9 @@ def command(
     file_to: Path | None,
     json_to: str | None,
 ) -> None:
-    """Read the cyclogram in FILE (TOML or JSON), judge what must hold, and place its motions better."""
+    """Read the cyclogram in FILE (TOML or JSON) or of a MACHINE, judge what must hold, place its motions better."""
     _check_places(csv_to, page_to, file_to, json_to)
-    given = read_cyclogram(file)
+    given = find(file, read_settings(settings))
     solution = solve(given, goal) if goal else None
     found = solution.cyclogram if solution else given
     said = report(found, solution)

@@ -247,6 +247,11 @@ def cyclogram_data(cyclogram: Cyclogram) -> dict[str, Any]:
 
 
 def _track_data(track: Track) -> dict[str, Any]:
+    for kind, names in (("motions", track.segments), ("events", track.events)):
+        said = [one.name for one in names]
+        twice = next((name for name in said if said.count(name) > 1), None)
+        if twice is not None:
+            raise ParameterError(f"{track.name} has two {kind} named {twice!r}", allowed="each its own name in a file")
     limits = {
         key: _written(getattr(track.limits, key), track.unit + per)
         for key, per in _LIMITS.items()

@@ -1,12 +1,15 @@
 """A cyclogram of one's own: judged, solved, reported, tabled."""
 
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
-from ilmek.io.cyclogram_file import cyclogram_data
+from ilmek.io.cyclogram_file import cyclogram_data, read_cyclogram
+from ilmek.machines import MACHINES
 from ilmek.report import Check, Column, Report, Result, Table, at_most
 from ilmek.timing.cyclogram import Cyclogram, Track, judged
 from ilmek.timing.figures import draw
@@ -16,6 +19,30 @@ from ilmek.units import deg, format_number, format_quantity, from_si, turn
 
 GOALS = {"acceleration": least_acceleration, "period": least_period}
 """What a cyclogram can be solved for."""
+
+
+def find(name: str, settings: Mapping[str, str]) -> Cyclogram:
+    """The cyclogram of a file, or of a machine of the catalogue with some parameters: MACHINE, or MACHINE:CYCLOGRAM.
+
+    Raises ParameterError for settings of a file, a machine without cyclograms, and one with several that names none.
+    """
+    machine, _, which = name.partition(":")
+    if machine not in MACHINES or Path(name).suffix.lower() in (".toml", ".json"):
+        if settings:
+            raise ParameterError(f"{name} is no machine whose parameters could be set", allowed=", ".join(_timed()))
+        return read_cyclogram(Path(name))
+    kind = MACHINES[machine]
+    if kind.cyclograms is None:
+        raise ParameterError(f"{machine} has no cyclogram", allowed=f"machines with some: {', '.join(_timed())}")
+    made = {one.name: one for one in kind.cyclograms(kind.design(kind.params.read(settings)))}
+    if which not in made and (which or len(made) > 1):
+        choices = " or ".join(f"{machine}:{one}" for one in made)
+        raise ParameterError(f"{name}: which cyclogram is not said", allowed=choices)
+    return made[which] if which else next(iter(made.values()))
+
+
+def _timed() -> list[str]:
+    return [name for name, machine in MACHINES.items() if machine.cyclograms is not None]
 
 
 def solve(cyclogram: Cyclogram, goal: str) -> Solution:

@@ -6,6 +6,7 @@ from typing import Any
 
 from ilmek.params import Params
 from ilmek.report import Report
+from ilmek.timing.cyclogram import Cyclogram
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,6 +18,7 @@ class Machine:
     params   its declared parameters
     design   params -> the design (a frozen record of the machine's own)
     report   design -> Report
+    cyclograms   design -> its cyclograms, with what must hold; None: a machine without
     """
 
     name: str
@@ -24,3 +26,4 @@ class Machine:
     params: type[Params]
     design: Callable[[Any], Any]
     report: Callable[[Any], Report]
+    cyclograms: Callable[[Any], tuple[Cyclogram, ...]] | None = None

@@ -177,7 +177,7 @@ def _order(known: Unknowns, track: Track) -> Iterator[Row]:
     limit = starts[0].shifted(turn) if through else known.constant(turn)
     yield Row(limit - ends[-1], f"{track.name}: {last.name} ends within the turn", "turn")
     if through:
-        yield Row(known.constant(turn - 1e-9) - starts[-1], f"{track.name}: {last.name} starts within the turn", "turn")
+        yield Row(known.constant(turn - 1e-6) - starts[-1], f"{track.name}: {last.name} starts within the turn", "turn")
 
 
 def exclusion_rows(known: Unknowns, exclusion: Exclusion) -> Iterator[tuple[tuple[Row, ...], ...]]:

@@ -6,17 +6,23 @@ the carpet's width, length and quality; timed together by two cyclograms, of a k
 Source: thesis, chapters 2.2.3 and 3. How heads share a row: `ilmek.loom.sharing`.
 """
 
+from dataclasses import replace
+
+from ilmek.machines import weaver
+from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD, relations
 from ilmek.machines.automated_loom.design import LoomDesign, design
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import report
 from ilmek.machines.automated_loom.time import Production, estimated_time, production_time, programme_for
 from ilmek.machines.machine import Machine
+from ilmek.timing.cyclogram import Cyclogram
 
 __all__ = [
     "MACHINE",
     "AutomatedLoomParams",
     "LoomDesign",
     "Production",
+    "cyclograms",
     "design",
     "estimated_time",
     "production_time",
@@ -24,10 +30,23 @@ __all__ = [
     "report",
 ]
 
+
+def cyclograms(loom: LoomDesign) -> tuple[Cyclogram, ...]:
+    """The cyclograms of a knot and of a row, with what must come after what; cams and crank of the row are as made."""
+    knot, row = loom.cyclograms
+    order = (*knot.relations, *weaver.cyclograms(loom.weaver)[0].relations)
+    made = tuple(replace(track, held=track.name in (EVEN, ODD, BEATER)) for track in row.tracks)
+    return (
+        replace(knot, relations=tuple(dict.fromkeys(order))),
+        replace(row, tracks=made, relations=tuple(dict.fromkeys((*row.relations, *relations())))),
+    )
+
+
 MACHINE = Machine(
     name="automated-loom",
     summary="the loom for one carpet: heads, shedding, beat-up, warp tension, timed together",
     params=AutomatedLoomParams,
     design=design,
     report=report,
+    cyclograms=cyclograms,
 )

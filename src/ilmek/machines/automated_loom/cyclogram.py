@@ -129,7 +129,7 @@ def _beater(timing: RowTiming, period: float) -> Track:
             Segment(f"beat {number}", start, middle, 0.0, timing.beat_stroke, law),
             Segment(f"back {number}", middle, end, timing.beat_stroke, 0.0, law),
         ]
-    events = (Event("beat", parts[0].end), Event("beat", parts[2].end))
+    events = (Event("first beat", parts[0].end), Event("second beat", parts[2].end))
     return Track(BEATER, "beat-up crank", tuple(parts), events)
 
 

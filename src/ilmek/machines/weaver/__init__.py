@@ -4,14 +4,30 @@ Source: thesis, section 2.2.3 and Figures 2.11 to 2.16. The order of the motions
 limits are parameters, since the thesis prints none.
 """
 
+from dataclasses import replace
+
 from ilmek.machines.machine import Machine
+from ilmek.machines.weaver.cyclogram import relations
 from ilmek.machines.weaver.design import Weaver, design
 from ilmek.machines.weaver.moves import step_time, travel_time
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.report import report, timing
+from ilmek.timing.cyclogram import Cyclogram
 
-__all__ = ["MACHINE", "Weaver", "WeaverParams", "design", "report", "step_time", "timing", "travel_time"]
+__all__ = ["MACHINE", "Weaver", "WeaverParams", "cyclograms", "design", "report", "step_time", "timing", "travel_time"]
+
+
+def cyclograms(weaver: Weaver) -> tuple[Cyclogram, ...]:
+    """The head's cyclogram with what must come after what."""
+    order = (*weaver.cyclogram.relations, *relations(weaver.params.relation_gap))
+    return (replace(weaver.cyclogram, relations=tuple(dict.fromkeys(order))),)
+
 
 MACHINE = Machine(
-    "weaver", "knotting head: five cams on one shaft, one knot a turn (thesis, 2.2.3)", WeaverParams, design, report
+    "weaver",
+    "knotting head: five cams on one shaft, one knot a turn (thesis, 2.2.3)",
+    WeaverParams,
+    design,
+    report,
+    cyclograms,
 )
