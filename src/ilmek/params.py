@@ -15,6 +15,7 @@ import types
 import typing
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, dataclass, field, fields
+from functools import cache
 from typing import Any, TypeVar
 
 from ilmek.errors import ParameterError, UnitError
@@ -193,6 +194,13 @@ class Params:
 
 def declared(cls: type[Params]) -> tuple[Parameter, ...]:
     """The parameters declared by a class, in order."""
+    known: Any = cls  # a checker takes a class of dataclasses for one of its objects, which cannot be hashed
+    return _declared(known)
+
+
+@cache
+def _declared(cls: Any) -> tuple[Parameter, ...]:
+    """The same, looked up once: every set of parameters that is made asks for them."""
     hints = typing.get_type_hints(cls)
     return tuple(_parameter(f, hints[f.name]) for f in fields(cls))
 
