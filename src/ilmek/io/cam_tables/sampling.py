@@ -111,7 +111,12 @@ def _nodes(table: CamTable, angle: Float[np.ndarray, " nodes"]) -> Nodes:
     rows = 0.5 * (table.course(before) + table.course(after))
     s = table.course(angle)[0] - _position(table, 0.0)
     s[0], s[-1] = 0.0, table.revolves
-    return Nodes(angle, s, rows[1], rows[2])
+    return Nodes(angle, s, _settled(rows[1]), _settled(rows[2]))
+
+
+def _settled(values: Float[np.ndarray, " nodes"]) -> Float[np.ndarray, " nodes"]:
+    """The values, those at 0 that are rounding, or half of what a nanoradian makes of the jerk."""
+    return np.where(np.abs(values) > 1e-7 * np.abs(values).max(initial=0.0), values, 0.0)
 
 
 def _even(table: CamTable, rule: Rule, interpolation: Interpolation, tolerance: float) -> Nodes:
