@@ -35,7 +35,7 @@ def _lane(cyclogram: Cyclogram, track: Track, step: float) -> Lane:
     share = (position - position.min()) / (np.ptp(position) or 1.0)
     events = tuple(Mark(event.angle, event.name) for event in track.events)
     moves = tuple(_move(part) for part in laid(track))
-    shades = tuple(_shades(cyclogram, track.name))
+    shades = tuple(dict.fromkeys(_shades(cyclogram, track.name)))
     return Lane(track.name, track.actuator, angle, share, events, moves, track.unit, shades)
 
 

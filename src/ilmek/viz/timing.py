@@ -126,8 +126,10 @@ def _shade(sheet: Sheet, shade: Shade, floor: complex, width: float) -> None:
     for start, end in spans:
         corners = np.array([start, end, end, start]) / _TURN * width + 1j * _STROKE * np.array([0, 0, 1, 1])
         sheet.area(floor + corners, facecolor=tint(*look), linewidth=0, zorder=0.85 if shade.bad else 0.7)
-    if shade.label and not shade.bad:
-        middle = (spans[0][0] + spans[0][1]) / 2 / _TURN * width
+    widest = max(end - start for start, end in spans) / _TURN * width
+    if shade.label and not shade.bad and text_width(shade.label, _FINE) <= widest + 4.0:
+        start, end = max(spans, key=lambda span: span[1] - span[0])
+        middle = (start + end) / 2 / _TURN * width
         sheet.text(
             floor + middle + 2.5j, shade.label, fontsize=_FINE, color=INK, ha="center", va="baseline", zorder=1.4
         )

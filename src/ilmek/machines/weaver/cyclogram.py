@@ -18,7 +18,7 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import LAWS
-from ilmek.timing.cyclogram import Cyclogram, Event, Moment, Relation, Segment, Track
+from ilmek.timing.cyclogram import Cyclogram, Event, Moment, Relation, Segment, Track, riding
 from ilmek.timing.track import MotionLaw
 from ilmek.units import deg
 
@@ -81,9 +81,12 @@ def cyclogram(steps: Steps, strokes: Strokes, period: float) -> Cyclogram:
     return Cyclogram("knot", period, tracks)
 
 
-def relations(gap: float) -> tuple[Relation, ...]:
-    """What must come after what, by at least `gap` [rad of the cam shaft]."""
+def relations(gap: float, cut: float = 0.0) -> tuple[Relation, ...]:
+    """What must come after what, by at least `gap` [rad of the cam shaft]; the cutter needs the angle `cut`."""
+    blade = Relation(Moment(HANDLER, "present", "start"), Moment(HANDLER, "draw", "end"), max(gap, cut), "the cutter")
     order = (
+        (Moment(HANDLER, "grasp", "event"), Moment(HANDLER, "to tube", "end")),
+        (Moment(HANDLER, "draw", "start"), Moment(HANDLER, "grasp", "event")),
         (Moment(HANDLER, "cut", "event"), Moment(HANDLER, "draw", "end")),
         (Moment(HANDLER, "present", "start"), Moment(HANDLER, "cut", "event")),
         (Moment(SIDE_GRASP, "close", "start"), Moment(HANDLER, "present", "end")),
@@ -100,7 +103,7 @@ def relations(gap: float) -> tuple[Relation, ...]:
         (Moment(CENTRE_GRASP, "open", "start"), Moment(SLEY, "down", "end")),
         (Moment(SLEY, "up", "start"), Moment(SLEY, "down", "end")),
     )
-    return tuple(Relation(then, first, gap, SOURCE) for then, first in order)
+    return (*(Relation(then, first, gap, SOURCE) for then, first in order), blade)
 
 
 def _law(name: str) -> MotionLaw:
@@ -112,7 +115,7 @@ def _side_grasp(steps: Steps, by: Strokes) -> Track:
         steps.motion("close", 1, (0.905, 1.0), (0.0, by.jaw), by.law),
         steps.motion("open", 3, (0.85, 0.985), (by.jaw, 0.0), by.law),
     )
-    events = (Event("pile held", parts[0].end), Event("pile released", parts[1].end))
+    events = (riding("pile held", parts[0]), riding("pile released", parts[1]))
     return Track(SIDE_GRASP, "cam 1", parts, events)
 
 
@@ -126,7 +129,7 @@ def _side_motion(steps: Steps, by: Strokes) -> Track:
         steps.motion("turn back", 4, (0.015, 0.24), (far, by.opening), by.law),
         steps.motion("return", 4, (0.35, 0.64), (by.opening, 0.0), by.law),
     )
-    return Track(SIDE_MOTION, "cam 2", parts, (Event("warps open", parts[1].end), Event("pile crossed", parts[2].end)))
+    return Track(SIDE_MOTION, "cam 2", parts, (riding("warps open", parts[1]), riding("pile crossed", parts[2])))
 
 
 def _centre_grasp(steps: Steps, by: Strokes) -> Track:
@@ -134,7 +137,7 @@ def _centre_grasp(steps: Steps, by: Strokes) -> Track:
         steps.motion("close", 3, (0.695, 0.83), (0.0, by.jaw), by.law),
         steps.motion("open", 4, (0.685, 0.80), (by.jaw, 0.0), by.law),
     )
-    events = (Event("knot held", parts[0].end), Event("knot released", parts[1].end))
+    events = (riding("knot held", parts[0]), riding("knot released", parts[1]))
     return Track(CENTRE_GRASP, "cam 3", parts, events)
 
 
@@ -143,7 +146,7 @@ def _centre_motion(steps: Steps, by: Strokes) -> Track:
         steps.motion("forward", 3, (0.275, 0.68), (0.0, by.centre), by.law),
         steps.motion("return", 4, (0.015, 0.335), (by.centre, 0.0), by.law),
     )
-    return Track(CENTRE_MOTION, "cam 4", parts, (Event("ends drawn out", parts[1].end),))
+    return Track(CENTRE_MOTION, "cam 4", parts, (riding("ends drawn out", parts[1]),))
 
 
 def _handler(steps: Steps, by: Strokes) -> Track:
@@ -163,4 +166,4 @@ def _sley(steps: Steps, by: Strokes) -> Track:
         steps.motion("down", 4, (0.35, 0.67), (0.0, by.sley), by.law),
         steps.motion("up", 4, (0.685, 1.0), (by.sley, 0.0), by.law),
     )
-    return Track(SLEY, "gear", parts, (Event("knot down", parts[0].end),))
+    return Track(SLEY, "gear", parts, (riding("knot down", parts[0]),))
