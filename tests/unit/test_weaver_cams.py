@@ -9,7 +9,7 @@ from ilmek.cams import limits as cam_limits
 from ilmek.machines.weaver import WeaverParams, design, report
 from ilmek.machines.weaver.cams import FASTER, WALL, programme_of, torque_at
 from ilmek.machines.weaver.cyclogram import HANDLER, SLEY
-from ilmek.machines.weaver.limits import cut_share, cutting_time, cycle_limits
+from ilmek.machines.weaver.limits import cut_share, cycle_limits
 from ilmek.timing.track import sample
 from ilmek.units import deg, mm, turn
 
@@ -103,7 +103,7 @@ def test_the_limits_of_the_cycle_are_where_they_are_said(faster: float) -> None:
     assert max(found, key=lambda name: found[name]) == "tools"
     free = WeaverParams(cycle=faster * found["cutter"], acceleration_limit=1e4)
     head = design(free)
-    assert (cutting_time(head) <= cut_share(head) * head.cycle) == (faster > 1)
+    assert (head.params.cutting_time <= cut_share(head) * head.cycle) == (faster > 1)
 
 
 def test_plates_and_tables_of_all_tracks() -> None:
@@ -121,6 +121,18 @@ def test_plates_and_tables_of_all_tracks() -> None:
         assert table.knots[0] == 0.0
         assert table.knots[-1] == pytest.approx(turn)
         assert rows[0][-1] - rows[0][0] == pytest.approx(table.revolves, abs=1e-12)
+
+
+def test_motions_stretched_within_their_order_are_gentler_and_quicker() -> None:
+    plain, better = HEAD, design(WeaverParams(optimise=True))
+    assert better.cycle == plain.cycle
+    assert max(p.acceleration for p in better.peaks.values()) < max(p.acceleration for p in plain.peaks.values())
+    assert better.shortest < plain.shortest
+    assert report(better).failed == ()
+    assert better.knot_tied == "symmetric"
+    quickest = design(WeaverParams(optimise=True, cycle=0.1))
+    assert quickest.cycle < design(WeaverParams(cycle=0.1)).cycle
+    assert quickest.cycle == pytest.approx(quickest.shortest, rel=1e-6)
 
 
 def test_the_selector_and_the_masses() -> None:

@@ -43,7 +43,7 @@ def cam_results(weaver: Weaver) -> tuple[Result, ...]:
         Result("cycle_time_possible", max(shortest.values()), "s", "the shortest cycle that all of them allow"),
         Result("cycle_time_possible_set_by", max(shortest, key=lambda name: shortest[name]), "", "which sets it"),
         Result("cutting_force", limits.cutting_force(weaver), "N", "force that cuts all fibres of the yarn at once"),
-        Result("cutting_time", limits.cutting_time(weaver), "s", "time of the cutter's blade across the yarn"),
+        Result("cutting_time", weaver.params.cutting_time, "s", "time of the cutter's blade across the yarn"),
         Result(
             "cutting_window",
             limits.cut_share(weaver) * weaver.cycle,
@@ -74,7 +74,7 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
         at_most("cams beside each other", stack_width(params, cams), params.head_width, "mm", "head_width"),
         at_most(f"diameter, {widest.name}", 2 * widest.radius, params.cam_room, "mm", "cam_room"),
         at_most(
-            "cutter", limits.cutting_time(weaver), limits.cut_share(weaver) * weaver.cycle, "s", "draw to presenting"
+            "cutter", weaver.params.cutting_time, limits.cut_share(weaver) * weaver.cycle, "s", "draw to presenting"
         ),
     )
     if params.closure == "groove":

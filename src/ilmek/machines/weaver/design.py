@@ -1,19 +1,28 @@
 """The knotting head's design: cycle, limits, carriage and colour selector."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ilmek.carpet.tied_knot import Tied
 from ilmek.machines.weaver import moves
 from ilmek.machines.weaver.cams import HeadCam, cams_for
-from ilmek.machines.weaver.cyclogram import CENTRE_MOTION, DRAW_TURN, HANDLER, SIDE_MOTION, SLEY, Steps, Strokes
+from ilmek.machines.weaver.cyclogram import (
+    CENTRE_MOTION,
+    DRAW_TURN,
+    HANDLER,
+    SIDE_MOTION,
+    SLEY,
+    Steps,
+    Strokes,
+)
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.machines.weaver.drive import Drive, drive_for
 from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
 from ilmek.machines.weaver.knot import on_the_pair, tied_by
+from ilmek.machines.weaver.optimised import optimised
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram
-from ilmek.timing.track import Track, peak_acceleration, peak_speed, shortest_period
+from ilmek.timing.track import Limits, Track, peak_acceleration, peak_speed, shortest_period
 from ilmek.units import turn
 
 HAND_KNOT = 2.4
@@ -111,9 +120,8 @@ def design(params: WeaverParams) -> Weaver:
         params.sley_stroke,
         params.law,
     )
-    asked = knot_cyclogram(steps, strokes, params.cycle)
-    cycle = max(params.cycle, *(_peaks(track, asked.period, radius, params).shortest for track in asked.tracks))
-    kept = knot_cyclogram(steps, strokes, cycle)
+    kept = _kept(params, knot_cyclogram(steps, strokes, params.cycle), radius)
+    cycle = kept.period
     cams = cams_for(params, kept, radius)
     return Weaver(
         params,
@@ -131,6 +139,17 @@ def design(params: WeaverParams) -> Weaver:
         cams,
         drive_for(cams, kept.speed),
     )
+
+
+def _kept(params: WeaverParams, asked: Cyclogram, radius: float) -> Cyclogram:
+    """The cyclogram at the cycle asked for, or at the shortest that the limits allow."""
+    if params.optimise:
+        speed, pull = params.speed_limit, params.acceleration_limit
+        arms = {track.name: radius if track.name == HANDLER else 1.0 for track in asked.tracks}
+        limits = {name: Limits(speed / arm, pull / arm) for name, arm in arms.items()}
+        return optimised(asked, limits, params.relation_gap, params.cutting_time)
+    shortest = max(_peaks(track, asked.period, radius, params).shortest for track in asked.tracks)
+    return replace(asked, period=max(asked.period, shortest))
 
 
 def carriage_window(cyclogram: Cyclogram) -> float:

@@ -47,7 +47,7 @@ def cycle_limits(weaver: Weaver) -> Mapping[str, float]:
     pressure = max(float(cam.pressure.max()) for cam in weaver.cams)
     limits = {
         "tools": weaver.shortest,
-        "cutter": cutting_time(weaver) / cut_share(weaver),
+        "cutter": weaver.params.cutting_time / cut_share(weaver),
         "cams": cycle * pressure / PRESSURE_LIMIT,
         "carriage": weaver.carriage_step / (weaver.carriage_window / cycle),
     }
@@ -60,11 +60,6 @@ def cut_share(weaver: Weaver) -> float:
     """Share of the turn that the cutter has: from the end of the draw to the begin of presenting."""
     handler = weaver.cyclogram.track(HANDLER)
     return (handler.segment("present").start - handler.segment("draw").end) / turn
-
-
-def cutting_time(weaver: Weaver) -> float:
-    """Time of the blade across the yarn [s]."""
-    return math.sqrt(4 * 2 * weaver.params.yarn / weaver.params.cutter_acceleration)
 
 
 def cutting_force(weaver: Weaver) -> float:

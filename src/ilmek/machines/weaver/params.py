@@ -1,5 +1,6 @@
 """What may be asked of a knotting head. Phases, strokes and dimensions are choices of ours: the thesis prints none."""
 
+import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
@@ -28,6 +29,7 @@ class WeaverParams(Params):
         at_most=3600.0,
         doc="time of a knot that is asked for; longer where limits demand it",
     )
+    optimise: bool = param(False, doc="stretch and overlap the motions within their order for the least accelerations")
     law: str = param("modified-sine", choices=SMOOTH_LAWS, doc="law of all motions")
     prepare_end: float = param(104 * deg, unit="deg", above=0.0, below=turn, doc="cam angle at which the pile is ready")
     open_end: float = param(180 * deg, unit="deg", above=0.0, below=turn, doc="cam angle at which the warps are open")
@@ -149,6 +151,11 @@ class WeaverParams(Params):
         """Pile yarn of a knot by the yarn bill [m], what is shorn off included."""
         pile = PileParams(pile_height=self.pile_height, cut_waste=self.cut_waste, warp_diameter=self.warp_diameter)
         return knot_length(self.knot, self.quality, self.yarn_density, pile)
+
+    @property
+    def cutting_time(self) -> float:
+        """Time of the cutter's blade [s] across two diameters of the yarn, from rest to rest."""
+        return math.sqrt(4 * 2 * self.yarn / self.cutter_acceleration)
 
     @property
     def centre_room(self) -> float:
