@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import IntArray
-from ilmek.cams.laws import LAWS
+from ilmek.cams.laws import law_of
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import Yarn
@@ -246,7 +246,7 @@ def _label_from(meta: Mapping[str, Any]) -> Label:
 
 
 def _cyclogram_record(cyclogram: Cyclogram) -> dict[str, Any]:
-    """A cyclogram as plain data; a law by its name."""
+    """A cyclogram as plain data; a law by its name and parameters."""
     return {
         "name": cyclogram.name,
         "period": cyclogram.period,
@@ -257,7 +257,12 @@ def _cyclogram_record(cyclogram: Cyclogram) -> dict[str, Any]:
                 "unit": track.unit,
                 "revolves": track.revolves,
                 "segments": [
-                    {**{key: getattr(part, key) for key in _SEGMENT}, "law": part.law.name} for part in track.segments
+                    {
+                        **{key: getattr(part, key) for key in _SEGMENT},
+                        "law": part.law.name,
+                        "parameters": dict(part.law.parameters),
+                    }
+                    for part in track.segments
                 ],
                 "events": [asdict(event) for event in track.events],
             }
@@ -274,7 +279,7 @@ def _cyclogram_from(record: Mapping[str, Any]) -> Cyclogram:
         Track(
             track["name"],
             track["actuator"],
-            tuple(Segment(**{**part, "law": LAWS[part["law"]]}) for part in track["segments"]),
+            tuple(_segment_from(part) for part in track["segments"]),
             tuple(Event(**event) for event in track["events"]),
             track["unit"],
             track["revolves"],
@@ -282,6 +287,11 @@ def _cyclogram_from(record: Mapping[str, Any]) -> Cyclogram:
         for track in record["tracks"]
     )
     return Cyclogram(record["name"], record["period"], tracks)
+
+
+def _segment_from(part: Mapping[str, Any]) -> Segment:
+    law = law_of(part["law"], part["parameters"])
+    return Segment(**{key: part[key] for key in _SEGMENT}, law=law)
 
 
 def _check_header(path: Path) -> None:

@@ -12,8 +12,7 @@ from ilmek.jobs.chart import Charted, chart_results, job_json, make_charted, wri
 from ilmek.jobs.loom import Loomed, LoomOrder, make_loomed
 from ilmek.jobs.order import Order
 from ilmek.jobs.told import Told, part
-from ilmek.machines.automated_loom import report as loom_report
-from ilmek.machines.automated_loom.report import parts_of
+from ilmek.machines.automated_loom.report import parts_of, report_with
 from ilmek.report import Check, Report, at_most, check_as_json
 from ilmek.units import format_quantity, hour
 from ilmek.viz.page import CarpetPage, carpet_page
@@ -80,7 +79,8 @@ def weave(order: Order, asked: LoomOrder, folder: Path, *, force: bool = False, 
     if told is not None:
         told("loom", 0.4)
     loomed = make_loomed(asked, order, charted.chart)
-    woven = Woven(charted, asked, loomed, loom_report(loomed.design), parts_of(loomed.design), folder)
+    parts = parts_of(loomed.design)
+    woven = Woven(charted, asked, loomed, report_with(loomed.design, parts), parts, folder)
     with output_folder(folder, force=force) as work:
         write_chart(charted, work, part(told, "chart.pdf", 0.5, 0.7))
         write_programme(

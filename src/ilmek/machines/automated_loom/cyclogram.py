@@ -1,4 +1,6 @@
-"""The loom's cyclogram for a row: two wefts and two beats on one turn of the shedding cams.     [thesis, 3.3]
+"""The loom's cyclograms: a knot with the head's step to the next one, and a row of wefts and beats.
+
+A row is two wefts and two beats on one turn of the shedding cams.                               [thesis, 3.3]
 
     1   0 to  90 deg    cams lift the even warps; the shuttle passes while the shed is open for it
     2  90 to 180 deg    they come down; the beater beats and is back
@@ -12,10 +14,19 @@ the four steps of 90 degrees and the harmonic law; where within them shuttle, be
 import math
 from dataclasses import dataclass
 
-from ilmek.cams.laws import LAWS
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.cams.laws import LAWS, law_of
 from ilmek.machines.warp_tension.design import TAKE_UP_LAW
-from ilmek.timing.cyclogram import Cyclogram, Event, Moment, Relation, Segment, Track
-from ilmek.timing.track import MotionLaw, shortest_period
+from ilmek.machines.weaver import Weaver
+from ilmek.machines.weaver.cyclogram import CENTRE_MOTION, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.cyclogram import relations as head_relations
+from ilmek.machines.weaver.moves import carriage
+from ilmek.report import CamTable
+from ilmek.timing.cyclogram import Cyclogram, Event, Exclusion, Moment, Relation, Segment, Track, Zone, riding
+from ilmek.timing.s_curve import s_curve
+from ilmek.timing.track import MotionLaw, joints, sample, shortest_period
 from ilmek.units import deg, turn
 
 EVEN, ODD, SHUTTLE, BEATER, TAKE_UP = "even warps", "odd warps", "shuttle", "beater", "take-up"
@@ -46,6 +57,51 @@ class RowTiming:
     beat_end: float
     row_pitch: float
     take_up_end: float
+
+
+CARRIAGE = "carriage"
+
+
+def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
+    """The cyclogram of a knot at a period [s]: the head's tracks, and its carriage, which steps on to the next knot.
+
+    The step, jerk-limited, begins when the last tool is out of the warps, and runs into the next turn where it must.
+    """
+    tied, limits = head.cyclogram, head.params
+    move = s_curve(limits.knot_pitch, carriage(limits))
+    out = max(tied.track(name).segment(motion).end for name, motion in _OUT)
+    law = law_of("s-curve", {"ramp": min(0.25, move.ramp / move.time), "cruise": move.cruise / move.time})
+    step = Segment("step", out, out + turn * move.time / period, 0.0, limits.knot_pitch, law)
+    track = Track(CARRIAGE, "linear axis", (step,), (riding("at the next knot", step),), revolves=limits.knot_pitch)
+    apart = tuple(
+        Exclusion(Zone(CARRIAGE, 0.0, limits.knot_pitch, "between two knots"), Zone(name, 0.0, name=said), why=_CLEAR)
+        for name, said in _IN_THE_WARPS.items()
+    )
+    relations = (*tied.relations, *head_relations(limits.relation_gap))
+    return Cyclogram(tied.name, period, (*tied.tracks, track), relations, (*tied.exclusions, *apart))
+
+
+def cam_tables(cyclogram: Cyclogram, names: tuple[str, ...]) -> tuple[CamTable, ...]:
+    """Some tracks of a cyclogram for a controller's electronic cams."""
+    return tuple(_cam_table(cyclogram.track(name), cyclogram) for name in names)
+
+
+def _cam_table(track: Track, cyclogram: Cyclogram) -> CamTable:
+    def course(angle: FloatArray) -> FloatArray:
+        at = np.asarray(angle)
+        motion = sample(track, at)
+        return np.stack([motion.position, motion.slope, motion.bend])
+
+    laws = ((part, law_of(part.law.name, part.law.parameters)) for part in track.segments)
+    inner = [part.angle(u) % turn for part, law in laws for u in law.breaks]
+    knots = np.unique(np.concatenate([joints(track), inner]))
+    name, title = f"{cyclogram.name}-{track.name}", f"{track.name} over a {cyclogram.name}"
+    return CamTable(name, title, course, knots, track.unit, cyclogram.period, track.revolves)
+
+
+_OUT = ((SIDE_MOTION, "return"), (CENTRE_MOTION, "return"), (SLEY, "up"))
+_IN_THE_WARPS = {SIDE_MOTION: "in the warps", CENTRE_MOTION: "in the warps", SLEY: "in the warps"}
+_CLEAR = "the head moves along the row only while no tool of it is in the warps"
 
 
 def shortest_row(timing: RowTiming, speed_limit: float, acceleration_limit: float) -> float:
@@ -114,7 +170,7 @@ def _shuttle(timing: RowTiming) -> Track:
         Segment("pass", first, last, 0.0, stroke, law),
         Segment("pass back", _HALF + first, _HALF + last, stroke, 0.0, law),
     )
-    events = (Event("straight weft laid", last), Event("sinuous weft laid", _HALF + last))
+    events = (riding("straight weft laid", parts[0]), riding("sinuous weft laid", parts[1]))
     return Track(SHUTTLE, "linear axis", parts, events)
 
 
@@ -129,7 +185,7 @@ def _beater(timing: RowTiming, period: float) -> Track:
             Segment(f"beat {number}", start, middle, 0.0, timing.beat_stroke, law),
             Segment(f"back {number}", middle, end, timing.beat_stroke, 0.0, law),
         ]
-    events = (Event("first beat", parts[0].end), Event("second beat", parts[2].end))
+    events = (riding("first beat", parts[0]), riding("second beat", parts[2]))
     return Track(BEATER, "beat-up crank", tuple(parts), events)
 
 

@@ -9,7 +9,7 @@ from ilmek.errors import LoomError
 from ilmek.loom.programme import Times
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import beat_up, shedding, warp_tension, weaver
-from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, shortest_row, take_up_time
+from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, knot_cyclogram, shortest_row, take_up_time
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.shedding.report import prime_radius_for_bore
 from ilmek.machines.warp_tension.design import WarpTensionDesign, keeps_limits
@@ -95,7 +95,7 @@ class LoomDesign:
     @property
     def cyclograms(self) -> tuple[Cyclogram, Cyclogram]:
         """The cyclograms of a knot and of a row."""
-        return self.weaver.cyclogram, self.row_cyclogram
+        return knot_cyclogram(self.weaver, self.times.knot), self.row_cyclogram
 
     @property
     def times(self) -> Times:

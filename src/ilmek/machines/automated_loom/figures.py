@@ -6,7 +6,6 @@ import numpy as np
 
 from ilmek.carpet.quality import FINEST
 from ilmek.loom.sharing import halves, heads_that_fit, share
-from ilmek.machines import weaver
 from ilmek.machines.automated_loom.design import LoomDesign, frame_width
 from ilmek.machines.automated_loom.time import estimated_time, estimated_time_at
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
@@ -56,7 +55,9 @@ def figures(loom: LoomDesign) -> tuple[Figure, ...]:
         "Four steps of 90° and the warps' harmonic motion: thesis, 3.3; shuttle, beat and take-up placed within them."
     )
     row = draw(loom.row_cyclogram, "One row: two wefts, two beats", note)
-    return (front(loom), row, weaver.timing(loom.weaver), time_against_heads(loom), time_against_pitch(loom))
+    order = "Order of the motions: thesis, 2.2.3; angles chosen, the thesis prints none. The head steps on at the end."
+    knot = draw(loom.cyclograms[0], "One knot: the head's cams, and its step to the next knot", order)
+    return (front(loom), row, knot, time_against_heads(loom), time_against_pitch(loom))
 
 
 def time_against_heads(loom: LoomDesign) -> Plot:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.machines import beat_up, shedding, warp_tension, weaver
-from ilmek.machines.automated_loom.cyclogram import SHUTTLE, relations
+from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, SHUTTLE, TAKE_UP, cam_tables, relations
 from ilmek.machines.automated_loom.design import LoomDesign, warp_tension_of
 from ilmek.machines.automated_loom.energy import axes, energy_of
 from ilmek.machines.automated_loom.figures import figures
@@ -16,7 +16,7 @@ from ilmek.machines.automated_loom.parts import Part, PartsList, parts_of_loom
 from ilmek.machines.automated_loom.time import estimated_time, time_shares
 from ilmek.machines.rounding import settled
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
-from ilmek.timing.cyclogram import check_all
+from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
 
@@ -26,7 +26,12 @@ HEAVY = 0.25
 
 def report(loom: LoomDesign) -> Report:
     """Everything that the loom's design says; checks of a machine carry its name."""
-    parts, listed = parts_of(loom), parts_of_loom(loom)
+    return report_with(loom, parts_of(loom))
+
+
+def report_with(loom: LoomDesign, parts: tuple[Report, ...]) -> Report:
+    """The same with the reports of its machines, where they are at hand."""
+    listed = parts_of_loom(loom)
     checks = (*_checks(loom), *_frame_checks(listed.frame), *(check for part in parts for check in _prefixed(part)))
     warnings = (*_warnings(loom), *(f"{part.machine}: {said}" for part in parts for said in part.warnings))
     return Report(
@@ -38,6 +43,12 @@ def report(loom: LoomDesign) -> Report:
         (_heads_table(loom), _parts_table(listed), _prices_table(listed), _row_table(loom)),
         figures(loom),
         warnings,
+        tuple(replace(plate, name=f"{part.machine}-{plate.name}") for part in parts for plate in part.plates),
+        (
+            *(replace(table, name=f"{part.machine}-{table.name}") for part in parts for table in part.cam_tables),
+            *cam_tables(loom.row_cyclogram, (SHUTTLE, BEATER, TAKE_UP)),
+            *cam_tables(loom.cyclograms[0], (CARRIAGE,)),
+        ),
     )
 
 
@@ -151,7 +162,7 @@ def _prefixed(part: Report) -> Iterator[Check]:
 
 
 def _checks(loom: LoomDesign) -> tuple[Check, ...]:
-    params, cyclogram = loom.params, loom.row_cyclogram
+    params, (knot, cyclogram) = loom.params, loom.cyclograms
     shuttle = cyclogram.track(SHUTTLE)
     speed, acceleration = peak_speed(shuttle, cyclogram.period), peak_acceleration(shuttle, cyclogram.period)
     limit = params.shuttle_acceleration
@@ -168,6 +179,7 @@ def _checks(loom: LoomDesign) -> tuple[Check, ...]:
         at_most("shuttle: acceleration", settled(acceleration, limit), limit, "m/s^2", "shuttle_acceleration"),
         at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
         *(replace(check, name=f"row: {check.name}") for check in check_all(cyclogram, relations())),
+        *(replace(check_apart(knot, one), name=f"knot: {one.said(knot.units)}") for one in knot.exclusions),
     )
 
 
