@@ -20,7 +20,7 @@ def shoelace(points: np.ndarray) -> float:
     return 0.5 * float(np.sum((np.conj(points) * np.roll(points, -1)).imag))
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(
     st.lists(st.floats(0.5, 1.0), min_size=3, max_size=6),
     st.lists(st.floats(-0.9, 0.9) | st.floats(-1e-2, 1e-2), min_size=6, max_size=6),
@@ -80,6 +80,7 @@ def test_a_cusp_of_two_arcs_keeps_its_corners() -> None:
     assert contours.area(kept) == pytest.approx(contours.area(Contour(np.array([1j, -1j]), np.full(2, 0.4))), rel=1e-6)
 
 
+@settings(max_examples=30)
 @given(st.floats(0.01, 0.2), st.floats(0.01, 0.2), st.floats(0.1, 3.0), st.floats(0.003, 0.02))
 def test_a_rounded_triangle_has_the_area_of_its_parts(a: float, b: float, angle: float, radius: float) -> None:
     corners = np.array([0, a, b * np.exp(1j * angle)])

@@ -5,6 +5,7 @@ import io
 import math
 import re
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
@@ -141,6 +142,12 @@ def read(name: str, text: str, sampled: Sampled, table: CamTable) -> Course:
     return readers[name]()
 
 
+@cache
+def sampled_once(case: str, rule: Rule) -> Sampled:
+    """Formats of one rule share their points."""
+    return sample(TABLES[case], rule, 1e-4 * stroke(TABLES[case]))
+
+
 def exact(table: CamTable, degrees: np.ndarray) -> np.ndarray:
     """What the slave should do from the place where it is coupled, in the table's unit."""
     unit = {"mm": 1e-3, "deg": math.pi / 180}[table.unit]
@@ -152,8 +159,7 @@ def exact(table: CamTable, degrees: np.ndarray) -> np.ndarray:
 def test_a_controller_keeps_the_stated_error_and_runs_on_without_a_jump(name: str, case: str) -> None:
     table, kind = TABLES[case], FORMATS[name]
     unit = {"mm": 1e-3, "deg": math.pi / 180}[table.unit]
-    tolerance = 1e-4 * stroke(table)
-    sampled = sample(table, kind.rule, tolerance)
+    sampled = sampled_once(case, kind.rule)
     course = read(name, kind.write(table, sampled), sampled, table)
     degrees = np.linspace(0.0, 359.999, 7919)
     assert sampled.kept

@@ -85,7 +85,7 @@ def test_notes_tell_of_missed_tolerances_and_of_slaves_that_move_at_the_start(tm
     wobble = CamTable(
         "wobble",
         "Wobble",
-        lambda a: 0.01 * np.stack([np.sin(30 * a), 30 * np.cos(30 * a), -900 * np.sin(30 * a)]),
+        lambda a: 0.01 * np.stack([np.sin(20 * a), 20 * np.cos(20 * a), -400 * np.sin(20 * a)]),
         np.array([0.0, math.tau]),
         "mm",
         1.0,
