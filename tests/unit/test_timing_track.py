@@ -7,7 +7,18 @@ import pytest
 
 from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
-from ilmek.timing.track import Event, Segment, Track, peak_acceleration, peak_speed, sample, shortest_period
+from ilmek.timing.track import (
+    Event,
+    Limits,
+    Segment,
+    Track,
+    joints,
+    peak_acceleration,
+    peak_speed,
+    riding,
+    sample,
+    shortest_period,
+)
 from ilmek.units import deg, turn
 
 HARMONIC = LAWS["harmonic"]
@@ -92,3 +103,51 @@ def test_what_is_no_track(spans: tuple[tuple[float, ...], ...], said: str) -> No
 def test_an_event_lies_within_the_turn() -> None:
     with pytest.raises(ParameterError, match="event 'late' at 400 deg"):
         Track("x", "y", (), (Event("late", 400 * deg),))
+
+
+def test_a_motion_may_run_through_the_end_of_the_turn() -> None:
+    parts = (
+        Segment("back", 60 * deg, 150 * deg, 1.0, 0.0, HARMONIC),
+        Segment("go", 330 * deg, 420 * deg, 0.0, 1.0, HARMONIC),
+    )
+    track = Track("x", "y", parts, (riding("half", parts[1], 0.5),))
+    angle = np.array([0, 15, 60, 105, 240, 345, 360]) * deg
+    rise = [float(HARMONIC.s(share)) for share in (1 / 3, 1 / 2, 1 / 6)]
+    expected = [rise[0], rise[1], 1.0, 0.5, 0.0, rise[2], rise[0]]
+    assert sample(track, angle).position == pytest.approx(expected, abs=1e-14)
+    assert track.event("half").angle == pytest.approx(15 * deg)
+    assert joints(track)[:2] == pytest.approx([0.0, 60 * deg])
+
+
+def test_an_axis_that_steps_on_through_the_end_of_the_turn() -> None:
+    step = Segment("step", 300 * deg, 390 * deg, 0.0, 0.01, HARMONIC)
+    motion = sample(Track("carriage", "belt", (step,), revolves=0.01), np.array([0.0, 30.0, 299.0, 360.0]) * deg)
+    late = 0.01 * float(HARMONIC.s(2 / 3))
+    assert motion.position == pytest.approx([late - 0.01, 0.0, 0.0, late], abs=1e-15)
+    assert motion.slope[0] == pytest.approx(motion.slope[-1])
+
+
+@pytest.mark.parametrize(
+    ("event", "said"),
+    [
+        (Event("cut", 0.5, "up", 0.25), "0.25 of up"),
+        (Event("cut", 0.0, "across", 0.0), "no motion 'across'"),
+        (Event("cut", 7.0), "at 401.1 deg"),
+    ],
+)
+def test_an_event_rides_where_its_motion_is(event: Event, said: str) -> None:
+    parts = (Segment("up", 0.0, 1.0, 0.0, 1.0, HARMONIC), Segment("down", 1.0, 2.0, 1.0, 0.0, HARMONIC))
+    with pytest.raises(ParameterError, match=said):
+        Track("x", "y", parts, (event,))
+
+
+def test_motions_of_one_track_have_their_own_names() -> None:
+    parts = (Segment("a", 0.0, 1.0, 0.0, 1.0, HARMONIC), Segment("a", 1.0, 2.0, 1.0, 0.0, HARMONIC))
+    with pytest.raises(ParameterError, match="two motions are named 'a'"):
+        Track("x", "y", parts)
+
+
+@pytest.mark.parametrize("limits", [{"speed": 0.0}, {"jerk": math.nan}, {"time": -1.0}, {"time": math.inf}])
+def test_what_is_no_limit(limits: dict[str, float]) -> None:
+    with pytest.raises(ParameterError):
+        Limits(**limits)

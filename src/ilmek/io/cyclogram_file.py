@@ -323,5 +323,6 @@ def _written(value: float, unit: str) -> str | float:
     """The number in its unit where that is read as the same number again, else as it is."""
     shown = value / parse_unit(unit).factor
     tries: Sequence[str] = [f"{shown:.{digits}g}{unit}" for digits in (4, 8, 12, 16, 17)]
-    plain = [text for text in tries if unit not in ("", "1") and parse_quantity(text, unit) == value]
+    shows = unit not in ("", "1") and math.isfinite(shown)
+    plain = [text for text in tries if shows and parse_quantity(text, unit) == value]
     return plain[0] if plain else float(value)

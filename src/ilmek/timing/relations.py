@@ -7,10 +7,13 @@ from typing import TypeAlias
 
 from ilmek.errors import ParameterError
 from ilmek.timing.windows import Windows
-from ilmek.units import deg, format_quantity
+from ilmek.units import deg, format_quantity, turn
 
 Units: TypeAlias = Mapping[str, str]
 """Unit to show the positions of a track in, by its name."""
+
+LARGEST = 100 * turn
+"""Largest gap between two moments [rad]."""
 
 EDGES = ("start", "end", "event", "past", "angle")
 
@@ -66,11 +69,18 @@ class Relation:
                 f"{self.said({})}: at least {self.gap / deg:g} deg, at most {self.most / deg:g} deg",
                 allowed="no more at least than at most, and a delay of 0 s or more",
             )
+        _require_small(self.gap if self.gap > -math.inf else 0.0)
+        _require_small(self.most if self.most < math.inf else 0.0)
 
     def said(self, units: Units) -> str:
         """The relation without its numbers; units of the positions by track."""
         later = {0: "", 1: " of the turn before"}.get(self.turns, f" of {self.turns} turns before")
         return f"{self.then.said(units)} after {self.first.said(units)}{later}"
+
+
+def _require_small(gap: float) -> None:
+    if not abs(gap) <= LARGEST:
+        raise ParameterError(f"a gap of {gap / deg:g} deg", allowed=f"{LARGEST / turn:g} turns at most")
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,6 +126,9 @@ class Exclusion:
     second: Presence
     gap: float = 0.0
     why: str = "never both"
+
+    def __post_init__(self) -> None:
+        _require_small(self.gap)
 
     def said(self, units: Units) -> str:
         """The exclusion without its number; units of the positions by track."""

@@ -326,6 +326,8 @@ def _blame(rows: Sequence[Row], known: Unknowns) -> None:
     goal = np.eye(1, weights.shape[1], weights.shape[1] - 1)[0]
     bounds = [(1e-6, None), *[(None, None)] * (weights.shape[1] - 2), (0.0, None)]
     found = linprog(goal, A_ub=-weights, b_ub=-least, bounds=bounds, method="highs-ds")
+    if found.status != 0:
+        raise ParameterError(f"{known.cyclogram.name}: its numbers are too far apart to be solved")
     y = -np.asarray(found.ineqlin.marginals)
     guilty = [place for place in np.argsort(-y, kind="stable") if y[place] > _BINDS]
     over = found.fun / max(float(y.max()), _BINDS)

@@ -158,6 +158,10 @@ class Track:
     held: bool = False
 
     def __post_init__(self) -> None:
+        names = [segment.name for segment in self.segments]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise ParameterError(f"{self.name}: two motions are named {twice!r}", do="give each its own name")
         for segment in self.segments:
             _require_inside(self, segment)
         for first, then in zip(self.segments, self.segments[1:], strict=False):
