@@ -186,6 +186,22 @@ def test_a_balanced_comb_asks_for_the_press_alone() -> None:
     assert axis.balance == 0.0
 
 
+def test_screws_do_not_buckle_and_brakes_hold_what_hangs() -> None:
+    """Euler, one end clamped: 2 pi^2 E I / l^2 over the force of an axis, l = 300 mm."""
+    axis = made().axis
+    assert axis is not None
+    assert axis.screw is not None
+    force = np.max(np.abs(axis.force)) / 2
+    inertia = math.pi * (0.85 * axis.screw) ** 4 / 64
+    assert axis.buckling == pytest.approx(2 * math.pi**2 * 210e9 * inertia / 0.3**2 / force)
+    assert axis.buckling >= 3
+    assert axis.brake == pytest.approx(axis.balance / 2 * 0.01 / (2 * math.pi))
+    assert "buckling of the screws" in [check.name for check in answer(screw_diameter=8 * mm, stroke=1.5).failed]
+    belt = answer(axis="belt")
+    assert result(belt, "screw_diameter") is None
+    assert "buckling of the screws" not in [check.name for check in belt.checks]
+
+
 def test_work_of_the_press_over_a_turn_packs_two_rows() -> None:
     """Over a turn the axes do what packs: gravity and inertia give all back, the fell what it stretched."""
     design = made()

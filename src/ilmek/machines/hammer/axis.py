@@ -6,7 +6,10 @@ The whole cam system goes down by the stroke, presses, and comes up again within
 
 P the fell's force: it rises as the fabric has it while the comb goes its last way, stands while the comb presses, and
 falls by what the fell gives back on the way up. A screw of the lead p turns F into F p / (2 pi eta), a belt on a pulley
-of radius r into F r / eta; against the way it goes, times eta instead. The axes share the force evenly.
+of radius r into F r / eta; against the way it goes, times eta instead. The axes share the force evenly. Neither locks
+itself: a brake holds what hangs on an axis, (1 - c) m g p / (2 pi), or r in place of p / (2 pi).
+
+A screw is as long as the stroke and its ends, and must not buckle under three times its force (Euler, one end clamped).
 """
 
 from dataclasses import dataclass
@@ -19,9 +22,11 @@ from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
 from ilmek.elements.duty import Cycle, Drive, size_motor
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import SERVO
+from ilmek.elements.screws import Screw
 from ilmek.machines.hammer.comb import comb_mass
 from ilmek.machines.hammer.fabric import Fabric
-from ilmek.machines.hammer.params import STACK, HammerParams
+from ilmek.machines.hammer.params import STACK, STEEL, HammerParams
+from ilmek.units import mm
 
 SAMPLES = 720
 
@@ -36,6 +41,8 @@ class Axis:
     inertia_force  largest m x'' [N]                            balance  what holds the weight [N], (1 - c) m g
     cycle      of one axis' motor shaft without reducer        drive  servo of one axis; None: no one bears it
     power_max  of all axes [W]                                 meets  speed of the comb where it meets the row [m/s]
+    brake      torque that holds an axis at rest [N m]         screw  diameter [m], None: belts
+    buckling   safety of a screw against it; inf for belts
     """
 
     programme: Programme
@@ -52,6 +59,9 @@ class Axis:
     drive: Drive | None
     power_max: float
     meets: float
+    brake: float
+    screw: float | None
+    buckling: float
 
 
 def stroke_programme(params: HammerParams) -> Programme:
@@ -90,8 +100,8 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> Axis:
         torque=resisting * lost * arm / params.shared,
         inertia=mass * arm**2 / params.shared,
     )
-    down = speed > 0
-    contact = down & (press > 0)
+    contact = (speed > 0) & (press > 0)
+    screw, buckling = _screw(params, float(np.max(np.abs(total))) / params.shared)
     return Axis(
         programme=programme,
         mass=mass,
@@ -107,7 +117,36 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> Axis:
         drive=size_motor(cycle, kind=SERVO),
         power_max=float(np.max(np.abs(total * speed))),
         meets=float(speed[contact].max()) if contact.any() else 0.0,
+        brake=balance * arm / params.shared,
+        screw=screw,
+        buckling=buckling,
     )
+
+
+def _screw(params: HammerParams, force: float) -> tuple[float | None, float]:
+    """Diameter [m] of a ball screw under a force [N], and its safety against buckling; None and inf for belts."""
+    if params.axis == "belt":
+        return None, float("inf")
+    length = params.stroke + SCREW_ENDS
+
+    def safety(diameter: float) -> float:
+        ball = Screw(diameter, params.lead, CORE * diameter, BALL_FRICTION)
+        return ball.buckling_force(length, STEEL.modulus) / force if force > 0 else float("inf")
+
+    offered = (params.screw_diameter,) if params.screw_diameter else BALL_SCREWS
+    taken = next((diameter for diameter in offered if safety(diameter) >= BUCKLING), offered[-1])
+    return taken, safety(taken)
+
+
+BALL_SCREWS = tuple(diameter * mm for diameter in (12, 16, 20, 25, 32, 40, 50, 63, 80, 100))
+"""Nominal diameters of ball screws [m] [ISO 3408-2]."""
+
+CORE, BALL_FRICTION = 0.85, 0.005
+SCREW_ENDS = 0.2
+"""Length of a screw beyond its stroke [m]: nut and bearings."""
+
+BUCKLING = 3.0
+"""Safety against buckling that is asked of a screw."""
 
 
 def _fell_force(

@@ -146,6 +146,9 @@ class HammerParams(FabricParams):
     )
     axis: str = param("screw", choices=AXES, doc="ball screws or toothed belts")
     lead: float = param(10 * mm, unit="mm", at_least=0.5 * mm, at_most=0.2, doc="lead of the screws")
+    screw_diameter: float | None = param(
+        None, unit="mm", at_least=5 * mm, at_most=0.5, doc="of a screw; none: the least of stock that does not buckle"
+    )
     pulley_radius: float = param(
         25 * mm, unit="mm", at_least=5 * mm, at_most=0.5, doc="pitch radius of the belts' pulleys"
     )

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.machines.hammer.axis import stroke_needed
+from ilmek.machines.hammer.axis import BUCKLING, stroke_needed
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.figures import figures
 from ilmek.machines.rounding import settled
@@ -103,6 +103,9 @@ def _axis_results(design: Hammer) -> tuple[Result, ...]:
         Result("axes", params.shared, "1", f"vertical axes, {params.axis}s"),
         Result("axis_speed", float(np.max(np.abs(axis.cycle.speed))), "rpm", "largest of a screw or pulley"),
         Result("axis_torque", float(np.max(np.abs(axis.cycle.effort))), "Nm", "largest at a screw or pulley"),
+        Result("brake_torque", axis.brake, "Nm", "that holds a screw or pulley at rest: neither locks itself"),
+        Result("screw_diameter", axis.screw, "mm", "of a ball screw; null of belts"),
+        Result("buckling_safety", None if axis.screw is None else axis.buckling, "1", "of a screw, Euler"),
         Result("servo", servo, "", "of each axis; null where none of the table bears it"),
     )
 
@@ -149,6 +152,11 @@ def _axis_checks(design: Hammer) -> tuple[Check, ...]:
         bears = axis.drive.duty.reserve if axis.drive else 0.0
         return (
             at_least("stroke for the comb's way", params.stroke, way, "mm", "fabric"),
+            *(
+                (at_least("buckling of the screws", axis.buckling, BUCKLING, "1", "Euler, one end clamped"),)
+                if axis.screw is not None
+                else ()
+            ),
             at_least("torque of the servo over what is asked", bears, 1.0, "1", "motor table, margin 1.25"),
         )
     wanted, given = design.force * params.warps, linkage.force if linkage else 0.0
