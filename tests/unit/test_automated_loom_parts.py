@@ -23,7 +23,7 @@ from ilmek.machines.automated_loom.frame import (
 )
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.prices import PRICES, read_prices
-from ilmek.machines.automated_loom.time import estimated_time, estimated_time_at, time_shares
+from ilmek.machines.automated_loom.time import estimated_time, estimated_times_at, time_shares
 
 LOOM = design(AutomatedLoomParams())
 LISTED = parts_of_loom(LOOM)
@@ -153,9 +153,9 @@ def test_a_frame_that_no_section_makes_is_told():
 
 def test_time_at_the_own_pitch_is_the_time_and_half_the_pitch_is_four_times_the_knots():
     own = estimated_time(LOOM)
-    assert estimated_time_at(LOOM, LOOM.params.pitch, LOOM.heads) == pytest.approx(own)
+    assert estimated_times_at(LOOM, LOOM.params.pitch, [LOOM.heads])[0] == pytest.approx(own)
     wefts = LOOM.rows * LOOM.times.weft
-    half = estimated_time_at(LOOM, LOOM.params.pitch / 2, LOOM.heads)
+    half = estimated_times_at(LOOM, LOOM.params.pitch / 2, [LOOM.heads])[0]
     assert half == pytest.approx(4 * (own - wefts) + 2 * wefts)  # four times the knots, twice the rows
 
 

@@ -57,6 +57,7 @@ class LoomDesign:
     row_timing, row_cyclogram           of the wefts and beats of a row, one turn of the shedding cams
     beat_up         one of `beaters` like crank-rockers on one crank shaft, which drive one comb across all warps
     tube            outer diameter and wall of the warp cylinder [m]
+    times           what the acts of weaving take, as the programme counts them
     """
 
     params: AutomatedLoomParams
@@ -71,6 +72,7 @@ class LoomDesign:
     tube: tuple[float, float]
     row_timing: RowTiming
     row_cyclogram: Cyclogram
+    times: Times
 
     @property
     def warps(self) -> int:
@@ -97,17 +99,12 @@ class LoomDesign:
         """The cyclograms of a knot and of a row."""
         return knot_cyclogram(self.weaver, self.times.knot), self.row_cyclogram
 
-    @property
-    def times(self) -> Times:
-        """What the acts of weaving take [s], as the programme counts them.
-
-        A step to the next knot that is longer than the heads leave for it lengthens the knot.
-        """
-        return times_at(self.weaver, self.knot_pitch, self.row_cyclogram.period)
-
 
 def times_at(head: weaver.Weaver, knot_pitch: float, weft: float) -> Times:
-    """What the acts of weaving take [s] with a head at a pitch of the knots [m], and wefts and beats of a row [s]."""
+    """What the acts of weaving take [s] with a head at a pitch of the knots [m], and wefts and beats of a row [s].
+
+    A step to the next knot that is longer than the head leaves for it lengthens the knot.
+    """
     moved = replace(head.params, knot_pitch=knot_pitch)
     late = max(0.0, weaver.step_time(moved) - head.carriage_window)
     travel = weaver.travel_time(moved, head.carriage_window)
@@ -133,7 +130,8 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
         cams = shedding.design(replace(cams.params, speed=turn / period))
     tube, cylinder = _cylinder(params, 2 * columns, 1 / quality.along, take_up_time(timing, period))
     row = cyclogram(timing, period)
-    return LoomDesign(params, rows, columns, heads, most, head, cams, beating, cylinder, tube, timing, row)
+    times = times_at(head, 2 * params.pitch, row.period)
+    return LoomDesign(params, rows, columns, heads, most, head, cams, beating, cylinder, tube, timing, row, times)
 
 
 def frame_width(params: AutomatedLoomParams) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 from ilmek.carpet.quality import FINEST
 from ilmek.loom.sharing import halves, heads_that_fit, share
 from ilmek.machines.automated_loom.design import LoomDesign, frame_width
-from ilmek.machines.automated_loom.time import estimated_time, estimated_time_at
+from ilmek.machines.automated_loom.time import estimated_time, estimated_times_at
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.timing.figures import draw
 from ilmek.units import format_quantity
@@ -94,10 +94,10 @@ def time_against_pitch(loom: LoomDesign) -> Plot:
         if max(0.5 / pitch, params.quality.along / factor) > FINEST:
             continue
         columns = round(params.width / (2 * pitch))
-        heads = np.arange(1, heads_that_fit(columns, 2 * pitch, params.head_width) + 1)
-        total = np.array([estimated_time_at(loom, pitch, int(number)) for number in heads])
+        heads = range(1, heads_that_fit(columns, 2 * pitch, params.head_width) + 1)
+        total = estimated_times_at(loom, pitch, heads)
         label = f"{format_quantity(pitch, 'mm', 3)}: {format_quantity(0.5 / pitch, '1/dm', 3)}"
-        series.append(Series(label, heads.astype(float), total, dashed=factor != 1.0))
+        series.append(Series(label, np.array(heads, dtype=float), total, dashed=factor != 1.0))
     note = "warp pitch and knots across; rows by the same measure; head, wefts and beats as of this loom"
     axes = Axis("heads"), Axis("time", "h")
     return Plot("weaving-time-pitch", "Weaving time, heads and pitch", *axes, tuple(series), note=note)

@@ -6,9 +6,12 @@ n knots of the widest part in each half of a row, c colour changes a knot. Waiti
 the estimate; a programme has it.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ilmek.arrays import Indices
+import numpy as np
+
+from ilmek.arrays import FloatArray, Indices
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
@@ -87,8 +90,8 @@ def estimated_time(loom: LoomDesign, heads: int | None = None) -> float:
     return least_time(loom.rows, loom.columns, heads or loom.heads, _with_changes(loom, loom.times))
 
 
-def estimated_time_at(loom: LoomDesign, pitch: float, heads: int) -> float:
-    """Weaving time [s] of the same carpet on warps of another pitch [m], rows closer by the same measure.
+def estimated_times_at(loom: LoomDesign, pitch: float, heads: Sequence[int]) -> FloatArray:
+    """Weaving times [s] of the same carpet on warps of another pitch [m], rows closer by the same measure, by heads.
 
     Wefts, beats and the knot itself take what they take on this loom; steps of the carriage are of the other pitch.
     """
@@ -96,7 +99,8 @@ def estimated_time_at(loom: LoomDesign, pitch: float, heads: int) -> float:
     quality = loom.params.quality
     size = Size(loom.params.width, loom.params.length)
     rows, columns = knot_grid(size, Quality(quality.across * finer, quality.along * finer))
-    return least_time(rows, columns, heads, _with_changes(loom, times_at(loom.weaver, 2 * pitch, loom.times.weft)))
+    times = _with_changes(loom, times_at(loom.weaver, 2 * pitch, loom.times.weft))
+    return np.array([least_time(rows, columns, number, times) for number in heads])
 
 
 @dataclass(frozen=True, slots=True)
