@@ -23,7 +23,7 @@ Examples:
   ilmek design beat-up
   ilmek design beat-up --set swing=30deg --set crank_rotation=180deg --json -
   ilmek design shedding --set lift=60mm --set pressure_angle_limit=30deg --report shedding.html
-  ilmek design beat-up --workshop parts --force
+  ilmek design weaver --workshop parts --tolerance 2um
 
 The parameters of a machine: ilmek machines MACHINE
 """
