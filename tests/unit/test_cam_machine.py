@@ -304,6 +304,13 @@ def test_undercut_is_said_with_the_size_that_mends_it() -> None:
     assert not made(**{**asked, "prime_radius": mended}).undercut
 
 
+def test_corner_of_the_uniform_law_is_no_way_for_a_roller() -> None:
+    assert made(law="uniform", prime_radius="60mm").undercut
+    assert made(law="uniform", prime_radius="60mm", follower="flat").undercut
+    assert not made(law="uniform", prime_radius="60mm", follower="knife").undercut
+    assert not made(law="modified-uniform", prime_radius="60mm").undercut
+
+
 @pytest.mark.parametrize(
     ("settings", "said"),
     [

@@ -10,7 +10,7 @@ from ilmek.arrays import FloatArray
 from ilmek.cams import limits
 from ilmek.cams.barrel import Barrel, undercut_in_space
 from ilmek.cams.contact import Held
-from ilmek.cams.programme import Programme
+from ilmek.cams.programme import Programme, jumps
 from ilmek.cams.return_spring import LiftOff, lift_off
 from ilmek.cams.trace import Cam
 from ilmek.machines.cam.forces import (
@@ -66,8 +66,17 @@ class CamDesign:
         return part_knots(self.programme, "fall")
 
     @property
+    def cornered(self) -> bool:
+        """Whether a jump of the velocity makes a corner that no roller or face can follow; a knife's edge can."""
+        sides = [jump.after - jump.before for jump in jumps(self.programme, 1)]
+        wrong = any(step < 0 or self.params.led for step in sides)
+        return wrong and (self.cam.flat or self.cam.roller_radius > 0)
+
+    @property
     def undercut(self) -> bool:
         """Whether no surface can guide the follower."""
+        if self.cornered:
+            return True
         cam, pair = self.cams
         other = pair is not None and limits.undercut(pair.second)
         both = self.params.kind in ("grooved", "barrel")

@@ -121,6 +121,8 @@ def _warnings(design: CamDesign) -> tuple[str, ...]:
 
 def _undercut_said(design: CamDesign) -> str:
     cam, params = design.cam, design.params
+    if design.cornered:
+        return f"undercut: where the velocity jumps the cam has a corner, which a {params.follower} cannot follow"
     convex = format_quantity(limits.convex_radius_min(cam).value, "mm")
     if params.follower == "flat":
         least = format_quantity(design.size.smallest.value, "mm")
