@@ -5,10 +5,12 @@ from dataclasses import dataclass, replace
 
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.sizes import Size
+from ilmek.elements.tubes import find_tube
 from ilmek.errors import LoomError
 from ilmek.loom.programme import Times
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
-from ilmek.machines import beat_up, shedding, warp_tension, weaver
+from ilmek.machines import beat_up, hammer, shedding, warp_tension, weaver
+from ilmek.machines.automated_loom.beating import Beat, Left, beat_of_comb, beat_of_linkage, hammer_for, left_by
 from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, knot_cyclogram, shortest_row, take_up_time
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.shedding.report import prime_radius_for_bore
@@ -23,29 +25,16 @@ it bears: the tension per width stays the same."""
 HEADS = 4
 """Heads of a loom for which no number is said, where so many fit."""
 
-STOCK_TUBES = tuple(
-    (diameter * mm, wall * mm)
-    for diameter, wall in (
-        (140, 5),
-        (139.7, 10),
-        (168.3, 6.3),
-        (168.3, 10),
-        (193.7, 8),
-        (219.1, 8),
-        (219.1, 12.5),
-        (244.5, 10),
-        (273, 10),
-        (273, 16),
-        (323.9, 12.5),
-        (355.6, 16),
-        (406.4, 16),
-        (457, 20),
-        (508, 25),
-        (610, 30),
-        (711, 40),
-    )
+STOCK_TUBES = (
+    *((tube.outer, tube.wall) for tube in map(find_tube, ("140x5", "139.7x10", "168.3x6.3", "168.3x10", "193.7x8"))),
+    *((tube.outer, tube.wall) for tube in map(find_tube, ("219.1x8", "219.1x12.5", "244.5x10", "273x10", "273x16"))),
+    *((tube.outer, tube.wall) for tube in map(find_tube, ("323.9x12.5", "355.6x16", "406.4x16", "457x20"))),
+    (508 * mm, 25 * mm),
+    (610 * mm, 30 * mm),
+    (711 * mm, 40 * mm),
 )
-"""Outer diameter and wall of tubes to choose from [m]: the thesis' 140 x 5, and sizes of EN 10210-2."""
+"""Outer diameter and wall of tubes to choose from [m]: the thesis' 140 x 5 and others of `elements.tubes`, and three
+large ones of EN 10210-2 for the widest looms."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +45,7 @@ class LoomDesign:
     heads           that share a row          heads_max  the most that can share a row without meeting
     row_timing, row_cyclogram           of the wefts and beats of a row, one turn of the shedding cams
     beat_up         one of `beaters` like crank-rockers on one crank shaft, which drive one comb across all warps
+    hammer          the comb on the guide cams; the loom has the one or the other, None is what it does not have
     tube            outer diameter and wall of the warp cylinder [m]
     times           what the acts of weaving take, as the programme counts them
     """
@@ -67,7 +57,8 @@ class LoomDesign:
     heads_max: int
     weaver: weaver.Weaver
     shedding: shedding.SheddingDesign
-    beat_up: beat_up.BeatUp
+    beat_up: beat_up.BeatUp | None
+    hammer: hammer.Hammer | None
     warp_tension: WarpTensionDesign
     tube: tuple[float, float]
     row_timing: RowTiming
@@ -86,8 +77,20 @@ class LoomDesign:
 
     @property
     def beaters(self) -> int:
-        """Crank-rockers that drive the beater."""
-        return beaters(self.params)
+        """Crank-rockers that drive the beater; 0 where the comb on the guide cams beats."""
+        return beaters(self.params) if self.beat_up is not None else 0
+
+    @property
+    def beat_force(self) -> float:
+        """Greatest force of the beat on the whole width [N]."""
+        if self.beat_up is not None:
+            return self.beaters * self.beat_up.peaks["beater_force"].value
+        return self.warps * self.hammer.force if self.hammer is not None else 0.0
+
+    @property
+    def left(self) -> Left:
+        """Where the beat leaves the rows."""
+        return left_by(self.params, self.warps, warp_tension_of(self.params), self.beat_force / self.warps)
 
     @property
     def head_distance(self) -> float:
@@ -122,16 +125,20 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     most = heads_that_fit(columns, 2 * params.pitch, params.head_width)
     heads = _heads(params, most)
     head = weaver.design(_weaver_params(params))
-    beating = beat_up.design(_beat_up_params(params))
+    linkage = beat_up.design(_beat_up_params(params)) if params.hammer == "linkage" else None
+    beat = beat_of_comb(params) if linkage is None else beat_of_linkage(params, linkage)
     cams = _shedding(params, 2 * columns)
-    timing = _row_timing(params, cams, beating, 1 / quality.along)
+    timing = _row_timing(params, cams, beat, 1 / quality.along)
     period = _row_period(params, timing)
     if period > turn / params.shed_speed:
         cams = shedding.design(replace(cams.params, speed=turn / period))
     tube, cylinder = _cylinder(params, 2 * columns, 1 / quality.along, take_up_time(timing, period))
     row = cyclogram(timing, period)
     times = times_at(head, 2 * params.pitch, row.period)
-    return LoomDesign(params, rows, columns, heads, most, head, cams, beating, cylinder, tube, timing, row, times)
+    warps, stack = 2 * columns, cams.stack.mass
+    tension = warp_tension_of(params)
+    comb = None if linkage else hammer_for(params, warps, tension, stack=stack, period=row.period, beat=beat)
+    return LoomDesign(params, rows, columns, heads, most, head, cams, linkage, comb, cylinder, tube, timing, row, times)
 
 
 def frame_width(params: AutomatedLoomParams) -> float:
@@ -212,18 +219,13 @@ _TURNS = 20
 _LARGEST_PRIME = 1.0
 
 
-def _row_timing(
-    params: AutomatedLoomParams, cams: shedding.SheddingDesign, beating: beat_up.BeatUp, row_pitch: float
-) -> RowTiming:
-    swing, dead = float(beating.dead_centres.swing), beating.dead_centres
+def _row_timing(params: AutomatedLoomParams, cams: shedding.SheddingDesign, beat: Beat, row_pitch: float) -> RowTiming:
     return RowTiming(
         lift=params.lift,
         law=cams.params.law,
         window=cams.shuttle_window,
         shuttle_stroke=params.width + 2 * params.shuttle_run,
-        beat_stroke=2 * beating.lengths["beater"] * math.sin(swing / 2),
-        beat_time=turn / params.beat_speed,
-        beat_share=1 - float(dead.rotation) / turn,
+        beat=beat,
         beat_end=params.beat_end,
         row_pitch=row_pitch,
         take_up_end=params.take_up_end,

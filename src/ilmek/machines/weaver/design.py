@@ -109,7 +109,7 @@ class Weaver:
 def design(params: WeaverParams) -> Weaver:
     """The head that ties a knot in the time asked for, or in the shortest that speeds and accelerations allow."""
     steps = Steps(params.prepare_end, params.open_end, params.knot_end, params.press_end)
-    drawn = params.knot_yarn or max(params.billed, yarn_needed(params))
+    drawn = max(params.billed, yarn_needed(params))
     radius, grippers = drawn / DRAW_TURN, grippers_for(params, drawn)
     strokes = Strokes(
         params.jaw,

@@ -59,8 +59,8 @@ def knot_warnings(weaver: Weaver) -> tuple[str, ...]:
     if more > SAME:
         shown = [format_quantity(size, "mm", 3) for size in (more, weaver.drawn, params.billed)]
         said.append(
-            f"{shown[0]} more yarn than the bill's is drawn for every knot, {shown[1]} for {shown[2]}: "
-            + ("it is asked for" if params.knot_yarn else "the grippers reach round the pair with no less")
+            f"{shown[0]} more yarn than the bill's is drawn for every knot, {shown[1]} for {shown[2]}: the grippers "
+            "reach round the pair with no less"
         )
     return tuple(said)
 

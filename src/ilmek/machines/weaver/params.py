@@ -56,7 +56,11 @@ class WeaverParams(Params):
     centre_stroke: float = param(0.025, unit="mm", above=0.0, at_most=0.3, doc="centre gripper forward")
     sley_stroke: float = param(0.025, unit="mm", above=0.0, at_most=0.3, doc="sley down")
     knot_yarn: float | None = param(
-        None, unit="mm", above=0.0, at_most=0.3, doc="pile yarn drawn for a knot, waste included; none: the yarn bill's"
+        None,
+        unit="mm",
+        above=0.0,
+        at_most=0.3,
+        doc="pile yarn of a knot by its bill, waste included; none: as below",
     )
     pile_height: float = param(8 * mm, unit="mm", at_least=0.0, at_most=100 * mm, doc="pile above the knots, shorn")
     cut_waste: float = param(1 * mm, unit="mm", at_least=0.0, at_most=100 * mm, doc="shorn off each end of a knot")
@@ -148,7 +152,9 @@ class WeaverParams(Params):
 
     @property
     def billed(self) -> float:
-        """Pile yarn of a knot by the yarn bill [m], what is shorn off included."""
+        """Pile yarn of a knot by the yarn bill [m], what is shorn off included: as given, or by `carpet.knots`."""
+        if self.knot_yarn is not None:
+            return self.knot_yarn
         pile = PileParams(pile_height=self.pile_height, cut_waste=self.cut_waste, warp_diameter=self.warp_diameter)
         return knot_length(self.knot, self.quality, self.yarn_density, pile)
 
