@@ -6,6 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from benchmarks.bench_cyclogram import chain as chained
+from benchmarks.bench_cyclogram import plain
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -218,9 +220,14 @@ def test_a_relation_loop_is_named() -> None:
     [
         ({"held": True}, "nothing may move"),
         ({}, "no limit of axis is known"),
-        ({"law": LAWS["uniform"], "limits": Limits(acceleration=1.0)}, "and the law uniform none"),
+        ({"law": LAWS["uniform"], "limits": Limits(acceleration=1.0)}, "never keeps its limit of acceleration"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_solved_is_said(more, said) -> None:
     with pytest.raises(ParameterError, match=said):
         least_period(Cyclogram("one", 1.0, (moved("axis", [1.0, 2.0, 3.0, 4.0], 0.1, **more),)))
+
+
+@pytest.mark.parametrize("cyclogram", [one_after_the_other(), chained(3, 1), chained(4, 2)], ids=["press", "3", "4"])
+def test_a_general_optimiser_finds_the_same(cyclogram: Cyclogram) -> None:
+    assert plain(cyclogram) == pytest.approx(least_acceleration(cyclogram).after, rel=1e-6)

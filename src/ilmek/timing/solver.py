@@ -176,8 +176,8 @@ def _limited(track: Track, part: Segment) -> Iterator[tuple[str, float]]:
     for what, time in times.items():
         if not math.isfinite(time):
             raise ParameterError(
-                f"{track.name}: {part.name} has a limit of {what}, and the law {part.law.name} none",
-                do="take another law, or leave the limit out",
+                f"{track.name}: {part.name} never keeps its limit of {what} by the law {part.law.name}",
+                do="take another law, raise the limit, or leave it out",
             )
         if time > 0:
             yield what, time

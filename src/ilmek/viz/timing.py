@@ -49,7 +49,7 @@ def draw_timing(timing: Timing) -> tuple[Sheet, str]:
         floor = complex(left, ceiling + _GAP / 2 + (_LAW if lane.moves else 0.0))
         floors.append(floor)
         for shade in lane.shades:
-            _shade(sheet, shade, floor, box.width)
+            _shade(sheet, lane, shade, floor, box.width)
         over.append(_motion(sheet, lane, floor, box.width, colour(number)))
         _events(sheet, lane, lane_flags, floor)
         _name(sheet, lane, floor + 1j * _STROKE / 2)
@@ -118,7 +118,7 @@ def _hover(sheet: Sheet, lane: Lane, move: Move, floor: complex, width: float) -
     return f'<rect {place} fill="transparent"><title>{said}</title></rect>'
 
 
-def _shade(sheet: Sheet, shade: Shade, floor: complex, width: float) -> None:
+def _shade(sheet: Sheet, lane: Lane, shade: Shade, floor: complex, width: float) -> None:
     """A window behind the curve, in two where it runs through the end of the turn; its name at its foot."""
     ends = np.array([shade.start, shade.end]) / deg
     spans = [(ends[0], min(ends[1], _TURN))] + ([(0.0, ends[1] - _TURN)] if ends[1] > _TURN else [])
@@ -126,13 +126,15 @@ def _shade(sheet: Sheet, shade: Shade, floor: complex, width: float) -> None:
     for start, end in spans:
         corners = np.array([start, end, end, start]) / _TURN * width + 1j * _STROKE * np.array([0, 0, 1, 1])
         sheet.area(floor + corners, facecolor=tint(*look), linewidth=0, zorder=0.85 if shade.bad else 0.7)
-    widest = max(end - start for start, end in spans) / _TURN * width
-    if shade.label and not shade.bad and text_width(shade.label, _FINE) <= widest + 4.0:
-        start, end = max(spans, key=lambda span: span[1] - span[0])
-        middle = (start + end) / 2 / _TURN * width
-        sheet.text(
-            floor + middle + 2.5j, shade.label, fontsize=_FINE, color=INK, ha="center", va="baseline", zorder=1.4
-        )
+    if shade.label and not shade.bad:
+        start, end = (at / _TURN * width for at in max(spans, key=lambda span: span[1] - span[0]))
+        half = text_width(shade.label, _FINE) / 2 + 1.0
+        ticks = [event.x / deg / _TURN * width for event in lane.events]
+        middles = [start + share * (end - start) for share in (0.5, 0.35, 0.65, 0.25, 0.75)]
+        clear = [at for at in middles if all(abs(at - tick) > half for tick in ticks)]
+        if 2 * half <= end - start + 6.0:
+            place = floor + (clear or middles)[0] + 2.5j
+            sheet.text(place, shade.label, fontsize=_FINE, color=INK, ha="center", va="baseline", zorder=1.4)
 
 
 def _links(sheet: Sheet, timing: Timing, floors: list[complex], width: float) -> None:

@@ -7,11 +7,11 @@ for (const figure of document.querySelectorAll("figure.timed")) {
   const cursor = svg.querySelector("[data-cursor]"), orders = [...controls.querySelectorAll("[data-order]")];
   const moving = run.lanes.filter((lane) => lane.moves.length), curves = [...svg.querySelectorAll("[data-lane]")];
   const speed = 360 / run.period, last = run.laws.length ? run.laws[0][0].length - 1 : 0;
-  // A law between two places of its table: cubic where the next derivative is known too.
+  // A law between two places of its table: the cubic through both with their slopes; acceleration is that of v's cubic.
   function lawAt(law, order, u) {
-    const x = u * last, k = Math.min(Math.floor(x), last - 1), t = x - k, y = law[order];
-    if (order === 2) return y[k] + t * (y[k + 1] - y[k]);
-    const d = law[order + 1], h = 1 / last, r = 1 - t;
+    const x = u * last, k = Math.min(Math.floor(x), last - 1), t = x - k, h = 1 / last, r = 1 - t;
+    const y = law[Math.min(order, 1)], d = law[Math.min(order, 1) + 1];
+    if (order === 2) return (6 * t * r * (y[k + 1] - y[k])) / h + d[k] * r * (1 - 3 * t) + d[k + 1] * t * (3 * t - 2);
     return y[k] * (1 + 2 * t) * r * r + y[k + 1] * t * t * (3 - 2 * t) + h * (d[k] * t * r * r - d[k + 1] * t * t * r);
   }
   // Position, velocity or acceleration of a lane at a master angle, by degrees; and the motion it is in.
