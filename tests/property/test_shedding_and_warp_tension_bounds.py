@@ -28,7 +28,7 @@ def values(parameter):
 
 
 @pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.name)
-@settings(max_examples=12)
+@settings(max_examples=8)
 @given(data=st.data())
 def test_any_parameters_give_a_report_or_one_line(machine, data) -> None:
     parameters = declared(machine.params)

@@ -102,7 +102,7 @@ class WarpParams(Params):
         20 * deg, unit="deg", at_least=0.0, at_most=TURN / 2, doc="angle over which staggered cams are spread"
     )
     stagger_groups: int = param(
-        2, at_least=1, at_most=24, doc="groups of a parity's cams, evenly spread; flattest: at most so many"
+        2, at_least=1, at_most=12, doc="groups of a parity's cams, evenly spread; flattest: at most so many"
     )
     speed: float = param(5 * rpm, unit="rpm", at_least=1e-6 * rpm, at_most=600 * rpm, doc="speed of the cam shaft")
 

@@ -204,4 +204,4 @@ def _flattest_spread(params: SheddingParams, even: Programme, groups: int, wides
 
 
 _SPARE, _HALVINGS = 1e-9, 20
-_TABLE, _SPREADS, _ZOOMS = 720, 17, 4
+_TABLE, _SPREADS, _ZOOMS = 360, 17, 4
