@@ -1,0 +1,31 @@
+"""Draws weaver-plan.svg, weaver-cams.svg and warp-tension-side.svg of docs/_static: head and cylinders by default.
+
+Run it as `python examples/draw_weaver.py`; it ends with the pile yarn drawn for a knot in mm.
+"""
+
+from pathlib import Path
+
+from ilmek.machines import warp_tension, weaver
+from ilmek.machines.warp_tension.cylinder_report import side_view
+from ilmek.machines.weaver.cam_report import cams_drawing
+from ilmek.machines.weaver.plan_view import plan_view
+from ilmek.report import Drawing
+from ilmek.units import mm
+from ilmek.viz.svg import svg
+
+STATIC = Path(__file__).parents[1] / "docs" / "_static"
+
+
+HEAD = weaver.design(weaver.WeaverParams())
+
+
+def drawings() -> tuple[Drawing, ...]:
+    """The grippers in plan view, the cams, the three cylinders."""
+    cylinders = warp_tension.design(warp_tension.WarpTensionParams())
+    return plan_view(HEAD), cams_drawing(HEAD), side_view(cylinders)
+
+
+if __name__ == "__main__":
+    for drawing in drawings():
+        (STATIC / f"{drawing.name}.svg").write_text(svg(drawing), encoding="utf-8")
+    print(f"{HEAD.drawn / mm:.3f}")
