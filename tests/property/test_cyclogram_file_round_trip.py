@@ -1,6 +1,7 @@
 """A cyclogram written is read again to the last bit, as TOML and as JSON; a mistake is named by its line."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -121,3 +122,12 @@ def test_a_mistake_is_named(old: str, new: str, said: str) -> None:
     assert old in text
     with pytest.raises(ParameterError, match=said):
         parse_cyclogram(text.replace(old, new, 1), name="press.toml")
+
+
+def test_events_of_one_name_are_numbered() -> None:
+    press = read_cyclogram(EXAMPLE)
+    (feeder,) = (one for one in press.tracks if one.name == "feeder")
+    beats = replace(press, tracks=(replace(feeder, events=(Event("beat", 1.0), Event("beat", 2.0))),), relations=(),
+                    exclusions=())  # fmt: skip
+    (again,) = parse_cyclogram(cyclogram_toml(beats)).tracks
+    assert again.events == (Event("beat", 1.0), Event("beat 2", 2.0))

@@ -27,6 +27,7 @@ Numbers are SI and radians; text takes its unit. What is written is read again w
 bit: an angle or a position is written in its unit where that gives the same number again, else as it is.
 """
 
+import itertools
 import json
 import math
 import tomllib
@@ -247,11 +248,6 @@ def cyclogram_data(cyclogram: Cyclogram) -> dict[str, Any]:
 
 
 def _track_data(track: Track) -> dict[str, Any]:
-    for kind, names in (("motions", track.segments), ("events", track.events)):
-        said = [one.name for one in names]
-        twice = next((name for name in said if said.count(name) > 1), None)
-        if twice is not None:
-            raise ParameterError(f"{track.name} has two {kind} named {twice!r}", allowed="each its own name in a file")
     limits = {
         key: _written(getattr(track.limits, key), track.unit + per)
         for key, per in _LIMITS.items()
@@ -266,7 +262,7 @@ def _track_data(track: Track) -> dict[str, Any]:
         "held": track.held,
         "limits": limits,
         "motions": {part.name: _motion_data(part, track.unit) for part in track.segments},
-        "events": {event.name: _event_data(event) for event in track.events},
+        "events": _events_data(track.events),
     }
     return {key: value for key, value in data.items() if value or key in ("actuator", "unit")}
 
@@ -282,6 +278,16 @@ def _law_data(law: MotionLaw) -> str | dict[str, Any]:
         return law.name
     found = {key: list(value) if isinstance(value, tuple) else value for key, value in law.parameters.items()}
     return {"name": law.name, **found} if found else law.name
+
+
+def _events_data(events: Sequence[Event]) -> dict[str, Any]:
+    """Events by name; another one of a name gets a number behind it."""
+    found: dict[str, Any] = {}
+    for event in events:
+        numbered = (f"{event.name} {number}" for number in itertools.count(2))
+        name = event.name if event.name not in found else next(name for name in numbered if name not in found)
+        found[name] = _event_data(event)
+    return found
 
 
 def _event_data(event: Event) -> dict[str, Any]:
