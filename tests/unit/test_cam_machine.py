@@ -17,6 +17,7 @@ from ilmek.machines.cam.hub import Hub, bore_for, hub_for
 from ilmek.machines.cam.parts import cam_table, plates
 from ilmek.machines.cam.results import results as numbers
 from ilmek.machines.cam.rollers import ROLLERS, Duty
+from ilmek.machines.cam.springy import springy
 from ilmek.plane import contours
 from ilmek.units import deg, mm, rpm
 
@@ -338,6 +339,7 @@ def test_corner_of_the_uniform_law_is_no_way_for_a_roller() -> None:
         (dict(kind="barrel", follower="flat"), "kind=barrel with follower=flat; roller"),
         (dict(kind="wedge", motion="oscillating"), "a slide in line with the cam"),
         (dict(kind="face", offset="3mm"), "an offset with kind=face"),
+        (dict(linkage_stiffness="1e9N/mm"), "leave linkage_stiffness out: take it as rigid"),
         (dict(law_parameters="b"), "NAME=NUMBER"),
         (dict(law_parameters="b=x"), "is not a number"),
         (dict(law="scca", law_parameters="bb=0.2"), "law scca has no 'bb'"),
@@ -346,7 +348,7 @@ def test_corner_of_the_uniform_law_is_no_way_for_a_roller() -> None:
 )
 def test_bad_input_says_what_to_do(settings, said) -> None:
     with pytest.raises(ParameterError, match=said):
-        made(**settings)
+        springy(made(**settings))
 
 
 def test_command_ends_with_2_and_no_traceback() -> None:

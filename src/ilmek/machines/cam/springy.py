@@ -15,9 +15,13 @@ from ilmek.errors import ParameterError
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.params import CamParams
 from ilmek.report import Axis, Check, Column, Figure, Mark, Plot, Result, Series, Table, at_least
+from ilmek.units import format_quantity
 
 SHARE = 0.01
 """Residual vibration that the table of laws asks for, of the lift."""
+
+MOST_SWINGS = 2000
+"""Natural swings in a turn of the cam up to which a follower's own motion is reckoned."""
 
 BESIDE = ("harmonic", "modified-sine", "cycloidal", "4-5-6-7")
 """Laws drawn beside the cam's own."""
@@ -67,6 +71,13 @@ def springy(design: CamDesign) -> Springy | None:
         raise ParameterError(f"linkage_stiffness with {wrong}=0", allowed=f"{wrong} above 0", do="or leave it out")
     preload = held.preload + held.load
     stiffness = params.linkage_stiffness * arc**2
+    swings = math.sqrt(stiffness / held.mass) / params.speed
+    if swings > MOST_SWINGS:
+        raise ParameterError(
+            f"linkage_stiffness={format_quantity(params.linkage_stiffness, 'N/mm')} swings {swings:.0f} times a turn",
+            allowed=f"at most {MOST_SWINGS} times: beyond it follows the cam",
+            do="leave linkage_stiffness out: take it as rigid",
+        )
     follower = one_mass(held.mass, stiffness, params.linkage_damping, held.rate, preload)
     return Springy(params, follower, steady_response(follower, design.programme, params.speed), arc)
 
