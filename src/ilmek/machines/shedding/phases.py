@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.pieces import Extremum, crossing, infimum, integral, supremum
+from ilmek.cams.pieces import Extremum, Function, infimum, integral, supremum
 from ilmek.cams.programme import TURN, Course, Programme
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.warp import LIFTED, warp_force
@@ -105,8 +105,8 @@ class Shed:
         longest = int(np.argmax(angle[ends] - angle[begins]))
         first, last = int(begins[longest]), int(ends[longest])
         return (
-            crossing(self.room, float(angle[max(first - 1, 0)]), float(angle[first])),
-            crossing(self.room, float(angle[min(last + 1, angle.size - 1)]), float(angle[last])),
+            _edge(self.room, float(angle[max(first - 1, 0)]), float(angle[first])),
+            _edge(self.room, float(angle[min(last + 1, angle.size - 1)]), float(angle[last])),
         )
 
     def peaks(self) -> tuple[Extremum, Extremum]:
@@ -116,6 +116,15 @@ class Shed:
     def rms(self) -> float:
         """Root mean square of the torque over the turn [N m]."""
         return float(np.sqrt(integral(lambda angle: self.torque(angle) ** 2, self.knots) / TURN))
+
+
+def _edge(room: Function, outside: float, inside: float) -> float:
+    """Where the room, negative outside, becomes 0 [rad]: five grids, for a room of many cams is dear to ask for."""
+    for _ in range(5):
+        place = np.linspace(outside, inside, 257)
+        first = int(np.argmax(room(place) >= 0))
+        outside, inside = float(place[max(first - 1, 0)]), float(place[first])
+    return inside
 
 
 def offsets(spread: float, groups: int) -> FloatArray:
