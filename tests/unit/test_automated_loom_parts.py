@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines.automated_loom import AutomatedLoomParams, design, report
+from ilmek.machines.automated_loom.cyclogram import BEATER, SHUTTLE
 from ilmek.machines.automated_loom.energy import energy_of, positive_work
 from ilmek.machines.automated_loom.frame import (
     SECTIONS,
@@ -24,6 +25,8 @@ from ilmek.machines.automated_loom.frame import (
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.prices import PRICES, read_prices
 from ilmek.machines.automated_loom.time import estimated_time, estimated_times_at, time_shares
+from ilmek.timing.track import peak_acceleration
+from ilmek.units import turn
 
 LOOM = design(AutomatedLoomParams())
 LISTED = parts_of_loom(LOOM)
@@ -165,3 +168,38 @@ def test_shares_of_the_time_name_the_bottleneck():
         AutomatedLoomParams(width=0.4, length=0.2, knot_cycle=0.3, head_acceleration=1e4, heads=1, shed_speed=0.02)
     )
     assert time_shares(quick).bottleneck == "wefts and beats"
+
+
+COMB = design(AutomatedLoomParams(hammer="comb"))
+
+
+def test_the_comb_presses_the_rows_together_where_the_paper_s_linkage_leaves_them_loose():
+    loose, pressed = LOOM.left, COMB.left
+    assert loose.needed == pressed.needed == pytest.approx(10.0)  # the hammer's fabric: 10 N on 15 N of tension
+    assert pressed.spacing == pytest.approx(4e-3)
+    assert loose.force == pytest.approx(0.1066, abs=1e-4)
+    assert loose.spacing > 5.9e-3
+    said = report(LOOM).warnings[0]
+    assert "5.94 mm apart, not 4 mm; hammer=comb" in said
+    assert not any("apart, not" in warning for warning in report(COMB).warnings)
+
+
+def test_a_loom_beats_with_one_of_them():
+    linkage, comb = (report(loom).as_json()["results"] for loom in (LOOM, COMB))
+    assert "beat_up" in linkage
+    assert "hammer" not in linkage
+    assert "hammer" in comb
+    assert "beat_up" not in comb
+    assert comb["beat_force_warp"] == pytest.approx(comb["hammer"]["force_warp"])
+    assert comb["axes"] == linkage["axes"] - 1 + comb["hammer"]["axes"]
+    assert report(COMB).failed == ()
+
+
+def test_the_comb_beats_within_its_acceleration_and_after_the_shuttle():
+    row = COMB.row_cyclogram
+    assert peak_acceleration(row.track(BEATER), row.period) == pytest.approx(COMB.params.comb_acceleration)
+    assert row.track(BEATER).segment("beat 1").start > row.track(SHUTTLE).segment("pass").end
+    slow = design(AutomatedLoomParams(hammer="comb", comb_acceleration=0.5))
+    assert slow.row_cyclogram.period > row.period  # a longer beat needs a longer turn
+    pressed = row.track(BEATER).segment("back 1").start - row.track(BEATER).segment("beat 1").end
+    assert pressed / COMB.row_timing.beat.time * row.period / turn == pytest.approx(0.15)

@@ -18,6 +18,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.laws import LAWS, law_of
+from ilmek.machines.automated_loom.beating import Beat
 from ilmek.machines.warp_tension.design import TAKE_UP_LAW
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.cyclogram import CENTRE_MOTION, SIDE_MOTION, SLEY
@@ -43,17 +44,14 @@ class RowTiming:
 
     lift, law        of the warps [m]                window  shed angles between which the shuttle has room [rad]
     shuttle_stroke   from rest to rest [m]           beat_end, take_up_end  angles of each, and of the second, half
-    beat_stroke      chord of the beater [m]         beat_time  of a turn of its crank [s]    beat_share  of it forward
-    row_pitch        carpet taken up for a row [m]
+    beat             the beater's motion             row_pitch  carpet taken up for a row [m]
     """
 
     lift: float
     law: str
     window: tuple[float, float]
     shuttle_stroke: float
-    beat_stroke: float
-    beat_time: float
-    beat_share: float
+    beat: Beat
     beat_end: float
     row_pitch: float
     take_up_end: float
@@ -112,7 +110,7 @@ def shortest_row(timing: RowTiming, speed_limit: float, acceleration_limit: floa
     room = timing.beat_end - timing.window[1] - GAP
     if room <= 0:
         return math.inf
-    return max(shortest_period(_shuttle(timing), speed_limit, acceleration_limit), timing.beat_time * turn / room)
+    return max(shortest_period(_shuttle(timing), speed_limit, acceleration_limit), timing.beat.time * turn / room)
 
 
 def cyclogram(timing: RowTiming, period: float) -> Cyclogram:
@@ -175,18 +173,18 @@ def _shuttle(timing: RowTiming) -> Track:
 
 
 def _beater(timing: RowTiming, period: float) -> Track:
-    """A turn of the crank for each beat, drawn harmonic; the true motion is the crank-rocker's."""
-    law, spent = _law("harmonic"), turn * timing.beat_time / period
+    """Two beats, each forward, pressed where it is, and back."""
+    beat, spent = timing.beat, turn * timing.beat.time / period
     parts: list[Segment] = []
     for number, end in ((1, timing.beat_end), (2, _HALF + timing.beat_end)):
         start = end - spent
-        middle = start + timing.beat_share * spent
+        middle = start + beat.forward * spent
         parts += [
-            Segment(f"beat {number}", start, middle, 0.0, timing.beat_stroke, law),
-            Segment(f"back {number}", middle, end, timing.beat_stroke, 0.0, law),
+            Segment(f"beat {number}", start, middle, 0.0, beat.stroke, _law(beat.law)),
+            Segment(f"back {number}", middle + beat.pressed * spent, end, beat.stroke, 0.0, _law(beat.law)),
         ]
-    events = (riding("first beat", parts[0]), riding("second beat", parts[2]))
-    return Track(BEATER, "beat-up crank", tuple(parts), events)
+    events = (Event("beat", parts[0].end), Event("beat", parts[2].end))
+    return Track(BEATER, "vertical axes" if beat.pressed else "beat-up crank", tuple(parts), events)
 
 
 def _take_up(timing: RowTiming) -> Track:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.elements.materials import GRAVITY
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.time import estimated_time
 from ilmek.machines.weaver.cyclogram import HANDLER
@@ -68,8 +69,9 @@ def energy_of(loom: LoomDesign) -> Energy:
 
 
 def axes(loom: LoomDesign) -> int:
-    """Driven axes: cam shaft, colours and carriage of each head; shedding, shuttle, beat-up, three cylinders."""
-    return 3 * loom.heads + 6
+    """Driven axes: cam shaft, colours and carriage of each head; shedding, shuttle, three cylinders; what beats."""
+    beating = 1 if loom.hammer is None else loom.hammer.params.shared
+    return 3 * loom.heads + 5 + beating
 
 
 def knot_work(loom: LoomDesign) -> float:
@@ -105,7 +107,13 @@ def shuttle_work(loom: LoomDesign) -> float:
 
 
 def beat_work(loom: LoomDesign) -> float:
-    """Work of all crank-rockers for a beat [J]: a turn of the crank, from rest at the speed of the beat and back."""
+    """Work for a beat [J]: of all crank-rockers over a turn; or of the comb on its rows, and to lift all that moves."""
+    if loom.hammer is not None:
+        comb = loom.hammer.params
+        lifted = (1 - comb.counterbalance) * loom.hammer.mass * GRAVITY * comb.stroke
+        return loom.warps * loom.hammer.energy + lifted
+    if loom.beat_up is None:
+        return 0.0
     state = loom.beat_up.state
     step = turn / (state.angle.size - 1)
     return loom.beaters * float(np.sum(np.maximum(state.torque[:-1], 0.0)) * step)

@@ -71,6 +71,13 @@ class AutomatedLoomParams(Params):
     shuttle_acceleration: float = param(
         20.0, unit="m/s^2", at_least=0.01, at_most=1e5, doc="allowed acceleration of the shuttle"
     )
+    hammer: str = param(
+        "linkage", choices=("linkage", "comb"), doc="crank-rockers beat the rows, or the comb on the guide cams"
+    )
+    comb_stroke: float = param(100 * mm, unit="mm", at_least=1 * mm, at_most=1.0, doc="vertical stroke of the comb")
+    comb_acceleration: float = param(
+        3.0, unit="m/s^2", at_least=1e-3, at_most=1e3, doc="allowed acceleration of the comb, cams and all"
+    )
     beat_speed: float = param(15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the beat-up's crank")
     beater_density: float = param(
         2.5 / 1.2, unit="kg/m", at_least=0.0, at_most=1e3, doc="mass of the beater over the width"

@@ -4,6 +4,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from ilmek.elements.motors import Motor, smallest_motor
 from ilmek.machines.automated_loom.design import LoomDesign, frame_width
 from ilmek.machines.automated_loom.energy import axes
@@ -128,7 +130,30 @@ def _cylinders(loom: LoomDesign) -> tuple[Part, ...]:
 
 
 def _beating(loom: LoomDesign) -> tuple[Part, ...]:
+    return (*_comb(loom), *_crank_rockers(loom))
+
+
+def _comb(loom: LoomDesign) -> tuple[Part, ...]:
+    """The comb on the guide cams and its vertical axes."""
+    if loom.hammer is None or loom.hammer.axis is None:
+        return ()
+    hammer, number = loom.hammer, loom.hammer.params.shared
+    found, load = loom.hammer.axis.drive, loom.hammer.axis.cycle
+    torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
+    motor = found.motor if found else None
+    what = f"bar {format_quantity(hammer.params.depth, 'mm')} high, a leaf between two warps"
+    return (
+        Part("comb of the hammer", 1, what, STEEL, "laser-cut part", hammer.comb.mass),
+        Part("vertical axis", number, hammer.params.axis, "", "linear axis", length=hammer.params.stroke),
+        *_motor("motor of a vertical axis", number, motor, torque, speed),
+        *((_reducer("reducer of a vertical axis", number, found.reducer.ratio, motor),) if found else ()),
+    )
+
+
+def _crank_rockers(loom: LoomDesign) -> tuple[Part, ...]:
     beat, number = loom.beat_up, loom.beaters
+    if beat is None:
+        return ()
     torque = number * beat.peaks["drive_torque"].value
     beater = number * beat.params.beater_mass
     return (

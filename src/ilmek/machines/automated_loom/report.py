@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.machines import beat_up, shedding, warp_tension, weaver
+from ilmek.machines import beat_up, hammer, shedding, warp_tension, weaver
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, SHUTTLE, TAKE_UP, cam_tables, relations
 from ilmek.machines.automated_loom.design import LoomDesign, warp_tension_of
 from ilmek.machines.automated_loom.energy import axes, energy_of
@@ -19,6 +19,9 @@ from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, a
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
+
+ROW_TOLERANCE = 0.02
+"""Share by which rows may be left farther apart than wanted before it is said; a judgement of ours."""
 
 HEAVY = 0.25
 """Weight of a cylinder over the pull of its warps from which it is said; a judgement of ours."""
@@ -53,16 +56,21 @@ def report_with(loom: LoomDesign, parts: tuple[Report, ...]) -> Report:
 
 
 def parts_of(loom: LoomDesign) -> tuple[Report, ...]:
-    """The reports of the machines in the loom: head, its arms where they can tie, beat-up, shedding, warp tension."""
-    arms, beat = arms_of(loom.params).report, beat_up.report(loom.beat_up)
-    own = tuple(figure for figure in beat.figures if not figure.name.startswith("family"))  # not those of its relations
+    """The reports of the machines in the loom: head, its arms where they can tie, what beats, shedding, tension."""
+    arms = arms_of(loom.params).report
     return (
         weaver.report(loom.weaver),
         *(() if arms is None else (arms,)),
-        replace(beat, figures=own),
+        *(() if loom.beat_up is None else (_without_family(beat_up.report(loom.beat_up)),)),
+        *(() if loom.hammer is None else (hammer.report(loom.hammer),)),
         shedding.report(loom.shedding),
         warp_tension.report(loom.warp_tension),
     )
+
+
+def _without_family(beat: Report) -> Report:
+    """The beat-up's report without the figures of its relations."""
+    return replace(beat, figures=tuple(figure for figure in beat.figures if not figure.name.startswith("family")))
 
 
 def _results(loom: LoomDesign, listed: PartsList) -> tuple[Result, ...]:
@@ -135,21 +143,22 @@ def _arms_in_time(loom: LoomDesign) -> tuple[Check, ...]:
 
 
 def _beat_results(loom: LoomDesign) -> tuple[Result, ...]:
-    """What the beat gives to the whole width, to a warp and to a knot."""
-    force = loom.beaters * loom.beat_up.peaks["beater_force"].value
+    """What the beat gives to the whole width, to a warp and to a knot, and where it leaves the rows."""
+    force, left = loom.beat_force, loom.left
     return (
         Result("beaters", loom.beaters, "1", "crank-rockers that drive the beater, all alike, on one crank shaft"),
-        Result("beat_force", force, "N", "greatest force on the whole beater; `beat_up` tells of one crank-rocker"),
+        Result("beat_force", force, "N", "greatest force of the beat on the whole width"),
         Result("beat_force_width", force / loom.params.width, "N/m", "the same over the width"),
         Result("beat_force_warp", force / loom.warps, "N", "the same for a warp"),
         Result("beat_force_knot", force / loom.columns, "N", "the same for a knot"),
-        Result(
-            "beat_torque_max",
-            loom.beaters * loom.beat_up.peaks["drive_torque"].value,
-            "Nm",
-            "greatest torque on the crank shaft of all crank-rockers",
-        ),
+        Result("beat_torque_max", _beat_torque(loom), "Nm", "greatest torque on the crank shaft of all crank-rockers"),
+        Result("beat_force_needed", left.needed, "N", "for a warp, that the rows wanted ask of a fabric as assumed"),
+        Result("row_pitch_left", left.spacing, "mm", "distance of the rows that the beat leaves, as assumed"),
     )
+
+
+def _beat_torque(loom: LoomDesign) -> float:
+    return 0.0 if loom.beat_up is None else loom.beaters * loom.beat_up.peaks["drive_torque"].value
 
 
 def _nested(part: Report) -> Result:
@@ -259,6 +268,13 @@ def _warnings(loom: LoomDesign) -> tuple[str, ...]:
         said.append(
             f"the head of the thesis ties symmetric knots; {params.knot} ones need other motions of its grippers"
             + ("" if arms.report is None else ", as those of the knotting-dyad")
+        )
+    left, wanted = loom.left, 1 / params.quality.along
+    if left.spacing > wanted * (1 + ROW_TOLERANCE):
+        beats, rows = format_quantity(left.force, "N", 3), format_quantity(left.spacing, "mm", 3)
+        said.append(
+            f"the crank-rockers press each warp with {beats}: a fabric as the hammer assumes keeps its rows {rows} "
+            f"apart, not {format_quantity(wanted, 'mm', 3)}; hammer=comb presses them together"
         )
     share = loom.warp_tension.self_weight / loom.warp_tension.load
     if share > HEAVY:
