@@ -181,7 +181,7 @@ OTHER = {
     "folder as programme": ("inspect taken", "Is a directory"),
     "row in words": ("inspect notes.ilmek --row first", "not a valid integer"),
     "unknown machine": ("design beat-pu", "did you mean beat-up"),
-    "unknown machine to list": ("machines hammer", "machines: automated-loom, weaver, beat-up"),
+    "unknown machine to list": ("machines hamer", "machines: automated-loom, weaver, beat-up"),
     "unknown parameter": ("design beat-up --set swimg=30deg", "did you mean swing"),
     "setting without value": ("design beat-up --set swing", "write NAME=VALUE"),
     "setting without name": ("design beat-up --set =3", "write NAME=VALUE"),
