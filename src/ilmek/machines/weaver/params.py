@@ -127,13 +127,7 @@ class WeaverParams(Params):
                     allowed=f"at least {format_quantity(at + LEAST_STEP, 'deg')}",
                 )
             before, at = name, end
-        if self.pair_opened is not None and self.pair_opened < self.centre_room:
-            shown, room = (format_quantity(size, "mm") for size in (self.pair_opened, self.centre_room))
-            raise ParameterError(
-                f"pair_opened={shown} leaves the centre gripper no way between the warps",
-                allowed=f"at least {room}: a warp, the gripper's finger and its clearances",
-                do="open the pair wider, or take a thinner finger",
-            )
+        _require_room(self)
 
     @property
     def quality(self) -> Quality:
@@ -172,3 +166,14 @@ class WeaverParams(Params):
     def pair(self) -> float:
         """Distance of the pair of warps in the opener's slots [m]."""
         return self.pair_opened or max(PAIR, self.centre_room)
+
+
+def _require_room(params: WeaverParams) -> None:
+    """Raise ParameterError where the pair in the opener's slots leaves the centre gripper no way."""
+    if params.pair_opened is not None and params.pair_opened < params.centre_room:
+        shown, room = (format_quantity(size, "mm") for size in (params.pair_opened, params.centre_room))
+        raise ParameterError(
+            f"pair_opened={shown} leaves the centre gripper no way between the warps",
+            allowed=f"at least {room}: a warp, the gripper's finger and its clearances",
+            do="open the pair wider, or take a thinner finger",
+        )
