@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from ilmek.cli.design import read_settings
 from ilmek.cli.options import json_option
+from ilmek.cli.settings import read_settings
 from ilmek.cli.terminal import check_json, console, give_json, note, passed, show_checks, show_table
 from ilmek.errors import ParameterError
 from ilmek.io.cyclogram_file import write_cyclogram

@@ -2,7 +2,7 @@
 
 import importlib
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -10,8 +10,8 @@ from typing import Any
 import click
 
 from ilmek.cli.options import json_option
+from ilmek.cli.settings import read_settings
 from ilmek.cli.terminal import check_json, console, give_json, note, passed, show_checks, show_table
-from ilmek.errors import ParameterError
 from ilmek.io.output import check_file, check_free, write_whole
 from ilmek.machines import find_machine
 from ilmek.report import Column, Report, Result, Table
@@ -32,7 +32,13 @@ The parameters of a machine: ilmek machines MACHINE
 @click.command(epilog=EXAMPLES)
 @click.argument("name", metavar="MACHINE")
 @click.argument("more", nargs=-1, metavar="[NAME=VALUE]...")
-@click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", help="Set a parameter; a value takes its unit.")
+@click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Set a parameter; a value takes its unit; @FILE: what stands in FILE.",
+)
 @json_option
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a page to read.")
 @click.option(
@@ -86,19 +92,6 @@ def _parts_writer(folder: Path | None, tolerance: str | None, *, force: bool) ->
     job = importlib.import_module("ilmek.jobs.workshop")
     asked = job.Tolerance() if tolerance is None else job.read_tolerance(tolerance)
     return partial(job.write_workshop, folder=folder, tolerance=asked, force=force)
-
-
-def read_settings(settings: Iterable[str]) -> dict[str, str]:
-    """Texts by parameter name. Raises ParameterError for a setting without a name or value, or one given twice."""
-    read: dict[str, str] = {}
-    for setting in settings:
-        name, equals, value = (part.strip() for part in setting.partition("="))
-        if not equals or not name or not value:
-            raise ParameterError(f"{setting!r} sets nothing", do="write NAME=VALUE, like swing=30deg")
-        if name in read:
-            raise ParameterError(f"{name} is set twice: {read[name]} and {value}", do="set it once")
-        read[name] = value
-    return read
 
 
 def show_report(report: Report) -> None:

@@ -6,6 +6,7 @@ from typing import Any
 import click
 
 from ilmek.cli.options import carpet_options, force_option, json_option
+from ilmek.cli.settings import read_settings
 from ilmek.cli.terminal import check_json, give_json, note, passed, progress_bar, show_pairs
 from ilmek.io.output import check_free
 from ilmek.jobs.loom import read_loom_order
@@ -19,6 +20,7 @@ Examples:
   ilmek weave photo.jpg
   ilmek weave photo.jpg --size 120x180cm --quality 40x40/dm --yarns wool.toml --knot symmetric --deadline 72h
   ilmek weave photo.jpg --size kelle --colours 8 --heads 6 --out carpet --force
+  ilmek weave photo.jpg --loom hammer=comb --loom prices=@prices.txt
 """
 
 
@@ -27,6 +29,13 @@ Examples:
 @click.option("--heads", type=int, metavar="N", help="Knotting heads; without it 4, or as the deadline needs.")
 @click.option("--deadline", metavar="TIME", help="Find the heads that weave the carpet in this time, like 72h.")
 @click.option("--warp-pitch", metavar="LENGTH", help="Distance of two warps of your loom; without it the quality's.")
+@click.option(
+    "--loom",
+    "settings",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Set a parameter of the automated-loom, like hammer=comb; @FILE: what stands in FILE.",
+)
 @force_option
 @json_option
 def command(
@@ -35,6 +44,7 @@ def command(
     heads: int | None,
     deadline: str | None,
     warp_pitch: str | None,
+    settings: tuple[str, ...],
     force: bool,
     json_to: str | None,
     **carpet: Any,
@@ -46,7 +56,7 @@ def command(
     """
     check_json(json_to)
     order = read_order(**carpet)
-    asked = read_loom_order(order, heads=heads, deadline=deadline, warp_pitch=warp_pitch)
+    asked = read_loom_order(order, heads=heads, deadline=deadline, warp_pitch=warp_pitch, loom=read_settings(settings))
     folder = out or free_folder(order.picture, "carpet")
     check_free(folder, force=force)
     with progress_bar() as told:

@@ -1,7 +1,9 @@
 """The loom part: what is asked of the loom, the loom designed for a chart, and its programme."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any
 
 from ilmek.carpet.chart import Chart
@@ -42,12 +44,36 @@ class Loomed:
     programme: Programme
 
 
+OF_THE_CARPET = {
+    "width": "--size",
+    "length": "--size",
+    "knots_across": "--quality",
+    "knots_along": "--quality",
+    "knot": "--knot",
+    "heads": "--heads",
+    "warp_pitch": "--warp-pitch",
+    "colours": "--colours",
+    "knot_yarn": "--pile-height",
+    "changes_per_knot": "the picture",
+}
+"""Parameters of a loom that follow from the carpet, and what sets them."""
+
+
 def read_loom_order(
-    order: Order, *, heads: int | None = None, deadline: str | None = None, warp_pitch: Setting = None
+    order: Order,
+    *,
+    heads: int | None = None,
+    deadline: str | None = None,
+    warp_pitch: Setting = None,
+    loom: Mapping[str, Setting] = MappingProxyType({}),
 ) -> LoomOrder:
-    """What is asked of the loom, from texts. Raises ParameterError, UnitError, or LoomError where the quality is beyond
-    the warp pitch.
+    """What is asked of the loom, from texts; `loom`: more of its parameters.
+
+    Raises ParameterError, UnitError, or LoomError where the quality is beyond the warp pitch.
     """
+    for name in loom:
+        if name in OF_THE_CARPET:
+            raise ParameterError(f"{name} of the loom is the carpet's", do=f"use {OF_THE_CARPET[name]} for it")
     if heads is not None and deadline is not None:
         raise ParameterError("heads and a deadline are both given", do="give one of --heads and --deadline")
     limit = None if deadline is None else _deadline(deadline)
@@ -58,6 +84,7 @@ def read_loom_order(
         knots_along=order.quality.along,
         knot=order.knot,
         heads=1 if heads is None else heads,
+        **loom,
     )
     if warp_pitch is not None:
         settings["warp_pitch"] = warp_pitch

@@ -79,7 +79,19 @@ def left_by(params: AutomatedLoomParams, warps: int, tension: float, force: floa
     return Left(force, float(fabric.spacing(force)), float(fabric.resistance(asked.rows)))
 
 
+def stiffness_of_warp(params: AutomatedLoomParams) -> float:
+    """Force over strain of a warp [N]: as given, or of cotton of its mass."""
+    return hammer.HammerParams(warp_pitch=params.pitch, warp_stiffness=params.warp_stiffness).stiffness
+
+
 def _asked(params: AutomatedLoomParams, warps: int, tension: float) -> hammer.HammerParams:
     """What is asked of the comb: what is woven."""
     along = 1 / params.quality.along
-    return hammer.HammerParams(warps=warps, warp_pitch=params.pitch, row_pitch=along, tension=tension)
+    return hammer.HammerParams(
+        warps=warps,
+        warp_pitch=params.pitch,
+        row_pitch=along,
+        tension=tension,
+        warp_stiffness=params.warp_stiffness,
+        warp_length=params.warp_length,
+    )

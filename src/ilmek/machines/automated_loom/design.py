@@ -10,7 +10,15 @@ from ilmek.errors import LoomError
 from ilmek.loom.programme import Times
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import beat_up, hammer, shedding, warp_tension, weaver
-from ilmek.machines.automated_loom.beating import Beat, Left, beat_of_comb, beat_of_linkage, hammer_for, left_by
+from ilmek.machines.automated_loom.beating import (
+    Beat,
+    Left,
+    beat_of_comb,
+    beat_of_linkage,
+    hammer_for,
+    left_by,
+    stiffness_of_warp,
+)
 from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, knot_cyclogram, shortest_row, take_up_time
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.shedding.report import prime_radius_for_bore
@@ -201,6 +209,8 @@ def _shedding(params: AutomatedLoomParams, warps: int) -> shedding.SheddingDesig
         warp_pitch=params.pitch,
         tension=warp_tension_of(params),
         half_span=params.half_span,
+        warp_stiffness=stiffness_of_warp(params),
+        warp_length=max(params.warp_length, 2 * params.half_span),
         shuttle_height=params.shuttle_height,
         speed=params.shed_speed,
         shaft_length=frame_width(params),

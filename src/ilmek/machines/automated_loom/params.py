@@ -56,6 +56,10 @@ class AutomatedLoomParams(Params):
         at_most=1e3,
         doc="tension of a warp; none: 15 N at 2 mm, as its mass",
     )
+    warp_stiffness: float | None = param(
+        None, unit="N", at_least=1.0, at_most=1e7, doc="force over strain of a warp; none: cotton of its mass"
+    )
+    warp_length: float = param(1.5, unit="m", at_least=0.35, at_most=100.0, doc="warp from the fell to its cylinder")
     margin: float = param(50 * mm, unit="mm", at_least=0.0, at_most=1.0, doc="from the carpet's edge to a bearing")
     lift: float = param(60 * mm, unit="mm", at_least=1 * mm, at_most=0.5, doc="lift of the warps for the shed")
     half_span: float = param(

@@ -1,0 +1,33 @@
+"""Settings of parameters on the command line: NAME=VALUE, or NAME=@FILE for a value that stands in a file."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from ilmek.errors import ParameterError
+from ilmek.io.text_file import read_text
+
+LARGEST = 1_000_000
+"""Bytes of a value in a file."""
+
+
+def read_settings(settings: Iterable[str]) -> dict[str, str]:
+    """Texts by parameter name. Raises ParameterError for a setting without a name or value, or one given twice, and
+    for a file that cannot be read.
+    """
+    read: dict[str, str] = {}
+    for setting in settings:
+        name, equals, value = (part.strip() for part in setting.partition("="))
+        if not equals or not name or not value:
+            raise ParameterError(f"{setting!r} sets nothing", do="write NAME=VALUE, like swing=30deg")
+        if name in read:
+            raise ParameterError(f"{name} is set twice: {read[name]} and {value}", do="set it once")
+        read[name] = _in_file(name, Path(value[1:])) if value.startswith("@") else value
+    return read
+
+
+def _in_file(name: str, path: Path) -> str:
+    said = dict(noun="text file with the value", do="check its name")
+    try:
+        return read_text(path, largest=LARGEST, error=ParameterError, **said)
+    except ParameterError as error:
+        raise ParameterError(f"{name}=@{path}: {error.given}", allowed=error.allowed, do=error.do) from None
