@@ -10,7 +10,6 @@ from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.errors import ParameterError
 from ilmek.machines.weaver import MACHINE, WeaverParams, design, report, step_time, travel_time
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, HANDLER
-from ilmek.machines.weaver.drive import inertia_torque
 from ilmek.timing.s_curve import AxisLimits, move_time
 from ilmek.timing.track import sample
 from ilmek.units import deg
@@ -110,20 +109,6 @@ def test_the_machine_reads_its_parameters() -> None:
     made = MACHINE.report(MACHINE.design(WeaverParams.read({"cycle": "2.2s", "law": "cycloidal", "tubes": "8"})))
     assert made.as_json()["results"]["knots_per_minute"] == pytest.approx(60 / 2.2)
     assert {"knot", "weaver-plan", "weaver-moving"} <= {figure.name for figure in made.figures}
-
-
-@pytest.mark.parametrize("law", ["parabolic", "modified-sine", "4-5-6-7", "scca"])
-def test_the_torque_of_the_tools_is_the_change_of_their_energy(law: str) -> None:
-    """M dq = dE with E = m v^2 / 2 of all tools: so its mean over the turn is 0."""
-    head = design(WeaverParams(law=law, tool_mass=0.2))
-    angle = np.linspace(0, 2 * math.pi, 40_001)
-    energy, speed = np.zeros(angle.shape), head.cyclogram.speed
-    for track in head.cyclogram.tracks:
-        arm = head.handler_radius if track.name == HANDLER else 1.0
-        energy += 0.5 * 0.2 * (sample(track, angle).slope * arm * speed) ** 2
-    torque = inertia_torque(head.cyclogram, {HANDLER: head.handler_radius}, 0.2, angle)
-    done = np.concatenate([[0.0], np.cumsum((torque[1:] + torque[:-1]) / 2 * np.diff(angle))])
-    assert np.abs(done - energy).max() < 5e-3 * energy.max()
 
 
 def test_the_selector_has_time_for_the_longest_way_while_a_knot_is_tied() -> None:

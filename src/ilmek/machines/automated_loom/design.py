@@ -84,6 +84,11 @@ class LoomDesign:
         return 2 * self.params.pitch
 
     @property
+    def head_mass(self) -> float:
+        """Mass of a head on its carriage, with tubes and motors [kg]: as given, or as designed."""
+        return self.params.head_mass or sum(weaver.mass_of(self.weaver).values())
+
+    @property
     def beaters(self) -> int:
         """Crank-rockers that drive the beater; 0 where the comb on the guide cams beats."""
         return beaters(self.params) if self.beat_up is not None else 0
@@ -186,9 +191,12 @@ def _weaver_params(params: AutomatedLoomParams) -> weaver.WeaverParams:
         law=params.knot_law,
         knot_yarn=params.knot_yarn,
         acceleration_limit=params.head_acceleration,
+        head_width=params.head_width,
         knot_pitch=2 * params.pitch,
+        row_pitch=1 / params.quality.along,
         carriage_speed=params.carriage_speed,
         tubes=params.colours,
+        tube_mass=params.tube_mass,
     )
 
 

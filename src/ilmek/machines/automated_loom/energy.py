@@ -16,8 +16,7 @@ from ilmek.arrays import FloatArray
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.time import estimated_time
-from ilmek.machines.weaver.cyclogram import HANDLER
-from ilmek.machines.weaver.drive import inertia_torque
+from ilmek.machines.weaver.cams import torque_at
 from ilmek.machines.weaver.moves import carriage, selector
 from ilmek.timing.s_curve import s_curve
 from ilmek.timing.track import peak_speed
@@ -76,23 +75,21 @@ def axes(loom: LoomDesign) -> int:
 
 def knot_work(loom: LoomDesign) -> float:
     """Work of a head's cam shaft for a knot [J]."""
-    head = loom.weaver
-    arms = {HANDLER: head.handler_radius}
-    return positive_work(lambda q: inertia_torque(head.cyclogram, arms, head.params.tool_mass, q))
+    return positive_work(lambda angle: torque_at(loom.weaver.cams, angle))
 
 
 def carriage_work(loom: LoomDesign) -> float:
     """Work of a head's carriage for a step to the next knot [J]: what its mass has at the step's greatest speed."""
     head = loom.weaver.params
     move = s_curve(head.knot_pitch, carriage(head))
-    return 0.5 * loom.params.head_mass * move.speed**2
+    return 0.5 * loom.head_mass * move.speed**2
 
 
 def selector_work(loom: LoomDesign) -> float:
     """Work of a colour change [J]: the tubes at the greatest speed of a move over a third of them, the mean of all."""
     head = loom.weaver.params
     move = s_curve(head.tubes * head.tube_pitch / 3, selector(head))
-    return 0.5 * head.tubes * loom.params.tube_mass * move.speed**2
+    return 0.5 * head.tubes * head.tube_mass * move.speed**2
 
 
 def shed_work(loom: LoomDesign) -> float:

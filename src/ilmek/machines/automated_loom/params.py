@@ -40,7 +40,9 @@ class AutomatedLoomParams(Params):
     head_width: float = param(80 * mm, unit="mm", above=0.0, at_most=1.0, doc="least distance of two heads")
     colours: int = param(16, at_least=1, at_most=255, doc="yarns, a tube for each in every head")
     knot_cycle: float = param(2.0, unit="s", at_least=1e-3, at_most=3600.0, doc="time of a knot that is asked for")
-    knot_yarn: float = param(45 * mm, unit="mm", above=0.0, at_most=0.3, doc="pile yarn drawn for a knot")
+    knot_yarn: float | None = param(
+        None, unit="mm", above=0.0, at_most=0.3, doc="pile yarn of a knot by its bill; none: of the head's usual pile"
+    )
     knot_law: str = param("modified-sine", choices=SMOOTH_LAWS, doc="law of the heads' cams")
     head_acceleration: float = param(
         20.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="allowed acceleration of a head's tools"
@@ -96,8 +98,12 @@ class AutomatedLoomParams(Params):
         158 * deg, unit="deg", above=0.0, below=turn / 2, doc="cam angle at which the beater is back"
     )
     take_up_end: float = param(178 * deg, unit="deg", above=0.0, at_most=turn / 2, doc="cam angle, of the second half")
-    head_mass: float = param(8.0, unit="kg", at_least=0.1, at_most=500.0, doc="mass of a head on its carriage")
-    tube_mass: float = param(0.05, unit="kg", at_least=0.0, at_most=10.0, doc="mass of a yarn tube with its yarn")
+    head_mass: float | None = param(
+        None, unit="kg", at_least=0.1, at_most=500.0, doc="mass of a head on its carriage; none: as designed"
+    )
+    tube_mass: float = param(
+        0.02, unit="kg", at_least=0.0, at_most=10.0, doc="mass of a yarn tube with its share of the slide"
+    )
     shuttle_mass: float = param(0.5, unit="kg", at_least=0.0, at_most=50.0, doc="mass of the shuttle with its weft")
     frame_height: float = param(2.0, unit="m", at_least=0.3, at_most=10.0, doc="height of the frame's columns")
     rail_span: float = param(

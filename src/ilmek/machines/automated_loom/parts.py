@@ -92,7 +92,7 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         lever=loom.tube[0] / 2,
         carried=carried,
         heads=loom.heads,
-        head_mass=params.head_mass,
+        head_mass=loom.head_mass,
         head_width=params.head_width,
         rail_spans=math.ceil(frame_width(params) / params.rail_span - 1e-9),
         sag_limit=params.rail_sag,
@@ -167,14 +167,15 @@ def _crank_rockers(loom: LoomDesign) -> tuple[Part, ...]:
 
 
 def _heads(loom: LoomDesign) -> tuple[Part, ...]:
-    params, head, wide = loom.params, loom.weaver, frame_width(loom.params)
-    limits = head.params
-    thrust = params.head_mass * limits.carriage_acceleration
-    selected = limits.tubes * params.tube_mass * limits.selector_acceleration
+    head, wide = loom.weaver, frame_width(loom.params)
+    limits, geared = head.params, head.drive.reducer
+    thrust = loom.head_mass * limits.carriage_acceleration
+    selected = limits.tubes * limits.tube_mass * limits.selector_acceleration
     return (
-        Part("knotting head", loom.heads, "five cams and their tools", "", "head mechanism", params.head_mass),
-        Part("yarn tube", loom.heads * limits.tubes, "one for each colour", "", "yarn tube", params.tube_mass),
+        Part("knotting head", loom.heads, "cams, tools, tubes, motors", "", "head mechanism", loom.head_mass),
+        Part("yarn tube", loom.heads * limits.tubes, "one for each colour, weighed with the head", "", "yarn tube"),
         *_motor("motor of a head", loom.heads, head.drive.motor, head.drive.torque_max, head.cyclogram.speed),
+        *((_reducer("reducer of a head", loom.heads, geared.ratio, head.drive.motor),) if geared else ()),
         Part("rail of the heads", 1, "with a belt for each head", "", "linear axis", length=wide),
         *_axis("motor of a carriage", loom.heads, thrust, limits.carriage_speed),
         *_axis("motor of the colours", loom.heads, selected, limits.selector_speed),

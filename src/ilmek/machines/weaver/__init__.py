@@ -9,12 +9,24 @@ from dataclasses import replace
 from ilmek.machines.machine import Machine
 from ilmek.machines.weaver.cyclogram import relations
 from ilmek.machines.weaver.design import Weaver, design
+from ilmek.machines.weaver.limits import mass_of
 from ilmek.machines.weaver.moves import step_time, travel_time
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.report import report, timing
 from ilmek.timing.cyclogram import Cyclogram
 
-__all__ = ["MACHINE", "Weaver", "WeaverParams", "cyclograms", "design", "report", "step_time", "timing", "travel_time"]
+__all__ = [
+    "MACHINE",
+    "Weaver",
+    "WeaverParams",
+    "cyclograms",
+    "design",
+    "mass_of",
+    "report",
+    "step_time",
+    "timing",
+    "travel_time",
+]
 
 
 def cyclograms(weaver: Weaver) -> tuple[Cyclogram, ...]:

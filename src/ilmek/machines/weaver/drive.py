@@ -1,25 +1,20 @@
 """What turns the head's cam shaft: torque of all cams over the turn, and the motor that bears it.
 
-    M(q) = sum F s'                                                 of every cam, springs and brake among it (`cams`)
-    M(q) = w^2 sum m (r x')(r x''),                                 of the tools' inertia alone, no cams
+    M(q) = sum F s'         of every cam, springs and brake among it (`cams`)
 
-x' and x'' by the cam angle q, r = 1 but for the handler, whose tip it is. At a constant speed of the shaft the mean of
-the second over a turn is 0, and of the first it is what the handler's brake takes. Friction comes on top.
+At a constant speed of the shaft the mean of M over a turn is what the handler's brake takes. Friction comes on top.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
 from ilmek.elements import duty as duties
 from ilmek.elements.motors import Motor
 from ilmek.elements.reducers import DIRECT, PLANETARY, Reducer
 from ilmek.machines.weaver.cams import HeadCam, torque_at
-from ilmek.timing.cyclogram import Cyclogram
-from ilmek.timing.track import sample
 from ilmek.units import turn
 
 SAMPLES = 2880
@@ -42,15 +37,6 @@ class Drive:
     motor: Motor | None
     reducer: Reducer | None
     duty: duties.Duty | None
-
-
-def inertia_torque(cyclogram: Cyclogram, arms: Mapping[str, float], mass: float, angle: FloatArray) -> FloatArray:
-    """Torque on the cam shaft [N m] at cam angles [rad], of tools of one mass [kg]; arms [m] of those that turn."""
-    total = np.zeros(angle.shape)
-    for track in cyclogram.tracks:
-        motion = sample(track, angle)
-        total += mass * arms.get(track.name, 1.0) ** 2 * motion.slope * motion.bend
-    return total * cyclogram.speed**2
 
 
 def drive_for(cams: Sequence[HeadCam], speed: float) -> Drive:
