@@ -44,7 +44,6 @@ PRICES: Mapping[str, Rates] = {
     "welded frame": Rates(per_kg=5.0),
     "machined link": Rates(each=25.0, per_kg=15.0),
     "head mechanism": Rates(each=600.0, per_kg=80.0),
-    "cam of a head": Rates(each=30.0, per_kg=10.0),
     "yarn tube": Rates(each=15.0),
     "bearing": Rates(each=15.0),
     "linear axis": Rates(each=150.0, per_m=300.0),
