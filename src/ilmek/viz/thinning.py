@@ -3,8 +3,10 @@
 import itertools
 
 import numpy as np
+from jaxtyping import Bool
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.num.compiled import compiled
 
 LIMIT = 720
 TOLERANCE = 0.04
@@ -49,23 +51,34 @@ def thinned_line(points: ComplexArray, tolerance: float = TOLERANCE, limit: int 
         points = points[np.linspace(0, len(points) - 1, 4 * limit).round().astype(np.intp)]
     keep = ~np.isfinite(points)
     edges = np.flatnonzero(np.diff(np.concatenate([[True], keep, [True]]).astype(np.int8)))
-    stretches = [(int(start), int(stop) - 1) for start, stop in zip(edges[::2], edges[1::2], strict=True)]
-    while stretches:
-        first, last = stretches.pop()
-        keep[first] = keep[last] = True
-        if last - first < 2:
-            continue
-        away = _distances(points[first + 1 : last], points[first], points[last])
-        farthest = int(np.argmax(away))
-        if away[farthest] > tolerance:
-            middle = first + 1 + farthest
-            stretches += [(first, middle), (middle, last)]
+    for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        keep[start:stop] = _kept(np.ascontiguousarray(points[start:stop]), tolerance)
     return np.asarray(points[keep])
 
 
-def _distances(points: ComplexArray, start: complex, end: complex) -> FloatArray:
-    """How far each point lies from the chord, its ends included: a line may turn back beyond them."""
-    chord = end - start
-    length = abs(chord) ** 2 or 1.0
-    share = np.clip(((points - start) * np.conj(chord)).real / length, 0.0, 1.0)
-    return np.asarray(np.abs(points - start - share * chord))
+@compiled
+def _kept(points: ComplexArray, tolerance: float) -> Bool[np.ndarray, " n"]:
+    """Which points of a line without gaps stay.
+
+    How far a point lies from a chord is measured to its ends too: a line may turn back beyond them.
+    """
+    keep = np.zeros(len(points), np.bool_)
+    stretches = [(0, len(points) - 1)]
+    while stretches:
+        first, last = stretches.pop()
+        keep[first] = keep[last] = True
+        start, chord = points[first], points[last] - points[first]
+        length = chord.real**2 + chord.imag**2
+        farthest, most = first, 0.0
+        for at in range(first + 1, last):
+            off = points[at] - start
+            along = off.real * chord.real + off.imag * chord.imag
+            share = min(max(along / length, 0.0), 1.0) if length > 0.0 else 0.0
+            left = off - share * chord
+            away = left.real**2 + left.imag**2
+            if away > most:
+                farthest, most = at, away
+        if most > tolerance**2:
+            stretches.append((first, farthest))
+            stretches.append((farthest, last))
+    return keep
