@@ -59,18 +59,18 @@ def parts_of(loom: LoomDesign) -> tuple[Report, ...]:
     """The reports of the machines in the loom: head, its arms where they can tie, what beats, shedding, tension."""
     arms = arms_of(loom.params).report
     return (
-        _without(weaver.report(loom.weaver), "knot"),
+        _without(weaver.report(loom.weaver), "knot", "weaver-moving", "acceleration"),
         *(() if arms is None else (arms,)),
         *(() if loom.beat_up is None else (_without(beat_up.report(loom.beat_up), "family"),)),
         *(() if loom.hammer is None else (hammer.report(loom.hammer),)),
-        shedding.report(loom.shedding),
+        _without(shedding.report(loom.shedding), "shedding-stagger"),
         warp_tension.report(loom.warp_tension),
     )
 
 
-def _without(part: Report, name: str) -> Report:
-    """A report without the figures whose names begin so: the loom shows them itself, or has no use for them."""
-    return replace(part, figures=tuple(figure for figure in part.figures if not figure.name.startswith(name)))
+def _without(part: Report, *names: str) -> Report:
+    """A report without the figures whose names begin so: the loom shows them itself, or leaves them to the machine."""
+    return replace(part, figures=tuple(figure for figure in part.figures if not figure.name.startswith(names)))
 
 
 def _results(loom: LoomDesign, listed: PartsList) -> tuple[Result, ...]:
