@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.errors import LoomError, ParameterError
+from ilmek.machines import warp_tension
 from ilmek.machines.automated_loom import AutomatedLoomParams, design, report
 from ilmek.machines.automated_loom.cyclogram import BEATER, SHUTTLE
 from ilmek.machines.automated_loom.energy import energy_of, positive_work
@@ -72,7 +73,7 @@ def test_the_list_has_a_part_for_every_warp_head_and_axis():
     numbers = {part.name: part.number for part in LISTED.parts}
     assert numbers["shedding cam"] == numbers["guide cam"] == LOOM.warps == 600
     assert numbers["knotting head"] == numbers["motor of a head"] == numbers["motor of a carriage"] == LOOM.heads
-    assert numbers["cylinder"] == 3
+    assert numbers["cylinder"] + numbers["spacer cylinder"] == 3
     assert numbers["yarn tube"] == LOOM.heads * LOOM.params.colours
     motors = sum(part.number for part in LISTED.parts if part.name.startswith("motor"))
     assert motors == numbers["axis of the control"]
@@ -87,6 +88,17 @@ def test_mass_and_price_of_the_report_are_those_of_its_table():
     assert results["power_mean"] == pytest.approx(sum(results["power_shares"].values()))
     assert sum(results["time_shares"].values()) == pytest.approx(1.0)
     assert results["energy_per_area"] * 1.2 * 1.8 == pytest.approx(results["power_mean"] * results["weaving_time"])
+
+
+def test_cylinders_of_the_list_are_those_of_the_warp_tension_at_the_looms_own_pitch_and_shed():
+    loom = design(AutomatedLoomParams(width=1.0, warp_pitch=1.6e-3, lift=0.07, warp_length=2.0))
+    results = {one.name: one.value for one in warp_tension.report(loom.warp_tension).results}
+    masses = [part.mass_all for part in parts_of_loom(loom).parts if part.kind == "steel tube"]
+    assert sum(masses) == pytest.approx(results["mass_cylinders"])
+    assert results["slot_pitch"] == loom.params.pitch
+    rate = results["warp_stiffness"] / 2.0
+    shed = 2 * (math.hypot(0.17, 0.07) - 0.17)
+    assert results["tension_shed"] == pytest.approx(results["tension_woven"] + rate * shed)
 
 
 def test_work_of_a_torque_counts_only_where_it_drives():

@@ -7,7 +7,7 @@ from ilmek.carpet.design import knot_grid
 from ilmek.carpet.sizes import Size
 from ilmek.elements.tubes import find_tube
 from ilmek.errors import LoomError
-from ilmek.loom.programme import Times
+from ilmek.loom.programme import Times, least_time
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import beat_up, hammer, shedding, warp_tension, weaver
 from ilmek.machines.automated_loom.beating import (
@@ -145,9 +145,9 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     period = _row_period(params, timing)
     if period > turn / params.shed_speed:
         cams = shedding.design(replace(cams.params, speed=turn / period))
-    tube, cylinder = _cylinder(params, 2 * columns, 1 / quality.along, take_up_time(timing, period))
+    times = times_at(head, 2 * params.pitch, period)
+    tube, cylinder = _cylinder(params, 2 * columns, take_up_time(timing, period), least_time(1, columns, heads, times))
     row = cyclogram(timing, period)
-    times = times_at(head, 2 * params.pitch, row.period)
     warps, stack = 2 * columns, cams.stack.mass
     tension = warp_tension_of(params)
     comb = None if linkage else hammer_for(params, warps, tension, stack=stack, period=row.period, beat=beat)
@@ -272,16 +272,22 @@ def _row_period(params: AutomatedLoomParams, timing: RowTiming) -> float:
 
 
 def _cylinder(
-    params: AutomatedLoomParams, warps: int, row_pitch: float, take_up: float
+    params: AutomatedLoomParams, warps: int, take_up: float, row_time: float
 ) -> tuple[tuple[float, float], WarpTensionDesign]:
     """The lightest stock tube that keeps slope and deflection under the warps and itself, and the cylinder of it."""
     asked = warp_tension.WarpTensionParams(
         warps=warps,
         tension=warp_tension_of(params),
         width=frame_width(params),
-        row_pitch=row_pitch,
+        row_pitch=1 / params.quality.along,
         take_up_time=take_up,
+        row_time=row_time,
         carpet_length=params.length,
+        warp_pitch=params.pitch,
+        free_length=params.warp_length,
+        warp_stiffness=stiffness_of_warp(params),
+        shed_lift=params.lift,
+        shed_span=params.half_span,
     )
     for diameter, wall in sorted(STOCK_TUBES, key=lambda tube: tube[1] * (tube[0] - tube[1])):
         outer, inner = diameter / 2, diameter / 2 - wall

@@ -11,6 +11,7 @@ from ilmek.machines.automated_loom.design import LoomDesign, frame_width
 from ilmek.machines.automated_loom.energy import axes
 from ilmek.machines.automated_loom.frame import Frame, FrameTask, frame_for
 from ilmek.machines.automated_loom.prices import Rates, read_prices
+from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, mm
 
@@ -108,25 +109,35 @@ def _shedding(loom: LoomDesign) -> tuple[Part, ...]:
     prime, bar = (format_quantity(size, "mm") for size in (cams.cam.prime_radius, shaft.bar))
     guide = format_quantity(stack.guide_radius, "mm")
     steel = cams.params.density
+    seat = f"{shaft.seat.bearing.name}; " if shaft.seat.bearing else ""
     return (
         Part("shedding cam", loom.warps, f"prime radius {prime}", STEEL, "laser-cut part", stack.cam_mass),
         Part("guide cam", loom.warps, f"radius {guide}", STEEL, "laser-cut part", stack.guide_mass),
         Part("cam shaft", 1, f"square {bar}", STEEL, "steel bar", shaft.bar**2 * shaft.length * steel, shaft.length),
-        Part("bearing of the cam shaft", cams.params.spans + 1, "ends, and steadies between", "", "bearing"),
+        Part("bearing of the cam shaft", cams.params.spans + 1, f"{seat}ends, and steadies between", "", "bearing"),
         *_motor("motor of the cam shaft", 1, cams.drive.motor, cams.drive.motor_torque, cams.drive.motor_speed),
         _reducer("reducer of the cam shaft", 1, cams.drive.reducer.ratio, cams.drive.motor),
     )
 
 
 def _cylinders(loom: LoomDesign) -> tuple[Part, ...]:
+    """Upper and lower cylinder are alike, the spacer is of its own tube; a motor for each of the three [thesis 3.1]."""
     cylinder = loom.warp_tension
-    tube = f"tube {' x '.join(format_quantity(size, 'mm') for size in loom.tube)}"
+    upper, lower, spacer = cylinders(cylinder)
     return (
-        Part("cylinder", 3, tube, STEEL, "steel tube", cylinder.mass),
-        Part("bearing of a cylinder", 6, "flanged", "", "bearing"),
+        Part("cylinder", 2, _tube(upper), STEEL, "steel tube", upper.mass),
+        Part("spacer cylinder", 1, _tube(spacer), STEEL, "steel tube", spacer.mass),
+        *(Part(f"bearing of the {one.name} cylinder", 2, one.bearing.name, "", "bearing") for one in (upper, lower)),
+        Part("bearing of the spacer", 2, spacer.bearing.name, "", "bearing"),
         *_motor("motor of a cylinder", 3, cylinder.motor, cylinder.motor_torque, cylinder.motor_speed),
         _reducer("reducer of a cylinder", 3, cylinder.reducer.ratio, cylinder.motor),
     )
+
+
+def _tube(one: Cylinder) -> str:
+    """A cylinder's tube in words: the stock's name, or of the loom's own sizes."""
+    outer, wall = (2 * one.outer, one.outer - one.inner) if one.tube is None else (one.tube.outer, one.tube.wall)
+    return f"tube {format_quantity(outer, 'mm')} x {format_quantity(wall, 'mm')}"
 
 
 def _beating(loom: LoomDesign) -> tuple[Part, ...]:
