@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from examples.draw_loom_scaling import OUT, drawn
 
 from ilmek.arrays import Indices
 from ilmek.errors import IlmekError, LoomError, ParameterError
@@ -255,3 +256,10 @@ def test_the_machine_reads_its_parameters() -> None:
     settings = {"width": "1.2m", "warp_pitch": "2mm", "heads": "4", "knots_along": "30 1/dm"}
     results = MACHINE.report(MACHINE.design(AutomatedLoomParams.read(settings))).as_json()["results"]
     assert (results["heads"], results["rows"], results["columns"]) == (4, 540, 300)
+
+
+def test_figure_of_the_scaling_has_a_curve_for_each_pitch() -> None:
+    kept, made = (OUT / "loom-scaling.svg").read_text(encoding="utf-8"), drawn()
+    for pitch in ("0.8 mm: 62.5/dm", "1 mm: 50/dm", "2 mm: 25/dm", "4 mm: 12.5/dm"):
+        assert pitch in kept
+        assert pitch in made

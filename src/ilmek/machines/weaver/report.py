@@ -153,7 +153,7 @@ def _warnings(weaver: Weaver) -> tuple[str, ...]:
     asked, drive = weaver.params.cycle, weaver.drive
     said = list(knot_warnings(weaver))
     if weaver.cycle > asked:
-        longer = f"a knot takes {weaver.cycle:.3g} s, not the {asked:.3g} s asked for"
+        longer = f"a knot takes {weaver.cycle:.4g} s, not the {asked:.4g} s asked for"
         said.append(f"{longer}: the limits of the {weaver.limiting} allow no less")
     if drive.motor is None:
         needed = f"{drive.torque_max:.3g} Nm at {weaver.cyclogram.speed / rpm:.3g} rpm"
