@@ -114,7 +114,9 @@ class Parameter:
         return f"allowed: {', '.join(said)}" if said else ""
 
     def _slip(self, value: float) -> str:
-        """The unit that was probably forgotten."""
+        """The unit that was probably forgotten, where the number is short enough to have been typed as it is."""
+        if float(f"{value:.4g}") != value:
+            return ""
         if self.unit == "deg" and self.within(value * deg):
             return f"did you mean {value:g}deg? a bare number is in radians"
         if self.unit == "mm" and self.within(value * mm):
