@@ -66,10 +66,12 @@ class OscillatingCam(Traced):
         least, most = self.prime_bounds
         if not least < self.prime_radius < most:
             shown, pivot, arm = (format_quantity(x, "mm") for x in (self.prime_radius, self.pivot, self.arm))
+            swing, none = format_quantity(self.swing, "deg"), least >= most
+            between = f"above {format_quantity(least, 'mm')}, below {format_quantity(most, 'mm')}"
             raise ParameterError(
-                f"prime_radius={shown} with pivot={pivot}, arm={arm} and {format_quantity(self.swing, 'deg')} of swing",
-                allowed=f"above {format_quantity(least, 'mm')}, below {format_quantity(most, 'mm')}",
-                do="swing less, or change pivot or arm" if least >= most else "",
+                f"prime_radius={shown} with pivot={pivot}, arm={arm} and {swing} of swing",
+                allowed="the arm cannot swing so far, whatever the prime radius" if none else between,
+                do="swing less, or change pivot or arm" if none else "",
             )
 
     @property

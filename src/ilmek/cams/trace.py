@@ -170,7 +170,9 @@ def trace_of_point(
     bend = second - 2j * first - point
     square = along.real**2 + along.imag**2
     flow = np.sqrt(square)
-    push = 1j * along / flow
+    with np.errstate(divide="ignore", invalid="ignore"):  # NaN where the point stands still as seen from the cam
+        push = 1j * along / flow
+        turning = np.asarray(-cross(along, bend) / square)
     leaning = push * np.conj(way)
     frame = unit(-angle)
     return Trace(
@@ -180,6 +182,6 @@ def trace_of_point(
         normal=np.asarray(push * frame),
         pressure_angle=np.arctan2(leaning.imag, leaning.real),
         flow=flow,
-        turning=np.asarray(-cross(along, bend) / square),
+        turning=turning,
         roller_radius=roller_radius,
     )

@@ -28,9 +28,13 @@ def find(name: str, settings: Mapping[str, str]) -> Cyclogram:
     """
     machine, _, which = name.partition(":")
     if machine not in MACHINES or Path(name).suffix.lower() in (".toml", ".json"):
+        path = Path(name)
+        if not path.suffix and not path.exists():
+            here = ", ".join(_timed())
+            raise ParameterError(f"{name} is neither a cyclogram file nor a machine", allowed=f"a path, or {here}")
         if settings:
             raise ParameterError(f"{name} is no machine whose parameters could be set", allowed=", ".join(_timed()))
-        return read_cyclogram(Path(name))
+        return read_cyclogram(path)
     kind = MACHINES[machine]
     if kind.cyclograms is None:
         raise ParameterError(f"{machine} has no cyclogram", allowed=f"machines with some: {', '.join(_timed())}")
@@ -85,7 +89,7 @@ def columns(cyclogram: Cyclogram, steps: int) -> dict[str, FloatArray]:
     """Master angle, time, and position, speed and acceleration of every track as columns, units in the headings."""
     angle = np.linspace(0.0, turn, steps + 1)
     w = cyclogram.speed
-    found = {"master angle [deg]": angle / deg, "time [s]": angle / w}
+    found = {"master angle [deg]": np.linspace(0.0, 360.0, steps + 1), "time [s]": angle / w}
     for track in cyclogram.tracks:
         motion, unit = sample(track, angle), track.unit or "1"
         scale = from_si(1.0, track.unit)

@@ -169,7 +169,9 @@ def _limited(track: Track, part: Segment) -> Iterator[tuple[str, float]]:
     limits, law, h = track.limits, part.law, abs(part.stroke)
     times = {
         "speed": h * law.velocity_peak / limits.speed,
-        "acceleration": math.sqrt(h * law.acceleration_peak / limits.acceleration),
+        "acceleration": math.sqrt(h * law.acceleration_peak / limits.acceleration)
+        if limits.acceleration < math.inf
+        else 0.0,
         "jerk": math.cbrt(h * law.jerk_peak / limits.jerk) if limits.jerk < math.inf else 0.0,
         "time": limits.time,
     }

@@ -145,7 +145,6 @@ def _guide(design: CamDesign, centre: ComplexArray) -> tuple[Stroke, ...]:
     """Both walls of the guide, above the highest place of what touches the cam."""
     low = float(np.max(centre.imag)) + 1.2 * design.cam.roller_radius
     high = float(np.min(centre.imag)) + _reach(design)
-    half = 0.05 * design.cam.prime_radius
-    line = design.params.offset
-    low = min(low, high - half)
-    return tuple(Stroke(np.array([line + side + 1j * low, line + side + 1j * high]), "guide") for side in (-half, half))
+    low = min(low, high - 0.05 * design.cam.prime_radius)
+    line = design.params.offset + 1j * np.array([low, high])
+    return (Stroke(line, "guide"), Stroke(line[::-1], "guide"))

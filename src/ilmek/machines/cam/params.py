@@ -302,6 +302,10 @@ class CamParams(SizeParams):
         SizeParams.check_together(self)
         if self.led and (self.spring_rate or self.preload):
             raise ParameterError(f"a spring with kind={self.kind}", do="leave it out: the cam leads both ways")
+        if self.crown_radius is not None and self.follower != "roller":
+            raise ParameterError(
+                f"crown_radius with follower={self.follower}", do="leave it out, or set follower=roller"
+            )
         if self.laid_flat and self.sliding_friction:
             raise ParameterError(f"sliding_friction with kind={self.kind}", allowed="0", do="leave it out")
         if self.motion == "oscillating" and self.guide_friction:

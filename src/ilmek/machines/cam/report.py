@@ -36,6 +36,14 @@ def report(design: CamDesign) -> Report:
     )
 
 
+def largest_cutter(design: CamDesign) -> float:
+    """The largest radius [m] of a cutter for the cam, or for both; a groove's is its roller's."""
+    if design.params.kind in ("grooved", "barrel"):
+        return design.cam.roller_radius
+    pair = design.cams.pair
+    return min(limits.largest_cutter(cam) for cam in ((pair.first, pair.second) if pair else (design.cam,)))
+
+
 def least_surface_radius(design: CamDesign) -> float:
     """Least distance of the surface from the axis [m]."""
     if design.params.laid_flat:
@@ -110,6 +118,10 @@ def _warnings(design: CamDesign) -> tuple[str, ...]:
         said.append(
             f"the bore of {format_quantity(design.hub.bore, 'mm')} does not fit into the cam, which is drawn without it"
         )
+    largest = largest_cutter(design)
+    if params.cutter_radius is not None and params.cutter_radius > largest * (1 + 1e-9):
+        shown, most = (format_quantity(value, "mm") for value in (params.cutter_radius, largest))
+        said.append(f"cutter_radius={shown} does not get into every hollow of the cam: at most {most}")
     if design.roller is None and params.follower == "roller" and params.roller_radius is None:
         said.append(
             f"no roller of the table fits this cam: reckoned with {format_quantity(cam.roller_radius, 'mm')} of radius"

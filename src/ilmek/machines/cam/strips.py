@@ -78,7 +78,7 @@ def moving(design: CamDesign) -> Animation:
         Reading("torque", state.torque, "N*m"),
     )
     period = TURN / design.params.speed if design.params.speed > 0 else None
-    still = Drawing("cam-moving", "Cam in motion", (_guide(design),))
+    still = Drawing("cam-moving", "Cam in motion", _guide(design))
     return Animation(still, Axis("cam angle", "deg"), at, strokes, (), not wedge, 0, period, readings)
 
 
@@ -140,11 +140,11 @@ def _edges(design: CamDesign) -> tuple[float, float]:
     return low - reach, high + reach
 
 
-def _guide(design: CamDesign) -> Stroke:
-    """The wall of the follower's guide."""
+def _guide(design: CamDesign) -> tuple[Stroke, ...]:
+    """Both walls of the follower's guide."""
     low = design.programme.bounds[1] + 1.3 * design.cam.roller_radius
-    side = 0.04 * design.cam.prime_radius
-    return Stroke(side + 1j * np.array([low, low + 1.4 * design.params.lift]), "guide")
+    line = 1j * np.array([low, low + 1.4 * design.params.lift])
+    return (Stroke(line, "guide"), Stroke(line[::-1], "guide"))
 
 
 def _roller_name(design: CamDesign) -> str:
