@@ -20,11 +20,12 @@ def warp_results(studied: Study) -> tuple[Result, ...]:
     top = np.array(params.lift)
     longer = float(warp.lengthening(top)) if warp else None
     most = float(warp.tension_at(top)) if warp else None
+    across = float(most * warp.lever(top)) if warp and most else params.warp_force
     return (
         Result("warp_lengthening", longer, "mm", "what a lifted warp is longer by"),
         Result("warp_strain", _strain(design, warp), "%", "what of it the warp itself takes, over its length"),
         Result("warp_tension_max", most, "N", "tension of a warp, lifted"),
-        Result("warp_force_max", float(most * warp.lever(top)) if warp and most else params.warp_force, "N", "across"),
+        Result("warp_force_max", across, "N", "force of a lifted warp across the shaft"),
         Result("bridged", _bridged(studied), "", "hollows of the cam that a taut yarn bridges [rad, m]"),
         Result("draped", _draped(studied), "", "the warp as a yarn draped over the cam [N m, m, rad, N/m]"),
     )

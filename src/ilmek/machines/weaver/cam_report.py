@@ -129,11 +129,13 @@ def cams_drawing(weaver: Weaver) -> Drawing:
     room = 2.15 * max(cam.radius for cam in weaver.cams)
     strokes: list[Stroke] = []
     for place, cam in enumerate(weaver.cams):
-        at = room * complex(place % 3, -(place // 3))
+        at = room * complex(place % 3, -1.15 * (place // 3))
         surface = cam.trace.surface[::OUTLINE]
         ring = np.exp(1j * np.linspace(0.0, turn, 73))
         strokes += [
-            Stroke(at + surface, "outline", cam.name, closed=True, filled=True),
+            Stroke(at + surface, "outline", closed=True, filled=True),
+            # A speck below each cam bears its name, which would otherwise stand among the neighbours.
+            Stroke(at - 0.56j * room + np.linspace(-0.38, -0.379, 2) * room, "construction", cam.name),
             Stroke(at + cam.trace.pitch[::OUTLINE], "path", closed=True),
             Stroke(at + weaver.params.shaft / 2 * ring, "outline", closed=True),
             Stroke(at + cam.cam.prime_radius + weaver.params.roller_radius * ring + cam.course.s[0], "construction"),
