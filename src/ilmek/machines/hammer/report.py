@@ -38,19 +38,26 @@ def _fabric_results(design: Hammer) -> tuple[Result, ...]:
     return (
         Result("row_pitch", design.spacing, "mm", "distance of the rows that the beat leaves: the outcome"),
         Result("knots_along", design.rows_along, "1/dm", "rows of knots along the carpet"),
-        Result("row_pitch_range", [float(across.min()), float(across.max())], "mm", "least and largest over the width"),
+        Result(
+            "row_pitch_range",
+            [float(across.min()), float(across.max())],
+            "mm",
+            "rows apart, least and largest over the width",
+        ),
         Result("force_warp", design.force, "N", "mean force on the fell for each warp"),
-        Result("force_warp_min", float(design.force_across().min()), "N", "least of a warp across the width"),
-        Result("force_warp_max", float(design.force_across().max()), "N", "largest of a warp across the width"),
-        Result("force_needed", design.needed, "N", "for each warp, that the rows wanted ask"),
-        Result("force", design.force * warps, "N", "on the whole fell"),
-        Result("tension", fabric.tension, "N", "of a warp, before the beat"),
-        Result("fell_movement", design.fell, "mm", "by which the fell gives way and comes back"),
-        Result("comb_way", float(fabric.travel(design.force)), "mm", "of the comb from the laid row to its end"),
-        Result("bump_force", fabric.bump, "N", "of a warp, from which the cloth hangs slack"),
+        Result("force_warp_min", float(design.force_across().min()), "N", "least force of a warp across the width"),
+        Result("force_warp_max", float(design.force_across().max()), "N", "largest force of a warp across the width"),
+        Result("force_needed", design.needed, "N", "force for each warp that the rows wanted ask"),
+        Result("force", design.force * warps, "N", "force on the whole fell"),
+        Result("tension", fabric.tension, "N", "tension of a warp before the beat"),
+        Result("fell_movement", design.fell, "mm", "way by which the fell gives way and comes back"),
+        Result("comb_way", float(fabric.travel(design.force)), "mm", "way of the comb from the laid row to its end"),
+        Result("bump_force", fabric.bump, "N", "force of a warp from which the cloth hangs slack"),
         Result("beat_energy", design.energy * warps, "J", "work of a beat on rows, warps and cloth"),
         Result("packing_energy", packed * warps, "J", "of it, what packs the row and is not given back"),
-        Result("beat_power", 2 * design.energy * warps / params.turn_time, "W", "mean, two beats a turn of the cams"),
+        Result(
+            "beat_power", 2 * design.energy * warps / params.turn_time, "W", "mean power, two beats a turn of the cams"
+        ),
     )
 
 
@@ -60,15 +67,15 @@ def _comb_results(design: Hammer) -> tuple[Result, ...]:
         Result("uniformity", line.uniformity, "1", "least force over the largest, across the width"),
         Result("share_min", line.least, "1", "least force over the mean"),
         Result("share_max", line.most, "1", "largest force over the mean"),
-        Result("fell_stiffness", comb.foundation, "Pa", "of the fell, force over width and way"),
+        Result("fell_stiffness", comb.foundation, "Pa", "stiffness of the fell, force over width and way"),
         Result("beam_number", line.number, "1", "width over the length in which the comb bends on the fell, l W"),
         Result("comb_rigidity", comb.rigidity, "N*m^2", "E I of the comb's bar"),
         Result("comb_depth", design.params.depth, "mm", "height of the comb's bar: as given, or chosen"),
-        Result("comb_mass", comb.mass, "kg", "bar and leaves"),
-        Result("comb_stress", comb.stress, "MPa", "largest of the bar"),
-        Result("leaf_stress", comb.leaf_stress, "MPa", "of a leaf"),
-        Result("leaf_sag", comb.leaf_sag, "mm", "of a leaf at the fell"),
-        Result("mass", design.mass, "kg", "all that moves"),
+        Result("comb_mass", comb.mass, "kg", "mass of bar and leaves"),
+        Result("comb_stress", comb.stress, "MPa", "largest stress of the bar"),
+        Result("leaf_stress", comb.leaf_stress, "MPa", "stress of a leaf"),
+        Result("leaf_sag", comb.leaf_sag, "mm", "sag of a leaf at the fell"),
+        Result("mass", design.mass, "kg", "mass of all that moves"),
     )
 
 
@@ -88,25 +95,30 @@ def _axis_results(design: Hammer) -> tuple[Result, ...]:
             "inertia_ratio": duty.inertia_ratio,
         }
     return (
-        Result("moving_mass", axis.mass, "kg", "cams and comb, which go down together"),
+        Result("moving_mass", axis.mass, "kg", "mass of cams and comb, which go down together"),
         Result("stroke_needed", stroke_needed(design.fabric, design.force), "mm", "least stroke: the comb's way"),
-        Result("speed_max", float(np.max(np.abs(axis.speed))), "mm/s", "largest of the comb"),
-        Result("acceleration_max", float(np.max(np.abs(axis.acceleration))), "m/s^2", "largest of the comb"),
-        Result("inertia_force", axis.inertia_force, "N", "that accelerates cams and comb"),
-        Result("weight_carried", axis.balance, "N", "weight that the axes hold, the balanced part taken off"),
-        Result("axes_force_down", float(np.max(axis.force)), "N", "largest of all axes, downwards"),
-        Result("axes_force_up", -float(np.min(axis.force)), "N", "largest of all axes, upwards"),
+        Result("speed_max", float(np.max(np.abs(axis.speed))), "mm/s", "largest speed of the comb"),
         Result(
-            "contact_speed", axis.meets, "mm/s", "of the comb where it meets the row: it presses, it does not strike"
+            "acceleration_max", float(np.max(np.abs(axis.acceleration))), "m/s^2", "largest acceleration of the comb"
         ),
-        Result("power_max", axis.power_max, "W", "largest of all axes"),
+        Result("inertia_force", axis.inertia_force, "N", "force that accelerates cams and comb"),
+        Result("weight_carried", axis.balance, "N", "weight that the axes hold, the balanced part taken off"),
+        Result("axes_force_down", float(np.max(axis.force)), "N", "largest force of all axes, downwards"),
+        Result("axes_force_up", -float(np.min(axis.force)), "N", "largest force of all axes, upwards"),
+        Result(
+            "contact_speed",
+            axis.meets,
+            "mm/s",
+            "speed of the comb where it meets the row: it presses, it does not strike",
+        ),
+        Result("power_max", axis.power_max, "W", "largest power of all axes"),
         Result("axes", params.shared, "1", f"vertical axes, {params.axis}s"),
-        Result("axis_speed", float(np.max(np.abs(axis.cycle.speed))), "rpm", "largest of a screw or pulley"),
-        Result("axis_torque", float(np.max(np.abs(axis.cycle.effort))), "Nm", "largest at a screw or pulley"),
-        Result("brake_torque", axis.brake, "Nm", "that holds a screw or pulley at rest: neither locks itself"),
-        Result("screw_diameter", axis.screw, "mm", "of a ball screw; null of belts"),
-        Result("buckling_safety", None if axis.screw is None else axis.buckling, "1", "of a screw, Euler"),
-        Result("servo", servo, "", "of each axis; null where none of the table bears it"),
+        Result("axis_speed", float(np.max(np.abs(axis.cycle.speed))), "rpm", "largest speed of a screw or pulley"),
+        Result("axis_torque", float(np.max(np.abs(axis.cycle.effort))), "Nm", "largest torque at a screw or pulley"),
+        Result("brake_torque", axis.brake, "Nm", "torque that holds a screw or pulley at rest: neither locks itself"),
+        Result("screw_diameter", axis.screw, "mm", "diameter of a ball screw; none of belts"),
+        Result("buckling_safety", None if axis.screw is None else axis.buckling, "1", "safety of a screw, Euler"),
+        Result("servo", servo, "", "of each axis; none where none of the table bears it"),
     )
 
 
