@@ -64,7 +64,11 @@ def report(cyclogram: Cyclogram, solution: Solution | None = None) -> Report:
     checks = (*judged(cyclogram), *_limit_checks(cyclogram))
     if solution is None and not all(check.ok for check in checks):
         require_possible(cyclogram)
-    note = "Shaded: a stay in a place that another track needs too. Arrows: what must come after what."
+    notes = {
+        "Shaded: a stay in a place that another track needs too.": cyclogram.exclusions,
+        "Arrows: what must come after what.": cyclogram.relations,
+    }
+    note = " ".join(said for said, there in notes.items() if there)
     tables = [_motions_table(cyclogram), _tracks_table(cyclogram)]
     results = [
         Result("period", cyclogram.period, "s", "a turn of the master shaft"),
