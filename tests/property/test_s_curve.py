@@ -91,7 +91,7 @@ def test_the_law_of_a_move_has_its_course(distance, speed, acceleration, jerk):
 @given(st.floats(0.01, 0.25), st.floats(0.0, 1.0))
 def test_the_laws_torque_and_rms_are_those_of_its_curves(ramp, share):
     law = law_of("s-curve", {"ramp": ramp, "cruise": share * (1 - 4 * ramp)})
-    u = (np.arange(20_000) + 0.5) / 20_000
+    u = (np.arange(100_000) + 0.5) / 100_000
     assert law.torque_peak == pytest.approx(float(np.max(law.v(u) * law.a(u))), rel=1e-3)
     assert law.acceleration_rms == pytest.approx(math.sqrt(float(np.mean(law.a(u) ** 2))), rel=1e-3)
 

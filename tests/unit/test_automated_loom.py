@@ -2,6 +2,7 @@
 
 import contextlib
 import math
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -20,9 +21,15 @@ from ilmek.machines.automated_loom import (
     report,
 )
 from ilmek.machines.automated_loom.cyclogram import BEATER, SHUTTLE
-from ilmek.report import Drawing, Plot, Timing
+from ilmek.report import Drawing, Plot, Report, Timing
 from ilmek.timing.track import peak_acceleration, peak_speed, sample
 from ilmek.units import deg, dm, hour, mm
+
+
+@cache
+def reported(**settings: Any) -> Report:
+    """A loom's report: the same settings are designed once."""
+    return report(design(AutomatedLoomParams(**settings)))
 
 
 @pytest.mark.parametrize(
@@ -47,14 +54,14 @@ def test_looms_for_other_carpets_keep_all_limits(settings: dict[str, Any]) -> No
 
 
 def test_checks_carry_the_name_of_their_machine() -> None:
-    names = [check.name for check in report(design(AutomatedLoomParams())).checks]
+    names = [check.name for check in reported().checks]
     assert len(set(names)) == len(names)
     for machine in ("weaver", "knotting-dyad", "beat-up", "shedding", "warp-tension", "row", "shuttle"):
         assert any(name.startswith(f"{machine}: ") for name in names)
 
 
 def test_results_and_figures() -> None:
-    made = report(design(AutomatedLoomParams()))
+    made = reported()
     results = made.as_json()["results"]
     assert len(results) == len(made.results)
     assert results["beat_up"]["transmission_angle_min"] > 0
@@ -66,7 +73,7 @@ def test_results_and_figures() -> None:
 
 def test_the_arms_are_made_for_the_pitch_and_the_knot_of_the_carpet() -> None:
     for knot, pitch in (("symmetric", 2 * mm), ("asymmetric", 1.25 * mm)):
-        made = report(design(AutomatedLoomParams(knot=knot, warp_pitch=pitch)))
+        made = reported(knot=knot, warp_pitch=pitch)
         arms = made.as_json()["results"]["knotting_dyad"]
         assert arms["knot_tied"] == knot
         assert 0 < arms["clearance_min"] == pytest.approx(arms["clearance_bound"], abs=1e-9)
@@ -78,7 +85,7 @@ def test_the_arms_are_made_for_the_pitch_and_the_knot_of_the_carpet() -> None:
     ("pitch", "said"), [(1 * mm, "the yarn bends the needle"), (0.15 * mm, "needle_diameter=0.006 mm is out of bounds")]
 )
 def test_a_pitch_too_fine_for_arms_is_said_and_no_failure_of_the_loom(pitch: float, said: str) -> None:
-    made = report(design(AutomatedLoomParams(width=0.3, length=0.3, warp_pitch=pitch)))
+    made = reported(width=0.3, length=0.3, warp_pitch=pitch)
     assert "knotting_dyad" not in made.as_json()["results"]
     assert made.failed == ()
     assert any("a knotting-dyad" in warning and said in warning for warning in made.warnings)
@@ -106,11 +113,11 @@ def test_a_wide_loom_takes_the_time_that_its_shuttle_needs() -> None:
     assert any("shedding cams turn at" in said for said in report(loom).warnings)
 
 
-@pytest.mark.parametrize("width", [0.6, 1.2, 2.0, 4.0, 6.0])
+@pytest.mark.parametrize("width", [0.6, 2.0, 5.0, 6.0])
 def test_a_wide_loom_is_many_narrow_ones_beside_each_other(width: float) -> None:
     """Supports of the cam shaft and crank-rockers of the beater keep bar, cams and beat of a narrow loom."""
     loom = design(AutomatedLoomParams(width=width))
-    results = report(loom).as_json()["results"]
+    results = reported(width=width).as_json()["results"]
     shaft, cams = results["shedding"], results["shedding"]["mass"]
     assert shaft["shaft_span"] <= 1.5
     assert shaft["shaft_bar"] <= 80 * mm
@@ -127,20 +134,20 @@ def test_a_wide_loom_is_many_narrow_ones_beside_each_other(width: float) -> None
 
 def test_a_shaft_without_supports_between_would_grow_without_end() -> None:
     """The cams of a 5 m loom on two bearings: a bar of 420 mm and 15 t; it is said, and supports are what mends it."""
-    free = report(design(AutomatedLoomParams(width=5.0, shaft_span=6.0)))
+    free = reported(width=5.0, shaft_span=6.0)
     assert any("beyond the 150 mm of stock: set more spans" in said for said in free.warnings)
-    held = report(design(AutomatedLoomParams(width=5.0)))
+    held = reported(width=5.0)
     assert not any("stock" in said for said in held.warnings)
     assert held.as_json()["results"]["mass"] < 0.4 * free.as_json()["results"]["mass"]
 
 
 def test_cylinders_that_weigh_on_the_warps_are_said() -> None:
-    assert any("what the warps pull" in said for said in report(design(AutomatedLoomParams(width=6.0))).warnings)
-    assert not any("what the warps pull" in said for said in report(design(AutomatedLoomParams(width=2.0))).warnings)
+    assert any("what the warps pull" in said for said in reported(width=6.0).warnings)
+    assert not any("what the warps pull" in said for said in reported(width=2.0).warnings)
 
 
 def test_one_head_has_no_neighbour_to_check() -> None:
-    made = report(design(AutomatedLoomParams(heads=1)))
+    made = reported(heads=1)
     assert "distance of two heads" not in [check.name for check in made.checks]
     assert all(math.isfinite(check.value) and math.isfinite(check.limit) for check in made.checks)
 
@@ -207,7 +214,7 @@ def test_parameters_out_of_bounds(settings: dict[str, Any]) -> None:
 )
 def test_extreme_looms_are_designed_or_refused_in_words(settings: dict[str, Any]) -> None:
     with contextlib.suppress(IlmekError):
-        assert report(design(AutomatedLoomParams(**settings))).as_json()["results"]["cycle_time_row"] > 0
+        assert reported(**settings).as_json()["results"]["cycle_time_row"] > 0
 
 
 def test_more_heads_weave_sooner() -> None:
@@ -263,3 +270,13 @@ def test_figure_of_the_scaling_has_a_curve_for_each_pitch() -> None:
     for pitch in ("0.8 mm: 62.5/dm", "1 mm: 50/dm", "2 mm: 25/dm", "4 mm: 12.5/dm"):
         assert pitch in kept
         assert pitch in made
+
+
+@pytest.mark.parametrize("width", [0.01, 0.3])
+def test_a_loom_of_one_head_shows_its_time_over_the_pitch(width: float) -> None:
+    """Knots grow as the square of the density, rows with their wefts as the density itself: between both."""
+    figures = {one.name: one for one in report(design(AutomatedLoomParams(width=width))).figures}
+    assert "weaving-time" not in figures
+    curve = figures["weaving-time-pitch"].series[0]
+    finer = curve.x[-1] / curve.x[0]
+    assert finer < curve.y[0] / curve.y[-1] < finer**2

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -26,12 +27,18 @@ from ilmek.machines.automated_loom.frame import (
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.prices import PRICES, read_prices
 from ilmek.machines.automated_loom.time import estimated_time, estimated_times_at, time_shares
+from ilmek.report import Report
 from ilmek.timing.track import peak_acceleration
 from ilmek.units import turn
 
 LOOM = design(AutomatedLoomParams())
 LISTED = parts_of_loom(LOOM)
 TASK = LISTED.frame.task
+
+
+@cache
+def loose() -> Report:
+    return report(LOOM)
 
 
 def test_a_price_list_from_a_text_changes_what_it_names_and_nothing_else():
@@ -80,7 +87,7 @@ def test_the_list_has_a_part_for_every_warp_head_and_axis():
 
 
 def test_mass_and_price_of_the_report_are_those_of_its_table():
-    made = report(LOOM)
+    made = loose()
     results = {result.name: result.value for result in made.results}
     rows = next(table for table in made.tables if table.name == "loom-parts").rows
     assert results["price"] == pytest.approx(sum(float(row[6]) for row in rows))
@@ -185,26 +192,31 @@ def test_shares_of_the_time_name_the_bottleneck():
 COMB = design(AutomatedLoomParams(hammer="comb"))
 
 
+@cache
+def pressed() -> Report:
+    return report(COMB)
+
+
 def test_the_comb_presses_the_rows_together_where_the_paper_s_linkage_leaves_them_loose():
     loose, pressed = LOOM.left, COMB.left
     assert loose.needed == pressed.needed == pytest.approx(10.0)  # the hammer's fabric: 10 N on 15 N of tension
     assert pressed.spacing == pytest.approx(4e-3)
     assert loose.force == pytest.approx(0.1066, abs=1e-4)
     assert loose.spacing > 5.9e-3
-    said = report(LOOM).warnings[0]
+    said = loose().warnings[0]
     assert "5.94 mm apart, not 4 mm; hammer=comb" in said
-    assert not any("apart, not" in warning for warning in report(COMB).warnings)
+    assert not any("apart, not" in warning for warning in pressed().warnings)
 
 
 def test_a_loom_beats_with_one_of_them():
-    linkage, comb = (report(loom).as_json()["results"] for loom in (LOOM, COMB))
+    linkage, comb = (made.as_json()["results"] for made in (loose(), pressed()))
     assert "beat_up" in linkage
     assert "hammer" not in linkage
     assert "hammer" in comb
     assert "beat_up" not in comb
     assert comb["beat_force_warp"] == pytest.approx(comb["hammer"]["force_warp"])
     assert comb["axes"] == linkage["axes"] - 1 + comb["hammer"]["axes"]
-    assert report(COMB).failed == ()
+    assert pressed().failed == ()
 
 
 def test_the_comb_beats_within_its_acceleration_and_after_the_shuttle():
