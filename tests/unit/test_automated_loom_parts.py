@@ -198,11 +198,11 @@ def pressed() -> Report:
 
 
 def test_the_comb_presses_the_rows_together_where_the_paper_s_linkage_leaves_them_loose():
-    loose, pressed = LOOM.left, COMB.left
-    assert loose.needed == pressed.needed == pytest.approx(10.0)  # the hammer's fabric: 10 N on 15 N of tension
-    assert pressed.spacing == pytest.approx(4e-3)
-    assert loose.force == pytest.approx(0.1066, abs=1e-4)
-    assert loose.spacing > 5.9e-3
+    linkage, comb = LOOM.left, COMB.left
+    assert linkage.needed == comb.needed == pytest.approx(10.0)  # the hammer's fabric: 10 N on 15 N of tension
+    assert comb.spacing == pytest.approx(4e-3)
+    assert linkage.force == pytest.approx(0.1066, abs=1e-4)
+    assert linkage.spacing > 5.9e-3
     said = loose().warnings[0]
     assert "5.94 mm apart, not 4 mm; hammer=comb" in said
     assert not any("apart, not" in warning for warning in pressed().warnings)
