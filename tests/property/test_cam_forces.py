@@ -112,8 +112,6 @@ def test_lift_off_of_the_harmonic_cam_by_hand() -> None:
 
 
 def test_no_spring_holds_a_follower_whose_velocity_drops() -> None:
-    if "uniform" not in LAWS:
-        pytest.skip("the law is not there yet")
     motion = programme("uniform")
     assert lift_off(motion, Held(1.0, 1.0, 10.0, 10.0)).speed == 0
     with pytest.raises(ParameterError, match="velocity jumps down at 80 deg"):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy import interpolate
 
 from ilmek.cams.laws import FAMILIES, LAWS, law_of
 from ilmek.errors import ParameterError
@@ -84,7 +85,6 @@ def test_a_spline_goes_through_its_points_smoothly(u, degree, data) -> None:
 
 
 def test_the_cubic_spline_is_that_of_an_independent_solution() -> None:
-    interpolate = pytest.importorskip("scipy.interpolate")
     u, s = (0.2, 0.45, 0.8), (0.1, 0.6, 0.8)
     law = law_of("spline", {"u": u, "s": s, "start": (0.5,), "end": (-0.25,), "degree": 3})
     other = interpolate.CubicSpline([0, *u, 1], [0, *s, 1], bc_type=((1, 0.5), (1, -0.25)))
