@@ -277,6 +277,16 @@ def test_a_loom_of_one_head_shows_its_time_over_the_pitch(width: float) -> None:
     """Knots grow as the square of the density, rows with their wefts as the density itself: between both."""
     figures = {one.name: one for one in report(design(AutomatedLoomParams(width=width))).figures}
     assert "weaving-time" not in figures
-    curve = figures["weaving-time-pitch"].series[0]
+    scaling = figures["weaving-time-pitch"]
+    assert isinstance(scaling, Plot)
+    curve = scaling.series[0]
     finer = curve.x[-1] / curve.x[0]
     assert finer < curve.y[0] / curve.y[-1] < finer**2
+
+
+def test_the_coarsest_carpet_has_its_loom() -> None:
+    """Its page shows how time scales without asking for a carpet that is none."""
+    made = report(design(AutomatedLoomParams(warp_pitch=50 * mm)))
+    scaling = next(one for one in made.figures if one.name == "weaving-time-pitch")
+    assert isinstance(scaling, Plot)
+    assert not any(series.label.startswith(("75 mm", "100 mm")) for series in scaling.series)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.carpet.quality import FINEST
+from ilmek.carpet.quality import COARSEST, FINEST
 from ilmek.loom.sharing import halves, heads_that_fit, share
 from ilmek.machines.automated_loom.design import LoomDesign, frame_width
 from ilmek.machines.automated_loom.time import estimated_time, estimated_times_at
@@ -57,6 +57,8 @@ def figures(loom: LoomDesign) -> tuple[Figure, ...]:
     row = draw(loom.row_cyclogram, "One row: two wefts, two beats", note)
     order = "Order of the motions: thesis, 2.2.3; angles chosen, the thesis prints none. The head steps on at the end."
     knot = draw(loom.cyclograms[0], "One knot: the head's cams, and its step to the next knot", order)
+    if loom.heads_max == 1:
+        return (front(loom), row, knot, time_of_one_head(loom))
     return (front(loom), row, knot, time_against_heads(loom), time_against_pitch(loom))
 
 
@@ -91,7 +93,7 @@ def time_against_pitch(loom: LoomDesign) -> Plot:
     series = []
     for factor in _FINER:
         pitch = factor * params.pitch
-        if max(0.5 / pitch, params.quality.along / factor) > FINEST:
+        if max(0.5 / pitch, params.quality.along / factor) > FINEST or factor > _coarsest(loom):
             continue
         columns = round(params.width / (2 * pitch))
         heads = range(1, heads_that_fit(columns, 2 * pitch, params.head_width) + 1)
@@ -101,6 +103,25 @@ def time_against_pitch(loom: LoomDesign) -> Plot:
     note = "warp pitch and knots across; rows by the same measure; head, wefts and beats as of this loom"
     axes = Axis("heads"), Axis("time", "h")
     return Plot("weaving-time-pitch", "Weaving time, heads and pitch", *axes, tuple(series), note=note)
+
+
+def _coarsest(loom: LoomDesign) -> float:
+    """How much wider the pitch may be for the carpet still to be one, with two knots across and two rows at least."""
+    params, quality = loom.params, loom.params.quality
+    fewest = min(params.width / (4 * params.pitch), params.length * quality.along / 2)
+    return min(fewest, min(0.5 / params.pitch, quality.along) / COARSEST)
+
+
+def time_of_one_head(loom: LoomDesign) -> Plot:
+    """How the weaving time of a carpet too narrow for a second head scales: over the pitch of the warps."""
+    params = loom.params
+    finest = max(0.5 / params.pitch, params.quality.along) / FINEST
+    pitches = params.pitch * np.linspace(max(_FINER[0], finest), min(_FINER[-1], max(1.0, _coarsest(loom))), 33)
+    total = np.array([float(estimated_times_at(loom, pitch, (1,))[0]) for pitch in pitches.tolist()])
+    note = "rows by the same measure; head, wefts and beats as of this loom; there is room for one head"
+    axes = Axis("warp pitch", "mm"), Axis("time", "h")
+    marks = (Mark(params.pitch, "this loom"),)
+    return Plot("weaving-time-pitch", "Weaving time and pitch", *axes, (Series("", pitches, total),), marks, note)
 
 
 def front(loom: LoomDesign) -> Drawing:
