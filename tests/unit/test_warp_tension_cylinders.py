@@ -148,3 +148,9 @@ def test_a_step_of_the_motor_is_fine_enough() -> None:
     found = tension_of(DESIGN)
     assert found.step == pytest.approx(found.rate * 70 * mm * turn / 200 / 200)
     assert failed(free_length="20mm", ratio="1", motor_torque="1e4Nm") != []
+
+
+def test_a_spacer_that_no_stock_tube_can_be_is_told() -> None:
+    made = MACHINE.report(MACHINE.design(WarpTensionParams(tension=1e4)))
+    assert any("stiff enough for the spacer" in said for said in made.warnings)
+    assert not MACHINE.report(DESIGN).warnings

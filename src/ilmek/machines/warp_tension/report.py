@@ -15,7 +15,9 @@ from ilmek.machines.warp_tension.cylinder_report import (
     stock_table,
     tension_plot,
 )
+from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders
 from ilmek.machines.warp_tension.design import WarpTensionDesign, outer_radii_min
+from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.report import Check, Column, Figure, Report, Result, Table, at_most
 from ilmek.units import format_number, format_quantity, mm, turn
 
@@ -204,4 +206,13 @@ def _warnings(design: WarpTensionDesign) -> tuple[str, ...]:
         largest = max(MOTORS, key=lambda motor: motor.torque).name
         shown, speed = format_quantity(design.motor_torque, "Nm"), format_quantity(design.motor_speed, "rpm")
         said.append(f"no motor gives {shown} at {speed}; the largest is {largest}: set another ratio")
+    spacer = cylinders(design)[2]
+    if params.spacer_tube is None and not _stiff(params, spacer):
+        said.append(
+            "no stock tube is stiff enough for the spacer: less tension, a narrower width or a smaller spacer_wrap"
+        )
     return tuple(said)
+
+
+def _stiff(params: WarpTensionParams, one: Cylinder) -> bool:
+    return one.slope <= params.slope_limit and one.deflection <= params.deflection_limit
