@@ -93,7 +93,7 @@ def many_cams() -> None:
 
     together, single = taken(lambda: sweep(laws, asked)), taken(some) / 50 * COUNT
     print(f"{COUNT} cams (law x size x limits) swept at once  {together:8.2f} s    (asked: 2 s)")
-    print(f"{COUNT} cams, each alone                          {single:8.2f} s    {single / together:.0f} times as long")
+    print(f"{COUNT} cams, each alone, by 50 of them         {single:8.2f} s    {single / together:.0f} times as long")
 
 
 def trapezoids() -> None:

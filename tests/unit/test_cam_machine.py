@@ -295,6 +295,27 @@ def test_plate_has_the_area_of_the_cam_and_its_cutter_path() -> None:
     assert cam_table(found).course(np.array([0.0, math.pi / 2]))[0] == pytest.approx([0.0, 60 * mm])
 
 
+def test_what_undercut_leaves_no_face_of_has_no_area_mass_or_pressure() -> None:
+    eaten = dict(law="harmonic", lift="40mm", rise="30deg", prime_radius="12mm", roller_radius="11.5mm")
+    found = results(**eaten)
+    assert [found[name] for name in ("area", "mass", "hertz_pressure_max", "hertz_at")] == [None] * 4
+    assert not any("Hertz" in check.name for check in report(made(**eaten)).checks)
+
+
+def test_a_bore_that_does_not_fit_is_neither_drawn_nor_taken_off() -> None:
+    asked = dict(prime_radius="20mm", bore="100mm", face_width="10mm")
+    (drawing, *_) = report(made(**asked)).figures
+    assert not any(stroke.label.startswith("bore") for stroke in drawing.strokes)
+    found = results(**asked)
+    assert found["mass"] == pytest.approx(found["area"] * 10 * mm * 7850, rel=1e-2)
+
+
+@pytest.mark.parametrize(("kind", "radius", "told"), [("grooved", "7mm", True), ("plate", "7mm", False)])
+def test_a_cutter_too_large_for_a_hollow_is_told(kind: str, radius: str, told: bool) -> None:
+    found = report(made(kind=kind, roller_radius="6.5mm", cutter_radius=radius))
+    assert any("cutter_radius=7 mm" in warning for warning in found.warnings) is told
+
+
 def test_undercut_is_said_with_the_size_that_mends_it() -> None:
     asked = dict(law="cycloidal", lift="20mm", rise="60deg", prime_radius="24mm", roller_radius="20mm")
     found = report(made(**asked))
@@ -331,7 +352,9 @@ def test_corner_of_the_uniform_law_is_no_way_for_a_roller() -> None:
         (dict(roller="CF 10", roller_radius="8mm"), "roller and roller_radius are both given"),
         (dict(follower="knife", roller_radius="8mm"), "set follower=roller or spherical"),
         (dict(follower="spherical", roller_radius="0mm"), "set follower=knife"),
+        (dict(follower="flat", crown_radius="50mm"), "crown_radius with follower=flat; leave it out"),
         (dict(arm="50mm"), "set motion=oscillating"),
+        (dict(motion="oscillating", arm="5mm", lift="60mm"), "the arm cannot swing so far"),
         (dict(motion="oscillating", offset="5mm"), "place the arm by arm and pivot"),
         (dict(motion="oscillating", guide_friction="0.1"), "an arm has no guide"),
         (dict(kind="grooved", follower="flat"), "a groove leads a roller"),

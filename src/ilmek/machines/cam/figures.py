@@ -13,7 +13,7 @@ from ilmek.cams.trace import Trace
 from ilmek.machines.cam import strips
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.moving import moving
-from ilmek.machines.cam.parts import rim_radius, zero_mark
+from ilmek.machines.cam.parts import cutouts, rim_radius, zero_mark
 from ilmek.plane import contours
 from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.units import format_quantity, mm
@@ -47,7 +47,7 @@ def drawing(design: CamDesign) -> Drawing:
     """The cam to scale, zero of the cam angle to the right, with the curves that make it."""
     if design.params.laid_flat:
         return strips.drawing(design)
-    cam, hub = design.cam, design.hub
+    cam, bore = design.cam, f"bore {format_quantity(design.hub.bore, 'mm')}"
     trace = cam.trace(cam_figures.sample_angles(design.programme, count=721))
     tip = trace.surface[np.argmax(np.abs(trace.surface))]
     prime = f"{'base circle' if cam.flat else 'prime circle'} {format_quantity(cam.prime_radius, 'mm')}"
@@ -55,7 +55,7 @@ def drawing(design: CamDesign) -> Drawing:
         *_bodies(design, trace),
         Stroke(cam.prime_radius * _CIRCLE, "construction", prime, closed=True),
         *_paths(design, trace),
-        Stroke(contours.along(hub.contour, CHORD), "outline", f"bore {format_quantity(hub.bore, 'mm')}", closed=True),
+        *(Stroke(contours.along(hole, CHORD), "outline", bore, closed=True) for hole in cutouts(design, cam)),
         Stroke(zero_mark(design), "outline", "0"),
         Stroke(np.array([0j, tip]), "dimension", format_quantity(float(np.abs(tip)), "mm")),
     )

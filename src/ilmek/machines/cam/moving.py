@@ -8,7 +8,7 @@ from ilmek.cams.trace import Trace
 from ilmek.machines.animation import frames
 from ilmek.machines.cam import strips
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.parts import rim_radius, zero_mark
+from ilmek.machines.cam.parts import cutouts, rim_radius, zero_mark
 from ilmek.plane import contours
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import mm
@@ -27,11 +27,11 @@ def moving(design: CamDesign) -> Animation:
     state = design.state(at)
     centre = up * state.trace.pitch * np.exp(1j * at)
     surface = design.cam.trace(np.linspace(0.0, TURN, OUTLINE)).surface[:-1]
-    bore = contours.along(design.hub.contour, CHORD)
+    bores = [contours.along(hole, CHORD) for hole in cutouts(design, design.cam)]
     strokes = (
         MovingStroke(turned * surface, "outline", "cam", closed=True),
         *(MovingStroke(turned * edge, "outline", closed=True) for edge in _more_edges(design)),
-        MovingStroke(turned * bore, "outline", closed=True),
+        *(MovingStroke(turned * bore, "outline", closed=True) for bore in bores),
         MovingStroke(turned * zero_mark(design), "outline"),
         *_follower(design, state.trace, centre),
         *_second_follower(design, at),

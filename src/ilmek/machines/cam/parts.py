@@ -42,21 +42,23 @@ def rim_radius(design: CamDesign) -> float:
 
 
 def area_of(design: CamDesign) -> float:
-    """Area of the face [m^2], bore not taken off; NaN of a barrel or end cam."""
-    return strips.area(design) if design.params.laid_flat else design.area
+    """Area of the face [m^2], bore not taken off; NaN of a barrel or end cam, and where undercut leaves no face."""
+    found = strips.area(design) if design.params.laid_flat else design.area
+    return found if found > 0 else math.nan
 
 
 def mass_of(design: CamDesign) -> float:
     """Mass of the cam, bored, or of both [kg]."""
     if design.params.laid_flat:
         return strips.mass(design)
-    density, hub, width = MATERIALS[design.params.material].density, design.hub.area, design.face_width
+    density, width = MATERIALS[design.params.material].density, design.face_width
+    hub = design.hub.area if cutouts(design, design.cam) else 0.0
     if design.params.kind == "grooved":
         groove = 2 * design.cam.roller_radius * integral(lambda at: design.cam.trace(at).flow, design.cam.knots)
         disc = math.pi * rim_radius(design) ** 2
         return float(density * max((disc - hub) * (width + design.params.rim) - groove * width, 0.0))
     other = limits.area(design.cams.pair.second) - hub if design.cams.pair else 0.0
-    return density * width * max(design.area - hub + other, 0.0)
+    return density * width * (area_of(design) - hub + other)
 
 
 def outline_angles(cam: Cam) -> FloatArray:
@@ -82,7 +84,7 @@ def _plate(design: CamDesign, cam: Cam, name: str, title: str) -> Plate:
         outline=trace.surface,
         thickness=design.face_width,
         material=params.material,
-        cutouts=_cutouts(design, cam),
+        cutouts=cutouts(design, cam),
         paths=paths,
         marks={"zero": zero_mark(design)},
         area=limits.area(cam),
@@ -105,7 +107,7 @@ def _grooved(design: CamDesign, title: str) -> Plate:
         outline=disc,
         thickness=design.face_width + params.rim,
         material=params.material,
-        cutouts=_cutouts(design, cam),
+        cutouts=cutouts(design, cam),
         paths=paths,
         marks={"zero": zero_mark(design)},
         area=contours.area(disc),
@@ -113,7 +115,7 @@ def _grooved(design: CamDesign, title: str) -> Plate:
     )
 
 
-def _cutouts(design: CamDesign, cam: Cam) -> tuple[Contour, ...]:
+def cutouts(design: CamDesign, cam: Cam) -> tuple[Contour, ...]:
     """The bore, where it leaves something of the cam."""
     reach = infimum(lambda at: np.abs(cam.trace(at).surface), cam.knots).value
     return (design.hub.contour,) if reach > design.hub.reach else ()
@@ -121,6 +123,8 @@ def _cutouts(design: CamDesign, cam: Cam) -> tuple[Contour, ...]:
 
 def _hub_notes(design: CamDesign) -> tuple[str, ...]:
     hub = design.hub
+    if not cutouts(design, design.cam):
+        return ("without its bore, which does not fit",)
     width, depth = format_quantity(hub.key_width, "mm"), format_quantity(hub.key_depth, "mm")
     key = (f"keyway {width} wide, {depth} deep, DIN 6885-1",) if hub.key_width else ()
     return (f"bore {format_quantity(hub.bore, 'mm')} H7", *key)

@@ -85,7 +85,7 @@ def _checks(design: CamDesign) -> tuple[Check, ...]:
     if params.limit is not None and not (params.follower == "flat" and params.motion == "translating"):
         found = settled(pressure_angle_on(design, design.rise_knots).value, params.limit)
         checks.insert(0, at_most("pressure angle on the rise", found, params.limit, "deg", f"{norton}, 7.2"))
-    if extremes.pressure is not None:
+    if extremes.pressure is not None and not math.isnan(extremes.pressure.value):
         source = "pressure_limit" if params.pressure_limit else "first yield below the surface, Johnson"
         checks.append(at_most("Hertz pressure", extremes.pressure.value, design.pressure_limit, "MPa", source))
     if design.roller is not None and design.duty is not None:

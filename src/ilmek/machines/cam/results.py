@@ -56,7 +56,12 @@ def _size_results(design: CamDesign) -> tuple[Result, ...]:
         Result("curvature_at", convex.at, "deg", "cam angle of it"),
         Result("concave_radius_min", hollow.value if hollow else None, "mm", f"least radius of the {curve}, concave"),
         Result("undercut", design.undercut, "", "whether no surface can guide the follower"),
-        Result("area", _finite(area_of(design)), "cm^2", "area of the face, bore not taken off; none: of no one face"),
+        Result(
+            "area",
+            _finite(area_of(design)),
+            "cm^2",
+            "area of the face, bore not taken off; none: of no one face, or undercut through and through",
+        ),
         *((_face(design),) if face else ()),
         *_other(design),
     )
@@ -150,10 +155,15 @@ def _force_results(design: CamDesign) -> tuple[Result, ...]:
 
 def _hertz_results(design: CamDesign) -> tuple[Result, ...]:
     pressure = design.extremes.pressure
-    value = None if pressure is None else pressure.value
+    value = None if pressure is None else _finite(pressure.value)
     return (
-        Result("hertz_pressure_max", value, "MPa", "largest Hertz pressure; none: a knife's edge has no such pressure"),
-        Result("hertz_at", None if pressure is None else pressure.at, "deg", "cam angle of it"),
+        Result(
+            "hertz_pressure_max",
+            value,
+            "MPa",
+            "largest Hertz pressure; none of a knife's edge, or where undercut leaves no face",
+        ),
+        Result("hertz_at", None if pressure is None or value is None else pressure.at, "deg", "cam angle of it"),
         Result("hertz_pressure_limit", design.pressure_limit, "MPa", "pressure that is allowed"),
     )
 
@@ -168,7 +178,7 @@ def _part_results(design: CamDesign) -> tuple[Result, ...]:
         Result("roller_speed", duty.turns * duty.speed if duty else None, "rpm", "mean speed of the roller"),
         Result("face_width", design.face_width, "mm", "thickness of the cam"),
         *(() if design.params.kind == "wedge" else _hub_results(hub)),
-        Result("mass", mass_of(design), "kg", "mass of the cam, bored; of both where there are two"),
+        Result("mass", _finite(mass_of(design)), "kg", "mass of the cam, bored; of both where there are two"),
     )
 
 
