@@ -86,6 +86,7 @@ def test_columns_are_those_of_the_tracks() -> None:
     ("arguments", "said"),
     [
         (["nowhere.toml"], "does not exist"),
+        (["weavr"], "neither a cyclogram file nor a machine; a path, or automated-loom, weaver"),
         ([PRESS, "--out", "x.txt"], "ends in '.txt'; .toml or .json"),
         ([PRESS, "--csv", "-", "--json", "-"], "both --csv and --json"),
     ],
