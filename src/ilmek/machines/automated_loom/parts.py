@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,11 +21,14 @@ PULLEY = 20 * mm
 """Radius of the pulleys of carriages and shuttle [m]: chosen."""
 
 
+NOT_WEIGHED = math.nan
+
+
 @dataclass(frozen=True, slots=True)
 class Part:
     """A line of the parts list.
 
-    kind    by which it is priced                  mass    of one [kg]; nan: bought, not weighed
+    kind    by which it is priced                  mass    of one [kg]; nan: not weighed
     length  of one [m], power  of one [W]: where its price goes by them
     """
 
@@ -34,7 +37,7 @@ class Part:
     what: str
     material: str
     kind: str
-    mass: float = float("nan")
+    mass: float = NOT_WEIGHED
     length: float = 0.0
     power: float = 0.0
 
@@ -109,12 +112,14 @@ def _shedding(loom: LoomDesign) -> tuple[Part, ...]:
     prime, bar = (format_quantity(size, "mm") for size in (cams.cam.prime_radius, shaft.bar))
     guide = format_quantity(stack.guide_radius, "mm")
     steel = cams.params.density
-    seat = f"{shaft.seat.bearing.name}; " if shaft.seat.bearing else ""
+    ends, steadied = shaft.seat.bearing, cams.params.spans > 1
+    seat = "none of the table bears it" if ends is None else ends.name
     return (
         Part("shedding cam", loom.warps, f"prime radius {prime}", STEEL, "laser-cut part", stack.cam_mass),
         Part("guide cam", loom.warps, f"radius {guide}", STEEL, "laser-cut part", stack.guide_mass),
         Part("cam shaft", 1, f"square {bar}", STEEL, "steel bar", shaft.bar**2 * shaft.length * steel, shaft.length),
-        Part("bearing of the cam shaft", cams.params.spans + 1, f"{seat}ends, and steadies between", "", "bearing"),
+        Part("bearing of the cam shaft", 2, seat, "", "bearing", NOT_WEIGHED if ends is None else ends.mass),
+        *((Part("steady of the cam shaft", cams.params.spans - 1, "rollers", "", "bearing"),) if steadied else ()),
         *_motor("motor of the cam shaft", 1, cams.drive.motor, cams.drive.motor_torque, cams.drive.motor_speed),
         _reducer("reducer of the cam shaft", 1, cams.drive.reducer.ratio, cams.drive.motor),
     )
@@ -127,8 +132,10 @@ def _cylinders(loom: LoomDesign) -> tuple[Part, ...]:
     return (
         Part("cylinder", 2, _tube(upper), STEEL, "steel tube", upper.mass),
         Part("spacer cylinder", 1, _tube(spacer), STEEL, "steel tube", spacer.mass),
-        *(Part(f"bearing of the {one.name} cylinder", 2, one.bearing.name, "", "bearing") for one in (upper, lower)),
-        Part("bearing of the spacer", 2, spacer.bearing.name, "", "bearing"),
+        *(
+            Part(f"bearing of the {one.name}", 2, one.bearing.name, "", "bearing", one.bearing.mass)
+            for one in (upper, lower, spacer)
+        ),
         *_motor("motor of a cylinder", 3, cylinder.motor, cylinder.motor_torque, cylinder.motor_speed),
         _reducer("reducer of a cylinder", 3, cylinder.reducer.ratio, cylinder.motor),
     )
@@ -179,18 +186,23 @@ def _crank_rockers(loom: LoomDesign) -> tuple[Part, ...]:
 
 def _heads(loom: LoomDesign) -> tuple[Part, ...]:
     head, wide = loom.weaver, frame_width(loom.params)
-    limits, geared = head.params, head.drive.reducer
+    limits, geared, torque = head.params, head.drive.reducer, head.drive.torque_max
     thrust = loom.head_mass * limits.carriage_acceleration
     selected = limits.tubes * limits.tube_mass * limits.selector_acceleration
     return (
         Part("knotting head", loom.heads, "cams, tools, tubes, motors", "", "head mechanism", loom.head_mass),
         Part("yarn tube", loom.heads * limits.tubes, "one for each colour, weighed with the head", "", "yarn tube"),
-        *_motor("motor of a head", loom.heads, head.drive.motor, head.drive.torque_max, head.cyclogram.speed),
+        *_with_the_head(_motor("motor of a head", loom.heads, head.drive.motor, torque, head.cyclogram.speed)),
         *((_reducer("reducer of a head", loom.heads, geared.ratio, head.drive.motor),) if geared else ()),
         Part("rail of the heads", 1, "with a belt for each head", "", "linear axis", length=wide),
         *_axis("motor of a carriage", loom.heads, thrust, limits.carriage_speed),
-        *_axis("motor of the colours", loom.heads, selected, limits.selector_speed),
+        *_with_the_head(_axis("motor of the colours", loom.heads, selected, limits.selector_speed)),
     )
+
+
+def _with_the_head(parts: tuple[Part, ...]) -> tuple[Part, ...]:
+    """The same, weighed with the head that they are in."""
+    return tuple(replace(part, mass=NOT_WEIGHED) for part in parts)
 
 
 def _shuttle(loom: LoomDesign) -> tuple[Part, ...]:
@@ -213,7 +225,7 @@ def _axis(name: str, number: int, thrust: float, speed: float) -> tuple[Part, ..
 def _motor(name: str, number: int, motor: Motor | None, torque: float, speed: float) -> tuple[Part, ...]:
     """A motor of the catalogue; where none is enough, one made to measure, priced as a servo by its power."""
     if motor is not None:
-        return (Part(name, number, motor.name, "", motor.kind, power=motor.power),)
+        return (Part(name, number, motor.name, "", motor.kind, motor.mass, power=motor.power),)
     said = f"to measure: {format_quantity(torque, 'Nm', 3)} at {format_quantity(speed, 'rpm', 3)}"
     return (Part(name, number, said, "", "servo", power=torque * speed),)
 

@@ -128,7 +128,7 @@ def _whole_results(loom: LoomDesign, listed: PartsList) -> tuple[Result, ...]:
         Result("frame_column", frame.column.name, "", "square hollow section of the two columns"),
         Result("frame_rail", frame.rail.name, "", "square hollow section of the heads' rail"),
         Result("frame_mass", frame.mass, "kg", "mass of the frame"),
-        Result("mass", listed.mass, "kg", "mass of all parts that are weighed: motors, reducers, bearings are not"),
+        Result("mass", listed.mass, "kg", "mass of all parts but reducers, rails and control"),
         Result("price", listed.price, "", "price of all parts by the table of prices, in its currency"),
     )
 
