@@ -115,7 +115,7 @@ class Parameter:
 
     def _slip(self, value: float) -> str:
         """The unit that was probably forgotten, where the number is short enough to have been typed as it is."""
-        if float(f"{value:.4g}") != value:
+        if float(f"{value:.6g}") != value:
             return ""
         if self.unit == "deg" and self.within(value * deg):
             return f"did you mean {value:g}deg? a bare number is in radians"
