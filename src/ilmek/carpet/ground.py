@@ -26,6 +26,12 @@ PACKING = 0.45
 WARP_DENSITY_PER_PITCH = 3 / 7 * g / mm
 """Mass per length of a warp over the pitch of the warps [kg/m²]."""
 
+COTTON_STIFFNESS = 2.1e6
+"""Force over strain and mass per length of cotton yarn [N m/kg]: 17 cN/tex at 8 %, 2.1 N/tex.
+
+[Elmogahzy and Chewning 2001; Handbook of Properties of Textile and Technical Fibres, table 7.3, ring-spun, carded]
+"""
+
 
 @dataclass(frozen=True, slots=True)
 class GroundParams(Params):
@@ -75,6 +81,11 @@ def warp_density(quality: Quality) -> float:
     0.375
     """
     return WARP_DENSITY_PER_PITCH * quality.warp_pitch
+
+
+def warp_stiffness(pitch: float) -> float:
+    """Force over strain [N] of a cotton warp of its usual mass, at a pitch of the warps [m]."""
+    return COTTON_STIFFNESS * WARP_DENSITY_PER_PITCH * pitch
 
 
 def sinuous_length(width: float, pitch: float, amplitude: float) -> float:

@@ -8,8 +8,7 @@ Source: thesis, chapters 2.2.3 and 3. How heads share a row: `ilmek.loom.sharing
 
 from dataclasses import replace
 
-from ilmek.machines import weaver
-from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD, relations
+from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign, design
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import report
@@ -34,12 +33,8 @@ __all__ = [
 def cyclograms(loom: LoomDesign) -> tuple[Cyclogram, ...]:
     """The cyclograms of a knot and of a row, with what must come after what; cams and crank of the row are as made."""
     knot, row = loom.cyclograms
-    order = (*knot.relations, *weaver.cyclograms(loom.weaver)[0].relations)
     made = tuple(replace(track, held=track.name in (EVEN, ODD, BEATER)) for track in row.tracks)
-    return (
-        replace(knot, relations=tuple(dict.fromkeys(order))),
-        replace(row, tracks=made, relations=tuple(dict.fromkeys((*row.relations, *relations())))),
-    )
+    return knot, replace(row, tracks=made)
 
 
 MACHINE = Machine(

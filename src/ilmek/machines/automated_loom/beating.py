@@ -11,15 +11,14 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ilmek.cams.laws import LAWS
+from ilmek.carpet.ground import warp_stiffness
 from ilmek.machines import beat_up, hammer
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.hammer.design import fabric_of
 from ilmek.units import turn
 
-COMB_LAW = "modified-sine"
-
-PRESS_SHARE = 0.15
-"""Share of a beat for which the comb presses: the hammer's default."""
+USUAL = hammer.HammerParams()
+"""The hammer's defaults: law of its stroke, share of a beat for which it presses."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,9 +42,9 @@ class Left(NamedTuple):
 
 def beat_of_comb(params: AutomatedLoomParams) -> Beat:
     """The comb's beat, as quick as its acceleration allows."""
-    peak, share = LAWS[COMB_LAW].acceleration_peak, (1 - PRESS_SHARE) / 2
+    peak, share = LAWS[USUAL.law].acceleration_peak, (1 - USUAL.press_share) / 2
     time = math.sqrt(peak * params.comb_stroke / params.comb_acceleration) / share
-    return Beat(params.comb_stroke, time, share, PRESS_SHARE, COMB_LAW)
+    return Beat(params.comb_stroke, time, share, USUAL.press_share, USUAL.law)
 
 
 def beat_of_linkage(params: AutomatedLoomParams, linkage: beat_up.BeatUp) -> Beat:
@@ -81,7 +80,7 @@ def left_by(params: AutomatedLoomParams, warps: int, tension: float, force: floa
 
 def stiffness_of_warp(params: AutomatedLoomParams) -> float:
     """Force over strain of a warp [N]: as given, or of cotton of its mass."""
-    return hammer.HammerParams(warp_pitch=params.pitch, warp_stiffness=params.warp_stiffness).stiffness
+    return params.warp_stiffness or warp_stiffness(params.pitch)
 
 
 def _asked(params: AutomatedLoomParams, warps: int, tension: float) -> hammer.HammerParams:

@@ -14,11 +14,9 @@ the four steps of 90 degrees and the harmonic law; where within them shuttle, be
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
-from ilmek.arrays import FloatArray
 from ilmek.cams.laws import LAWS, law_of
 from ilmek.machines.automated_loom.beating import Beat
+from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.warp_tension.design import TAKE_UP_LAW
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.cyclogram import CENTRE_MOTION, SIDE_MOTION, SLEY
@@ -27,7 +25,7 @@ from ilmek.machines.weaver.moves import carriage
 from ilmek.report import CamTable
 from ilmek.timing.cyclogram import Cyclogram, Event, Exclusion, Moment, Relation, Segment, Track, Zone, riding
 from ilmek.timing.s_curve import s_curve
-from ilmek.timing.track import MotionLaw, joints, sample, shortest_period
+from ilmek.timing.track import MotionLaw, shortest_period
 from ilmek.units import deg, turn
 
 EVEN, ODD, SHUTTLE, BEATER, TAKE_UP = "even warps", "odd warps", "shuttle", "beater", "take-up"
@@ -81,20 +79,12 @@ def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
 
 def cam_tables(cyclogram: Cyclogram, names: tuple[str, ...]) -> tuple[CamTable, ...]:
     """Some tracks of a cyclogram for a controller's electronic cams."""
-    return tuple(_cam_table(cyclogram.track(name), cyclogram) for name in names)
-
-
-def _cam_table(track: Track, cyclogram: Cyclogram) -> CamTable:
-    def course(angle: FloatArray) -> FloatArray:
-        at = np.asarray(angle)
-        motion = sample(track, at)
-        return np.stack([motion.position, motion.slope, motion.bend])
-
-    laws = ((part, law_of(part.law.name, part.law.parameters)) for part in track.segments)
-    inner = [part.angle(u) % turn for part, law in laws for u in law.breaks]
-    knots = np.unique(np.concatenate([joints(track), inner]))
-    name, title = f"{cyclogram.name}-{track.name}", f"{track.name} over a {cyclogram.name}"
-    return CamTable(name, title, course, knots, track.unit, cyclogram.period, track.revolves)
+    return tuple(
+        cam_table(
+            cyclogram.track(name), f"{cyclogram.name}-{name}", f"{name} over a {cyclogram.name}", cyclogram.period
+        )
+        for name in names
+    )
 
 
 _OUT = ((SIDE_MOTION, "return"), (CENTRE_MOTION, "return"), (SLEY, "up"))
@@ -125,7 +115,7 @@ def cyclogram(timing: RowTiming, period: float) -> Cyclogram:
         _beater(timing, period),
         _take_up(timing),
     )
-    return Cyclogram("row", period, tracks)
+    return Cyclogram("row", period, tracks, relations())
 
 
 def relations() -> tuple[Relation, ...]:

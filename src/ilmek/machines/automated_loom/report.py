@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.machines import beat_up, hammer, shedding, warp_tension, weaver
-from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, SHUTTLE, TAKE_UP, cam_tables, relations
+from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, SHUTTLE, TAKE_UP, cam_tables
 from ilmek.machines.automated_loom.design import LoomDesign, warp_tension_of
 from ilmek.machines.automated_loom.energy import axes, energy_of
 from ilmek.machines.automated_loom.figures import figures
@@ -187,7 +187,7 @@ def _checks(loom: LoomDesign) -> tuple[Check, ...]:
         at_most("shuttle: speed", settled(speed, params.shuttle_speed), params.shuttle_speed, "m/s", "shuttle_speed"),
         at_most("shuttle: acceleration", settled(acceleration, limit), limit, "m/s^2", "shuttle_acceleration"),
         at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
-        *(replace(check, name=f"row: {check.name}") for check in check_all(cyclogram, relations())),
+        *(replace(check, name=f"row: {check.name}") for check in check_all(cyclogram, cyclogram.relations)),
         *(replace(check_apart(knot, one), name=f"knot: {one.said(knot.units)}") for one in knot.exclusions),
     )
 

@@ -4,20 +4,17 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
-from ilmek.carpet.ground import WARP_DENSITY_PER_PITCH
+from ilmek.carpet.ground import warp_stiffness
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
 from ilmek.params import Params, param
-from ilmek.units import MPa, N, deg, format_quantity, g, km, mm, rpm, turn
+from ilmek.units import MPa, N, deg, format_quantity, mm, rpm, turn
 
 DRIVES = ("comb", "linkage")
 AXES = ("screw", "belt")
 
 TENSION_PER_PITCH = 15 * N / (2 * mm)
 """Tension of a warp over the pitch of the warps [N/m]: 15 N at 2 mm [thesis 3.1]; it goes with the warp's mass."""
-
-COTTON = 2.1 * N / (g / km)
-"""Force over strain and mass per length of cotton yarn [N m/kg]: 17 cN/tex at 8 % [Elmogahzy and Chewning 2001]."""
 
 STACK = 550.0 / 1.2
 """Mass of the shedding cams over the width [kg/m], which the thesis' comb takes down with it [thesis 3.2, 3.3]."""
@@ -85,7 +82,7 @@ class FabricParams(Params):
     @property
     def stiffness(self) -> float:
         """Force over strain of a warp [N]."""
-        return self.warp_stiffness or COTTON * WARP_DENSITY_PER_PITCH * self.warp_pitch
+        return self.warp_stiffness or warp_stiffness(self.warp_pitch)
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,12 +22,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.carpet.ground import WARP_DENSITY_PER_PITCH
+from ilmek.carpet.ground import WARP_DENSITY_PER_PITCH, warp_stiffness
 from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.units import turn
-
-STIFFNESS = 2.1e6
-"""EA over mass per length of cotton yarn [N m/kg]: 2.1 N/tex."""
 
 STRENGTH = 0.17e6
 """Breaking force over mass per length of cotton yarn [N m/kg]: 17 cN/tex."""
@@ -61,7 +58,7 @@ def tension_of(design: WarpTensionDesign) -> WarpTension:
     """The warps' tensions over the rows between two take-ups."""
     params = design.params
     mass = WARP_DENSITY_PER_PITCH * params.pitch
-    stiffness = params.warp_stiffness or STIFFNESS * mass
+    stiffness = params.warp_stiffness or warp_stiffness(params.pitch)
     rate, way = stiffness / params.free_length, params.rows_between * params.row_pitch
     woven = params.tension + rate * way * params.crimp
     return WarpTension(

@@ -4,13 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
+from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.plates import round_bore, zero_mark
 from ilmek.machines.weaver import limits
 from ilmek.machines.weaver.cams import PRESSURE_LIMIT, STEEL, HeadCam, stack_width
 from ilmek.machines.weaver.design import Weaver
 from ilmek.report import Axis, CamTable, Check, Column, Drawing, Plate, Plot, Result, Series, Stroke, Table, at_most
-from ilmek.timing.track import Track, sample
 from ilmek.units import format_quantity, turn
 
 OUTLINE = 4
@@ -162,7 +161,10 @@ def plates(weaver: Weaver) -> tuple[Plate, ...]:
 
 def cam_tables(weaver: Weaver) -> tuple[CamTable, ...]:
     """The tracks' motions, for a head whose tools have axes of their own."""
-    return tuple(_table(track, cam, weaver) for track, cam in zip(weaver.cyclogram.tracks, weaver.cams, strict=True))
+    return tuple(
+        cam_table(track, track.name.replace(" ", "-"), f"{track.name} over the cam angle", weaver.cycle)
+        for track in weaver.cyclogram.tracks
+    )
 
 
 def _of_cams(weaver: Weaver) -> tuple[Result, ...]:
@@ -201,17 +203,6 @@ def _plate(weaver: Weaver, cam: HeadCam) -> Plate:
         area=cam.area,
         notes=(*bore.notes, f"cutter of {format_quantity(2 * cam.cam.roller_radius, 'mm')}"),
     )
-
-
-def _table(track: Track, cam: HeadCam, weaver: Weaver) -> CamTable:
-    def course(angle: FloatArray) -> FloatArray:
-        motion = sample(track, np.asarray(angle))
-        return np.stack([motion.position, motion.slope, motion.bend])
-
-    knots = np.unique(np.clip(np.mod(cam.programme.knots, turn), 0.0, turn))
-    ends = np.unique(np.concatenate([[0.0], knots, [turn]]))
-    name = track.name.replace(" ", "-")
-    return CamTable(name, f"{track.name} over the cam angle", course, ends, track.unit, weaver.cycle, track.revolves)
 
 
 def _whole(angle: float) -> float:
