@@ -10,12 +10,12 @@ from scipy.optimize import least_squares as local_squares
 from scipy.optimize import linprog, minimize
 
 from ilmek.arrays import FloatArray
-from ilmek.synthesis.approximation import SynthesisPolynomial, even_places, least_squares, minimax, of_table
-from ilmek.synthesis.approximation_dyad import dyads_along
-from ilmek.synthesis.approximation_exchange import linear_minimax
+from ilmek.synthesis.approximation.dyad import dyads_along
+from ilmek.synthesis.approximation.exchange import linear_minimax
+from ilmek.synthesis.approximation.function_generator import CRITERIA, function_approximations
+from ilmek.synthesis.approximation.polynomial import SynthesisPolynomial, even_places, least_squares, minimax, of_table
 from ilmek.synthesis.dyad import dyads_through_points
 from ilmek.synthesis.function import Function
-from ilmek.synthesis.function_approximation import CRITERIA, function_approximations
 from ilmek.synthesis.superposition import superposed_through_points
 from ilmek.units import deg
 

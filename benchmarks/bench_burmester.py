@@ -11,10 +11,10 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, NumberArray
 from ilmek.num.pencil import real_roots
-from ilmek.synthesis.burmester import arms_through_five_poses, four_bars
-from ilmek.synthesis.burmester_curve import burmester_curve
+from ilmek.synthesis.burmester.curve import burmester_curve
+from ilmek.synthesis.burmester.links import arms_through_five_poses, four_bars
 from ilmek.synthesis.dyad import Found, arms_through_points, arms_through_poses
-from ilmek.synthesis.path_points import timed_four_bars
+from ilmek.synthesis.path.points import timed_four_bars
 
 Task = TypeVar("Task")
 

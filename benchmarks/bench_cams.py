@@ -19,11 +19,11 @@ from ilmek.cams import limits
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
-from ilmek.cams.pieces import supremum
 from ilmek.cams.programme import Programme, dwell, fall, rise
 from ilmek.cams.sizing import Limits, pressure_prime
 from ilmek.cams.sweep import sweep, wanted
 from ilmek.machines.cam import CamParams, design, report
+from ilmek.num.piecewise import supremum
 from ilmek.units import deg, mm
 
 RUNS = 9

@@ -16,8 +16,8 @@ import ilmek
 from ilmek.arrays import FloatArray, Indices, Rgb
 from ilmek.carpet.chart import make_chart
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.difference import delta_e_2000
-from ilmek.carpet.lone import count_lone
+from ilmek.carpet.colour_difference import delta_e_2000
+from ilmek.carpet.isolated_knots import count_lone
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import Yarn, yarn_labs, yarns_from_records

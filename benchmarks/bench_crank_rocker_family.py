@@ -17,7 +17,7 @@ from ilmek.machines.beat_up.design import evaluate, mechanism, sizes
 from ilmek.machines.beat_up.family import tabulate
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
 from ilmek.num.pareto import front
-from ilmek.synthesis.crank_rocker_family import Family, family
+from ilmek.synthesis.crank_rocker.family import Family, family
 from ilmek.units import deg
 
 MEMBERS, LOOPED, STEPS = 10_000, 60, 360

@@ -16,8 +16,8 @@ from scipy.optimize import minimize
 from ilmek.arrays import FloatArray
 from ilmek.cams.laws import LAWS
 from ilmek.io.cyclogram_file import read_cyclogram
+from ilmek.timing.constraints import exclusion_rows, standing_rows, unknowns
 from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Segment, Track
-from ilmek.timing.rows import exclusion_rows, standing_rows, unknowns
 from ilmek.timing.solver import least_acceleration
 from ilmek.timing.track import peak_acceleration
 from ilmek.units import deg, turn

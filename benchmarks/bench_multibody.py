@@ -20,7 +20,7 @@ from benchmarks.bench_forward import beat_up, free
 from ilmek.dynamics.clearance import ClearancePin, hertz_stiffness
 from ilmek.dynamics.forward import Run
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.multibody import System, SystemRun, from_motion, loosened, simulate
+from ilmek.dynamics.multibody.system import System, SystemRun, from_motion, loosened, simulate
 from ilmek.linkage.solve import solve
 
 for folder in ("reference", "support"):

@@ -10,10 +10,10 @@ import time
 import numpy as np
 
 from benchmarks.path_cases import CASES, PathCase, met
-from ilmek.synthesis.path_links import random_links
-from ilmek.synthesis.path_model import coupler_point
-from ilmek.synthesis.path_search import path_four_bars
-from ilmek.synthesis.path_task import PathTask
+from ilmek.synthesis.path.links import random_links
+from ilmek.synthesis.path.model import coupler_point
+from ilmek.synthesis.path.search import path_four_bars
+from ilmek.synthesis.path.task import PathTask
 
 RUNS = 50
 PLANTED = 50

@@ -14,8 +14,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad import KnottingDyadParams, design
-from ilmek.timing.path_speed import AxisLimits, JointPath, PathMotion, quickest_motion
-from ilmek.timing.path_speed_line import LineMotion, line_motion
+from ilmek.timing.path_speed.line import LineMotion, line_motion
+from ilmek.timing.path_speed.solve import AxisLimits, JointPath, PathMotion, quickest_motion
 
 RUNS = 5
 RANDOM = 30

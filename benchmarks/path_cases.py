@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.synthesis.path_task import PathTask
+from ilmek.synthesis.path.task import PathTask
 
 
 @dataclass(frozen=True, slots=True)

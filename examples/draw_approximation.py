@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from ilmek.report import Axis, Mark, Plot, Series
+from ilmek.synthesis.approximation.function_generator import CRITERIA, FunctionApproximation, function_approximations
 from ilmek.synthesis.function import Function
-from ilmek.synthesis.function_approximation import CRITERIA, FunctionApproximation, function_approximations
 from ilmek.units import deg
 from ilmek.viz.svg import svg
 

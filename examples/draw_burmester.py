@@ -10,8 +10,8 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.report import Dot, Drawing, Stroke
-from ilmek.synthesis.burmester import Kind
-from ilmek.synthesis.burmester_curve import Branch, BurmesterCurve, burmester_curve
+from ilmek.synthesis.burmester.curve import Branch, BurmesterCurve, burmester_curve
+from ilmek.synthesis.burmester.links import Kind
 from ilmek.units import deg, mm
 from ilmek.viz.svg import svg
 

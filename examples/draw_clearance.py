@@ -10,7 +10,7 @@ import numpy as np
 
 from ilmek.dynamics.clearance import ClearancePin, hertz_stiffness
 from ilmek.dynamics.inertia import Inertia, bar, combined, point_mass
-from ilmek.dynamics.multibody import System, from_motion, loosened, simulate
+from ilmek.dynamics.multibody.system import System, from_motion, loosened, simulate
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan

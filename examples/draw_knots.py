@@ -6,11 +6,11 @@ number of knots whose curve ties that very knot.
 
 from pathlib import Path
 
-from ilmek.carpet.knot_crossings import row_of_warps
-from ilmek.carpet.knot_drawing import knot_drawing
-from ilmek.carpet.knot_path import KnotDimensions, KnotPath, knot_path
-from ilmek.carpet.knot_word import SINGLE, knot
-from ilmek.carpet.tied_knot import tied_by_curve
+from ilmek.carpet.knots.crossings import row_of_warps
+from ilmek.carpet.knots.drawing import knot_drawing
+from ilmek.carpet.knots.path import KnotDimensions, KnotPath, knot_path
+from ilmek.carpet.knots.tied import tied_by_curve
+from ilmek.carpet.knots.word import SINGLE, knot
 from ilmek.units import mm
 from ilmek.viz.svg import svg
 

@@ -11,9 +11,9 @@ import numpy as np
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.report import Dot, Drawing, Stroke
-from ilmek.synthesis.path_fit import PathFit
-from ilmek.synthesis.path_search import path_four_bars
-from ilmek.synthesis.path_task import PathTask
+from ilmek.synthesis.path.fit import PathFit
+from ilmek.synthesis.path.search import path_four_bars
+from ilmek.synthesis.path.task import PathTask
 from ilmek.units import deg, mm
 from ilmek.viz.svg import svg
 

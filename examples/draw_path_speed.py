@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ilmek.report import Axis, Plot, Series
-from ilmek.timing.path_speed import AxisLimits, JointPath, PathMotion, quickest_motion
+from ilmek.timing.path_speed.solve import AxisLimits, JointPath, PathMotion, quickest_motion
 from ilmek.viz.svg import svg
 
 OUT = Path(__file__).parents[1] / "docs" / "_static" / "path-speed.svg"

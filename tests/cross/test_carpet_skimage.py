@@ -5,7 +5,7 @@ import pytest
 from skimage.color import deltaE_ciede2000, rgb2lab
 
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.difference import delta_e_2000
+from ilmek.carpet.colour_difference import delta_e_2000
 
 
 def test_ciede2000_on_random_lab() -> None:

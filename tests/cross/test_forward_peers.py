@@ -13,7 +13,7 @@ import pytest
 from ilmek.dynamics.forward import State, forward
 from ilmek.dynamics.inertia import bar
 from ilmek.dynamics.loads import Gravity
-from ilmek.dynamics.multibody import Twist, from_motion, simulate
+from ilmek.dynamics.multibody.system import Twist, from_motion, simulate
 from ilmek.dynamics.reduced import reduce
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.solve import solve

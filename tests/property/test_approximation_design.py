@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ilmek.errors import ParameterError
-from ilmek.synthesis.approximation_design import design_generators, design_polynomial
-from ilmek.synthesis.approximation_generator import structural_error
+from ilmek.synthesis.approximation.function_design import design_generators, design_polynomial
+from ilmek.synthesis.approximation.function_error import structural_error
 from ilmek.synthesis.freudenstein import generators_of
 from ilmek.synthesis.function import Function
 from ilmek.units import deg

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.optimize import least_squares as peer
 
 from ilmek.errors import ParameterError
-from ilmek.synthesis.approximation_dyad import dyads_along
+from ilmek.synthesis.approximation.dyad import dyads_along
 from ilmek.synthesis.dyad import Dyad
 
 U = np.linspace(0, 1, 15)

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from ilmek.errors import ParameterError
 from ilmek.num.newton import newton
-from ilmek.synthesis.approximation import SynthesisPolynomial, even_places, interpolation, minimax, of_table
-from ilmek.synthesis.approximation_products import Rows, errors_of, gradient, solve_products, stationary
+from ilmek.synthesis.approximation.polynomial import SynthesisPolynomial, even_places, interpolation, minimax, of_table
+from ilmek.synthesis.approximation.products import Rows, errors_of, gradient, solve_products, stationary
 
 PRODUCTS = [(), ((0, 1),), ((0, 1), (0, 2)), ((0, 1), (2, 3))]
 

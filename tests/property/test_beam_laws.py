@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ilmek.elements.beams import Beam, Couple, LineLoad, PointLoad, bend
+from ilmek.elements.beam.uniform import Beam, Couple, LineLoad, PointLoad, bend
 
 LENGTH = 2.0
 place = st.integers(0, 40).map(lambda n: n * LENGTH / 40)

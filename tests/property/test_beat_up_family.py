@@ -11,8 +11,8 @@ from ilmek.errors import ParameterError
 from ilmek.machines.beat_up import BeatUpParams, design, report
 from ilmek.machines.beat_up.family import QUANTITIES, chosen_ratio, tabulate
 from ilmek.machines.beat_up.params import LIMITS, OBJECTIVES
-from ilmek.synthesis.crank_rocker import beta_of_ratio, links_of_ratio, rotation_limits
-from ilmek.synthesis.crank_rocker_family import family
+from ilmek.synthesis.crank_rocker.dead_centres import beta_of_ratio, links_of_ratio, rotation_limits
+from ilmek.synthesis.crank_rocker.family import family
 from ilmek.units import deg
 
 unit = st.floats(0.03, 0.97)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up import BeatUp, BeatUpParams, design
-from ilmek.synthesis.crank_rocker import beta_limits, rotation_limits
+from ilmek.synthesis.crank_rocker.dead_centres import beta_limits, rotation_limits
 from ilmek.units import deg
 
 swings = st.floats(8 * deg, 120 * deg)

@@ -9,7 +9,8 @@ from scipy.optimize import fsolve
 from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.synthesis.burmester import (
+from ilmek.synthesis.burmester.curve import burmester_curve
+from ilmek.synthesis.burmester.links import (
     Guide,
     Kind,
     arms_of_pins,
@@ -17,7 +18,6 @@ from ilmek.synthesis.burmester import (
     arms_through_five_poses,
     four_bars,
 )
-from ilmek.synthesis.burmester_curve import burmester_curve
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.four_bar import FourBar, LinkLengths, from_lengths
 from ilmek.synthesis.task import Task

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from ilmek.cams import profile
 from ilmek.cams.contact import Held, Touch, pressed
 from ilmek.cams.laws import LAWS
-from ilmek.cams.pieces import infimum
 from ilmek.cams.programme import Programme, dwell, fall, rise
 from ilmek.cams.return_spring import doubling_spring, least_force, least_preload, least_rate, lift_off
 from ilmek.errors import ParameterError
+from ilmek.num.piecewise import infimum
 from ilmek.units import deg
 
 LIFT, PRIME = 0.02, 0.05

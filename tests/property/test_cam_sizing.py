@@ -18,11 +18,11 @@ from ilmek.cams.limits import (
 )
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
-from ilmek.cams.pieces import infimum
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
 from ilmek.cams.sizing import Limits, best_offset, pressure_prime, require, smallest_prime
 from ilmek.errors import ParameterError
+from ilmek.num.piecewise import infimum
 from ilmek.units import deg, mm
 
 

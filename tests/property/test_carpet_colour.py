@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from ilmek.carpet.colour import decode, encode, lab_to_srgb, lab_to_xyz, srgb_to_lab, xyz_to_lab
-from ilmek.carpet.difference import delta_e_2000, least_square, nearest
+from ilmek.carpet.colour_difference import delta_e_2000, least_square, nearest
 
 LABS = hnp.arrays(float, (8, 3), elements=st.floats(-128, 128)).map(
     lambda lab: np.stack([np.abs(lab[:, 0]) * 100 / 128, lab[:, 1], lab[:, 2]], axis=-1)

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.difference import delta_e_2000
-from ilmek.carpet.lone import count_lone, merge_lone
+from ilmek.carpet.colour_difference import delta_e_2000
+from ilmek.carpet.isolated_knots import count_lone, merge_lone
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
 
 

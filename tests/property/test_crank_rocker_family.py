@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.linkage import quality
-from ilmek.synthesis.crank_rocker import (
+from ilmek.synthesis.crank_rocker.dead_centres import (
     Links,
     best_ratio,
     beta_limits,

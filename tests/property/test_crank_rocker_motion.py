@@ -9,16 +9,16 @@ from ilmek.arrays import FloatArray
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.synthesis.crank_rocker import (
+from ilmek.synthesis.crank_rocker.circuit import extended, on_one_circuit
+from ilmek.synthesis.crank_rocker.dead_centres import (
     Links,
     beta_of_ratio,
     links_of_ratio,
     ratio_limits,
     rotation_limits,
 )
-from ilmek.synthesis.crank_rocker_circuit import extended, on_one_circuit
-from ilmek.synthesis.crank_rocker_family import Family, family, link_ratio, size
-from ilmek.synthesis.crank_rocker_motion import beat_acceleration, moved, rocker_extremes, sharp_angles
+from ilmek.synthesis.crank_rocker.family import Family, family, link_ratio, size
+from ilmek.synthesis.crank_rocker.motion import beat_acceleration, moved, rocker_extremes, sharp_angles
 from ilmek.units import deg
 
 unit = st.floats(0.02, 0.98)

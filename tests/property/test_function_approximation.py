@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from ilmek.errors import ParameterError
-from ilmek.synthesis.approximation_generator import StructuralErrors, of_four_bar
+from ilmek.synthesis.approximation.function_error import StructuralErrors, of_four_bar
+from ilmek.synthesis.approximation.function_generator import FunctionApproximation, function_approximations
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.function import Function, error_curve
-from ilmek.synthesis.function_approximation import FunctionApproximation, function_approximations
 from ilmek.units import deg
 
 ROOT = Function(lambda x: np.sqrt(1 + x), 0.0, 3.0, 80 * deg, 60 * deg)

@@ -6,10 +6,10 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ilmek.carpet.knot_crossings import Row, arc_lengths, crossings, row_of_warps
-from ilmek.carpet.knot_path import KnotDimensions, knot_path
-from ilmek.carpet.knot_word import SINGLE, inverse, knot, passes, recognised, reduced
-from ilmek.carpet.tied_knot import tied_by_curve, tied_knot
+from ilmek.carpet.knots.crossings import Row, arc_lengths, crossings, row_of_warps
+from ilmek.carpet.knots.path import KnotDimensions, knot_path
+from ilmek.carpet.knots.tied import tied_by_curve, tied_knot
+from ilmek.carpet.knots.word import SINGLE, inverse, knot, passes, recognised, reduced
 from ilmek.units import mm
 
 CASES = settings(max_examples=60, deadline=None)

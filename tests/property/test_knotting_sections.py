@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.machines.knotting_dyad import KnottingDyadParams
-from ilmek.machines.knotting_dyad.clear import Least, arm_bars, least, to_warps
+from ilmek.machines.knotting_dyad.clearance import Least, arm_bars, least, to_warps
 from ilmek.machines.knotting_dyad.head import Head, head_of
 from ilmek.machines.knotting_dyad.search import best_arm
 from ilmek.machines.knotting_dyad.section import section_of

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.dynamics.inertia import Inertia
+from ilmek.io.line_numbers import json_places, toml_places
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, parse_mechanism
-from ilmek.io.places import json_places, toml_places
 from ilmek.io.toml_text import toml_text
 from ilmek.linkage.model import GROUND, Body, Coupling, Displacement, Mechanism, Pin, Rotation, Slide
 

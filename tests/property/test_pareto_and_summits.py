@@ -8,7 +8,7 @@ from hypothesis.extra import numpy as hnp
 
 from ilmek.arrays import FloatArray, IntArray
 from ilmek.num.pareto import front
-from ilmek.num.summits import summits
+from ilmek.num.periodic_maxima import summits
 
 # Few different numbers, so that members are often alike in some costs or in all.
 costs = hnp.arrays(

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.synthesis.burmester import Kind, arms_through_five_poses
+from ilmek.synthesis.burmester.links import Kind, arms_through_five_poses
 from ilmek.synthesis.dyad import Dyad, Found, arms_through_points, dyads_through_points
 from ilmek.synthesis.four_bar import FourBar
-from ilmek.synthesis.path_points import (
+from ilmek.synthesis.path.points import (
     CrankKind,
     TimedCrank,
     cranks_through_five_points,

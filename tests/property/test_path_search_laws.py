@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.synthesis.path_fit import judged
-from ilmek.synthesis.path_limits import excess
-from ilmek.synthesis.path_links import random_links
-from ilmek.synthesis.path_model import SIZE, coupler_point, with_slopes
-from ilmek.synthesis.path_search import path_four_bars
-from ilmek.synthesis.path_task import PathTask
+from ilmek.synthesis.path.fit import judged
+from ilmek.synthesis.path.limits import excess
+from ilmek.synthesis.path.links import random_links
+from ilmek.synthesis.path.model import SIZE, coupler_point, with_slopes
+from ilmek.synthesis.path.search import path_four_bars
+from ilmek.synthesis.path.task import PathTask
 
 TURN = 2 * math.pi
 PLANTED = np.array([2.0, 0.7, 1.9, 1.6, 1.1, 0.8, 0.3, -0.2, 0.4, 0.0])

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
-from ilmek.timing.path_speed import AxisLimits, JointPath, PathMotion, quickest_motion
-from ilmek.timing.path_speed_line import line_motion
+from ilmek.timing.path_speed.line import line_motion
+from ilmek.timing.path_speed.solve import AxisLimits, JointPath, PathMotion, quickest_motion
 
 INTERVALS = 100
 LIMIT = st.floats(-1.0, 1.0).map(lambda power: 10**power)

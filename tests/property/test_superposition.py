@@ -6,8 +6,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from ilmek.errors import ParameterError
-from ilmek.synthesis.approximation import interpolation
-from ilmek.synthesis.approximation_dyad import design_polynomial
+from ilmek.synthesis.approximation.dyad import design_polynomial
+from ilmek.synthesis.approximation.polynomial import interpolation
 from ilmek.synthesis.dyad import Dyad, dyads_through_points, dyads_through_poses
 from ilmek.synthesis.superposition import superposed_through_points, superposed_through_poses
 

@@ -7,8 +7,8 @@ import pytest
 
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.circuit_loops import Loop, circuit_loops
+from ilmek.synthesis.filters import defects
 from ilmek.synthesis.four_bar import FourBar
-from ilmek.synthesis.sieve import defects
 from ilmek.synthesis.task import Task
 
 

@@ -8,7 +8,7 @@ from scipy.optimize import least_squares as peer
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
-from ilmek.synthesis.approximation import (
+from ilmek.synthesis.approximation.polynomial import (
     SynthesisPolynomial,
     Terms,
     chebyshev_nodes,

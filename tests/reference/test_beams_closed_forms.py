@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ilmek.elements.beams import Beam, Couple, LineLoad, PointLoad, bend, deflection
+from ilmek.elements.beam.uniform import Beam, Couple, LineLoad, PointLoad, bend, deflection
 from ilmek.errors import ParameterError
 
 L, P, Q, C = 1.7, 130.0, 900.0, 45.0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ilmek.machines.beat_up import BeatUp, BeatUpParams, design
-from ilmek.synthesis.crank_rocker import (
+from ilmek.synthesis.crank_rocker.dead_centres import (
     Links,
     best_ratio,
     links_of_beta,
@@ -16,7 +16,7 @@ from ilmek.synthesis.crank_rocker import (
     transmission_angle_min,
     transmission_angles,
 )
-from ilmek.synthesis.crank_rocker_selection import member
+from ilmek.synthesis.crank_rocker.selection import member
 from ilmek.units import deg
 from ilmek.verification.beat_up_table import PRINTED
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.difference import delta_e_2000
+from ilmek.carpet.colour_difference import delta_e_2000
 
 PAIRS = """
 50.0000 2.6772 -79.7751 50.0000 0.0000 -82.7485 2.0425

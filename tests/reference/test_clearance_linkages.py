@@ -12,7 +12,7 @@ import pytest
 
 from ilmek.dynamics.clearance import ClearancePin, hertz_stiffness
 from ilmek.dynamics.inertia import Inertia, bar
-from ilmek.dynamics.multibody import System, SystemRun, from_motion, loosened, simulate
+from ilmek.dynamics.multibody.system import System, SystemRun, from_motion, loosened, simulate
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan

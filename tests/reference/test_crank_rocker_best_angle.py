@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from ilmek.arrays import BoolArray, FloatArray
-from ilmek.synthesis.crank_rocker import (
+from ilmek.synthesis.crank_rocker.circuit import extended, on_one_circuit
+from ilmek.synthesis.crank_rocker.dead_centres import (
     Links,
     best_ratio,
     grashof_margin,
@@ -17,7 +18,6 @@ from ilmek.synthesis.crank_rocker import (
     rotation_limits,
     transmission_angle_min,
 )
-from ilmek.synthesis.crank_rocker_circuit import extended, on_one_circuit
 from ilmek.units import deg
 
 TASKS = 400

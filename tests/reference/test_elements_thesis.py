@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from ilmek.elements import beams, shafts
+from ilmek.elements import shafts
+from ilmek.elements.beam import uniform
 from ilmek.elements.motors import Reducer
 from ilmek.units import GPa, kN, mm
 
@@ -33,20 +34,20 @@ def test_table_3_1_second_column(inner, printed) -> None:
     ],
 )
 def test_table_3_1_last_column_lacks_the_factor_5(inner, outer, printed, right) -> None:
-    inertia = beams.tube_inertia(outer * mm, inner * mm)
-    sag = beams.deflection_max(WARP_LOAD / 1.2, 1.2, 210 * GPa, inertia) / mm
+    inertia = uniform.tube_inertia(outer * mm, inner * mm)
+    sag = uniform.deflection_max(WARP_LOAD / 1.2, 1.2, 210 * GPa, inertia) / mm
     assert sag == pytest.approx(right, abs=6e-5)
     assert sag / 5 == pytest.approx(printed, rel=0.07)
 
 
 def test_tube_140_by_5() -> None:
     """0.199333 mm and 5.3155e-4 rad; the thesis prints 0.0025 mm (diameters as radii, and no 5) and 0.000052."""
-    load, inertia = WARP_LOAD / 1.2, beams.tube_inertia(70 * mm, 65 * mm)
-    assert beams.deflection_max(load, 1.2, 210 * GPa, inertia) / mm == pytest.approx(0.199333, abs=5e-7)
-    assert beams.slope_max(load, 1.2, 210 * GPa, inertia) == pytest.approx(5.3155e-4, abs=5e-9)
-    assert beams.slope_max(load, 1.2, 200 * GPa, inertia) == pytest.approx(5.581e-4, abs=5e-8)
-    slipped = beams.tube_inertia(140 * mm, 130 * mm)
-    assert beams.deflection_max(load, 1.2, 210 * GPa, slipped) / 5 / mm == pytest.approx(0.002492, abs=5e-7)
+    load, inertia = WARP_LOAD / 1.2, uniform.tube_inertia(70 * mm, 65 * mm)
+    assert uniform.deflection_max(load, 1.2, 210 * GPa, inertia) / mm == pytest.approx(0.199333, abs=5e-7)
+    assert uniform.slope_max(load, 1.2, 210 * GPa, inertia) == pytest.approx(5.3155e-4, abs=5e-9)
+    assert uniform.slope_max(load, 1.2, 200 * GPa, inertia) == pytest.approx(5.581e-4, abs=5e-8)
+    slipped = uniform.tube_inertia(140 * mm, 130 * mm)
+    assert uniform.deflection_max(load, 1.2, 210 * GPa, slipped) / 5 / mm == pytest.approx(0.002492, abs=5e-7)
 
 
 @pytest.mark.parametrize(
@@ -69,9 +70,9 @@ def test_a_tenth_of_a_millimetre_would_need_far_more(safety, side) -> None:
 
 
 def test_square_bar_of_80_mm() -> None:
-    inertia = beams.square_inertia(80 * mm)
-    assert beams.slope_max(14 * kN, 1.2, 200 * GPa, inertia) == pytest.approx(1.4766e-3, abs=5e-8)
-    assert beams.deflection_max(14 * kN, 1.2, 200 * GPa, inertia) / mm == pytest.approx(0.5537, abs=5e-5)
+    inertia = uniform.square_inertia(80 * mm)
+    assert uniform.slope_max(14 * kN, 1.2, 200 * GPa, inertia) == pytest.approx(1.4766e-3, abs=5e-8)
+    assert uniform.deflection_max(14 * kN, 1.2, 200 * GPa, inertia) / mm == pytest.approx(0.5537, abs=5e-5)
 
 
 def test_seven_newton_metres_through_one_to_a_hundred() -> None:
@@ -84,25 +85,25 @@ def test_seven_newton_metres_through_one_to_a_hundred() -> None:
 
 def test_beam_against_finite_differences() -> None:
     """E I y'''' = w with hinged ends, solved on a grid."""
-    length, load, modulus, inertia, count = 1.2, 7500.0, 210 * GPa, beams.tube_inertia(70 * mm, 65 * mm), 400
+    length, load, modulus, inertia, count = 1.2, 7500.0, 210 * GPa, uniform.tube_inertia(70 * mm, 65 * mm), 400
     x = np.linspace(0, length, count + 1)
     h = length / count
     second = (np.eye(count - 1, k=1) - 2 * np.eye(count - 1) + np.eye(count - 1, k=-1)) / h**2
     moment = np.linalg.solve(second, np.full(count - 1, load))
     sag = np.linalg.solve(second, moment / (modulus * inertia))
-    np.testing.assert_allclose(beams.deflection(x, load, length, modulus, inertia=inertia)[1:-1], sag, rtol=2e-5)
-    assert beams.moment_max(load, length) == pytest.approx(-moment.min(), rel=1e-9)
+    np.testing.assert_allclose(uniform.deflection(x, load, length, modulus, inertia=inertia)[1:-1], sag, rtol=2e-5)
+    assert uniform.moment_max(load, length) == pytest.approx(-moment.min(), rel=1e-9)
     slope = (4 * sag[0] - sag[1]) / (2 * h)
-    assert beams.slope_max(load, length, modulus, inertia) == pytest.approx(slope, rel=1e-4)
-    assert beams.reaction(load, length) == pytest.approx(load * length / 2)
+    assert uniform.slope_max(load, length, modulus, inertia) == pytest.approx(slope, rel=1e-4)
+    assert uniform.reaction(load, length) == pytest.approx(load * length / 2)
 
 
 def test_sections_against_integrals() -> None:
     radius, angle = np.linspace(65 * mm, 70 * mm, 2001), np.linspace(0, 2 * math.pi, 721)
     ring = np.trapezoid(radius**3, radius) * np.trapezoid(np.sin(angle) ** 2, angle)
-    assert beams.tube_inertia(70 * mm, 65 * mm) == pytest.approx(ring, rel=1e-6)
+    assert uniform.tube_inertia(70 * mm, 65 * mm) == pytest.approx(ring, rel=1e-6)
     y = np.linspace(-40 * mm, 40 * mm, 4001)
-    assert beams.square_inertia(80 * mm) == pytest.approx(np.trapezoid(80 * mm * y**2, y), rel=1e-6)
-    assert beams.bending_stress(100.0, 40 * mm, beams.square_inertia(80 * mm)) == pytest.approx(
+    assert uniform.square_inertia(80 * mm) == pytest.approx(np.trapezoid(80 * mm * y**2, y), rel=1e-6)
+    assert uniform.bending_stress(100.0, 40 * mm, uniform.square_inertia(80 * mm)) == pytest.approx(
         6 * 100 / (80 * mm) ** 3
     )

@@ -11,7 +11,7 @@ import pytest
 
 from ilmek.dynamics.attached import attached
 from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design
-from ilmek.machines.knotting_four_bar.instead import COUPLER_ANGLES, POINTS
+from ilmek.machines.knotting_four_bar.replacement import COUPLER_ANGLES, POINTS
 from ilmek.units import deg, g, mm, turn
 
 

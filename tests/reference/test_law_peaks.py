@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ilmek.cams.laws import LAWS, SMOOTH_LAWS, law_of
-from ilmek.cams.pieces import integral, supremum
+from ilmek.num.piecewise import integral, supremum
 
 PI = math.pi
 ROOT = math.sqrt

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.multibody import Pose, Spring, System, SystemRun, Twist, simulate
+from ilmek.dynamics.multibody.system import Pose, Spring, System, SystemRun, Twist, simulate
 from ilmek.linkage.model import GROUND, Body, Pin
 
 A, B, C = -0.06934 - 0.00227j, -0.03635 + 0.03273j, 0.014 + 0.072j

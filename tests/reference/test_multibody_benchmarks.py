@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from ilmek.dynamics.inertia import bar
-from ilmek.dynamics.multibody import Pose, System, simulate
+from ilmek.dynamics.multibody.system import Pose, System, simulate
 from ilmek.linkage.model import GROUND, Body, Pin
 
 FALL = 9.81

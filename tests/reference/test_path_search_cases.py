@@ -6,8 +6,8 @@ Squared errors re-evaluated from the design vectors printed in the sources that 
 import pytest
 from benchmarks.path_cases import CASES, LINE, SEMICIRCLE, PathCase, met
 
-from ilmek.synthesis.path_fit import judged
-from ilmek.synthesis.path_search import path_four_bars
+from ilmek.synthesis.path.fit import judged
+from ilmek.synthesis.path.search import path_four_bars
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)

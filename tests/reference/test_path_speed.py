@@ -7,9 +7,9 @@ import pytest
 from scipy.optimize import linprog
 
 from ilmek.arrays import FloatArray
-from ilmek.timing.path_speed import AxisLimits, JointPath, quickest_motion
-from ilmek.timing.path_speed_line import line_motion
-from ilmek.timing.path_speed_way import rise
+from ilmek.timing.path_speed.line import line_motion
+from ilmek.timing.path_speed.path import rise
+from ilmek.timing.path_speed.solve import AxisLimits, JointPath, quickest_motion
 
 
 def straight(distance: float = 1.0, nodes: int = 9, direction: tuple[float, ...] = (1.0,)) -> JointPath:

@@ -6,13 +6,13 @@ import pytest
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.circuits import circuits
+from ilmek.linkage.configuration_path import InputWay
 from ilmek.linkage.coupler_curve import coupler_curve
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.instant_centres import centrodes
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.linkage.way import InputWay
 
 LOOP = (1.0, 0.4, 1.0, 0.9)
 

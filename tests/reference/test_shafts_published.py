@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ilmek.elements.beams import Beam
+from ilmek.elements.beam.uniform import Beam
 from ilmek.elements.fatigue import (
     Loading,
     endurance_limit,

@@ -26,7 +26,7 @@ from ilmek.machines.automated_loom.frame import (
 )
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.prices import PRICES, read_prices
-from ilmek.machines.automated_loom.time import estimated_time, estimated_times_at, time_shares
+from ilmek.machines.automated_loom.production_time import estimated_time, estimated_times_at, time_shares
 from ilmek.report import Report
 from ilmek.timing.track import peak_acceleration
 from ilmek.units import turn

@@ -3,7 +3,7 @@
 import numpy as np
 from examples.draw_burmester import ANGLES, MIDDLE, POINTS, WINDOW, figure
 
-from ilmek.synthesis.burmester_curve import burmester_curve
+from ilmek.synthesis.burmester.curve import burmester_curve
 
 
 def test_the_drawn_link_is_as_long_at_every_pose_and_the_curves_stay_in_the_window() -> None:

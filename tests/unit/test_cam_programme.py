@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from ilmek.cams.laws import LAWS
-from ilmek.cams.pieces import infimum, integral, supremum
 from ilmek.cams.programme import Programme, dwell, fall, jumps, rise
 from ilmek.errors import ParameterError
+from ilmek.num.piecewise import infimum, integral, supremum
 
 QUARTER = math.pi / 2
 

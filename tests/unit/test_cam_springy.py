@@ -9,8 +9,8 @@ from ilmek.cams.return_spring import least_force
 from ilmek.cams.vibration import residual
 from ilmek.errors import ParameterError
 from ilmek.machines.cam import MACHINE
+from ilmek.machines.cam.compliant_follower import springy, springy_checks, springy_results
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.springy import springy, springy_checks, springy_results
 from ilmek.report import Plot
 
 ASKED = {"lift": "20mm", "rise": "90deg", "mass": "2kg", "speed": "300rpm", "law": "modified-sine"}

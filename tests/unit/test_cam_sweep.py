@@ -9,11 +9,11 @@ from ilmek.cams import limits
 from ilmek.cams.contact import Held
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
-from ilmek.cams.pieces import supremum
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
 from ilmek.cams.sizing import Limits, pressure_prime
 from ilmek.cams.sweep import sweep, wanted
 from ilmek.errors import ParameterError
+from ilmek.num.piecewise import supremum
 from ilmek.units import deg
 
 NAMES = list(LAWS)

@@ -6,7 +6,7 @@ import pytest
 from ilmek.carpet.bill import YarnBill, yarn_bill
 from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.ground import GroundParams, sinuous_length
-from ilmek.carpet.knots import PileParams, asymmetric_wrap, knot_length, parse_knot, symmetric_wrap
+from ilmek.carpet.knots.kinds import PileParams, asymmetric_wrap, knot_length, parse_knot, symmetric_wrap
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import Yarn, yarns_from_records

@@ -8,7 +8,7 @@ import pytest
 
 from ilmek.carpet import palette
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.difference import delta_e_2000
+from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.palette import best_yarns, distinct_colours, nearest_yarns, paint
 from ilmek.errors import YarnError
 

@@ -8,7 +8,7 @@ import pytest
 
 import ilmek
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.difference import delta_e_2000
+from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.yarn import yarn_labs, yarns_from_records
 from ilmek.errors import YarnError
 

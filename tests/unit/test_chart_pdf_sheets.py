@@ -12,9 +12,9 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import Yarn
-from ilmek.io.chart_pdf import chart_cut, write_chart_pdf
-from ilmek.io.chart_sheets import OVERLAP, cut
-from ilmek.io.chart_symbols import SYMBOLS, symbols
+from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
+from ilmek.io.chart.sheets import OVERLAP, cut
+from ilmek.io.chart.symbols import SYMBOLS, symbols
 
 
 def chart(rows: int, columns: int, yarns: int, along: float = 250.0) -> Chart:

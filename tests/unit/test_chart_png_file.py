@@ -11,7 +11,7 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import PictureError
-from ilmek.io.chart_png import read_chart_png, write_chart_png
+from ilmek.io.chart.png import read_chart_png, write_chart_png
 
 
 def chart(yarns: int, rows: int = 37, columns: int = 23) -> Chart:

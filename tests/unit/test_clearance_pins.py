@@ -8,7 +8,7 @@ import pytest
 
 from ilmek.dynamics.clearance import LAWS, ClearancePin, exact_hysteresis, hertz_stiffness
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.multibody import Pose, System, loosened, simulate
+from ilmek.dynamics.multibody.system import Pose, System, loosened, simulate
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body
 

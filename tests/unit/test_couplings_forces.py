@@ -8,7 +8,7 @@ import pytest
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import Gravity, Torque
-from ilmek.dynamics.multibody_model import from_motion
+from ilmek.dynamics.multibody.model import from_motion
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body, Coupling, Displacement, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.solve import solve

@@ -5,7 +5,7 @@ import pytest
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
-from ilmek.synthesis.crank_rocker_choice import Limit, Objective, Table, choose
+from ilmek.synthesis.crank_rocker.choice import Limit, Objective, Table, choose
 from ilmek.units import deg
 
 PLACES = np.linspace(0, 10, 101)

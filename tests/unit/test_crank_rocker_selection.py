@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from ilmek.errors import ParameterError
-from ilmek.synthesis.crank_rocker import (
+from ilmek.synthesis.crank_rocker.dead_centres import (
     best_ratio,
     links_of_ratio,
     ratio_limits,
     rotation_limits,
     transmission_angle_min,
 )
-from ilmek.synthesis.crank_rocker_selection import CENTRIC, member, select_ratio
+from ilmek.synthesis.crank_rocker.selection import CENTRIC, member, select_ratio
 from ilmek.units import deg
 
 

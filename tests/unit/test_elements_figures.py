@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from examples.draw_gears import OUT, pair
 
-from ilmek.elements.beams import Beam, LineLoad, PointLoad, bend
+from ilmek.elements.beam.uniform import Beam, LineLoad, PointLoad, bend
 from ilmek.elements.figures import beam_plots, gear_drawing
 from ilmek.elements.involute import outline
 

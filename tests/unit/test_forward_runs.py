@@ -7,10 +7,10 @@ import pytest
 
 from ilmek.dynamics import forward as module
 from ilmek.dynamics.forward import Drive, Ending, RunEvent, State, at_angle, at_rest, at_speed, forward
+from ilmek.dynamics.fourier_terms import tabulate
 from ilmek.dynamics.inertia import Inertia, bar
 from ilmek.dynamics.loads import Gravity, Torque
 from ilmek.dynamics.reduced import Reduced, reduce
-from ilmek.dynamics.table import tabulate
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.quality import input_range

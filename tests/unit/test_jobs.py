@@ -8,7 +8,7 @@ from ilmek.errors import LoomError, ParameterError, YarnError
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.loom import make_loomed, read_loom_order
 from ilmek.jobs.order import read_order
-from ilmek.jobs.place import free_folder
+from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.warm import warm
 from ilmek.jobs.weave import weave
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from ilmek.carpet.knot_path import KnotDimensions, knot_path
-from ilmek.carpet.knot_word import SINGLE, knot
+from ilmek.carpet.knots.path import KnotDimensions, knot_path
+from ilmek.carpet.knots.word import SINGLE, knot
 from ilmek.cli import main
 from ilmek.io.path_file import read_path
 from ilmek.units import mm

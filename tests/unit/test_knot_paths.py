@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from ilmek.carpet.ground import warp_density, yarn_diameter
-from ilmek.carpet.knot_drawing import knot_drawing
-from ilmek.carpet.knot_path import KnotDimensions, KnotPath, knot_path
-from ilmek.carpet.knot_word import SINGLE, Knot, knot, mirrored
-from ilmek.carpet.knots import PileParams, knot_length, leg_length
+from ilmek.carpet.knots.drawing import knot_drawing
+from ilmek.carpet.knots.kinds import PileParams, knot_length, leg_length
+from ilmek.carpet.knots.path import KnotDimensions, KnotPath, knot_path
+from ilmek.carpet.knots.word import SINGLE, Knot, knot, mirrored
 from ilmek.carpet.quality import Quality
 from ilmek.errors import CarpetError
 from ilmek.units import mm

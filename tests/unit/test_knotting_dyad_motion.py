@@ -23,7 +23,7 @@ from ilmek.machines.knotting_dyad.motion_report import (
 )
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.report import Plot, Timing
-from ilmek.timing.path_speed_line import line_motion
+from ilmek.timing.path_speed.line import line_motion
 from ilmek.units import turn
 
 Settings = tuple[tuple[str, str], ...]

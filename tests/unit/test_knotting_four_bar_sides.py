@@ -9,9 +9,9 @@ import pytest
 from ilmek.elements.gears import LEAST_TEETH, MODULES, PRESSURE_ANGLE, EqualGears, equal_gears, lewis
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.linkage.clearance import Placed, distances
+from ilmek.linkage.configuration_path import InputWay
 from ilmek.linkage.model import freedom
 from ilmek.linkage.one_input import one_input
-from ilmek.linkage.way import InputWay
 from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design, report
 from ilmek.machines.knotting_four_bar.knot import pitches, proof
 from ilmek.machines.knotting_four_bar.sides import Sides, clearances, hands, other, outlines

@@ -6,13 +6,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ilmek.carpet.knot_word import knot
+from ilmek.carpet.knots.word import knot
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams, design, report
-from ilmek.machines.knotting_dyad.clear import apart, arm_bars, mirrored_bars, to_warps
+from ilmek.machines.knotting_dyad.arm_path import mirrored_way
+from ilmek.machines.knotting_dyad.clearance import apart, arm_bars, mirrored_bars, to_warps
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.section import NEIGHBOURS, section_of
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT, Phase, sequence
-from ilmek.machines.knotting_dyad.way import mirrored_way
 from ilmek.machines.knotting_dyad.yarn import tied_by
 from ilmek.report import Animation
 

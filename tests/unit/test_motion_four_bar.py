@@ -11,11 +11,11 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines import MACHINES
 from ilmek.machines.motion_four_bar import MACHINE, MotionFourBarParams, design, report
-from ilmek.machines.places import read_poses
+from ilmek.machines.text_lists import read_poses
 from ilmek.plane.vectors import cross
 from ilmek.report import Animation, Report
-from ilmek.synthesis.burmester import Guide, Kind
-from ilmek.synthesis.burmester_curve import burmester_curve
+from ilmek.synthesis.burmester.curve import burmester_curve
+from ilmek.synthesis.burmester.links import Guide, Kind
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.guide_pairs import promising

@@ -9,7 +9,7 @@ from scipy.special import ellipk
 
 from ilmek.dynamics.clearance import ClearancePin
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.multibody import Course, Pose, System, SystemEvent, simulate
+from ilmek.dynamics.multibody.system import Course, Pose, System, SystemEvent, simulate
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body, Pin, Slide
 

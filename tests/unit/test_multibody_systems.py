@@ -10,7 +10,7 @@ from ilmek.dynamics.forward import State, forward
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import Gravity
-from ilmek.dynamics.multibody import Event, Pose, Push, Spring, System, Twist, from_motion, simulate
+from ilmek.dynamics.multibody.system import Event, Pose, Push, Spring, System, Twist, from_motion, simulate
 from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank

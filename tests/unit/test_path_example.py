@@ -2,7 +2,7 @@
 
 from examples.draw_path import TASK, figure
 
-from ilmek.synthesis.path_search import path_four_bars
+from ilmek.synthesis.path.search import path_four_bars
 
 
 def test_the_drawn_four_bar_misses_no_point_by_more_than_it_says():

@@ -3,7 +3,7 @@
 import numpy as np
 from examples.draw_path_speed import LIMITS, figure, path
 
-from ilmek.timing.path_speed import quickest_motion
+from ilmek.timing.path_speed.solve import quickest_motion
 
 
 def test_some_limit_is_used_up_nearly_always_and_none_overstepped() -> None:

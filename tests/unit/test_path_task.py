@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from ilmek.errors import ParameterError
-from ilmek.synthesis.path_order import in_order, pooled
-from ilmek.synthesis.path_search import path_four_bars
-from ilmek.synthesis.path_task import PathTask
+from ilmek.synthesis.path.order import in_order, pooled
+from ilmek.synthesis.path.search import path_four_bars
+from ilmek.synthesis.path.task import PathTask
 
 SQUARE = np.array([0j, 1, 1 + 1j, 1j])
 QUARTERS = np.radians([0.0, 60, 120, 180])

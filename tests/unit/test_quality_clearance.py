@@ -7,11 +7,11 @@ import pytest
 from ilmek.errors import IlmekError, MechanismError
 from ilmek.linkage.circuits import circuits
 from ilmek.linkage.clearance import Placed, clearance, distances, outlined
+from ilmek.linkage.configuration_path import InputWay
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.structure import plan
-from ilmek.linkage.way import InputWay
 from ilmek.plane.outlines import Outline, between, nearest, to_outline
 
 SQUARE = np.array([0, 1, 1 + 1j, 1j])

@@ -6,11 +6,11 @@ import pytest
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.clearance import Placed, outlined
+from ilmek.linkage.configuration_path import InputWay
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.structure import plan
 from ilmek.linkage.swept_area import swept
-from ilmek.linkage.way import InputWay
 from ilmek.plane.outlines import Outline, to_outline
 from ilmek.plane.regions import region
 

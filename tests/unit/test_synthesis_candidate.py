@@ -13,9 +13,9 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.circuit_loops import circuit_loops
-from ilmek.synthesis.crank_rocker import best_ratio, links_of_ratio, transmission_angle_min
+from ilmek.synthesis.crank_rocker.dead_centres import best_ratio, links_of_ratio, transmission_angle_min
+from ilmek.synthesis.filters import Filters, defects, sift
 from ilmek.synthesis.four_bar import FourBar, LinkLengths, from_lengths
-from ilmek.synthesis.sieve import Filters, defects, sift
 from ilmek.synthesis.task import Task
 from ilmek.units import deg
 

@@ -5,10 +5,10 @@ import itertools
 import numpy as np
 import pytest
 
-from ilmek.carpet.knot_crossings import Row, arc_lengths, crossings, orientation, row_of_warps
-from ilmek.carpet.knot_path import KnotDimensions, knot_path
-from ilmek.carpet.knot_word import SINGLE, Knot, inverse, knot, mirrored, recognised, reduced, told, verdict
-from ilmek.carpet.tied_knot import Tied, joined, tied_by_curve, tied_knot
+from ilmek.carpet.knots.crossings import Row, arc_lengths, crossings, orientation, row_of_warps
+from ilmek.carpet.knots.path import KnotDimensions, knot_path
+from ilmek.carpet.knots.tied import Tied, joined, tied_by_curve, tied_knot
+from ilmek.carpet.knots.word import SINGLE, Knot, inverse, knot, mirrored, recognised, reduced, told, verdict
 from ilmek.errors import CarpetError
 from ilmek.units import mm
 

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from ilmek.elements.beam import Beam, LineLoad
+from ilmek.elements.beam.model import Beam, LineLoad
+from ilmek.elements.beam.solve import bend
 from ilmek.elements.bearings import find_bearing
-from ilmek.elements.bending import bend
 from ilmek.errors import ParameterError
 from ilmek.machines.warp_tension import MACHINE, WarpTensionParams
 from ilmek.machines.warp_tension.cylinders import cylinders, slots_of, spacer_load, stub_stress, tension_beyond

@@ -26,11 +26,11 @@ import numpy as np
 from jaxtyping import Float
 
 from ilmek.arrays import ComplexField, FloatArray
-from ilmek.cams.pieces import Extremum, infimum
 from ilmek.cams.programme import Course, Programme
 from ilmek.cams.strip import trace_of_strip
 from ilmek.cams.trace import Trace, Traced
 from ilmek.errors import ParameterError
+from ilmek.num.piecewise import Extremum, infimum
 from ilmek.plane.vectors import unit
 from ilmek.units import format_quantity
 

@@ -18,10 +18,10 @@ from typing import ClassVar
 import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray, RealField
-from ilmek.cams.pieces import infimum, supremum
 from ilmek.cams.programme import Course, Programme
 from ilmek.cams.trace import Trace, Traced
 from ilmek.errors import ParameterError
+from ilmek.num.piecewise import infimum, supremum
 from ilmek.plane.vectors import unit
 from ilmek.units import format_quantity
 

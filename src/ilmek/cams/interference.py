@@ -8,8 +8,8 @@ every pose against the whole surface.
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.pieces import Extremum
 from ilmek.cams.trace import Cam, Trace
+from ilmek.num.piecewise import Extremum
 from ilmek.plane.vectors import dot
 
 _SHARE = 1e-9

@@ -11,11 +11,11 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray
-from ilmek.cams.pieces import Extremum, infimum, integral, supremum
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import Programme
 from ilmek.cams.trace import Cam
 from ilmek.errors import ParameterError
+from ilmek.num.piecewise import Extremum, infimum, integral, supremum
 from ilmek.plane.vectors import dot
 from ilmek.units import format_quantity
 

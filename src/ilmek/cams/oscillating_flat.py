@@ -22,10 +22,10 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.pieces import infimum, supremum
 from ilmek.cams.programme import Course, Programme
 from ilmek.cams.trace import Trace, Traced
 from ilmek.errors import ParameterError
+from ilmek.num.piecewise import infimum, supremum
 from ilmek.plane.vectors import unit
 from ilmek.units import format_quantity
 

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.parts import Open, Segment, blend, bounds, dwell, even, fall, free, rise
+from ilmek.cams.segments import Open, Segment, blend, bounds, dwell, even, fall, free, rise
 from ilmek.errors import ParameterError
 from ilmek.units import deg, format_quantity
 

@@ -15,9 +15,9 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.contact import Held
-from ilmek.cams.pieces import Extremum, infimum, supremum
 from ilmek.cams.programme import Programme, jumps
 from ilmek.errors import ParameterError
+from ilmek.num.piecewise import Extremum, infimum, supremum
 from ilmek.units import format_quantity
 
 _NOTHING = 1e-12

@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.pieces import integral
 from ilmek.cams.trace import Cam, Trace
+from ilmek.num.piecewise import integral
 from ilmek.plane.vectors import dot
 
 

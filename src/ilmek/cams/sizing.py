@@ -16,11 +16,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray
-from ilmek.cams.pieces import Extremum, supremum
 from ilmek.cams.programme import Programme
 from ilmek.cams.trace import Cam, Trace
 from ilmek.errors import ParameterError
 from ilmek.num.brackets import bracketed_minima, bracketed_roots
+from ilmek.num.piecewise import Extremum, supremum
 from ilmek.units import format_quantity
 
 _SIZES = 64

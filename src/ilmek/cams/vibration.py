@@ -23,8 +23,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.cams.laws import Law
-from ilmek.cams.pieces import crossing
 from ilmek.errors import ParameterError
+from ilmek.num.piecewise import crossing
 from ilmek.report import Axis, Plot, Series
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)

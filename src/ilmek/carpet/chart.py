@@ -1,7 +1,7 @@
 """Chart: picture, size, quality and yarns in, one yarn a knot out.
 
 The picture is averaged onto the knot grid (`design`), each distinct colour gets the yarn nearest by CIEDE2000
-(`palette`), and lone knots are merged into a neighbour (`lone`).
+(`palette`), and lone knots are merged into a neighbour (`isolated_knots`).
 """
 
 from collections.abc import Sequence
@@ -11,8 +11,8 @@ import numpy as np
 
 from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.design import knot_grid, resampled
-from ilmek.carpet.knots import parse_knot
-from ilmek.carpet.lone import count_lone, merge_lone
+from ilmek.carpet.isolated_knots import count_lone, merge_lone
+from ilmek.carpet.knots.kinds import parse_knot
 from ilmek.carpet.palette import best_yarns, distinct_colours, nearest_yarns, paint
 from ilmek.carpet.progress import Progress, part
 from ilmek.carpet.quality import Quality

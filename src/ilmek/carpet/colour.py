@@ -1,6 +1,7 @@
 """Colour: sRGB, linear light, CIE XYZ and CIELAB under D65.
 
-Pictures are sRGB of 8 bits; light adds up only in linear light; differences are judged in CIELAB (see `difference`).
+Pictures are sRGB of 8 bits; light adds up only in linear light; differences are judged in CIELAB
+(see `colour_difference`).
 All functions take arrays whose last axis holds the three components.
 
 Sources: IEC 61966-2-1 (sRGB: transfer curve, primaries and white); CIE 15 (CIELAB).

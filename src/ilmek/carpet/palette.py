@@ -13,7 +13,7 @@ from jaxtyping import Float, Int, Int32, Int64, UInt8
 
 from ilmek.arrays import FloatArray, Indices, IntArray, Rgb
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.difference import delta_e_2000, nearest
+from ilmek.carpet.colour_difference import delta_e_2000, nearest
 from ilmek.carpet.progress import Progress
 from ilmek.errors import YarnError
 from ilmek.num.compiled import compiled

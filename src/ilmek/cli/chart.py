@@ -12,7 +12,7 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import check_free, output_folder
 from ilmek.jobs.chart import Charted, chart_json, make_charted, write_chart
 from ilmek.jobs.order import read_order
-from ilmek.jobs.place import free_folder
+from ilmek.jobs.output_folder import free_folder
 from ilmek.units import format_quantity, g
 
 EXAMPLES = """\b

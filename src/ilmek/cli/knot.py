@@ -11,7 +11,7 @@ from ilmek.errors import CarpetError
 from ilmek.io.output import check_file, write_whole
 from ilmek.io.path_file import read_path
 from ilmek.jobs.knot import Asked, judged, report
-from ilmek.machines.places import read_points
+from ilmek.machines.text_lists import read_points
 from ilmek.units import parse_quantity
 from ilmek.viz.page import machine_page
 

@@ -8,7 +8,7 @@ import click
 
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import check_json, console, give_json, progress_bar, show_table
-from ilmek.jobs.told import Told
+from ilmek.jobs.progress import Told
 from ilmek.verification import PAPERS, TITLES, VERDICTS, Verdict, reproduce
 from ilmek.verification.claim import MISPRINT, NOT_REPRODUCIBLE, REPRODUCED, ROUNDING
 from ilmek.verification.wording import HEADINGS, row, summary

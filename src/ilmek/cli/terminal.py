@@ -14,7 +14,7 @@ from rich.table import Table
 
 from ilmek.io.json_file import json_text, write_json
 from ilmek.io.output import check_file
-from ilmek.jobs.told import Told
+from ilmek.jobs.progress import Told
 from ilmek.report import Check
 from ilmek.units import format_quantity
 

@@ -11,7 +11,7 @@ from ilmek.cli.terminal import check_json, give_json, note, passed, progress_bar
 from ilmek.io.output import check_free
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
-from ilmek.jobs.place import free_folder
+from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.weave import Woven, time_in_words, weave, weave_json
 from ilmek.units import format_quantity
 

@@ -18,7 +18,7 @@ from ilmek.arrays import ComplexArray, FloatArray, NumberArray
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia, combined, point_mass
 from ilmek.dynamics.inverse import Forces
-from ilmek.dynamics.posed import posed
+from ilmek.dynamics.pose_block import posed
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion

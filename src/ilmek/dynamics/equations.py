@@ -19,7 +19,7 @@ import numpy as np
 from ilmek.arrays import ComplexField, FloatArray
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Wrench
-from ilmek.dynamics.posed import Held, Posed, Pull
+from ilmek.dynamics.pose_block import Held, Posed, Pull
 from ilmek.linkage.groups.group import Step
 from ilmek.linkage.model import GROUND
 from ilmek.num.linear import solve_many

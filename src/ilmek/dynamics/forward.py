@@ -21,8 +21,8 @@ from scipy.integrate import DOP853
 
 from ilmek.dynamics.events import Event, Happening, located, until_terminal
 from ilmek.dynamics.forward_run import Drive, End, Ending, Run, State, energies
+from ilmek.dynamics.fourier_terms import Table, tabulate
 from ilmek.dynamics.reduced import Reduced
-from ilmek.dynamics.table import Table, tabulate
 from ilmek.errors import MechanismError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
@@ -69,7 +69,7 @@ def forward(
     every  time between the samples of the answer [s]; None: the integrator's own steps
     rtol   relative error of a step in angle (against 1 rad), speed and work
 
-    A machine that turns fully is run on its Fourier table (see `table`), any other on the engine itself.
+    A machine that turns fully is run on its Fourier table (see `fourier_terms`), any other on the engine itself.
     Raises MechanismError for a start in which the mechanism does not close, a state, duration or effort that is not
     finite, and a tolerance that cannot be kept.
     """

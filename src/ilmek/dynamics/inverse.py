@@ -17,7 +17,7 @@ from ilmek.dynamics.equations import Needs, joint_pulls, needs
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import JointFriction, check_joints, frictions, loaded
 from ilmek.dynamics.loads import Load, Wrench
-from ilmek.dynamics.posed import BLOCK, Posed, Pull, cut, part_of, posed, receiver
+from ilmek.dynamics.pose_block import BLOCK, Posed, Pull, cut, part_of, posed, receiver
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Mechanism, Rotation, Slide
 from ilmek.linkage.motion import Motion

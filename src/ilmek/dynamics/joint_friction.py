@@ -21,7 +21,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, FloatArray, RealField
 from ilmek.dynamics.equations import Needs, add, joint_pulls
 from ilmek.dynamics.friction import MOMENT
-from ilmek.dynamics.posed import Held, Posed, Pull
+from ilmek.dynamics.pose_block import Held, Posed, Pull
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import carried_acceleration
 from ilmek.linkage.model import Mechanism, Pin, Slide

@@ -11,7 +11,7 @@ from typing import Protocol, TypeAlias, runtime_checkable
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.posed import cut
+from ilmek.dynamics.pose_block import cut
 from ilmek.linkage.motion import Motion
 
 ForceLaw: TypeAlias = ComplexField | Callable[[Motion], ComplexField]

@@ -6,8 +6,8 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.elements import beams
-from ilmek.elements.bent import Bent
+from ilmek.elements.beam import uniform
+from ilmek.elements.beam.result import Bent
 from ilmek.elements.gear_pair import GearPair
 from ilmek.elements.involute import outline
 from ilmek.report import Axis, Dot, Drawing, Mark, Plot, Series, Stroke
@@ -18,7 +18,7 @@ def deflection_plot(load: float, length: float, modulus: float, inertia: float, 
     """Deflection line of a simply supported, uniformly loaded beam, and its limit [m]; downwards as on the drawing."""
     x = np.linspace(0.0, length, 121)
     series = (
-        Series("deflection", x, -beams.deflection(x, load, length, modulus, inertia=inertia)),
+        Series("deflection", x, -uniform.deflection(x, load, length, modulus, inertia=inertia)),
         Series("limit", np.array([0.0, length]), np.full(2, -limit), dashed=True),
     )
     title = "Deflection along the width"

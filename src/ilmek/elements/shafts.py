@@ -1,7 +1,7 @@
 """Smallest section of a simply supported, uniformly loaded shaft for a slope and a deflection.
 
-The second moment of area that keeps the limit, put into the section's formula (`beams`). Load w [N/m], length l [m],
-modulus E [Pa], slope theta [rad], deflection y [m].                                  [thesis 3.1, 3.2, eq. 3.4, 3.5]
+The second moment of area that keeps the limit, put into the section's formula (`beam.uniform`). Load w [N/m],
+length l [m], modulus E [Pa], slope theta [rad], deflection y [m].                 [thesis 3.1, 3.2, eq. 3.4, 3.5]
 """
 
 import math

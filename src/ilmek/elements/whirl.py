@@ -17,8 +17,8 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.elements.beam import Beam, PointLoad
-from ilmek.elements.bending import bend
+from ilmek.elements.beam.model import Beam, PointLoad
+from ilmek.elements.beam.solve import bend
 from ilmek.elements.materials import GRAVITY
 from ilmek.errors import ParameterError
 from ilmek.units import format_quantity

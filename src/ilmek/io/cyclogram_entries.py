@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 from ilmek.cams.laws import law_of
 from ilmek.cams.laws.law import Law
 from ilmek.errors import IlmekError, MechanismError, ParameterError, UnitError
-from ilmek.io.places import Path
+from ilmek.io.line_numbers import Path
 from ilmek.io.schema import Sheet
 from ilmek.units import parse_quantity
 

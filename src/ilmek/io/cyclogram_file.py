@@ -39,8 +39,8 @@ from typing import Any
 from ilmek.cams.laws import LAWS
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.io.cyclogram_entries import Entry
+from ilmek.io.line_numbers import Places, json_places, toml_places
 from ilmek.io.output import write_whole
-from ilmek.io.places import Places, json_places, toml_places
 from ilmek.io.schema import Sheet
 from ilmek.io.text_file import read_text
 from ilmek.io.toml_text import toml_section, toml_text

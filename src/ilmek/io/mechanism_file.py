@@ -35,8 +35,8 @@ from typing import Any
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import IlmekError, MechanismError
+from ilmek.io.line_numbers import Places, json_places, toml_places
 from ilmek.io.output import write_whole
-from ilmek.io.places import Places, json_places, toml_places
 from ilmek.io.schema import Reader, Schema, Sheet
 from ilmek.io.text_file import read_text
 from ilmek.io.toml_text import toml_text

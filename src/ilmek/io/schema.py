@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, NoReturn, TypeAlias
 
 from ilmek.errors import IlmekError, MechanismError, UnitError
-from ilmek.io.places import Path, Places
+from ilmek.io.line_numbers import Path, Places
 from ilmek.units import parse_quantity
 
 Schema: TypeAlias = Mapping[str, Any]

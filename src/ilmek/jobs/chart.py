@@ -10,14 +10,14 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.design import LARGEST_DISTORTION, distortion
-from ilmek.carpet.knots import coarsest_count, pile_fill
+from ilmek.carpet.knots.kinds import coarsest_count, pile_fill
 from ilmek.carpet.yarn import Yarn
-from ilmek.io.chart_pdf import chart_cut, write_chart_pdf
-from ilmek.io.chart_png import write_chart_png
+from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
+from ilmek.io.chart.png import write_chart_png
 from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.order import Order
-from ilmek.jobs.told import Told, part
+from ilmek.jobs.progress import Told, part
 from ilmek.report import Check, at_most, check_as_json
 from ilmek.units import format_quantity
 

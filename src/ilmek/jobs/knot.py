@@ -7,9 +7,9 @@ import numpy as np
 from jaxtyping import Complex
 
 from ilmek.arrays import ComplexArray
-from ilmek.carpet.knot_crossings import arc_lengths
-from ilmek.carpet.knot_word import told
-from ilmek.carpet.tied_knot import Tied, joined, tied_knot
+from ilmek.carpet.knots.crossings import arc_lengths
+from ilmek.carpet.knots.tied import Tied, joined, tied_knot
+from ilmek.carpet.knots.word import told
 from ilmek.errors import CarpetError
 from ilmek.report import Dot, Drawing, Json, Report, Result, Stroke
 from ilmek.units import format_quantity

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from ilmek.carpet.design import knot_grid
-from ilmek.carpet.knots import PileParams, parse_knot
+from ilmek.carpet.knots.kinds import PileParams, parse_knot
 from ilmek.carpet.quality import Quality, parse_quality
 from ilmek.carpet.sizes import Size, parse_size
 from ilmek.carpet.yarn import Yarn

@@ -4,14 +4,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ilmek.io.chart_symbols import symbols
+from ilmek.io.chart.symbols import symbols
 from ilmek.io.json_file import write_json
 from ilmek.io.output import output_folder
 from ilmek.io.programme_file import Label, write_programme
 from ilmek.jobs.chart import Charted, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import Loomed, LoomOrder, make_loomed
 from ilmek.jobs.order import Order
-from ilmek.jobs.told import Told, part
+from ilmek.jobs.progress import Told, part
 from ilmek.machines.automated_loom.report import parts_of, report_with
 from ilmek.report import Check, Report, at_most, check_as_json
 from ilmek.units import format_quantity, hour

@@ -13,8 +13,8 @@ from jaxtyping import Complex, Float
 from ilmek.arrays import FloatArray
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion
+from ilmek.linkage.configuration_path import Way, spaced
 from ilmek.linkage.model import Mechanism
-from ilmek.linkage.way import Way, spaced
 from ilmek.num.brackets import bracketed_minima, bracketed_roots
 from ilmek.plane.outlines import Outline, between, nearest
 
@@ -81,7 +81,7 @@ def clearance(way: Way, first: Placed, second: Placed) -> Clearance:
     >>> from ilmek.linkage.fourbar import four_bar
     >>> from ilmek.linkage.one_input import one_input
     >>> from ilmek.linkage.structure import plan
-    >>> from ilmek.linkage.way import InputWay
+    >>> from ilmek.linkage.configuration_path import InputWay
     >>> mechanism = four_bar(0.300, 0.060, 0.200, 0.230, branch=+1)
     >>> post = Placed("ground", (Outline((0.1,), 0.005),))
     >>> found = clearance(InputWay(one_input(plan(mechanism))), outlined(mechanism, "crank", 0.010), post)

@@ -14,11 +14,11 @@ from jaxtyping import Complex, Float
 
 from ilmek.arrays import FloatArray
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
+from ilmek.linkage.displacements import moving
 from ilmek.linkage.equations import Equation
 from ilmek.linkage.groups.group import Drive
 from ilmek.linkage.loops import Loops, loops
 from ilmek.linkage.model import GROUND
-from ilmek.linkage.moves import moving
 from ilmek.linkage.one_input import OneInput
 from ilmek.num.linear import solve_many
 

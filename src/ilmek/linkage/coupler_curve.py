@@ -16,7 +16,7 @@ from jaxtyping import Bool, Complex, Float
 from ilmek.arrays import FloatArray, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import PointMotion
-from ilmek.linkage.way import Way, spaced
+from ilmek.linkage.configuration_path import Way, spaced
 from ilmek.num.brackets import bracketed_roots
 from ilmek.num.linear import solve_many
 from ilmek.plane.curves import crossing_segments, curvature
@@ -264,7 +264,7 @@ def _overlaps(found: list[Straight], start: float, stop: float, turn: float) -> 
 def coupler_curve(way: Way, body: str, point: str) -> CouplerCurve:
     """The path of a body's named point along a way. Raises MechanismError for an unknown body or point.
 
-    >>> from ilmek.linkage.way import InputWay
+    >>> from ilmek.linkage.configuration_path import InputWay
     >>> from ilmek.linkage.fourbar import four_bar
     >>> from ilmek.linkage.one_input import one_input
     >>> from ilmek.linkage.structure import plan

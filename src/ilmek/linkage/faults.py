@@ -8,8 +8,8 @@ from jaxtyping import Bool, Float, Int8
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
 from ilmek.linkage.groups.group import Drive, Known, Step
+from ilmek.linkage.initial_pose import starts
 from ilmek.linkage.model import GROUND, Input, Rotation
-from ilmek.linkage.newton import starts
 from ilmek.linkage.status import Status, judge
 from ilmek.linkage.structure import Plan
 from ilmek.units import deg, mm

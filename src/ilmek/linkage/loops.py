@@ -12,12 +12,12 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.linkage.body_motion import STILL
+from ilmek.linkage.displacements import Moves
 from ilmek.linkage.equations import Equation
-from ilmek.linkage.groups.block import Block
-from ilmek.linkage.groups.course import angles
+from ilmek.linkage.groups.general import Block
 from ilmek.linkage.groups.group import Drive, Group, Known
+from ilmek.linkage.groups.winding import angles
 from ilmek.linkage.model import Mechanism
-from ilmek.linkage.moves import Moves
 
 
 @dataclass(frozen=True, slots=True)

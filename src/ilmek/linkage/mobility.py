@@ -27,9 +27,9 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.equations import Equation
 from ilmek.linkage.groups.group import Known
+from ilmek.linkage.initial_pose import drawn
 from ilmek.linkage.loops import Loops, loops
 from ilmek.linkage.model import Mechanism, freedom
-from ilmek.linkage.newton import drawn
 
 FLAT = 1e-8
 """A singular value this small against the largest is zero: poses are assembled to rounding, far below."""

@@ -19,11 +19,11 @@ import numpy as np
 from jaxtyping import Float
 
 from ilmek.errors import MechanismError
+from ilmek.linkage.displacements import at_origins, contracted
 from ilmek.linkage.equations import Equation, Row, displacement_equation
 from ilmek.linkage.groups.group import Drive, Known
 from ilmek.linkage.model import GROUND, Mechanism, Slide
 from ilmek.linkage.motion import Motion
-from ilmek.linkage.moves import at_origins, contracted
 from ilmek.plane.vectors import dot, unit
 
 

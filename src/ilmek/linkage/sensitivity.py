@@ -20,10 +20,10 @@ from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.dimensions import NONE, Dimension, Nudge, Nudges
+from ilmek.linkage.displacements import Moves, added, at_origins, contracted, largest, moving, times
 from ilmek.linkage.equations import Equation
 from ilmek.linkage.loops import Loops, loops
 from ilmek.linkage.motion import Motion
-from ilmek.linkage.moves import Moves, added, at_origins, contracted, largest, moving, times
 from ilmek.linkage.outputs import Output
 from ilmek.num.linear import solve_many
 

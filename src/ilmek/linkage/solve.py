@@ -11,11 +11,11 @@ import numpy as np
 from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
-from ilmek.linkage.groups.block import Block
+from ilmek.linkage.groups.general import Block
 from ilmek.linkage.groups.group import Columns, Drive
+from ilmek.linkage.initial_pose import starts
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
-from ilmek.linkage.newton import starts
 from ilmek.linkage.status import judge
 from ilmek.linkage.structure import Plan
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from ilmek.errors import MechanismError
-from ilmek.linkage.groups import block, follower, geared, prp, rpp, rpr, rrp, rrr, shift, turn
+from ilmek.linkage.groups import follower, geared, general, prp, rpp, rpr, rrp, rrr, shift, turn
 from ilmek.linkage.groups.group import Group, Step
 from ilmek.linkage.model import GROUND, Mechanism, freedom
 
@@ -57,7 +57,7 @@ def plan(mechanism: Mechanism, *, closed_forms: bool = True) -> Plan:
     while len(known) <= len(mechanism.moving):
         group = _next_group(mechanism, known)
         recognised = (recognise(group) for recognise in (CLOSED_FORMS if closed_forms else CLOSED_FORMS[:2]))
-        steps.append(next((step for step in recognised if step is not None), None) or block.of(group))
+        steps.append(next((step for step in recognised if step is not None), None) or general.from_group(group))
         known.update(group.bodies)
     return Plan(mechanism, tuple(steps))
 

@@ -14,7 +14,7 @@ from jaxtyping import Complex, Float
 from ilmek.arrays import FloatArray
 from ilmek.errors import MechanismError
 from ilmek.linkage.clearance import Placed
-from ilmek.linkage.way import Way, spaced
+from ilmek.linkage.configuration_path import Way, spaced
 from ilmek.num.brackets import bracketed_minima
 from ilmek.plane.outlines import to_outline
 from ilmek.plane.regions import Region, region
@@ -43,7 +43,7 @@ def swept(way: Way, placed: Placed, *, cells: int = 256) -> Region:
     >>> from ilmek.linkage.clearance import outlined
     >>> from ilmek.linkage.one_input import one_input
     >>> from ilmek.linkage.structure import plan
-    >>> from ilmek.linkage.way import InputWay
+    >>> from ilmek.linkage.configuration_path import InputWay
     >>> turn = InputWay(one_input(plan(four_bar(0.300, 0.060, 0.200, 0.230, branch=+1))))
     >>> disc = swept(turn, outlined(turn.mechanism, "crank", 0.010), cells=64)
     >>> bool(abs(disc.area - np.pi * 0.070**2) < 1e-5), bool(disc.bound < 2e-3)

@@ -22,7 +22,7 @@ from ilmek.errors import ParameterError
 from ilmek.num.pencil2 import roots2
 from ilmek.num.pencil3 import Roots, roots3
 from ilmek.plane.vectors import cross, dot, unit
-from ilmek.synthesis.burmester_forms import FAR, require_task, timed_forms
+from ilmek.synthesis.burmester.constant_distance import FAR, require_task, timed_forms
 from ilmek.synthesis.task import require_angles
 
 BLOCK = 4096
@@ -213,8 +213,8 @@ def arms_through_points(points: Complex[np.ndarray, "*batch 4"], first_angles: F
 
         |p_i - O - a1 e^{i th1_i}|² = a2²,    less the first:    (A + a1 B) (O - p_1, 1)^T = 0
 
-    A and B are columns of the forms G of `burmester_forms`, W = a1 e^{i th1_1} taken as its moving point. Never raises
-    for a task: a bad one is told in `found`.                                                   [thesis 2.36, 2.37]
+    A and B are columns of the forms G of `burmester.constant_distance`, W = a1 e^{i th1_1} taken as its moving point.
+    Never raises for a task: a bad one is told in `found`.                                           [thesis 2.36, 2.37]
 
     >>> arms = arms_through_points(np.array([0, 2, 2 + 2j, 2j]), np.array([0.1, 0.7, 1.9, 3.0]))
     >>> [Found(one).name for one in arms.found], complex(np.round(arms.pivot[0], 12))  # a circle about 1 + i

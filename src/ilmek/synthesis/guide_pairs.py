@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Complex, Float
 
 from ilmek.plane.vectors import cross
-from ilmek.synthesis.burmester import Guide, Kind
+from ilmek.synthesis.burmester.links import Guide, Kind
 
 ROUND = 2 * np.pi
 

@@ -1,8 +1,8 @@
 """Motions stretched and overlapped as far as the relations let them: least acceleration, or the shortest turn.
 
 The peak acceleration of a motion is |h| Ca (w/beta)^2, so that a bound on it is a least angle beta; with the rows of
-`rows` both tasks are linear programmes, and their answer is the best there is, not a good one. It is proved by the
-multipliers: they say what binds, and by how much. Where two presences overlap at the start, both orders are tried;
+`constraints` both tasks are linear programmes, and their answer is the best there is, not a good one. It is proved by
+the multipliers: they say what binds, and by how much. Where two presences overlap at the start, both orders are tried;
 any other order of the process is kept.
 
 After the largest acceleration is least, the motions that settle it are kept and the largest of the others is made
@@ -19,8 +19,8 @@ from scipy.optimize import linprog
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
+from ilmek.timing.constraints import Form, Row, Unknowns, exclusion_rows, standing_rows, unknowns
 from ilmek.timing.cyclogram import Cyclogram
-from ilmek.timing.rows import Form, Row, Unknowns, exclusion_rows, standing_rows, unknowns
 from ilmek.timing.track import Segment, Track, peak_acceleration
 from ilmek.units import format_quantity, parse_unit, turn
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ilmek.dynamics.inertia import bar_moment
 from ilmek.machines.beat_up import BeatUp, BeatUpParams, design
-from ilmek.synthesis.crank_rocker import Links, beta_limits, dead_centres
+from ilmek.synthesis.crank_rocker.dead_centres import Links, beta_limits, dead_centres
 from ilmek.units import deg
 from ilmek.verification import beat_up_equations, beat_up_table
 from ilmek.verification.beat_up_table import SWING

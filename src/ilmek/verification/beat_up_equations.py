@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.synthesis.crank_rocker import (
+from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
     Links,
     beta_limits,

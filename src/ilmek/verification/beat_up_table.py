@@ -5,7 +5,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.synthesis.crank_rocker import Links, best_ratio, links_of_beta, links_of_ratio, transmission_angle_min
+from ilmek.synthesis.crank_rocker.dead_centres import (
+    Links,
+    best_ratio,
+    links_of_beta,
+    links_of_ratio,
+    transmission_angle_min,
+)
 from ilmek.units import deg
 from ilmek.verification.claim import Claim
 

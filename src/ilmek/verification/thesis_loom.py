@@ -8,7 +8,8 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from ilmek.carpet.sizes import STANDARD_SIZES
-from ilmek.elements import beams, shafts
+from ilmek.elements import shafts
+from ilmek.elements.beam import uniform
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import Reducer
 from ilmek.units import GPa, N, kN, m, mm
@@ -93,7 +94,7 @@ def _beam() -> tuple[Claim, ...]:
         equation(
             "3.6, 3.7",
             "ω = τ n/l,  θ_A = -τ n l²/(24 E I)",
-            lambda: residual(beams.slope_max(PULL / span, span, 1.0, stiffness), PULL * span**2 / (24 * stiffness)),
+            lambda: residual(uniform.slope_max(PULL / span, span, 1.0, stiffness), PULL * span**2 / (24 * stiffness)),
         ),
     )
 
@@ -128,7 +129,7 @@ def _least_radius(inner: float) -> float | None:
 
 def _sag(outer: float, inner: float) -> float:
     span, E = LIKELY
-    return float(beams.deflection_max(PULL / span, span, E, beams.tube_inertia(outer * mm, inner * mm))) / mm
+    return float(uniform.deflection_max(PULL / span, span, E, uniform.tube_inertia(outer * mm, inner * mm))) / mm
 
 
 def _tube() -> tuple[Claim, ...]:
@@ -136,8 +137,8 @@ def _tube() -> tuple[Claim, ...]:
     at = "3.1, before Fig 3.8"
 
     def slope() -> float | None:
-        inertia = beams.tube_inertia(*TUBE_RADII)
-        found = [float(beams.slope_max(PULL / span, span, E, inertia)) for span, E in (*FITS, LIKELY)]
+        inertia = uniform.tube_inertia(*TUBE_RADII)
+        found = [float(uniform.slope_max(PULL / span, span, E, inertia)) for span, E in (*FITS, LIKELY)]
         return found[-1] if max(found) - min(found) < 1e-6 else None
 
     return (
@@ -225,14 +226,14 @@ def _side_for_slope(factor: float) -> float:
 def _allowed_sag() -> float:
     """The sag [mm] of the tabulated sides B_ec under their loads, at the factor 2."""
     span, E = SHAFT
-    return float(beams.deflection_max(14 * kN, span, E, beams.square_inertia(69.01 * mm))) / mm
+    return float(uniform.deflection_max(14 * kN, span, E, uniform.square_inertia(69.01 * mm))) / mm
 
 
 def _safety() -> float:
     """Of slope and sag at 7 kN/m."""
     span, E = SHAFT
-    inertia = beams.square_inertia(80 * mm)
-    slope, sag = beams.slope_max(7 * kN, span, E, inertia), beams.deflection_max(7 * kN, span, E, inertia)
+    inertia = uniform.square_inertia(80 * mm)
+    slope, sag = uniform.slope_max(7 * kN, span, E, inertia), uniform.deflection_max(7 * kN, span, E, inertia)
     return float(min(SLOPE / slope, SAG / sag))
 
 

@@ -17,10 +17,10 @@ from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
 from ilmek.report import Animation, Check, Figure, Report, Timing
 from ilmek.viz.animation import SECONDS
+from ilmek.viz.number_format import amount, cells, count, fixed, number, quantity, sign, words
 from ilmek.viz.page_parts import Fact, FileNote, carpet_facts, pictures, yarn_lines
 from ilmek.viz.style import shown_unit, with_unit
 from ilmek.viz.svg import svg
-from ilmek.viz.writing import amount, cells, count, fixed, number, quantity, sign, words
 
 _TEMPLATES = Path(__file__).parent / "templates"
 

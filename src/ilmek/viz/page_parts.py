@@ -14,7 +14,7 @@ from ilmek.carpet.colour import LINEAR
 from ilmek.report import Check
 from ilmek.units import format_number
 from ilmek.viz.carpet_picture import carpet_picture, close_up
-from ilmek.viz.writing import count, fixed, share
+from ilmek.viz.number_format import count, fixed, share
 
 _LARGEST = 1600
 """Pixels along the longer side of the chart's picture on the page, at most."""

@@ -1,6 +1,7 @@
 """Figures of a report as inline SVG.
 
-The look is `style`, the kinds of figure are `plot`, `drawing`, `animation` and `timing`, the text is made in `ink`.
+The look is `style`, the kinds of figure are `plot`, `drawing`, `animation` and `timing`, the text is made in
+`svg_cleanup`.
 """
 
 import warnings
@@ -10,9 +11,9 @@ from matplotlib import rc_context
 from ilmek.report import Animation, Drawing, Figure, Plot
 from ilmek.viz.animation import draw_animation
 from ilmek.viz.drawing import draw_drawing
-from ilmek.viz.ink import inline_svg, slug
 from ilmek.viz.plot import draw_plot
 from ilmek.viz.style import RC
+from ilmek.viz.svg_cleanup import inline_svg, slug
 from ilmek.viz.timing import draw_timing
 
 

@@ -15,8 +15,8 @@ from ilmek.arrays import RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.equations import angle_near
+from ilmek.linkage.groups.attachment import Hang, hangs
 from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
-from ilmek.linkage.groups.hang import Hang, hangs
 from ilmek.linkage.model import Coupling, Slide
 from ilmek.plane.vectors import unit
 

@@ -1,7 +1,7 @@
 """Bodies that couplings drive from the inputs: their angles and displacements are linear in the inputs' values.
 
 Gears in a row, belts, racks, planetary gears with any member driven: however many turns, the angle is known; see
-`course`.
+`winding`.
 """
 
 from collections.abc import Mapping
@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.groups.course import Course, courses
+from ilmek.linkage.groups.attachment import Hang, hangs, place_all
 from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
-from ilmek.linkage.groups.hang import Hang, hangs, place_all
+from ilmek.linkage.groups.winding import Course, courses
 from ilmek.plane.vectors import unit
 
 

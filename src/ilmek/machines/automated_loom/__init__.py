@@ -11,8 +11,8 @@ from dataclasses import replace
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign, design
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.automated_loom.production_time import Production, estimated_time, production_time, programme_for
 from ilmek.machines.automated_loom.report import report
-from ilmek.machines.automated_loom.time import Production, estimated_time, production_time, programme_for
 from ilmek.machines.machine import Machine
 from ilmek.timing.cyclogram import Cyclogram
 

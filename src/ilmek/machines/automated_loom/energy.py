@@ -15,7 +15,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.time import estimated_time
+from ilmek.machines.automated_loom.production_time import estimated_time
 from ilmek.machines.weaver.cams import torque_at
 from ilmek.machines.weaver.moves import carriage, selector
 from ilmek.timing.s_curve import s_curve

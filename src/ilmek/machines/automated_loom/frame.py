@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.elements import beams
+from ilmek.elements.beam import uniform
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.errors import LoomError
 from ilmek.units import format_quantity, mm
@@ -69,7 +69,7 @@ class Section:
     @property
     def inertia(self) -> float:
         """Second moment of area [m^4]."""
-        hollow = beams.square_inertia(self.side) - beams.square_inertia(self.side - 2 * self.wall)
+        hollow = uniform.square_inertia(self.side) - uniform.square_inertia(self.side - 2 * self.wall)
         return float(hollow)
 
     @property
@@ -169,7 +169,7 @@ def rail_sag(task: FrameTask, section: Section) -> float:
     Of a load w over the middle b of a span l: w b (8 l^3 - 4 l b^2 + b^3) / (384 E I); for b = l the whole span's.
     """
     span, stiff = task.width / task.rail_spans, STEEL.modulus * section.inertia
-    own = beams.deflection_max(section.line_mass * GRAVITY, span, STEEL.modulus, section.inertia)
+    own = uniform.deflection_max(section.line_mass * GRAVITY, span, STEEL.modulus, section.inertia)
     number = min(task.heads, math.ceil(span / task.head_width))
     wide = min(number * task.head_width, span)
     force = number * task.head_mass * GRAVITY

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
-from ilmek.carpet.knots import WRAPS
+from ilmek.carpet.knots.kinds import WRAPS
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST
 from ilmek.errors import LoomError

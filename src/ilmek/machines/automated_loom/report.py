@@ -13,9 +13,9 @@ from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.frame import BOW_LIMIT, BUCKLING_SAFETY, STEEL, STRESS_SAFETY, Frame
 from ilmek.machines.automated_loom.knotting import arms_of
 from ilmek.machines.automated_loom.parts import Part, PartsList, parts_of_loom
-from ilmek.machines.automated_loom.time import estimated_time, time_shares
-from ilmek.machines.rounding import settled
+from ilmek.machines.automated_loom.production_time import estimated_time, time_shares
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
+from ilmek.report.limits import snap_to_limit
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
@@ -184,8 +184,10 @@ def _checks(loom: LoomDesign) -> tuple[Check, ...]:
             else ()
         ),
         *_arms_in_time(loom),
-        at_most("shuttle: speed", settled(speed, params.shuttle_speed), params.shuttle_speed, "m/s", "shuttle_speed"),
-        at_most("shuttle: acceleration", settled(acceleration, limit), limit, "m/s^2", "shuttle_acceleration"),
+        at_most(
+            "shuttle: speed", snap_to_limit(speed, params.shuttle_speed), params.shuttle_speed, "m/s", "shuttle_speed"
+        ),
+        at_most("shuttle: acceleration", snap_to_limit(acceleration, limit), limit, "m/s^2", "shuttle_acceleration"),
         at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
         *(replace(check, name=f"row: {check.name}") for check in check_all(cyclogram, cyclogram.relations)),
         *(replace(check_apart(knot, one), name=f"knot: {one.said(knot.units)}") for one in knot.exclusions),
@@ -208,7 +210,7 @@ def _least_room(loom: LoomDesign) -> float:
     """The least opening of the shed while the shuttle is in it [m]; it is least when it enters and when it leaves."""
     passing = loom.row_cyclogram.track(SHUTTLE).segment("pass")
     rooms = loom.shedding.opening(np.array([passing.start, passing.end]))
-    return settled(float(rooms.min()), loom.shedding.params.shuttle_height)
+    return snap_to_limit(float(rooms.min()), loom.shedding.params.shuttle_height)
 
 
 def _heads_table(loom: LoomDesign) -> Table:

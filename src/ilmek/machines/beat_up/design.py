@@ -27,7 +27,7 @@ from ilmek.machines.beat_up.family import Weighed, chosen_ratio, is_chosen, weig
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams, weight
 from ilmek.machines.beat_up.running import Running, run
 from ilmek.machines.beat_up.shaking import Balance, balance
-from ilmek.synthesis.crank_rocker import (
+from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
     Links,
     dead_centres,
@@ -35,7 +35,7 @@ from ilmek.synthesis.crank_rocker import (
     links_of_ratio,
     transmission_angle_min,
 )
-from ilmek.synthesis.crank_rocker_selection import member
+from ilmek.synthesis.crank_rocker.selection import member
 from ilmek.units import format_quantity, turn
 
 PINS = ("A", "B", "C", "D")

@@ -13,8 +13,9 @@ from ilmek.arrays import BoolArray, FloatArray, IntArray, RealField
 from ilmek.machines.beat_up.family_forces import bodies, loaded
 from ilmek.machines.beat_up.params import LIMITS, OBJECTIVES, BeatUpParams, weighed_names
 from ilmek.num.pareto import front
-from ilmek.num.summits import summits
-from ilmek.synthesis.crank_rocker import (
+from ilmek.num.periodic_maxima import summits
+from ilmek.synthesis.crank_rocker.choice import Limit, Objective, choose
+from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
     Links,
     beta_of_ratio,
@@ -22,10 +23,9 @@ from ilmek.synthesis.crank_rocker import (
     links_of_ratio,
     transmission_angle_min,
 )
-from ilmek.synthesis.crank_rocker_choice import Limit, Objective, choose
-from ilmek.synthesis.crank_rocker_family import family, link_ratio, size
-from ilmek.synthesis.crank_rocker_motion import sharp_angles
-from ilmek.synthesis.crank_rocker_selection import RATIO_FLOOR
+from ilmek.synthesis.crank_rocker.family import family, link_ratio, size
+from ilmek.synthesis.crank_rocker.motion import sharp_angles
+from ilmek.synthesis.crank_rocker.selection import RATIO_FLOOR
 from ilmek.units import turn
 
 Table = Mapping[str, FloatArray]

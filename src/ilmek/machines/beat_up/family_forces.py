@@ -18,8 +18,8 @@ from ilmek.arrays import ComplexField, FloatArray, IntArray
 from ilmek.dynamics.inertia import bar_mass, bar_moment
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams, weight
 from ilmek.plane.vectors import cross
-from ilmek.synthesis.crank_rocker import Links
-from ilmek.synthesis.crank_rocker_motion import Moved, moved
+from ilmek.synthesis.crank_rocker.dead_centres import Links
+from ilmek.synthesis.crank_rocker.motion import Moved, moved
 
 
 class Bodies(NamedTuple):

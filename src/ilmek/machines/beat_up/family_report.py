@@ -4,9 +4,9 @@ from collections.abc import Mapping
 
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.family import QUANTITIES, Weighed, limits
-from ilmek.machines.rounding import settled
 from ilmek.report import Check, Column, Result, Table, at_least, at_most
-from ilmek.synthesis.crank_rocker import (
+from ilmek.report.limits import snap_to_limit
+from ilmek.synthesis.crank_rocker.dead_centres import (
     Limits,
     best_ratio,
     beta_limits,
@@ -73,7 +73,7 @@ def limit_checks(design: BeatUp, weighed: Weighed) -> tuple[Check, ...]:
     return tuple(
         (at_least if limit.sign > 0 else at_most)(
             f"{QUANTITIES[limit.quantity][0]}, {limit.name}",
-            settled(weighed.own[limit.quantity], limit.bound),
+            snap_to_limit(weighed.own[limit.quantity], limit.bound),
             limit.bound,
             limit.unit,
             "asked",

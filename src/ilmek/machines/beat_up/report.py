@@ -17,10 +17,10 @@ from ilmek.machines.beat_up.running_report import (
     shaking_results,
 )
 from ilmek.machines.plates import link_plates
-from ilmek.machines.rounding import settled
 from ilmek.report import Check, Column, Json, Plate, Report, Result, Table, at_least, at_most
-from ilmek.synthesis.crank_rocker import grashof_margin
-from ilmek.synthesis.crank_rocker_selection import DEVIATIONS, RATIO_LIMIT
+from ilmek.report.limits import snap_to_limit
+from ilmek.synthesis.crank_rocker.dead_centres import grashof_margin
+from ilmek.synthesis.crank_rocker.selection import DEVIATIONS, RATIO_LIMIT
 from ilmek.units import format_quantity, minute, turn
 
 PAPER = "Topalbekiroglu and Celik, beat-up mechanism"
@@ -158,7 +158,7 @@ def _checks(design: BeatUp) -> tuple[Check, ...]:
     return (
         at_least("transmission angle, to run at all", angle, tolerated, "deg", f"{PAPER}, criterion i: 90° - µ < 50°"),
         at_least("transmission angle, to run well", angle, wanted, "deg", f"{PAPER}, criterion i: 90° - µ < 40°"),
-        at_most("crank/coupler ratio", settled(ratio, RATIO_LIMIT), RATIO_LIMIT, "1", f"{PAPER}, criterion ii"),
+        at_most("crank/coupler ratio", snap_to_limit(ratio, RATIO_LIMIT), RATIO_LIMIT, "1", f"{PAPER}, criterion ii"),
         at_least("Grashof margin, in ground links", margin, 0.0, "1", f"{PAPER}, criterion iii"),
         at_least("force on the beater", force, design.params.beat_force, "N", f"{PAPER}, abstract: over 60 N"),
         at_most("power balance of the forces", design.state.forces.power_error, POWER_LIMIT, "1", "virtual power"),

@@ -14,10 +14,10 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.flywheel import Duty, duty, flywheel
 from ilmek.dynamics.forward import Run, State, at_speed, forward
+from ilmek.dynamics.fourier_terms import tabulate
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity
 from ilmek.dynamics.reduced import Reduced, reduce
-from ilmek.dynamics.table import tabulate
 from ilmek.linkage.structure import Plan
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.units import turn

@@ -8,8 +8,8 @@ import numpy as np
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.running import REACHED, Running
-from ilmek.machines.rounding import settled
 from ilmek.report import Check, Result, at_least, at_most
+from ilmek.report.limits import snap_to_limit
 from ilmek.units import format_quantity, turn
 
 ENERGY = 1e-6
@@ -95,10 +95,12 @@ def running_checks(params: BeatUpParams, running: Running) -> tuple[Check, ...]:
     runs = [run for run in (running.start, running.steady) if run is not None]
     reached = max(float(np.max(run.speed)) for run in runs)
     energy = max(run.energy_error for run in runs)
-    fluctuation = settled(running.fluctuation, params.fluctuation)
+    fluctuation = snap_to_limit(running.fluctuation, params.fluctuation)
     wanted = REACHED * params.speed
     checks = (
-        at_least("speed that the motor reaches", settled(reached, wanted), wanted, "rad/s", "forward run, 95 % of it"),
+        at_least(
+            "speed that the motor reaches", snap_to_limit(reached, wanted), wanted, "rad/s", "forward run, 95 % of it"
+        ),
         at_most("energy balance of the runs", energy, ENERGY, "1", "work of motor and weight against energy"),
     )
     if running.steady is None:

@@ -7,13 +7,13 @@ import numpy as np
 
 from ilmek.cams import figures as cam_figures
 from ilmek.cams.limits import convex_radius_min
-from ilmek.cams.pieces import supremum
 from ilmek.cams.programme import TURN, jumps
 from ilmek.cams.trace import Trace
-from ilmek.machines.cam import strips
+from ilmek.machines.cam import developed_cams
+from ilmek.machines.cam.animation import moving
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.moving import moving
 from ilmek.machines.cam.parts import cutouts, rim_radius, zero_mark
+from ilmek.num.piecewise import supremum
 from ilmek.plane import contours
 from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.units import format_quantity, mm
@@ -46,7 +46,7 @@ def figures(design: CamDesign) -> tuple[Figure, ...]:
 def drawing(design: CamDesign) -> Drawing:
     """The cam to scale, zero of the cam angle to the right, with the curves that make it."""
     if design.params.laid_flat:
-        return strips.drawing(design)
+        return developed_cams.drawing(design)
     cam, bore = design.cam, f"bore {format_quantity(design.hub.bore, 'mm')}"
     trace = cam.trace(cam_figures.sample_angles(design.programme, count=721))
     tip = trace.surface[np.argmax(np.abs(trace.surface))]

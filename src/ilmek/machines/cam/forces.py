@@ -12,7 +12,6 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.contact import Held, Pressed, Touch, pressed
 from ilmek.cams.hertz import LINE_YIELD, POINT_YIELD, contact_modulus, ellipse_contact, line_contact
-from ilmek.cams.pieces import Extremum, Function, infimum, integral, supremum
 from ilmek.cams.programme import TURN, Programme
 from ilmek.cams.return_spring import doubling_spring, least_preload, least_rate, velocity_drop
 from ilmek.cams.trace import Trace
@@ -20,6 +19,7 @@ from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.rollers import POWER, Duty
 from ilmek.machines.cam.shape import Cams
+from ilmek.num.piecewise import Extremum, Function, infimum, integral, supremum
 from ilmek.plane.vectors import dot, unit
 
 POISSON = 0.3

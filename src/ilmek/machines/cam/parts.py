@@ -6,12 +6,12 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams import limits
-from ilmek.cams.pieces import infimum, integral, supremum
 from ilmek.cams.programme import TURN
 from ilmek.cams.trace import Cam
 from ilmek.elements.materials import MATERIALS
-from ilmek.machines.cam import strips
+from ilmek.machines.cam import developed_cams
 from ilmek.machines.cam.design import CamDesign
+from ilmek.num.piecewise import infimum, integral, supremum
 from ilmek.plane import contours
 from ilmek.report import CamTable, Contour, Plate
 from ilmek.units import format_quantity
@@ -26,7 +26,7 @@ def plates(design: CamDesign) -> tuple[Plate, ...]:
         return ()
     title = f"Cam, lift {format_quantity(design.params.lift, 'mm')}"
     if design.params.laid_flat:
-        return (strips.plate(design, title),) if design.params.kind == "wedge" else ()
+        return (developed_cams.plate(design, title),) if design.params.kind == "wedge" else ()
     if design.params.kind == "grooved":
         return (_grooved(design, title),)
     if design.cams.pair is None:
@@ -43,14 +43,14 @@ def rim_radius(design: CamDesign) -> float:
 
 def area_of(design: CamDesign) -> float:
     """Area of the face [m^2], bore not taken off; NaN of a barrel or end cam, and where undercut leaves no face."""
-    found = strips.area(design) if design.params.laid_flat else design.area
+    found = developed_cams.area(design) if design.params.laid_flat else design.area
     return found if found > 0 else math.nan
 
 
 def mass_of(design: CamDesign) -> float:
     """Mass of the cam, bored, or of both [kg]."""
     if design.params.laid_flat:
-        return strips.mass(design)
+        return developed_cams.mass(design)
     density, width = MATERIALS[design.params.material].density, design.face_width
     hub = design.hub.area if cutouts(design, design.cam) else 0.0
     if design.params.kind == "grooved":

@@ -5,17 +5,23 @@ import math
 import numpy as np
 
 from ilmek.cams import limits
-from ilmek.cams.pieces import infimum
 from ilmek.cams.programme import jumps
+from ilmek.machines.cam.compliant_follower import (
+    springy,
+    springy_checks,
+    springy_figures,
+    springy_results,
+    springy_table,
+)
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.figures import figures
 from ilmek.machines.cam.parts import cam_table, plates
 from ilmek.machines.cam.results import pressure_angle_on, results
 from ilmek.machines.cam.shape import size_without_undercut
-from ilmek.machines.cam.springy import springy, springy_checks, springy_figures, springy_results, springy_table
 from ilmek.machines.cam.tables import tables
-from ilmek.machines.rounding import settled
+from ilmek.num.piecewise import infimum
 from ilmek.report import Check, Report, at_least, at_most
+from ilmek.report.limits import snap_to_limit
 from ilmek.units import format_quantity
 
 
@@ -80,10 +86,10 @@ def _checks(design: CamDesign) -> tuple[Check, ...]:
         source = f"{norton}, 7: the outer flank"
         checks.insert(1, at_least("concave radius of the pitch curve", hollow.value, cam.roller_radius, "mm", source))
     if params.limit is not None and params.led and not cam.flat:
-        found = settled(pressure_angle_on(design, design.fall_knots).value, params.limit)
+        found = snap_to_limit(pressure_angle_on(design, design.fall_knots).value, params.limit)
         checks.insert(0, at_most("pressure angle on the fall", found, params.limit, "deg", f"{norton}, 7.2"))
     if params.limit is not None and not (params.follower == "flat" and params.motion == "translating"):
-        found = settled(pressure_angle_on(design, design.rise_knots).value, params.limit)
+        found = snap_to_limit(pressure_angle_on(design, design.rise_knots).value, params.limit)
         checks.insert(0, at_most("pressure angle on the rise", found, params.limit, "deg", f"{norton}, 7.2"))
     if extremes.pressure is not None and not math.isnan(extremes.pressure.value):
         source = "pressure_limit" if params.pressure_limit else "first yield below the surface, Johnson"

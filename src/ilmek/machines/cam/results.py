@@ -8,11 +8,11 @@ from ilmek.arrays import FloatArray
 from ilmek.cams import flat, limits, oscillating_flat
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
-from ilmek.cams.pieces import Extremum, infimum, supremum
 from ilmek.cams.programme import Jump, jumps
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.hub import Hub
 from ilmek.machines.cam.parts import area_of, mass_of
+from ilmek.num.piecewise import Extremum, infimum, supremum
 from ilmek.report import Json, Result
 
 _PRIME = "prime radius of the pitch curve, Rp"

@@ -13,7 +13,6 @@ from ilmek.cams.flat import FlatCam
 from ilmek.cams.laws import Law
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
-from ilmek.cams.pieces import Extremum
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
 from ilmek.cams.sizing import Limits, pressure_prime, smallest_prime
@@ -22,6 +21,7 @@ from ilmek.cams.trace import Cam
 from ilmek.errors import ParameterError
 from ilmek.machines.cam.params import LIMIT, NO_DWELL, CamParams
 from ilmek.machines.cam.rollers import ROLLERS
+from ilmek.num.piecewise import Extremum
 from ilmek.units import format_quantity, mm
 
 _SIDES: dict[str, Literal[1, -1]] = {"trailing": 1, "leading": -1}

@@ -7,12 +7,12 @@ import numpy as np
 
 from ilmek.cams.contact import Held
 from ilmek.cams.laws import LAWS
-from ilmek.cams.pieces import supremum
 from ilmek.cams.programme import Programme, jumps
 from ilmek.errors import ParameterError
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.rollers import ROLLERS, Duty
 from ilmek.machines.cam.shape import programme_of, smallest_of
+from ilmek.num.piecewise import supremum
 from ilmek.report import Column, Table
 from ilmek.units import deg
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from ilmek.errors import ParameterError
 from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate
-from ilmek.synthesis.sieve import SAID, Filters, sift
+from ilmek.synthesis.filters import SAID, Filters, sift
 
 
 @dataclass(frozen=True, slots=True, eq=False)

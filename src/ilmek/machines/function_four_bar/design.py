@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.machines.four_bars.choice import Choice, Option, choose
-from ilmek.machines.four_bars.wishes import filters
+from ilmek.machines.four_bars.filter_params import filters
 from ilmek.machines.function_four_bar.params import CRITERIA, FunctionFourBarParams
 from ilmek.report import Json
+from ilmek.synthesis.approximation.function_generator import FunctionApproximation, function_approximations
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.function import Function
-from ilmek.synthesis.function_approximation import FunctionApproximation, function_approximations
 from ilmek.synthesis.task import MET, Task
 
 SAME = 1e-9

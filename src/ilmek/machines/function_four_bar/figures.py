@@ -10,7 +10,7 @@ from ilmek.machines.animation import animated, frames
 from ilmek.machines.four_bars.figures import drawn
 from ilmek.machines.function_four_bar.design import FunctionFourBar
 from ilmek.report import Animation, Axis, Drawing, Figure, Mark, Plot, Reading, Series
-from ilmek.synthesis.function_approximation import FunctionApproximation
+from ilmek.synthesis.approximation.function_generator import FunctionApproximation
 from ilmek.units import format_number, format_quantity
 
 

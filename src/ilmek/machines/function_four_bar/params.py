@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.errors import ParameterError
-from ilmek.machines.four_bars import wishes
+from ilmek.machines.four_bars import filter_params
 from ilmek.machines.function_four_bar.functions import named
-from ilmek.machines.places import read_pairs
+from ilmek.machines.text_lists import read_pairs
 from ilmek.params import Params, param
 from ilmek.synthesis.freudenstein import POINTS
 from ilmek.synthesis.function import Function, function_of_samples
@@ -58,15 +58,15 @@ class FunctionFourBarParams(Params):
     )
     ground: float = param(100 * mm, unit="mm", at_least=0.1 * mm, at_most=10.0, doc="distance of the pivots")
     error_max: float | None = param(None, unit="deg", above=0.0, at_most=turn, doc="greatest error of the rocker")
-    one_circuit: bool = wishes.one_circuit()
-    one_branch: bool = wishes.one_branch()
-    in_order: bool = wishes.in_order()
-    full_turn: bool = wishes.full_turn()
-    transmission_min: float = wishes.transmission_min()
-    link_ratio_max: float | None = wishes.link_ratio_max(10.0)
-    size_max: float | None = wishes.size_max()
-    count: int = wishes.count()
-    chosen: int = wishes.chosen()
+    one_circuit: bool = filter_params.one_circuit()
+    one_branch: bool = filter_params.one_branch()
+    in_order: bool = filter_params.in_order()
+    full_turn: bool = filter_params.full_turn()
+    transmission_min: float = filter_params.transmission_min()
+    link_ratio_max: float | None = filter_params.link_ratio_max(10.0)
+    size_max: float | None = filter_params.size_max()
+    count: int = filter_params.count()
+    chosen: int = filter_params.chosen()
 
     def check_together(self) -> None:
         """The function can be had, and as many places as start angles leave."""

@@ -3,11 +3,11 @@
 import math
 from collections.abc import Mapping
 
-from ilmek.machines.four_bars import told
+from ilmek.machines.four_bars import report as told
 from ilmek.machines.function_four_bar.design import FunctionFourBar
 from ilmek.machines.function_four_bar.figures import figures
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_most
-from ilmek.synthesis.approximation_exchange import PROVEN
+from ilmek.synthesis.approximation.exchange import PROVEN
 from ilmek.units import format_quantity
 
 EXTRA = (

@@ -8,8 +8,8 @@ from ilmek.arrays import FloatArray
 from ilmek.machines.hammer.axis import BUCKLING, stroke_needed
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.figures import figures
-from ilmek.machines.rounding import settled
 from ilmek.report import CamTable, Check, Column, Json, Report, Result, Table, at_least, at_most
+from ilmek.report.limits import snap_to_limit
 from ilmek.units import dm, format_quantity
 
 THESIS = "thesis, 3.3"
@@ -146,7 +146,7 @@ def _speed_needed(design: Hammer) -> float | None:
 
 def _checks(design: Hammer) -> tuple[Check, ...]:
     params, comb = design.params, design.comb
-    loosest = settled(design.spacing, params.rows)
+    loosest = snap_to_limit(design.spacing, params.rows)
     common = (
         at_most("distance of the rows", loosest, params.rows, "mm", "row_pitch"),
         at_most("force before the cloth is slack", design.force, design.fabric.bump, "N", "T (1 + kw / kc)"),
@@ -172,7 +172,7 @@ def _axis_checks(design: Hammer) -> tuple[Check, ...]:
             at_least("torque of the servo over what is asked", bears, 1.0, "1", "motor table, margin 1.25"),
         )
     wanted, given = design.force * params.warps, linkage.force if linkage else 0.0
-    return (at_least("force of the crank-rockers", settled(given, wanted), wanted, "N", "inertia at the beat"),)
+    return (at_least("force of the crank-rockers", snap_to_limit(given, wanted), wanted, "N", "inertia at the beat"),)
 
 
 def _row_table(design: Hammer) -> Table:

@@ -6,13 +6,13 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
+from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.head import Head, head_of
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.search import best_arm
 from ilmek.machines.knotting_dyad.section import section_of
 from ilmek.machines.knotting_dyad.task import Task, bend, task_on
-from ilmek.machines.knotting_dyad.way import Arm
-from ilmek.machines.places import read_angles, read_points
+from ilmek.machines.text_lists import read_angles, read_points
 from ilmek.synthesis.dyad import Arms, Dyad, Found, arms_through_points, dyads_through_points
 
 LINE = 1e-9

@@ -3,11 +3,11 @@
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.machines.knotting_dyad.clear import Bars, arm_bars, mirrored_bars, to_warps
+from ilmek.machines.knotting_dyad.animation import moving
+from ilmek.machines.knotting_dyad.clearance import Bars, arm_bars, mirrored_bars, to_warps
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import Cycle
-from ilmek.machines.knotting_dyad.moving import moving
 from ilmek.machines.knotting_dyad.section import Section
 from ilmek.machines.knotting_dyad.task import SHARES
 from ilmek.machines.knotting_dyad.yarn import carried

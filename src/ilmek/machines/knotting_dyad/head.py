@@ -4,14 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.carpet.knot_word import Knot, knot
-from ilmek.carpet.tied_knot import Tied
-from ilmek.machines.knotting_dyad.clear import Least, clearances
+from ilmek.carpet.knots.tied import Tied
+from ilmek.carpet.knots.word import Knot, knot
+from ilmek.machines.knotting_dyad.arm_path import Arm, ArmWay
+from ilmek.machines.knotting_dyad.clearance import Least, clearances
+from ilmek.machines.knotting_dyad.needle_bending import bent_aside
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import Section, knot_of
 from ilmek.machines.knotting_dyad.sequence import Phase, sequence
-from ilmek.machines.knotting_dyad.stiff import bent_aside
-from ilmek.machines.knotting_dyad.way import Arm, ArmWay
 from ilmek.machines.knotting_dyad.yarn import tied_by
 
 SAMPLES = 401

@@ -12,12 +12,12 @@ import numpy as np
 from jaxtyping import Float
 
 from ilmek.arrays import FloatArray
+from ilmek.machines.knotting_dyad.arm_path import ArmWay
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, OUT, RIGHT, Phase
-from ilmek.machines.knotting_dyad.way import ArmWay
-from ilmek.timing.path_speed import AxisLimits, Course, JointPath, PathMotion, quickest_motion
-from ilmek.timing.path_speed_line import LineMotion, line_motion
+from ilmek.timing.path_speed.line import LineMotion, line_motion
+from ilmek.timing.path_speed.solve import AxisLimits, Course, JointPath, PathMotion, quickest_motion
 
 SAMPLES, PAUSED, INTERVALS = 161, 21, 200
 """Times of a phase and of a grip that are tabulated, and intervals of a phase's spline."""

@@ -11,7 +11,7 @@ from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import CENTRE, LEFT, RIGHT, Cycle, cycle_of
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.report import Axis, Check, Column, Figure, Json, Lane, Mark, Plot, Result, Series, Table, Timing, at_most
-from ilmek.timing.path_speed import TOLERANCE
+from ilmek.timing.path_speed.solve import TOLERANCE
 from ilmek.units import format_quantity, turn
 
 BALANCE = 1e-9

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from ilmek.errors import ParameterError
-from ilmek.machines.places import read_angles, read_points
+from ilmek.machines.text_lists import read_angles, read_points
 from ilmek.params import Params, param
-from ilmek.synthesis.burmester_forms import require_task
+from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.units import deg, format_quantity, g, mm, ms
 
 

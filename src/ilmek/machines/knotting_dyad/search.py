@@ -20,9 +20,9 @@ from jaxtyping import Bool, Float
 
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray
 from ilmek.errors import ParameterError
+from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import Section
-from ilmek.machines.knotting_dyad.way import Arm
 from ilmek.plane.vectors import cross
 from ilmek.units import format_quantity
 

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Complex
 
-from ilmek.carpet.knot_word import Knot, knot
+from ilmek.carpet.knots.word import Knot, knot
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.units import mm
 

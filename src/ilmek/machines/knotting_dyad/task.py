@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Complex, Float
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.machines.knotting_dyad.way import Arm
+from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.synthesis.dyad import Arms, Found
 
 SHARES = (1 - np.cos((2 * np.arange(4) + 1) * np.pi / 8)) / 2

@@ -11,11 +11,11 @@ import numpy as np
 from jaxtyping import Complex, Float
 
 from ilmek.arrays import FloatArray
-from ilmek.carpet.tied_knot import Tied, tied_knot
+from ilmek.carpet.knots.tied import Tied, tied_knot
 from ilmek.errors import CarpetError
+from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.section import Section
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, Phase
-from ilmek.machines.knotting_dyad.way import Arm
 from ilmek.units import format_quantity, um
 
 MISSED = 1 * um

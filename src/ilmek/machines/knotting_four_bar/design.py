@@ -15,11 +15,10 @@ from ilmek.linkage.quality import Grashof, grashof, input_range, transmission_an
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.knotting_four_bar.drive import Drive, drive_for
-from ilmek.machines.knotting_four_bar.instead import Instead, instead
-from ilmek.machines.knotting_four_bar.made import made_for
 from ilmek.machines.knotting_four_bar.model import State, closing_ground, evaluate, inertias, mechanism, parts
-from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
+from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, params_of
 from ilmek.machines.knotting_four_bar.poses import Synthesis, read_three_poses, synthesised
+from ilmek.machines.knotting_four_bar.replacement import Instead, instead
 from ilmek.machines.knotting_four_bar.sides import Sides, both_sides
 from ilmek.units import deg, format_quantity, turn
 
@@ -118,7 +117,7 @@ def design(params: KnottingFourBarParams) -> KnottingFourBar:
     the crank angle cannot be taken.
     """
     found = None if params.poses is None else synthesised(read_three_poses(params.poses), params.ground_angle)
-    asked = params if found is None else made_for(params, found)
+    asked = params if found is None else params_of(params, found)
     angle = STATED if asked.crank_angle is None else asked.crank_angle
     params = dataclasses.replace(asked, crank_angle=angle)
     ground_angle = closing_ground(params) if params.ground_angle is None else params.ground_angle

@@ -13,9 +13,9 @@ from ilmek.linkage.solve import solve
 from ilmek.machines.animation import animated, frames
 from ilmek.machines.knotting_four_bar import sides_figures
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.instead import POINTS, Instead
 from ilmek.machines.knotting_four_bar.model import State, evaluate
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
+from ilmek.machines.knotting_four_bar.replacement import POINTS, Instead
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.carpet.tied_knot import Tied, joined, tied_knot
+from ilmek.carpet.knots.tied import Tied, joined, tied_knot
 from ilmek.errors import CarpetError
 from ilmek.units import format_quantity
 

@@ -1,11 +1,14 @@
 """What may be asked of a knotting four-bar."""
 
+import dataclasses
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from ilmek.errors import ParameterError
-from ilmek.machines.knotting_four_bar.poses import read_three_poses
+from ilmek.machines.knotting_four_bar.poses import Synthesis, read_three_poses
 from ilmek.params import Params, Setting, declared, param
 from ilmek.units import MPa, deg, mm, turn
 
@@ -145,3 +148,25 @@ def refuse_links(given: Iterable[str]) -> None:
             allowed="either poses, from which links, hand and branch follow, or these",
             do=f"leave out poses, or {', '.join(names)}",
         )
+
+
+def params_of(params: KnottingFourBarParams, found: Synthesis) -> KnottingFourBarParams:
+    """Parameters that need no poses any more: the links and the direction of the ground link from O1 to O1'.
+
+    The crank angle to report is that of the first pose, unless another one is asked for.
+    """
+    drawn = found.best.candidate.four_bar
+    ground, crank, coupler, rocker = drawn.lengths
+    asked = params.crank_angle if params.poses is not None else None
+    return dataclasses.replace(
+        params,
+        poses=None,
+        ground=ground,
+        crank=crank,
+        coupler=coupler,
+        rocker=rocker,
+        ground_angle=float(np.angle(drawn.b0 - drawn.a0)) % turn,
+        branch=drawn.branch,
+        hand=found.hand,
+        crank_angle=float(found.crank_angles[0]) if asked is None else asked,
+    )

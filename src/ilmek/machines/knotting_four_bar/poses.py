@@ -13,13 +13,13 @@ from jaxtyping import Complex, Float
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import MechanismError, ParameterError
-from ilmek.machines.places import read_poses
+from ilmek.machines.text_lists import read_poses
 from ilmek.plane.vectors import unit
-from ilmek.synthesis.burmester_forms import require_task
+from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.dyad import Dyad, Found, PoseArms, arms_through_poses, dyads_through_poses
+from ilmek.synthesis.filters import Filters, defects
 from ilmek.synthesis.four_bar import FourBar
-from ilmek.synthesis.sieve import Filters, defects
 from ilmek.synthesis.task import Task
 from ilmek.units import deg, format_quantity, turn
 

@@ -7,8 +7,8 @@ from ilmek.machines.knotting_four_bar import poses_report
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.drive import Drive, drive_for
 from ilmek.machines.knotting_four_bar.figures import figures
-from ilmek.machines.knotting_four_bar.instead import Instead
 from ilmek.machines.knotting_four_bar.model import State
+from ilmek.machines.knotting_four_bar.replacement import Instead
 from ilmek.machines.knotting_four_bar.sides_report import said
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.units import deg, format_quantity, turn

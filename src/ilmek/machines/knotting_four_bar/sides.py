@@ -17,12 +17,12 @@ from ilmek.dynamics.loads import Gravity, PointForce
 from ilmek.elements.gears import EqualGears, equal_gears
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.linkage.clearance import Clearance, Placed, clearance
+from ilmek.linkage.configuration_path import InputWay
 from ilmek.linkage.model import GROUND, Body, Coupling, Mechanism, Pin, Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.linkage.way import InputWay
 from ilmek.machines.knotting_four_bar.model import inertias
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.plane.outlines import Outline

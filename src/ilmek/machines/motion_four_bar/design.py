@@ -8,11 +8,11 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.machines.four_bars.choice import Choice, Option, choose
-from ilmek.machines.four_bars.wishes import filters
+from ilmek.machines.four_bars.filter_params import filters
 from ilmek.machines.motion_four_bar.params import Bounds, MotionFourBarParams
-from ilmek.machines.places import Poses
-from ilmek.synthesis.burmester import Guide, Kind, arms_of_pins, arms_of_pivots, arms_through_five_poses, pair
-from ilmek.synthesis.burmester_curve import BurmesterCurve, burmester_curve
+from ilmek.machines.text_lists import Poses
+from ilmek.synthesis.burmester.curve import BurmesterCurve, burmester_curve
+from ilmek.synthesis.burmester.links import Guide, Kind, arms_of_pins, arms_of_pivots, arms_through_five_poses, pair
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.guide_pairs import promising
 from ilmek.synthesis.task import Task

@@ -7,8 +7,8 @@ import numpy as np
 from ilmek.machines.four_bars.figures import body, drawn, links, moving, pins
 from ilmek.machines.motion_four_bar.design import MotionFourBar
 from ilmek.report import Animation, Dot, Drawing, Figure, Stroke
-from ilmek.synthesis.burmester import Kind
-from ilmek.synthesis.burmester_curve import Branch
+from ilmek.synthesis.burmester.curve import Branch
+from ilmek.synthesis.burmester.links import Kind
 
 WINDOW = 2.0
 """Radius of what is drawn of curves and links, in extents of the poses: they go on to infinity."""

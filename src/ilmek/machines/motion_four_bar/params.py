@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 from ilmek.arrays import ComplexArray
 from ilmek.errors import ParameterError
-from ilmek.machines.four_bars import wishes
-from ilmek.machines.places import Poses, read_bounds, read_points, read_poses
+from ilmek.machines.four_bars import filter_params
+from ilmek.machines.text_lists import Poses, read_bounds, read_points, read_poses
 from ilmek.params import Params, param
-from ilmek.synthesis.burmester_forms import require_task
+from ilmek.synthesis.burmester.constant_distance import require_task
 
 KNOTTING = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
 """The knotting report's poses of the gripper."""
@@ -29,15 +29,15 @@ class MotionFourBarParams(Params):
     pivot_x: str | None = param(None, doc="bounds on x of both pivots, like -20mm..60mm, or ..0mm")
     pivot_y: str | None = param(None, doc="bounds on y of both pivots")
     samples: int = param(90, at_least=8, at_most=1000, doc="links looked at on each closed part of the curves of four")
-    one_circuit: bool = wishes.one_circuit()
-    one_branch: bool = wishes.one_branch()
-    in_order: bool = wishes.in_order()
-    full_turn: bool = wishes.full_turn()
-    transmission_min: float = wishes.transmission_min()
-    link_ratio_max: float | None = wishes.link_ratio_max(10.0)
-    size_max: float | None = wishes.size_max()
-    count: int = wishes.count()
-    chosen: int = wishes.chosen()
+    one_circuit: bool = filter_params.one_circuit()
+    one_branch: bool = filter_params.one_branch()
+    in_order: bool = filter_params.in_order()
+    full_turn: bool = filter_params.full_turn()
+    transmission_min: float = filter_params.transmission_min()
+    link_ratio_max: float | None = filter_params.link_ratio_max(10.0)
+    size_max: float | None = filter_params.size_max()
+    count: int = filter_params.count()
+    chosen: int = filter_params.chosen()
 
     def check_together(self) -> None:
         """The poses can be read, and a method takes so many."""

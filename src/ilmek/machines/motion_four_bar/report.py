@@ -3,12 +3,12 @@
 import math
 from collections.abc import Sequence
 
-from ilmek.machines.four_bars import told
+from ilmek.machines.four_bars import report as told
 from ilmek.machines.motion_four_bar.design import MotionFourBar, spread
 from ilmek.machines.motion_four_bar.figures import figures
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_most
-from ilmek.synthesis.burmester import Guide, Kind
-from ilmek.synthesis.burmester_curve import Branch
+from ilmek.synthesis.burmester.curve import Branch
+from ilmek.synthesis.burmester.links import Guide, Kind
 
 MET = 1e-6
 """Error of a pose that counts as none, in extents of the poses, and of an angle [rad]."""

@@ -8,15 +8,15 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.machines.four_bars.choice import Choice, Option, choose
-from ilmek.machines.four_bars.wishes import filters
+from ilmek.machines.four_bars.filter_params import filters
 from ilmek.machines.path_four_bar.params import PathFourBarParams
 from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.cognates import cognates
-from ilmek.synthesis.path_fit import PathFit, judged
-from ilmek.synthesis.path_points import timed_four_bars
-from ilmek.synthesis.path_search import path_four_bars
-from ilmek.synthesis.path_task import PathTask
+from ilmek.synthesis.path.fit import PathFit, judged
+from ilmek.synthesis.path.points import timed_four_bars
+from ilmek.synthesis.path.search import path_four_bars
+from ilmek.synthesis.path.task import PathTask
 from ilmek.synthesis.task import Task
 
 CURVES = 12

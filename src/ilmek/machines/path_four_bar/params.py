@@ -6,10 +6,10 @@ from typing import Any
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
-from ilmek.machines.four_bars import wishes
-from ilmek.machines.places import read_angles, read_bounds, read_points
+from ilmek.machines.four_bars import filter_params
+from ilmek.machines.text_lists import read_angles, read_bounds, read_points
 from ilmek.params import Params, param
-from ilmek.synthesis.path_task import FEWEST, KINDS, MOST, PathTask
+from ilmek.synthesis.path.task import FEWEST, KINDS, MOST, PathTask
 
 LINE = "(20mm,20mm) (20mm,25mm) (20mm,30mm) (20mm,35mm) (20mm,40mm) (20mm,45mm)"
 """Case 1 of the literature's benchmarks: six points of a vertical line."""
@@ -66,16 +66,16 @@ class PathFourBarParams(Params):
     pivot_y: str | None = _bounds("y of the crank's pivot")
     turn: str | None = _bounds("the direction of the ground link", "like -20deg..20deg")
     start: str | None = _bounds("what is added to the timing to give crank angles against the ground link", "like 0")
-    transmission_min: float = wishes.transmission_min()
+    transmission_min: float = filter_params.transmission_min()
     error_max: float | None = param(None, unit="mm", above=0.0, at_most=1e3, doc="greatest distance from a point")
-    one_circuit: bool = wishes.one_circuit()
-    one_branch: bool = wishes.one_branch()
-    in_order: bool = wishes.in_order()
-    full_turn: bool = wishes.full_turn()
-    link_ratio_max: float | None = wishes.link_ratio_max()
-    size_max: float | None = wishes.size_max()
-    count: int = wishes.count()
-    chosen: int = wishes.chosen()
+    one_circuit: bool = filter_params.one_circuit()
+    one_branch: bool = filter_params.one_branch()
+    in_order: bool = filter_params.in_order()
+    full_turn: bool = filter_params.full_turn()
+    link_ratio_max: float | None = filter_params.link_ratio_max()
+    size_max: float | None = filter_params.size_max()
+    count: int = filter_params.count()
+    chosen: int = filter_params.chosen()
     cognates: bool = param(False, doc="also the two other four-bars that draw the same curve as the chosen one")
     starts: int = param(960, at_least=1, at_most=10000, doc="random starts after which the search ends at the latest")
     seed: int = param(0, at_least=0, at_most=10**9, doc="seed of the random starts: the same seed, the same answers")

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 
-from ilmek.machines.four_bars import told
+from ilmek.machines.four_bars import report as told
 from ilmek.machines.path_four_bar.design import PathFourBar, errors
 from ilmek.machines.path_four_bar.figures import figures
 from ilmek.report import Column, Json, Report, Result, Table

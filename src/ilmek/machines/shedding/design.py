@@ -20,13 +20,13 @@ from ilmek.arrays import FloatArray
 from ilmek.cams import limits
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
-from ilmek.cams.pieces import Extremum, supremum
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
 from ilmek.elements.duty import Cycle, Duty, duty
 from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor
 from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
 from ilmek.machines.shedding.phases import Shed, chosen_shed
 from ilmek.machines.shedding.shaft import Shaft, shaft_for
+from ilmek.num.piecewise import Extremum, supremum
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,11 @@ import numpy as np
 from ilmek.cams import figures as cam_figures
 from ilmek.cams.limits import convex_radius_min, pressure_angle_max
 from ilmek.cams.programme import TURN, jumps
-from ilmek.elements import beams
+from ilmek.elements.beam import uniform
 from ilmek.elements.figures import deflection_plot
+from ilmek.machines.shedding.alternatives import Study
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.draped import stack_torque
-from ilmek.machines.shedding.study import Study
 from ilmek.machines.shedding.warp import taut
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series
 from ilmek.units import format_quantity
@@ -35,7 +35,7 @@ def figures(studied: Study) -> tuple[Figure, ...]:
             shaft.load,
             shaft.span,
             design.params.modulus,
-            float(beams.square_inertia(shaft.bar)),
+            float(uniform.square_inertia(shaft.bar)),
             design.params.deflection_limit,
         ),
     )

@@ -17,10 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.pieces import Extremum, Function, infimum, integral, supremum
 from ilmek.cams.programme import TURN, Course, Programme
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.warp import LIFTED, warp_force
+from ilmek.num.piecewise import Extremum, Function, infimum, integral, supremum
 
 GRID = 2049
 """Angles at which the shed is looked at, besides the ends of the motions; its edges are then found to rounding."""

@@ -7,20 +7,20 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.limits import area, concave_radius_min, convex_radius_min, pressure_angle_max
-from ilmek.cams.pieces import supremum
 from ilmek.cams.programme import TURN, jumps
 from ilmek.elements.motors import MOTORS
 from ilmek.elements.shafts import STOCK_SIDES
-from ilmek.machines.rounding import settled
+from ilmek.machines.shedding.alternatives import Study, study
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.figures import figures
 from ilmek.machines.shedding.parts import cam_tables, plates
 from ilmek.machines.shedding.phases import window_asked
-from ilmek.machines.shedding.study import Study, study
 from ilmek.machines.shedding.tables import cycle_phases, tables
 from ilmek.machines.shedding.warp import lifting_work
 from ilmek.machines.shedding.warp_report import warp_checks, warp_results, warp_warnings
+from ilmek.num.piecewise import supremum
 from ilmek.report import Check, Json, Report, Result, at_least, at_most
+from ilmek.report.limits import snap_to_limit
 from ilmek.units import format_quantity, mm, rpm
 
 THESIS = "thesis, 3.2"
@@ -212,9 +212,12 @@ def _window_checks(studied: Study) -> tuple[Check, ...]:
 def _checks(studied: Study) -> tuple[Check, ...]:
     design = studied.design
     params, cam, shaft, drive = design.params, design.cam, design.shaft, design.drive
-    pressure = settled(pressure_angle_max(cam).value, params.pressure_angle_limit)
-    lifted, width = settled(params.lifted_angle, TURN / 2), settled(params.warps * params.warp_pitch, shaft.length)
-    opening = settled(_peak(design.opening, design), params.shuttle_height)
+    pressure = snap_to_limit(pressure_angle_max(cam).value, params.pressure_angle_limit)
+    lifted, width = (
+        snap_to_limit(params.lifted_angle, TURN / 2),
+        snap_to_limit(params.warps * params.warp_pitch, shaft.length),
+    )
+    opening = snap_to_limit(_peak(design.opening, design), params.shuttle_height)
     return (
         at_most(
             "pressure angle", pressure, params.pressure_angle_limit, "deg", f"{THESIS}: a thin cam must not buckle"
@@ -242,7 +245,7 @@ def _checks(studied: Study) -> tuple[Check, ...]:
         *_bearing_checks(design),
         at_most(
             "motor torque",
-            settled(drive.motor_torque, drive.motor_limit),
+            snap_to_limit(drive.motor_torque, drive.motor_limit),
             drive.motor_limit,
             "Nm",
             "lasting torque of the motor",

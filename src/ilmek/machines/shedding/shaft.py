@@ -13,7 +13,8 @@ import cmath
 import math
 from dataclasses import dataclass
 
-from ilmek.elements import beams, bearings, shafts
+from ilmek.elements import bearings, shafts
+from ilmek.elements.beam import uniform
 from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.fatigue import Loading, endurance_limit, goodman
 from ilmek.elements.materials import GRAVITY
@@ -110,7 +111,7 @@ def shaft_for(params: SheddingParams, mass: float, across: float, torque: float)
         directions = Directions(safety * mass * GRAVITY / length, safety * across / length, params.pull_angle)
         load = abs(directions.resultant) / safety
     load, span = load * safety, length / params.spans
-    moment = float(beams.moment_max(load, span))
+    moment = float(uniform.moment_max(load, span))
     by_slope = shafts.square_side(shafts.inertia_for_slope(load, span, modulus, params.slope_limit))
     by_deflection = shafts.square_side(shafts.inertia_for_deflection(load, span, modulus, params.deflection_limit))
     by_twist = shafts.side_for_twist(torque, length, modulus, params.twist_limit)
@@ -119,7 +120,7 @@ def shaft_for(params: SheddingParams, mass: float, across: float, torque: float)
     bar = params.shaft_bar or _bar(least)
     while params.shaft_bar is None and _endurance(params, moment, safety * torque, bar) < 1:
         bar = _bar(bar + _STEP)
-    inertia = float(beams.square_inertia(bar))
+    inertia = float(uniform.square_inertia(bar))
     return Shaft(
         load=load,
         length=length,
@@ -130,8 +131,8 @@ def shaft_for(params: SheddingParams, mass: float, across: float, torque: float)
         side_twist=by_twist,
         side_strength=by_strength,
         bar=bar,
-        slope=float(beams.slope_max(load, span, modulus, inertia)),
-        deflection=float(beams.deflection_max(load, span, modulus, inertia)),
+        slope=float(uniform.slope_max(load, span, modulus, inertia)),
+        deflection=float(uniform.deflection_max(load, span, modulus, inertia)),
         twist=shafts.square_twist(torque, length, modulus, bar),
         stress=shafts.square_stress(moment, safety * torque, bar),
         endurance=_endurance(params, moment, safety * torque, bar),

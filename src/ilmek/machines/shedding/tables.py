@@ -6,9 +6,9 @@ from ilmek.cams.laws import LAWS, SMOOTH_LAWS
 from ilmek.cams.limits import PlateCam, convex_radius_min, smallest_prime_radius
 from ilmek.cams.programme import Programme, jumps
 from ilmek.elements import shafts
+from ilmek.machines.shedding.alternatives import Study
 from ilmek.machines.shedding.design import SheddingDesign, lifting
 from ilmek.machines.shedding.phases import Shed, shed_of
-from ilmek.machines.shedding.study import Study
 from ilmek.report import Column, Table
 from ilmek.units import deg
 

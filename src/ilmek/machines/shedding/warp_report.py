@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from ilmek.cams.limits import concave_radius_min
+from ilmek.machines.shedding.alternatives import Study
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.draped import capstan, nose_radius, stack_torque
-from ilmek.machines.shedding.study import Study
 from ilmek.machines.shedding.warp import Taut, taut
 from ilmek.report import Check, Json, Result, at_most
 from ilmek.units import format_quantity

@@ -6,11 +6,11 @@ import numpy as np
 
 from ilmek.dynamics.peaks import Peak
 from ilmek.machines.plates import link_plates
-from ilmek.machines.rounding import settled
 from ilmek.machines.tufting.design import Tufting
 from ilmek.machines.tufting.figures import figures
 from ilmek.machines.tufting.model import PINS, State, inertias
 from ilmek.report import Check, Column, Json, Plate, Report, Result, Table, at_least, at_most
+from ilmek.report.limits import snap_to_limit
 from ilmek.units import deg, format_quantity, mm, turn
 
 PAPER = "Xu et al., needle multi-linkage mechanism"
@@ -148,7 +148,7 @@ def _checks(design: Tufting) -> tuple[Check, ...]:
     scale = max(abs(work["drive"]), design.peaks["main_torque"].value)
     unbalanced = abs(work["drive"] - work["friction"]) / scale if scale else 0.0
     levels = abs(design.height(params.entry) - design.height(params.exit))
-    stroke = settled(design.stroke, params.stroke)
+    stroke = snap_to_limit(design.stroke, params.stroke)
     return (
         at_least("stroke of the needle", stroke, params.stroke, "mm", f"wanted; {PAPER}: about 33 mm"),
         at_most("needle's height at entry against exit", levels, LEVELS, "mm", "one backing: both at its level"),

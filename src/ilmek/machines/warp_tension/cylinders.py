@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.carpet.ground import WARP_DENSITY_PER_PITCH, yarn_diameter
-from ilmek.elements import beams
+from ilmek.elements.beam import uniform
 from ilmek.elements.bearing_table import CYLINDRICAL, DEEP_GROOVE, INSERT
 from ilmek.elements.bearings import (
     ROLLING_BEARINGS,
@@ -151,11 +151,11 @@ def _cylinder(  # noqa: PLR0917
     params, (outer, inner) = design.params, sizes
     weight = tube_weight(params, inner, outer)
     load = bare - 1j * weight
-    inertia = float(beams.tube_inertia(outer, inner))
+    inertia = float(uniform.tube_inertia(outer, inner))
     span = (params.width, params.modulus, inertia)
     size = abs(load)
-    reaction = float(beams.reaction(size, params.width))
-    slope = float(beams.slope_max(size, *span))
+    reaction = float(uniform.reaction(size, params.width))
+    slope = float(uniform.slope_max(size, *span))
     bearing = bearing_for(params, reaction, torque, slope)
     turns = params.row_pitch / outer / params.row_time
     lives = life(bearing.dynamic, equivalent_load(bearing, reaction), bearing.kind)
@@ -166,11 +166,11 @@ def _cylinder(  # noqa: PLR0917
         tube,
         bare,
         load,
-        float(beams.slope_max(abs(bare), *span)),
-        float(beams.deflection_max(abs(bare), *span)),
+        float(uniform.slope_max(abs(bare), *span)),
+        float(uniform.deflection_max(abs(bare), *span)),
         slope,
-        float(beams.deflection_max(size, *span)),
-        float(beams.bending_stress(beams.moment_max(size, params.width), outer, inertia)),
+        float(uniform.deflection_max(size, *span)),
+        float(uniform.bending_stress(uniform.moment_max(size, params.width), outer, inertia)),
         reaction,
         torque,
         weight / GRAVITY * params.width,
@@ -231,8 +231,8 @@ def _spacer_tube(params: WarpTensionParams, load: float) -> Tube | None:
 def _keeps(params: WarpTensionParams, tube: Tube, load: float, depth: float) -> bool:
     outer, inner = tube.outer_radius - depth, tube.inner_radius
     size = abs(spacer_load(params, load) - 1j * tube_weight(params, inner, outer))
-    span = (params.width, params.modulus, beams.tube_inertia(outer, inner))
+    span = (params.width, params.modulus, uniform.tube_inertia(outer, inner))
     return bool(
-        beams.slope_max(size, *span) <= params.slope_limit
-        and beams.deflection_max(size, *span) <= params.deflection_limit
+        uniform.slope_max(size, *span) <= params.slope_limit
+        and uniform.deflection_max(size, *span) <= params.deflection_limit
     )

@@ -12,7 +12,8 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import LAWS
-from ilmek.elements import beams, shafts
+from ilmek.elements import shafts
+from ilmek.elements.beam import uniform
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import Motor, Reducer, geared_motor, most_torque
 from ilmek.elements.tubes import TUBES, Tube, find_tube
@@ -69,12 +70,12 @@ class WarpTensionDesign:
     @property
     def inertia(self) -> float:
         """Second moment of area of the tube [m^4]."""
-        return float(beams.tube_inertia(self.outer_radius, self.inner_radius))
+        return float(uniform.tube_inertia(self.outer_radius, self.inner_radius))
 
     @property
     def reaction(self) -> float:
         """Force on each bearing [N]."""
-        return float(beams.reaction(self.load, self.params.width))
+        return float(uniform.reaction(self.load, self.params.width))
 
     @property
     def mass(self) -> float:
@@ -101,7 +102,7 @@ def design(params: WarpTensionParams) -> WarpTensionDesign:
     load, pull = params.warps * params.tension / params.width, params.warps * params.tension
     inner, outer = _tube(params)
     for_slope, for_deflection = outer_radii_min(params, inner)
-    inertia = float(beams.tube_inertia(outer, inner))
+    inertia = float(uniform.tube_inertia(outer, inner))
     loaded = load + tube_weight(params, inner, outer)
     roll = math.sqrt(outer**2 + params.carpet_length * params.carpet_thickness / math.pi)
     reducer, motor, speed = _drive(params, pull * roll, peak_rate(params, outer))
@@ -112,11 +113,11 @@ def design(params: WarpTensionParams) -> WarpTensionDesign:
         outer_radius=outer,
         outer_radius_min=for_slope,
         outer_radius_min_deflection=for_deflection,
-        slope=float(beams.slope_max(load, params.width, params.modulus, inertia)),
-        deflection=float(beams.deflection_max(load, params.width, params.modulus, inertia)),
-        slope_loaded=float(beams.slope_max(loaded, params.width, params.modulus, inertia)),
-        deflection_loaded=float(beams.deflection_max(loaded, params.width, params.modulus, inertia)),
-        stress=float(beams.bending_stress(beams.moment_max(loaded, params.width), outer, inertia)),
+        slope=float(uniform.slope_max(load, params.width, params.modulus, inertia)),
+        deflection=float(uniform.deflection_max(load, params.width, params.modulus, inertia)),
+        slope_loaded=float(uniform.slope_max(loaded, params.width, params.modulus, inertia)),
+        deflection_loaded=float(uniform.deflection_max(loaded, params.width, params.modulus, inertia)),
+        stress=float(uniform.bending_stress(uniform.moment_max(loaded, params.width), outer, inertia)),
         torque=pull * outer,
         torque_full=pull * roll,
         roll_radius=roll,
@@ -136,9 +137,9 @@ def tube_weight(params: WarpTensionParams, inner: float, outer: float) -> float:
 def keeps_limits(params: WarpTensionParams, inner: float, outer: float) -> bool:
     """Whether a tube [m] keeps slope and deflection under the warps and its own weight."""
     loaded = params.warps * params.tension / params.width + tube_weight(params, inner, outer)
-    inertia = beams.tube_inertia(outer, inner)
-    slope = beams.slope_max(loaded, params.width, params.modulus, inertia)
-    sag = beams.deflection_max(loaded, params.width, params.modulus, inertia)
+    inertia = uniform.tube_inertia(outer, inner)
+    slope = uniform.slope_max(loaded, params.width, params.modulus, inertia)
+    sag = uniform.deflection_max(loaded, params.width, params.modulus, inertia)
     return bool(slope <= params.slope_limit and sag <= params.deflection_limit)
 
 

@@ -2,11 +2,10 @@
 
 from dataclasses import replace
 
-from ilmek.elements import beams
+from ilmek.elements.beam import uniform
 from ilmek.elements.bearings import BEARINGS, bearings_for
 from ilmek.elements.figures import deflection_plot, tube_drawing
 from ilmek.elements.motors import MOTORS
-from ilmek.machines.rounding import settled
 from ilmek.machines.warp_tension.cylinder_report import (
     cylinder_checks,
     cylinder_results,
@@ -19,6 +18,7 @@ from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders
 from ilmek.machines.warp_tension.design import WarpTensionDesign, outer_radii_min
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.report import Check, Column, Figure, Report, Result, Table, at_most
+from ilmek.report.limits import snap_to_limit
 from ilmek.units import format_number, format_quantity, mm, turn
 
 THESIS = "thesis, 3.1"
@@ -134,7 +134,7 @@ def _checks(design: WarpTensionDesign) -> tuple[Check, ...]:
         *(locking if params.self_locking else ()),
         at_most(
             "motor torque",
-            settled(design.motor_torque, design.motor_limit),
+            snap_to_limit(design.motor_torque, design.motor_limit),
             design.motor_limit,
             "Nm",
             f"{THESIS}, eq. 3.8",
@@ -162,8 +162,8 @@ def _tube_table(design: WarpTensionDesign) -> Table:
     )
 
     def row(inner: float) -> tuple[float, float, float, float]:
-        inertia = beams.tube_inertia(inner + 10 * mm, inner)
-        sag = float(beams.deflection_max(design.load, params.width, params.modulus, inertia))
+        inertia = uniform.tube_inertia(inner + 10 * mm, inner)
+        sag = float(uniform.deflection_max(design.load, params.width, params.modulus, inertia))
         return (inner, *outer_radii_min(params, inner), sag)
 
     rows = tuple(row(inner * mm) for inner in (50, 75, 100, 125, 150))

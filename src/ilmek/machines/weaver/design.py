@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from ilmek.carpet.tied_knot import Tied
+from ilmek.carpet.knots.tied import Tied
 from ilmek.machines.weaver import moves
 from ilmek.machines.weaver.cams import HeadCam, cams_for
 from ilmek.machines.weaver.cyclogram import (

@@ -4,7 +4,7 @@ Each end is held by its side gripper from the moment its jaws are closed until t
 from closed jaws to open ones. The places of the tips follow from the cams' positions at every cam angle. Between two
 angles at which a motion begins or ends, a tip goes along one curve, by the position of its cam, whatever the law; so
 the curve's length over a part of that way is at most the way times sqrt(1 + (rho turn / crossing)²). The first end's
-way backwards, then the second's, is the yarn: `carpet.tied_knot` proves its knot, with the warps as they stand in the
+way backwards, then the second's, is the yarn: `carpet.knots.tied` proves its knot, with the warps as they stand in the
 opener. A yarn that is let go, missed, or led while the warps close, ties none, and the words say why.
 """
 
@@ -15,8 +15,8 @@ import numpy as np
 from jaxtyping import Complex, Float
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.carpet.knot_word import Word, knot
-from ilmek.carpet.tied_knot import Tied, tied_knot
+from ilmek.carpet.knots.tied import Tied, tied_knot
+from ilmek.carpet.knots.word import Word, knot
 from ilmek.errors import CarpetError
 from ilmek.machines.weaver.cyclogram import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
 from ilmek.machines.weaver.grippers import Grippers, crossing_point

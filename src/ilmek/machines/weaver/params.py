@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.carpet.ground import warp_density, yarn_diameter
-from ilmek.carpet.knots import WRAPS, PileParams, knot_length
+from ilmek.carpet.knots.kinds import WRAPS, PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.errors import ParameterError
 from ilmek.params import Params, param

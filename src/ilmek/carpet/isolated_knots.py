@@ -1,0 +1,90 @@
+"""Lone knots: a knot unlike all its neighbours (left, right, above, below; fewer at an edge).
+
+A lone knot cannot be seen on the carpet and costs the weaver two yarn changes; it takes the yarn of that neighbour
+which is nearest to the knot's own colour.
+
+One pass from the top is enough, and there is no oscillation: a lone knot shares its yarn with no neighbour, so that
+changing it leaves none of them lone, and after the change it shares the yarn of one. A knot that is not lone shares
+its yarn with a neighbour that is, for the same reason, not lone either and is never changed. Hence no lone knot is
+left. (A chart of one knot has no neighbours and no lone knot.)
+"""
+
+import numpy as np
+from jaxtyping import UInt8
+
+from ilmek.arrays import FloatArray, Indices, IntArray, Rgb
+from ilmek.carpet.colour_difference import ciede2000
+from ilmek.carpet.palette import Colours
+from ilmek.num.compiled import compiled
+
+
+@compiled
+def is_lone(knots: Indices, row: int, column: int) -> bool:
+    """Whether a knot has neighbours and is unlike all of them."""
+    yarn = knots[row, column]
+    last_row, last_column = knots.shape[0] - 1, knots.shape[1] - 1
+    return bool(
+        (column == 0 or knots[row, column - 1] != yarn)
+        and (column == last_column or knots[row, column + 1] != yarn)
+        and (row == 0 or knots[row - 1, column] != yarn)
+        and (row == last_row or knots[row + 1, column] != yarn)
+        and (last_row > 0 or last_column > 0)
+    )
+
+
+@compiled
+def _count_lone(knots: Indices) -> int:
+    lone = 0
+    for row in range(knots.shape[0]):
+        for column in range(knots.shape[1]):
+            lone += is_lone(knots, row, column)
+    return lone
+
+
+@compiled
+def _best_neighbour(
+    knots: Indices, row: int, column: int, lab: FloatArray, yarns: FloatArray
+) -> tuple[UInt8[np.ndarray, ""], float]:
+    best, least = knots[row, column], np.inf
+    for step in range(4):
+        y = row + (step == 3) - (step == 0)
+        x = column + (step == 2) - (step == 1)
+        if 0 <= y < knots.shape[0] and 0 <= x < knots.shape[1]:
+            yarn = knots[y, x]
+            difference = ciede2000(lab[0], lab[1], lab[2], yarns[yarn, 0], yarns[yarn, 1], yarns[yarn, 2])
+            if difference < least:
+                best, least = yarn, difference
+    return best, least
+
+
+@compiled
+def _merge(  # noqa: PLR0917
+    knots: Indices, rgb: Rgb, place: IntArray, labs: FloatArray, yarns: FloatArray, before: FloatArray
+) -> tuple[int, float]:
+    merged, added = 0, 0.0
+    for row in range(knots.shape[0]):
+        for column in range(knots.shape[1]):
+            if is_lone(knots, row, column):
+                code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
+                colour = place[code] - 1
+                knots[row, column], difference = _best_neighbour(knots, row, column, labs[colour], yarns)
+                added += difference - before[colour]
+                merged += 1
+    return merged, added
+
+
+def count_lone(knots: Indices) -> int:
+    """Number of lone knots of a chart."""
+    return int(_count_lone(np.ascontiguousarray(knots)))
+
+
+def merge_lone(
+    knots: Indices, rgb: Rgb, colours: Colours, yarn_labs: FloatArray, difference: FloatArray
+) -> tuple[int, float]:
+    """Give every lone knot of `knots` (changed in place) the yarn of its best neighbour.
+
+    rgb  the picture on the knot grid         difference  CIEDE2000 of each distinct colour to the yarn it has
+    Returns the number of knots changed and the sum of CIEDE2000 that the changes add.
+    """
+    merged, added = _merge(knots, np.ascontiguousarray(rgb), colours.place, colours.labs, yarn_labs, difference)
+    return int(merged), float(added)

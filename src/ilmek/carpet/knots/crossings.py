@@ -1,0 +1,247 @@
+"""The crossing word of a path among warps, decided exactly, or refused.
+
+A segment crosses the cut of a warp if its ends lie on either side of the line through warp and cut, and the warp lies
+on the pile side of it: the sign of one determinant, taken from floats where their error bound allows it and from whole
+fractions where it does not (Shewchuk, Adaptive precision floating-point arithmetic, 1997, bound A). A corner on the
+line itself counts as left of it, so that each crossing is counted once.
+
+Samples of a curve are no polyline. Between two samples, a chord c apart, a path no longer than l stays in the ellipse
+with its foci at the samples, no farther from the chord than
+
+    b = sqrt(l² - c²) / 2
+
+The ellipse is convex: if the warp, as large as it is, lies farther from the chord than b, path and chord pass it on the
+same side, and the word of the chords is the word of the path. If not, the samples do not tell.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from jaxtyping import Complex, Float, Int
+
+from ilmek.arrays import BoolArray, ComplexArray, FloatArray
+from ilmek.carpet.knots.word import Word
+from ilmek.errors import CarpetError
+from ilmek.units import format_quantity
+
+_ERROR = (3 + 16 * 2.0**-53) * 2.0**-53
+"""Relative error bound of the determinant in floats."""
+
+_SLACK = 1e-9
+"""Relative: a path on the very edge of the room that a warp keeps does not touch."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """Warps in section: their places [m] from left to right, seen with the pile upwards, and the room each keeps [m].
+
+    keep_out  radius about each place that the path may not enter: the warp's, plus half of what moves
+    Raises CarpetError where warps are missing, not finite, or not in order.
+    """
+
+    places: Complex[np.ndarray, " warps"]
+    keep_out: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not len(self.places) or not np.isfinite(self.places).all():
+            raise CarpetError(f"{len(self.places)} warps, or places that are not numbers", allowed="one or more places")
+        if not 0 <= self.keep_out < math.inf:
+            raise CarpetError(f"room of {self.keep_out} m about a warp", allowed="0 or more")
+        steps = np.diff(self.places.real)
+        if (steps <= 0).any():
+            late = int(np.argmin(steps)) + 2
+            raise CarpetError(
+                f"warp {late} does not lie to the right of warp {late - 1}",
+                allowed="warps from left to right, seen with the pile upwards",
+                do="sort them, or turn the section so that the pile points up",
+            )
+
+
+def row_of_warps(count: int, pitch: float) -> ComplexArray:
+    """Places of a row of warps [m], the first at 0, the pile upwards.
+
+    >>> row_of_warps(3, 2.0).tolist()
+    [0j, (2+0j), (4+0j)]
+    """
+    return np.arange(count) * pitch + 0j
+
+
+def arc_lengths(points: Complex[np.ndarray, " points"]) -> Float[np.ndarray, " chords"]:
+    """Lengths [m] of a smooth curve between its samples, judged by how much the chords turn: exact on circles.
+
+    A chord c, turned by t to its neighbour, spans the arc c (t/2) / sin(t/2); the greater of two turns counts.
+    An estimate, not a bound: where the motion has a greatest speed, that speed times the time step is the bound.
+    """
+    chords = np.diff(points)
+    moved = np.abs(chords) > 0
+    ways = chords[moved]
+    turns = np.abs(np.angle(ways[1:] * np.conj(ways[:-1])))
+    half = np.maximum(np.append(turns, 0.0), np.append(0.0, turns))[: len(ways)] / 2
+    lengths = np.zeros(len(chords))
+    lengths[moved] = np.abs(ways) / np.sinc(half / np.pi)
+    return lengths
+
+
+def crossings(row: Row, points: Complex[np.ndarray, " points"], lengths: FloatArray | None = None) -> Word:
+    """The word of a path, letter by letter as it crosses the cuts, not yet reduced.
+
+    points   corners of the path, or samples of it [m], the pile upwards
+    lengths  the path's length between each two samples at most [m]; None: the path is the polyline itself
+    Raises CarpetError where the path touches a warp, and where the samples are too coarse to tell which side it passes.
+    """
+    check_points(points)
+    sag = _sag(np.abs(np.diff(points)), lengths)
+    found: list[tuple[int, int, int]] = []
+    for number, place in enumerate(row.places.tolist(), start=1):
+        _clear_of(number, place, row.keep_out, points, sag)
+        segments, signs = _across(number, place, points)
+        found += [(segment, sign * number, sign * number) for segment, sign in zip(segments, signs, strict=True)]
+    return tuple(letter for *_, letter in sorted(found))
+
+
+def check_points(points: ComplexArray) -> None:
+    """Raises CarpetError where a path has fewer than two points, or one that is no number."""
+    if len(points) < 2:
+        raise CarpetError(f"a path of {len(points)} points", allowed="two or more")
+    if not np.isfinite(points).all():
+        raise CarpetError(f"point {int(np.argmin(np.isfinite(points)))} of the path is no number", allowed="numbers")
+
+
+def _sag(chords: FloatArray, lengths: FloatArray | None) -> FloatArray:
+    """How far the path may lie from its chords [m]: b = sqrt(l² - c²) / 2."""
+    if lengths is None:
+        return np.zeros_like(chords)
+    lengths = np.broadcast_to(np.asarray(lengths, float), chords.shape)
+    short = chords > lengths * (1 + _SLACK)
+    if short.any() or not np.isfinite(lengths).all():
+        at = int(np.argmax(short | ~np.isfinite(lengths)))
+        raise CarpetError(
+            f"samples {at} and {at + 1} lie {format_quantity(float(chords[at]), 'mm')} apart, "
+            f"the path between them is said to be {lengths[at] * 1e3:.4g} mm long",
+            allowed="at least as long as the samples lie apart",
+        )
+    return np.asarray(np.sqrt(np.maximum(lengths**2 - chords**2, 0.0)) / 2)
+
+
+def distances(place: complex, points: ComplexArray) -> FloatArray:
+    """Least distance of a place from each segment of a polyline [m]."""
+    start, way = points[:-1] - place, np.diff(points)
+    square = way.real**2 + way.imag**2
+    share = -(start.real * way.real + start.imag * way.imag) / np.where(square > 0, square, 1.0)
+    return np.asarray(np.abs(start + np.clip(share, 0.0, 1.0) * way))
+
+
+def _clear_of(number: int, place: complex, keep_out: float, points: ComplexArray, sag: FloatArray) -> None:
+    """Raises CarpetError where the path touches the warp, or may pass it on either side."""
+    room = keep_out * (1 - _SLACK)
+    gap = distances(place, points)
+    _untouched(number, place, keep_out, points)
+    chord = ((gap < room) | (gap == 0)) & (sag == 0)
+    if chord.any():
+        raise _touching(number, int(np.argmax(chord)), float(gap[chord].min()), keep_out)
+    unsure = (gap - sag <= room) & (sag > 0)
+    if unsure.any():
+        at = int(np.argmax(unsure))
+        raise CarpetError(
+            f"the samples are too coarse near warp {number}: between points {at} and {at + 1} the path may pass it "
+            f"on either side",
+            allowed=f"a path within {format_quantity(max(float(gap[at]) - room, 0.0), 'mm')} of its chord there",
+            do="sample it more finely",
+        )
+
+
+def _untouched(number: int, place: complex, keep_out: float, points: ComplexArray) -> None:
+    """Raises CarpetError where a point of the path itself lies in the warp's room."""
+    near = np.abs(points - place)
+    inside = (near < keep_out * (1 - _SLACK)) | (near == 0)
+    if inside.any():
+        raise _touching(number, int(np.argmax(inside)), float(near.min()), keep_out)
+
+
+def _touching(number: int, at: int, least: float, keep_out: float) -> CarpetError:
+    return CarpetError(
+        f"the path touches warp {number}: at point {at} it comes within {format_quantity(least, 'mm')} of its axis",
+        allowed=f"{format_quantity(keep_out, 'mm')} or more" if keep_out else "a path past the warp, not through it",
+        do=f"lead it round warp {number}",
+    )
+
+
+def _across(number: int, place: complex, points: ComplexArray) -> tuple[list[int], list[int]]:
+    """Segments that cross the warp's cut, and +1 (from left to right) or -1 for each."""
+    left = points.real <= place.real
+    segments = np.flatnonzero(left[1:] != left[:-1])
+    side = orientation(points[segments], points[segments + 1], place)
+    if (side == 0).any():
+        raise CarpetError(
+            f"the path goes through the axis of warp {number} after point {int(segments[side == 0][0])}",
+            allowed="a path past the warp",
+            do=f"lead it round warp {number}",
+        )
+    heading = np.where(left[segments], 1, -1)
+    behind = side == heading
+    return segments[behind].tolist(), heading[behind].tolist()
+
+
+def orientation(start: ComplexArray, end: ComplexArray, place: complex) -> Int[np.ndarray, " segments"]:
+    """+1 where the place lies left of the segment, -1 right, 0 on its line; exact for the floats as they are.
+
+    >>> orientation(np.array([0j]), np.array([3 + 3j]), 0.1 + 0.1j), orientation(np.array([0j]), np.array([1 + 0j]), 1j)
+    (array([0]), array([1]))
+    """
+    plus = (end.real - start.real) * (place.imag - start.imag)
+    minus = (end.imag - start.imag) * (place.real - start.real)
+    value = plus - minus
+    sign: Int[np.ndarray, " segments"] = np.sign(value).astype(np.int64)
+    unsure = np.abs(value) <= _ERROR * (np.abs(plus) + np.abs(minus)) + 1e-300
+    for at in np.flatnonzero(unsure):
+        sign[at] = _exact(complex(start[at]), complex(end[at]), place)
+    return sign
+
+
+def _exact(start: complex, end: complex, place: complex) -> int:
+    sx, sy = Fraction(start.real), Fraction(start.imag)
+    value = (Fraction(end.real) - sx) * (Fraction(place.imag) - sy)
+    value -= (Fraction(end.imag) - sy) * (Fraction(place.real) - sx)
+    return (value > 0) - (value < 0)
+
+
+def followed(
+    row: Row, curve: Callable[[FloatArray], ComplexArray], speed: float, *, most: int = 200_000
+) -> tuple[ComplexArray, FloatArray]:
+    """Samples of a curve fine enough to tell which side of every warp it passes, and bounds of the lengths between.
+
+    curve  places [m] for values 0 to 1; takes an array      speed  its greatest speed |dz/du| [m], a bound
+    Halves only what does not yet tell. Raises CarpetError where it is so near a warp that `most` samples do not tell.
+    """
+    at = np.linspace(0.0, 1.0, 65)
+    points = np.asarray(curve(at), complex)
+    check_points(points)
+    while True:
+        for number, place in enumerate(row.places.tolist(), start=1):
+            _untouched(number, place, row.keep_out, points)
+        lengths = speed * np.diff(at)
+        unsure, warp = _untold(row, points, _sag(np.abs(np.diff(points)), lengths))
+        if not unsure.any():
+            return points, lengths
+        middle = (at[:-1] + at[1:])[unsure] / 2
+        if len(at) + len(middle) > most or (np.diff(at)[unsure] < 1e-12).any():
+            raise CarpetError(
+                f"the path touches warp {warp}, or nearly: {len(at)} samples do not tell which side it passes",
+                allowed=f"more than {format_quantity(row.keep_out, 'mm')} from its axis",
+                do=f"lead it round warp {warp}",
+            )
+        places = np.searchsorted(at, middle)
+        at, points = np.insert(at, places, middle), np.insert(points, places, curve(middle))
+
+
+def _untold(row: Row, points: ComplexArray, sag: FloatArray) -> tuple[BoolArray, int]:
+    """Chords that do not tell their side of some warp, and the last such warp."""
+    unsure, warp = np.zeros(len(sag), bool), 0
+    for number, place in enumerate(row.places.tolist(), start=1):
+        here = distances(place, points) - sag <= row.keep_out
+        unsure |= here
+        warp = number if here.any() else warp
+    return unsure, warp

@@ -1,0 +1,213 @@
+"""Knots as curves: the way of the pile yarn, and of the gripper that leads its end, in the section across the warps.
+
+Warp k of pitch p stands at (k - 1) p, the pile is upwards. The yarn's axis keeps the radius
+
+    r = (D + d)/2 + e         D warp's, d yarn's diameter, e clearance
+
+about every warp it goes round; between two warps it runs along their common tangent, outer where it turns the same way
+round both, inner where it turns the other way, at the angle alpha to the row, sin alpha = 2r/p. Both ends rise upright
+from the height of the warps' axes to the height a. So the curve is a chain of straight lines and arcs, of curvature 0
+and +-1/r, with one tangent throughout, and from a start z0 of heading h a piece of curvature kappa goes to
+
+    z(s) = z0 + s sinc(kappa s/2) exp(i (h + kappa s/2))        sinc x = sin x / x
+
+Its length is 2 a and the wrap of `knots`, for warps of any pitch p >= 2r. Closer warps leave the yarn no room between
+them: there is no such curve, while `knots` still tells how much yarn the knot takes, pressed as it is in the carpet.
+"""
+
+import math
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray, IntArray, RealField
+from ilmek.carpet.knots.kinds import asymmetric_wrap, symmetric_wrap
+from ilmek.carpet.knots.word import SINGLE, Knot, Word
+from ilmek.errors import CarpetError
+from ilmek.units import format_quantity, mm
+
+_QUARTER, _HALF = math.pi / 2, math.pi
+
+
+@dataclass(frozen=True, slots=True)
+class KnotDimensions:
+    """What sets a knot's curve [m].
+
+    pitch           p, of two warps                 clearance  e, kept from the warps besides half the yarn
+    warp_diameter   D                               leg        a, height of both ends above the warps' axes
+    yarn_diameter   d, of the pile yarn
+    Raises CarpetError for numbers out of bounds, and where the warps leave the yarn no room between them.
+    """
+
+    pitch: float
+    warp_diameter: float
+    yarn_diameter: float
+    clearance: float = 0.0
+    leg: float = 10 * mm
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if not (0 <= value < math.inf) or (value == 0 and field.name != "clearance"):
+                raise CarpetError(
+                    f"{field.name.replace('_', ' ')} {format_quantity(value, 'mm')} of a knot",
+                    allowed="0 or more" if field.name == "clearance" else "more than 0",
+                )
+        least = 2 * self.radius
+        if self.pitch < least * (1 - 1e-12):
+            shown = [format_quantity(getattr(self, field.name), "mm") for field in fields(self)]
+            raise CarpetError(
+                f"warps of {shown[1]} at a pitch of {shown[0]} leave no room for a yarn of {shown[2]} "
+                f"with {shown[3]} clearance",
+                allowed=f"a pitch of {format_quantity(least, 'mm')} or more",
+                do="open the warps, or take a finer yarn",
+            )
+
+    @property
+    def radius(self) -> float:
+        """Radius of the yarn's axis about a warp's [m], r = (D + d)/2 + e."""
+        return (self.warp_diameter + self.yarn_diameter) / 2 + self.clearance
+
+    @property
+    def legs_side_by_side(self) -> bool:
+        """Whether two legs have room beside each other between two warps; if not, they lie one behind the other."""
+        return self.pitch >= 2 * self.radius + self.yarn_diameter
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KnotPath:
+    """A knot's curve from one end of the yarn to the other: a chain of lines and arcs.
+
+    starts      of the pieces [m]              headings  at the starts [rad]
+    curvatures  [1/m], left turns positive     lengths   of the pieces [m]
+    """
+
+    knot: Knot
+    dimensions: KnotDimensions
+    starts: ComplexArray
+    headings: FloatArray
+    curvatures: FloatArray
+    lengths: FloatArray
+
+    @property
+    def length(self) -> float:
+        """Length of the curve in closed form [m]: two legs and the wrap."""
+        return 2 * self.dimensions.leg + wrap_length(self.knot, self.dimensions)
+
+    @property
+    def warps(self) -> ComplexArray:
+        """Places of the knot's own warps [m]."""
+        return warp_places(self.knot.warps, self.dimensions.pitch)
+
+    def point(self, s: RealField) -> ComplexArray:
+        """Places at arc lengths s [m]; straight on beyond the ends."""
+        piece, along = self._at(s)
+        half = self.curvatures[piece] * along / 2
+        return np.asarray(
+            self.starts[piece] + along * np.sinc(half / np.pi) * np.exp(1j * (self.headings[piece] + half))
+        )
+
+    def direction(self, s: RealField) -> ComplexArray:
+        """Unit directions of the motion at arc lengths s [m]."""
+        piece, along = self._at(s)
+        return np.asarray(np.exp(1j * (self.headings[piece] + self.curvatures[piece] * along)))
+
+    def curvature(self, s: RealField) -> FloatArray:
+        """Curvatures at arc lengths s [1/m], left turns positive; where two pieces meet, that of the later."""
+        return np.asarray(self.curvatures[self._at(s)[0]])
+
+    def distances(self, step: float) -> FloatArray:
+        """Arc lengths [m] from end to end, evenly apart by `step` at most. Raises CarpetError unless step > 0."""
+        if not 0 < step < math.inf:
+            raise CarpetError(f"a step of {step} m", allowed="more than 0")
+        return np.linspace(0.0, self.length, math.ceil(self.length / step) + 1)
+
+    def _at(self, s: RealField) -> tuple[IntArray, FloatArray]:
+        ends = np.cumsum(self.lengths)
+        piece = np.asarray(np.minimum(np.searchsorted(ends, s, side="right"), len(ends) - 1))
+        return piece, np.asarray(s - (ends - self.lengths)[piece])
+
+
+def knot_path(knot: Knot, dimensions: KnotDimensions) -> KnotPath:
+    """The curve of a knot, in the direction of its word.
+
+    >>> from ilmek.carpet.knots.word import knot
+    >>> path = knot_path(knot("symmetric"), KnotDimensions(4 * mm, 1 * mm, 1 * mm))
+    >>> round(path.length / mm, 3), path.point(0.0).tolist() == (1 + 10j) * mm
+    (33.425, True)
+    """
+    moves = np.array([move for move in _MAKERS[knot.kind](knot, dimensions) if move[0] > 0])
+    lengths, turns = moves.T
+    curvatures = turns / lengths
+    begin = _begin(knot, dimensions)
+    headings = -_QUARTER + np.append(0.0, np.cumsum(turns[:-1]))
+    steps = lengths * np.sinc(turns / 2 / np.pi) * np.exp(1j * (headings + turns / 2))
+    starts = begin + np.append(0.0, np.cumsum(steps[:-1]))
+    if knot.opens == "right":  # the mirror image of the knot open left
+        starts, headings, curvatures = _mirrored(knot, dimensions, starts, headings, curvatures)
+    return KnotPath(knot, dimensions, starts, headings, curvatures, lengths)
+
+
+def wrap_length(knot: Knot, dimensions: KnotDimensions) -> float:
+    """Length of a knot's curve without its legs [m], by `knots`; 3 pi r for a single-warp knot."""
+    pitch, radius = dimensions.pitch, dimensions.radius
+    left, right = len(knot.left), len(knot.right)
+    if knot.kind == "symmetric":
+        return symmetric_wrap(pitch, radius, left, right)
+    if knot.kind == "asymmetric":
+        return asymmetric_wrap(pitch, radius, *((left, right) if knot.opens == "left" else (right, left)))
+    return 3 * math.pi * radius
+
+
+def warp_places(warps: Word, pitch: float) -> ComplexArray:
+    """Places [m] of warps of these numbers in a row of this pitch, warp 1 at 0.
+
+    >>> warp_places((2, 3), 4.0).tolist()
+    [(4+0j), (8+0j)]
+    """
+    return (np.array(warps, float) - 1) * pitch + 0j
+
+
+Moves = list[tuple[float, float]]
+"""Pieces as (length [m], turn [rad]), from a start at the height of the legs heading down."""
+
+
+def _symmetric(knot: Knot, d: KnotDimensions) -> Moves:
+    r, p, left, right = d.radius, d.pitch, len(knot.left) - 1, len(knot.right) - 1
+    quarter, half = (r * _QUARTER, -_QUARTER), (r * _HALF, -_HALF)
+    leg, front = (d.leg, 0.0), ((left + right + 1) * p, 0.0)
+    return [leg, quarter, (left * p, 0.0), half, front, half, (right * p, 0.0), quarter, leg]
+
+
+def _open_left(knot: Knot, d: KnotDimensions) -> Moves:
+    """As if it were open left, whichever side it is: its mirror image is made of it."""
+    r, p = d.radius, d.pitch
+    groups = (knot.left, knot.right) if knot.opens == "left" else (knot.right, knot.left)
+    passed, round_ = ((len(group) - 1) * p for group in groups)
+    alpha = math.asin(min(1.0, 2 * r / p))
+    across = math.sqrt(max(p**2 - 4 * r**2, 0.0))
+    behind: Moves = [(d.leg, 0.0), (r * _QUARTER, _QUARTER), (passed, 0.0), (r * alpha, alpha), (across, 0.0)]
+    about: Moves = [(r * alpha, -alpha), (round_, 0.0), (r * _HALF, -_HALF), (round_, 0.0), (r * _QUARTER, -_QUARTER)]
+    return [*behind, *about, (d.leg, 0.0)]
+
+
+def _single(_: Knot, d: KnotDimensions) -> Moves:
+    return [(d.leg, 0.0), (3 * math.pi * d.radius, 3 * math.pi), (d.leg, 0.0)]
+
+
+_MAKERS = {"symmetric": _symmetric, "asymmetric": _open_left, SINGLE: _single}
+
+
+def _begin(knot: Knot, d: KnotDimensions) -> complex:
+    """Where the first leg begins: right of the left warps, or left of all of them."""
+    warp = knot.left[-1] if knot.kind == "symmetric" else knot.left[0]
+    side = 1 if knot.kind == "symmetric" else -1
+    return complex((warp - 1) * d.pitch + side * d.radius, d.leg)
+
+
+def _mirrored(
+    knot: Knot, d: KnotDimensions, starts: ComplexArray, headings: FloatArray, curvatures: FloatArray
+) -> tuple[ComplexArray, FloatArray, FloatArray]:
+    """Pieces mirrored about the upright line through the knot's middle."""
+    twice = (knot.warps[0] + knot.warps[-1] - 2) * d.pitch
+    return twice - np.conj(starts), math.pi - headings, -curvatures

@@ -1,0 +1,138 @@
+"""Which knot a motion of the yarn's end ties.
+
+A yarn held at the pile and led by its other end lies as the end went: pulled tight without crossing a warp, it is the
+path of the end, with all to and fro pulled out. So the reduced word of the path (`knots.word`) says which knot it is;
+equal words are a proof, since the words tell all paths apart that cannot be pulled into each other. Where two grippers
+lead an end each from one place, the yarn is the first path backwards and then the second: `joined`.
+
+The warps stand still, and both ends must lie in the pile, in front of every warp; which side that is, `pile` says.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Complex
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.carpet.knots.crossings import Row, check_points, crossings, followed
+from ilmek.carpet.knots.word import Knot, Word, recognised, reduced, verdict
+from ilmek.errors import CarpetError
+from ilmek.units import format_quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Tied:
+    """What a motion ties.
+
+    knot      the knot, or None                           word   the reduced word of the path
+    backward  the yarn runs through the knot from its     words  the knot's name, or why it is none
+              other end (its word is the knot's inverse)
+    """
+
+    knot: Knot | None
+    word: Word
+    backward: bool
+    words: str
+
+
+def tied_knot(
+    points: Complex[np.ndarray, " points"],
+    warps: Complex[np.ndarray, " warps"],
+    *,
+    keep_out: float = 0.0,
+    lengths: FloatArray | None = None,
+    closed: bool = False,
+    pile: complex = 1j,
+) -> Tied:
+    """The knot that a path of the yarn's end ties on a row of warps, or that it ties none and why.
+
+    points    corners of the path, or samples of it, in the order of the motion [m]
+    warps     places of the warps from left to right [m], seen with the pile upwards; they are numbered from 1
+    keep_out  radius about each warp's axis that the path may not enter [m]
+    lengths   of the path between each two samples at most [m], such as greatest speed times time step, or
+              `arc_lengths(points)`; None: the path is the polyline itself
+    closed    the motion ends where it began: the first point is passed again
+    pile      direction towards the pile
+    Raises CarpetError where the path touches a warp, and where the samples cannot tell which side of a warp it passes.
+
+    >>> warps = np.array([0j, 2 + 0j])
+    >>> tied_knot(np.array([1 + 5j, 1 - 2j, -2 - 2j, -2 + 2j, 4 + 2j, 4 - 2j, 1 - 2j, 1 + 5j]), warps).words
+    'symmetric knot over warps 1 and 2'
+    """
+    check_points(points)
+    turn = _upright(pile)
+    if closed:
+        points = np.append(points, points[0])
+    row = Row(_turned(warps, turn), keep_out)
+    upright = _turned(points, turn)
+    return _judged(row, upright, reduced(crossings(row, upright, lengths)))
+
+
+def tied_by_curve(
+    curve: Callable[[FloatArray], ComplexArray],
+    speed: float,
+    warps: Complex[np.ndarray, " warps"],
+    *,
+    keep_out: float = 0.0,
+    pile: complex = 1j,
+) -> Tied:
+    """The knot that a curve ties: sampled as finely as it takes to be sure.
+
+    curve  places [m] of the yarn's end for values 0 to 1, an array of them     speed  its greatest speed |dz/du| [m]
+    the rest as of `tied_knot`. Raises CarpetError where the curve touches a warp, or nearly.
+
+    >>> ring = lambda u: 2.5j * np.exp(2j * np.pi * u)
+    >>> tied_by_curve(ring, 16.0, np.array([0j, 2 + 0j])).words
+    'no knot: the yarn only passes behind warps 1 and 2 from left to right'
+    """
+    turn = _upright(pile)
+    row = Row(_turned(warps, turn), keep_out)
+    points, lengths = followed(row, lambda u: _turned(curve(u), turn), speed)
+    return _judged(row, points, reduced(crossings(row, points, lengths)))
+
+
+def joined(
+    first: Complex[np.ndarray, " first"], second: Complex[np.ndarray, " second"]
+) -> Complex[np.ndarray, " both"]:
+    """The path of a yarn whose two ends were led from one place: the first motion backwards, then the second.
+
+    Raises CarpetError where they do not start at one place.
+
+    >>> joined(np.array([0j, -1 + 0j]), np.array([0j, 1 + 0j])).real.tolist()
+    [-1.0, 0.0, 1.0]
+    """
+    check_points(first)
+    check_points(second)
+    gap = float(abs(first[0] - second[0]))
+    if gap > 1e-9 * float(max(np.abs(np.diff(first)).sum(), np.abs(np.diff(second)).sum())):
+        raise CarpetError(
+            f"the two motions start {format_quantity(gap, 'mm')} apart",
+            allowed="both ends led from one place of the yarn",
+        )
+    return np.concatenate([first[::-1], second[1:]])
+
+
+def _upright(pile: complex) -> complex:
+    """The turn that brings the pile upwards; exact for the four directions of the axes."""
+    if not np.isfinite(pile) or pile == 0:
+        raise CarpetError(f"the pile lies in direction {pile}", allowed="a direction, such as 1j for upwards")
+    turn = 1j * np.conj(pile) / abs(pile)
+    return complex(turn)
+
+
+def _turned(points: ComplexArray, turn: complex) -> ComplexArray:
+    with np.errstate(invalid="ignore"):  # places that are not finite are refused in words later
+        return np.asarray(points * turn, complex)
+
+
+def _judged(row: Row, points: ComplexArray, word: Word) -> Tied:
+    front = float(row.places.imag.max())
+    for end, name in ((points[0], "begins"), (points[-1], "ends")):
+        if end.imag <= front:
+            low = format_quantity(front - float(end.imag), "mm")
+            return Tied(
+                None, word, False, f"no knot: the path {name} {low} behind the front of the warps, not in the pile"
+            )
+    known = recognised(word)
+    return Tied(known, word, known is not None and word != known.word, verdict(word))

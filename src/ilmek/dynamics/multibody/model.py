@@ -1,0 +1,295 @@
+"""What a general planar system is, and how it becomes the arrays of the compiled kernels."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import reverse_cuthill_mckee
+
+from ilmek.dynamics.attached import attached
+from ilmek.dynamics.clearance import ClearancePin
+from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.multibody.contact import FLIGHT
+from ilmek.dynamics.multibody.kernel import Model
+from ilmek.dynamics.springs import Spring
+from ilmek.errors import MechanismError
+from ilmek.linkage.model import GROUND, Body, Joint, Pin, Slide
+from ilmek.linkage.motion import Motion
+from ilmek.plane.vectors import unit
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """Where a body's frame is and how it moves: origin [m], angle [rad], the origin's velocity [m/s], omega [rad/s]."""
+
+    origin: complex
+    angle: float = 0.0
+    velocity: complex = 0j
+    omega: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Push:
+    """A constant force [N], in the world's directions, at a point of a body."""
+
+    body: str
+    point: str
+    force: complex
+
+
+@dataclass(frozen=True, slots=True)
+class Twist:
+    """A torque on a body that falls with its speed: torque - drag omega [N m, N m s]; a motor's straight curve."""
+
+    body: str
+    torque: float
+    drag: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """Bodies with masses, the joints between them, the loads, and the start.
+
+    bodies    with the ground among them, as in `Mechanism`
+    joints    pins, slides, pins with clearance; they may be redundant
+    inertias  of every moving body, mass and moment above 0      poses   of every moving body at the start
+    gravity   free fall [m/s²], such as -9.81j                   loads   springs, pushes, twists
+
+    Raises MechanismError for names that are unknown or missing, a body without mass or moment, and numbers that are
+    not finite.
+    """
+
+    bodies: tuple[Body, ...]
+    joints: tuple[Joint | ClearancePin, ...]
+    inertias: Mapping[str, Inertia]
+    poses: Mapping[str, Pose]
+    gravity: complex = 0j
+    loads: Sequence[Spring | Push | Twist] = ()
+    name: str = "system"
+    order: tuple[str, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        moving = [body.name for body in self.bodies if body.name != GROUND]
+        if len(set(moving)) < len(moving) or not moving:
+            raise MechanismError(f"{self.name} has bodies {', '.join(moving) or 'none'}", allowed="each name once")
+        for name in moving:
+            self._check(name)
+        object.__setattr__(self, "order", _ordered(moving, self.joints))
+        for joint in self.joints:
+            if joint.bodies[0] == joint.bodies[1]:
+                raise MechanismError(f"joint {joint.name!r} of {self.name} joins {joint.bodies[0]!r} to itself")
+            for body in joint.bodies:
+                self.point(body, joint.name)
+        if not np.isfinite(self.gravity):
+            raise MechanismError(f"gravity of {self.name} is {self.gravity}", allowed="a finite free fall in m/s²")
+        for load in self.loads:
+            _check_load(self, load)
+
+    @property
+    def pins(self) -> tuple[Pin, ...]:
+        """Its pins without clearance."""
+        return tuple(joint for joint in self.joints if isinstance(joint, Pin))
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """Its slides."""
+        return tuple(joint for joint in self.joints if isinstance(joint, Slide))
+
+    @property
+    def rigid(self) -> tuple[Joint, ...]:
+        """Its joints without clearance in the order of their equations: pins, then slides."""
+        return (*self.pins, *self.slides)
+
+    @property
+    def clearances(self) -> tuple[ClearancePin, ...]:
+        """Its pins with clearance."""
+        return tuple(joint for joint in self.joints if isinstance(joint, ClearancePin))
+
+    def clearance(self, name: str) -> ClearancePin:
+        """The pin with clearance of that name."""
+        found = {pin.name: pin for pin in self.clearances}
+        if name not in found:
+            known = ", ".join(found) or "none"
+            raise MechanismError(f"{self.name} has no pin with clearance {name!r}", allowed=f"it has {known}")
+        return found[name]
+
+    def _check(self, name: str) -> None:
+        inertia, pose = self.inertias.get(name), self.poses.get(name)
+        if inertia is None or pose is None:
+            raise MechanismError(f"body {name!r} of {self.name} has no {'pose' if inertia else 'inertia'}")
+        if not (inertia.mass > 0 and inertia.moment > 0):
+            raise MechanismError(
+                f"body {name!r} of {self.name} has mass {inertia.mass:g} kg, moment {inertia.moment:g} kg m²",
+                allowed="both above 0",
+                do="give it some, or join it to its neighbour as one body",
+            )
+        if not np.all(np.isfinite([pose.origin, pose.angle, pose.velocity, pose.omega])):
+            raise MechanismError(f"the pose of body {name!r} of {self.name} is {pose}", allowed="finite numbers")
+
+    def point(self, body: str, point: str) -> complex:
+        """A point of a body in the body's frame [m]."""
+        points = {one.name: one.points for one in self.bodies}
+        if body not in points:
+            raise MechanismError(f"{self.name} has no body {body!r}", allowed=f"it has {', '.join(points)}")
+        if point not in points[body]:
+            raise MechanismError(
+                f"body {body!r} of {self.name} has no point {point!r}", allowed=f"it has {', '.join(points[body])}"
+            )
+        return points[body][point]
+
+    def arm(self, body: str, point: str) -> complex:
+        """A point of a body from its mass centre [m]; of the ground, its place in the world."""
+        return self.point(body, point) - (0j if body == GROUND else self.inertias[body].centre)
+
+
+def loosened(system: System, *clearances: ClearancePin) -> System:
+    """The system with some of its pins replaced by pins with clearance of the same names."""
+    names = [pin.name for pin in system.pins]
+    for pin in clearances:
+        if pin.name not in names:
+            raise MechanismError(
+                f"{system.name} has no pin {pin.name!r}", allowed=f"it has {', '.join(names) or 'none'}"
+            )
+    by_name = {pin.name: pin for pin in clearances}
+    return replace(system, joints=tuple(by_name.get(joint.name, joint) for joint in system.joints))
+
+
+def from_motion(
+    motion: Motion,
+    inertias: Mapping[str, Inertia],
+    *,
+    gravity: complex = 0j,
+    loads: Sequence[Spring | Push | Twist] = (),
+) -> System:
+    """The system that a mechanism is with its inputs let go, starting from the first sample of a motion.
+
+    Raises MechanismError where the motion fails, and for couplings, which a system does not know.
+    """
+    mechanism = motion.require().plan.mechanism
+    if mechanism.couplings:
+        raise MechanismError(
+            f"{mechanism.name} has a coupling {mechanism.couplings[0].name!r}",
+            allowed="a general system has pins and slides",
+            do="run it by the reduced equation",
+        )
+    for body in inertias:
+        mechanism.body(body)
+    poses = {}
+    for body in mechanism.moving:
+        origin = attached(motion, body, 0j)
+        angle, omega = float(motion.angle(body)[0]), float(motion.omega(body)[0])
+        poses[body] = Pose(complex(origin.position[0]), angle, complex(origin.velocity[0]), omega)
+    return System(mechanism.bodies, mechanism.joints, inertias, poses, gravity, loads, mechanism.name)
+
+
+def _ordered(moving: Sequence[str], joints: Sequence[Joint | ClearancePin]) -> tuple[str, ...]:
+    """Bodies in an order that keeps neighbours close, for a narrow band [reverse Cuthill-McKee]."""
+    place = {name: k for k, name in enumerate(moving)}
+    pairs = [
+        (place[a], place[b]) for joint in joints for a, b in [joint.bodies, joint.bodies[::-1]] if {a, b} <= set(place)
+    ]
+    rows, columns = np.array(pairs, dtype=int).reshape(-1, 2).T
+    graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(moving), len(moving))).tocsr()
+    return tuple(moving[k] for k in reverse_cuthill_mckee(graph, symmetric_mode=True))
+
+
+def modelled(system: System) -> Model:
+    """The system as arrays."""
+    place = {name: k for k, name in enumerate(system.order)} | {GROUND: -1}
+    loose = system.clearances
+    springs = [load for load in system.loads if isinstance(load, Spring)]
+    pushes = [load for load in system.loads if isinstance(load, Push)]
+    touched = [[place[body] for body in joint.bodies] for joint in system.rigid for _ in range(2)]
+    apart = [abs(a - b) for a, b in touched if min(a, b) >= 0]
+    inertias = [system.inertias[name] for name in system.order]
+    ends = [[(body, joint.name) for body in joint.bodies] for joint in system.rigid]
+    ends += [[(one.first, one.first_point), (one.second, one.second_point)] for one in springs]
+    ends += [[(one.body, one.point)] * 2 for one in pushes]
+    ends += [[(body, pin.name) for body in pin.bodies] for pin in loose]
+    numbers = [(0.0, 0.0, 0.0) for _ in system.pins] + [
+        (slide.along, _held(system, slide), 0.0) for slide in system.slides
+    ]
+    numbers += [(spring.stiffness, spring.length, spring.damping) for spring in springs]
+    numbers += [(complex(push.force).real, complex(push.force).imag, 0.0) for push in pushes]
+    return Model(
+        weights=np.array([value for one in inertias for value in (one.mass, one.mass, one.moment)]),
+        gravity=complex(system.gravity),
+        ends=_pairs([[place[body] for body, _ in pair] for pair in ends]),
+        arms=np.array([[system.arm(*end) for end in pair] for pair in ends], dtype=complex).reshape(-1, 2),
+        numbers=np.array(numbers, dtype=float).reshape(-1, 3),
+        pins=len(system.pins),
+        slides=len(system.slides),
+        springs=len(springs),
+        pushes=len(pushes),
+        contacts=np.array([_contact(system, pin) for pin in loose], dtype=float).reshape(-1, 8),
+        twists=_twists(system),
+        touched=_pairs(touched),
+        length=_length(system),
+        band=min(3 * max(apart, default=0) + 2, 3 * len(system.order) - 1),
+    )
+
+
+def start_of(system: System) -> np.ndarray:
+    """Positions and velocities of the mass centres at the start, no work, and no contact yet."""
+    row = np.full(6 * len(system.order) + 1 + len(system.clearances), FLIGHT)
+    row[6 * len(system.order)] = 0.0
+    half = 3 * len(system.order)
+    for k, name in enumerate(system.order):
+        pose, arm = system.poses[name], system.inertias[name].centre * unit(system.poses[name].angle)
+        centre, velocity = complex(pose.origin + arm), complex(pose.velocity + 1j * pose.omega * arm)
+        row[3 * k : 3 * k + 3] = centre.real, centre.imag, pose.angle
+        row[half + 3 * k : half + 3 * k + 3] = velocity.real, velocity.imag, pose.omega
+    return row
+
+
+def _contact(system: System, pin: ClearancePin) -> tuple[float, ...]:
+    series = 1 / sum(1 / system.inertias[body].mass for body in pin.bodies if body != GROUND)
+    law = pin.stiffness, pin.exponent, pin.hysteresis
+    return *law, pin.radius, pin.clearance, pin.friction, pin.slip, series
+
+
+def _check_load(system: System, load: Spring | Push | Twist) -> None:
+    """Refuse a load on a body or point that is not there, or whose numbers are not finite."""
+    if isinstance(load, Spring):
+        ends, numbers = (
+            [(load.first, load.first_point), (load.second, load.second_point)],
+            [load.stiffness, load.length],
+        )
+        numbers.append(load.damping)
+    elif isinstance(load, Push):
+        ends, numbers = [(load.body, load.point)], [abs(load.force)]
+    else:
+        ends, numbers = [], [load.torque, load.drag]
+        if load.body not in system.order:
+            known = ", ".join(system.order)
+            raise MechanismError(f"a torque of {system.name} acts on {load.body!r}", allowed=f"it has {known}")
+    for end in ends:
+        system.point(*end)
+    if not np.all(np.isfinite(numbers)):
+        raise MechanismError(f"a load of {system.name} is {load}", allowed="finite numbers")
+
+
+def _held(system: System, slide: Slide) -> float:
+    """The angle that a slide holds, in the turn in which the poses are."""
+    body, guide = (system.poses[name].angle if name != GROUND else 0.0 for name in slide.bodies)
+    turns = round((body - guide - slide.turned) / (2 * np.pi))
+    return slide.turned + turns * 2 * np.pi
+
+
+def _twists(system: System) -> np.ndarray:
+    twists = np.zeros((len(system.order), 2))
+    for load in system.loads:
+        if isinstance(load, Twist):
+            twists[system.order.index(load.body)] += load.torque, load.drag
+    return twists
+
+
+def _length(system: System) -> float:
+    """Greatest distance of a joint from its body's mass centre [m]; 1 where there is none."""
+    arms = [abs(system.arm(body, joint.name)) for joint in system.joints for body in joint.bodies if body != GROUND]
+    return max(arms, default=1.0) or 1.0
+
+
+def _pairs(found: Sequence[Sequence[int]]) -> np.ndarray:
+    return np.array(found, dtype=np.int64).reshape(-1, 2)

@@ -1,0 +1,179 @@
+"""What a run of a general planar system answers: places, speeds, forces, energies, at an instant or by sample."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray, RealField
+from ilmek.dynamics.clearance import ClearancePin
+from ilmek.dynamics.events import Happening
+from ilmek.dynamics.multibody.kernel import Model, joints
+from ilmek.dynamics.multibody.model import System
+from ilmek.dynamics.springs import Spring
+from ilmek.errors import MechanismError
+from ilmek.linkage.model import GROUND, Joint, Pin
+
+HOLDS = 1e-6
+"""A joint counts as free to pull against the others where its share of a force that moves nothing is above this."""
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """A system over the samples of a run, or at one instant: each answer is then an array of no dimension.
+
+    time       [s]
+    states     x, y [m], theta [rad] of the mass centres in the order of `system.order`; their rates; the work [J];
+               one number a clearance pin: -1 in flight, else the greatest speed of its contact so far [m/s]
+    slopes     time derivatives of the states
+    reactions  two forces a pin, a force and a moment a slide, two forces a clearance pin (see `pin`)
+    """
+
+    system: System
+    model: Model
+    time: RealField
+    states: FloatArray
+    slopes: FloatArray
+    reactions: FloatArray
+
+    def angle(self, body: str) -> FloatArray:
+        """Angle of a body [rad], counted through all turns."""
+        return self._column(body, self.states, 2)
+
+    def omega(self, body: str) -> FloatArray:
+        """Angular velocity of a body [rad/s]."""
+        return self._column(body, self.slopes, 2)
+
+    def alpha(self, body: str) -> FloatArray:
+        """Angular acceleration of a body [rad/s²]."""
+        return self._column(body, self.slopes[..., len(self.model.weights) :], 2)
+
+    def position(self, body: str, point: str) -> ComplexArray:
+        """Place of a body's point [m]."""
+        arm = self.system.arm(body, point)
+        if body == GROUND:
+            return np.asarray(arm)
+        return np.asarray(self._centre(body, self.states) + arm * np.exp(1j * self.angle(body)))
+
+    def velocity(self, body: str, point: str) -> ComplexArray:
+        """Velocity of a body's point [m/s]."""
+        arm = self.system.arm(body, point) * np.exp(1j * self.angle(body))
+        return np.asarray(self._centre(body, self.slopes) + 1j * self.omega(body) * arm)
+
+    def travel(self, slide: str) -> FloatArray:
+        """Distance of a slide's body from the guide's point along the line [m]."""
+        one = next((one for one in self.system.slides if one.name == slide), None)
+        if one is None:
+            known = ", ".join(slide.name for slide in self.system.slides) or "none"
+            raise MechanismError(f"{self.system.name} has no slide {slide!r}", allowed=f"it has {known}")
+        line = one.along + (np.asarray(0.0) if one.guide == GROUND else self.angle(one.guide))
+        apart = self.position(one.body, slide) - self.position(one.guide, slide)
+        return np.asarray(np.real(np.exp(-1j * line) * apart))
+
+    def pin(self, name: str) -> ComplexArray:
+        """Force [N] of a pin, with clearance or without, on its second body; of least norm where joints are redundant.
+
+        On the line of centres and the friction across it, for a pin with clearance.
+        """
+        pins: list[Joint | ClearancePin] = [*self.system.rigid, *self.system.clearances]
+        known = [one.name for one in pins if isinstance(one, Pin | ClearancePin)]
+        if name not in known:
+            raise MechanismError(
+                f"{self.system.name} has no pin {name!r}", allowed=f"it has {', '.join(known) or 'none'}"
+            )
+        row = 2 * [one.name for one in pins].index(name)
+        return np.asarray(self.reactions[..., row] + 1j * self.reactions[..., row + 1])
+
+    def eccentricity(self, name: str) -> ComplexArray:
+        """Place of a clearance pin's journal from its bearing's centre [m], in the world's directions."""
+        one = self.system.clearance(name)
+        return np.asarray(self.position(one.second, name) - self.position(one.first, name))
+
+    @property
+    def energy(self) -> FloatArray:
+        """Kinetic energy, potential of weights and springs, what contacts store [J]."""
+        count = len(self.model.weights)
+        energy = 0.5 * (self.slopes[..., :count] ** 2) @ self.model.weights
+        for k, mass in enumerate(self.model.weights[::3]):
+            place = self.states[..., 3 * k] + 1j * self.states[..., 3 * k + 1]
+            energy = energy - mass * np.real(np.conj(self.model.gravity) * place)
+        for load in self.system.loads:
+            if isinstance(load, Spring):
+                apart = self.position(load.first, load.first_point) - self.position(load.second, load.second_point)
+                energy = energy + 0.5 * load.stiffness * (np.abs(apart) - load.length) ** 2
+        for k, pin in enumerate(self.system.clearances):
+            touching = self.states[..., 2 * count + 1 + k] >= 0
+            deep = np.asarray(np.abs(self.eccentricity(pin.name)) - pin.clearance)
+            energy = energy + touching * pin.elastic_energy(deep)
+        return np.asarray(energy)
+
+    @property
+    def work(self) -> FloatArray:
+        """Work done since the start by pushes, twists, dampers and contacts' losses [J]."""
+        return np.asarray(self.states[..., 2 * len(self.model.weights)])
+
+    def _centre(self, body: str, rows: FloatArray) -> ComplexArray:
+        return np.asarray(self._column(body, rows, 0) + 1j * self._column(body, rows, 1))
+
+    def _column(self, body: str, rows: FloatArray, axis: int) -> FloatArray:
+        if body not in self.system.order:
+            known = ", ".join(self.system.order)
+            raise MechanismError(f"{self.system.name} has no moving body {body!r}", allowed=f"it has {known}")
+        column: FloatArray = np.asarray(rows[..., 3 * self.system.order.index(body) + axis])
+        return column
+
+
+@dataclass(frozen=True, slots=True)
+class SystemRun(Course):
+    """A run of a general system, sample by sample; the last sample is the end.
+
+    steps   the integrator's, those refused among them      peaks   greatest force at each clearance pin, any step [N]
+    events  those met, in their order                       end     the event that ended it; None: its time was over
+    """
+
+    steps: int
+    events: tuple[Happening[Course], ...]
+    peaks: dict[str, float]
+
+    @property
+    def end(self) -> Happening[Course] | None:
+        """The event that ended the run; None where its time was over."""
+        return self.events[-1] if self.events and self.events[-1].terminal else None
+
+    @property
+    def energy_residual(self) -> FloatArray:
+        """Energy gained less the work done since the start [J]: zero but for errors."""
+        residual: FloatArray = self.energy - self.energy[0] - (self.work - self.work[0])
+        return residual
+
+    @property
+    def gap(self) -> float:
+        """Greatest opening of a joint without clearance over the samples [m]."""
+        return max(float(np.max(np.abs(_opened(self.model, state)[0]), initial=0.0)) for state in self.states)
+
+    def indeterminate(self, sample: int = 0) -> tuple[str, ...]:
+        """Joints whose reactions do not follow from the motion in a sample's pose: others could take their part.
+
+        Found from the forces J^T f = 0 that move nothing: there are any where joints are redundant, or for the
+        instant in which the mechanism stands in a singular pose. `pin` gives the forces of least norm of all.
+        """
+        _, rows = _opened(self.model, self.states[sample])
+        full = np.zeros((len(rows), len(self.model.weights)))
+        for row, touched, values in zip(full, self.model.touched, rows, strict=True):
+            for side, body in enumerate(touched):
+                if body >= 0:
+                    row[3 * body : 3 * body + 3] += values[3 * side : 3 * side + 3]
+        eased = full / np.sqrt(self.model.weights)
+        eased /= np.linalg.norm(eased, axis=1, keepdims=True)
+        left, sizes, _ = np.linalg.svd(eased)
+        idle = left[:, np.concatenate((sizes, np.zeros(len(left) - len(sizes)))) < HOLDS]
+        share = np.sqrt(np.sum(np.abs(idle) ** 2, axis=1)) > HOLDS
+        names = [joint.name for joint in self.system.rigid]
+        return tuple(name for k, name in enumerate(names) if share[2 * k] or share[2 * k + 1])
+
+
+def _opened(model: Model, state: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Gaps and Jacobian rows of the joints in a state."""
+    count, size = len(model.touched), len(model.weights)
+    gap, bias, rows = np.zeros(count), np.zeros(count), np.zeros((count, 6))
+    joints(model, state[:size], state[size : 2 * size], gap, rows, bias)
+    return gap, rows

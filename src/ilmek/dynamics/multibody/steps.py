@@ -1,0 +1,271 @@
+# ruff: noqa: PLR0917 - compiled functions take their arguments by position
+"""Compiled integration of a planar multibody system: right-hand side, projection, steps of order 8.
+
+A state is positions, velocities, work, and one number a clearance pin (see `multibody.contact`).
+"""
+
+from typing import TypeAlias
+
+import numpy as np
+
+from ilmek.dynamics.multibody.contact import contacts, settle, stride, until_touch
+from ilmek.dynamics.multibody.kernel import Model, along, applied, factor, grips, held, joints
+from ilmek.num.compiled import compiled
+
+DONE, TOO_SMALL, TOO_MANY, STEPPED = 0, 1, 2, 3
+"""How an integration ended: at its last time, at a step below rounding, at the most steps, after one step."""
+
+TIME, NEXT, TAKEN, DONE_TO, FASTEST, SPUN, PEAKS = 0, 1, 2, 3, 4, 5, 6
+"""Places in the clock of a run, see `advance`."""
+
+Method: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Coefficients: stages and, last, the step; error of third order; of fifth."""
+
+Kept: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""States, slopes and reactions at the times, to be filled."""
+
+STAGES = 12
+"""Stages of the method; one more evaluation, at the step's end, serves the error and the next step."""
+
+
+@compiled
+def rates(model: Model, y: np.ndarray, out: np.ndarray, reaction: np.ndarray) -> None:
+    """Derivative of a state; the joints' reactions (forces f of J^T f on the left side), forces on the journals."""
+    count, size = model.touched.shape[0], model.weights.shape[0]
+    q, v = y[:size], y[size : 2 * size]
+    gap, bias, rows = np.empty(count), np.empty(count), np.empty((count, 6))
+    force, root, grip = np.empty(size), np.empty((size, model.band + 1)), np.empty((count // 2, 3))
+    joints(model, q, v, gap, rows, bias)
+    out[2 * size] = applied(model, q, v, force) + contacts(model, y, force, reaction[count:])
+    for i in range(2 * size + 1, out.shape[0]):
+        out[i] = 0.0
+    grips(model, rows, grip)
+    factor(model, rows, grip, root)
+    for k in range(count):
+        bias[k] = -bias[k]
+    held(model, rows, grip, root, force, bias, out[size : 2 * size], reaction[:count])
+    for i in range(size):
+        out[i] = v[i]
+
+
+@compiled
+def project(model: Model, y: np.ndarray) -> float:
+    """Move positions, then velocities, onto the joints by the least move in the masses' norm; the gap left [m]."""
+    count, size = model.touched.shape[0], model.weights.shape[0]
+    q, v = y[:size], y[size : 2 * size]
+    gap, bias, rows = np.empty(count), np.empty(count), np.empty((count, 6))
+    none, move, reaction = np.zeros(size), np.empty(size), np.empty(count)
+    root, grip = np.empty((size, model.band + 1)), np.empty((count // 2, 3))
+    open_by, before = 0.0, np.inf
+    for _ in range(6):
+        joints(model, q, v, gap, rows, bias)
+        grips(model, rows, grip)
+        factor(model, rows, grip, root)
+        open_by = 0.0
+        for k in range(count):
+            open_by = max(open_by, abs(gap[k]))
+            gap[k] = -gap[k]
+        if open_by <= 1e-15 * model.length or open_by > 0.5 * before:
+            break
+        before = open_by
+        held(model, rows, grip, root, none, gap, move, reaction)
+        for i in range(size):
+            q[i] += move[i]
+    for _ in range(2):
+        for k in range(count):
+            bias[k] = -along(model, rows[k], k, v)
+        held(model, rows, grip, root, none, bias, move, reaction)
+        for i in range(size):
+            v[i] += move[i]
+    return open_by
+
+
+@compiled
+def _sizes(model: Model, clock: np.ndarray, y: np.ndarray, slope: np.ndarray, h: float, out: np.ndarray) -> None:
+    """What each number's error is small against: the mechanism's length, a radian, the fastest so far, the energy."""
+    size = model.weights.shape[0]
+    fast, spin, energy = clock[FASTEST], clock[SPUN], 0.0
+    for i in range(size):
+        v, reach = abs(y[size + i]), abs(slope[size + i]) * h
+        energy += 0.5 * model.weights[i] * (v * v + reach * reach)
+        if i % 3 == 2:
+            spin = max(spin, v + reach)
+        else:
+            fast = max(fast, v + reach)
+    for i in range(size):
+        turning = i % 3 == 2
+        out[i] = 1.0 if turning else model.length
+        out[size + i] = (spin if turning else fast) + 1e-12
+    out[2 * size] = energy + abs(slope[2 * size]) * h + 1e-300
+    for i in range(2 * size + 1, out.shape[0]):
+        out[i] = 1.0
+
+
+@compiled
+def _error(k: np.ndarray, h: float, scale: np.ndarray, method: Method) -> float:
+    """Estimated error of a step over its allowance [Hairer, Norsett and Wanner, II.10: fifth and third order]."""
+    _, e3, e5 = method
+    fifth, third = 0.0, 0.0
+    for i in range(scale.shape[0]):
+        a, b = 0.0, 0.0
+        for s in range(STAGES + 1):
+            a += e5[s] * k[s, i]
+            b += e3[s] * k[s, i]
+        fifth += (a / scale[i]) ** 2
+        third += (b / scale[i]) ** 2
+    if fifth == 0.0 and third == 0.0:
+        return 0.0
+    estimate: float = h * fifth / np.sqrt((fifth + 0.01 * third) * scale.shape[0])
+    return estimate
+
+
+@compiled
+def _copy(source: np.ndarray, target: np.ndarray) -> None:
+    for i in range(source.shape[0]):
+        target[i] = source[i]
+
+
+@compiled
+def _combined(y: np.ndarray, h: float, shares: np.ndarray, k: np.ndarray, count: int, out: np.ndarray) -> None:
+    """Into out goes y + h Σ shares k."""
+    _copy(y, out)
+    for j in range(count):
+        if shares[j] != 0.0:
+            for i in range(y.shape[0]):
+                out[i] += h * shares[j] * k[j, i]
+
+
+@compiled
+def _attempt(
+    model: Model, y: np.ndarray, h: float, a: np.ndarray, k: np.ndarray, f: np.ndarray, new: np.ndarray
+) -> None:
+    """All stages of a step from y, whose slope is k[0]; into `new` goes its end, not yet on the joints."""
+    for s in range(1, STAGES + 1):
+        _combined(y, h, a[s], k, s, new)
+        rates(model, new, k[s], f)
+
+
+@compiled
+def _tried(
+    model: Model,
+    clock: np.ndarray,
+    y: np.ndarray,
+    h: float,
+    method: Method,
+    k: np.ndarray,
+    f: np.ndarray,
+    new: np.ndarray,
+) -> float:
+    """A step into `new`, and its error over what it is small against."""
+    scale = np.empty(y.shape[0])
+    _attempt(model, y, h, method[0], k, f, new)
+    _sizes(model, clock, y, k[0], h, scale)
+    for i in range(y.shape[0]):
+        scale[i] += max(abs(y[i]), abs(new[i]))
+    return _error(k, h, scale, method)
+
+
+@compiled
+def leap(
+    model: Model,
+    y: np.ndarray,
+    slope: np.ndarray,
+    h: float,
+    method: Method,
+    new: np.ndarray,
+    end: np.ndarray,
+    f: np.ndarray,
+) -> None:
+    """One step of h, its error not asked for: state, slope and reactions at its end."""
+    k = np.empty((STAGES + 1, y.shape[0]))
+    _copy(slope, k[0])
+    _attempt(model, y, h, method[0], k, f, new)
+    project(model, new)
+    rates(model, new, end, f)
+
+
+@compiled
+def advance(
+    model: Model,
+    clock: np.ndarray,
+    y: np.ndarray,
+    slope: np.ndarray,
+    f: np.ndarray,
+    times: np.ndarray,
+    rtol: float,
+    most: int,
+    single: bool,
+    method: Method,
+    kept: Kept,
+) -> int:
+    """Steps to the last of the times, or one step where `single`; how it ended.
+
+    clock   time [s], next step [s], steps taken, times reached, greatest speed and spin, greatest contact forces [N]
+    y, slope, f   state, its derivative, reactions there: changed in place; at the times a copy goes to `kept`
+    """
+    last, k, new = times.shape[0] - 1, np.empty((STAGES + 1, y.shape[0])), np.empty(y.shape[0])
+    _copy(slope, k[0])
+    while clock[DONE_TO] < last:
+        clock[TAKEN] += 1
+        if clock[TAKEN] > most:
+            return TOO_MANY
+        left = times[int(clock[DONE_TO]) + 1] - clock[TIME]
+        wish = min(clock[NEXT], stride(model, y, k[0]))
+        ends = wish >= left * (1 - 1e-10)
+        now = left if ends else wish
+        if not now > 1e-14 * max(abs(clock[TIME]), 1e-300):
+            return TOO_SMALL
+        error = _tried(model, clock, y, now, method, k, f, new) / rtol
+        factor = 0.9 * error**-0.125 if 0.0 < error < 1e300 else (6.0 if error == 0.0 else 0.2)
+        if not error < 1.0:
+            clock[NEXT] = now * max(0.2, factor)
+            continue
+        touch = until_touch(model, y, new, now)
+        if touch < now:
+            clock[NEXT] = touch
+            continue
+        grown = now * min(6.0, factor)
+        clock[NEXT] = max(clock[NEXT], grown) if ends else grown
+        clock[TIME] = times[int(clock[DONE_TO]) + 1] if ends else clock[TIME] + now
+        _land(model, clock, y, new, k, f)
+        if ends:
+            clock[DONE_TO] += 1
+            _keep(int(clock[DONE_TO]), y, k[0], f, kept)
+        if single:
+            _copy(k[0], slope)
+            return STEPPED
+    _copy(k[0], slope)
+    return DONE
+
+
+@compiled
+def _land(model: Model, clock: np.ndarray, y: np.ndarray, new: np.ndarray, k: np.ndarray, f: np.ndarray) -> None:
+    """Take a step's end: onto the joints, contacts settled, slope and reactions there, greatest forces."""
+    _copy(new, y)
+    project(model, y)
+    settle(model, y)
+    rates(model, y, k[0], f)
+    held_by, size = model.touched.shape[0], model.weights.shape[0]
+    for i in range(size):
+        greatest = SPUN if i % 3 == 2 else FASTEST
+        clock[greatest] = max(clock[greatest], abs(y[size + i]))
+    for c in range(model.contacts.shape[0]):
+        clock[PEAKS + c] = max(clock[PEAKS + c], np.hypot(f[held_by + 2 * c], f[held_by + 2 * c + 1]))
+
+
+@compiled
+def _keep(at: int, y: np.ndarray, slope: np.ndarray, f: np.ndarray, kept: Kept) -> None:
+    """Write a sample."""
+    states, slopes, reactions = kept
+    _copy(y, states[at])
+    _copy(slope, slopes[at])
+    _copy(f, reactions[at])
+
+
+@compiled
+def begin(model: Model, y: np.ndarray, slope: np.ndarray, f: np.ndarray, kept: Kept) -> None:
+    """Close the joints, see which pins touch, and write the first sample."""
+    project(model, y)
+    settle(model, y)
+    rates(model, y, slope, f)
+    _keep(0, y, slope, f, kept)

@@ -1,0 +1,1 @@
+"""Straight beams on any number of supports: model, solution, result, and formulas of uniform beams."""

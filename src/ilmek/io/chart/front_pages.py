@@ -1,0 +1,147 @@
+"""The first pages of a printed knot chart: the whole carpet with its sheets, and the legend."""
+
+from typing import Any
+
+import numpy as np
+from PIL import Image
+from reportlab.lib.utils import ImageReader, simpleSplit
+
+from ilmek.carpet.chart import Chart
+from ilmek.io.chart.grid import Inks
+from ilmek.io.chart.sheets import Cut
+from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT
+from ilmek.units import format_number
+
+_LEFT, _TOP, _WIDTH, _HEIGHT = 54.0, 800.0, 487.0, 620.0
+_GREY = (0.36, 0.40, 0.44)
+_LINE, _LINES = 19.0, 36
+"""Height of a legend entry [pt], and how many stand in a column; two columns a page."""
+_SMALL = 6.5
+"""Size of a long name's letters [pt]."""
+
+
+def draw_overview(canvas: Any, chart: Chart, plan: Cut, name: str) -> None:
+    """The carpet in true proportion under the grid of sheets, each number a link to its sheet."""
+    canvas.bookmarkPage("overview")
+    canvas.addOutlineEntry("The whole carpet", "overview", 0)
+    canvas.setFont(STRONG, 16)
+    canvas.drawString(_LEFT, _TOP, f"Knot chart: {name}")
+    canvas.setFont(TEXT, 9)
+    canvas.setFillColorRGB(*_GREY)
+    for line, text in enumerate(_facts(chart, plan)):
+        canvas.drawString(_LEFT, _TOP - 19.0 - 13.0 * line, text)
+    proportion = plan.cell_height / plan.cell_width
+    scale = min(_WIDTH / chart.columns, _HEIGHT / chart.rows / proportion)
+    width, height = scale * chart.columns, scale * chart.rows * proportion
+    canvas.saveState()
+    canvas.translate(_LEFT + (_WIDTH - width) / 2, _TOP - 66.0 - height)
+    canvas.drawImage(ImageReader(_thumbnail(chart)), 0, 0, width, height)
+    _sheet_grid(canvas, plan, scale, scale * proportion)
+    canvas.restoreState()
+    canvas.showPage()
+
+
+def _facts(chart: Chart, plan: Cut) -> tuple[str, ...]:
+    size, quality = chart.size, chart.quality
+    lengths = f"{format_number(size.width * 100)} × {format_number(size.length * 100)} cm (width × length)"
+    density = f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} knots per dm"
+    knots = f"{chart.columns} knots × {chart.rows} rows = {_count(chart.knots.size)} knots in {chart.colours} colours"
+    sheets = f" on {_count(plan.count)} sheets of {plan.sheet_columns} knots × {plan.sheet_rows} rows"
+    counted = "Rows are counted from the bottom, knots from the left."
+    return (
+        f"{lengths}, {density}, {chart.knot} knots",
+        knots + (sheets if plan.count > 1 else " on one sheet"),
+        counted + (" Shaded knots belong to the next sheet." if plan.count > 1 else ""),
+    )
+
+
+def _count(number: int) -> str:
+    """A whole number with its thousands apart."""
+    return f"{number:,}".replace(",", "\u202f")
+
+
+def _thumbnail(chart: Chart) -> Image.Image:
+    """The chart as a picture of at most 1200 pixels a side."""
+    picture = Image.fromarray(np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots])
+    return picture.reduce(max(1, -(-max(picture.size) // 1200)))
+
+
+def _sheet_grid(canvas: Any, plan: Cut, wide: float, high: float) -> None:
+    """Borders of the sheets, white under black so that they are seen on any colour, and their numbers."""
+    boxes = [
+        (s.left * wide, s.low * high, (s.right - s.left) * wide, (s.high - s.low) * high, s.number)
+        for s in plan.sheets()
+    ]
+    for grey, width in ((1.0, 1.6), (0.0, 0.5)):
+        canvas.setStrokeGray(grey)
+        canvas.setLineWidth(width)
+        for x, y, across, up, _ in boxes:
+            canvas.rect(x, y, across, up, stroke=1, fill=0)
+    size = min(11.0, 0.42 * plan.sheet_columns * wide, 0.6 * plan.sheet_rows * high)
+    canvas.setFont(STRONG, size)
+    for x, y, across, up, number in boxes:
+        middle, half = (x + across / 2, y + up / 2), canvas.stringWidth(str(number), STRONG, size) / 2 + 0.3 * size
+        canvas.setFillColorRGB(1, 1, 1, alpha=0.88)
+        canvas.roundRect(middle[0] - half, middle[1] - 0.7 * size, 2 * half, 1.4 * size, 0.3 * size, stroke=0, fill=1)
+        canvas.setFillColorRGB(0.1, 0.1, 0.1, alpha=1)
+        canvas.drawCentredString(middle[0], middle[1] - 0.36 * size, str(number))
+        canvas.linkRect("", f"sheet-{number}", (x, y, x + across, y + up), relative=1, thickness=0)
+
+
+def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
+    """Swatch with the symbol as on the chart, symbol alone, name, count and share of every yarn that has knots."""
+    used = [place for place, count in enumerate(chart.counts) if count]
+    canvas.bookmarkPage("legend")
+    canvas.addOutlineEntry("Legend", "legend", 0)
+    for first in range(0, len(used), 2 * _LINES):
+        canvas.setFillColorRGB(0.1, 0.1, 0.1)
+        canvas.setFont(STRONG, 13)
+        canvas.drawString(_LEFT, _TOP, f"Legend: {len(used)} colours, {_count(chart.knots.size)} knots")
+        columns = 1 if len(used) <= _LINES else 2
+        for line, place in enumerate(used[first : first + 2 * _LINES]):
+            column, down = divmod(line, _LINES)
+            width = (330.0, 231.5)[columns - 1]
+            y = _TOP - 28.0 - _LINE * down
+            _entry(canvas, chart, inks, place, (_LEFT + column * (width + 24.0), y, width))
+        canvas.showPage()
+
+
+def _entry(canvas: Any, chart: Chart, inks: Inks, place: int, box: tuple[float, float, float]) -> None:
+    x, y, width = box
+    canvas.setFillColorRGB(*inks.fills[place])
+    canvas.setStrokeGray(0.4)
+    canvas.setLineWidth(0.4)
+    canvas.rect(x, y - 4.0, 24.0, 14.0, stroke=1, fill=1)
+    canvas.setFont(SIGNS, 10)
+    canvas.setFillGray(1.0 if inks.white[place] else 0.0)
+    canvas.drawCentredString(x + 12.0, y, inks.symbols[place])
+    canvas.setFillGray(0.1)
+    canvas.drawCentredString(x + 38.0, y, inks.symbols[place])
+    canvas.setFont(TEXT, 9)
+    count = chart.counts[place]
+    share = 100 * count / chart.knots.size
+    canvas.drawRightString(x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")
+    counted = _count(count)
+    canvas.drawRightString(x + width - 44.0, y, counted)
+    _write_name(canvas, chart.yarns[place].name, (x + 52.0, y), width - 106.0 - canvas.stringWidth(counted, TEXT, 9))
+
+
+def _write_name(canvas: Any, name: str, at: tuple[float, float], room: float) -> None:
+    """A name in one line, or smaller in two."""
+    x, y = at
+    if canvas.stringWidth(name, TEXT, 9) <= room:
+        canvas.drawString(x, y, name)
+        return
+    first, *more = simpleSplit(name, TEXT, _SMALL, room)
+    canvas.setFont(TEXT, _SMALL)
+    canvas.drawString(x, y + 4.0 if more else y, _fitted(canvas, first, room))
+    canvas.drawString(x, y - 3.5, _fitted(canvas, " ".join(more), room))
+
+
+def _fitted(canvas: Any, text: str, room: float) -> str:
+    """The text in small letters, its middle cut out where it is too long: names often differ at the end."""
+    half = len(text) // 2
+    head, tail = text[:half], text[half:]
+    while canvas.stringWidth(shown := f"{head}…{tail}" if len(head + tail) < len(text) else text, TEXT, _SMALL) > room:
+        head, tail = head[:-1], tail[1:]
+    return shown

@@ -1,0 +1,207 @@
+"""One sheet of a knot chart: cells, symbols, lines, numbers, marks."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ilmek.arrays import Indices
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.colour import LINEAR
+from ilmek.carpet.yarn import Yarn
+from ilmek.io.chart.sheets import Cut, Sheet
+from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
+
+_LEFT, _TOP = 54.0, 800.0
+"""Left edge of the cells and baseline of the title [pt]."""
+_GREY, _LIGHT = (0.36, 0.40, 0.44), (0.55, 0.58, 0.62)
+
+
+@dataclass(frozen=True, slots=True)
+class Inks:
+    """How each yarn is printed: fill colour 0 to 1, symbol, and whether the symbol is white."""
+
+    fills: tuple[tuple[float, float, float], ...]
+    symbols: str
+    white: tuple[bool, ...]
+
+    @staticmethod
+    def of(yarns: Sequence[Yarn], symbols: str) -> "Inks":
+        """The inks of a yarn list: the symbol is black or white, whichever has the higher contrast with the yarn."""
+        fills = tuple((yarn.srgb[0] / 255, yarn.srgb[1] / 255, yarn.srgb[2] / 255) for yarn in yarns)
+        return Inks(fills, symbols, tuple(_luminance(yarn.srgb) < 0.179 for yarn in yarns))
+
+
+def _luminance(srgb: tuple[int, int, int]) -> float:
+    """Relative luminance, of black 0 and of white 1; black and white contrast equally at 0.179   [WCAG 2.2, 1.4.3]."""
+    return float(LINEAR[list(srgb)] @ np.array([0.2126, 0.7152, 0.0722]))
+
+
+def draw_sheet(canvas: Any, chart: Chart, plan: Cut, sheet: Sheet, inks: Inks) -> None:
+    """Draw a sheet and end its page."""
+    rows = slice(chart.rows - sheet.shown_high, chart.rows - sheet.low)
+    cells = chart.knots[rows, sheet.left : sheet.shown_right][::-1]
+    canvas.bookmarkPage(f"sheet-{sheet.number}")
+    canvas.addOutlineEntry(f"Sheet {sheet.number}: {sheet.title}", f"sheet-{sheet.number}", 1)
+    canvas.saveState()
+    canvas.translate(_LEFT, _TOP - 42.0 - (sheet.shown_high - sheet.low) * plan.cell_height)
+    _fill_cells(canvas, cells, plan, inks)
+    _write_symbols(canvas, cells, plan, inks)
+    _shade_overlap(canvas, plan, sheet)
+    _draw_lines(canvas, plan, sheet)
+    _write_numbers(canvas, plan, sheet)
+    _mark_middle(canvas, plan, sheet)
+    canvas.restoreState()
+    _write_title(canvas, plan, sheet)
+    canvas.showPage()
+
+
+def runs(cells: Indices) -> dict[int, list[tuple[int, int, int]]]:
+    """The runs of one yarn along the rows: (row, first knot, knots), by yarn.
+
+    >>> runs(np.array([[0, 0, 1], [1, 1, 1]], dtype=np.uint8))
+    {0: [(0, 0, 2)], 1: [(0, 2, 1), (1, 0, 3)]}
+    """
+    columns = cells.shape[1]
+    flat = cells.ravel()
+    begins = np.ones(flat.size, dtype=bool)
+    begins[1:] = flat[1:] != flat[:-1]
+    begins[::columns] = True
+    starts = np.flatnonzero(begins)
+    lengths = np.diff(np.append(starts, flat.size))
+    by_yarn: dict[int, list[tuple[int, int, int]]] = {}
+    rows, firsts = np.divmod(starts, columns)
+    for yarn, *run in zip(flat[starts].tolist(), rows.tolist(), firsts.tolist(), lengths.tolist(), strict=True):
+        by_yarn.setdefault(yarn, []).append((run[0], run[1], run[2]))
+    return by_yarn
+
+
+def _fill_cells(canvas: Any, cells: Indices, plan: Cut, inks: Inks) -> None:
+    """One filled path a yarn, one rectangle a run; the unit is a cell."""
+    canvas.saveState()
+    canvas.scale(plan.cell_width, plan.cell_height)
+    for yarn, pieces in sorted(runs(cells).items()):
+        canvas.setFillColorRGB(*inks.fills[yarn])
+        path = canvas.beginPath()
+        for row, first, count in pieces:
+            path.rect(first, row, count, 1)
+        canvas.drawPath(path, stroke=0, fill=1)
+    canvas.restoreState()
+
+
+def _write_symbols(canvas: Any, cells: Indices, plan: Cut, inks: Inks) -> None:
+    """Each row as two pieces of text, black and white, spaced so that every sign stands in its cell."""
+    size = min(0.74 * plan.cell_height, 0.98 * plan.cell_width)
+    indent = (plan.cell_width - ADVANCE * size) / 2
+    rise = (plan.cell_height - 0.72 * size) / 2
+    canvas.saveState()  # the spacing of the signs would hold for all text that follows
+    for white in (False, True):
+        signs = np.array([sign if pale == white else " " for sign, pale in zip(inks.symbols, inks.white, strict=True)])
+        text = canvas.beginText()
+        text.setFont(SIGNS, size)
+        text.setCharSpace(plan.cell_width - ADVANCE * size)
+        text.setFillGray(1.0 if white else 0.0)
+        for row, line in enumerate(signs[cells]):
+            written = "".join(line.tolist()).rstrip()
+            if written:
+                text.setTextOrigin(indent, row * plan.cell_height + rise)
+                text.textOut(written)
+        canvas.drawText(text)
+    canvas.restoreState()
+
+
+def _shade_overlap(canvas: Any, plan: Cut, sheet: Sheet) -> None:
+    """A pale veil on the knots that belong to the next sheets."""
+    width, height = sheet.right - sheet.left, sheet.high - sheet.low
+    canvas.saveState()
+    canvas.setFillColorRGB(1, 1, 1, alpha=0.55)
+    canvas.scale(plan.cell_width, plan.cell_height)
+    path = canvas.beginPath()
+    path.rect(width, 0, sheet.shown_right - sheet.right, sheet.shown_high - sheet.low)
+    path.rect(0, height, width, sheet.shown_high - sheet.high)
+    canvas.drawPath(path, stroke=0, fill=1)
+    canvas.restoreState()
+
+
+def _draw_lines(canvas: Any, plan: Cut, sheet: Sheet) -> None:
+    """Hairlines round each cell, a bold line each 10 knots of the carpet, a dashed one where the overlap begins."""
+    wide, high = plan.cell_width, plan.cell_height
+    columns, rows = sheet.shown_right - sheet.left, sheet.shown_high - sheet.low
+    upright = [(number * wide, 0.0, number * wide, rows * high) for number in range(columns + 1)]
+    level = [(0.0, number * high, columns * wide, number * high) for number in range(rows + 1)]
+    canvas.setStrokeColorRGB(0.25, 0.25, 0.25, alpha=0.55)
+    canvas.setLineWidth(0.2)
+    canvas.lines(upright + level)
+    bold = [line for number, line in enumerate(upright) if (sheet.left + number) % 10 == 0]
+    bold += [line for number, line in enumerate(level) if (sheet.low + number) % 10 == 0]
+    canvas.setStrokeColorRGB(0, 0, 0, alpha=1)
+    canvas.setLineWidth(0.9)
+    canvas.lines(bold)
+    canvas.rect(0, 0, columns * wide, rows * high, stroke=1, fill=0)
+
+
+def _write_numbers(canvas: Any, plan: Cut, sheet: Sheet) -> None:
+    """Every row's number at both sides, each fifth knot's above and below; tens in bold."""
+    wide, high = plan.cell_width, plan.cell_height
+    right, top = (sheet.shown_right - sheet.left) * wide, (sheet.shown_high - sheet.low) * high
+    small = min(5.2, 0.8 * high)
+    for row in range(sheet.low + 1, sheet.shown_high + 1):
+        y = (row - sheet.low - 0.5) * high - 0.36 * small
+        _ink(canvas, row, small, row <= sheet.high)
+        canvas.drawRightString(-3.5, y, str(row))
+        canvas.drawString(right + 3.5, y, str(row))
+    for knot in range(sheet.left + 1, sheet.shown_right + 1):
+        if knot % 5 == 0 or knot == sheet.left + 1:
+            x = (knot - sheet.left - 0.5) * wide
+            _ink(canvas, knot, 5.2, knot <= sheet.right)
+            canvas.drawCentredString(x, -8.5, str(knot))
+            canvas.drawCentredString(x, top + 4.0, str(knot))
+
+
+def _ink(canvas: Any, number: int, size: float, own: bool) -> None:
+    """Font and grey of a number: tens bold and black, those of the overlap pale."""
+    canvas.setFont(STRONG if number % 10 == 0 else TEXT, size)
+    canvas.setFillColorRGB(*((0.1, 0.1, 0.1) if number % 10 == 0 and own else _GREY if own else _LIGHT))
+
+
+def _mark_middle(canvas: Any, plan: Cut, sheet: Sheet) -> None:
+    """Arrowheads on the edges at the carpet's middle column and middle row, where the sheet has them."""
+    right, top = (sheet.shown_right - sheet.left) * plan.cell_width, (sheet.shown_high - sheet.low) * plan.cell_height
+    x = (plan.columns / 2 - sheet.left) * plan.cell_width
+    y = (plan.rows / 2 - sheet.low) * plan.cell_height
+    canvas.setFillColorRGB(0.70, 0.12, 0.12)
+    path = canvas.beginPath()
+    if 0 <= x <= (sheet.right - sheet.left) * plan.cell_width:
+        for tip, base in ((-10.0, -17.0), (top + 10.5, top + 17.5)):
+            _triangle(path, (x, tip), (x - 4.0, base), (x + 4.0, base))
+    if 0 <= y <= (sheet.high - sheet.low) * plan.cell_height:
+        for tip, base in ((-17.0, -24.0), (right + 17.0, right + 24.0)):
+            _triangle(path, (tip, y), (base, y - 4.0), (base, y + 4.0))
+    canvas.drawPath(path, stroke=0, fill=1)
+
+
+def _triangle(path: Any, *corners: tuple[float, float]) -> None:
+    path.moveTo(*corners[0])
+    for corner in corners[1:]:
+        path.lineTo(*corner)
+    path.close()
+
+
+def _write_title(canvas: Any, plan: Cut, sheet: Sheet) -> None:
+    """What the sheet shows, and where its neighbours are (each a link)."""
+    canvas.setFillColorRGB(0.1, 0.1, 0.1)
+    canvas.setFont(STRONG, 11)
+    canvas.drawString(_LEFT, _TOP, sheet.title)
+    canvas.setFont(TEXT, 8)
+    canvas.setFillColorRGB(*_GREY)
+    canvas.drawRightString(541.0, _TOP, f"sheet {sheet.number} of {plan.count}")
+    arrows = {"left": "←", "right": "→", "below": "↓", "above": "↑"}
+    x = _LEFT
+    for side, number in sheet.neighbours.items():
+        if number:
+            text = f"{arrows[side]} {side}: sheet {number}"
+            width = canvas.stringWidth(text, TEXT, 8)
+            canvas.drawString(x, 26.0, text)
+            canvas.linkRect("", f"sheet-{number}", (x, 22.0, x + width, 34.0), thickness=0)
+            x += width + 18.0

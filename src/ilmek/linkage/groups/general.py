@@ -1,0 +1,210 @@
+"""Any group without a closed form: Newton's method on its loop equations.
+
+    J(x) dx = -c(x) until nothing moves;    J x' = c's inputs' rates;    J x'' = their second rates - bias
+
+The start is a motion of the group's own bodies that `solve` hands in among the known ones; see `newton.starts`.
+Angles are measured in lengths (times the group's size), so that the condition of J is free of units.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, FloatArray, RealField
+from ilmek.linkage import equations
+from ilmek.linkage.body_jerk import BodyJerk
+from ilmek.linkage.body_motion import BodyMotion, PointMotion
+from ilmek.linkage.equations import Equation
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
+from ilmek.linkage.groups.winding import Course, angles, first_angle
+from ilmek.linkage.model import Pin, Rotation, Slide
+from ilmek.num.linear import reciprocal_condition, solve_many
+from ilmek.num.newton import newton
+
+TOLERANCE = 1e-9
+"""Last step of the iteration, of the group's size; quadratic convergence leaves an error at rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Block(Step):
+    """A group of any class, its loop equations solved together.
+
+    scale    its size [m]
+    courses  of the bodies whose angles inputs and couplings alone determine
+    """
+
+    group: Group
+    scale: float
+    courses: Mapping[str, Course] = field(default_factory=dict)
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """All bodies of the group."""
+        return self.group.bodies
+
+    @property
+    def parents(self) -> tuple[str, ...]:
+        """The bodies it hangs on."""
+        return self.group.parents
+
+    @property
+    def words(self) -> str:
+        """What it is, for people."""
+        joints = ", ".join(joint.name for joint in self.group.joints)
+        return f"{', '.join(self.bodies)} with joints {joints}: Newton's method on the loop equations"
+
+    @property
+    def failure(self) -> str:
+        """Name of the Status of a sample that it cannot solve."""
+        return "NOT_CONVERGED"
+
+    def gap(self, known: Known) -> RealField:  # noqa: ARG002 - says only that it failed
+        """Unknown: the iteration does not say by how much it fails."""
+        return np.nan
+
+    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:
+        """Directions, rates and origins of all bodies, starting from their motions in `known`."""
+        start = {body: _still(known[body]) for body in self.bodies}
+        samples = np.broadcast_shapes(*(np.shape(drive.value) for drive in drives.values()))
+        fixed = {body: _still(known[body]) for body in self.parents}
+
+        def at(x: FloatArray) -> dict[str, BodyMotion]:
+            return fixed | self._moved(start, x)
+
+        def system(x: FloatArray) -> tuple[FloatArray, FloatArray]:
+            held = self.equations(at(x), drives)
+            return _stack([one.value * self._unit(one) for one in held], samples), self._matrix(held, samples)
+
+        shape = (*samples, 3 * len(self.bodies))
+        x = newton(system, np.zeros(shape), tolerance=TOLERANCE * self.scale)
+        posed = at(x)
+        matrix = self._matrix(self.equations(posed, drives), samples)
+        return self._rates(known, posed, drives, matrix)
+
+    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:  # noqa: ARG002
+        """The bodies, anchored at their origins."""
+        return {body: BodyMotion(PointMotion(*columns[body][3:]), 0j, *columns[body][:3]) for body in self.bodies}
+
+    def equations(self, bodies: Known, drives: Mapping[str, Drive]) -> list[Equation]:
+        """The group's loop equations in the poses and at the velocities of `bodies`, origin-anchored."""
+        mechanism, held = self.group.mechanism, []
+        for joint in self.group.joints:
+            if isinstance(joint, Pin):
+                held += equations.pin_equations(mechanism, joint, bodies)
+            else:
+                held += equations.slide_equations(mechanism, joint, bodies)
+        for entry in self.group.inputs:
+            joint, drive = mechanism.joint(entry.joint), drives[entry.name]
+            if isinstance(entry, Rotation):
+                held.append(equations.rotation_equation(mechanism, entry, drive, bodies))
+            elif isinstance(joint, Slide):
+                held.append(equations.displacement_equation(mechanism, joint, drive, bodies))
+        for coupling in self.group.couplings:
+            near = first_angle(coupling, self.courses, drives)
+            held.append(equations.coupling_equation(mechanism, coupling, near, bodies))
+        return held
+
+    def _rates(self, known: Known, posed: Known, drives: Mapping[str, Drive], matrix: FloatArray) -> Solved:
+        """Velocities, then accelerations: the same matrix twice."""
+        samples = matrix.shape[:-2]
+        moving = dict(posed) | {body: _at_origin(known[body]) for body in self.parents}
+        held = self.equations(moving, drives)
+        speeds = {body: (moving[body].anchor.velocity, moving[body].omega) for body in self.parents}
+        demand = [(one.rate - _share(one, speeds)) * self._unit(one) for one in held]
+        v = solve_many(matrix, _stack(demand, samples))
+        moving |= {body: self._with_velocity(posed[body], v, k) for k, body in enumerate(self.bodies)}
+        held = self.equations(moving, drives)
+        gains = {body: (moving[body].anchor.acceleration, moving[body].alpha) for body in self.parents}
+        demand = [(one.second_rate - one.bias - _share(one, gains)) * self._unit(one) for one in held]
+        a = solve_many(matrix, _stack(demand, samples))
+        columns = {body: self._columns(moving[body], a, k) for k, body in enumerate(self.bodies)}
+        return Solved(columns, reciprocal_condition(matrix))
+
+    def jerk(
+        self,
+        known: KnownJerks,
+        placed: Known,
+        columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, Drive],
+    ) -> Mapping[str, BodyJerk]:
+        """The bodies': the matrix of `solve` once more, with the third rates' right side."""
+        moving = dict(placed) | {body: _at_origin(known[body].motion) for body in self.parents}
+        shapes = (np.shape(field) for body in moving.values() for field in (body.direction, body.alpha))
+        samples = np.broadcast_shapes(*shapes)
+        held = self.equations(moving, drives)
+        biases = equations.third_biases(self.group, moving)
+        jerks = {body: (known[body].carry(0j), known[body].beta) for body in self.parents}
+        demand = [
+            (one.third_rate - bias - _share(one, jerks)) * self._unit(one)
+            for one, bias in zip(held, biases, strict=True)
+        ]
+        x = solve_many(self._matrix(held, samples), _stack(demand, samples))
+        return {
+            body: BodyJerk(placed[body], x[..., 3 * k] + 1j * x[..., 3 * k + 1], x[..., 3 * k + 2] / self.scale)
+            for k, body in enumerate(self.bodies)
+        }
+
+    def _unit(self, equation: Equation) -> float:
+        return 1.0 if equation.length else self.scale
+
+    def _matrix(self, held: list[Equation], samples: tuple[int, ...]) -> FloatArray:
+        """Derivatives by (x, y, scale theta) of the group's bodies."""
+        size = 3 * len(self.bodies)
+        matrix = np.zeros((*samples, size, size))
+        for i, one in enumerate(held):
+            for k, body in enumerate(self.bodies):
+                if body in one.row:
+                    for j, (slope, per) in enumerate(zip(one.row[body], (1, 1, self.scale), strict=True)):
+                        matrix[..., i, 3 * k + j] = slope * self._unit(one) / per
+        return matrix
+
+    def _moved(self, start: Known, x: FloatArray) -> dict[str, BodyMotion]:
+        """The bodies moved by x from where they started, at rest."""
+        moved = {}
+        for k, body in enumerate(self.bodies):
+            shift, turn = x[..., 3 * k] + 1j * x[..., 3 * k + 1], x[..., 3 * k + 2] / self.scale
+            position = start[body].anchor.position + shift
+            rest = np.zeros_like(turn)
+            anchor = PointMotion(position, 0j, 0j)
+            moved[body] = BodyMotion(anchor, 0j, start[body].direction * np.exp(1j * turn), rest, rest)
+        return moved
+
+    def _with_velocity(self, body: BodyMotion, v: FloatArray, k: int) -> BodyMotion:
+        anchor = PointMotion(body.anchor.position, v[..., 3 * k] + 1j * v[..., 3 * k + 1], 0j)
+        return BodyMotion(anchor, 0j, body.direction, v[..., 3 * k + 2] / self.scale, body.alpha)
+
+    def _columns(self, body: BodyMotion, a: FloatArray, k: int) -> Columns:
+        acceleration, alpha = a[..., 3 * k] + 1j * a[..., 3 * k + 1], a[..., 3 * k + 2] / self.scale
+        return body.direction, body.omega, alpha, body.anchor.position, body.anchor.velocity, acceleration
+
+
+def from_group(group: Group) -> Block:
+    """The group as a block for Newton's method."""
+    points = [abs(point) for body in group.bodies for point in group.mechanism.body(body).points.values()]
+    reach = max([*points, *(abs(p) for p in group.mechanism.body("ground").points.values())])
+    return Block(group, reach or 1.0, angles(group.mechanism) if group.couplings else {})
+
+
+def _share(one: Equation, rates: Mapping[str, tuple[ComplexField, RealField]]) -> RealField:
+    """What the known bodies contribute to an equation's rate, by the rates of their origins and angles."""
+    share: RealField = 0.0
+    for body, (move, turn) in rates.items():
+        if body in one.row:
+            dx, dy, dtheta = one.row[body]
+            share = share + dx * move.real + dy * move.imag + dtheta * turn
+    return share
+
+
+def _at_origin(body: BodyMotion) -> BodyMotion:
+    """The same motion, anchored at the origin of the body's frame."""
+    return BodyMotion(body.carry(0j), 0j, body.direction, body.omega, body.alpha)
+
+
+def _still(body: BodyMotion) -> BodyMotion:
+    """The pose alone."""
+    return BodyMotion(PointMotion(body.carry(0j).position, 0j, 0j), 0j, body.direction, 0.0, 0.0)
+
+
+def _stack(values: list[RealField], samples: tuple[int, ...]) -> FloatArray:
+    return np.stack([np.broadcast_to(np.asarray(value, dtype=float), samples) for value in values], axis=-1)

@@ -1,0 +1,150 @@
+"""The cam turning under its follower: the cam's outline turns, the follower goes up and down its guide."""
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.cams.programme import TURN
+from ilmek.cams.trace import Trace
+from ilmek.machines.animation import frames
+from ilmek.machines.cam import developed_cams
+from ilmek.machines.cam.design import CamDesign
+from ilmek.machines.cam.parts import cutouts, rim_radius, zero_mark
+from ilmek.plane import contours
+from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
+from ilmek.units import mm
+
+OUTLINE = 361
+CHORD = 0.05 * mm
+
+
+def moving(design: CamDesign) -> Animation:
+    """A turn of the cam, from the start of the rise on; a slide is drawn upright."""
+    if design.params.laid_flat:
+        return developed_cams.moving(design)
+    at = frames()
+    up = _up(design)
+    turned = up * np.exp(1j * at)[:, None]
+    state = design.state(at)
+    centre = up * state.trace.pitch * np.exp(1j * at)
+    surface = design.cam.trace(np.linspace(0.0, TURN, OUTLINE)).surface[:-1]
+    bores = [contours.along(hole, CHORD) for hole in cutouts(design, design.cam)]
+    strokes = (
+        MovingStroke(turned * surface, "outline", "cam", closed=True),
+        *(MovingStroke(turned * edge, "outline", closed=True) for edge in _more_edges(design)),
+        *(MovingStroke(turned * bore, "outline", closed=True) for bore in bores),
+        MovingStroke(turned * zero_mark(design), "outline"),
+        *_follower(design, state.trace, centre),
+        *_second_follower(design, at),
+    )
+    readings = (
+        Reading("lift", state.trace.course.s * design.params.per_unit, "mm"),
+        Reading("pressure angle", state.trace.pressure_angle, "deg"),
+        Reading("contact force", state.normal, "N"),
+        Reading("torque", state.torque, "N*m"),
+    )
+    period = TURN / design.params.speed if design.params.speed > 0 else None
+    touched = MovingDot(up * state.trace.surface * np.exp(1j * at), "", "point")
+    dots = (Dot(0j, "", "pivot"), *((Dot(_pivot(design), "", "pivot"),) if _swings(design) else ()))
+    guide = () if _swings(design) else _guide(design, centre)
+    drawing = Drawing("cam-moving", "Cam in motion", guide, dots)
+    return Animation(drawing, Axis("cam angle", "deg"), at, strokes, (touched,), True, 0, period, readings)
+
+
+def _more_edges(design: CamDesign) -> tuple[ComplexArray, ...]:
+    """A groove's outer flank and rim; the second of two conjugate cams."""
+    turn = np.linspace(0.0, TURN, OUTLINE)
+    if design.params.kind == "grooved":
+        return (
+            design.cam.trace(turn).parallel(design.cam.roller_radius)[:-1],
+            rim_radius(design) * np.exp(1j * turn)[:-1],
+        )
+    return (design.cams.pair.second.trace(turn).surface[:-1],) if design.cams.pair else ()
+
+
+def _second_follower(design: CamDesign, at: FloatArray) -> tuple[MovingStroke, ...]:
+    """The roller or face of the second conjugate cam, and what joins it to the first."""
+    pair = design.cams.pair
+    if pair is None:
+        return ()
+    up, (first, second) = _up(design), pair.traces(at)
+    ends = [up * trace.pitch * np.exp(1j * at) for trace in (first, second)]
+    if design.cam.flat:
+        foot = 1j * np.imag(ends[1]) + design.params.offset
+        return (MovingStroke(foot[:, None] + _face(design) * np.array([-1.0, 1.0]), "link", "second face"),)
+    circle = pair.second.roller_radius * np.exp(1j * np.linspace(0.0, TURN, 49)[:-1])
+    joint = np.full_like(ends[1], _pivot(design)) if _swings(design) else ends[0]
+    rod = MovingStroke(np.stack([joint, ends[1]], axis=1), "link", "second roller")
+    return (MovingStroke(ends[1][:, None] + circle, "outline", closed=True), rod)
+
+
+def _swings(design: CamDesign) -> bool:
+    return design.params.motion == "oscillating"
+
+
+def _up(design: CamDesign) -> complex:
+    """Where +x of the formulas is drawn."""
+    return 1 + 0j if _swings(design) else 1j
+
+
+def _pivot(design: CamDesign) -> complex:
+    return complex(design.params.pivot_distance)
+
+
+def _reach(design: CamDesign) -> float:
+    """Length of the drawn stem [m]."""
+    return 2.2 * design.params.lift + 0.6 * design.cam.prime_radius
+
+
+def _follower(design: CamDesign, trace: Trace, centre: ComplexArray) -> tuple[MovingStroke, ...]:
+    """What touches the cam, and what carries it."""
+    radius, name = design.cam.roller_radius, design.params.follower
+    carrier = _carrier(design, trace, centre)
+    if design.cam.flat:
+        return (MovingStroke(carrier, "link", "flat follower"), *_stem(design, centre))
+    if radius == 0:
+        return (MovingStroke(carrier, "link", name),)
+    circle = radius * np.exp(1j * np.linspace(0.0, TURN, 49)[:-1])
+    return (
+        MovingStroke(centre[:, None] + circle, "outline", closed=True),
+        MovingStroke(carrier, "link", name),
+    )
+
+
+def _carrier(design: CamDesign, trace: Trace, centre: ComplexArray) -> ComplexArray:
+    """Stem, arm or face at every frame."""
+    up = _up(design)
+    if not design.cam.flat and _swings(design):
+        return np.stack([np.full_like(centre, _pivot(design)), centre], axis=1)
+    if not design.cam.flat:
+        return np.asarray(centre[:, None] + up * _reach(design) * np.array([0.0, 1.0]))
+    along = 1j * up * trace.normal * np.exp(1j * trace.angle)
+    if not _swings(design):
+        return np.asarray(
+            (up * np.imag(centre) + design.params.offset)[:, None] + _face(design) * np.array([-1.0, 1.0])
+        )
+    foot = _pivot(design) + design.params.face_offset * along * -1j
+    far = centre + 0.2 * (centre - foot)
+    return np.stack([np.full_like(centre, _pivot(design)), foot, far], axis=1)
+
+
+def _stem(design: CamDesign, centre: ComplexArray) -> tuple[MovingStroke, ...]:
+    """The stem of a flat face on a slide."""
+    if _swings(design):
+        return ()
+    foot = 1j * np.imag(centre)[:, None] + design.params.offset
+    return (MovingStroke(foot + 1j * _reach(design) * np.array([0.0, 1.0]), "link"),)
+
+
+def _face(design: CamDesign) -> float:
+    """Half length of a flat face, a tenth longer than the way of the contact on it [m]."""
+    angle: FloatArray = np.linspace(0.0, TURN, OUTLINE)
+    return 1.1 * float(np.max(np.abs(design.programme.at(angle).ds - design.params.offset)))
+
+
+def _guide(design: CamDesign, centre: ComplexArray) -> tuple[Stroke, ...]:
+    """Both walls of the guide, above the highest place of what touches the cam."""
+    low = float(np.max(centre.imag)) + 1.2 * design.cam.roller_radius
+    high = float(np.min(centre.imag)) + _reach(design)
+    low = min(low, high - 0.05 * design.cam.prime_radius)
+    line = design.params.offset + 1j * np.array([low, high])
+    return (Stroke(line, "guide"), Stroke(line[::-1], "guide"))

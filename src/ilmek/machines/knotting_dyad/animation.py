@@ -1,0 +1,86 @@
+"""The head in motion: both arms, the centre gripper, and the yarn as it lies where its ends went."""
+
+import numpy as np
+from jaxtyping import Complex, Float
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.machines.knotting_dyad.clearance import Bars, arm_bars, mirrored_bars
+from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.motion import Cycle, Part
+from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT, Phase
+from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
+from ilmek.units import turn
+
+FRAMES = 66
+ALONG, EACH = 80, 41
+"""Places that the yarn is drawn through, and that an end's way of a phase is known at."""
+
+
+def moving(head: Head, cycle: Cycle) -> Animation:
+    """A cycle, as quick as the drives allow."""
+    section, time = head.section, np.arange(FRAMES) * (cycle.period / FRAMES)
+    left, right, centre = _at(cycle, time)
+    bars = arm_bars(section, head.arm, left), mirrored_bars(section, arm_bars(section, head.arm, right))
+    arms = [_links(one, name) for one, name in zip(bars, ("left arm", "right arm"), strict=True)]
+    tip = section.middle + 1j * centre
+    gripper = MovingStroke(np.stack([tip, tip + 1j * section.needle_length], -1), "outline")
+    ends = [_led(head, cycle, end) for end in (0, 1)]
+    yarn = MovingStroke(np.stack([_yarn(ends, float(now)) for now in time]), "outline")
+    elbows = tuple(MovingDot(one.starts[:, 1], name) for one, name in zip(bars, ("E", "E'"), strict=True))
+    pivot = head.arm.pivot
+    dots = (Dot(pivot, "O", "pivot"), Dot(complex(2 * section.middle - pivot.conjugate()), "O'", "pivot"))
+    ring = section.warp / 2 * np.exp(1j * turn * np.arange(24) / 24)
+    still = Drawing(
+        "knotting-dyad-moving",
+        "The head ties a knot",
+        tuple(Stroke(place + ring, "outline", closed=True, filled=True) for place in section.warps),
+        dots,
+        note="The yarn lies where its ends went, not yet tightened.",
+    )
+    readings = (Reading("left arm s", left), Reading("right arm s", right), Reading("centre gripper", centre, "mm"))
+    strokes = (yarn, *arms[0], *arms[1], gripper)
+    return Animation(still, Axis("time", "ms"), time, strokes, elbows, period=cycle.period, readings=readings)
+
+
+def _at(cycle: Cycle, time: Float[np.ndarray, " n"]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Places of both arms, s, and the height of the centre gripper's tip at times."""
+    courses = cycle.arms[LEFT].s, cycle.arms[RIGHT].s, cycle.centre[0]
+    left, right, centre = (np.interp(time, cycle.time, one) for one in courses)
+    return left, right, centre
+
+
+def _links(bars: Bars, name: str) -> tuple[MovingStroke, ...]:
+    """First link, wide part of the second, needle."""
+    wide = [MovingStroke(np.stack([bars.starts[:, k], bars.ends[:, k]], -1), "link", name) for k in (0, 1)]
+    return (*wide, MovingStroke(np.stack([bars.starts[:, 2], bars.ends[:, 2]], -1), "outline"))
+
+
+def _led(head: Head, cycle: Cycle, end: int) -> tuple[FloatArray, ComplexArray]:
+    """Times at which an end is led, and its places then."""
+    parts = [part for part in cycle.parts if not part.grippers]
+    led = [
+        _carried(head, cycle, part, phase, end)
+        for part, phase in zip(parts, head.phases, strict=True)
+        if phase.carries[end]
+    ]
+    times, places = zip(*led, strict=True)
+    return np.concatenate(times), np.concatenate(places)
+
+
+def _carried(head: Head, cycle: Cycle, part: Part, phase: Phase, end: int) -> tuple[FloatArray, ComplexArray]:
+    time = np.linspace(part.start, part.end, EACH)
+    left, right, centre = _at(cycle, time)
+    carrier = phase.carries[end]
+    if carrier == CENTRE:
+        return time, np.asarray(head.section.middle + 1j * centre)
+    tip = head.arm.tip(left if carrier == LEFT else right)
+    return time, tip if carrier == LEFT else np.asarray(2 * head.section.middle - np.conj(tip))
+
+
+def _yarn(ends: list[tuple[FloatArray, ComplexArray]], now: float) -> Complex[np.ndarray, " along"]:
+    """The yarn at a time: the first end's way until then backwards, then the second's, in even steps."""
+    first, second = (places[: max(int(np.searchsorted(times, now, side="right")), 1)] for times, places in ends)
+    whole = np.concatenate([first[::-1], second])
+    length = np.append(0.0, np.cumsum(np.abs(np.diff(whole))))
+    even = np.linspace(0.0, length[-1], ALONG)
+    return np.asarray(np.interp(even, length, whole.real) + 1j * np.interp(even, length, whole.imag))

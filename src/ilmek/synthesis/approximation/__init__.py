@@ -1,0 +1,1 @@
+"""Approximate synthesis: synthesis polynomials, least squares and minimax, function generators over a whole range."""

@@ -1,0 +1,241 @@
+"""The search for function generators: where it begins, how it descends, and what of its ends is a four-bar.
+
+Starts are the four-bars through Chebyshev's places, the answers of least design error, and where start angles are free
+the local leasts of the structural error on a grid of them, each with its design fitted. Squares come first; a minimax
+goes on from their ends.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from jaxtyping import Bool
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.errors import ParameterError
+from ilmek.synthesis.approximation.exchange import PROVEN, minimax_over_range
+from ilmek.synthesis.approximation.function_design import design_generators
+from ilmek.synthesis.approximation.function_error import (
+    Generator,
+    StructuralErrors,
+    Weight,
+    design_fit,
+    margin,
+    of_four_bar,
+    structural_error,
+)
+from ilmek.synthesis.approximation.least_squares import squares_descent
+from ilmek.synthesis.freudenstein import generators_of
+from ilmek.synthesis.function import Function
+
+Starts: TypeAlias = tuple[float | None, float | None]
+"""Start angles of crank and rocker [rad], None where free."""
+
+Free: TypeAlias = Bool[np.ndarray, "5"]
+"""Which numbers of a generator are free."""
+
+PLACES = 129
+"""Places of the range on which a minimax begins; its extremes are added to them."""
+
+NODES = 48
+"""Gauss's nodes for the integral of the squares."""
+
+GRID = {1: 90, 2: 24}
+"""Directions tried of each free start angle, by how many are free; half a turn is enough, as links may be negative."""
+
+STARTS = 8
+"""Local leasts on the grid from which descents are begun."""
+
+DEAD = 1e-5
+"""Margin at which a four-bar stands in a dead centre: the rocker within 0.2 degrees of the line to the crank's pin."""
+
+NOTHING = 1e-10
+"""Error [rad] that counts as none."""
+
+UNEVEN = 1000.0
+"""Longest by shortest link at which a four-bar runs off to infinity instead of ending."""
+
+SAME = 1e-4
+"""Distance of their pins, in ground links, below which two four-bars are one: flat minima are known no better."""
+
+NONE = {
+    True: "no four-bar goes through Chebyshev's places with this start angle",
+    False: "no four-bar of least design error closes all over the range, whatever its free start angles",
+}
+"""What is said where there is nothing to begin with: of interpolation, and of other criteria."""
+
+UNPROVEN = {
+    True: "a four-bar that shows Chebyshev's places on both of its branches",
+    False: "a search that came to no end: a valley without a floor, or one too flat to be followed",
+}
+"""What is said of an end that is not proven: of interpolation, and of other criteria."""
+
+
+class End(NamedTuple):
+    """Where a descent stands: a generator with its sense, what is not proven, and a minimax's bound [rad]."""
+
+    sense: int
+    generator: Generator
+    gap: float
+    bound: float
+
+
+def range_places(function: Function, count: int) -> FloatArray:
+    """Places over the range, denser towards its ends."""
+    middle, half = 0.5 * (function.start + function.stop), 0.5 * abs(function.stop - function.start)
+    return np.asarray(middle - half * np.cos(np.linspace(0, np.pi, count)))
+
+
+def gauss_places(function: Function, weight: Weight | None) -> tuple[FloatArray, FloatArray]:
+    """Gauss's nodes over the range and the weights with which squares there add up to their mean over it."""
+    nodes, shares = np.polynomial.legendre.leggauss(NODES)
+    x = 0.5 * (function.start + function.stop) + 0.5 * (function.stop - function.start) * nodes
+    return x, 0.5 * shares * (1.0 if weight is None else weight(x) ** 2)
+
+
+def generator_search(
+    function: Function, criterion: str, starts: Starts, weight: Weight | None
+) -> tuple[list[End], tuple[str, ...]]:
+    """Generators that are best nearby by a criterion, each once, and in words what came out that is none.
+
+    What is not proven is among them only where nothing else is. Raises ParameterError where a whole family of
+    four-bars goes through Chebyshev's places.
+    """
+    left_out: list[str] = []
+    ends = [End(*start, 0.0, math.nan) for start in _starts(function, starts, weight, left_out, criterion)]
+    if not ends:
+        left_out.append(NONE[criterion == "interpolation"])
+    free = np.array([True, True, True, *(start is None for start in starts)])
+    for descent in DESCENTS[criterion]:
+        ended = _different(function, [descent(function, end, free, weight) for end in ends], left_out, criterion)
+        ends = ended if ended or descent is DESCENTS[criterion][-1] else ends
+    return ends, tuple(dict.fromkeys(left_out))
+
+
+def _starts(
+    function: Function, starts: Starts, weight: Weight | None, left_out: list[str], criterion: str
+) -> Iterator[tuple[int, Generator]]:
+    """Senses and generators from which descents begin."""
+    points = 3 + sum(start is None for start in starts)
+    at = float(function.nodes(points)[0])
+    exact = generators_of(function, points, crank_start=starts[0], rocker_start=starts[1])
+    left_out.extend(exact.left_out)
+    for four_bar in exact.four_bars:
+        yield of_four_bar(four_bar, function, at, starts)
+    if criterion == "interpolation":
+        return
+    if points < 5:
+        try:
+            answers = design_generators(
+                function, "least squares", crank_start=starts[0], rocker_start=starts[1], weight=weight
+            ).found
+        except ParameterError:  # a range so small that terms look alike; the grid does not mind
+            answers = ()
+        for design in answers:
+            if design.error.kind == "minimum" and margin(function, design.generator) > DEAD:
+                yield _better_sense(function, design.generator), design.generator
+    if points > 3:
+        yield from _grid(function, starts, weight)
+
+
+def _better_sense(function: Function, one: Generator) -> int:
+    """The sense with the smaller structural error."""
+    x = range_places(function, PLACES)
+    worst = [float(np.max(np.abs(structural_error(function, one, sense, x)))) for sense in (+1, -1)]
+    return +1 if worst[0] <= worst[1] else -1
+
+
+def _grid(function: Function, starts: Starts, weight: Weight | None) -> Iterator[tuple[int, Generator]]:
+    """The local leasts of the structural error among the generators of least design error on the grid."""
+    directions = np.linspace(0, np.pi, GRID[sum(start is None for start in starts)], endpoint=False)
+    axes = [directions if start is None else np.array([start]) for start in starts]
+    alpha, beta = np.meshgrid(*axes, indexing="ij")
+    x, shares = gauss_places(function, weight)
+    fitted = design_fit(function, (alpha, beta), x, shares)
+    squares = np.stack(
+        [np.sum(shares * structural_error(function, fitted, sign, x) ** 2, axis=-1) for sign in (+1, -1)]
+    )
+    squares = np.where(np.isfinite(squares), squares, np.inf)
+    least = np.min(squares, axis=0)
+    low = np.isfinite(least)
+    for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
+        low &= least <= np.roll(least, step, axis=axis)
+    rows = np.argwhere(low)
+    found = 0
+    for i, j in sorted(rows.tolist(), key=lambda at: float(least[at[0], at[1]])):
+        one = Generator(*(float(np.asarray(number)[i, j]) for number in fitted))
+        if found < STARTS and margin(function, one) > DEAD:
+            found += 1
+            yield (+1 if squares[0, i, j] <= squares[1, i, j] else -1), one
+
+
+def _least_squares(function: Function, end: End, free: Free, weight: Weight | None) -> End:
+    """The nearest least mean square of the structural error."""
+    errors = StructuralErrors(function, end.sense, end.generator.numbers, free)
+    x, shares = gauss_places(function, weight)
+    root = np.sqrt(shares)
+
+    def shared(parameters: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        found, slopes = errors(parameters, x)
+        return root * found, root[:, None] * slopes
+
+    best = squares_descent(shared, errors.known[free], x)
+    gap = best.slope if best.squares > NOTHING**2 else 0.0
+    return End(end.sense, errors.generator(best.parameters), gap, math.nan)
+
+
+def _minimax(function: Function, end: End, free: Free, weight: Weight | None) -> End:
+    """The nearest least greatest structural error, and the bound that proves it."""
+    errors = StructuralErrors(function, end.sense, end.generator.numbers, free, weight)
+    best = minimax_over_range(errors, errors.known[free], range_places(function, PLACES), least=NOTHING)
+    gap = best.gap if best.worst > NOTHING else 0.0
+    return End(end.sense, errors.generator(best.parameters), gap, best.level)
+
+
+def _interpolated(function: Function, end: End, free: Free, _: Weight | None) -> End:
+    """The same, with the error at Chebyshev's places: a four-bar may show some of them on its other branch."""
+    nodes = function.nodes(int(np.sum(free)))
+    missed = float(np.max(np.abs(structural_error(function, end.generator, end.sense, nodes))))
+    return End(end.sense, end.generator, missed, math.nan)
+
+
+DESCENTS = {
+    "interpolation": (_interpolated,),
+    "least squares": (_least_squares,),
+    "minimax": (_least_squares, _minimax),
+}
+"""What follows the starts, for each criterion."""
+
+
+def _different(function: Function, ends: list[End], left_out: list[str], criterion: str) -> list[End]:
+    """Ends that are four-bars, each once, the proven ones if there are any; what goes is said."""
+    kept: list[End] = []
+    places: list[ComplexArray] = []
+    for end in ends:
+        words = _defect(function, end)
+        if words:
+            left_out.append(words)
+            continue
+        drawn = end.generator.drawn(function, function.start, end.sense, 1.0)
+        at = np.array([drawn.a, drawn.b])
+        if all(np.max(np.abs(at - other)) > SAME * np.max(np.abs(at)) for other in places):
+            kept.append(end)
+            places.append(at)
+    proven = [end for end in kept if end.gap <= PROVEN]
+    if len(proven) < len(kept):
+        left_out.append(UNPROVEN[criterion == "interpolation"])
+    return proven if criterion == "interpolation" else proven or kept
+
+
+def _defect(function: Function, end: End) -> str:
+    """Why a generator is none; empty where it is one."""
+    links = np.abs([1.0, *end.generator.links])
+    if not np.max(links) <= UNEVEN * np.min(links):
+        return f"a four-bar that runs off: its links become more than {UNEVEN:g} to 1"
+    free = margin(function, end.generator)
+    if free < 0:
+        return "a four-bar that does not close all over the range"
+    if not free > DEAD:
+        return "a four-bar that the range takes into a dead centre"
+    return ""

@@ -1,0 +1,1 @@
+"""Motion generation by Burmester's theory: links that guide a body through given poses."""

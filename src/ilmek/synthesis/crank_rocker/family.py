@@ -1,0 +1,119 @@
+"""The family of crank-rockers of one swing and one turn of the crank, as arrays: its members and what each is worth.
+
+Members are evenly apart in the ratio a / b, which names them for every phi (`beta` does not), half a step from both
+ends of the open interval: nearer than that to an end stand toggles, of use to nobody.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.synthesis.crank_rocker.dead_centres import (
+    Limits,
+    Links,
+    beta_of_ratio,
+    grashof_margin,
+    links_of_ratio,
+    ratio_limits,
+    transmission_angle_min,
+)
+from ilmek.synthesis.crank_rocker.motion import beat_acceleration, rocker_extremes
+from ilmek.synthesis.crank_rocker.selection import require_rotation
+
+COUNT = 1000
+"""Members of a family, unsaid."""
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """Crank-rockers with one swing and one turn of the crank [rad], by ascending ratio crank / coupler."""
+
+    swing: float
+    rotation: float
+    ratio: Float[np.ndarray, " members"]
+
+    def __len__(self) -> int:
+        return self.ratio.size
+
+    @property
+    def links(self) -> Links:
+        """Their links, in ground links."""
+        return links_of_ratio(self.swing, self.rotation, self.ratio)
+
+    @property
+    def beta(self) -> FloatArray:
+        """Crank angles of the extended dead centre [rad]."""
+        return np.broadcast_to(beta_of_ratio(self.swing, self.rotation, self.ratio), self.ratio.shape)
+
+    def geometry(self, reach: RealField | None = None) -> dict[str, FloatArray]:
+        """What lengths alone say, by name; reach: of the rocker's far end from its pivot, unsaid its pin.
+
+        crank_coupler_ratio, transmission_angle_min [rad], link_ratio, grashof_margin and size [ground links]
+        """
+        links = self.links
+        return {
+            "crank_coupler_ratio": self.ratio,
+            "transmission_angle_min": np.asarray(transmission_angle_min(links)),
+            "link_ratio": np.asarray(link_ratio(links)),
+            "grashof_margin": np.asarray(grashof_margin(links)),
+            "size": np.asarray(size(links, self.beta, reach)),
+        }
+
+    def kinematics(self, speed: float) -> dict[str, FloatArray]:
+        """The rocker at a speed of the crank [rad/s], by name: greatest speed, greatest acceleration, that at the beat.
+
+        rocker_speed_max [rad/s], rocker_acceleration_max, rocker_acceleration_at_beat [rad/s^2]
+        """
+        most = rocker_extremes(self.links)
+        return {
+            "rocker_speed_max": most.speed * abs(speed),
+            "rocker_acceleration_max": most.acceleration * speed**2,
+            "rocker_acceleration_at_beat": np.asarray(beat_acceleration(self.links)) * speed**2,
+        }
+
+
+def family(swing: float, rotation: float, count: int = COUNT, *, within: Limits | None = None) -> Family:
+    """Members over the whole family, or over the part of it with ratios crank / coupler `within`, ends included.
+
+    Raises ParameterError where no crank-rocker has this swing and turn of the crank.
+
+    >>> family(np.radians(30), np.pi, 4).ratio.round(9).tolist()
+    [0.125, 0.375, 0.625, 0.875]
+    """
+    require_rotation(swing, rotation)
+    low, high = ratio_limits(swing, rotation)
+    if within is None:
+        return Family(swing, rotation, low + (high - low) * (np.arange(count) + 0.5) / count)
+    return Family(swing, rotation, np.linspace(within.low, within.high, count))
+
+
+def link_ratio(links: Links) -> RealField:
+    """Longest link by the shortest, the ground among them.
+
+    >>> float(link_ratio(Links(0.25, 0.5, 0.75)))
+    4.0
+    """
+    crank, coupler, rocker = links
+    longest: RealField = np.maximum(np.maximum(coupler, rocker), 1.0) / np.minimum(np.minimum(crank, coupler), rocker)
+    return longest
+
+
+def size(links: Links, beta: RealField, reach: RealField | None = None) -> RealField:
+    """Greatest distance of places that its points get to, in ground links.
+
+        max(1 + a,  2 a + b,  a + |1 + r e^{i angle(AB at the beat)}|,  c,  r)
+
+    reach  r: of the rocker's far end E from A, on the line A-B; unsaid: B
+    From the crank's circle to A, to B and to E where they are farthest from D; from A to B and to E.      [derived]
+
+    >>> float(size(Links(0.25, 0.5, 0.75), 0.7))
+    1.25
+    """
+    crank, coupler, rocker = links
+    reach = rocker if reach is None else reach
+    along = ((crank + coupler) * np.exp(1j * np.asarray(beta)) - 1) / rocker
+    places = (1 + crank, 2 * crank + coupler, crank + np.abs(1 + reach * along), rocker, reach)
+    greatest: RealField = np.max(np.stack(np.broadcast_arrays(*places)), axis=0)
+    return greatest

@@ -1,0 +1,106 @@
+"""How crank-rockers move: rocker's speed and acceleration, their greatest values over a turn, for arrays of linkages.
+
+Frame and names are those of `crank_rocker`: ground D = 0 to A = 1, crank DC = a, coupler CB = b, rocker AB = c, B above
+the ground line. The crank turns at constant speed, which is 1 here: the rocker's angular velocity is in crank speeds
+omega, its angular acceleration in omega^2, both counter-clockwise. Formulas are those of an RRR dyad, in `linkage`.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import ComplexField, FloatArray, IntArray, RealField
+from ilmek.linkage.groups import rrr
+from ilmek.num.periodic_maxima import summits
+from ilmek.synthesis.crank_rocker.dead_centres import Links, dead_centres
+
+PIVOT = 1 + 0j
+"""The rocker's pivot A; the crank's is the origin, and their distance the unit of length."""
+
+
+class Moved(NamedTuple):
+    """A crank-rocker at crank angles, at unit speed of the crank.
+
+    pin              the crank pin C                             lean   coupler x rocker: b c sin(transmission angle)
+    coupler, rocker  the links C -> B and A -> B
+    omega, alpha     angular velocity and acceleration of coupler and of rocker
+    """
+
+    pin: ComplexField
+    coupler: ComplexField
+    rocker: ComplexField
+    lean: RealField
+    omega: tuple[RealField, RealField]
+    alpha: tuple[RealField, RealField]
+
+
+class Extremes(NamedTuple):
+    """Greatest sizes over a turn of the rocker's angular velocity [omega] and acceleration [omega^2]."""
+
+    speed: FloatArray
+    acceleration: FloatArray
+
+
+def moved(links: Links, angle: RealField) -> Moved:
+    """Crank-rockers at crank angles [rad]; links and angles of any shapes that broadcast.
+
+    [position, speed and acceleration of the RRR dyad hung on the crank pin and on A]
+
+    >>> at = moved(Links(0.25, 0.7, 0.75), 0.3)
+    >>> ahead, behind = (np.angle(moved(Links(0.25, 0.7, 0.75), 0.3 + h).rocker) for h in (1e-6, -1e-6))
+    >>> bool(abs((ahead - behind) / 2e-6 - at.omega[1]) < 1e-9)
+    True
+    """
+    crank, coupler, rocker = links
+    pin = crank * np.exp(1j * np.asarray(angle))
+    joint = rrr.position(pin, PIVOT, coupler, rocker, 1)
+    u, v = joint - pin, joint - PIVOT
+    lean = rrr.turning(u, v)
+    slip = -1j * pin
+    omega = rrr.first_rate(v, slip, lean), rrr.second_rate(u, slip, lean)
+    pull = rrr.parting(-pin, 0j, u, v, *omega)
+    return Moved(pin, u, v, lean, omega, (rrr.first_rate(v, pull, lean), rrr.second_rate(u, pull, lean)))
+
+
+def sharp_angles(links: Links) -> FloatArray:
+    """Crank angles near which motion and forces may be narrow peaks [rad], (..., 4).
+
+    The crank on the ground line, at 0 and at pi, where the transmission angle is least or greatest; and the dead
+    centres, of which the folded one is a jerk where coupler and crank are nearly alike.
+    """
+    beta, back = dead_centres(links).beta, dead_centres(links).beta + dead_centres(links).rotation
+    zero = np.zeros_like(np.asarray(beta, dtype=float))
+    found: FloatArray = np.nan_to_num(np.stack([zero, zero + np.pi, zero + beta, zero + back], axis=-1))
+    return found
+
+
+def rocker_extremes(links: Links) -> Extremes:
+    """Greatest angular speed and acceleration of the rocker, (members) as the links, at unit speed of the crank.
+
+    Suprema to about 1e-9 of themselves, see `num.periodic_maxima`; the crank must turn fully.
+
+    >>> float(rocker_extremes(Links(*np.array([[0.2], [0.66], [0.77]]))).speed[0].round(4))
+    0.2778
+    """
+    columns = [np.asarray(link, dtype=float) for link in links]
+
+    def curves(row: IntArray, angle: FloatArray) -> dict[str, FloatArray]:
+        at = moved(Links(*(column[row] for column in columns)), angle)
+        return {"speed": np.abs(at.omega[1]), "acceleration": np.abs(at.alpha[1])}
+
+    return Extremes(**summits(curves, sharp_angles(Links(*columns))))
+
+
+def beat_acceleration(links: Links) -> RealField:
+    """Angular acceleration of the rocker at the extended dead centre [omega^2].
+
+        alpha = a (a + b) / (b c sin mu) > 0: away from the beat,   mu the angle between coupler and rocker there
+
+    [the crank pin's and the coupler's centripetal accelerations, both along the line D, C, B: omega^2 a and, because
+    the coupler turns by -omega a / b, omega^2 a^2 / b; their sum over sin mu is the tangential acceleration of B]
+    """
+    crank, coupler, rocker = links
+    straight = crank + coupler
+    # Twice the area of D, A, B, whose angle at B is mu [Heron's formula].
+    area = np.sqrt((straight + rocker) ** 2 - 1) * np.sqrt(1 - (straight - rocker) ** 2) / 2
+    return crank * straight**2 / (coupler * area)

@@ -1,0 +1,152 @@
+"""Choosing a crank-rocker of the family: what may be asked, what is chosen where nothing is asked.
+
+The three criteria of [paper] (see `crank_rocker`), in the order in which they are tried:
+
+1. Grashof, strictly: every member inside the open intervals of `crank_rocker` has it.
+2. Transmission angle: it deviates from 90 deg by at most 40 deg, or else by at most 50 deg.
+3. Ratio crank / coupler: the greatest not above 0.3, because a greater one beats harder and a yet greater one shakes
+   the loom [paper, criterion ii, after Talavasek and Svaty]. Below 0.1 the linkage becomes small beside its ground.
+
+For any swing and any ratio the greatest transmission angle is that of the centric crank-rocker, phi = 180 deg: there
+the two extremes of the angle are equal. So `CENTRIC` is the turn of the crank to choose where none is asked.
+"""
+
+import math
+from dataclasses import dataclass
+
+from scipy.optimize import brentq
+
+from ilmek.arrays import RealField
+from ilmek.errors import ParameterError
+from ilmek.synthesis.crank_rocker.dead_centres import (
+    Links,
+    best_ratio,
+    beta_limits,
+    beta_of_ratio,
+    links_of_beta,
+    links_of_ratio,
+    ratio_limits,
+    rotation_limits,
+    transmission_angle_min,
+)
+from ilmek.units import deg, format_quantity
+
+CENTRIC = math.pi
+"""Turn of the crank between dead centres with the best transmission angle at any ratio [rad]."""
+
+DEVIATIONS = (40 * deg, 50 * deg)
+"""Deviations of the transmission angle from 90 deg that are tolerated, the wanted one first [paper, criterion i]."""
+
+RATIO_LIMIT = 0.3
+"""Greatest ratio crank / coupler that loom makers use [paper, criterion ii]."""
+
+RATIO_FLOOR = 0.1
+"""Least ratio crank / coupler that is chosen unasked."""
+
+SAME_ANGLE = 1e-9
+"""Angles nearer than this are one [rad]: at phi = pi + psi the family changes its free parameter."""
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A crank-rocker of the family: its ratios to the ground link and the crank angle of its beat [rad]."""
+
+    crank: float
+    coupler: float
+    rocker: float
+    beta: float
+
+    @property
+    def links(self) -> Links:
+        """The ratios alone."""
+        return Links(self.crank, self.coupler, self.rocker)
+
+
+def member(swing: float, rotation: float = CENTRIC, beta: float | None = None) -> Member:
+    """The crank-rocker with this swing and turn of the crank [rad]; beta as asked, or chosen by the three criteria.
+
+    At phi = pi + psi only beta = pi - phi/2 exists and the coupler is free: beta given there means the member with
+    the greatest transmission angle, b = sqrt(a(1+a)) [paper, Eq 12].
+
+    Raises ParameterError, with the allowed interval in degrees, where no such crank-rocker exists.
+
+    >>> round(member(30 * deg).beta / deg, 4)
+    48.2299
+    """
+    require_rotation(swing, rotation)
+    if beta is None:
+        return _of_ratio(swing, rotation, select_ratio(swing, rotation))
+    if _coupler_is_free(swing, rotation):
+        _require_forced_beta(rotation, beta)
+        return _of_ratio(swing, rotation, float(best_ratio(swing, rotation)))
+    _require_beta(swing, rotation, beta)
+    crank, coupler, rocker = links_of_beta(swing, rotation, beta)
+    return Member(float(crank), float(coupler), float(rocker), beta)
+
+
+def select_ratio(swing: float, rotation: float = CENTRIC, limit: float = RATIO_LIMIT) -> float:
+    """Ratio crank / coupler by the three criteria: the greatest up to `limit` whose transmission angle will do.
+
+    The least transmission angle has one maximum over the ratio (`best_ratio`), so that the ratios that will do form
+    an interval. Where no ratio will do, the one with the best transmission angle is taken: checks then say so.
+    """
+    least = max(RATIO_FLOOR, float(ratio_limits(swing, rotation).low))
+    best = max(least, float(best_ratio(swing, rotation)))
+
+    def excess(ratio: float, deviation: float) -> float:
+        return float(transmission_angle_min(links_of_ratio(swing, rotation, ratio))) - (math.pi / 2 - deviation)
+
+    for deviation in DEVIATIONS if least < limit else ():
+        if excess(limit, deviation) >= 0:
+            return limit
+        if best < limit and excess(best, deviation) >= 0:
+            return float(brentq(excess, best, limit, args=(deviation,), xtol=1e-15))
+    return best
+
+
+def require_rotation(swing: float, rotation: float) -> None:
+    """Raise ParameterError unless crank-rockers with this swing and turn of the crank exist."""
+    if not 0 < swing < math.pi:
+        raise ParameterError(f"swing={_shown(swing)} is out of bounds", allowed="allowed: above 0 deg, below 180 deg")
+    low, high = rotation_limits(swing)
+    if not low + SAME_ANGLE < rotation < high - SAME_ANGLE:
+        raise ParameterError(
+            f"no crank-rocker swings {_shown(swing)} with crank_rotation={_shown(rotation)}",
+            allowed=f"allowed: above {_shown(low)}, below {_shown(high)}",
+            do=f"{_shown(CENTRIC)} gives the best transmission angle",
+        )
+
+
+def _coupler_is_free(swing: float, rotation: float) -> bool:
+    return abs(rotation - math.pi - swing) < SAME_ANGLE
+
+
+def _require_forced_beta(rotation: float, beta: float) -> None:
+    forced = math.pi - rotation / 2
+    # A value typed in degrees to four decimals is meant to be the forced one.
+    if abs(beta - forced) > 1e-4 * deg:
+        raise ParameterError(
+            f"beta={_shown(beta)} does not exist at crank_rotation = 180 deg + swing = {_shown(rotation)}",
+            allowed=f"allowed: {_shown(forced)} only; the coupler is free there instead",
+            do="leave beta out",
+        )
+
+
+def _require_beta(swing: float, rotation: float, beta: float) -> None:
+    low, high = beta_limits(swing, rotation)
+    if not low + SAME_ANGLE < beta < high - SAME_ANGLE:
+        slip = " (a bare number is in radians)" if beta > math.pi and low < beta * deg < high else ""
+        raise ParameterError(
+            f"beta={_shown(beta)} gives no crank-rocker for swing={_shown(swing)}, crank_rotation={_shown(rotation)}",
+            allowed=f"allowed: above {_shown(low)}, below {_shown(high)}; at the ends it stands in a toggle",
+            do=f"leave beta out to have it chosen{slip}",
+        )
+
+
+def _of_ratio(swing: float, rotation: float, ratio: float) -> Member:
+    crank, coupler, rocker = links_of_ratio(swing, rotation, ratio)
+    return Member(float(crank), float(coupler), float(rocker), float(beta_of_ratio(swing, rotation, ratio)))
+
+
+def _shown(angle: RealField) -> str:
+    return format_quantity(float(angle), "deg", digits=6)

@@ -1,0 +1,174 @@
+# ruff: noqa: PLR0917 - compiled functions take their arguments by position
+"""Where the search for a path starts: random four-bars whose free numbers are fitted at once, compiled.
+
+With the link ratios and the crank's angles guessed, P is linear in the rest,
+
+    P = z0 + a (r2/r1) u + b e3,    a = r1 e^{i th0},   b = c e^{i th0}
+
+so that one linear least squares gives size, place, turn and tracer. A start is six guesses, not nineteen.
+"""
+
+import math
+
+import numpy as np
+from jaxtyping import Complex, Float, Int
+
+from ilmek.num.compiled import compiled
+from ilmek.num.quadratic import back_solve, cholesky
+from ilmek.synthesis.path.limits import GRACE, excess
+from ilmek.synthesis.path.model import START, TURN, Angles, Design, Points, coupler_direction, squared_error
+
+DICE = 8
+"""Random numbers in [0, 1) that a start takes: branch, first angle, span, sense, two warps and their phases."""
+
+RIDGE = 1e-4
+"""Weight that keeps size and tracer of a start from running away where the points do not fix them."""
+
+WARP = 0.95
+"""Unevenness of the crank's angle along the path, at most: 1 would make it stand still somewhere."""
+
+
+@compiled
+def start_all(
+    dice: Float[np.ndarray, "starts 8"],
+    links: Float[np.ndarray, "starts 4"],
+    along: Angles,
+    timed: bool,
+    closed: bool,
+    points: Complex[np.ndarray, " points"],
+    low: Design,
+    high: Design,
+    kind: int,
+    kappa: float,
+    designs: Float[np.ndarray, "starts 10"],
+    angles: Float[np.ndarray, "starts points"],
+    branches: Int[np.ndarray, " starts"],
+    errors: Float[np.ndarray, " starts"],
+) -> None:
+    """One start for each row of dice; its squared error is inf where it cannot be brought within the limits.
+
+    links  lengths of ground, crank, coupler, rocker, within the crank's limits; only their ratios count
+    along  the timing [rad] where `timed`, else the place of each point along the path, 0 to 1
+    """
+    for k in range(branches.size):
+        branches[k] = 1 if dice[k, 0] < 0.5 else -1
+        for i in range(4):
+            designs[k, i] = links[k, i] / links[k, 0]
+        _guess_angles(dice[k], along, timed, closed, low, high, designs[k], angles[k])
+        errors[k] = _fit_rest(designs[k], angles[k], points, branches[k], low, high, kind, kappa)
+
+
+@compiled
+def _guess_angles(
+    dice: Float[np.ndarray, "8"],
+    along: Angles,
+    timed: bool,
+    closed: bool,
+    low: Design,
+    high: Design,
+    design: Design,
+    angles: Angles,
+) -> None:
+    """The crank's angle at each point: the timing from a start at will, or along the path, unevenly, either way."""
+    turn = 2.0 * math.pi
+    design[START] = 0.0
+    if timed:
+        free = low[START] < high[START]
+        design[START] = turn * dice[1] if free else low[START]
+        design[START] = min(max(design[START], low[START]), high[START])
+        for k in range(along.size):
+            angles[k] = design[START] + along[k]
+        return
+    span = turn if closed else turn * (0.08 + 0.87 * dice[2])
+    sense = 1.0 if dice[3] < 0.5 else -1.0
+    once, twice = WARP * dice[4], (WARP - WARP * dice[4]) * dice[6]
+    for k in range(along.size):
+        uneven = _wave(along[k], once, turn * dice[5]) + 0.5 * _wave(2.0 * along[k], twice, turn * dice[7])
+        angles[k] = turn * dice[1] + sense * span * (along[k] + uneven)
+
+
+@compiled
+def _wave(along: float, warp: float, phase: float) -> float:
+    """Part of a turn by which the crank is ahead; its slope is between -warp and warp."""
+    turn = 2.0 * math.pi
+    return warp * (math.sin(turn * along + phase) - math.sin(phase)) / turn
+
+
+@compiled
+def _fit_rest(
+    design: Design, angles: Angles, points: Points, branch: int, low: Design, high: Design, kind: int, kappa: float
+) -> float:
+    """Size, place, turn and tracer by linear least squares, then within the bounds; the squared error."""
+    upright = low[TURN] == high[TURN]
+    ray = complex(math.cos(low[TURN]), math.sin(low[TURN])) if upright else complex(1.0, 0.0)
+    columns, left, use = _columns(design, angles, branch, ray), points.copy(), np.ones(6, np.bool_)
+    use[1] = not upright
+    for i in range(2):
+        if low[6 + i] == high[6 + i]:
+            use[4 + i] = False
+            for k in range(points.size):
+                left[k] -= low[6 + i] * columns[4 + i, k]
+    found = _least_squares(columns, left, use)
+    a = found[0] * ray + complex(0.0, found[1])
+    size = math.hypot(a.real, a.imag)
+    if size == 0.0 or (upright and found[0] < 0.0):
+        return math.inf
+    b = complex(found[2], found[3]) * complex(a.real / size, -a.imag / size)
+    design[TURN] = low[TURN] if upright else math.atan2(a.imag, a.real)
+    design[4], design[5], design[6], design[7] = b.real, b.imag, found[4], found[5]
+    if not _sized(design, size, low, high) or not excess(design, kind, kappa) <= GRACE:
+        return math.inf
+    error = squared_error(design, angles, points, branch)
+    return error if error >= 0.0 else math.inf
+
+
+@compiled
+def _columns(design: Design, angles: Angles, branch: int, ray: complex) -> Complex[np.ndarray, "6 points"]:
+    """What one unit of Re a, Im a, Re b, Im b, x and y adds to P at each angle; Re a along `ray`."""
+    columns = np.empty((6, angles.size), np.complex128)
+    for k in range(angles.size):
+        u = complex(math.cos(angles[k]), math.sin(angles[k]))
+        e3 = coupler_direction(1.0, design[1], design[2], design[3], u, branch)
+        columns[0, k], columns[1, k] = ray * design[1] * u, complex(0.0, design[1]) * u
+        columns[2, k], columns[3, k] = e3, complex(0.0, 1.0) * e3
+        columns[4, k], columns[5, k] = complex(1.0, 0.0), complex(0.0, 1.0)
+    return columns
+
+
+@compiled
+def _sized(design: Design, size: float, low: Design, high: Design) -> bool:
+    """Link ratios made links of about this size, tracer and pivot put within their bounds; False where none fits."""
+    smallest, largest = 0.0, math.inf
+    for i in range(4):
+        smallest, largest = max(smallest, low[i] / design[i]), min(largest, high[i] / design[i])
+    size = min(max(size, smallest), largest)
+    for i in range(8):
+        scaled = design[i] * size if i < 4 else design[i]
+        design[i] = min(max(scaled, low[i]), high[i])
+    return smallest <= largest * (1.0 + 1e-9)
+
+
+@compiled
+def _least_squares(columns: Complex[np.ndarray, "6 points"], left: Points, use: np.ndarray) -> Float[np.ndarray, "6"]:
+    """Real factors of the used columns whose sum is nearest to `left`, a little drawn to nothing; 0 for the others."""
+    normal, found, factor = np.zeros((6, 6)), np.zeros(6), np.empty((6, 6))
+    for i in range(6):
+        for j in range(6):
+            if use[i] and use[j]:
+                normal[i, j] = _product(columns[i], columns[j])
+        normal[i, i] += RIDGE * left.size if use[i] else 1.0
+        if use[i]:
+            found[i] = _product(columns[i], left)
+    if not cholesky(normal, 6, 1e-14, factor):
+        return np.zeros(6)
+    back_solve(factor, 6, found)
+    return found
+
+
+@compiled
+def _product(one: Points, other: Points) -> float:
+    """Sum of the scalar products of planar vectors."""
+    total = 0.0
+    for k in range(one.size):
+        total += one[k].real * other[k].real + one[k].imag * other[k].imag
+    return total

@@ -1,0 +1,240 @@
+"""The quickest motion of several axes along a given way, from rest to rest, within speed, acceleration and jerk.
+
+In the parameter u of `path_speed.path`, with w = u'², the limits of an axis are
+
+    Q' sqrt(w) <= V      |Q'' w + Q' w_u / 2| <= A      |Q''' w + 3/2 Q'' w_u + 1/2 Q' w_uu| <= J / sqrt(w)
+
+of which the first two are linear in w [D. Verscheure and others, IEEE Trans. Automatic Control 54 (2009) 2318, who
+have them for torques], and the third has a convex right-hand side. w is a cubic spline, so that speed, acceleration
+and jerk are continuous; `path_speed.barrier` finds it. The limits hold at four places of every interval. Where they are
+overstepped between them the interval is divided or tightened and the spline found again; the rest is taken off by
+slowing down, so that every limit holds to 1e-3. Optimal within the spline, and but for local optima: the jerk's limit
+is not convex.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+from scipy.interpolate import BSpline
+
+from ilmek.arrays import FloatArray
+from ilmek.errors import ParameterError
+from ilmek.timing.path_speed.barrier import SpeedTask, clamped, local_basis, quickest
+from ilmek.timing.path_speed.path import AxisLimits, JointPath, Three, rates, rise
+
+__all__ = ["AxisLimits", "Course", "JointPath", "PathMotion", "quickest_motion"]
+
+INTERVALS, COARSE = 300, 80
+"""Intervals of the spline, and of the first one, which tells where they are needed."""
+
+TOLERANCE, GROSS, ROUNDS = 1e-3, 1.05, 6
+"""Overstepping between the places that is left to slowing down; use of a limit from which an interval is divided; how
+often the spline is found at most."""
+
+_PLACES, _SHARES = np.array([0.0, 1 / 3, 2 / 3, 1.0]), np.array([1.0, 3.0, 3.0, 1.0]) / 8
+_FINE = np.linspace(0.0, 1.0, 21)
+_GAUSS, _WEIGHT = np.polynomial.legendre.leggauss(5)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """A motion at times [s]: the path's parameter and its rates by time, (times); those of the axes, (times, axes)."""
+
+    time: FloatArray
+    s: FloatArray
+    s_speed: FloatArray
+    s_acceleration: FloatArray
+    s_jerk: FloatArray
+    position: FloatArray
+    speed: FloatArray
+    acceleration: FloatArray
+    jerk: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PathMotion:
+    """The motion along a path, from rest to rest.
+
+    knots, times   of the spline, and when they are passed [s]      square  w(u) = u'² [1/s²], cubic between the knots
+    usage          greatest speed, acceleration and jerk over their limits on a fine grid, (3, axes): at most 1
+    """
+
+    path: JointPath
+    limits: AxisLimits
+    knots: FloatArray
+    times: FloatArray
+    square: BSpline
+    usage: Float[np.ndarray, "3 axes"]
+
+    @property
+    def duration(self) -> float:
+        """Time from rest to rest [s]."""
+        return float(self.times[-1])
+
+    def even(self, count: int) -> Course:
+        """The motion at `count` times evenly apart, both ends among them."""
+        return self.at(np.linspace(0.0, self.duration, count))
+
+    def at(self, time: FloatArray) -> Course:
+        """The motion at times [s]; before and after it is at rest."""
+        u = self._parameter(np.clip(time, 0.0, self.duration))
+        g, *slopes = (self.path.length * one for one in rise(u))
+        s = self.path.s[0] + g
+        square = _derivatives(self.square, u)
+        moves = (time >= 0) & (time <= self.duration)
+        s1, s2, s3 = (np.where(moves, one, 0.0) for one in rates((slopes[0], slopes[1], slopes[2]), square))
+        every = rates(self.path.led(u), (square[0][:, None], square[1][:, None], square[2][:, None]))
+        speed, acceleration, jerk = (np.where(moves[:, None], one, 0.0) for one in every)
+        return Course(time, s, s1, s2, s3, self.path.at(s), speed, acceleration, jerk)
+
+    def _parameter(self, time: FloatArray) -> FloatArray:
+        """U at times, by Newton's method on t(u) = ∫ du / sqrt(w) from the knot before."""
+        place = np.clip(np.searchsorted(self.times, time, side="right") - 1, 0, len(self.knots) - 2)
+        low, high = self.knots[place], self.knots[place + 1]
+        gone = time - self.times[place]
+        u = low + (high - low) * gone / np.diff(self.times)[place]
+        for _ in range(6):
+            late = _passing(self.square, low, u) - gone
+            u = np.clip(u - late * np.sqrt(self.square(u)), low, high)
+        return np.asarray(u)
+
+
+def quickest_motion(path: JointPath, limits: AxisLimits, intervals: int = INTERVALS) -> PathMotion:
+    """The quickest motion along a path, from rest to rest, within the limits of every axis.
+
+    intervals  of the spline: the time lost goes with the square of their size
+    Raises ParameterError where limits and path have different numbers of axes, and for less than ten intervals.
+
+    >>> one = np.ones((5, 1))
+    >>> straight = JointPath(np.linspace(0, 2, 5), np.linspace(0, 2, 5)[:, None], one, 0 * one)
+    >>> motion = quickest_motion(straight, AxisLimits(np.array([1.0]), np.array([2.0]), np.array([4.0])))
+    >>> round(motion.duration, 2)  # line_motion: 3 s
+    3.0
+    """
+    if path.positions.shape[1] != len(limits.jerk) or intervals < 10:
+        raise ParameterError(
+            f"{path.positions.shape[1]} axes with limits of {len(limits.jerk)}, in {intervals} intervals",
+            allowed="limits of every axis, ten intervals or more",
+        )
+    even = np.linspace(0.0, 1.0, COARSE + 1)
+    knots = _knots(path, _found(path, limits, even, rounds=2)[1], intervals)
+    return _timed(path, limits, *_found(path, limits, knots, ROUNDS))
+
+
+def _found(path: JointPath, limits: AxisLimits, knots: FloatArray, rounds: int) -> tuple[FloatArray, BSpline]:
+    """The best w, and its knots; each round after the first divides or tightens the intervals that overstepped."""
+    share = np.ones((len(knots) - 1, 1 + 4 * len(limits.jerk)))
+    while True:
+        square = _best(path, limits, knots, share)
+        over = _overstep(path, limits, knots, square)
+        rounds -= 1
+        if rounds == 0 or over.max() <= 1 + TOLERANCE:
+            return knots, square
+        parts = np.where(over.max(axis=1) > GROSS, 4, 1)
+        tight = np.where(parts[:, None] > 1, share, np.maximum(share / np.maximum(over, 1.0), 0.2))
+        share = np.repeat(tight, parts, axis=0)
+        knots = np.append(0.0, np.cumsum(np.repeat(np.diff(knots) / parts, parts)))
+
+
+def _best(path: JointPath, limits: AxisLimits, knots: FloatArray, share: FloatArray) -> BSpline:
+    """The best w where every interval may use a share of the limits."""
+    task, tight = _task(path, limits, knots), np.repeat(share, len(_PLACES), axis=0)
+    task = replace(task, constant=task.constant * tight, root=task.root * tight)
+    x = quickest(task, 0.8 * float(share.min()) ** 2 / _slowness(path, limits, knots) ** 2)
+    return BSpline(clamped(knots), x, 3)
+
+
+def _slowness(path: JointPath, limits: AxisLimits, knots: FloatArray) -> float:
+    """Factor to time by which u = t must be slowed down for every limit to hold."""
+    q1, q2, q3 = (np.abs(one) for one in path.led(_at(knots, np.append(_FINE, _PLACES))))
+    return float(
+        max(
+            np.max(q1 / limits.speed),
+            np.sqrt(np.max(q2 / limits.acceleration)),
+            np.cbrt(np.max(q3 / limits.jerk)),
+        )
+    )
+
+
+def _task(path: JointPath, limits: AxisLimits, knots: FloatArray) -> SpeedTask:
+    """The limits at the places, each over its own: one of the speeds, then accelerations and jerks both ways."""
+    q1, q2, q3 = (one[..., None] for one in path.led(_at(knots, _PLACES)))
+    b0, b1, b2 = (local_basis(knots, _PLACES, order) for order in range(3))
+    quick = np.max((q1[..., 0] / limits.speed) ** 2, axis=1)[:, None, None] * b0[:, None]
+    bend = (q2 * b0[:, None] + q1 * b1[:, None] / 2) / limits.acceleration[:, None]
+    jerk = (q3 * b0[:, None] + 1.5 * q2 * b1[:, None] + q1 * b2[:, None] / 2) / limits.jerk[:, None]
+    rows = np.concatenate([-quick, -bend, bend, -jerk, jerk], axis=1)
+    by_root = np.arange(rows.shape[1]) > 2 * len(limits.jerk)
+    constant = np.broadcast_to(np.where(by_root, 0.0, 1.0), rows.shape[:2])
+    weight = (np.diff(knots)[:, None] * _SHARES).ravel()  # Simpson's second rule
+    return SpeedTask(knots, b0, weight, rows, constant, 1.0 - constant)
+
+
+def _overstep(path: JointPath, limits: AxisLimits, knots: FloatArray, square: BSpline) -> FloatArray:
+    """Greatest use of every constraint in every interval, over what is allowed: (intervals, constraints)."""
+    used = _used(path, limits, _at(knots, _FINE), square)
+    speed = np.max(used[0] ** 2, axis=1)[:, None]
+    every = np.concatenate([speed, used[1], -used[1], used[2], -used[2]], axis=1)
+    return np.asarray(every.reshape(len(knots) - 1, len(_FINE), -1).max(axis=1))
+
+
+def _used(path: JointPath, limits: AxisLimits, u: FloatArray, square: BSpline) -> Three:
+    """Speed, acceleration and jerk over their limits, with their signs."""
+    w, w1, w2 = (one[:, None] for one in _derivatives(square, u))
+    speed, acceleration, jerk = rates(path.led(u), (w, w1, w2))
+    return speed / limits.speed, acceleration / limits.acceleration, jerk / limits.jerk
+
+
+def _knots(path: JointPath, square: BSpline, intervals: int) -> FloatArray:
+    """Knots where they are needed: a third each evenly in u, evenly in time, and by how the way bends."""
+    u = np.linspace(0.0, 1.0, 16 * COARSE + 1)
+    middle = (u[1:] + u[:-1]) / 2
+    led = rise(middle)
+    s = path.s[0] + path.length * led[0]
+    slope, bend, twist = (np.linalg.norm(path.at(s, order), axis=1) for order in (1, 2, 3))
+    slope = np.maximum(slope, 1e-6 * slope.max())
+    shares = (np.ones(len(middle)), 1 / np.sqrt(square(middle)), (bend / slope + np.sqrt(twist / slope)) * led[1])
+    density = sum(one / one.sum() for one in shares if one.any())
+    grown = np.append(0.0, np.cumsum(density))
+    return np.interp(np.linspace(0.0, grown[-1], intervals + 1), grown, u)
+
+
+def _timed(path: JointPath, limits: AxisLimits, knots: FloatArray, square: BSpline) -> PathMotion:
+    """The motion of a spline, slowed down until every limit holds on the fine grid, or sped up until one is reached."""
+    u = np.append(_at(knots, _FINE), _beside_nodes(path))
+    used = [np.abs(one).max(axis=0) for one in _used(path, limits, u, square)]
+    slow = max(used[0].max(), np.sqrt(used[1].max()), np.cbrt(used[2].max()))
+    square = BSpline(square.t, square.c / slow**2, square.k)
+    takes = _passing(square, knots[:-1], knots[1:])
+    usage = np.stack([one / slow**power for power, one in enumerate(used, 1)])
+    return PathMotion(path, limits, knots, np.append(0.0, np.cumsum(takes)), square, usage)
+
+
+def _beside_nodes(path: JointPath) -> FloatArray:
+    """U just before and after the inner nodes of a path, where its third derivative may jump."""
+    share = (path.s[1:-1] - path.s[0]) / path.length
+    low, high = np.zeros(len(share)), np.ones(len(share))
+    for _ in range(50):
+        middle = (low + high) / 2
+        below = rise(middle)[0] < share
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return np.append(low, high)
+
+
+def _passing(square: BSpline, low: FloatArray, high: FloatArray) -> FloatArray:
+    """Times from one u to another of the same interval [s], by Gauss's five points."""
+    half = (high - low) / 2
+    u = low[..., None] + half[..., None] * (1 + _GAUSS)
+    return np.asarray(half * np.sum(_WEIGHT / np.sqrt(square(u)), axis=-1))
+
+
+def _derivatives(square: BSpline, u: FloatArray) -> Three:
+    """W and its first two derivatives by u."""
+    w, first, second = (np.asarray(square(u, nu=order)) for order in range(3))
+    return w, first, second
+
+
+def _at(knots: FloatArray, share: FloatArray) -> FloatArray:
+    """Places at shares of every interval."""
+    return np.asarray((knots[:-1, None] + np.diff(knots)[:, None] * share).ravel())
