@@ -4,11 +4,12 @@ import pytest
 
 from ilmek.carpet.bill import pile_need
 from ilmek.carpet.design import knot_grid
-from ilmek.carpet.ground import GroundParams, ground_yarns, warp_density, warp_need
+from ilmek.carpet.ground import GroundParams, ground_yarns, warp_need
 from ilmek.carpet.knots.kinds import PileParams, knot_length
 from ilmek.carpet.quality import Quality, parse_quality, write_quality
 from ilmek.carpet.sizes import Size, parse_size
 from ilmek.carpet.yarn import Yarn
+from ilmek.elements.yarns import warp_density
 from ilmek.units import cm, g, mg, mm
 
 
@@ -97,7 +98,7 @@ def test_warp_of_the_worked_example() -> None:
 @pytest.mark.parametrize(("raj", "count", "ply"), [(15, 3, 3), (20, 4, 3), (25, 5, 3), (30, 6, 3), (40, 8, 3)])
 def test_wool_warp_counts_follow_one_law(raj: int, count: int, ply: int) -> None:
     """Nm/ply of wool warps by raj (iran-carpet.com 1804): 3/7 g/m for each mm of pitch gives all five."""
-    assert warp_density(parse_quality(f"{raj} raj")) == pytest.approx(ply / count * g)
+    assert warp_density(parse_quality(f"{raj} raj").warp_pitch) == pytest.approx(ply / count * g)
 
 
 @pytest.mark.parametrize(

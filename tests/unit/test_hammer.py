@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from ilmek.errors import ParameterError
 from ilmek.machines.hammer import MACHINE, Hammer, HammerParams
-from ilmek.machines.hammer.fabric import Fabric
-from ilmek.machines.hammer.fell_beam import krylov, pressed
 from ilmek.report import Drawing, Plot, Report
 from ilmek.units import mm
+from ilmek.weaving.comb_on_fell import fell_pressure, krylov
+from ilmek.weaving.fell import Fabric
 
 FELL = Fabric(tension=15.0, laid=6 * mm, jammed=3 * mm, packing=1 * mm, warp_rate=1200.0, cloth_rate=3600.0)
 forces = st.floats(1e-6, 1e4)
@@ -92,7 +92,7 @@ def test_krylov_functions_are_each_others_derivatives() -> None:
 @pytest.mark.parametrize("rigidity", [1e7, 350e3, 2e3, 20.0])
 def test_comb_held_at_its_ends_by_hetenyi(rigidity) -> None:
     """Middle over ends: cosh u cos u / (cosh^2 u cos^2 u + sinh^2 u sin^2 u), u = l W / 2."""
-    found = pressed(1.2, np.array([0.0, 1.2]), rigidity, 1.6e6)
+    found = fell_pressure(1.2, np.array([0.0, 1.2]), rigidity, 1.6e6)
     u = found.number / 2
     c, s = math.cosh(u) * math.cos(u), math.sinh(u) * math.sin(u)
     middle = found.share[np.argmin(np.abs(found.x - 0.6))]
@@ -103,7 +103,7 @@ def test_comb_held_at_its_ends_by_hetenyi(rigidity) -> None:
 def test_comb_on_the_fell_against_finite_elements(places) -> None:
     """600 beam elements on springs, pushed down by 1 at the supports."""
     width, rigidity, foundation, count = 1.2, 4e3, 1.6e6, 600
-    found = pressed(width, np.array(places), rigidity, foundation)
+    found = fell_pressure(width, np.array(places), rigidity, foundation)
     step = width / count
     stiff = rigidity / step**3 * np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
     bed = (
@@ -123,19 +123,19 @@ def test_comb_on_the_fell_against_finite_elements(places) -> None:
 
 
 def test_a_rigid_comb_presses_evenly() -> None:
-    assert pressed(1.2, np.array([0.2, 0.7]), 1e15, 1e6).uniformity == 1.0
+    assert fell_pressure(1.2, np.array([0.2, 0.7]), 1e15, 1e6).uniformity == 1.0
 
 
 @pytest.mark.parametrize("rigidity", [1e8, 1e15])
 def test_a_rigid_comb_on_one_support_tilts_until_its_moments_balance(rigidity) -> None:
-    found = pressed(1.2, np.array([0.4]), rigidity, 1e6)
+    found = fell_pressure(1.2, np.array([0.4]), rigidity, 1e6)
     assert np.trapezoid(found.share * (found.x - 0.4), found.x) == pytest.approx(0.0, abs=1e-4)
     assert np.trapezoid(found.share, found.x) == pytest.approx(1.2, rel=1e-4)
     assert found.share[[0, -1]] == pytest.approx([2.0, 0.0], abs=0.02)
 
 
 def test_mean_of_the_shares_is_one() -> None:
-    found = pressed(4.0, np.array([0.0, 1.3, 4.0]), 1e4, 1.6e6)
+    found = fell_pressure(4.0, np.array([0.0, 1.3, 4.0]), 1e4, 1.6e6)
     fine = np.interp(np.linspace(0, 4.0, 4001), found.x, found.share)
     assert np.trapezoid(fine, dx=1e-3) / 4.0 == pytest.approx(1.0, abs=1e-3)
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from ilmek.carpet.ground import warp_density, yarn_diameter
 from ilmek.carpet.knots.drawing import knot_drawing
 from ilmek.carpet.knots.kinds import PileParams, knot_length, leg_length
 from ilmek.carpet.knots.path import KnotDimensions, KnotPath, knot_path
 from ilmek.carpet.knots.word import SINGLE, Knot, knot, mirrored
 from ilmek.carpet.quality import Quality
+from ilmek.elements.yarns import WOOL, warp_diameter
 from ilmek.errors import CarpetError
 from ilmek.units import mm
 
@@ -88,7 +88,7 @@ def test_mirror_image_of_the_knot_is_the_mirror_image_of_its_curve(known: Knot) 
 def test_curve_is_as_long_as_the_yarn_that_is_bought(kind: str) -> None:
     """The path and `knot_length` are one geometry: the same knot in the same carpet takes the same yarn."""
     quality, density, pile = Quality(150.0, 150.0), 0.3e-3, PileParams()
-    warp, yarn = yarn_diameter(warp_density(quality)), yarn_diameter(density)
+    warp, yarn = warp_diameter(quality.warp_pitch), WOOL.diameter(density)
     size = KnotDimensions(quality.warp_pitch, warp, yarn, leg=leg_length(warp, yarn, pile))
     assert knot_path(knot(kind), size).length == pytest.approx(knot_length(kind, quality, density, pile), rel=1e-14)
 

@@ -8,10 +8,12 @@ import pytest
 
 from ilmek.errors import ParameterError
 from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams
-from ilmek.machines.shedding.draped import bridged, capstan, draped, hull, nose_radius
-from ilmek.machines.shedding.warp import lifting_work, taut, warp_force
+from ilmek.machines.shedding.draped import bridged, draped, nose_radius
+from ilmek.machines.shedding.warp import lifting_work, shed_warp, warp_force
 from ilmek.report import Report
 from ilmek.units import deg, mm
+from ilmek.weaving.draped_warp import hull
+from ilmek.weaving.tension import capstan
 
 ELASTIC = dict(tension=15.0, front_span=0.25, back_span=0.4, warp_stiffness=1800.0, warp_length=1.5)
 
@@ -88,14 +90,14 @@ def test_a_convex_cam_has_no_bridge() -> None:
 def test_a_draped_yarn_does_the_work_that_lengthens_it() -> None:
     """Integral of the torque up to the top = T0 dL + k dL^2 / 2; over the turn nothing is left."""
     design = made(**ELASTIC)
-    yarn, warp = draped(design.params, design.cam), taut(design.params)
+    yarn, warp = draped(design.params, design.cam), shed_warp(design.params)
     assert yarn is not None
-    top = int(np.argmax(yarn.longer))
-    longer = yarn.longer[top]
+    top = int(np.argmax(yarn.lengthening))
+    longer = yarn.lengthening[top]
     energy = warp.tension * longer + warp.rate * longer**2 / 2
     assert np.trapezoid(yarn.torque[: top + 1], yarn.angle[: top + 1]) == pytest.approx(energy, rel=2e-3)
     assert abs(np.trapezoid(yarn.torque, yarn.angle)) < 2e-3 * energy
-    assert np.all(yarn.longer >= taut(design.params).lengthening(design.even.at(yarn.angle).s) - 1e-6)
+    assert np.all(yarn.lengthening >= shed_warp(design.params).lengthening(design.even.at(yarn.angle).s) - 1e-6)
     assert yarn.lifted > math.pi
 
 

@@ -12,8 +12,9 @@ from ilmek.errors import ParameterError
 from ilmek.machines.warp_tension import MACHINE, WarpTensionParams
 from ilmek.machines.warp_tension.cylinders import cylinders, slots_of, spacer_load, stub_stress, tension_beyond
 from ilmek.machines.warp_tension.design import keeps_limits, lightest_tube
-from ilmek.machines.warp_tension.tension import course, shed_lengthening, tension_of
+from ilmek.machines.warp_tension.tension import history, tension_of
 from ilmek.units import deg, mm, turn
+from ilmek.weaving.shed import shed_lengthening
 
 DESIGN = MACHINE.design(WarpTensionParams())
 
@@ -115,23 +116,24 @@ def test_slots_that_do_not_fit_fail() -> None:
 
 def test_the_tension_over_a_row_is_the_stretch_of_a_spring() -> None:
     """EA / L = 2.1 N/tex of 857 tex over 1.5 m: 1200 N/m."""
-    found = tension_of(DESIGN)
+    made = tension_of(DESIGN)
+    found = made.over
     assert found.rate == pytest.approx(2.1e6 * 3 / 7 * 1e-3 * 2 / 1.5)
     assert found.woven - found.rest == pytest.approx(found.rate * 0.004 * 0.03)
     assert found.locked - found.woven == pytest.approx(found.rate * 0.004)
     assert found.shed - found.woven == pytest.approx(found.rate * 2 * (math.hypot(0.17, 0.06) - 0.17))
-    assert found.correction * DESIGN.outer_radius * found.rate == pytest.approx(found.woven - found.rest)
+    assert made.correction * DESIGN.outer_radius * found.rate == pytest.approx(found.woven - found.rest)
 
 
 def test_no_lift_no_lengthening() -> None:
-    assert shed_lengthening(0.0, 0.17) == 0.0
+    assert shed_lengthening(0.0, 0.17, 0.17) == 0.0
 
 
 @pytest.mark.parametrize("between", [1, 3])
 def test_every_take_up_brings_the_tension_back(between: int) -> None:
     design = MACHINE.design(WarpTensionParams(rows_between=between))
-    at, over = course(design, 6)
-    found = tension_of(design)
+    at, over = history(design, 6)
+    found = tension_of(design).over
     assert over[-1] == pytest.approx(found.rest)
     assert over.min() == pytest.approx(found.rest)
     assert over[at == between].tolist() == pytest.approx([found.woven, found.rest, found.rest])
@@ -146,7 +148,7 @@ def test_warps_that_slip_on_the_spacer_pull_more_behind_it() -> None:
 
 def test_a_step_of_the_motor_is_fine_enough() -> None:
     found = tension_of(DESIGN)
-    assert found.step == pytest.approx(found.rate * 70 * mm * turn / 200 / 200)
+    assert found.step == pytest.approx(found.over.rate * 70 * mm * turn / 200 / 200)
     assert failed(free_length="20mm", ratio="1", motor_torque="1e4Nm") != []
 
 

@@ -1,11 +1,10 @@
-"""Ground: the warp and the two wefts a row, and the thickness of yarns.
+"""Ground: the warp and the two wefts of a row.
 
 Every row of knots is held by a straight, thick weft (Turkish alt atkı), which goes nearly as the crow flies between the
 two planes of warps, and a sinuous, thin one (üst atkı), which goes round every warp.
 
-Default counts follow the density. The counts given for hand-knotted wool (Nm/ply 3/3, 4/3, 5/3, 6/3, 8/3 for 15, 20,
-25, 30, 40 raj) are one law: the warp's mass per length is 3/7 g/m for each millimetre of warp pitch, exactly. The
-straight weft is taken as heavy as a warp and the sinuous one half as heavy; both are parameters.
+Default counts follow the density: the warp is the usual one of its pitch [`ilmek.elements.yarns`]. The straight weft is
+taken as heavy as a warp and the sinuous one half as heavy; both are parameters.
 
 Sources: warp counts and the rule `warps = 2 × knots across, length = carpet + up to 60 cm`, iran-carpet.com 1726, 1804;
 the two wefts, haliciomer.com.tr.
@@ -18,19 +17,9 @@ from scipy.special import ellipe
 
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
+from ilmek.elements.yarns import WOOL, warp_density
 from ilmek.params import Params, param
-from ilmek.units import g, mm
-
-WOOL_DENSITY = 1310.0
-PACKING = 0.45
-WARP_DENSITY_PER_PITCH = 3 / 7 * g / mm
-"""Mass per length of a warp over the pitch of the warps [kg/m²]."""
-
-COTTON_STIFFNESS = 2.1e6
-"""Force over strain and mass per length of cotton yarn [N m/kg]: 17 cN/tex at 8 %, 2.1 N/tex.
-
-[Elmogahzy and Chewning 2001; Handbook of Properties of Textile and Technical Fibres, table 7.3, ring-spun, carded]
-"""
+from ilmek.units import mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,32 +49,6 @@ class GroundYarn:
     name: str
     length: float
     mass: float
-
-
-def yarn_diameter(linear_density: float, fibre_density: float = WOOL_DENSITY, packing: float = PACKING) -> float:
-    """Diameter of a round yarn [m]:  d = sqrt(4 mu / (pi rho phi)).
-
-    linear_density  mu [kg/m]     fibre_density  rho [kg/m³], wool 1310     packing  phi: share of the section that is
-    fibre; 0.45 for a soft woollen yarn
-
-    >>> round(yarn_diameter(0.8e-3) * 1e3, 3)
-    1.314
-    """
-    return math.sqrt(4 * linear_density / (math.pi * fibre_density * packing))
-
-
-def warp_density(quality: Quality) -> float:
-    """Mass per length of the usual wool warp [kg/m]: 3/7 g/m for each millimetre of warp pitch.
-
-    >>> round(warp_density(Quality(across=40 / 0.07, along=40 / 0.07)) * 1e3, 6)  # 40 raj: 8/3 = 0.375 g/m
-    0.375
-    """
-    return WARP_DENSITY_PER_PITCH * quality.warp_pitch
-
-
-def warp_stiffness(pitch: float) -> float:
-    """Force over strain [N] of a cotton warp of its usual mass, at a pitch of the warps [m]."""
-    return COTTON_STIFFNESS * WARP_DENSITY_PER_PITCH * pitch
 
 
 def sinuous_length(width: float, pitch: float, amplitude: float) -> float:
@@ -120,10 +83,10 @@ def ground_yarns(
     diameter, w its own); the rest of the way round is made by the warps, which it bends.
     """
     params = params or GroundParams()
-    warp = params.warp_density or warp_density(quality)
+    warp = params.warp_density or warp_density(quality.warp_pitch)
     straight = params.straight_weft_density or warp
     sinuous = params.sinuous_weft_density or warp / 2
-    amplitude = params.weft_share * (yarn_diameter(warp) + yarn_diameter(sinuous)) / 2
+    amplitude = params.weft_share * (WOOL.diameter(warp) + WOOL.diameter(sinuous)) / 2
     straight_length = rows * (size.width + params.weft_turn)
     winding = rows * (sinuous_length(size.width, quality.warp_pitch, amplitude) + params.weft_turn)
     return (

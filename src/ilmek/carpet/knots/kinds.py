@@ -30,7 +30,7 @@ Azerbaijani Wikipedia). Fine carpets are shorn lower: give their own pile height
 
 Whether the pile fits its ground: every knot sends two legs up through its cell, 1/a wide and 1/b long (a knots across
 and b along, per length; n = a b per area). A leg's section, fibre and the air between, is A = mu / (rho phi) (see
-`ground.yarn_diameter`), so of the ground's area the pile takes the share
+`elements.yarns`), so of the ground's area the pile takes the share
 
     F = 2 A n = 2 mu a b / (rho phi) <= 1
 
@@ -43,8 +43,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ilmek.carpet.ground import PACKING, WOOL_DENSITY, warp_density, yarn_diameter
 from ilmek.carpet.quality import Quality
+from ilmek.elements.yarns import WOOL, warp_diameter, yarn_diameter
 from ilmek.errors import CarpetError
 from ilmek.params import Params, param
 from ilmek.units import mm
@@ -73,8 +73,8 @@ class PileParams(Params):
         doc="diameter of a warp; left out: of the usual wool warp",
         symbol="D",
     )
-    fibre_density: float = param(WOOL_DENSITY, unit="kg/m^3", above=0.0, doc="density of the pile's fibre, wool 1310")
-    packing: float = param(PACKING, above=0.0, at_most=1.0, doc="share of the pile yarn's section that is fibre")
+    fibre_density: float = param(WOOL.density, unit="kg/m^3", above=0.0, doc="density of the pile's fibre, wool 1310")
+    packing: float = param(WOOL.packing, above=0.0, at_most=1.0, doc="share of the pile yarn's section that is fibre")
     calibration: float = param(
         1.0, above=0.0, at_most=10.0, doc="yarn a knot takes, over the geometric length", symbol="k"
     )
@@ -135,7 +135,7 @@ def knot_length(knot: str, quality: Quality, linear_density: float, pile: PilePa
     """
     pile = pile or PileParams()
     wrap = WRAPS[parse_knot(knot)]
-    warp = pile.warp_diameter or yarn_diameter(warp_density(quality))
+    warp = pile.warp_diameter or warp_diameter(quality.warp_pitch)
     yarn = yarn_diameter(linear_density, pile.fibre_density, pile.packing)
     leg = leg_length(warp, yarn, pile)
     return pile.calibration * (2 * leg + wrap(quality.warp_pitch, (warp + yarn) / 2))

@@ -3,7 +3,7 @@
 The comb goes down with the whole cam system, presses, and goes up [thesis 3.3], as quickly as its acceleration allows:
 a stroke h by a law of peak Ca, down and up in a share (1 - q)/2 of the time each and pressing for q, takes
 T = 2/(1 - q) sqrt(Ca h / a). Crank-rockers strike once in a turn of their crank. Where a force for each warp leaves the
-rows is the fabric's answer [`ilmek.machines.hammer.fabric`]; how hard it packs is to be measured, until then assumed.
+rows is the fabric's answer [`ilmek.weaving.fell`]; how hard it packs is to be measured, until then assumed.
 """
 
 import math
@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ilmek.cams.laws import LAWS
-from ilmek.carpet.ground import warp_stiffness
+from ilmek.elements.yarns import warp_stiffness
 from ilmek.machines import beat_up, hammer
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.hammer.design import fabric_of

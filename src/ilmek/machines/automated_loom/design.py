@@ -25,10 +25,7 @@ from ilmek.machines.shedding.report import prime_radius_for_bore
 from ilmek.machines.warp_tension.design import WarpTensionDesign, keeps_limits
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.units import format_quantity, mm, turn
-
-TENSION, TENSION_PITCH = 15.0, 2 * mm
-"""Tension of a warp of the thesis [N] and its pitch [m]. A warp's mass per length goes with its pitch, and with it what
-it bears: the tension per width stays the same."""
+from ilmek.weaving.tension import usual_tension
 
 HEADS = 4
 """Heads of a loom for which no number is said, where so many fit."""
@@ -170,7 +167,7 @@ def beaters(params: AutomatedLoomParams) -> int:
 
 def warp_tension_of(params: AutomatedLoomParams) -> float:
     """Tension of a warp [N]: as given, or the thesis' for the warp's mass."""
-    return params.tension or TENSION * params.pitch / TENSION_PITCH
+    return params.tension or usual_tension(params.pitch)
 
 
 def _heads(params: AutomatedLoomParams, most: int) -> int:

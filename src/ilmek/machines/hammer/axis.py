@@ -24,9 +24,9 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import SERVO
 from ilmek.elements.screws import Screw
 from ilmek.machines.hammer.comb import comb_mass
-from ilmek.machines.hammer.fabric import Fabric
 from ilmek.machines.hammer.params import STACK, STEEL, HammerParams
 from ilmek.units import mm
+from ilmek.weaving.fell import Fabric
 
 SAMPLES = 720
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ilmek.machines.hammer.fabric import Fabric
-from ilmek.machines.hammer.fell_beam import Pressed, pressed
 from ilmek.machines.hammer.params import DEPTHS, HammerParams
+from ilmek.weaving.comb_on_fell import FellPressure, fell_pressure
+from ilmek.weaving.fell import Fabric
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class Comb:
     mass: float
     rigidity: float
     foundation: float
-    line: Pressed
+    line: FellPressure
     stress: float
     leaf_stress: float
     leaf_sag: float
@@ -44,7 +44,7 @@ def comb_for(params: HammerParams, fabric: Fabric, force: float) -> Comb:
     rigidity = params.modulus * params.comb_thickness * params.depth**3 / 12
     foundation = fabric.rate(float(fabric.spacing(force))) / params.warp_pitch
     ends = (params.inset, params.width - params.inset) if params.places > 1 else (params.width / 2,) * 2
-    line = pressed(params.width, np.unique(np.linspace(*ends, params.places)), rigidity, foundation)
+    line = fell_pressure(params.width, np.unique(np.linspace(*ends, params.places)), rigidity, foundation)
     curvature = float(np.max(np.abs(line.curvature))) * force / params.warp_pitch
     leaf = params.leaf * params.leaf_height**2
     return Comb(

@@ -12,9 +12,9 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.machines.hammer.axis import Axis, axis_for
 from ilmek.machines.hammer.comb import Comb, comb_for, with_depth
-from ilmek.machines.hammer.fabric import Fabric
 from ilmek.machines.hammer.linkage import Linkage, linkage_for
 from ilmek.machines.hammer.params import HammerParams
+from ilmek.weaving.fell import Fabric
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,17 +4,15 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
-from ilmek.carpet.ground import warp_stiffness
 from ilmek.elements.materials import MATERIALS
+from ilmek.elements.yarns import warp_stiffness
 from ilmek.errors import ParameterError
 from ilmek.params import Params, param
-from ilmek.units import MPa, N, deg, format_quantity, mm, rpm, turn
+from ilmek.units import MPa, deg, format_quantity, mm, rpm, turn
+from ilmek.weaving.tension import usual_tension
 
 DRIVES = ("comb", "linkage")
 AXES = ("screw", "belt")
-
-TENSION_PER_PITCH = 15 * N / (2 * mm)
-"""Tension of a warp over the pitch of the warps [N/m]: 15 N at 2 mm [thesis 3.1]; it goes with the warp's mass."""
 
 STACK = 550.0 / 1.2
 """Mass of the shedding cams over the width [kg/m], which the thesis' comb takes down with it [thesis 3.2, 3.3]."""
@@ -77,7 +75,7 @@ class FabricParams(Params):
     @property
     def warp_tension(self) -> float:
         """Tension of a warp [N]."""
-        return self.tension or TENSION_PER_PITCH * self.warp_pitch
+        return self.tension or usual_tension(self.warp_pitch)
 
     @property
     def stiffness(self) -> float:

@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 
 from ilmek.machines.shedding.design import SheddingDesign
-from ilmek.machines.shedding.draped import Bridged, Draped, bridged, draped
+from ilmek.machines.shedding.draped import bridged, draped
 from ilmek.machines.shedding.phases import Shed, flattest, shed_of
+from ilmek.weaving.draped_warp import Bridges, DrapedWarp
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,8 +15,8 @@ class Study:
     design: SheddingDesign
     together: Shed
     flattest: Shed
-    yarn: Draped | None
-    bridged: Bridged | None
+    yarn: DrapedWarp | None
+    bridged: Bridges | None
 
 
 def study(design: SheddingDesign) -> Study:

@@ -12,7 +12,7 @@ from ilmek.elements.figures import deflection_plot
 from ilmek.machines.shedding.alternatives import Study
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.draped import stack_torque
-from ilmek.machines.shedding.warp import taut
+from ilmek.machines.shedding.warp import shed_warp
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series
 from ilmek.units import format_quantity
 
@@ -76,7 +76,7 @@ def stagger_plot(studied: Study) -> Plot:
 def tension_plots(studied: Study) -> tuple[Plot, ...]:
     """Tension of a warp over the turn, and the torque of warps draped over the cams; nothing without a tension."""
     design, yarn = studied.design, studied.yarn
-    warp = taut(design.params)
+    warp = shed_warp(design.params)
     if warp is None:
         return ()
     angle = cam_figures.sample_angles(design.even, design.odd)

@@ -7,20 +7,22 @@ import numpy as np
 from ilmek.cams.limits import concave_radius_min
 from ilmek.machines.shedding.alternatives import Study
 from ilmek.machines.shedding.design import SheddingDesign
-from ilmek.machines.shedding.draped import capstan, nose_radius, stack_torque
-from ilmek.machines.shedding.warp import Taut, taut
+from ilmek.machines.shedding.draped import nose_radius, stack_torque
+from ilmek.machines.shedding.warp import shed_warp
 from ilmek.report import Check, Json, Result, at_most
 from ilmek.units import format_quantity
+from ilmek.weaving.shed import ShedWarp
+from ilmek.weaving.tension import capstan
 
 
 def warp_results(studied: Study) -> tuple[Result, ...]:
     """Tension and strain over the turn, bridging, and the yarn draped over the cam; null where there is no tension."""
     design, params = studied.design, studied.design.params
-    warp = taut(params)
+    warp = shed_warp(params)
     top = np.array(params.lift)
     longer = float(warp.lengthening(top)) if warp else None
     most = float(warp.tension_at(top)) if warp else None
-    across = float(most * warp.lever(top)) if warp and most else params.warp_force
+    across = float(most * warp.slope(top)) if warp and most else params.warp_force
     return (
         Result("warp_lengthening", longer, "mm", "what a lifted warp is longer by"),
         Result("warp_strain", _strain(design, warp), "%", "what of it the warp itself takes, over its length"),
@@ -33,7 +35,7 @@ def warp_results(studied: Study) -> tuple[Result, ...]:
 
 def warp_checks(design: SheddingDesign) -> tuple[Check, ...]:
     """The strain of a warp that stretches."""
-    strain = _strain(design, taut(design.params))
+    strain = _strain(design, shed_warp(design.params))
     if strain is None:
         return ()
     return (at_most("strain of a lifted warp", strain, design.params.strain_limit, "%", "strain_limit"),)
@@ -51,13 +53,13 @@ def warp_warnings(studied: Study) -> tuple[str, ...]:
             f"the cam is hollow (radius {shown} at {where}): a taut warp bridges the hollow and is lifted a little "
             f"earlier and let down a little later than the law says{by}"
         )
-    if taut(params) is not None and studied.yarn is None:
+    if shed_warp(params) is not None and studied.yarn is None:
         reach = format_quantity(design.cam.prime_radius + params.lift, "mm")
         said.append(f"a hold of the warps stands within the {reach} that the cams reach: set longer spans")
     return tuple(said)
 
 
-def _strain(design: SheddingDesign, warp: Taut | None) -> float | None:
+def _strain(design: SheddingDesign, warp: ShedWarp | None) -> float | None:
     """Strain of a lifted warp; None where its stiffness is not given."""
     params = design.params
     if warp is None or params.warp_stiffness is None:
@@ -80,7 +82,7 @@ def _draped(studied: Study) -> Json:
     wrap, radius = float(np.max(yarn.wrap)), nose_radius(design.cam)
     return {
         "torque_max": float(np.max(np.abs(stack_torque(design.shed, yarn)))),
-        "lengthening_max": float(np.max(yarn.longer)),
+        "lengthening_max": float(np.max(yarn.lengthening)),
         "tension_max": float(np.max(yarn.tension)),
         "lifted_angle": yarn.lifted,
         "wrap_max": wrap,

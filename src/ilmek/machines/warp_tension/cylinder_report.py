@@ -15,7 +15,7 @@ from ilmek.machines.warp_tension.cylinders import (
     tension_beyond,
 )
 from ilmek.machines.warp_tension.design import WarpTensionDesign, keeps_limits
-from ilmek.machines.warp_tension.tension import WarpTension, course, tension_of
+from ilmek.machines.warp_tension.tension import WarpTension, history, tension_of
 from ilmek.report import Axis, Check, Column, Drawing, Plot, Result, Series, Stroke, Table, at_least, at_most
 from ilmek.units import mm, turn
 
@@ -43,7 +43,7 @@ def cylinder_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
         at_least(f"shaft end of the {weak.name} cylinder", weak.stub_safety, STUB_SAFETY, "1", f"yield of {STUB.name}"),
         at_most("warp in its slot", slots.warp, slots.width, "mm", "slots of the spacer"),
         at_least("land between slots", slots.land, 0.0, "mm", "pitch of the warps"),
-        at_most("tension with the shed open", tension.shed, tension.breaking, "N", "cotton breaks at 17 cN/tex"),
+        at_most("tension with the shed open", tension.over.shed, tension.breaking, "N", "cotton breaks at 17 cN/tex"),
         at_most("tension of a motor's step", tension.step, 0.05 * params.tension, "N", "a twentieth of the tension"),
     )
 
@@ -106,9 +106,9 @@ def stock_table(design: WarpTensionDesign) -> Table:
 def tension_plot(design: WarpTensionDesign) -> Plot:
     """Tension of a warp over some rows."""
     rows = max(SHOWN_ROWS, design.params.rows_between + 1)
-    at, over = course(design, rows)
+    at, over = history(design, rows)
     tension = tension_of(design)
-    asked = Series("asked for", np.array([0.0, float(rows)]), np.full(2, tension.rest), dashed=True)
+    asked = Series("asked for", np.array([0.0, float(rows)]), np.full(2, tension.over.rest), dashed=True)
     note = "rises as the weft waves the warps; peaks: its shed; falls at the take-up, where the upper cylinder lets off"
     return Plot(
         "warp-tension-rows",
@@ -176,10 +176,17 @@ def _of_slots(slots: Slots, spacer: Cylinder) -> tuple[Result, ...]:
 def _of_tension(tension: WarpTension, design: WarpTensionDesign) -> tuple[Result, ...]:
     return (
         Result("warp_stiffness", tension.stiffness, "kN", "force over strain of a warp"),
-        Result("tension_woven", tension.woven, "N", "tension before the take-up: the weft's waves tighten the warps"),
-        Result("tension_row", (tension.woven - tension.rest) / design.params.rows_between, "N", "change over a row"),
-        Result("tension_shed", tension.shed, "N", "tension with the shed open, the cylinders standing"),
-        Result("tension_locked", tension.locked, "N", "tension if only the lower cylinder took up"),
+        Result(
+            "tension_woven", tension.over.woven, "N", "tension before the take-up: the weft's waves tighten the warps"
+        ),
+        Result(
+            "tension_row",
+            (tension.over.woven - tension.over.rest) / design.params.rows_between,
+            "N",
+            "change over a row",
+        ),
+        Result("tension_shed", tension.over.shed, "N", "tension with the shed open, the cylinders standing"),
+        Result("tension_locked", tension.over.locked, "N", "tension if only the lower cylinder took up"),
         Result("tension_spacer", tension_beyond(design.params), "N", "tension beyond the spacer while warps slip"),
         Result("tension_breaking", tension.breaking, "N", "breaking force of a cotton warp"),
         Result("tension_step", tension.step, "N", "change of tension for a full step of the motor"),

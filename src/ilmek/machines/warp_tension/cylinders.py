@@ -6,7 +6,7 @@
              T n / l (-i + i exp(i phi)), 2 T sin(phi/2) a warp, and its weight; its slots take the tube's outside away
 
 Loads are complex, x to the front, y upwards. A cylinder bends in the plane of its load, as a beam between its bearings.
-The warps slip over the spacer: on its other side they pull with T exp(mu phi) while they move [Euler, Eytelwein].
+The warps slip over the spacer: on its other side they pull with T exp(mu phi) while they move.
 
 Bearings: the load is the reaction; life after ISO 281 in turns of the cylinder, which are few: so what counts is the
 static safety C0 / P0, 1.5 and more [ISO 76: 1 to 2 for ball bearings of ordinary demands]. A shaft end of the bearing's
@@ -20,7 +20,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.carpet.ground import WARP_DENSITY_PER_PITCH, yarn_diameter
 from ilmek.elements.beam import uniform
 from ilmek.elements.bearing_table import CYLINDRICAL, DEEP_GROOVE, INSERT
 from ilmek.elements.bearings import (
@@ -35,10 +34,12 @@ from ilmek.elements.bearings import (
 )
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.tubes import TUBES, Tube, find_tube
+from ilmek.elements.yarns import warp_diameter
 from ilmek.errors import ParameterError
 from ilmek.machines.warp_tension.design import WarpTensionDesign, tube_weight
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.units import format_quantity, hour, mm
+from ilmek.weaving.tension import capstan
 
 STATIC_SAFETY = 1.5
 STUB = MATERIALS["heat-treatable steel"]
@@ -106,7 +107,7 @@ class Slots:
 
 def slots_of(params: WarpTensionParams) -> Slots:
     """The spacer's slots, one for each warp."""
-    usual = min(yarn_diameter(WARP_DENSITY_PER_PITCH * params.pitch), TAUT * params.pitch)
+    usual = min(warp_diameter(params.pitch), TAUT * params.pitch)
     warp = params.warp_diameter or usual
     depth = warp if params.slot_depth is None else params.slot_depth
     return Slots(params.pitch, params.slot_width or 1.1 * warp, depth, warp)
@@ -132,7 +133,7 @@ def spacer_load(params: WarpTensionParams, load: float) -> complex:
 
 def tension_beyond(params: WarpTensionParams) -> float:
     """Tension of a warp on the other side of the spacer while it slips [N]."""
-    return params.tension * math.exp(params.friction * params.spacer_wrap)
+    return params.tension * capstan(params.friction, params.spacer_wrap)
 
 
 def stock(inner: float, outer: float) -> Tube | None:

@@ -7,8 +7,8 @@ cycle T of the design
     cams        T p / p_limit         since p² goes with the force        carriage its step over the window's share
     motor       the least at which the motor still gives 1.25 times the torque, T sqrt(M / M(w))
 
-The cutter's blade goes h = 2 d across the yarn from rest to rest. The pile's fibres bear 0.12 N/tex, so that cutting
-takes at most that of all of them at once.            [wool: Morton and Hearle, Physical Properties of Textile Fibres]
+The cutter's blade goes h = 2 d across the yarn from rest to rest. Cutting takes at most the force that breaks all the
+fibres of the pile yarn at once.
 """
 
 import math
@@ -17,13 +17,11 @@ from dataclasses import dataclass
 
 from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import Motor, smallest_motor
+from ilmek.elements.yarns import WOOL
 from ilmek.machines.weaver.cams import PRESSURE_LIMIT, STEEL
 from ilmek.machines.weaver.cyclogram import HANDLER
 from ilmek.machines.weaver.design import Weaver
 from ilmek.units import turn
-
-TENACITY = 0.12e6
-"""Breaking force of wool over its mass per length [N m/kg], 12 cN/tex."""
 
 STEPS = 200
 """Full steps of a stepper's turn."""
@@ -63,8 +61,8 @@ def cut_share(weaver: Weaver) -> float:
 
 
 def cutting_force(weaver: Weaver) -> float:
-    """Force that cuts the yarn for sure [N]: all its fibres at once."""
-    return TENACITY * weaver.params.yarn_density
+    """Upper bound of the cutting force [N]: all fibres of the yarn at once."""
+    return WOOL.breaking_force(weaver.params.yarn_density)
 
 
 def selector_of(weaver: Weaver) -> Selector:

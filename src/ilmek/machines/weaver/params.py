@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
-from ilmek.carpet.ground import warp_density, yarn_diameter
 from ilmek.carpet.knots.kinds import WRAPS, PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
+from ilmek.elements.yarns import WOOL, warp_diameter
 from ilmek.errors import ParameterError
 from ilmek.params import Params, param
 from ilmek.units import deg, format_quantity, g, m, mm, turn
@@ -137,12 +137,12 @@ class WeaverParams(Params):
     @property
     def warp(self) -> float:
         """Diameter of a warp [m]."""
-        return self.warp_diameter or yarn_diameter(warp_density(self.quality))
+        return self.warp_diameter or warp_diameter(self.quality.warp_pitch)
 
     @property
     def yarn(self) -> float:
         """Diameter of the pile yarn [m]."""
-        return yarn_diameter(self.yarn_density)
+        return WOOL.diameter(self.yarn_density)
 
     @property
     def billed(self) -> float:

@@ -1,22 +1,23 @@
-"""How the fell resists the beat, and where that leaves the row.
+"""Resistance of the fell to the beat-up, and the distance of the rows that a force leaves.
 
 A row laid at the distance P from the fell is driven up to p. Greenwood and Cowhig found the weaving resistance to grow
-as k / (p - D) towards the jammed distance D; so that a row which is only laid resists with nothing, here it is
+as k / (p - D) towards the jammed distance D. A row that is only laid resists with nothing, so that here it is
 
     R(p) = K T (1 / (p - D) - 1 / (P - D)),      p(F) = D + 1 / (F / (K T) + 1 / (P - D))        force of one warp
 
-which falls from endless at D to 0 at P, and tends to theirs for a large P. It comes from the friction of warps on
-wefts and so goes with the warp's tension T; the length K tells how hard the fabric packs, and is to be measured: one
-beat of a known force and the row it leaves give it. While the beat lasts the fell gives way by x: warps tauten, cloth
-slackens,
+which falls from infinity at D to 0 at P, and tends to their law for a large P. The resistance comes from the friction
+of warps on wefts and so is proportional to the tension T of the warp. The length K states how hard the fabric packs; it
+is measured: one beat of a known force and the row that it leaves give it. During the beat the fell yields by x: warps
+tighten, cloth slackens,
 
-    R = (kw + kc) x   up to the cloth's slackness, x = T / kc;      R = T + kw x   beyond: the fell "bumps"
+    R = (kw + kc) x   until the cloth is slack, x = T / kc;      R = T + kw x   beyond: bumping
 
-with kw = EA / lw, kc = EA / lc, the stiffness of a warp and of its part of the cloth. Once the comb is back, so is x;
-what stays is p. Work of a beat: K T (ln((P - D) / (p - D)) - (P - p) / (P - D)) into the row for good, and what
-stretches warps and cloth, which they give back.
+with kw = EA / lw, kc = EA / lc, the stiffness of a warp and of its part of the cloth. When the comb is back, x is 0;
+the row stays at p. Work of a beat: K T (ln((P - D) / (p - D)) - (P - p) / (P - D)) is spent on packing; what stretches
+warps and cloth is returned.
 [Greenwood and Cowhig, The position of the cloth fell in power looms, Journal of the Textile Institute 47, 1956, T241;
-Vatankhah, Importance of the cloth fell position and its specification methods, 2010; the term 1 / (P - D) is ours]
+Vatankhah, Importance of the cloth fell position and its specification methods, 2010; the term 1 / (P - D) is derived
+here]
 """
 
 import math
@@ -29,10 +30,10 @@ from ilmek.arrays import FloatArray, RealField
 
 @dataclass(frozen=True, slots=True)
 class Fabric:
-    """The fell, for one warp.
+    """The fabric at the fell, for one warp.
 
-    tension  of a warp [N]      laid, jammed  distances P and D of a row [m]      packing  the length K [m]
-    warp_rate, cloth_rate       stiffness of the warp and of its part of the cloth [N/m]
+    tension  T of the warp [N]      laid, jammed  distances P and D of a row [m], 0 < D < P   packing  length K [m]
+    warp_rate, cloth_rate           kw and kc, stiffness of the warp and of its part of the cloth [N/m]
     """
 
     tension: float
@@ -43,17 +44,17 @@ class Fabric:
     cloth_rate: float
 
     def resistance(self, spacing: RealField) -> RealField:
-        """R [N] at a distance of rows [m] between jammed and laid."""
+        """R [N] at distances of rows [m] of any shape, above jammed and up to laid; infinite where rows are jammed."""
         return self.packing * self.tension * (1 / (spacing - self.jammed) - 1 / (self.laid - self.jammed))
 
     def spacing(self, force: RealField) -> RealField:
-        """Distance of rows [m] that a force [N] leaves."""
+        """Distance of rows p [m] that forces [N] of any shape leave; laid at 0, jammed at infinity."""
         return self.jammed + 1 / (force / (self.packing * self.tension) + 1 / (self.laid - self.jammed))
 
     def rate(self, spacing: float) -> float:
-        """Stiffness of the fell [N/m] at a distance of rows: of packing, and of warps and cloth, one behind the other.
+        """Stiffness of the fell [N/m] at a distance of rows [m]: packing in series with warp and cloth.
 
-        Beyond the bump only the warps bear.
+        Beyond bumping only the warp carries.
         """
         packing = self.packing * self.tension / (spacing - self.jammed) ** 2
         slack = float(self.resistance(spacing)) > self.bump
@@ -62,26 +63,26 @@ class Fabric:
 
     @property
     def bump(self) -> float:
-        """Force [N] from which the cloth hangs slack: T (1 + kw / kc)."""
+        """Force [N] from which the cloth is slack: T (1 + kw / kc)."""
         return self.tension * (1 + self.warp_rate / self.cloth_rate)
 
     def fell(self, force: RealField) -> FloatArray:
-        """How far the fell gives way [m] under a force [N]."""
+        """Displacement x of the fell [m] under forces [N] of any shape."""
         taut = np.divide(force, self.warp_rate + self.cloth_rate)
         slack = np.divide(np.subtract(force, self.tension), self.warp_rate)
         return np.asarray(np.where(np.less_equal(force, self.bump), taut, slack))
 
     def travel(self, force: RealField) -> FloatArray:
-        """How far the comb goes from where it meets the laid row [m]: packing, and the fell's giving way."""
+        """Travel of the comb [m] from its contact with the laid row: packing and displacement of the fell."""
         return np.asarray(self.laid - self.spacing(force) + self.fell(force))
 
     def packing_work(self, spacing: float) -> float:
-        """Work [J] that drives a row to a distance [m]; it is not given back."""
+        """Work [J] that drives a row to a distance [m]; it is not returned."""
         laid, left = self.laid - self.jammed, spacing - self.jammed
         return self.packing * self.tension * (math.log(laid / left) - (laid - left) / laid)
 
     def stretching_work(self, force: float) -> float:
-        """Work [J] that a force [N] puts into warps and cloth; the area under R over x."""
+        """Work [J] that a force [N] puts into warp and cloth: the area under R over x."""
         x = float(self.fell(force))
         taut = min(x, self.tension / self.cloth_rate)
         beyond = x - taut
@@ -93,7 +94,7 @@ class Fabric:
         return self.packing_work(float(self.spacing(force))) + self.stretching_work(force)
 
     def struck(self, energy: float) -> float:
-        """Force [N] up to which a blow of an energy [J] goes, where all of it goes into the fell."""
+        """Largest force [N] of a blow of an energy [J], all of which goes into the fell; inverse of `energy`."""
         high = self.tension
         while self.energy(high) < energy:
             high *= 2

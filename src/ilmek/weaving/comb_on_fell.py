@@ -1,13 +1,15 @@
 """The comb as a beam on the fell: how evenly it presses.
 
-    E I w'''' + k w = 0,   l = (k / 4 E I)^(1/4),   w = what the fell is pressed in, q = k w     [Winkler; Hetenyi 1946]
+    E I w'''' + k w = 0,   l = (k / 4 E I)^(1/4),   q = k w       [Winkler foundation; Hetenyi, Beams on Elastic
+                                                                   Foundation, 1946]
 
-k [N/m^2] the fell's stiffness over the width. The comb is pushed down by one distance at its supports, its ends are
-free. Each piece is moved by Krylov's functions K1 = cosh z cos z, K2 = (cosh z sin z + sinh z cos z) / 2,
-K3 = sinh z sin z / 2, K4 = (cosh z sin z - sinh z cos z) / 4 of z = l x, each the derivative of the next, K1' = -4 K4:
-the exact solution. Pieces are no longer than 1.5 / l, so that no function outgrows the others.
+w [m] is the displacement of the fell, q [N/m] the pressure, k [N/m^2] the stiffness of the fell over the width. The
+comb is pushed down by one distance at its supports; its ends are free. Each piece is propagated by Krylov's functions
+K1 = cosh z cos z, K2 = (cosh z sin z + sinh z cos z) / 2, K3 = sinh z sin z / 2, K4 = (cosh z sin z - sinh z cos z) / 4
+of z = l x, each the derivative of the next, K1' = -4 K4: the exact solution. Pieces are no longer than 1.5 / l, so that
+no function outgrows the others.
 
-Held at both ends the middle is pressed by cosh u cos u / (cosh^2 u cos^2 u + sinh^2 u sin^2 u) of the ends,
+Held at both ends, the middle is pressed by cosh u cos u / (cosh^2 u cos^2 u + sinh^2 u sin^2 u) of the ends,
 u = l W / 2.
 """
 
@@ -15,21 +17,24 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
 from ilmek.arrays import FloatArray
 
-STIFF = 0.02
-"""A comb of l W below this bends by less than 1e-7 of what it presses: rigid."""
+RIGID = 0.02
+"""A comb of l W below this bends by less than 1e-7 of the displacement of the fell: rigid."""
 
 _LONGEST = 1.5
 _DENSE = 201
 
 
 @dataclass(frozen=True, slots=True)
-class Pressed:
-    """A comb on the fell, at places x [m] across the width: `share` of the mean pressure; moment in units of EI [1/m].
+class FellPressure:
+    """Pressure of a comb on the fell across its width.
 
-    The shares' mean is 1. number  l W: below 1 the comb is stiff against the fell
+    x          positions across the width [m]      share  pressure there over the mean pressure; its mean is 1
+    curvature  of the comb there for a mean pressure of 1 N/m [1/N]
+    number     l W: below 1 the comb is stiff against the fell
     """
 
     x: FloatArray
@@ -39,37 +44,41 @@ class Pressed:
 
     @property
     def least(self) -> float:
-        """Least share of the mean."""
+        """Least pressure over the mean."""
         return float(self.share.min())
 
     @property
     def most(self) -> float:
-        """Largest share of the mean."""
+        """Largest pressure over the mean."""
         return float(self.share.max())
 
     @property
     def uniformity(self) -> float:
-        """Least over largest; below 0 the comb leaves the fell somewhere."""
+        """Least over largest pressure; below 0 the comb leaves the fell somewhere."""
         return self.least / self.most
 
 
 def krylov(z: FloatArray) -> FloatArray:
-    """K1 to K4 of z, in a first axis."""
+    """Krylov's functions K1 to K4 of z, along a new first axis."""
     c, s = np.cosh(z), np.sinh(z)
     cos, sin = np.cos(z), np.sin(z)
     return np.stack([c * cos, (c * sin + s * cos) / 2, s * sin / 2, (c * sin - s * cos) / 4])
 
 
-def pressed(width: float, supports: FloatArray, rigidity: float, foundation: float) -> Pressed:
-    """The comb of a width [m], held at places [m], of rigidity E I [N m^2] on a fell of stiffness [N/m^2].
+def fell_pressure(
+    width: float, supports: Float[np.ndarray, " supports"], rigidity: float, foundation: float
+) -> FellPressure:
+    """Pressure across the width of a comb that is pushed down at its supports.
 
-    `curvature` is that of the mean pressure 1 N/m: times the mean pressure it is the comb's [1/m].
+    width     W of the comb [m]             supports    their positions from its left end [m], one or more
+    rigidity  E I of the comb [N m^2]       foundation  k, stiffness of the fell over the width [N/m^2]
+    A comb that is rigid against the fell presses evenly, or tilts about a single support.
     """
     root = (foundation / (4 * rigidity)) ** 0.25
     number = root * width
     x = np.unique(np.concatenate([np.linspace(0.0, width, _DENSE), supports]))
-    if number < STIFF:
-        return Pressed(x, _rigid(x, width, supports), np.zeros_like(x), number)
+    if number < RIGID:
+        return FellPressure(x, _rigid(x, width, supports), np.zeros_like(x), number)
     nodes = _nodes(width, supports, _LONGEST / root)
     states = _states(nodes, supports, root)
     piece = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
@@ -79,11 +88,11 @@ def pressed(width: float, supports: FloatArray, rigidity: float, foundation: flo
     # The pressure's integral over a piece is the step of w''' / 4 l over it, by the equation itself.
     mean = float(np.sum([-(_end(states[i], root * step)[3] - states[i][3]) for i, step in enumerate(np.diff(nodes))]))
     mean /= 4 * root * width
-    return Pressed(x, pushed / mean, bent / (mean * foundation), number)
+    return FellPressure(x, pushed / mean, bent / (mean * foundation), number)
 
 
 def _rigid(x: FloatArray, width: float, supports: FloatArray) -> FloatArray:
-    """Shares of a comb that does not bend: even, or tilted about a lone support until its moments balance."""
+    """Pressure of a rigid comb over the mean: even, or tilted about a single support until the moments balance."""
     if supports.size > 1:
         return np.ones_like(x)
     lever = x - supports[0]
@@ -93,7 +102,7 @@ def _rigid(x: FloatArray, width: float, supports: FloatArray) -> FloatArray:
 
 
 def _nodes(width: float, supports: FloatArray, longest: float) -> FloatArray:
-    """Ends and supports, and places between them at most `longest` apart."""
+    """Ends and supports, and positions between them at most `longest` apart."""
     fixed = np.unique(np.concatenate([[0.0, width], supports]))
     parts = [max(1, math.ceil(step / longest)) for step in np.diff(fixed).tolist()]
     made = [np.linspace(fixed[i], fixed[i + 1], part + 1)[:-1] for i, part in enumerate(parts)]

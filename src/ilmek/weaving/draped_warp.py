@@ -1,0 +1,155 @@
+"""A warp as a taut yarn draped over a turning cam, over the cam's hollows, from hold to hold.
+
+A knife-edge follower touches the cam on its own line alone. A yarn lies on the convex hull of the cam: it bridges what
+is hollow, and where the nose stands in front of or behind the follower's line, the nose already lifts it there. Between
+the holds A and B, at R + i a and R - i b with the follower's line along the real axis at R, the yarn is as long as
+
+    l = |A - P| + arc of the hull from P to Q + |Q - B|,     P, Q where the tangents from A and B touch
+
+Without friction it pulls on the cam with T along both tangents: its torque T (P x (A-P)/|A-P| + Q x (B-Q)/|B-Q|) is
+T dl/dtheta. The cam is taken as the polygon of its points.                                    [derived; virtual work]
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Complex, Float, Int
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.units import turn
+from ilmek.weaving.shed import ShedWarp
+
+LEAST_BRIDGE = 1e-6
+"""Height of a bridge above the cam from which it is reported [m]."""
+
+LEAST_LENGTHENING = 1e-6
+"""Lengthening from which a draped warp counts as lifted [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Bridges:
+    """Where a yarn bridges a cam.
+
+    arcs    cam angles between which the hull leaves the cam, each from and to [rad]
+    excess  greatest height of a bridge above the cam [m]      at  its cam angle [rad]
+    """
+
+    arcs: tuple[tuple[float, float], ...]
+    excess: float
+    at: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DrapedWarp:
+    """A warp draped over its cam, over one turn; all arrays have the shape of `angle`.
+
+    angle         of the cam [rad]                  wrap    angle of wrap on the cam [rad]
+    lengthening   of the warp from hold to hold [m] tension of the warp [N]
+    torque        of the warp on the shaft [N m]    lifted  part of the turn for which the warp is off its line [rad]
+    """
+
+    angle: FloatArray
+    lengthening: FloatArray
+    torque: FloatArray
+    wrap: FloatArray
+    tension: FloatArray
+    lifted: float
+
+
+def hull(points: Complex[np.ndarray, " points"]) -> Int[np.ndarray, " corners"]:
+    """Indices of the points on the convex hull, counter-clockwise from the leftmost.      [Andrew's monotone chain]
+
+    >>> hull(np.array([0j, 1 + 0j, 0.5 + 0.1j, 1j])).tolist()
+    [0, 1, 3]
+    """
+    order = np.lexsort((points.imag, points.real)).tolist()
+    plane = points.tolist()
+    lower, upper = _chain(plane, order), _chain(plane, order[::-1])
+    return np.array(lower[:-1] + upper[:-1])
+
+
+def _chain(plane: list[complex], order: list[int]) -> list[int]:
+    kept: list[int] = []
+    for index in order:
+        while len(kept) > 1 and _turn(plane[kept[-2]], plane[kept[-1]], plane[index]) <= 0:
+            kept.pop()
+        kept.append(index)
+    return kept
+
+
+def _turn(a: complex, b: complex, c: complex) -> float:
+    return ((b - a).conjugate() * (c - b)).imag
+
+
+def bridges(surface: Complex[np.ndarray, " points"]) -> Bridges | None:
+    """Where a yarn bridges a cam; None where the cam is convex all round.
+
+    surface  points of the cam [m] about its axis, at cam angles evenly over a turn from 0
+    """
+    count = len(surface)
+    angle = np.arange(count) * (turn / count)
+    kept = np.sort(hull(surface))
+    gaps = np.flatnonzero(np.diff(np.append(kept, kept[0] + count)) > 1)
+    arcs, excess, at = [], 0.0, 0.0
+    for gap in gaps.tolist():
+        first, last = int(kept[gap]), int(kept[(gap + 1) % kept.size])
+        last += count if last < first else 0
+        inside = np.arange(first + 1, last) % count
+        over = _above(surface[inside], surface[first % count], surface[last % count])
+        most = int(np.argmax(over))
+        if over[most] > LEAST_BRIDGE:
+            arcs.append((float(angle[first]), float(angle[last % count])))
+            excess, at = max((excess, at), (float(over[most]), float(angle[inside[most]])))
+    return Bridges(tuple(arcs), excess, at) if arcs else None
+
+
+def _above(points: ComplexArray, first: complex, last: complex) -> FloatArray:
+    """Height of the chord above points, along the rays through them [m]."""
+    along = last - first
+    rays = points / np.abs(points)
+    # The ray t u meets the chord where t u - first is along the chord.
+    reach = (first.conjugate() * along).imag / (np.conj(rays) * along).imag
+    return np.asarray(reach - np.abs(points))
+
+
+def draped_warp(
+    surface: Complex[np.ndarray, " points"], warp: ShedWarp, radius: float, angle: Float[np.ndarray, " angles"]
+) -> DrapedWarp | None:
+    """A warp draped over a cam; None where a hold of the warp stands within the reach of the nose.
+
+    surface  points of the cam [m] about its axis at cam angle 0      warp   with its holds and its tension
+    radius   R, of the cam's base circle, on which the warp rests [m] angle  of the cam, one turn evenly [rad]
+    """
+    front, back = complex(radius, warp.front), complex(radius, -warp.back)
+    if min(abs(front), abs(back)) <= float(np.max(np.abs(surface))):
+        return None
+    ring = surface[hull(surface)]
+    along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(ring)))])
+    circumference = float(along[-1] + abs(ring[0] - ring[-1]))
+    turned = ring * np.exp(1j * angle)[:, None]
+    from_front, from_back = turned - front, turned - back
+    leans = np.arctan2(from_front.real, -from_front.imag), np.arctan2(from_back.real, from_back.imag)
+    touch = np.argmax(leans[0], axis=1), np.argmax(leans[1], axis=1)
+    row = np.arange(angle.size)
+    steep = leans[0][row, touch[0]], leans[1][row, touch[1]]
+    # The ring runs counter-clockwise: from where the yarn from behind touches to where the one from in front does.
+    arc = np.mod(along[touch[0]] - along[touch[1]], circumference)
+    longer = np.abs(from_front[row, touch[0]]) + arc + np.abs(from_back[row, touch[1]]) - (warp.front + warp.back)
+    off = (steep[0] > 0) & (steep[1] > 0) & (longer > 0)
+    longer = np.where(off, longer, 0.0)
+    tension = warp.tension + warp.rate * longer
+    lever = sum(_moment(turned[row, at], hold) for at, hold in zip(touch, (front, back), strict=True))
+    return DrapedWarp(
+        angle=angle,
+        lengthening=longer,
+        torque=np.where(off, -tension * lever, 0.0),
+        wrap=np.where(off, steep[0] + steep[1], 0.0),
+        tension=tension,
+        lifted=float(np.mean(longer > LEAST_LENGTHENING)) * turn,
+    )
+
+
+def _moment(at: ComplexArray, hold: complex) -> FloatArray:
+    """Moment about the cam's axis of a unit pull at points towards a hold [m]."""
+    pull = (hold - at) / np.abs(hold - at)
+    return np.asarray((np.conj(at) * pull).imag)

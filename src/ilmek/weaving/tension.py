@@ -1,0 +1,95 @@
+"""Tension of the warps over the rows between two take-ups: weaving, shed, take-up.
+
+Between its two cylinders a warp of length L and stiffness EA is held. Lengthening it by d, or releasing d less of it,
+changes its tension by EA d / L. With w the carpet woven between two take-ups and c the crimp of the warp,
+
+    weaving    w (1 + c) of warp becomes w of carpet: its crimp shortens the warp by w c     T + EA w c / L
+    shed       the open shed lengthens the warp by dL (`shed`)                               T + EA dL / L while open
+    take-up    the lower cylinder winds w, the upper one releases w (1 + c)                  the tension at rest
+               the upper cylinder locked                                                     T + EA w / L
+               the upper cylinder releases only w                                            T as after weaving
+
+So the tension does not drop between two take-ups: weaving tightens the warps, and w c, which the upper cylinder
+releases beyond what the lower one winds, is the correction. The carpet counts as stiff as its warps. Yarn creeps under
+a steady tension; this is not considered.
+[derived]
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.units import N, mm
+
+TENSION_PER_PITCH = 15 * N / (2 * mm)
+"""Usual tension of a warp over the pitch of the warps [N/m]: 15 N at 2 mm [thesis 3.1]. The mass
+of a warp, and with it what the warp bears, goes with its pitch: the tension per width stays the same."""
+
+
+def usual_tension(pitch: float) -> float:
+    """Usual tension of a warp [N] at a pitch of the warps [m]: 15 N at 2 mm.                        [thesis 3.1]
+
+    >>> round(usual_tension(2e-3), 9)
+    15.0
+    """
+    return TENSION_PER_PITCH * pitch
+
+
+@dataclass(frozen=True, slots=True)
+class TakeUpTension:
+    """Tensions of a warp over the rows between two take-ups [N].
+
+    rate    EA / L, tension over lengthening [N/m]      rest    after a take-up
+    woven   before the next take-up                     shed    before the next take-up, with the shed open
+    locked  after a take-up by the lower cylinder alone
+    """
+
+    rate: float
+    rest: float
+    woven: float
+    shed: float
+    locked: float
+
+
+def take_up_tension(tension: float, rate: float, woven: float, crimp: float, lengthening: float) -> TakeUpTension:
+    """Tensions of a warp between two take-ups.
+
+    tension      at rest, after a take-up [N]       rate  EA / L [N/m]
+    woven        w, carpet between two take-ups [m] crimp c, warp over carpet - 1
+    lengthening  dL of the warp in the open shed [m]
+
+    >>> found = take_up_tension(15.0, 1200.0, 4e-3, 0.03, 0.02)
+    >>> [round(one, 3) for one in (found.rest, found.woven, found.shed, found.locked)]
+    [15.0, 15.144, 39.144, 19.944]
+    """
+    after = tension + rate * woven * crimp
+    return TakeUpTension(rate, tension, after, after + rate * lengthening, after + rate * woven)
+
+
+def tension_history(tension: TakeUpTension, rows_between: int, rows: int) -> tuple[FloatArray, FloatArray]:
+    """Rows woven and the tension [N] of an even warp over some rows, as corners of a line; shape (6 rows + 1,) each.
+
+    A row is knotted, then its shed opens and closes, then the other shed, in which the even warp lies still; after
+    every `rows_between` rows a take-up brings the tension back.
+    """
+    gain, lift = (tension.woven - tension.rest) / rows_between, tension.shed - tension.woven
+    at, over = [0.0], [tension.rest]
+    for row in range(rows):
+        base = tension.rest + gain * (row % rows_between)
+        last = base + gain if (row + 1) % rows_between else tension.rest
+        at += (row + np.array([0.0, 0.7, 0.775, 0.85, 1.0, 1.0])).tolist()
+        over += [base, base, base + gain / 2 + lift, base + gain / 2, base + gain, last]
+    return np.array(at), np.array(over)
+
+
+def capstan(friction: float, wrap: float) -> float:
+    """Ratio of the tensions on both sides of a cylinder at which a yarn slips over it: e^(f phi).   [Euler, Eytelwein]
+
+    friction  coefficient f, 0 or more      wrap  angle of wrap phi [rad], 0 or more
+
+    >>> capstan(0.0, 1.0)
+    1.0
+    """
+    return math.exp(friction * wrap)
