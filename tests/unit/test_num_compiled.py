@@ -1,9 +1,21 @@
-"""The leaf formulas compiled: the same numbers as on arrays, and NaN where there is no answer."""
+"""The leaf formulas compiled: the same numbers as on arrays, NaN where there is no answer; what is kept of them."""
+
+import hashlib
+import importlib
+import pickle
+import pkgutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
+import pytest
 
+import ilmek
 from ilmek.linkage.groups import rrp, rrr
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import Kernel, compiled
+from ilmek.num.machine_code import code_key, private_folder
 
 RNG = np.random.default_rng(7)
 A, B = (RNG.normal(size=200) + 1j * RNG.normal(size=200) for _ in range(2))
@@ -31,3 +43,130 @@ def test_rrp_position_is_the_same_compiled():
 def test_division_by_zero_is_infinite_not_an_error():
     kernel = compiled(rrr.first_rate)
     assert np.isinf(kernel(1 + 0j, 1 + 0j, 0.0))
+
+
+FILES = {
+    "constants": "SCALE = 2.0\nUNUSED = 1.0\n",
+    "leaf": '''
+from ilmek.num.compiled import compiled
+from sample.constants import SCALE
+
+@compiled
+def leaf(x: float) -> float:
+    """Doc."""
+    return SCALE * x
+''',
+    "outer": """
+from ilmek.num.compiled import compiled
+from sample import leaf as module
+
+@compiled
+def outer(x: float) -> float:
+    return module.leaf(x) + 1.0
+""",
+    "lone": "from ilmek.num.compiled import compiled\n\n@compiled\ndef lone(x: float) -> float:\n    return x - 1.0\n",
+}
+
+
+@pytest.fixture
+def sample(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., dict[str, bool]]:
+    """Writes a package of kernels with some texts replaced, runs it, and returns which kernels had to be compiled."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    (tmp_path / "sample").mkdir()
+
+    def run(
+        edits: dict[str, tuple[str, str]] | None = None, results: tuple[float, float] = (7.0, 2.0)
+    ) -> dict[str, bool]:
+        for name, text in FILES.items():
+            (tmp_path / "sample" / f"{name}.py").write_text(text.replace(*(edits or {}).get(name, ("", ""))))
+        for name in [name for name in sys.modules if name.partition(".")[0] == "sample"]:
+            del sys.modules[name]
+        importlib.invalidate_caches()
+        outer, lone = (importlib.import_module(f"sample.{name}") for name in ("outer", "lone"))
+        kernels = {"outer": outer.outer, "leaf": outer.module.leaf, "lone": lone.lone}
+        assert (outer.outer(3.0), lone.lone(3.0)) == results
+        return {name: bool(kernel.dispatcher.stats.cache_misses) for name, kernel in kernels.items()}
+
+    return run
+
+
+def entries(tmp_path: Path) -> list[Path]:
+    return sorted((tmp_path / "cache").rglob("*.kernel"))
+
+
+def test_nothing_is_compiled_twice(sample):
+    assert sample() == {"outer": True, "leaf": True, "lone": True}
+    assert sample() == {"outer": False, "leaf": False, "lone": False}
+
+
+@pytest.mark.parametrize(
+    ("edits", "results", "compiled_anew"),
+    [
+        ({"leaf": ("SCALE * x", "x * SCALE - 1.0")}, (6.0, 2.0), {"outer", "leaf"}),
+        ({"constants": ("SCALE = 2.0", "SCALE = 3.0")}, (10.0, 2.0), {"outer", "leaf"}),
+        ({"lone": ("x - 1.0", "x - 2.0")}, (7.0, 1.0), {"lone"}),
+        ({"outer": ("+ 1.0", "+ 2.0")}, (8.0, 2.0), {"outer"}),
+        ({"leaf": ("Doc.", "Other words.")}, (7.0, 2.0), set()),
+        ({"constants": ("UNUSED = 1.0", "# a remark\nUNUSED = 5.0")}, (7.0, 2.0), set()),
+    ],
+    ids=["callee", "constant", "alone", "caller", "docstring", "unrelated"],
+)
+def test_an_edit_compiles_the_kernels_that_it_changes_and_no_other(sample, edits, results, compiled_anew):
+    sample()
+    assert {name for name, anew in sample(edits, results).items() if anew} == compiled_anew
+
+
+@pytest.mark.parametrize("damage", ["empty", "cut", "zeros", "foreign"])
+def test_a_damaged_entry_is_rebuilt(sample, tmp_path, damage):
+    sample()
+    for entry in entries(tmp_path):
+        whole = entry.read_bytes()
+        foreign = pickle.dumps(("no", "kernel"))
+        damaged = {
+            "empty": b"",
+            "cut": whole[: len(whole) // 2],
+            "zeros": whole[:999] + bytes(len(whole) - 999),
+            "foreign": hashlib.sha256(foreign).digest() + foreign,
+        }
+        entry.write_bytes(damaged[damage])
+    assert sample() == {"outer": True, "leaf": True, "lone": True}
+    assert sample() == {"outer": False, "leaf": False, "lone": False}
+
+
+def test_without_a_private_folder_nothing_is_kept(sample, tmp_path):
+    folder = tmp_path / "cache" / "ilmek" / "kernels"
+    folder.mkdir(parents=True)
+    folder.chmod(0o755)
+    assert private_folder() is None
+    sample()
+    assert list(folder.iterdir()) == []
+
+
+def test_a_cache_folder_that_is_a_link_is_not_used(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    assert private_folder() == tmp_path / "cache" / "ilmek" / "kernels"
+    (tmp_path / "cache" / "ilmek" / "kernels").rename(tmp_path / "elsewhere")
+    (tmp_path / "cache" / "ilmek" / "kernels").symlink_to(tmp_path / "elsewhere")
+    assert private_folder() is None
+
+
+def test_a_cache_home_that_cannot_be_written_is_not_used(tmp_path, monkeypatch):
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    assert private_folder() is None
+
+
+def test_every_kernel_has_a_key():
+    modules = [found.name for found in pkgutil.walk_packages(ilmek.__path__, "ilmek.") if "__main__" not in found.name]
+    kernels = {
+        value for name in modules for value in vars(importlib.import_module(name)).values() if isinstance(value, Kernel)
+    }
+    assert len({code_key(kernel.function) for kernel in kernels}) > 100
+
+
+def test_modules_with_kernels_load_no_compiler():
+    script = "import sys, ilmek.linkage.batch, ilmek.loom.schedule; print('numba' in sys.modules)"
+    shown = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert shown.stdout == "False\n"

@@ -1,52 +1,42 @@
 """Compiled kernels: the leaf formulas in a loop, as machine code.
 
-Kernels stand at module level and are decorated with `compiled`. The compiled code is kept in the user's cache folder,
-under a key made of the package's sources: numba's own cache goes stale when a callee in another file changes.
+Kernels stand at module level and are decorated with `compiled`. Nothing is compiled, and no compiler is loaded (0.5 s),
+before a kernel is called; the machine code is kept for the next run (`ilmek.num.machine_code`).
 """
 
-import hashlib
+import functools
 import inspect
-import os
-import sys
-import tempfile
 from collections.abc import Callable
-from pathlib import Path
+from importlib import import_module
+from types import FunctionType
 from typing import Any, TypeVar, cast
-
-import numba
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-def compiled(kernel: F) -> F:
-    """`kernel` compiled on its first call: division by zero gives inf, NaN tests hold, multiply-adds may be fused."""
-    # Under pytest a type checker is wrapped around every function; the compiler wants the bare one.
-    bare = inspect.unwrap(kernel)
-    return cast(F, numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(bare))
+class Kernel:
+    """A function that is compiled on its first call. Kernels call each other without leaving the machine code."""
+
+    def __init__(self, function: FunctionType) -> None:
+        functools.update_wrapper(self, function)
+        self.function = function
+
+    def __call__(self, *args: object) -> object:
+        """The function's value, by machine code."""
+        return self.dispatcher(*args)
+
+    @functools.cached_property
+    def dispatcher(self) -> Any:
+        """Numba's dispatcher, which compiles the function for each set of argument types."""
+        return import_module("ilmek.num.machine_code").dispatcher(self.function)
+
+    @property
+    def _numba_type_(self) -> object:
+        """The type by which the compiler knows this kernel inside another one."""
+        return self.dispatcher._numba_type_
 
 
-def _sources_key() -> str:
-    """A key that changes with any source file of the package."""
-    package = Path(__file__).resolve().parents[1]
-    digest = hashlib.sha256(f"{sys.version}{numba.__version__}".encode())
-    for source in sorted(package.rglob("*.py")):
-        seen = source.stat()
-        digest.update(f"{source.relative_to(package)}:{seen.st_size}:{seen.st_mtime_ns}\n".encode())
-    return digest.hexdigest()[:16]
-
-
-def _cache_folder() -> Path:
-    """The user's cache folder, or a temporary one where that cannot be written."""
-    home = os.environ.get("XDG_CACHE_HOME") or (Path.home() / ".cache")
-    folder = Path(home) / "ilmek" / "numba" / _sources_key()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        probe = tempfile.NamedTemporaryFile(dir=folder)  # noqa: SIM115 - opened only to see whether it can be
-        probe.close()
-    except OSError:
-        return Path(tempfile.gettempdir()) / f"ilmek-numba-{_sources_key()}"
-    return folder
-
-
-if "NUMBA_CACHE_DIR" not in os.environ:
-    vars(numba.config)["CACHE_DIR"] = str(_cache_folder())
+def compiled(function: F) -> F:
+    """`function` compiled on its first call: division by zero gives inf, NaN tests hold, multiply-adds may be fused."""
+    # Under pytest a type checker may be wrapped around the function; the compiler needs the function itself.
+    return cast(F, Kernel(cast(FunctionType, inspect.unwrap(function))))

@@ -1,0 +1,154 @@
+"""Kernels as machine code, kept in the user's cache folder from run to run.
+
+An entry is found by a key of everything that is compiled into it: the bytecode of the kernel and of the kernels that it
+calls, the global values that they use, the argument types, the processor and the versions of the libraries. An edit
+anywhere else recompiles nothing. (Numba's own cache looks at the kernel's file alone and misses an edited callee.)
+
+Entries are unpickled, so they are read only from a folder that belongs to the user and is closed to everybody else;
+without one, nothing is kept. A damaged entry is rebuilt.
+"""
+
+import dis
+import hashlib
+import os
+import pickle
+import stat
+import sys
+import tempfile
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from enum import Enum
+from functools import cache
+from pathlib import Path
+from types import CodeType, FunctionType, ModuleType
+from typing import Any, cast
+
+import numba
+import numpy as np
+from numba.core import compiler, serialize
+from numba.core.caching import NullCache
+
+from ilmek.num.compiled import Kernel
+
+OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+
+VERSIONS = f"{sys.version} {numba.__version__} {np.__version__} {OPTIONS}"
+
+compile_result, dumps = cast(Any, compiler).CompileResult, cast(Any, serialize).dumps
+
+CHECKSUM = hashlib.sha256().digest_size
+"""Bytes of the checksum that an entry begins with."""
+
+
+def dispatcher(function: FunctionType) -> Any:
+    """Numba's dispatcher of a kernel's function; its machine code is kept where there is a private folder for it."""
+    made = numba.njit(**OPTIONS)(function)
+    folder = private_folder()
+    if folder:
+        with suppress(TypeError, RecursionError):  # no key: compiled in every run
+            made._cache = KernelCache(folder / function.__module__, f"{function.__qualname__} {code_key(function)}")
+    return made
+
+
+def private_folder() -> Path | None:
+    """The user's folder of compiled kernels; None where it does not belong to the user, or others may enter it."""
+    try:
+        folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "ilmek" / "kernels"
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(mode=0o700, exist_ok=True)
+        found = folder.lstat()
+    except (OSError, RuntimeError):  # no home, or one that cannot be written
+        return None
+    if os.name == "posix" and (found.st_uid != os.geteuid() or stat.S_IMODE(found.st_mode) & 0o077):
+        return None
+    return folder if stat.S_ISDIR(found.st_mode) else None
+
+
+class KernelCache(NullCache):
+    """Numba's interface to kept machine code: one file for each kernel and set of argument types."""
+
+    def __init__(self, folder: Path, key: str) -> None:
+        self.folder, self.key = folder, key
+
+    def file(self, types: Iterable[Any], codegen: Any) -> Path:
+        """Where the machine code for these argument types and this processor is kept."""
+        parts = (VERSIONS, self.key, *map(type_key, types), *map(str, codegen.magic_tuple()))
+        name = hashlib.sha256("\n".join(parts).encode()).hexdigest()[:40]
+        return self.folder / f"{name}.kernel"
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The compiled kernel; None, so that it is compiled, where no whole entry is kept."""
+        try:
+            target_context.refresh()
+            kept = self.file(sig, target_context.codegen()).read_bytes()
+            if hashlib.sha256(kept[CHECKSUM:]).digest() != kept[:CHECKSUM]:
+                return None
+            return compile_result._rebuild(target_context, *pickle.loads(kept[CHECKSUM:]))
+        except Exception:  # whatever a damaged entry raises: the kernel is compiled and the entry written anew
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep it, whole or not at all; a full disk is no reason to fail."""
+        if data.lifted or data.library.has_dynamic_globals:
+            return
+        with suppress(OSError):
+            target, content = self.file(sig, data.codegen), dumps(data._reduce())
+            self.folder.mkdir(mode=0o700, exist_ok=True)
+            with tempfile.NamedTemporaryFile(dir=self.folder, delete=False) as written:
+                written.write(hashlib.sha256(content).digest() + content)
+            Path(written.name).replace(target)
+
+
+def type_key(numba_type: Any) -> str:
+    """A type's name, with the names of the fields of named tuples."""
+    fields, inner = getattr(numba_type, "fields", ()), getattr(numba_type, "types", ())
+    return " ".join((str(numba_type), *map(str, fields), *map(type_key, inner)))
+
+
+@cache
+def code_key(function: FunctionType) -> str:
+    """A digest of the bytecode and of all global values that it uses, other kernels by their own keys.
+
+    Raises TypeError for a value of unknown content, and RecursionError for kernels that call each other in a circle.
+    """
+    digest = hashlib.sha256()
+    for code in _codes(function.__code__):
+        constants = [const for const in code.co_consts if not isinstance(const, CodeType) and const != function.__doc__]
+        names = (code.co_names, code.co_varnames, code.co_freevars, code.co_cellvars)
+        digest.update(repr((code.co_code, names, constants)).encode())
+        for name in sorted({one.argval for one in dis.get_instructions(code) if one.opname == "LOAD_GLOBAL"}):
+            if name in function.__globals__:
+                digest.update(f"{name} {_content(function.__globals__[name], function, code.co_names)}\n".encode())
+    for cell in function.__closure__ or ():
+        digest.update(_content(cell.cell_contents, function, ()).encode())
+    digest.update(_content(function.__defaults__, function, ()).encode())
+    return digest.hexdigest()
+
+
+def _codes(code: CodeType) -> Iterator[CodeType]:
+    """A function's code and that of the functions within it."""
+    yield code
+    for const in code.co_consts:
+        if isinstance(const, CodeType):
+            yield from _codes(const)
+
+
+def _content(value: object, user: FunctionType, names: tuple[str, ...]) -> str:
+    """A global value as the compiler sees it in a function that uses these names."""
+    match value:
+        case Kernel():
+            return value.function.__qualname__ if value.function is user else code_key(value.function)
+        case None | bool() | int() | float() | complex() | str() | bytes() | Enum() | np.generic() | np.dtype():
+            return repr(value)
+        case tuple() | list():
+            return f"{type(value).__name__} {[_content(one, user, names) for one in value]}"
+        case np.ndarray():
+            return f"{value.dtype} {value.shape} {hashlib.sha256(value.tobytes()).hexdigest()}"
+        case ModuleType():
+            own = value.__name__.partition(".")[0] == user.__module__.partition(".")[0]
+            inside = [_content(vars(value)[name], user, ()) for name in names if own and name in vars(value)]
+            return f"{value.__name__} {inside}"
+        case _ if callable(value):
+            fields = getattr(value, "_fields", "")
+            return f"{getattr(value, '__module__', '')} {getattr(value, '__qualname__', repr(value))} {fields}"
+    raise TypeError(f"a kernel uses {value!r}, whose content is not known")
