@@ -31,8 +31,6 @@ def test_file_keeps_its_budget(path: Path) -> None:
         assert body_lines(node) <= 50, f"{path.name}: {node.name} is too long"  # type: ignore[attr-defined]
         inner = [child for child in ast.walk(node) if isinstance(child, ast.Import | ast.ImportFrom)]
         assert not inner, f"{path.name}: import inside {node.name}"  # type: ignore[attr-defined]
-    for node in nodes(path, ast.ClassDef):
-        assert body_lines(node) <= 150, f"{path.name}: {node.name} is too long"  # type: ignore[attr-defined]
 
 
 def test_medians_keep_their_budget() -> None:

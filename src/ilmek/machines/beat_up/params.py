@@ -15,9 +15,40 @@ BEATER_RATIO = 1.3
 """Beater over rocker, AE / AB: 0.3001 m / 0.2308 m; inferred from the paper, which prints AE only."""
 
 
+OBJECTIVES = {
+    "force_at_beat": ("force_at_beat", +1),
+    "transmission_angle": ("transmission_angle_min", +1),
+    "ratio": ("crank_coupler_ratio", +1),
+    "link_ratio": ("link_ratio", -1),
+    "size": ("size", -1),
+    "acceleration": ("beater_acceleration_max", -1),
+    "rocker_acceleration": ("rocker_acceleration_max", -1),
+    "drive_torque": ("drive_torque_max", -1),
+    "joint_force": ("joint_force_max", -1),
+}
+"""What may be sought: the quantity of a member, and whether the greatest (+1) or the least (-1) is best."""
+
+LIMITS = {
+    "ratio_min": ("crank_coupler_ratio", +1, "1"),
+    "ratio_max": ("crank_coupler_ratio", -1, "1"),
+    "transmission_min": ("transmission_angle_min", +1, "deg"),
+    "link_ratio_max": ("link_ratio", -1, "1"),
+    "size_max": ("size", -1, "mm"),
+    "acceleration_max": ("beater_acceleration_max", -1, "m/s^2"),
+    "rocker_acceleration_max": ("rocker_acceleration_max", -1, "rad/s^2"),
+    "force_at_beat_min": ("force_at_beat", +1, "N"),
+    "torque_max": ("drive_torque_max", -1, "N*m"),
+    "joint_force_max": ("joint_force_max", -1, "N"),
+}
+"""What may be limited: the quantity of a member, whether it must be at least (+1) or at most (-1) that, its unit."""
+
+CHOOSING = ("objective", *LIMITS)
+"""Parameters by which the member is chosen."""
+
+
 @dataclass(frozen=True, slots=True)
-class MechanismParams(Params):
-    """The mechanism, its masses and its run; the defaults are the paper's."""
+class BeatUpParams(Params):
+    """A beat-up mechanism, its masses and its run, or limits by which it is chosen; the defaults are the paper's."""
 
     swing: float = param(
         30 * deg, unit="deg", above=0.0, below=math.pi, doc="swing of the rocker between its dead centres", symbol="ψ"
@@ -111,54 +142,6 @@ class MechanismParams(Params):
     crank_angle: float | None = param(
         None, unit="deg", at_least=-2 * turn, at_most=2 * turn, doc="crank angle at which to report forces", symbol="θ"
     )
-
-    def check_together(self) -> None:
-        """Crank, coupler and rocker are given together or not at all."""
-        outright = {"crank": self.crank, "coupler": self.coupler, "rocker": self.rocker}
-        missing = [name for name, length in outright.items() if length is None]
-        if 0 < len(missing) < len(outright):
-            given = [name for name in outright if name not in missing]
-            raise ParameterError(
-                f"{' and '.join(given)} given without {' and '.join(missing)}",
-                do="give crank, coupler and rocker, or none of them",
-            )
-
-
-OBJECTIVES = {
-    "force_at_beat": ("force_at_beat", +1),
-    "transmission_angle": ("transmission_angle_min", +1),
-    "ratio": ("crank_coupler_ratio", +1),
-    "link_ratio": ("link_ratio", -1),
-    "size": ("size", -1),
-    "acceleration": ("beater_acceleration_max", -1),
-    "rocker_acceleration": ("rocker_acceleration_max", -1),
-    "drive_torque": ("drive_torque_max", -1),
-    "joint_force": ("joint_force_max", -1),
-}
-"""What may be sought: the quantity of a member, and whether the greatest (+1) or the least (-1) is best."""
-
-LIMITS = {
-    "ratio_min": ("crank_coupler_ratio", +1, "1"),
-    "ratio_max": ("crank_coupler_ratio", -1, "1"),
-    "transmission_min": ("transmission_angle_min", +1, "deg"),
-    "link_ratio_max": ("link_ratio", -1, "1"),
-    "size_max": ("size", -1, "mm"),
-    "acceleration_max": ("beater_acceleration_max", -1, "m/s^2"),
-    "rocker_acceleration_max": ("rocker_acceleration_max", -1, "rad/s^2"),
-    "force_at_beat_min": ("force_at_beat", +1, "N"),
-    "torque_max": ("drive_torque_max", -1, "N*m"),
-    "joint_force_max": ("joint_force_max", -1, "N"),
-}
-"""What may be limited: the quantity of a member, whether it must be at least (+1) or at most (-1) that, its unit."""
-
-CHOOSING = ("objective", *LIMITS)
-"""Parameters by which the member is chosen."""
-
-
-@dataclass(frozen=True, slots=True)
-class BeatUpParams(MechanismParams):
-    """What may be asked of a beat-up mechanism: itself, or limits by which it is chosen from its family."""
-
     objective: str | None = param(
         None,
         choices=tuple(OBJECTIVES),
@@ -194,7 +177,7 @@ class BeatUpParams(MechanismParams):
 
     def check_together(self) -> None:
         """Crank, coupler and rocker together or not at all; limits only where there is something to choose."""
-        MechanismParams.check_together(self)
+        self._check_links()
         weighed_names(self.front)
         asked = [name for name in CHOOSING if getattr(self, name) is not None]
         settled = [name for name in ("beta", "crank") if getattr(self, name) is not None]
@@ -206,8 +189,18 @@ class BeatUpParams(MechanismParams):
                 do=f"leave out {given}, or {' and '.join(asked)}",
             )
 
+    def _check_links(self) -> None:
+        outright = {"crank": self.crank, "coupler": self.coupler, "rocker": self.rocker}
+        missing = [name for name, length in outright.items() if length is None]
+        if 0 < len(missing) < len(outright):
+            given = [name for name in outright if name not in missing]
+            raise ParameterError(
+                f"{' and '.join(given)} given without {' and '.join(missing)}",
+                do="give crank, coupler and rocker, or none of them",
+            )
 
-def weight(params: MechanismParams) -> complex:
+
+def weight(params: BeatUpParams) -> complex:
     """Free fall [m/s²] in the frame of the ground line."""
     return params.gravity * complex(math.cos(params.gravity_direction), math.sin(params.gravity_direction))
 

@@ -23,8 +23,8 @@ FOLLOWERS = ("roller", "knife", "flat", "spherical")
 
 
 @dataclass(frozen=True, slots=True)
-class MotionParams(Params):
-    """The motion that is asked for: laws, lift and angles."""
+class CamParams(Params):
+    """The parameters of a cam: motion, size and follower, loads and material."""
 
     law: str = param("modified-sine", choices=tuple(LAWS), doc="motion law of the rise, and of the fall")
     motion: str = param(
@@ -58,33 +58,6 @@ class MotionParams(Params):
     angle: float | None = param(
         None, unit="deg", at_least=0.0, at_most=TURN, doc="cam angle from the start of the rise to look at, as `at`"
     )
-
-    def check_together(self) -> None:
-        """Raise ParameterError where angles do not fit the turn or a law cannot be made."""
-        taken = self.rise + self.dwell + (self.fall or 0.0)
-        if taken > TURN + NO_DWELL or self.fall_angle <= NO_DWELL:
-            said = "rise + dwell + fall" if self.fall else "rise + dwell"
-            allowed = "they must fit one turn, 360 deg" if self.fall else "below 360 deg, so that a fall is left"
-            raise ParameterError(f"{said} = {format_quantity(taken, 'deg')}", allowed=allowed, do="shorten one of them")
-        self.laws()
-
-    @property
-    def fall_angle(self) -> float:
-        """Cam angle of the fall [rad]."""
-        return min(self.rise, TURN - self.rise - self.dwell) if self.fall is None else self.fall
-
-    def laws(self) -> tuple[Law, Law]:
-        """The laws of rise and fall. Raises ParameterError where one cannot be made."""
-        rising = law_of(self.law, read_law_parameters(self.law_parameters))
-        if self.fall_law is None and not self.fall_law_parameters:
-            return rising, rising
-        return rising, law_of(self.fall_law or self.law, read_law_parameters(self.fall_law_parameters))
-
-
-@dataclass(frozen=True, slots=True)
-class SizeParams(MotionParams):
-    """The cam's size, or the limit that sets it, and its follower."""
-
     kind: str = param(
         "plate",
         choices=("plate", "grooved", "conjugate", "barrel", "face", "wedge"),
@@ -163,10 +136,101 @@ class SizeParams(MotionParams):
         at_most=1.0,
         doc="least radius of curvature of a cam for a flat follower, where its base circle is to be found",
     )
+    mass: float = param(
+        0.5 * kg, unit="kg", at_least=0.0, at_most=1e5, doc="mass that the follower moves, with its own"
+    )
+    load: float = param(
+        100 * N,
+        unit="N",
+        at_least=0.0,
+        at_most=1e7,
+        doc="force that always presses the follower to the cam, weight too",
+    )
+    spring_rate: float | None = param(
+        None, unit="N/mm", at_least=0.0, at_most=1e9, doc="rate of the return spring; none: chosen"
+    )
+    preload: float | None = param(
+        None, unit="N", at_least=0.0, at_most=1e7, doc="force of the return spring at the lowest place; none: chosen"
+    )
+    hold_speed: float | None = param(
+        None,
+        unit="rpm",
+        at_least=0.0,
+        at_most=1e4,
+        doc="speed up to which the spring is to hold; none: 1.2 times speed",
+    )
+    sliding_friction: float = param(
+        0.0, at_least=0.0, below=1.0, doc="coefficient of friction between cam and a follower that slides on it"
+    )
+    guide_friction: float = param(0.0, at_least=0.0, below=1.0, doc="coefficient of friction in the follower's guide")
+    linkage_stiffness: float | None = param(
+        None, unit="N/mm", above=0.0, at_most=1e12, doc="stiffness between the cam and the mass; none: rigid"
+    )
+    linkage_damping: float = param(0.05, at_least=0.0, at_most=10.0, doc="damping of that linkage, of the critical")
+    material: str = param("heat-treatable steel", choices=tuple(MATERIALS), doc="material of the cam")
+    follower_material: str = param("heat-treatable steel", choices=tuple(MATERIALS), doc="material of the follower")
+    pressure_limit: float | None = param(
+        None, unit="MPa", above=0.0, at_most=1e11, doc="largest Hertz pressure; none: where the weaker material yields"
+    )
+    face_width: float | None = param(
+        None, unit="mm", at_least=0.1 * mm, at_most=1.0, doc="thickness of the cam; none: the roller's width, or 10 mm"
+    )
+    crown_radius: float | None = param(
+        None, unit="mm", at_least=1 * mm, at_most=100.0, doc="crown of the roller across its way; none: a cylinder"
+    )
+    life: float = param(
+        10_000 * 3600.0, unit="h", at_least=0.0, at_most=1e12, doc="running time that the roller must last"
+    )
+    bore: float | None = param(
+        None, unit="mm", at_least=1 * mm, at_most=1.0, doc="bore; none: the smallest whose shaft bears the torque"
+    )
+    wall: float = param(4 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="least wall between keyway and surface")
+    rim: float = param(
+        5 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="rim of a grooved cam outside the groove, and web under it"
+    )
+    cutter_radius: float | None = param(
+        None, unit="mm", at_least=0.1 * mm, at_most=0.5, doc="radius of the cutter; none: as the roller's"
+    )
+    jump_limit: float = param(
+        9.81, unit="m/s^2", at_least=0.0, at_most=1e6, doc="largest jump of the acceleration; a judgement of ours: 1 g"
+    )
 
     def check_together(self) -> None:
-        """Raise ParameterError where the follower and what is said of it do not fit."""
-        MotionParams.check_together(self)
+        """Raise ParameterError where parameters contradict each other."""
+        self._check_motion()
+        self._check_follower()
+        if self.led and (self.spring_rate or self.preload):
+            raise ParameterError(f"a spring with kind={self.kind}", do="leave it out: the cam leads both ways")
+        if self.crown_radius is not None and self.follower != "roller":
+            raise ParameterError(
+                f"crown_radius with follower={self.follower}", do="leave it out, or set follower=roller"
+            )
+        if self.laid_flat and self.sliding_friction:
+            raise ParameterError(f"sliding_friction with kind={self.kind}", allowed="0", do="leave it out")
+        if self.motion == "oscillating" and self.guide_friction:
+            raise ParameterError("guide_friction with motion=oscillating", allowed="an arm has no guide")
+
+    def _check_motion(self) -> None:
+        taken = self.rise + self.dwell + (self.fall or 0.0)
+        if taken > TURN + NO_DWELL or self.fall_angle <= NO_DWELL:
+            said = "rise + dwell + fall" if self.fall else "rise + dwell"
+            allowed = "they must fit one turn, 360 deg" if self.fall else "below 360 deg, so that a fall is left"
+            raise ParameterError(f"{said} = {format_quantity(taken, 'deg')}", allowed=allowed, do="shorten one of them")
+        self.laws()
+
+    @property
+    def fall_angle(self) -> float:
+        """Cam angle of the fall [rad]."""
+        return min(self.rise, TURN - self.rise - self.dwell) if self.fall is None else self.fall
+
+    def laws(self) -> tuple[Law, Law]:
+        """The laws of rise and fall. Raises ParameterError where one cannot be made."""
+        rising = law_of(self.law, read_law_parameters(self.law_parameters))
+        if self.fall_law is None and not self.fall_law_parameters:
+            return rising, rising
+        return rising, law_of(self.fall_law or self.law, read_law_parameters(self.fall_law_parameters))
+
+    def _check_follower(self) -> None:
         if self.roller is not None:
             find_roller(self.roller)
             if self.follower != "roller":
@@ -232,84 +296,6 @@ class SizeParams(MotionParams):
         if self.pressure_angle_limit is None and self.prime_radius is None:
             return LIMIT
         return self.pressure_angle_limit
-
-
-@dataclass(frozen=True, slots=True)
-class CamParams(SizeParams):
-    """What may be asked of a cam."""
-
-    mass: float = param(
-        0.5 * kg, unit="kg", at_least=0.0, at_most=1e5, doc="mass that the follower moves, with its own"
-    )
-    load: float = param(
-        100 * N,
-        unit="N",
-        at_least=0.0,
-        at_most=1e7,
-        doc="force that always presses the follower to the cam, weight too",
-    )
-    spring_rate: float | None = param(
-        None, unit="N/mm", at_least=0.0, at_most=1e9, doc="rate of the return spring; none: chosen"
-    )
-    preload: float | None = param(
-        None, unit="N", at_least=0.0, at_most=1e7, doc="force of the return spring at the lowest place; none: chosen"
-    )
-    hold_speed: float | None = param(
-        None,
-        unit="rpm",
-        at_least=0.0,
-        at_most=1e4,
-        doc="speed up to which the spring is to hold; none: 1.2 times speed",
-    )
-    sliding_friction: float = param(
-        0.0, at_least=0.0, below=1.0, doc="coefficient of friction between cam and a follower that slides on it"
-    )
-    guide_friction: float = param(0.0, at_least=0.0, below=1.0, doc="coefficient of friction in the follower's guide")
-    linkage_stiffness: float | None = param(
-        None, unit="N/mm", above=0.0, at_most=1e12, doc="stiffness between the cam and the mass; none: rigid"
-    )
-    linkage_damping: float = param(0.05, at_least=0.0, at_most=10.0, doc="damping of that linkage, of the critical")
-    material: str = param("heat-treatable steel", choices=tuple(MATERIALS), doc="material of the cam")
-    follower_material: str = param("heat-treatable steel", choices=tuple(MATERIALS), doc="material of the follower")
-    pressure_limit: float | None = param(
-        None, unit="MPa", above=0.0, at_most=1e11, doc="largest Hertz pressure; none: where the weaker material yields"
-    )
-    face_width: float | None = param(
-        None, unit="mm", at_least=0.1 * mm, at_most=1.0, doc="thickness of the cam; none: the roller's width, or 10 mm"
-    )
-    crown_radius: float | None = param(
-        None, unit="mm", at_least=1 * mm, at_most=100.0, doc="crown of the roller across its way; none: a cylinder"
-    )
-    life: float = param(
-        10_000 * 3600.0, unit="h", at_least=0.0, at_most=1e12, doc="running time that the roller must last"
-    )
-    bore: float | None = param(
-        None, unit="mm", at_least=1 * mm, at_most=1.0, doc="bore; none: the smallest whose shaft bears the torque"
-    )
-    wall: float = param(4 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="least wall between keyway and surface")
-    rim: float = param(
-        5 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="rim of a grooved cam outside the groove, and web under it"
-    )
-    cutter_radius: float | None = param(
-        None, unit="mm", at_least=0.1 * mm, at_most=0.5, doc="radius of the cutter; none: as the roller's"
-    )
-    jump_limit: float = param(
-        9.81, unit="m/s^2", at_least=0.0, at_most=1e6, doc="largest jump of the acceleration; a judgement of ours: 1 g"
-    )
-
-    def check_together(self) -> None:
-        """Raise ParameterError where the parts of the request contradict each other."""
-        SizeParams.check_together(self)
-        if self.led and (self.spring_rate or self.preload):
-            raise ParameterError(f"a spring with kind={self.kind}", do="leave it out: the cam leads both ways")
-        if self.crown_radius is not None and self.follower != "roller":
-            raise ParameterError(
-                f"crown_radius with follower={self.follower}", do="leave it out, or set follower=roller"
-            )
-        if self.laid_flat and self.sliding_friction:
-            raise ParameterError(f"sliding_friction with kind={self.kind}", allowed="0", do="leave it out")
-        if self.motion == "oscillating" and self.guide_friction:
-            raise ParameterError("guide_friction with motion=oscillating", allowed="an arm has no guide")
 
 
 def read_law_parameters(text: str) -> Mapping[str, float | tuple[float, ...]]:
