@@ -6,13 +6,13 @@ number of knots whose curve ties that very knot.
 
 from pathlib import Path
 
-from ilmek.carpet.knots.crossings import row_of_warps
-from ilmek.carpet.knots.drawing import knot_drawing
-from ilmek.carpet.knots.path import KnotDimensions, KnotPath, knot_path
-from ilmek.carpet.knots.tied import tied_by_curve
-from ilmek.carpet.knots.word import SINGLE, knot
 from ilmek.units import mm
 from ilmek.viz.svg import svg
+from ilmek.weaving.knots.crossings import row_of_warps
+from ilmek.weaving.knots.drawing import knot_drawing
+from ilmek.weaving.knots.path import KnotDimensions, KnotPath, knot_path
+from ilmek.weaving.knots.proof import knot_of_curve
+from ilmek.weaving.knots.word import SINGLE, knot
 
 OUT = Path(__file__).parents[1] / "docs" / "_static"
 DIMENSIONS = KnotDimensions(4 * mm, 1.2 * mm, 0.8 * mm, clearance=0.2 * mm, leg=5 * mm)
@@ -31,7 +31,7 @@ def ties_itself(path: KnotPath) -> bool:
     """Whether leading the end along the curve ties the knot it was made for."""
     warps = row_of_warps(7, path.dimensions.pitch)
     room = 0.99 * path.dimensions.radius
-    found = tied_by_curve(lambda u: path.point(u * path.length), path.length, warps, keep_out=room)
+    found = knot_of_curve(lambda u: path.point(u * path.length), path.length, warps, keep_out=room)
     print(f"{found.words}: word {found.word}, yarn {path.length / mm:.2f} mm")
     return found.knot == path.knot
 

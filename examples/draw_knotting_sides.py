@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design
-from ilmek.machines.knotting_four_bar.knot import Proof, proof
 from ilmek.machines.knotting_four_bar.sides import Sides, hands
 from ilmek.machines.knotting_four_bar.sides_figures import drawing
 from ilmek.report import Drawing, Stroke
 from ilmek.units import deg, mm, turn
 from ilmek.viz.svg import svg
+from ilmek.weaving.knots.two_hands import TwoHandKnot, knot_of_hands
 
 OUT = Path(__file__).parents[1] / "docs" / "_static" / "knotting-sides.svg"
 
@@ -31,13 +31,13 @@ def machine() -> tuple[KnottingFourBar, Sides]:
     return made, made.sides
 
 
-def tied(made: KnottingFourBar, sides: Sides) -> Proof:
+def tied(made: KnottingFourBar, sides: Sides) -> TwoHandKnot:
     """What the hands tie on the opened warps."""
     first, second = (way[made.onward] for way in hands(sides.course.motion))
-    return proof(first, second, OPENED)
+    return knot_of_hands(first, second, OPENED)
 
 
-def figure(made: KnottingFourBar, sides: Sides, knot: Proof) -> Drawing:
+def figure(made: KnottingFourBar, sides: Sides, knot: TwoHandKnot) -> Drawing:
     """The machine where the hands are nearest, the yarn and the two warps half way up it."""
     middle = knot.warps.real + 1j * float(np.mean([knot.yarn.imag.min(), knot.yarn.imag.max()]))
     ring = THICK / 2 * np.exp(1j * turn * np.arange(48) / 48)

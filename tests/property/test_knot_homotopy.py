@@ -6,15 +6,15 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ilmek.carpet.knots.crossings import Row, arc_lengths, crossings, row_of_warps
-from ilmek.carpet.knots.path import KnotDimensions, knot_path
-from ilmek.carpet.knots.tied import tied_by_curve, tied_knot
-from ilmek.carpet.knots.word import SINGLE, inverse, knot, passes, recognised, reduced
 from ilmek.units import mm
+from ilmek.weaving.knots.crossings import WarpRow, arc_lengths, crossings, row_of_warps
+from ilmek.weaving.knots.path import KnotDimensions, knot_path
+from ilmek.weaving.knots.proof import knot_of_curve, tied_knot
+from ilmek.weaving.knots.word import SINGLE, inverse, knot, passes, recognised, reduced
 
 CASES = settings(max_examples=60, deadline=None)
 WARPS = row_of_warps(5, 1.0)
-ROW = Row(WARPS)
+ROW = WarpRow(WARPS)
 LETTERS = st.integers(1, 5).flatmap(lambda warp: st.sampled_from((warp, -warp)))
 WORDS = st.lists(LETTERS, max_size=9).map(tuple)
 SEEDS = st.integers(0, 2**32 - 1)
@@ -158,7 +158,7 @@ def test_a_smooth_motion_is_judged_alike_by_its_bound_and_by_dense_samples(seed:
         return
     lengths = arc_lengths(dense)
     assert lengths.max() <= speed / 4000
-    assert tied_by_curve(curve, speed, WARPS) == tied_knot(dense, WARPS, lengths=lengths)
+    assert knot_of_curve(curve, speed, WARPS) == tied_knot(dense, WARPS, lengths=lengths)
 
 
 @CASES

@@ -15,10 +15,11 @@ from hypothesis.extra.numpy import arrays
 from ilmek.arrays import Indices
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.knots.kinds import WRAPS, PileParams, knot_length
+from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import Yarn, yarns_from_records
+from ilmek.elements.knot_kinds import WRAPS
 from ilmek.io.chart.symbols import symbols
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.chart import Charted, chart_results

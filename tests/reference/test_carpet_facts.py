@@ -5,7 +5,7 @@ import pytest
 from ilmek.carpet.bill import pile_need
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.ground import GroundParams, ground_yarns, warp_need
-from ilmek.carpet.knots.kinds import PileParams, knot_length
+from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality, parse_quality, write_quality
 from ilmek.carpet.sizes import Size, parse_size
 from ilmek.carpet.yarn import Yarn

@@ -6,10 +6,11 @@ import pytest
 from ilmek.carpet.bill import YarnBill, yarn_bill
 from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.ground import GroundParams, sinuous_length
-from ilmek.carpet.knots.kinds import PileParams, asymmetric_wrap, knot_length, parse_knot, symmetric_wrap
+from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import Yarn, yarns_from_records
+from ilmek.elements.knot_kinds import asymmetric_wrap, parse_knot, symmetric_wrap
 from ilmek.errors import CarpetError, PictureError, YarnError
 
 SIZE, QUALITY = Size(0.6, 0.9), Quality(1000.0, 1000.0)

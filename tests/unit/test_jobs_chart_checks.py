@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from ilmek.carpet.knots.kinds import PileParams, coarsest_count, knot_length, pile_fill
+from ilmek.carpet.pile import PileParams, coarsest_count, knot_length, pile_fill
 from ilmek.carpet.quality import Quality
 from ilmek.cli import main
 from ilmek.jobs.chart import job_json

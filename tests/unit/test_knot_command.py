@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from ilmek.carpet.knots.path import KnotDimensions, knot_path
-from ilmek.carpet.knots.word import SINGLE, knot
 from ilmek.cli import main
 from ilmek.io.path_file import read_path
 from ilmek.units import mm
+from ilmek.weaving.knots.path import KnotDimensions, knot_path
+from ilmek.weaving.knots.word import SINGLE, knot
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "gripper_path.csv"
 KNOTS = (

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from ilmek.carpet.knots.drawing import knot_drawing
-from ilmek.carpet.knots.kinds import PileParams, knot_length, leg_length
-from ilmek.carpet.knots.path import KnotDimensions, KnotPath, knot_path
-from ilmek.carpet.knots.word import SINGLE, Knot, knot, mirrored
+from ilmek.carpet.pile import PileParams, knot_length, leg_length
 from ilmek.carpet.quality import Quality
 from ilmek.elements.yarns import WOOL, warp_diameter
 from ilmek.errors import CarpetError
 from ilmek.units import mm
+from ilmek.weaving.knots.drawing import knot_drawing
+from ilmek.weaving.knots.path import KnotDimensions, KnotPath, knot_path
+from ilmek.weaving.knots.word import SINGLE, Knot, knot, mirrored
 
 DIMENSIONS = KnotDimensions(4 * mm, 1.2 * mm, 0.8 * mm, 0.2 * mm, leg=7 * mm)
 TOUCHING = KnotDimensions(2 * mm, 1.2 * mm, 0.8 * mm, leg=3 * mm)

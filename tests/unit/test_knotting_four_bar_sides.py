@@ -13,10 +13,10 @@ from ilmek.linkage.configuration_path import InputWay
 from ilmek.linkage.model import freedom
 from ilmek.linkage.one_input import one_input
 from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design, report
-from ilmek.machines.knotting_four_bar.knot import pitches, proof
 from ilmek.machines.knotting_four_bar.sides import Sides, clearances, hands, other, outlines
 from ilmek.report import Animation, Drawing, Report
 from ilmek.units import MPa, mm
+from ilmek.weaving.knots.two_hands import knot_of_hands, pitch_range
 
 PUBLISHED = {"poses": "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)", "ground_angle": "275deg", "sides": "2"}
 
@@ -135,22 +135,22 @@ def test_the_published_hands_tie_no_knot_on_warps_2_mm_apart_but_on_opened_ones(
     assert said["knot_pitches"][0] == pytest.approx(said["hand_distance_min"], abs=0.2 * mm)
     assert any("they tie a symmetric knot" in warning for warning in told().warnings)
     first, second = (way[made().onward] for way in hands(sides_of(made()).course.motion))
-    assert proof(first, second, 20 * mm).name == "symmetric knot over warps 1 and 2"
-    assert proof(first, second, 15 * mm).tied is None
+    assert knot_of_hands(first, second, 20 * mm).name == "symmetric knot over warps 1 and 2"
+    assert knot_of_hands(first, second, 15 * mm).tied is None
 
 
 def test_hands_that_go_round_a_warp_each_tie_it_and_others_do_not() -> None:
     way = np.array([-3 - 0.5j, -2 + 3j, -0.5 + 3j, -0.5 - 1j])
-    tied = proof(way, -way.conj(), 3.0)
+    tied = knot_of_hands(way, -way.conj(), 3.0)
     assert tied.tied is not None
     assert tied.tied.knot is not None
     assert tied.name == "symmetric knot over warps 1 and 2"
-    least, most = pitches(way, -way.conj()) or (0.0, 0.0)
+    least, most = pitch_range(way, -way.conj()) or (0.0, 0.0)
     assert least == pytest.approx(1.0, abs=1e-3)
     assert 5.5 < most <= 6.0
     front = np.array([-3 + 0j, -2 + 0j])
-    assert proof(front, -front.conj(), 3.0).name == "no knot"
-    assert pitches(front, -front.conj()) is None
+    assert knot_of_hands(front, -front.conj(), 3.0).name == "no knot"
+    assert pitch_range(front, -front.conj()) is None
 
 
 def test_the_ways_of_the_hands_are_led_in_the_order_of_the_poses(quick) -> None:

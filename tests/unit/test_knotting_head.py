@@ -6,7 +6,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ilmek.carpet.knots.word import knot
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams, design, report
 from ilmek.machines.knotting_dyad.arm_path import mirrored_way
 from ilmek.machines.knotting_dyad.clearance import apart, arm_bars, mirrored_bars, to_warps
@@ -15,6 +14,7 @@ from ilmek.machines.knotting_dyad.section import NEIGHBOURS, section_of
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT, Phase, sequence
 from ilmek.machines.knotting_dyad.yarn import tied_by
 from ilmek.report import Animation
+from ilmek.weaving.knots.word import knot
 
 
 @cache

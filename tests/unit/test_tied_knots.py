@@ -5,12 +5,12 @@ import itertools
 import numpy as np
 import pytest
 
-from ilmek.carpet.knots.crossings import Row, arc_lengths, crossings, orientation, row_of_warps
-from ilmek.carpet.knots.path import KnotDimensions, knot_path
-from ilmek.carpet.knots.tied import Tied, joined, tied_by_curve, tied_knot
-from ilmek.carpet.knots.word import SINGLE, Knot, inverse, knot, mirrored, recognised, reduced, told, verdict
 from ilmek.errors import CarpetError
 from ilmek.units import mm
+from ilmek.weaving.knots.crossings import WarpRow, arc_lengths, crossings, orientation, row_of_warps
+from ilmek.weaving.knots.path import KnotDimensions, knot_path
+from ilmek.weaving.knots.proof import TiedKnot, joined_ends, knot_of_curve, tied_knot
+from ilmek.weaving.knots.word import SINGLE, Knot, inverse, knot, mirrored, recognised, reduced, verdict, word_text
 
 PITCH = 4 * mm
 SIZE = KnotDimensions(PITCH, 1.2 * mm, 0.8 * mm, 0.2 * mm, leg=6 * mm)
@@ -38,7 +38,7 @@ def path(*corners: tuple[float, float]) -> np.ndarray:
     return np.asarray((x - 1) * PITCH + 1j * y * mm)
 
 
-def tied(*corners: tuple[float, float]) -> Tied:
+def tied(*corners: tuple[float, float]) -> TiedKnot:
     return tied_knot(path(*corners), WARPS, keep_out=0.6 * mm)
 
 
@@ -47,11 +47,11 @@ def test_every_knot_s_curve_ties_that_knot_and_no_other(known: Knot) -> None:
     curve = knot_path(known, SIZE)
     points = curve.point(curve.distances(0.1 * mm))
     forward = tied_knot(points, WARPS, keep_out=KEEP_OUT, lengths=arc_lengths(points))
-    assert forward == Tied(known, known.word, False, known.name)
-    exact = tied_by_curve(lambda u: curve.point(u * curve.length), curve.length, WARPS, keep_out=KEEP_OUT)
+    assert forward == TiedKnot(known, known.word, False, known.name)
+    exact = knot_of_curve(lambda u: curve.point(u * curve.length), curve.length, WARPS, keep_out=KEEP_OUT)
     assert exact == forward
     backward = tied_knot(points[::-1], WARPS, keep_out=KEEP_OUT, lengths=arc_lengths(points)[::-1])
-    assert backward == Tied(known, inverse(known.word), True, known.name)
+    assert backward == TiedKnot(known, inverse(known.word), True, known.name)
 
 
 @pytest.mark.parametrize("known", ALL, ids=lambda known: known.name)
@@ -67,9 +67,9 @@ def test_thesis_knot_by_two_mirrored_grippers() -> None:
     """Two arms take the yarn in front of the middle and lead an end each round the outside and up between the warps."""
     left = path((6.5, 3), (5.5, 2), (5.5, -2), (6.4, -2), (6.4, 6))
     right = 2 * (5.5 * PITCH) - np.conj(left)
-    assert tied_knot(joined(left, right), WARPS, keep_out=0.6 * mm).words == "symmetric knot over warps 6 and 7"
+    assert tied_knot(joined_ends(left, right), WARPS, keep_out=0.6 * mm).words == "symmetric knot over warps 6 and 7"
     with pytest.raises(CarpetError, match=r"4 mm apart.*one place"):
-        joined(left, right + PITCH)
+        joined_ends(left, right + PITCH)
 
 
 def test_catalogue_is_the_whole_of_what_is_recognised() -> None:
@@ -167,9 +167,9 @@ def test_touching_a_warp_is_an_error_that_names_it() -> None:
         tied_knot(path((2.5, 5), (3.5, -5)), WARPS)
     curve = knot_path(knot("symmetric", 6), SIZE)
     with pytest.raises(CarpetError, match="warp 6"):
-        tied_by_curve(lambda u: curve.point(u * curve.length), curve.length, WARPS, keep_out=1.3 * mm)
+        knot_of_curve(lambda u: curve.point(u * curve.length), curve.length, WARPS, keep_out=1.3 * mm)
     with pytest.raises(CarpetError, match="warp 7"):  # the axis itself grazes the room: no sampling can tell
-        tied_by_curve(lambda u: curve.point(u * curve.length), curve.length, WARPS, keep_out=1.2 * mm)
+        knot_of_curve(lambda u: curve.point(u * curve.length), curve.length, WARPS, keep_out=1.2 * mm)
 
 
 def test_samples_too_coarse_are_refused_and_fine_ones_are_not() -> None:
@@ -200,7 +200,7 @@ def test_arc_lengths_are_exact_on_a_circle_and_on_a_line() -> None:
 
 
 def test_crossings_are_counted_once_where_a_corner_lies_on_a_cut() -> None:
-    row = Row(np.array([0j]))
+    row = WarpRow(np.array([0j]))
     assert crossings(row, np.array([-1 - 1j, 0 - 1j, 1 - 1j])) == (1,)
     assert crossings(row, np.array([-1 - 1j, 0 - 1j, 0 - 2j, -1 - 2j])) == ()
     assert crossings(row, np.array([1 - 1j, 0 - 1j, 0 - 2j, 1 - 2j])) == (-1, 1)
@@ -217,8 +217,8 @@ def test_side_of_a_warp_is_decided_exactly() -> None:
     hair = complex(0.5, 0.5 + 2.0**-53)
     assert orientation(*far, hair)[0] == 1
     assert orientation(far[1], far[0], hair)[0] == -1
-    assert crossings(Row(np.array([above])), np.array([0j, 0.3 + 0.3j])) == (1,)
-    assert crossings(Row(np.array([below])), np.array([0j, 0.3 + 0.3j])) == ()
+    assert crossings(WarpRow(np.array([above])), np.array([0j, 0.3 + 0.3j])) == (1,)
+    assert crossings(WarpRow(np.array([below])), np.array([0j, 0.3 + 0.3j])) == ()
 
 
 @pytest.mark.parametrize(
@@ -238,7 +238,7 @@ def test_bad_input_is_refused_in_words(points: np.ndarray, warps: np.ndarray, sa
 
 def test_bad_rooms_piles_and_knots_are_refused_in_words() -> None:
     with pytest.raises(CarpetError, match="0 or more"):
-        Row(WARPS, -1.0)
+        WarpRow(WARPS, -1.0)
     with pytest.raises(CarpetError, match="direction"):
         tied_knot(path((6.5, 6), (6.5, 7)), WARPS, pile=0)
     for bad in (("granny", (1,), (2,)), ("symmetric", (1,), (2,), "left"), ("asymmetric", (1,), (2,))):
@@ -254,4 +254,4 @@ def test_bad_rooms_piles_and_knots_are_refused_in_words() -> None:
 
 
 def test_words_are_told_as_the_yarn_goes() -> None:
-    assert told((3, 4, -5)) == "behind warps 3 and 4 from left to right, behind warp 5 from right to left"
+    assert word_text((3, 4, -5)) == "behind warps 3 and 4 from left to right, behind warp 5 from right to left"

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ilmek.carpet.knots.kinds import PileParams, knot_length
+from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.errors import ParameterError
 from ilmek.machines.weaver import WeaverParams, design, report

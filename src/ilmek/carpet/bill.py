@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.ground import GroundParams, ground_yarns
-from ilmek.carpet.knots.kinds import PileParams, knot_length
+from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.yarn import Yarn
 
 

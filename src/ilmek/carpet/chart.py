@@ -12,12 +12,12 @@ import numpy as np
 from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.isolated_knots import count_lone, merge_lone
-from ilmek.carpet.knots.kinds import parse_knot
 from ilmek.carpet.palette import best_yarns, distinct_colours, nearest_yarns, paint
 from ilmek.carpet.progress import Progress, part
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
+from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import PictureError, YarnError
 
 

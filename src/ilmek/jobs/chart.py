@@ -10,7 +10,7 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.design import LARGEST_DISTORTION, distortion
-from ilmek.carpet.knots.kinds import coarsest_count, pile_fill
+from ilmek.carpet.pile import coarsest_count, pile_fill
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart.png import write_chart_png

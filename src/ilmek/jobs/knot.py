@@ -7,12 +7,12 @@ import numpy as np
 from jaxtyping import Complex
 
 from ilmek.arrays import ComplexArray
-from ilmek.carpet.knots.crossings import arc_lengths
-from ilmek.carpet.knots.tied import Tied, joined, tied_knot
-from ilmek.carpet.knots.word import told
 from ilmek.errors import CarpetError
 from ilmek.report import Dot, Drawing, Json, Report, Result, Stroke
 from ilmek.units import format_quantity
+from ilmek.weaving.knots.crossings import arc_lengths
+from ilmek.weaving.knots.proof import TiedKnot, joined_ends, tied_knot
+from ilmek.weaving.knots.word import word_text
 
 RING = np.exp(2j * np.pi * np.arange(72) / 72)
 """Corners of a round warp of radius 1."""
@@ -57,14 +57,14 @@ class Asked:
         return self.first + self.pitch * np.arange(self.count)
 
 
-def judged(paths: Sequence[ComplexArray], asked: Asked) -> tuple[ComplexArray, Tied]:
+def judged(paths: Sequence[ComplexArray], asked: Asked) -> tuple[ComplexArray, TiedKnot]:
     """The yarn's whole path [m] of one end, or of two led from one place, and the knot that it ties."""
-    path = paths[0] if len(paths) == 1 else joined(paths[0], paths[1])
+    path = paths[0] if len(paths) == 1 else joined_ends(paths[0], paths[1])
     lengths = arc_lengths(np.append(path, path[0]) if asked.closed else path) if asked.smooth else None
     return path, tied_knot(path, asked.warps, keep_out=asked.keep_out, lengths=lengths, closed=asked.closed)
 
 
-def report(path: Complex[np.ndarray, " places"], tied: Tied, asked: Asked) -> Report:
+def report(path: Complex[np.ndarray, " places"], tied: TiedKnot, asked: Asked) -> Report:
     """What is tied, in words, as a word, and drawn."""
     known = tied.knot
     results = (
@@ -73,7 +73,7 @@ def report(path: Complex[np.ndarray, " places"], tied: Tied, asked: Asked) -> Re
         Result("opens", known.opens or None if known else None, "", "side on which an asymmetric knot is open"),
         Result("warps", list(known.warps) if known else [], "", "it is tied on, numbered from 1 at the left"),
         Result("word", list(tied.word), "", "warps passed behind: + from left to right, - from right to left"),
-        Result("way", told(tied.word) if tied.word else "behind no warp", "", "the word as a weaver says it"),
+        Result("way", word_text(tied.word) if tied.word else "behind no warp", "", "the word as a weaver says it"),
         Result("backward", tied.backward, "", "the yarn runs through the knot from its other end"),
         Result("length", float(np.abs(np.diff(path)).sum()), "mm", "of the path, from place to place"),
     )
@@ -83,7 +83,7 @@ def report(path: Complex[np.ndarray, " places"], tied: Tied, asked: Asked) -> Re
     return Report("knot", "Knot of a motion", parameters, results, (), figures=(_drawing(path, tied, asked),))
 
 
-def _drawing(path: ComplexArray, tied: Tied, asked: Asked) -> Drawing:
+def _drawing(path: ComplexArray, tied: TiedKnot, asked: Asked) -> Drawing:
     """The path among the warps that it comes to."""
     along = (path.real - asked.first.real) / asked.pitch
     low, high = int(np.floor(along.min())) - BESIDE, int(np.ceil(along.max())) + BESIDE

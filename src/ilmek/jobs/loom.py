@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.knots.kinds import knot_length
+from ilmek.carpet.pile import knot_length
 from ilmek.errors import ParameterError, UnitError
 from ilmek.jobs.order import Order
 from ilmek.loom.programme import Programme, heads_for, make_programme

@@ -5,10 +5,11 @@ from pathlib import Path
 from typing import Any
 
 from ilmek.carpet.design import knot_grid
-from ilmek.carpet.knots.kinds import PileParams, parse_knot
+from ilmek.carpet.pile import PileParams
 from ilmek.carpet.quality import Quality, parse_quality
 from ilmek.carpet.sizes import Size, parse_size
 from ilmek.carpet.yarn import Yarn
+from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import YarnError
 from ilmek.io.yarn_file import default_yarns, read_yarns
 from ilmek.params import Setting

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
-from ilmek.carpet.knots.kinds import WRAPS
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST
+from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.params import Params, param
 from ilmek.units import deg, dm, format_quantity, mm, rpm, turn

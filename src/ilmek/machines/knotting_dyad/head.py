@@ -4,8 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.carpet.knots.tied import Tied
-from ilmek.carpet.knots.word import Knot, knot
 from ilmek.machines.knotting_dyad.arm_path import Arm, ArmWay
 from ilmek.machines.knotting_dyad.clearance import Least, clearances
 from ilmek.machines.knotting_dyad.needle_bending import bent_aside
@@ -13,6 +11,8 @@ from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import Section, knot_of
 from ilmek.machines.knotting_dyad.sequence import Phase, sequence
 from ilmek.machines.knotting_dyad.yarn import tied_by
+from ilmek.weaving.knots.proof import TiedKnot
+from ilmek.weaving.knots.word import Knot, knot
 
 SAMPLES = 401
 """Places of the way that are tabulated."""
@@ -34,7 +34,7 @@ class Head:
     way: ArmWay
     phases: tuple[Phase, ...]
     clearances: tuple[Least, ...]
-    tied: Tied
+    tied: TiedKnot
     bent: float
 
     @property

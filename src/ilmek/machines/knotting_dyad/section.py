@@ -20,9 +20,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Complex
 
-from ilmek.carpet.knots.word import Knot, knot
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.units import mm
+from ilmek.weaving.knots.word import Knot, knot
 
 NEIGHBOURS = 6
 """Warps on each side of the pair that must be passed clear."""

@@ -14,7 +14,7 @@ The arms come one after the other, for at the middle they would meet. While they
 
 from dataclasses import dataclass
 
-from ilmek.carpet.knots.word import Knot
+from ilmek.weaving.knots.word import Knot
 
 LEFT, RIGHT, CENTRE = "left", "right", "centre"
 OUT, IN = 0.0, 1.0
@@ -45,7 +45,7 @@ def sequence(knot: Knot, front: float, behind: float) -> tuple[Phase, ...]:
     front, behind  heights of the centre gripper's tip at rest and at the hand-over [m], behind < 0 < front
     The arm of an open side comes in empty; the arm that comes first is the left one, or that of the open side.
 
-    >>> from ilmek.carpet.knots.word import knot
+    >>> from ilmek.weaving.knots.word import knot
     >>> [phase.name for phase in sequence(knot("symmetric"), 0.01, -0.004)][:2]
     ['left arm in', 'centre gripper to the left arm']
     """

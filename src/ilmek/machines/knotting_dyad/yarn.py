@@ -11,12 +11,12 @@ import numpy as np
 from jaxtyping import Complex, Float
 
 from ilmek.arrays import FloatArray
-from ilmek.carpet.knots.tied import Tied, tied_knot
 from ilmek.errors import CarpetError
 from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.section import Section
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, Phase
 from ilmek.units import format_quantity, um
+from ilmek.weaving.knots.proof import TiedKnot, tied_knot
 
 MISSED = 1 * um
 """How far apart two grippers may be at a hand-over."""
@@ -43,7 +43,7 @@ def _length(arm: Arm, carrier: str, phase: Phase) -> float:
     return abs(end - begin) * (1.0 if carrier == CENTRE else arm.speed_bound)
 
 
-def tied_by(section: Section, arm: Arm, phases: Sequence[Phase]) -> Tied:
+def tied_by(section: Section, arm: Arm, phases: Sequence[Phase]) -> TiedKnot:
     """The knot that the phases tie with this arm and its mirror image; none where an end is led through a warp."""
     said = ""
     for samples in SAMPLES:
@@ -51,10 +51,10 @@ def tied_by(section: Section, arm: Arm, phases: Sequence[Phase]) -> Tied:
             return _tied_by(section, arm, phases, samples)
         except CarpetError as error:
             said = error.given
-    return Tied(None, (), False, f"no knot: {said}")
+    return TiedKnot(None, (), False, f"no knot: {said}")
 
 
-def _tied_by(section: Section, arm: Arm, phases: Sequence[Phase], samples: int) -> Tied:
+def _tied_by(section: Section, arm: Arm, phases: Sequence[Phase], samples: int) -> TiedKnot:
     shares = np.linspace(0.0, 1.0, samples)
     ways: list[Complex[np.ndarray, " n"]] = []
     bounds: list[FloatArray] = []
@@ -80,7 +80,7 @@ def _tied_by(section: Section, arm: Arm, phases: Sequence[Phase], samples: int) 
     )
 
 
-def _missed(end: int, carrier: str, phase: Phase, gap: float) -> Tied:
+def _missed(end: int, carrier: str, phase: Phase, gap: float) -> TiedKnot:
     name = ("first", "second")[end]
     words = f"no knot: at '{phase.name}' the {name} end is {format_quantity(gap, 'mm')} from the {carrier} gripper"
-    return Tied(None, (), False, words)
+    return TiedKnot(None, (), False, words)

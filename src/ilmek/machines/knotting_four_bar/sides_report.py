@@ -7,10 +7,10 @@ import numpy as np
 
 from ilmek.linkage.clearance import Clearance
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.knot import Proof, pitches, proof
 from ilmek.machines.knotting_four_bar.sides import Sides, clearances, hands
 from ilmek.report import Check, Column, Json, Result, Table, at_least, at_most
 from ilmek.units import format_quantity
+from ilmek.weaving.knots.two_hands import TwoHandKnot, knot_of_hands, pitch_range
 
 AGREE = 1e-9
 LEFT_OUT = (
@@ -80,16 +80,16 @@ def _pins(sides: Sides) -> Json:
 class Knot:
     """What the hands tie on warps at the pitch asked for, and the pitches at which they tie any."""
 
-    proof: Proof
+    proof: TwoHandKnot
     pitches: tuple[float, float] | None
     other: str
 
 
 def _tied(design: KnottingFourBar, sides: Sides) -> Knot:
     first, second = (way[design.onward] for way in hands(sides.course.motion))
-    wide = pitches(first, second)
-    other = "" if wide is None else proof(first, second, sum(wide) / 2).name
-    return Knot(proof(first, second, design.params.warp_pitch), wide, other)
+    wide = pitch_range(first, second)
+    other = "" if wide is None else knot_of_hands(first, second, sum(wide) / 2).name
+    return Knot(knot_of_hands(first, second, design.params.warp_pitch), wide, other)
 
 
 def _knot(design: KnottingFourBar, tied: Knot) -> tuple[Result, ...]:

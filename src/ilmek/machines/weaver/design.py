@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from ilmek.carpet.knots.tied import Tied
 from ilmek.machines.weaver import moves
 from ilmek.machines.weaver.cams import HeadCam, cams_for
 from ilmek.machines.weaver.cyclogram import (
@@ -24,6 +23,7 @@ from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Limits, Track, peak_acceleration, peak_speed, shortest_period
 from ilmek.units import turn
+from ilmek.weaving.knots.proof import TiedKnot
 
 HAND_KNOT = 2.4
 """The best hand weaver's time for a knot [s]: 25 a minute."""
@@ -61,7 +61,7 @@ class Weaver:
     drawn: float
     handler_radius: float
     grippers: Grippers
-    tied: Tied
+    tied: TiedKnot
     carriage_step: float
     carriage_window: float
     travel: float

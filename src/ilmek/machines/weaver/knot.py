@@ -4,8 +4,8 @@ Each end is held by its side gripper from the moment its jaws are closed until t
 from closed jaws to open ones. The places of the tips follow from the cams' positions at every cam angle. Between two
 angles at which a motion begins or ends, a tip goes along one curve, by the position of its cam, whatever the law; so
 the curve's length over a part of that way is at most the way times sqrt(1 + (rho turn / crossing)²). The first end's
-way backwards, then the second's, is the yarn: `carpet.knots.tied` proves its knot, with the warps as they stand in the
-opener. A yarn that is let go, missed, or led while the warps close, ties none, and the words say why.
+way backwards, then the second's, is the yarn: `weaving.knots.proof` proves its knot, with the warps as they stand in
+the opener. A yarn that is let go, missed, or led while the warps close, ties none, and the words say why.
 """
 
 from dataclasses import dataclass
@@ -15,14 +15,14 @@ import numpy as np
 from jaxtyping import Complex, Float
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.carpet.knots.tied import Tied, tied_knot
-from ilmek.carpet.knots.word import Word, knot
 from ilmek.errors import CarpetError
 from ilmek.machines.weaver.cyclogram import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
 from ilmek.machines.weaver.grippers import Grippers, crossing_point
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, sample
 from ilmek.units import format_quantity
+from ilmek.weaving.knots.proof import TiedKnot, tied_knot
+from ilmek.weaving.knots.word import Word, knot
 
 SAMPLES = (101, 801, 6401)
 """Places along a motion: more where the yarn comes so near a warp that fewer do not tell its side."""
@@ -42,26 +42,26 @@ class Led:
     lengths: Float[np.ndarray, " parts"]
 
 
-def tied_by(cyclogram: Cyclogram, grippers: Grippers, jaw: float) -> Tied:
+def tied_by(cyclogram: Cyclogram, grippers: Grippers, jaw: float) -> TiedKnot:
     """The knot that a turn of the cyclogram ties with these grippers; none where order or hand-over are wrong."""
     wrong = _order(cyclogram, grippers) or _hand_over(grippers, jaw)
     if wrong:
-        return Tied(None, (), False, f"no knot: {wrong}")
+        return TiedKnot(None, (), False, f"no knot: {wrong}")
     said = ""
     for samples in SAMPLES:
         try:
             return _tied(cyclogram, grippers, samples)
         except CarpetError as error:
             said = error.given
-    return Tied(None, (), False, f"no knot: {said}")
+    return TiedKnot(None, (), False, f"no knot: {said}")
 
 
-def on_the_pair(tied: Tied) -> str | None:
+def on_the_pair(tied: TiedKnot) -> str | None:
     """The kind of the knot that is tied on the pair; None: none, or on other warps."""
     return tied.knot.kind if tied.knot is not None and tied.knot.warps == PAIR else None
 
 
-def told(tied: Tied) -> str:
+def told(tied: TiedKnot) -> str:
     """What the proof says, the pair's warps called 1 and 2."""
     kind = on_the_pair(tied)
     return tied.words if kind is None else knot(kind).name
@@ -79,7 +79,7 @@ def led(cyclogram: Cyclogram, grippers: Grippers, samples: int) -> Led:
     return Led(np.concatenate([there, then]), np.concatenate(lengths) * (1 + 1e-9))
 
 
-def _tied(cyclogram: Cyclogram, grippers: Grippers, samples: int) -> Tied:
+def _tied(cyclogram: Cyclogram, grippers: Grippers, samples: int) -> TiedKnot:
     left = led(cyclogram, grippers, samples)
     first, second = left.places, -np.conj(left.places)
     points: ComplexArray = np.concatenate([first[::-1], second])

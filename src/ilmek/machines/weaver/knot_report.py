@@ -45,7 +45,7 @@ def knot_checks(weaver: Weaver) -> tuple[Check, ...]:
     return (
         at_least(f"{params.knot} knot tied", tied, 1.0, "", f"proof: {told(weaver.tied)}"),
         at_most("yarn needed between the grippers", taut_max(by), by.apart + SAME, "mm", "yarn held between them"),
-        at_least("yarn drawn", weaver.drawn + SAME, params.billed, "mm", "yarn bill: carpet.knots, of this knot"),
+        at_least("yarn drawn", weaver.drawn + SAME, params.billed, "mm", "yarn bill: carpet.pile, of this knot"),
         at_least("room of the side grippers", clearance_min(by) + SAME, params.clearance, "mm", "parameter clearance"),
     )
 

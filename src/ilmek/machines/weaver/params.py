@@ -4,8 +4,9 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
-from ilmek.carpet.knots.kinds import WRAPS, PileParams, knot_length
+from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
+from ilmek.elements.knot_kinds import WRAPS
 from ilmek.elements.yarns import WOOL, warp_diameter
 from ilmek.errors import ParameterError
 from ilmek.params import Params, param
@@ -146,7 +147,7 @@ class WeaverParams(Params):
 
     @property
     def billed(self) -> float:
-        """Pile yarn of a knot by the yarn bill [m], what is shorn off included: as given, or by `carpet.knots`."""
+        """Pile yarn of a knot by the yarn bill [m], what is shorn off included: as given, or by `carpet.pile`."""
         if self.knot_yarn is not None:
             return self.knot_yarn
         pile = PileParams(pile_height=self.pile_height, cut_waste=self.cut_waste, warp_diameter=self.warp_diameter)

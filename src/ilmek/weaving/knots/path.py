@@ -21,10 +21,10 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, IntArray, RealField
-from ilmek.carpet.knots.kinds import asymmetric_wrap, symmetric_wrap
-from ilmek.carpet.knots.word import SINGLE, Knot, Word
+from ilmek.elements.knot_kinds import asymmetric_wrap, symmetric_wrap
 from ilmek.errors import CarpetError
 from ilmek.units import format_quantity, mm
+from ilmek.weaving.knots.word import SINGLE, Knot, Word
 
 _QUARTER, _HALF = math.pi / 2, math.pi
 
@@ -97,7 +97,7 @@ class KnotPath:
     @property
     def warps(self) -> ComplexArray:
         """Places of the knot's own warps [m]."""
-        return warp_places(self.knot.warps, self.dimensions.pitch)
+        return warp_positions(self.knot.warps, self.dimensions.pitch)
 
     def point(self, s: RealField) -> ComplexArray:
         """Places at arc lengths s [m]; straight on beyond the ends."""
@@ -131,7 +131,7 @@ class KnotPath:
 def knot_path(knot: Knot, dimensions: KnotDimensions) -> KnotPath:
     """The curve of a knot, in the direction of its word.
 
-    >>> from ilmek.carpet.knots.word import knot
+    >>> from ilmek.weaving.knots.word import knot
     >>> path = knot_path(knot("symmetric"), KnotDimensions(4 * mm, 1 * mm, 1 * mm))
     >>> round(path.length / mm, 3), path.point(0.0).tolist() == (1 + 10j) * mm
     (33.425, True)
@@ -159,10 +159,10 @@ def wrap_length(knot: Knot, dimensions: KnotDimensions) -> float:
     return 3 * math.pi * radius
 
 
-def warp_places(warps: Word, pitch: float) -> ComplexArray:
+def warp_positions(warps: Word, pitch: float) -> ComplexArray:
     """Places [m] of warps of these numbers in a row of this pitch, warp 1 at 0.
 
-    >>> warp_places((2, 3), 4.0).tolist()
+    >>> warp_positions((2, 3), 4.0).tolist()
     [(4+0j), (8+0j)]
     """
     return (np.array(warps, float) - 1) * pitch + 0j

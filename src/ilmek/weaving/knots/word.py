@@ -27,7 +27,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import TypeAlias
 
-from ilmek.carpet.knots.kinds import parse_knot
+from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError
 
 Word: TypeAlias = tuple[int, ...]
@@ -84,10 +84,10 @@ def listed(warps: Word) -> str:
     return f"warps {', '.join(numbers[:-1])} and {numbers[-1]}"
 
 
-def told(word: Word) -> str:
+def word_text(word: Word) -> str:
     """The word as a weaver would say it.
 
-    >>> told((-1, -3, -2))
+    >>> word_text((-1, -3, -2))
     'behind warp 1 from right to left, behind warps 3 and 2 from right to left'
     """
     return ", ".join(
@@ -231,10 +231,10 @@ def verdict(word: Word) -> str:
     if not parts:
         return "no knot: pulled, the yarn comes away from every warp"
     if len(parts) == 1:
-        return f"no knot: the yarn only passes {told(word)}"
+        return f"no knot: the yarn only passes {word_text(word)}"
     once = tuple(part for part, _ in groupby(parts))
     nearly = recognised(tuple(letter for part in once for letter in part))
     if nearly:
         extra = sorted({abs(letter) for part, run in groupby(parts) if len(list(run)) > 1 for letter in part})
         return f"no knot: but for a turn too many round {listed(tuple(extra))}, a {nearly.name}"
-    return f"no knot: the yarn passes {told(word)}"
+    return f"no knot: the yarn passes {word_text(word)}"

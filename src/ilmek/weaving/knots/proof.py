@@ -3,7 +3,7 @@
 A yarn held at the pile and led by its other end lies as the end went: pulled tight without crossing a warp, it is the
 path of the end, with all to and fro pulled out. So the reduced word of the path (`knots.word`) says which knot it is;
 equal words are a proof, since the words tell all paths apart that cannot be pulled into each other. Where two grippers
-lead an end each from one place, the yarn is the first path backwards and then the second: `joined`.
+lead an end each from one place, the yarn is the first path backwards and then the second: `joined_ends`.
 
 The warps stand still, and both ends must lie in the pile, in front of every warp; which side that is, `pile` says.
 """
@@ -15,14 +15,14 @@ import numpy as np
 from jaxtyping import Complex
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.carpet.knots.crossings import Row, check_points, crossings, followed
-from ilmek.carpet.knots.word import Knot, Word, recognised, reduced, verdict
 from ilmek.errors import CarpetError
 from ilmek.units import format_quantity
+from ilmek.weaving.knots.crossings import WarpRow, check_points, crossings, sampled_curve
+from ilmek.weaving.knots.word import Knot, Word, recognised, reduced, verdict
 
 
 @dataclass(frozen=True, slots=True)
-class Tied:
+class TiedKnot:
     """What a motion ties.
 
     knot      the knot, or None                           word   the reduced word of the path
@@ -44,7 +44,7 @@ def tied_knot(
     lengths: FloatArray | None = None,
     closed: bool = False,
     pile: complex = 1j,
-) -> Tied:
+) -> TiedKnot:
     """The knot that a path of the yarn's end ties on a row of warps, or that it ties none and why.
 
     points    corners of the path, or samples of it, in the order of the motion [m]
@@ -64,42 +64,42 @@ def tied_knot(
     turn = _upright(pile)
     if closed:
         points = np.append(points, points[0])
-    row = Row(_turned(warps, turn), keep_out)
+    row = WarpRow(_turned(warps, turn), keep_out)
     upright = _turned(points, turn)
     return _judged(row, upright, reduced(crossings(row, upright, lengths)))
 
 
-def tied_by_curve(
+def knot_of_curve(
     curve: Callable[[FloatArray], ComplexArray],
     speed: float,
     warps: Complex[np.ndarray, " warps"],
     *,
     keep_out: float = 0.0,
     pile: complex = 1j,
-) -> Tied:
+) -> TiedKnot:
     """The knot that a curve ties: sampled as finely as it takes to be sure.
 
     curve  places [m] of the yarn's end for values 0 to 1, an array of them     speed  its greatest speed |dz/du| [m]
     the rest as of `tied_knot`. Raises CarpetError where the curve touches a warp, or nearly.
 
     >>> ring = lambda u: 2.5j * np.exp(2j * np.pi * u)
-    >>> tied_by_curve(ring, 16.0, np.array([0j, 2 + 0j])).words
+    >>> knot_of_curve(ring, 16.0, np.array([0j, 2 + 0j])).words
     'no knot: the yarn only passes behind warps 1 and 2 from left to right'
     """
     turn = _upright(pile)
-    row = Row(_turned(warps, turn), keep_out)
-    points, lengths = followed(row, lambda u: _turned(curve(u), turn), speed)
+    row = WarpRow(_turned(warps, turn), keep_out)
+    points, lengths = sampled_curve(row, lambda u: _turned(curve(u), turn), speed)
     return _judged(row, points, reduced(crossings(row, points, lengths)))
 
 
-def joined(
+def joined_ends(
     first: Complex[np.ndarray, " first"], second: Complex[np.ndarray, " second"]
 ) -> Complex[np.ndarray, " both"]:
     """The path of a yarn whose two ends were led from one place: the first motion backwards, then the second.
 
     Raises CarpetError where they do not start at one place.
 
-    >>> joined(np.array([0j, -1 + 0j]), np.array([0j, 1 + 0j])).real.tolist()
+    >>> joined_ends(np.array([0j, -1 + 0j]), np.array([0j, 1 + 0j])).real.tolist()
     [-1.0, 0.0, 1.0]
     """
     check_points(first)
@@ -126,13 +126,13 @@ def _turned(points: ComplexArray, turn: complex) -> ComplexArray:
         return np.asarray(points * turn, complex)
 
 
-def _judged(row: Row, points: ComplexArray, word: Word) -> Tied:
+def _judged(row: WarpRow, points: ComplexArray, word: Word) -> TiedKnot:
     front = float(row.places.imag.max())
     for end, name in ((points[0], "begins"), (points[-1], "ends")):
         if end.imag <= front:
             low = format_quantity(front - float(end.imag), "mm")
-            return Tied(
+            return TiedKnot(
                 None, word, False, f"no knot: the path {name} {low} behind the front of the warps, not in the pile"
             )
     known = recognised(word)
-    return Tied(known, word, known is not None and word != known.word, verdict(word))
+    return TiedKnot(known, word, known is not None and word != known.word, verdict(word))

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.carpet.knots.tied import Tied, joined, tied_knot
 from ilmek.errors import CarpetError
 from ilmek.units import format_quantity
+from ilmek.weaving.knots.proof import TiedKnot, joined_ends, tied_knot
 
 HEIGHTS = 24
 """Heights of the warps that are looked at for either side of the pile, over all of the ways' height."""
@@ -24,7 +24,7 @@ TRIED, HALVED = 32, 12
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Proof:
+class TwoHandKnot:
     """What two hands tie.
 
     name   the knot in words, or "no knot"                      why    where it is tied, or why it is none
@@ -35,19 +35,19 @@ class Proof:
 
     name: str
     why: str
-    tied: Tied | None
+    tied: TiedKnot | None
     warps: ComplexArray
     yarn: ComplexArray
 
 
-def proof(first: ComplexArray, second: ComplexArray, pitch: float) -> Proof:
+def knot_of_hands(first: ComplexArray, second: ComplexArray, pitch: float) -> TwoHandKnot:
     """What two hands tie that lead a yarn on these ways [m], mirror images, on two warps of a pitch [m].
 
     >>> way = np.array([-3 + 0j, -1 + 2j])
-    >>> proof(way, -way.conj(), 1.0).why
+    >>> knot_of_hands(way, -way.conj(), 1.0).why
     'at every height of the warps: the yarn only passes behind warps 1 and 2 from left to right'
     """
-    yarn = np.asarray(joined(*(np.append((first[0] + second[0]) / 2, way) for way in (first, second))))
+    yarn = np.asarray(joined_ends(*(np.append((first[0] + second[0]) / 2, way) for way in (first, second))))
     mirror, low, high = float((first[0] + second[0]).real) / 2, float(np.min(yarn.imag)), float(np.max(yarn.imag))
     share = (np.arange(HEIGHTS) + 0.5) / HEIGHTS
     rows = mirror + np.array([-0.5, 0.5]) * pitch + 1j * (low + (high - low) * share)[:, None]
@@ -57,23 +57,23 @@ def proof(first: ComplexArray, second: ComplexArray, pitch: float) -> Proof:
             found = _tied(yarn, warps, pile)
             if found is not None and found.knot is not None:
                 height, side = format_quantity(float(warps[0].imag), "mm"), "above" if pile == 1j else "below"
-                return Proof(found.words, f"warps at y = {height}, the pile {side} them", found, warps, yarn)
+                return TwoHandKnot(found.words, f"warps at y = {height}, the pile {side} them", found, warps, yarn)
             told += [] if found is None else [found.words.removeprefix("no knot: ")]
     why = "; ".join(dict.fromkeys(told)) or "nowhere are both its ends in the pile"
-    return Proof("no knot", f"at every height of the warps: {why}", None, rows[HEIGHTS // 2], yarn)
+    return TwoHandKnot("no knot", f"at every height of the warps: {why}", None, rows[HEIGHTS // 2], yarn)
 
 
-def pitches(first: ComplexArray, second: ComplexArray) -> tuple[float, float] | None:
+def pitch_range(first: ComplexArray, second: ComplexArray) -> tuple[float, float] | None:
     """The least and the greatest pitch of the two warps [m] that these ways tie a knot on; None where none was found.
 
     >>> round_one_warp = np.array([-3 + 0j, -3 + 3j, -0.5 + 3j, -0.5 + 0j])
-    >>> least, most = pitches(round_one_warp, -round_one_warp.conj())
+    >>> least, most = pitch_range(round_one_warp, -round_one_warp.conj())
     >>> round(least, 3), round(most, 3)
     (1.0, 6.0)
     """
     most = 1.1 * float(np.max(np.abs(second - first)))
     tried = most * np.arange(1, TRIED + 1) / TRIED
-    good = [proof(first, second, float(one)).tied is not None for one in tried]
+    good = [knot_of_hands(first, second, float(one)).tied is not None for one in tried]
     if not any(good):
         return None
     ends = []
@@ -81,12 +81,12 @@ def pitches(first: ComplexArray, second: ComplexArray) -> tuple[float, float] | 
         ties, fails = float(tried[inner]), float(tried[inner]) + step * most / TRIED
         for _ in range(HALVED):
             middle = (ties + fails) / 2
-            ties, fails = (middle, fails) if proof(first, second, middle).tied else (ties, middle)
+            ties, fails = (middle, fails) if knot_of_hands(first, second, middle).tied else (ties, middle)
         ends.append(ties)
     return ends[0], ends[1]
 
 
-def _tied(yarn: ComplexArray, warps: ComplexArray, pile: complex) -> Tied | None:
+def _tied(yarn: ComplexArray, warps: ComplexArray, pile: complex) -> TiedKnot | None:
     """What is tied on two warps; None where an end is not in the pile, or the yarn touches a warp."""
     if np.min(np.imag(yarn[[0, -1]] - warps[0]) * pile.imag) <= 0:
         return None

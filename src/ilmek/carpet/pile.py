@@ -1,28 +1,13 @@
-"""Knots: the two kinds, and the length of pile yarn that one takes.
+"""Pile: the length of yarn that a knot takes, and whether the pile fits its ground.
 
 A knot stands on two neighbouring warps of pitch p and diameter D; the pile yarn has the diameter d, so that its axis
 turns round a warp on the radius r = (D + d)/2. In the section across the warps, from tip to tip of the yarn:
 
     leg     from the height of the warps' axes up through the collar of the knot (D/2 + d), the pile height h as woven,
             and the waste c that the knife and the shears take:   D/2 + d + h + c,   twice
-
-    symmetric (Ghiordes, Turkish): over both warps, round the outside of each, up between them. Straight from top to
-            top, p; round each warp from its top by the outside and the bottom to the inside, 3/4 turn:
-
-                wrap = p + 2 · (3/2) pi r = p + 3 pi r
-
-    asymmetric (Senneh, Persian): down beside the first warp, behind it, across to the front of the second, right round
-            that, up between the two. The crossing is the inner tangent of the two circles, at the angle alpha to the
-            plane of the warps, sin alpha = 2r/p, long sqrt(p² - 4r²); the turns are 90° + alpha and 270° + alpha:
-
-                wrap = sqrt(p² - 4r²) + 2 r (pi + alpha)
-
-            Where the warps are closer than 2r the yarn stands upright between them: alpha = 90°, no straight part.
+    wrap    the part round the warps, by the kind of the knot [`ilmek.elements.knot_kinds`]
 
     L = k (2 (D/2 + d + h + c) + wrap)
-
-The jufti forms take neighbouring warps together: the straight parts grow by whole pitches, the turns stay. The same
-path as a curve, point for point, is `knot_path`; its wrap is the one given here.
 
 k is a calibration by the weaver's own carpet. By hand the figures published are 25 to 28 mm at 40 knots per dm and 30
 to 35 mm at 35, but 40 mm at 40 raj, where the waste of the hand cut seems to be in it (iran-carpet.com 1705;
@@ -38,14 +23,11 @@ Above 1 the yarn cannot stand there, however hard the rows are beaten; own deriv
 mu = rho phi / (2 n), which for a yarn of P strands is the metric count Nm = P / (1000 mu), or finer.
 """
 
-import difflib
-import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from ilmek.carpet.quality import Quality
+from ilmek.elements.knot_kinds import WRAPS, parse_knot
 from ilmek.elements.yarns import WOOL, warp_diameter, yarn_diameter
-from ilmek.errors import CarpetError
 from ilmek.params import Params, param
 from ilmek.units import mm
 
@@ -77,51 +59,6 @@ class PileParams(Params):
     packing: float = param(WOOL.packing, above=0.0, at_most=1.0, doc="share of the pile yarn's section that is fibre")
     calibration: float = param(
         1.0, above=0.0, at_most=10.0, doc="yarn a knot takes, over the geometric length", symbol="k"
-    )
-
-
-def symmetric_wrap(pitch: float, radius: float, left: int = 1, right: int = 1) -> float:
-    """Part of a symmetric knot round its warps [m]: (2 (m + n) - 3) p + 3 pi r.
-
-    left, right  m and n, warps on each side of its middle: 1, 2 for the jufti form
-    """
-    return (2 * (left + right) - 3) * pitch + 3 * math.pi * radius
-
-
-def asymmetric_wrap(pitch: float, radius: float, passed: int = 1, encircled: int = 1) -> float:
-    """Part of an asymmetric knot round its warps [m]: (m - 1 + 2 (n - 1)) p + sqrt(p² - 4r²) + 2 r (pi + alpha).
-
-    sin alpha = 2r/p      passed, encircled  m and n, warps it only passes behind, and winds round: 1, or 2 of a jufti
-    """
-    alpha = math.asin(min(1.0, 2 * radius / pitch))
-    straight = (passed - 1 + 2 * (encircled - 1)) * pitch + math.sqrt(max(pitch**2 - 4 * radius**2, 0.0))
-    return straight + 2 * radius * (math.pi + alpha)
-
-
-WRAPS: dict[str, Callable[[float, float], float]] = {"symmetric": symmetric_wrap, "asymmetric": asymmetric_wrap}
-
-_OTHER_NAMES = {
-    **dict.fromkeys(("turkish", "ghiordes", "gördes", "gordes", "double"), "symmetric"),
-    **dict.fromkeys(("persian", "senneh", "senna", "sine", "single"), "asymmetric"),
-}
-
-
-def parse_knot(text: str) -> str:
-    """`symmetric` or `asymmetric` from either name or a trade name. Raises CarpetError for an unknown knot.
-
-    >>> parse_knot("Ghiordes"), parse_knot("persian")
-    ('symmetric', 'asymmetric')
-    """
-    name = text.strip().casefold()
-    if name in WRAPS:
-        return name
-    if name in _OTHER_NAMES:
-        return _OTHER_NAMES[name]
-    near = difflib.get_close_matches(name, [*WRAPS, *_OTHER_NAMES], n=1)
-    raise CarpetError(
-        f"unknown knot {text!r}",
-        allowed="symmetric (Turkish) or asymmetric (Persian)",
-        do=f"did you mean {near[0]}?" if near else "",
     )
 
 

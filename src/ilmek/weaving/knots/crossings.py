@@ -23,9 +23,9 @@ import numpy as np
 from jaxtyping import Complex, Float, Int
 
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray
-from ilmek.carpet.knots.word import Word
 from ilmek.errors import CarpetError
 from ilmek.units import format_quantity
+from ilmek.weaving.knots.word import Word
 
 _ERROR = (3 + 16 * 2.0**-53) * 2.0**-53
 """Relative error bound of the determinant in floats."""
@@ -35,7 +35,7 @@ _SLACK = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class WarpRow:
     """Warps in section: their places [m] from left to right, seen with the pile upwards, and the room each keeps [m].
 
     keep_out  radius about each place that the path may not enter: the warp's, plus half of what moves
@@ -85,7 +85,7 @@ def arc_lengths(points: Complex[np.ndarray, " points"]) -> Float[np.ndarray, " c
     return lengths
 
 
-def crossings(row: Row, points: Complex[np.ndarray, " points"], lengths: FloatArray | None = None) -> Word:
+def crossings(row: WarpRow, points: Complex[np.ndarray, " points"], lengths: FloatArray | None = None) -> Word:
     """The word of a path, letter by letter as it crosses the cuts, not yet reduced.
 
     points   corners of the path, or samples of it [m], the pile upwards
@@ -208,8 +208,8 @@ def _exact(start: complex, end: complex, place: complex) -> int:
     return (value > 0) - (value < 0)
 
 
-def followed(
-    row: Row, curve: Callable[[FloatArray], ComplexArray], speed: float, *, most: int = 200_000
+def sampled_curve(
+    row: WarpRow, curve: Callable[[FloatArray], ComplexArray], speed: float, *, most: int = 200_000
 ) -> tuple[ComplexArray, FloatArray]:
     """Samples of a curve fine enough to tell which side of every warp it passes, and bounds of the lengths between.
 
@@ -237,7 +237,7 @@ def followed(
         at, points = np.insert(at, places, middle), np.insert(points, places, curve(middle))
 
 
-def _untold(row: Row, points: ComplexArray, sag: FloatArray) -> tuple[BoolArray, int]:
+def _untold(row: WarpRow, points: ComplexArray, sag: FloatArray) -> tuple[BoolArray, int]:
     """Chords that do not tell their side of some warp, and the last such warp."""
     unsure, warp = np.zeros(len(sag), bool), 0
     for number, place in enumerate(row.places.tolist(), start=1):

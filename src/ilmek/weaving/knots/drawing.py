@@ -3,8 +3,8 @@
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.carpet.knots.path import KnotPath, warp_places
 from ilmek.report import Dot, Drawing, Stroke
+from ilmek.weaving.knots.path import KnotPath, warp_positions
 
 _SHARE = 1 / 40
 """Step between drawn points, of the radius about a warp."""
@@ -17,7 +17,7 @@ def knot_drawing(path: KnotPath, *, cuts: bool = False) -> Drawing:
     """
     size = path.dimensions
     warps = range(path.knot.warps[0] - 1, path.knot.warps[-1] + 2)
-    places = warp_places(tuple(warps), size.pitch)
+    places = warp_positions(tuple(warps), size.pitch)
     ring = size.warp_diameter / 2 * np.exp(2j * np.pi * np.arange(72) / 72)
     strokes = [Stroke(place + ring, "outline", closed=True, filled=True) for place in places]
     if cuts:

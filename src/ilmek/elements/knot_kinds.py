@@ -1,0 +1,71 @@
+"""Kinds of knots: their names, and the length of yarn that each takes round its warps.
+
+The yarn's axis turns round a warp on the radius r; the warps have the pitch p. In the section across the warps:
+
+    symmetric (Ghiordes, Turkish): over both warps, round the outside of each, up between them. Straight from top to
+            top, p; round each warp from its top by the outside and the bottom to the inside, 3/4 turn:
+
+                wrap = p + 2 · (3/2) pi r = p + 3 pi r
+
+    asymmetric (Senneh, Persian): down beside the first warp, behind it, across to the front of the second, right round
+            that, up between the two. The crossing is the inner tangent of the two circles, at the angle alpha to the
+            plane of the warps, sin alpha = 2r/p, long sqrt(p² - 4r²); the turns are 90° + alpha and 270° + alpha:
+
+                wrap = sqrt(p² - 4r²) + 2 r (pi + alpha)
+
+            Where the warps are closer than 2r the yarn stands upright between them: alpha = 90°, no straight part.
+
+The jufti forms take neighbouring warps together: the straight parts grow by whole pitches, the turns stay. The same
+curve, point for point, is `ilmek.weaving.knots.path`.                                             [derived: geometry]
+"""
+
+import difflib
+import math
+from collections.abc import Callable
+
+from ilmek.errors import CarpetError
+
+
+def symmetric_wrap(pitch: float, radius: float, left: int = 1, right: int = 1) -> float:
+    """Part of a symmetric knot round its warps [m]: (2 (m + n) - 3) p + 3 pi r.
+
+    left, right  m and n, warps on each side of its middle: 1, 2 for the jufti form
+    """
+    return (2 * (left + right) - 3) * pitch + 3 * math.pi * radius
+
+
+def asymmetric_wrap(pitch: float, radius: float, passed: int = 1, encircled: int = 1) -> float:
+    """Part of an asymmetric knot round its warps [m]: (m - 1 + 2 (n - 1)) p + sqrt(p² - 4r²) + 2 r (pi + alpha).
+
+    sin alpha = 2r/p      passed, encircled  m and n, warps it only passes behind, and winds round: 1, or 2 of a jufti
+    """
+    alpha = math.asin(min(1.0, 2 * radius / pitch))
+    straight = (passed - 1 + 2 * (encircled - 1)) * pitch + math.sqrt(max(pitch**2 - 4 * radius**2, 0.0))
+    return straight + 2 * radius * (math.pi + alpha)
+
+
+WRAPS: dict[str, Callable[[float, float], float]] = {"symmetric": symmetric_wrap, "asymmetric": asymmetric_wrap}
+
+_OTHER_NAMES = {
+    **dict.fromkeys(("turkish", "ghiordes", "gördes", "gordes", "double"), "symmetric"),
+    **dict.fromkeys(("persian", "senneh", "senna", "sine", "single"), "asymmetric"),
+}
+
+
+def parse_knot(text: str) -> str:
+    """`symmetric` or `asymmetric` from either name or a trade name. Raises CarpetError for an unknown knot.
+
+    >>> parse_knot("Ghiordes"), parse_knot("persian")
+    ('symmetric', 'asymmetric')
+    """
+    name = text.strip().casefold()
+    if name in WRAPS:
+        return name
+    if name in _OTHER_NAMES:
+        return _OTHER_NAMES[name]
+    near = difflib.get_close_matches(name, [*WRAPS, *_OTHER_NAMES], n=1)
+    raise CarpetError(
+        f"unknown knot {text!r}",
+        allowed="symmetric (Turkish) or asymmetric (Persian)",
+        do=f"did you mean {near[0]}?" if near else "",
+    )
