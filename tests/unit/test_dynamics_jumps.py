@@ -7,12 +7,11 @@ from ilmek.arrays import FloatArray
 from ilmek.dynamics.friction import Friction, Window
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
-from ilmek.dynamics.peaks import pieces, suprema
-from ilmek.dynamics.turning import integrals, zeros
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import slider_crank
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
+from ilmek.num.piecewise import around, integrals, roots_of_turn, suprema
 from ilmek.units import deg, turn
 
 BREAKS = (1.0, 4.0)
@@ -26,24 +25,26 @@ def saw(angle: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
 
 
 def test_a_supremum_that_is_not_reached_is_the_limit_at_the_break() -> None:
-    found = suprema(saw, BREAKS)
-    assert (found["saw"].value, found["saw"].angle, found["saw"].side) == pytest.approx((3.0, 4.0, -1), abs=1e-12)
-    assert (found["smooth"].value, found["smooth"].angle) == pytest.approx((1.0, 2.0), abs=1e-6)
+    found = suprema(saw, around(BREAKS))
+    assert (found["saw"].value, found["saw"].at, found["saw"].side) == pytest.approx((3.0, 4.0, -1), abs=1e-12)
+    assert (found["smooth"].value, found["smooth"].at) == pytest.approx((1.0, 2.0), abs=1e-6)
     assert found["smooth"].side == 0
 
 
 def test_falling_to_the_break_the_limit_is_from_above() -> None:
-    falling = suprema(lambda angle, side: {"minus": -saw(angle, side)["saw"]}, BREAKS)["minus"]
-    assert (falling.value, falling.angle, falling.side) == pytest.approx((1.0, 4.0, +1), abs=1e-12)
+    falling = suprema(lambda angle, side: {"minus": -saw(angle, side)["saw"]}, around(BREAKS))["minus"]
+    assert (falling.value, falling.at, falling.side) == pytest.approx((1.0, 4.0, +1), abs=1e-12)
 
 
 def test_pieces_go_round_and_breaks_given_twice_count_once() -> None:
-    assert pieces([4.0, 1.0, 1.0 + turn]) == ((1.0, 4.0), (4.0, 1.0 + turn))
-    assert pieces([]) == ((0.0, turn),)
+    found = around([4.0, 1.0, 1.0 + turn])
+    np.testing.assert_allclose([found.starts, found.ends], [[1.0, 4.0], [4.0, 1.0 + turn]], rtol=1e-15)
+    whole = around()
+    assert (whole.starts.tolist(), whole.ends.tolist()) == ([0.0], [turn])
 
 
 def test_integrals_are_exact_across_jumps() -> None:
-    found = integrals(saw, BREAKS)
+    found = {name: float(np.sum(parts)) for name, parts in integrals(saw, around(BREAKS, parts=16)).items()}
     rest = turn - 3.0
     assert found["saw"] == pytest.approx(4.5 - rest + 0.05 * rest**2, rel=1e-13)
     assert found["smooth"] == pytest.approx(0.0, abs=1e-13)
@@ -51,10 +52,10 @@ def test_integrals_are_exact_across_jumps() -> None:
 
 def test_zeros_are_found_to_rounding_also_at_the_seam() -> None:
     np.testing.assert_allclose(
-        zeros(lambda angle: np.sin(2 * (angle - 0.3))), 0.3 + np.arange(4) * np.pi / 2, atol=1e-14
+        roots_of_turn(lambda angle: np.sin(2 * (angle - 0.3))), 0.3 + np.arange(4) * np.pi / 2, atol=1e-14
     )
-    np.testing.assert_allclose(np.sin(zeros(np.sin)), 0.0, atol=1e-14)
-    assert zeros(lambda angle: 2 + np.sin(angle)).size == 0
+    np.testing.assert_allclose(np.sin(roots_of_turn(np.sin)), 0.0, atol=1e-14)
+    assert roots_of_turn(lambda angle: 2 + np.sin(angle)).size == 0
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,8 @@ import numpy as np
 from ilmek.arrays import FloatArray, RealField
 from ilmek.cams.laws import Law
 from ilmek.errors import ParameterError
-from ilmek.num.piecewise import crossing
+from ilmek.num.brackets import bracketed_roots
+from ilmek.num.piecewise import supremum
 from ilmek.report import Axis, Plot, Series
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
@@ -108,19 +109,15 @@ def least_ratio(law: Law, share: float, damping: float = 0.0) -> float:
 
 def _summit(law: Law, damping: float, low: float, high: float) -> tuple[float, float]:
     """Place and height of the one top between two time ratios."""
-    for _ in range(5):
-        ratios = np.linspace(low, high, 17)
-        sizes = residual(law, ratios, damping)
-        top = min(max(int(np.argmax(sizes)), 1), 15)
-        low, high = float(ratios[top - 1]), float(ratios[top + 1])
-    return float(ratios[top]), float(sizes[top])
+    top = supremum(lambda ratio: residual(law, ratio, damping), np.array([low, high]), samples=16)
+    return top.at, top.value
 
 
 def _last_above(law: Law, share: float, damping: float, above: float, below: float) -> float:
     def excess(ratio: FloatArray) -> FloatArray:
         return residual(law, ratio, damping) - share
 
-    return crossing(excess, below, above)
+    return float(bracketed_roots(excess, np.array([below]), np.array([above]))[0])
 
 
 def _bounded(law: Law, share: float) -> float:

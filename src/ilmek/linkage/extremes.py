@@ -18,6 +18,7 @@ from ilmek.linkage.one_input import OneInput
 from ilmek.linkage.outputs import Followed, Output, followed
 from ilmek.linkage.sensitivity import derivatives
 from ilmek.num.brackets import bracketed_roots
+from ilmek.num.piecewise import roots
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,12 +176,7 @@ def _roots(
     def f(values: np.ndarray) -> np.ndarray:
         return part(followed(moved.motion(values), output))
 
-    value = f(nodes)
-    changed = np.flatnonzero((np.sign(value[:-1]) * np.sign(value[1:]) < 0) | (value[:-1] == 0))
-    if not len(changed):
-        return np.empty(0)
-    found = bracketed_roots(f, nodes[changed], nodes[changed + 1])
-    return np.unique(found[np.isfinite(found)])
+    return roots(f, nodes)
 
 
 def _run(near: Bool[np.ndarray, " nodes"]) -> int:

@@ -26,6 +26,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
+from ilmek.num.brackets import bracketed_roots
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,11 +99,9 @@ class Fabric:
         high = self.tension
         while self.energy(high) < energy:
             high *= 2
-        low = 0.0
-        for _ in range(_HALVINGS):
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if self.energy(middle) < energy else (low, middle)
-        return 0.5 * (low + high)
 
 
-_HALVINGS = 60
+        def excess(force: FloatArray) -> FloatArray:
+            return np.array([self.energy(one) - energy for one in force.tolist()])
+
+        return float(bracketed_roots(excess, np.zeros(1), np.array([high]))[0])

@@ -16,7 +16,6 @@ from ilmek.dynamics.attached import Place, attached
 from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined, point_mass
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity
-from ilmek.dynamics.peaks import Peak, peaks
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
 from ilmek.linkage.motion import Motion
@@ -27,6 +26,7 @@ from ilmek.machines.beat_up.family import Weighed, chosen_ratio, is_chosen, weig
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams, weight
 from ilmek.machines.beat_up.running import Running, run
 from ilmek.machines.beat_up.shaking import Balance, balance
+from ilmek.num.piecewise import Extremum, around, suprema
 from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
     Links,
@@ -88,7 +88,7 @@ class BeatUp:
     bodies: Mapping[str, Inertia]
     plan: Plan
     state: State
-    peaks: Mapping[str, Peak]
+    peaks: Mapping[str, Extremum]
     balance: Balance
     at: State | None
 
@@ -157,7 +157,7 @@ def design(params: BeatUpParams) -> BeatUp:
         bodies=inertias,
         plan=planned,
         state=whole,
-        peaks=peaks(lambda at: sizes(state(at)), samples=SAMPLES),
+        peaks=suprema(lambda at, _: sizes(state(at)), around(), samples=SAMPLES),
         balance=balance(params, lengths, inertias, whole.motion),
         at=None if params.crank_angle is None else state(np.array([params.crank_angle])),
     )

@@ -101,7 +101,7 @@ def _motion(design: BeatUp) -> tuple[Result, ...]:
         ),
         Result(
             "beater_acceleration_angle",
-            peaks["beater_acceleration"].angle,
+            peaks["beater_acceleration"].at,
             "deg",
             "crank angle of the greatest acceleration, near the beat",
         ),
@@ -209,7 +209,7 @@ def _peak_table(design: BeatUp) -> Table:
         **{pin: (f"force in pin {pin}", "N") for pin in PINS},
     }
     rows = tuple(
-        (said, format_quantity(design.peaks[name].value, unit), design.peaks[name].angle)
+        (said, format_quantity(design.peaks[name].value, unit), design.peaks[name].at)
         for name, (said, unit) in named.items()
     )
     columns = (Column("quantity"), Column("greatest value"), Column("at crank angle", "deg"))

@@ -19,7 +19,7 @@ from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.rollers import POWER, Duty
 from ilmek.machines.cam.shape import Cams
-from ilmek.num.piecewise import Extremum, Function, infimum, integral, supremum
+from ilmek.num.piecewise import Curve, Extremum, infimum, integral, supremum
 from ilmek.plane.vectors import dot, unit
 
 POISSON = 0.3
@@ -171,7 +171,7 @@ def extremes_of(params: CamParams, cams: Cams, held: Held, width: float) -> Extr
     """What is largest over the turn, on a face of a width [m]."""
     knots = cams.cam.knots
 
-    def of(pick: str) -> Function:
+    def of(pick: str) -> Curve:
         def value(angle: FloatArray) -> FloatArray:
             return np.asarray(getattr(state_of(params, cams, held, angle), pick))
 

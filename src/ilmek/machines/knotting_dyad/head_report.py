@@ -4,10 +4,12 @@ import math
 
 import numpy as np
 
+from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import GREATEST_DEPTH, Section
 from ilmek.machines.knotting_dyad.yarn import MISSED
+from ilmek.num.brackets import bracketed_roots
 from ilmek.report import Check, Column, Json, Result, Table, at_least, at_most
 from ilmek.units import format_quantity
 
@@ -111,20 +113,16 @@ def _mend(params: KnottingDyadParams, section: Section) -> str:
 
 
 def _opening(section: Section) -> float | None:
-    """The least opening that gives the outer gaps the clearance at this depth [m], found by halving; None if none."""
+    """The least opening that gives the outer gaps the clearance at this depth [m], None if none."""
 
-    def short(opening: float) -> bool:
+    def spare(opening: FloatArray) -> FloatArray:
         outer = section.pitch + opening
-        cosine = math.cos(math.atan2((section.pitch + outer) / 2, section.depth))
-        return outer / 2 * cosine < (section.warp + section.needle) / 2 + section.asked
+        cosine = np.cos(np.arctan2((section.pitch + outer) / 2, section.depth))
+        return np.asarray(outer / 2 * cosine - (section.warp + section.needle) / 2 - section.asked)
 
     low, high = section.outer - section.pitch, section.outer + 8 * section.pitch
-    if short(high):
-        return None
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if short(middle) else (low, middle)
-    return high
+    found = float(bracketed_roots(spare, np.array([low]), np.array([high]))[0])
+    return found if math.isfinite(found) else None
 
 
 def head_tables(head: Head) -> tuple[Table, ...]:

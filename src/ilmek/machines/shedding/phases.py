@@ -20,7 +20,8 @@ from ilmek.arrays import FloatArray
 from ilmek.cams.programme import TURN, Course, Programme
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.warp import LIFTED, warp_force
-from ilmek.num.piecewise import Extremum, Function, infimum, integral, supremum
+from ilmek.num.brackets import bracketed_roots
+from ilmek.num.piecewise import Curve, Extremum, infimum, integral, supremum
 
 GRID = 2049
 """Angles at which the shed is looked at, besides the ends of the motions; its edges are then found to rounding."""
@@ -118,13 +119,10 @@ class Shed:
         return float(np.sqrt(integral(lambda angle: self.torque(angle) ** 2, self.knots) / TURN))
 
 
-def _edge(room: Function, outside: float, inside: float) -> float:
-    """Where the room, negative outside, becomes 0 [rad]: five grids, for a room of many cams is dear to ask for."""
-    for _ in range(5):
-        place = np.linspace(outside, inside, 257)
-        first = int(np.argmax(room(place) >= 0))
-        outside, inside = float(place[max(first - 1, 0)]), float(place[first])
-    return inside
+def _edge(room: Curve, outside: float, inside: float) -> float:
+    """Where the room, negative outside, becomes 0 [rad]."""
+    found = float(bracketed_roots(room, np.array([outside]), np.array([inside]))[0])
+    return found if np.isfinite(found) else inside
 
 
 def offsets(spread: float, groups: int) -> FloatArray:
@@ -180,21 +178,20 @@ def flattest(params: SheddingParams, even: Programme) -> Shed:
 def _widest(params: SheddingParams, even: Programme, together: float, window: float) -> float:
     """The largest spread [rad] that leaves a window [rad] of what there is `together`.
 
-    The window shrinks by the spread, and quicker where the other parity is in the way: then by halving.
+    The window shrinks by the spread, and more quickly where the other parity limits it.
     """
-    low, high = 0.0, min(together - window, TURN / 2)
-    if high <= 0:
+    most = min(together - window, TURN / 2) * (1 - _SPARE)
+    if most <= 0:
         return 0.0
-    for spread in (high * (1 - _SPARE), *[0.0] * _HALVINGS):
-        tried = spread or (low + high) / 2
-        first, last = shed_of(params, even, tried, 2).window()
-        if last - first >= window:
-            if spread:
-                return spread
-            low = tried
-        else:
-            high = tried
-    return low
+
+    def spare(spread: FloatArray) -> FloatArray:
+        windows = [shed_of(params, even, one, 2).window() for one in spread.tolist()]
+        return np.array([last - first - window for first, last in windows])
+
+    if spare(np.array([most]))[0] >= 0:
+        return most
+    found = float(bracketed_roots(spare, np.zeros(1), np.array([most]))[0])
+    return found * (1 - _SPARE) if np.isfinite(found) else 0.0
 
 
 def _flattest_spread(params: SheddingParams, even: Programme, groups: int, widest: float) -> tuple[float, float, int]:
@@ -212,5 +209,5 @@ def _flattest_spread(params: SheddingParams, even: Programme, groups: int, wides
     return float(peaks[best]), float(spreads[best]), groups
 
 
-_SPARE, _HALVINGS = 1e-9, 20
+_SPARE = 1e-9
 _TABLE, _SPREADS, _ZOOMS = 360, 17, 4

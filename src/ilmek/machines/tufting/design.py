@@ -13,18 +13,17 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.friction import Window
-from ilmek.dynamics.peaks import Peak, peaks, suprema
-from ilmek.dynamics.turning import integrals, zeros
 from ilmek.errors import MechanismError
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.tufting.bars import all_breaks, together
 from ilmek.machines.tufting.model import PINS, State, evaluate, mechanism, move
 from ilmek.machines.tufting.params import TuftingParams
+from ilmek.num.piecewise import Extremum, around, integrals, roots_of_turn, suprema
 from ilmek.units import turn
 
-SAMPLES = 720
-"""Samples over a turn: half a degree."""
+SAMPLES, PARTS = 720, 16
+"""Samples over a turn: half a degree; parts of a turn that are integrated one by one."""
 
 LINKS = {"theta2": "coupler", "theta3": "rocker", "theta4": "arm", "theta5": "rod"}
 """The paper's angles: of A-B, C-B, C-D and D-E against x."""
@@ -56,7 +55,7 @@ class Tufting:
     stroke: float
     breaks: tuple[float, ...]
     state: State
-    peaks: Mapping[str, Peak]
+    peaks: Mapping[str, Extremum]
     extremes: Mapping[str, tuple[float, float]]
     work: Mapping[str, float]
     pressure_angle: float
@@ -83,15 +82,19 @@ def design(params: TuftingParams) -> Tufting:
     """Move and load a needle mechanism. Raises MechanismError where it does not turn or its rocker does not swing."""
     planned = plan(mechanism(params))
     ranges = _ranges(params, planned)
-    turns = zeros(lambda at: np.imag(attached(move(params, planned, at), "needle", 0j).velocity), SAMPLES)
+    turns = roots_of_turn(
+        lambda at: np.imag(attached(move(params, planned, at), "needle", 0j).velocity), samples=SAMPLES
+    )
     lowest, highest, stroke = _reversals(params, planned, turns)
     breaks = _breaks(params, turns)
 
     def curves(at: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
         return _curves(params, planned, at, side)
 
-    top = suprema(curves, breaks, samples=SAMPLES)
-    quality = peaks(lambda at: _quality(params, planned, at), samples=SAMPLES)
+    pieces = around(breaks)
+    top = suprema(curves, pieces, samples=SAMPLES)
+    quality = suprema(lambda at, _: _quality(params, planned, at), around(), samples=SAMPLES)
+    work = integrals(lambda *at: _work(params, planned, *at), around(breaks, parts=PARTS))
     return Tufting(
         params=params,
         plan=planned,
@@ -103,7 +106,7 @@ def design(params: TuftingParams) -> Tufting:
         state=evaluate(params, planned, *course(breaks)),
         peaks={**_sizes(top), **quality, **_all_bars(params, planned, breaks)},
         extremes={name: (-top[f"{name} least"].value, top[f"{name} greatest"].value) for name in TORQUES},
-        work=integrals(lambda *at: _work(params, planned, *at), breaks),
+        work={name: math.fsum(parts) for name, parts in work.items()},
         pressure_angle=quality["pressure angle"].value,
         transmission=math.pi / 2 - quality["off square"].value,
         at=None if params.crank_angle is None else evaluate(params, planned, np.array([params.crank_angle])),
@@ -137,12 +140,12 @@ def _ranges(params: TuftingParams, planned: Plan) -> dict[str, tuple[float, floa
                 do="shorten crank",
             )
 
-    def about_mean(angle: FloatArray) -> dict[str, FloatArray]:
+    def about_mean(angle: FloatArray, _: FloatArray) -> dict[str, FloatArray]:
         moved = move(params, planned, angle)
         off = {name: np.angle(np.conj(mean[name]) * moved.direction(body)) for name, body in LINKS.items()}
         return {f"{name} {end}": sign * off[name] for name in LINKS for end, sign in (("least", -1), ("greatest", 1))}
 
-    found = peaks(about_mean, samples=SAMPLES)
+    found = suprema(about_mean, around(), samples=SAMPLES)
     middle = {name: float(np.angle(direction)) % turn for name, direction in mean.items()}
     # Eq 15; the mean directions of rocker and arm differ by beta1 to rounding, as they turn together.
     middle["theta4"] = middle["theta3"] + params.arm_angle - turn
@@ -166,9 +169,9 @@ def _breaks(params: TuftingParams, turns: FloatArray) -> tuple[float, ...]:
     return tuple(sorted(at % turn for at in (*turns.tolist(), *ends)))
 
 
-def _all_bars(params: TuftingParams, planned: Plan, breaks: tuple[float, ...]) -> dict[str, Peak]:
-    cuts = all_breaks(breaks, params.bars, params.phase)
-    return suprema(lambda *at: _shaft_sizes(params, planned, *at), cuts, samples=SAMPLES)
+def _all_bars(params: TuftingParams, planned: Plan, breaks: tuple[float, ...]) -> dict[str, Extremum]:
+    pieces = around(all_breaks(breaks, params.bars, params.phase))
+    return suprema(lambda *at: _shaft_sizes(params, planned, *at), pieces, samples=SAMPLES)
 
 
 def _curves(params: TuftingParams, planned: Plan, angle: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
@@ -192,7 +195,7 @@ def _pin_forces(state: State) -> dict[str, ComplexArray]:
     }
 
 
-def _sizes(top: Mapping[str, Peak]) -> dict[str, Peak]:
+def _sizes(top: Mapping[str, Extremum]) -> dict[str, Extremum]:
     """The greatest sizes: of a torque the greater of its two ends."""
     joints = {name: peak for name, peak in top.items() if not name.endswith((" least", " greatest"))}
     torques = {

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ilmek.dynamics.peaks import Peak
 from ilmek.machines.plates import link_plates
 from ilmek.machines.tufting.design import Tufting
 from ilmek.machines.tufting.figures import figures
 from ilmek.machines.tufting.model import PINS, State, inertias
+from ilmek.num.piecewise import Extremum
 from ilmek.report import Check, Column, Json, Plate, Report, Result, Table, at_least, at_most
 from ilmek.report.limits import snap_to_limit
 from ilmek.units import deg, format_quantity, mm, turn
@@ -201,5 +201,5 @@ def _peak_table(design: Tufting) -> Table:
     return Table("tufting-peaks", "Greatest values over a turn", columns, rows)
 
 
-def _peak(peak: Peak, unit: str) -> tuple[str, float, str]:
-    return format_quantity(peak.value, unit), peak.angle, SIDES[peak.side]
+def _peak(peak: Extremum, unit: str) -> tuple[str, float, str]:
+    return format_quantity(peak.value, unit), peak.at, SIDES[peak.side]

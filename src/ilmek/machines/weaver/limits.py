@@ -15,18 +15,23 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
+from ilmek.arrays import FloatArray
 from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import Motor, smallest_motor
 from ilmek.elements.yarns import WOOL
 from ilmek.machines.weaver.cams import PRESSURE_LIMIT, STEEL
 from ilmek.machines.weaver.cyclogram import HANDLER
 from ilmek.machines.weaver.design import Weaver
+from ilmek.num.brackets import bracketed_roots
 from ilmek.units import turn
 
 STEPS = 200
 """Full steps of a stepper's turn."""
 
-_HALVINGS = 60
+_SHORTEST = 1e-6
+"""A cycle that no motor allows, as a part of the cycle."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,15 +91,15 @@ def mass_of(weaver: Weaver) -> Mapping[str, float]:
 
 
 def _motor_limit(weaver: Weaver) -> float:
-    """The shortest cycle that the head's motor allows [s], by bisection."""
+    """The shortest cycle that the head's motor allows [s],"""
     drive, cycle = weaver.drive, weaver.cycle
     motor, reducer = drive.motor, drive.reducer
     if motor is None or reducer is None or drive.duty is None:
         return math.inf
-    low, high = 0.0, cycle
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        asked = MARGIN * drive.duty.peak * (cycle / middle) ** 2
-        enough = float(motor.peak_at(reducer.ratio * turn / middle)) >= asked
-        low, high = (low, middle) if enough else (middle, high)
-    return high
+    peak = MARGIN * drive.duty.peak
+
+    def spare(time: FloatArray) -> FloatArray:
+        return np.asarray(motor.peak_at(reducer.ratio * turn / time) - peak * (cycle / time) ** 2)
+
+    found = float(bracketed_roots(spare, np.array([cycle * _SHORTEST]), np.array([cycle]))[0])
+    return found if math.isfinite(found) else cycle

@@ -23,6 +23,7 @@ from jaxtyping import Float
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
+from ilmek.num.brackets import bracketed_roots
 from ilmek.synthesis.approximation.exchange import PROVEN, extremes
 from ilmek.synthesis.approximation.function_error import Weight, structural_error
 from ilmek.synthesis.approximation.search import PLACES, End, Starts, gauss_places, generator_search, range_places
@@ -147,12 +148,8 @@ def _vanishing(function: Function, error: partial[FloatArray]) -> float:
     changes = np.flatnonzero(np.sign(seen[1:]) != np.sign(seen[:-1]))
     if not len(changes):
         return float(x[np.argmin(np.abs(seen))])
-    low, high = float(x[changes[0]]), float(x[changes[0] + 1])
-    sign = np.sign(seen[changes[0]])
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if sign * float(error(np.array([middle]))[0]) > 0 else (low, middle)
-    return 0.5 * (low + high)
+    first = changes[0]
+    return float(bracketed_roots(error, x[first : first + 1], x[first + 1 : first + 2])[0])
 
 
 def _check(
