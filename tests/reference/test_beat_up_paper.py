@@ -170,7 +170,7 @@ def test_masses_and_moments_of_inertia() -> None:
 def test_greatest_values_over_a_turn(name: str, value: float, angle: float | None) -> None:
     peak = printed().peaks[name]
     assert peak.value == pytest.approx(value, abs=0.5 * 10.0 ** -len(str(value).partition(".")[2]))
-    assert angle is None or peak.angle / deg == pytest.approx(angle, abs=0.05)
+    assert angle is None or peak.at / deg == pytest.approx(angle, abs=0.05)
 
 
 def test_the_speed_is_small_where_the_acceleration_is_greatest() -> None:

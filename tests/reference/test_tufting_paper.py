@@ -102,7 +102,7 @@ def test_greatest_values_are_the_same_for_both_readings_of_the_friction(
 ) -> None:
     peak = made(friction=friction).peaks[name]
     assert peak.value == pytest.approx(value, abs=0.5 * 10.0 ** -len(str(value).partition(".")[2]) * 1.01)
-    assert peak.angle / deg == pytest.approx(angle, abs=5e-3)
+    assert peak.at / deg == pytest.approx(angle, abs=5e-3)
     assert peak.side == side
 
 
@@ -138,9 +138,9 @@ def test_the_driven_shaft_takes_far_more_torque_than_the_main_shaft() -> None:
 def test_without_friction() -> None:
     free = made(Fr="0N")
     assert free.extremes["driven_torque"] == pytest.approx((1.9140, 5.1295), abs=5e-5)
-    assert free.peaks["driven_torque"].angle / deg == pytest.approx(103.96, abs=5e-3)
+    assert free.peaks["driven_torque"].at / deg == pytest.approx(103.96, abs=5e-3)
     assert free.peaks["main_torque"].value == pytest.approx(0.7224, abs=5e-5)
-    assert free.peaks["main_torque"].angle / deg == pytest.approx(352.21, abs=5e-3)
+    assert free.peaks["main_torque"].at / deg == pytest.approx(352.21, abs=5e-3)
     assert free.work["drive"] == pytest.approx(0, abs=1e-13)
 
 

@@ -38,9 +38,12 @@ RIVAL, MARGIN = 0.01, 3.0
 """A local maximum of the samples is refined where it lies within RIVAL of the curve's range below the largest sample,
 or within MARGIN times its own rise over the neighbouring samples."""
 
-FINEST = 4e-9
-"""The search ends when the grid is this part of the piece. A smooth maximum is flat: its value then is exact to
-rounding, and no finer argument can be found from values."""
+FINEST, FINE = 5e-10, 4e-7
+"""Parts of the domain at which the search of one curve and of several curves ends. A smooth maximum is flat: the error
+of its value is of the second order, 1e-18 and 1e-12, and no finer argument can be found from values."""
+
+EQUAL = 1e-12
+"""Maxima that differ by less than this part of the largest are equal: the first of them counts."""
 
 _ZOOM = np.linspace(-1.0, 1.0, 17)
 
@@ -120,14 +123,14 @@ def supremum(curve: Curve, knots: FloatArray, *, samples: int = GRID) -> Extremu
     """Least upper bound of a curve over the pieces between consecutive knots, one-sided limits included.
 
     samples  intervals of the first grid in each piece: a narrower peak may be missed
-    The value is exact to rounding, the argument to about 1e-8 of its piece. The value is NaN where the curve is NaN at
-    a sample. Of equal values the first counts.
+    The value is exact to rounding, the argument to about 1e-8. The value is NaN where the curve is NaN at a sample.
+    Of values that are equal to 1e-12 the first counts.
 
     >>> supremum(np.sin, np.array([0.0, 1.0, 3.0])).value
     1.0
     """
     pieces = between(knots)
-    return _suprema(_sided(curve), pieces, np.full(pieces.starts.size, samples))["curve"]
+    return _suprema(_sided(curve), pieces, np.full(pieces.starts.size, samples), FINEST)["curve"]
 
 
 def infimum(curve: Curve, knots: FloatArray) -> Extremum:
@@ -137,7 +140,7 @@ def infimum(curve: Curve, knots: FloatArray) -> Extremum:
 
 
 def suprema(curves: SidedCurves, pieces: Pieces, *, samples: int = 720) -> dict[str, Extremum]:
-    """Least upper bound of each of several curves, searched together; see `supremum`.
+    """Least upper bound of each of several curves, searched together: values to about 1e-12; see `supremum`.
 
     samples  of the first grid, shared among the pieces by their widths, at least 8 for each
 
@@ -145,7 +148,7 @@ def suprema(curves: SidedCurves, pieces: Pieces, *, samples: int = 720) -> dict[
     2.0
     """
     share = samples * pieces.widths / np.sum(pieces.widths)
-    return _suprema(curves, pieces, np.maximum(np.rint(share), LEAST_GRID).astype(np.intp))
+    return _suprema(curves, pieces, np.maximum(np.rint(share), LEAST_GRID).astype(np.intp), FINE)
 
 
 def integral(curve: Curve, knots: FloatArray) -> float:
@@ -228,7 +231,7 @@ def _gauss(nodes: int) -> tuple[FloatArray, FloatArray]:
     return np.polynomial.legendre.leggauss(nodes)
 
 
-def _suprema(curves: SidedCurves, pieces: Pieces, counts: IntArray) -> dict[str, Extremum]:
+def _suprema(curves: SidedCurves, pieces: Pieces, counts: IntArray, finest: float) -> dict[str, Extremum]:
     """The search: local maxima of a grid's samples, each enclosed ever closer by finer grids, all at once."""
     piece = np.repeat(np.arange(counts.size), counts + 1)
     x = np.concatenate([np.linspace(*one) for one in zip(pieces.starts, pieces.ends, counts + 1, strict=True)])
@@ -236,13 +239,25 @@ def _suprema(curves: SidedCurves, pieces: Pieces, counts: IntArray) -> dict[str,
     rivals = {name: np.flatnonzero(_rivals(value, piece)) for name, value in values.items()}
     chosen = np.concatenate(list(rivals.values()))
     owners = [name for name, found in rivals.items() for _ in found]
-    at, top = _refined(curves, pieces, owners, x[chosen], (pieces.widths / counts)[piece[chosen]], piece[chosen])
-    suprema_: dict[str, Extremum] = {}
-    for row, name in enumerate(owners):
-        if name not in suprema_ or not top[row] <= suprema_[name].value:
-            where, k = float(at[row]), int(piece[chosen[row]])
-            suprema_[name] = Extremum(pieces.reduced(where), float(top[row]), pieces.side(where, k))
-    return suprema_
+    piece, step = piece[chosen], (pieces.widths / counts)[piece[chosen]]
+    at, top = _refined(curves, pieces, owners, x[chosen], step, piece, finest)
+    ends = np.cumsum([0, *(found.size for found in rivals.values())])
+    return {
+        name: _largest(pieces, at[low:high], top[low:high], piece[low:high])
+        for name, low, high in zip(rivals, ends, ends[1:], strict=False)
+    }
+
+
+def _largest(pieces: Pieces, at: FloatArray, top: FloatArray, piece: IntArray) -> Extremum:
+    """The largest of the maxima, at the first argument at which it is reached."""
+    best = int(np.argmax(top))
+    if np.isfinite(top[best]):
+        (equal,) = np.nonzero(top >= top[best] - EQUAL * np.abs(top[best]))
+        first = int(equal[np.argmin([pieces.reduced(one) for one in at[equal].tolist()])])
+    else:
+        first = best
+    where = float(at[first])
+    return Extremum(pieces.reduced(where), float(top[best]), pieces.side(where, int(piece[first])))
 
 
 def _rivals(value: FloatArray, piece: IntArray) -> BoolArray:
@@ -259,12 +274,18 @@ def _rivals(value: FloatArray, piece: IntArray) -> BoolArray:
 
 
 def _refined(  # noqa: PLR0917
-    curves: SidedCurves, pieces: Pieces, owners: list[str], at: FloatArray, step: FloatArray, piece: IntArray
+    curves: SidedCurves,
+    pieces: Pieces,
+    owners: list[str],
+    at: FloatArray,
+    step: FloatArray,
+    piece: IntArray,
+    finest: float,
 ) -> tuple[FloatArray, FloatArray]:
     """Argument and value of each maximum that is enclosed within one step to both sides."""
     start, end = pieces.starts[piece][:, None], pieces.ends[piece][:, None]
-    top, row, width = np.zeros(at.size), np.arange(at.size), float(np.max(step / pieces.widths[piece]))
-    while width > FINEST:
+    top, row, width = np.zeros(at.size), np.arange(at.size), np.max(step) / np.sum(pieces.widths)
+    while width > finest:
         tried = np.clip(at[:, None] + step[:, None] * _ZOOM, start, end)
         finer = curves(np.ravel(tried), np.ravel(pieces.sides(tried, piece[:, None])))
         stacked = {name: np.reshape(value, tried.shape) for name, value in finer.items()}
