@@ -12,7 +12,7 @@ from ilmek.cams.programme import Jump, jumps
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.hub import Hub
 from ilmek.machines.cam.parts import area_of, mass_of
-from ilmek.num.piecewise import Extremum, infimum, supremum
+from ilmek.num.piecewise import EQUAL, Extremum, infimum, supremum
 from ilmek.report import Json, Result
 
 _PRIME = "prime radius of the pitch curve, Rp"
@@ -127,7 +127,8 @@ def _jump_as_json(jump: Jump, speed: float) -> dict[str, Json]:
 
 def _force_results(design: CamDesign) -> tuple[Result, ...]:
     extremes, held, speed = design.extremes, design.held, design.params.speed
-    torque = extremes.torque if extremes.torque.value >= -extremes.back_torque.value else extremes.back_torque
+    forwards = extremes.torque.value >= -extremes.back_torque.value * (1 - EQUAL)  # equal but for rounding: the first
+    torque = extremes.torque if forwards else extremes.back_torque
     least = infimum(lambda angle: design.state(angle).force, design.cam.knots)
     lift_off, arc = design.lift_off.speed, design.params.per_unit
     preload, rate = held.preload / arc, held.rate / arc**2
