@@ -13,7 +13,7 @@ import click
 from click.testing import CliRunner
 
 from ilmek.cli import main
-from ilmek.machines import MACHINES
+from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.machine import Machine
 from ilmek.params import Parameter, declared
 from ilmek.units import format_quantity, printed_unit

@@ -14,8 +14,8 @@ from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.machines import MACHINES
 from ilmek.machines.animation import animated, frames
+from ilmek.machines.catalogue import MACHINES
 from ilmek.report import Animation, Drawing, Reading, Report
 from ilmek.viz.moving_names import steadiest
 from ilmek.viz.page import machine_page

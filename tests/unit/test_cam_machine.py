@@ -11,13 +11,13 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.programme import TURN
 from ilmek.cli import main
 from ilmek.errors import ParameterError
-from ilmek.machines import MACHINES
 from ilmek.machines.cam import MACHINE, CamParams, design, report
 from ilmek.machines.cam.compliant_follower import springy
 from ilmek.machines.cam.hub import Hub, bore_for, hub_for
 from ilmek.machines.cam.parts import cam_table, plates
 from ilmek.machines.cam.results import results as numbers
 from ilmek.machines.cam.rollers import ROLLERS, Duty
+from ilmek.machines.catalogue import MACHINES
 from ilmek.plane import contours
 from ilmek.units import deg, mm, rpm
 

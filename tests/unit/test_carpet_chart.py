@@ -12,6 +12,7 @@ from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import Yarn, yarns_from_records
 from ilmek.elements.knot_kinds import asymmetric_wrap, parse_knot, symmetric_wrap
 from ilmek.errors import CarpetError, PictureError, YarnError
+from ilmek.progress import Progress
 
 SIZE, QUALITY = Size(0.6, 0.9), Quality(1000.0, 1000.0)
 
@@ -85,7 +86,13 @@ def test_best_colours_keep_the_order_of_the_list() -> None:
 
 def test_progress_rises_to_one() -> None:
     shares: list[float] = []
-    make_chart(medallion(90, 60), Size(0.5, 0.7), Quality(400.0, 400.0), YARNS, progress=shares.append)
+    make_chart(
+        medallion(90, 60),
+        Size(0.5, 0.7),
+        Quality(400.0, 400.0),
+        YARNS,
+        progress=Progress(lambda _, share: shares.append(share)),
+    )
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
     assert len(shares) >= 3

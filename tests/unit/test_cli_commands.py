@@ -15,7 +15,7 @@ from PIL import Image
 from ilmek.cli import main
 from ilmek.io.programme_file import open_programme
 from ilmek.jobs.weave import FILES
-from ilmek.machines import MACHINES
+from ilmek.machines.catalogue import MACHINES
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MEDALLION = str(EXAMPLES / "medallion.png")

@@ -9,7 +9,7 @@ import pytest
 from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.machines import MACHINES
+from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.function_four_bar import MACHINE, FunctionFourBarParams, design, report
 from ilmek.machines.function_four_bar.functions import NAMED, named
 from ilmek.report import Animation, Plot, Report

@@ -1,16 +1,23 @@
 """Orders, places and progress of the jobs."""
 
+import threading
 from pathlib import Path
 
 import pytest
 
 from ilmek.errors import LoomError, ParameterError, YarnError
 from ilmek.jobs.chart import make_charted
+from ilmek.jobs.design import Outputs, design_machine
+from ilmek.jobs.inspect import inspect_programme
 from ilmek.jobs.loom import make_loomed, read_loom_order
+from ilmek.jobs.machines import machine_form, machine_list
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
+from ilmek.jobs.reproduce import reproduce_papers
 from ilmek.jobs.warm import warm
 from ilmek.jobs.weave import weave
+from ilmek.machines.catalogue import MACHINES
+from ilmek.progress import Cancelled, Progress
 
 MEDALLION = Path(__file__).parents[2] / "examples" / "medallion.png"
 
@@ -62,11 +69,58 @@ def test_progress_ascends_to_the_end(tmp_path: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page: page.title)
     order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
     told: list[tuple[str, float]] = []
-    weave(order, read_loom_order(order), tmp_path / "out", told=lambda doing, share: told.append((doing, share)))
+    progress = Progress(lambda stage, share: told.append((stage, share)))
+    weave(order, read_loom_order(order), tmp_path / "out", progress=progress)
     shares = [share for _, share in told]
     assert shares == sorted(shares)
     assert 0 <= shares[0] < shares[-1] <= 1
     assert {"picture", "chart", "loom", "programme", "report"} <= {doing for doing, _ in told}
+
+
+def test_a_cancelled_carpet_leaves_nothing(tmp_path: Path) -> None:
+    order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
+    cancel = threading.Event()
+    progress = Progress(lambda stage, _: cancel.set() if stage == "programme" else None, cancel.is_set)
+    with pytest.raises(Cancelled, match="programme"):
+        weave(order, read_loom_order(order), tmp_path / "out", progress=progress)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_design_reports_its_stages_and_can_be_cancelled(tmp_path: Path) -> None:
+    stages: list[str] = []
+    made = design_machine("warp-tension", {"warps": "300"}, progress=Progress(lambda stage, _: stages.append(stage)))
+    assert made.as_json()["parameters"]["warps"] == 300
+    assert list(dict.fromkeys(stages)) == ["design", "report", "files", ""]
+    page = tmp_path / "page.html"
+    with pytest.raises(Cancelled):
+        design_machine("warp-tension", {}, Outputs(page=page), progress=Progress(cancelled=lambda: True))
+    assert not page.exists()
+
+
+def test_papers_are_reproduced_one_by_one() -> None:
+    stages: list[str] = []
+    found = reproduce_papers(["beat-up"], progress=Progress(lambda stage, _: stages.append(stage)))
+    assert list(found.verdicts) == ["beat-up"]
+    assert stages[0] == "beat-up"
+    assert len(found.as_json()) == len(found.verdicts["beat-up"])
+    with pytest.raises(ParameterError, match="papers: beat-up"):
+        reproduce_papers(["beatup"])
+
+
+def test_a_programme_is_inspected_by_its_row(tmp_path: Path) -> None:
+    order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
+    woven = weave(order, read_loom_order(order), tmp_path / "out")
+    found = inspect_programme(woven.folder / "programme.ilmek", 3)
+    assert found.as_json()["row"]["number"] == 3
+    with pytest.raises(LoomError, match="no row 31"):
+        inspect_programme(woven.folder / "programme.ilmek", 31)
+
+
+def test_machines_are_listed_and_described() -> None:
+    assert list(machine_list()) == list(MACHINES)
+    assert all(machine_list()[name] == machine.summary for name, machine in MACHINES.items())
+    form = machine_form("warp-tension").as_json()
+    assert {"name", "default", "unit", "doc"} <= form["parameters"][0].keys()
 
 
 def test_a_first_carpet_warms_everything() -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ilmek.errors import ParameterError
-from ilmek.machines import MACHINES
+from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.knotting_dyad import MACHINE, KnottingDyadParams, design, report
 from ilmek.report import Drawing, Report
 from ilmek.units import deg

@@ -8,7 +8,7 @@ import pytest
 
 from ilmek.dynamics.attached import attached
 from ilmek.errors import IlmekError, MechanismError, ParameterError
-from ilmek.machines import MACHINES
+from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBarParams, design, report
 from ilmek.report import Animation, Drawing, Plot, Report
 from ilmek.units import deg, mm

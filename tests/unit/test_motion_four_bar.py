@@ -9,7 +9,7 @@ import pytest
 from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.machines import MACHINES
+from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.motion_four_bar import MACHINE, MotionFourBarParams, design, report
 from ilmek.machines.text_lists import read_poses
 from ilmek.plane.vectors import cross

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ilmek.errors import ParameterError
-from ilmek.machines import MACHINES
+from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.path_four_bar import MACHINE, PathFourBarParams, design, report
 from ilmek.report import Animation, Report
 from ilmek.synthesis.candidate import judge

@@ -3,7 +3,7 @@
 import pytest
 
 from ilmek.io.plate_shape import plate_shape
-from ilmek.machines import MACHINES
+from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.plates import link_plates
 from ilmek.plane.contours import area
 from ilmek.report import Report

@@ -13,6 +13,7 @@ from ilmek.errors import LoomError, OutputError
 from ilmek.io.programme_file import Label, open_programme, write_programme
 from ilmek.loom.programme import Programme, Times, make_programme
 from ilmek.machines.weaver import WeaverParams, design
+from ilmek.progress import Progress
 
 ROWS, COLUMNS = 40, 30
 
@@ -56,7 +57,7 @@ def test_everything_comes_back(written: Path) -> None:
 
 def test_progress_ends_at_one_and_nothing_is_left_beside(tmp_path: Path) -> None:
     told: list[float] = []
-    write_programme(tmp_path / "a.ilmek", programme(), label(), progress=told.append)
+    write_programme(tmp_path / "a.ilmek", programme(), label(), progress=Progress(lambda _, share: told.append(share)))
     assert told[-1] == 1.0
     assert [path.name for path in tmp_path.iterdir()] == ["a.ilmek"]
 
@@ -64,11 +65,11 @@ def test_progress_ends_at_one_and_nothing_is_left_beside(tmp_path: Path) -> None
 def test_an_interrupted_write_leaves_the_old_file(written: Path) -> None:
     before = written.read_bytes()
 
-    def interrupt(share: float) -> None:
+    def interrupt(_: str, share: float) -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        write_programme(written, programme(), label(), progress=interrupt)
+        write_programme(written, programme(), label(), progress=Progress(interrupt))
     assert written.read_bytes() == before
     assert [path.name for path in written.parent.iterdir()] == [written.name]
 

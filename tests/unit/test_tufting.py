@@ -8,7 +8,7 @@ import pytest
 
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.linkage.structure import plan
-from ilmek.machines import MACHINES
+from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.tufting import MACHINE, TuftingParams, design, report
 from ilmek.machines.tufting.model import evaluate, mechanism
 from ilmek.report import Drawing, Plot, Report

@@ -130,7 +130,7 @@ class Made(Params):
 def made_up(monkeypatch: pytest.MonkeyPatch) -> None:
     made = report(plates=(crank(),), tables=(table(),))
     machine = Machine("made-up", "for this test", Made, lambda params: params, lambda _: made)
-    monkeypatch.setattr("ilmek.cli.design.find_machine", lambda _: machine)
+    monkeypatch.setattr("ilmek.jobs.design.find_machine", lambda _: machine)
 
 
 @pytest.mark.usefixtures("made_up")

@@ -13,12 +13,12 @@ from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.isolated_knots import count_lone, merge_lone
 from ilmek.carpet.palette import best_yarns, distinct_colours, nearest_yarns, paint
-from ilmek.carpet.progress import Progress, part
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import PictureError, YarnError
+from ilmek.progress import SILENT, Progress
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,12 +79,11 @@ def make_chart(
     knot: str = "symmetric",
     keep_lone: bool = False,
     colours: int | None = None,
-    progress: Progress | None = None,
+    progress: Progress = SILENT,
 ) -> Chart:
     """The knot chart of a picture.
 
     colours  the best so many yarns of the list are taken, in its order; None: all    keep_lone  leave lone knots
-    progress  called with the share done, 0 to 1
     Raises PictureError for an empty picture, CarpetError for a knot or grid that cannot be, YarnError for a list of
     less than 2 or more than 255 yarns, or a `colours` it cannot give.
     """
@@ -93,16 +92,15 @@ def make_chart(
     if not 2 <= len(yarns) <= MOST_YARNS:
         raise YarnError(f"the yarn list has {len(yarns)} yarns", allowed=f"2 to {MOST_YARNS} yarns")
     kind = parse_knot(knot)
-    picture = resampled(rgb, *knot_grid(size, quality), part(progress, 0.0, 0.4))
+    picture = resampled(rgb, *knot_grid(size, quality), progress.part(0.0, 0.4))
     distinct = distinct_colours(picture)
     chosen = tuple(yarns)
     if colours is not None:
         chosen = tuple(yarns[place] for place in best_yarns(distinct, yarn_labs(yarns), colours))
     labs = yarn_labs(chosen)
-    yarn_of, difference = nearest_yarns(distinct, labs, part(progress, 0.4, 0.8))
+    yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.4, 0.8))
     knots = paint(picture, distinct, yarn_of)
     merged, added = (0, 0.0) if keep_lone else merge_lone(knots, picture, distinct, labs, difference)
     least = float(distinct.counts @ difference)
-    if progress is not None:
-        progress(1.0)
+    progress(1.0)
     return Chart(knots, chosen, size, quality, kind, (least + added) / knots.size, least / knots.size, merged)

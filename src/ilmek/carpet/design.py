@@ -12,11 +12,11 @@ from jaxtyping import UInt8
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.colour import LINEAR, decode
-from ilmek.carpet.progress import Progress
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import Size
 from ilmek.errors import CarpetError
 from ilmek.num.compiled import compiled
+from ilmek.progress import SILENT, Progress
 
 MOST_KNOTS = 200_000_000
 LARGEST_DISTORTION = 0.02
@@ -101,9 +101,7 @@ def _resample(rgb: Rgb, out: Rgb, first: int, rows: int) -> None:
             out[row, column, 2] = _encoded(blue)
 
 
-def resampled(
-    rgb: Rgb, rows: int, columns: int, progress: Progress | None = None
-) -> UInt8[np.ndarray, "rows columns 3"]:
+def resampled(rgb: Rgb, rows: int, columns: int, progress: Progress = SILENT) -> UInt8[np.ndarray, "rows columns 3"]:
     """The picture on a grid of rows × columns by box averages in linear light; itself where it has that grid."""
     rgb = np.ascontiguousarray(rgb)
     if rgb.shape[:2] == (rows, columns):
@@ -111,6 +109,5 @@ def resampled(
     out = np.empty((rows, columns, 3), dtype=np.uint8)
     for first in range(0, rows, _BAND):
         _resample(rgb, out[first : first + _BAND], first, rows)
-        if progress is not None:
-            progress(min(first + _BAND, rows) / rows)
+        progress(min(first + _BAND, rows) / rows)
     return out

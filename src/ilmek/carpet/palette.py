@@ -14,9 +14,9 @@ from jaxtyping import Float, Int, Int32, Int64, UInt8
 from ilmek.arrays import FloatArray, Indices, IntArray, Rgb
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000, nearest
-from ilmek.carpet.progress import Progress
 from ilmek.errors import YarnError
 from ilmek.num.compiled import compiled
+from ilmek.progress import SILENT, Progress
 
 _CODES = 1 << 24
 _BATCH = 65536
@@ -75,7 +75,7 @@ def distinct_colours(rgb: Rgb) -> Colours:
 
 
 def nearest_yarns(
-    colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], progress: Progress | None = None
+    colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], progress: Progress = SILENT
 ) -> tuple[UInt8[np.ndarray, " colours"], Float[np.ndarray, " colours"]]:
     """For each distinct colour the yarn nearest by CIEDE2000 and its difference."""
     index = np.empty(len(colours.labs), dtype=np.uint8)
@@ -83,8 +83,7 @@ def nearest_yarns(
     for start in range(0, len(index), _BATCH):
         batch = slice(start, start + _BATCH)
         index[batch], delta[batch] = nearest(colours.labs[batch], yarn_labs)
-        if progress is not None:
-            progress(min(start + _BATCH, len(index)) / len(index))
+        progress(min(start + _BATCH, len(index)) / len(index))
     return index, delta
 
 

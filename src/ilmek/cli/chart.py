@@ -38,8 +38,8 @@ def command(out: Path | None, force: bool, json_to: str | None, **order: Any) ->
     folder = out or (None if json_to else free_folder(wanted.picture, "chart"))
     if folder is not None:
         check_free(folder, force=force)
-    with progress_bar() as told:
-        charted = make_charted(wanted, told)
+    with progress_bar() as progress:
+        charted = make_charted(wanted, progress)
         files = _write(charted, folder, force)
     if not give_json(json_to, chart_json(charted, files)):
         show_chart(charted)

@@ -12,10 +12,10 @@ from ilmek.io.cyclogram_file import write_cyclogram
 from ilmek.io.output import check_file, write_whole
 from ilmek.io.table_csv import csv_text
 from ilmek.jobs.cyclogram import GOALS, binding_words, columns, find, report, solve
+from ilmek.jobs.page import write_page
 from ilmek.report import Report
 from ilmek.timing.solver import Solution
 from ilmek.units import format_number, format_quantity
-from ilmek.viz.page import machine_page
 
 EXAMPLES = """\b
 Examples:
@@ -57,8 +57,7 @@ def command(
     solution = solve(given, goal) if goal else None
     found = solution.cyclogram if solution else given
     said = report(found, solution)
-    if page_to is not None:
-        write_whole(page_to, machine_page(said))
+    write_page(page_to, said)
     if file_to is not None:
         write_cyclogram(file_to, found)
     table = csv_text(columns(found, steps)) if csv_to else ""

@@ -1,22 +1,16 @@
 """`ilmek design`: one machine, designed from its parameters and reported."""
 
-import importlib
 import math
-from collections.abc import Callable
-from functools import partial
 from pathlib import Path
-from typing import Any
 
 import click
 
 from ilmek.cli.options import json_option
 from ilmek.cli.settings import read_settings
-from ilmek.cli.terminal import check_json, console, give_json, note, passed, show_checks, show_table
-from ilmek.io.output import check_file, check_free, write_whole
-from ilmek.machines import find_machine
+from ilmek.cli.terminal import check_json, console, give_json, note, passed, progress_bar, show_checks, show_table
+from ilmek.jobs.design import Outputs, design_machine
 from ilmek.report import Column, Report, Result, Table
 from ilmek.units import format_number, format_quantity, from_si, printed_unit
-from ilmek.viz.page import machine_page
 
 EXAMPLES = """\b
 Examples:
@@ -62,36 +56,19 @@ def command(  # noqa: PLR0917 - click calls it by name
 ) -> None:
     """Design MACHINE and report it: results, checks against limits, warnings."""
     check_json(json_to)
-    if page_to is not None:
-        check_file(page_to)
-    write_parts = _parts_writer(parts_to, tolerance, force=force)
-    machine = find_machine(name)
-    params = machine.params.read(read_settings((*settings, *more)))
-    report = machine.report(machine.design(params))
-    made = write_parts(report) if write_parts is not None else None
-    if page_to is not None:
-        write_whole(page_to, machine_page(report))
-    files = {} if made is None else {"files": made.files}
-    if not give_json(json_to, {**report.as_json(), **files}):
-        show_report(report)
+    if parts_to is None and (force or tolerance is not None):
+        raise click.UsageError("--force and --tolerance belong to --workshop DIR")
+    outputs = Outputs(page_to, parts_to, tolerance, force)
+    with progress_bar() as progress:
+        made = design_machine(name, read_settings((*settings, *more)), outputs, progress=progress)
+    if not give_json(json_to, made.as_json()):
+        show_report(made.report)
         if page_to is not None:
             console().print(f"report: {page_to}")
-        if made is not None:
-            console().print(f"workshop: {made.said}")
-    for warning in (*report.warnings, *(() if made is None else made.notes)):
+        if made.workshop is not None:
+            console().print(f"workshop: {made.workshop.said}")
+    for warning in made.warnings:
         note(warning)
-
-
-def _parts_writer(folder: Path | None, tolerance: str | None, *, force: bool) -> Callable[[Report], Any] | None:
-    """What writes the workshop's files, loaded where it is asked for: it takes a library that nothing else needs."""
-    if folder is None:
-        if force or tolerance is not None:
-            raise click.UsageError("--force and --tolerance belong to --workshop DIR")
-        return None
-    check_free(folder, force=force)
-    job = importlib.import_module("ilmek.jobs.workshop")
-    asked = job.Tolerance() if tolerance is None else job.read_tolerance(tolerance)
-    return partial(job.write_workshop, folder=folder, tolerance=asked, force=force)
 
 
 def show_report(report: Report) -> None:

@@ -1,18 +1,13 @@
 """`ilmek inspect`: what a loom programme holds."""
 
-import itertools
-import random
 from pathlib import Path
-from typing import Any
 
 import click
-import numpy as np
 
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import console, give_json, show_pairs, show_table
-from ilmek.errors import LoomError
-from ilmek.io.programme_file import ProgrammeFile, open_programme
-from ilmek.loom.row import Row, Ties
+from ilmek.io.programme_file import ProgrammeFile
+from ilmek.jobs.inspect import Inspected, inspect_programme, runs
 from ilmek.units import format_quantity
 
 EXAMPLES = """\b
@@ -34,59 +29,10 @@ def command(file: Path, number: int | None, json_to: str | None) -> None:
 
     Rows are counted from 1 at the bottom, knots from 1 at the left, as on the printed chart.
     """
-    with open_programme(file) as programme:
-        chosen = random.randrange(programme.rows) if number is None else _place(number, programme.rows)
-        row = programme.row(chosen)
-        time = programme.row_time(chosen)
-        if not give_json(json_to, as_json(programme, row, time)):
-            show_programme(programme)
-            show_row(programme, row, time)
-
-
-def _place(number: int, rows: int) -> int:
-    """The row, from 0, of a person's number. Raises LoomError beyond the carpet."""
-    if not 1 <= number <= rows:
-        raise LoomError(f"there is no row {number}", allowed=f"rows 1 to {rows}, from the bottom")
-    return number - 1
-
-
-def runs(ties: Ties) -> list[tuple[int, int, int]]:
-    """(first knot, last knot, yarn) of neighbouring knots tied one after the other in one yarn; knots from 1 at the
-    left, yarns from 0.
-    """
-    pairs, colours = ties.pairs.astype(np.int64) + 1, ties.colours
-    breaks = (np.abs(np.diff(pairs)) != 1) | (np.diff(colours.astype(np.int64)) != 0)
-    edges = np.concatenate(([0], np.flatnonzero(breaks) + 1, [len(pairs)])).tolist()
-    return [(int(pairs[begin]), int(pairs[end - 1]), int(colours[begin])) for begin, end in itertools.pairwise(edges)]
-
-
-def as_json(programme: ProgrammeFile, row: Row, time: float) -> dict[str, Any]:
-    """The programme's figures and one row, SI. The row's number is from 1 at the bottom, its pairs (the knots, one on
-    each pair of warps) from 1 at the left, as on the printed chart; its yarns are places in the list `yarn`, from 0.
-    """
-    label, totals, work = programme.label, programme.totals, programme.work
-    return {
-        "rows": programme.rows,
-        "columns": programme.columns,
-        "knots": totals.knots,
-        "heads": programme.heads,
-        "weaving_time": totals.duration,
-        "colour_changes": totals.changes,
-        "changes_per_knot": totals.changes_per_knot,
-        "size": {"width": label.size.width, "length": label.size.length, "name": label.size.name},
-        "quality": {"across": label.quality.across, "along": label.quality.along},
-        "knot": label.knot,
-        "warp_pitch": label.warp_pitch,
-        "times": {name: getattr(programme.times, name) for name in programme.times.__slots__},
-        "yarn": [{"name": y.name, "knots": n} for y, n in zip(label.yarns, totals.counts, strict=True)],
-        "work": {name: getattr(work, name) for name in work.__slots__},
-        "row": {
-            "number": row.number + 1,
-            "time": time,
-            "forward": row.forward,
-            "heads": [{"pairs": ties.pairs.astype(np.int64) + 1, "yarns": ties.colours} for ties in row.ties()],
-        },
-    }
+    found = inspect_programme(file, number)
+    if not give_json(json_to, found.as_json()):
+        show_programme(found.programme)
+        show_row(found)
 
 
 def show_programme(programme: ProgrammeFile) -> None:
@@ -114,11 +60,11 @@ def show_programme(programme: ProgrammeFile) -> None:
     show_table(("head", "knots", "colour changes", "busy"), heads, right=(0, 1, 2, 3))
 
 
-def show_row(programme: ProgrammeFile, row: Row, time: float) -> None:
+def show_row(found: Inspected) -> None:
     """One row: for each head the runs of knots in the order they are tied."""
-    names = [yarn.name for yarn in programme.label.yarns]
+    row, names = found.row, [yarn.name for yarn in found.programme.label.yarns]
     console().print(
-        f"row {row.number + 1} of {programme.rows}, from the bottom: {format_quantity(time, 's')}, "
+        f"row {row.number + 1} of {found.programme.rows}, from the bottom: {format_quantity(found.time, 's')}, "
         f"woven to the {'right' if row.forward else 'left'}; knots from the left, in the order they are tied"
     )
     lines = []

@@ -8,12 +8,11 @@ from ilmek.cli.design import show_report
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import check_json, console, give_json
 from ilmek.errors import CarpetError
-from ilmek.io.output import check_file, write_whole
-from ilmek.io.path_file import read_path
-from ilmek.jobs.knot import Asked, judged, report
+from ilmek.io.output import check_file
+from ilmek.jobs.knot import Asked, knot_of
+from ilmek.jobs.page import write_page
 from ilmek.machines.text_lists import read_points
 from ilmek.units import parse_quantity
-from ilmek.viz.page import machine_page
 
 EXAMPLES = """\b
 Examples:
@@ -58,12 +57,9 @@ def command(
     check_json(json_to)
     if page_to is not None:
         check_file(page_to)
-    if len(paths) > 2:
-        raise CarpetError(f"{len(paths)} paths", allowed="one, or two for both ends of the yarn")
     asked = Asked(warps, parse_quantity(pitch, "mm"), _place(first), parse_quantity(keep_out, "mm"), smooth, closed)
-    said = report(*judged([read_path(path, columns) for path in paths], asked), asked)
-    if page_to is not None:
-        write_whole(page_to, machine_page(said))
+    said = knot_of(paths, asked, columns)
+    write_page(page_to, said)
     if not give_json(json_to, said.as_json()):
         show_report(said)
         if page_to is not None:

@@ -4,9 +4,8 @@ import click
 
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import console, give_json, show_table
-from ilmek.machines import MACHINES, find_machine
-from ilmek.machines.machine import Machine
-from ilmek.params import Parameter, declared
+from ilmek.jobs.machines import machine_form, machine_list
+from ilmek.params import Parameter
 from ilmek.units import format_quantity
 
 EXAMPLES = """\b
@@ -23,20 +22,14 @@ Examples:
 def command(name: str | None, json_to: str | None) -> None:
     """List the machines, or the parameters of MACHINE: name, default, unit, bounds, meaning."""
     if name is None:
-        if not give_json(json_to, {"machines": {machine.name: machine.summary for machine in MACHINES.values()}}):
-            show_table(("machine", "what it is"), [(machine.name, machine.summary) for machine in MACHINES.values()])
+        machines = machine_list()
+        if not give_json(json_to, {"machines": machines}):
+            show_table(("machine", "what it is"), list(machines.items()))
         return
-    machine = find_machine(name)
-    if not give_json(json_to, as_json(machine)):
-        console().print(f"{machine.name}: {machine.summary}")
-        show_table(("parameter", "default", "unit", "allowed", "meaning"), [_row(p) for p in declared(machine.params)])
-
-
-def as_json(machine: Machine) -> dict[str, object]:
-    """A machine's parameters: default and bounds in SI, and the unit they are shown in."""
-    names = ("name", "default", "unit", "above", "at_least", "below", "at_most", "choices", "doc", "symbol", "alias")
-    parameters = [{name: getattr(parameter, name) for name in names} for parameter in declared(machine.params)]
-    return {"machine": machine.name, "summary": machine.summary, "parameters": parameters}
+    form = machine_form(name)
+    if not give_json(json_to, form.as_json()):
+        console().print(f"{form.machine}: {form.summary}")
+        show_table(("parameter", "default", "unit", "allowed", "meaning"), [_row(p) for p in form.parameters])
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str, str]:

@@ -12,9 +12,9 @@ from ilmek.io.output import check_file, write_whole
 from ilmek.io.table_csv import csv_text
 from ilmek.jobs.mechanism import Course, Run, run
 from ilmek.jobs.mechanism_report import as_json, columns, report
+from ilmek.jobs.page import write_page
 from ilmek.report import Report
 from ilmek.units import format_quantity
-from ilmek.viz.page import machine_page
 
 EXAMPLES = """\b
 Examples:
@@ -59,8 +59,7 @@ def command(
         return
     moved = run(found, Course(_held(held), over, speed, steps))
     said = report(moved)
-    if page_to is not None:
-        write_whole(page_to, machine_page(said))
+    write_page(page_to, said)
     quiet = give_json(json_to, as_json(moved)) if json_to else False
     quiet = _give_csv(csv_to, moved) or quiet
     if not quiet:

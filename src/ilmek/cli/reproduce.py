@@ -1,6 +1,5 @@
 """`ilmek reproduce`: the verification manual, computed anew."""
 
-import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
@@ -8,8 +7,8 @@ import click
 
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import check_json, console, give_json, progress_bar, show_table
-from ilmek.jobs.progress import Told
-from ilmek.verification import PAPERS, TITLES, VERDICTS, Verdict, reproduce
+from ilmek.jobs.reproduce import reproduce_papers
+from ilmek.verification import PAPERS, TITLES, VERDICTS, Verdict
 from ilmek.verification.claim import MISPRINT, NOT_REPRODUCIBLE, REPRODUCED, ROUNDING
 from ilmek.verification.wording import HEADINGS, row, summary
 
@@ -41,26 +40,14 @@ def command(papers: tuple[str, ...], json_to: str | None) -> None:
     printed, so that they can be laid beside the paper; so they are in the JSON.
     """
     check_json(json_to)
-    wanted = tuple(paper for paper in PAPERS if paper in papers or not papers)
-    begun = time.perf_counter()
-    with progress_bar() as told:
-        verdicts = _computed(wanted, told)
-    took = time.perf_counter() - begun
-    if give_json(json_to, [verdict.as_json() for of_paper in verdicts.values() for verdict in of_paper]):
+    with progress_bar() as progress:
+        found = reproduce_papers(papers, progress=progress)
+    if give_json(json_to, found.as_json()):
         return
-    for paper, of_paper in verdicts.items():
+    for paper, of_paper in found.verdicts.items():
         show_paper(paper, of_paper)
-    show_summary(verdicts)
-    console().print(f"computed in {took:.1f} s")
-
-
-def _computed(papers: Sequence[str], told: Told | None) -> dict[str, tuple[Verdict, ...]]:
-    verdicts = {}
-    for place, paper in enumerate(papers):
-        if told:
-            told(paper, place / len(papers))
-        verdicts[paper] = reproduce([paper])
-    return verdicts
+    show_summary(found.verdicts)
+    console().print(f"computed in {found.seconds:.1f} s")
 
 
 def show_paper(paper: str, verdicts: Sequence[Verdict]) -> None:

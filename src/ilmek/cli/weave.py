@@ -59,8 +59,8 @@ def command(
     asked = read_loom_order(order, heads=heads, deadline=deadline, warp_pitch=warp_pitch, loom=read_settings(settings))
     folder = out or free_folder(order.picture, "carpet")
     check_free(folder, force=force)
-    with progress_bar() as told:
-        woven = weave(order, asked, folder, force=force, told=told)
+    with progress_bar() as progress:
+        woven = weave(order, asked, folder, force=force, progress=progress)
     if not give_json(json_to, weave_json(woven)):
         show_woven(woven)
     for said in (*woven.charted.notes, *woven.charted.warnings):

@@ -13,7 +13,7 @@ import os
 import secrets
 import sqlite3
 import zlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import TracebackType
@@ -29,6 +29,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.errors import IlmekError, LoomError, OutputError
 from ilmek.loom.programme import HeadWork, Programme, Times
 from ilmek.loom.row import Row
+from ilmek.progress import SILENT, Progress
 from ilmek.timing.cyclogram import Cyclogram, Event, Segment, Track
 
 APPLICATION, VERSION = 0x696C6D6B, 1
@@ -73,10 +74,8 @@ class Totals:
         return self.changes / self.knots
 
 
-def write_programme(
-    path: Path, programme: Programme, label: Label, *, progress: Callable[[float], None] | None = None
-) -> None:
-    """Write a programme, whole or not at all; `progress` is told the share that is done.
+def write_programme(path: Path, programme: Programme, label: Label, *, progress: Progress = SILENT) -> None:
+    """Write a programme, whole or not at all.
 
     Raises OutputError where the file cannot be written, LoomError where the label's yarns are not the programme's.
     """
@@ -180,7 +179,7 @@ class ProgrammeFile:
         self.close()
 
 
-def _fill(work: Path, programme: Programme, label: Label, progress: Callable[[float], None] | None) -> None:
+def _fill(work: Path, programme: Programme, label: Label, progress: Progress) -> None:
     with contextlib.closing(sqlite3.connect(work, isolation_level=None)) as connection:
         # The file is nobody's until the rename: no journal is wanted.
         for pragma in (f"page_size={_PAGE}", "journal_mode=OFF", "synchronous=OFF", f"application_id={APPLICATION}"):
@@ -197,15 +196,14 @@ def _fill(work: Path, programme: Programme, label: Label, progress: Callable[[fl
         os.fsync(written.fileno())
 
 
-def _blobs(programme: Programme, progress: Callable[[float], None] | None) -> Iterator[tuple[int, float, bytes]]:
+def _blobs(programme: Programme, progress: Progress) -> Iterator[tuple[int, float, bytes]]:
     times = programme.row_times.tolist()
     for number in range(programme.rows):
         row = programme.row(number)
         yield number, times[number], zlib.compress(row.colours.tobytes() + row.keys.tobytes(), _LEVEL)
-        if progress is not None and number % 64 == 63:
+        if number % 64 == 63:
             progress((number + 1) / programme.rows)
-    if progress is not None:
-        progress(1.0)
+    progress(1.0)
 
 
 def _meta(programme: Programme, label: Label) -> dict[str, Any]:

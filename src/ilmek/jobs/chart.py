@@ -1,7 +1,7 @@
 """The carpet part: picture to knot chart and yarn bill, and their files."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ from ilmek.io.chart.png import write_chart_png
 from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.order import Order
-from ilmek.jobs.progress import Told, part
+from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, at_most, check_as_json
 from ilmek.units import format_quantity
 
@@ -70,10 +70,9 @@ class Charted:
         return (f"{said}: {takes}; with ply {yarn.ply}, Nm {fits:g} or finer fits, or take a coarser quality",)
 
 
-def make_charted(order: Order, told: Told | None = None) -> Charted:
+def make_charted(order: Order, progress: Progress = SILENT) -> Charted:
     """Read the picture and chart it. Raises PictureError, CarpetError or YarnError."""
-    if told is not None:
-        told("picture", 0.0)
+    progress.part(0.0, 0.1, "picture")
     picture = read_picture(order.picture)
     chart = make_chart(
         picture.rgb,
@@ -83,7 +82,7 @@ def make_charted(order: Order, told: Told | None = None) -> Charted:
         knot=order.knot,
         keep_lone=order.keep_lone,
         colours=order.colours,
-        progress=part(told, "chart", 0.1, 1.0),
+        progress=progress.part(0.1, 1.0, "chart"),
     )
     notes = (*picture.notes, *_fit(picture.rgb, chart), *_left_out(order, chart))
     return Charted(order, chart, yarn_bill(chart, order.pile), notes)
@@ -138,7 +137,7 @@ def _need(need: YarnNeed) -> dict[str, Any]:
     return {name: getattr(need, name) for name in ("name", "use", "knots", "length", "mass", "price")}
 
 
-def write_chart(charted: Charted, folder: Path, progress: Callable[[float], None] | None = None) -> None:
+def write_chart(charted: Charted, folder: Path, progress: Progress = SILENT) -> None:
     """Write the chart's files into a folder. An OSError passes through."""
     write_chart_png(folder / "chart.png", charted.chart)
     if "chart.pdf" in charted.files:

@@ -9,7 +9,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 from ilmek.io.cyclogram_file import cyclogram_data, read_cyclogram
-from ilmek.machines import MACHINES
+from ilmek.machines.catalogue import MACHINES
 from ilmek.report import Check, Column, Report, Result, Table, at_most
 from ilmek.timing.cyclogram import Cyclogram, Track, judged
 from ilmek.timing.figures import draw

@@ -2,12 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Complex
 
 from ilmek.arrays import ComplexArray
 from ilmek.errors import CarpetError
+from ilmek.io.path_file import read_path
 from ilmek.report import Dot, Drawing, Json, Report, Result, Stroke
 from ilmek.units import format_quantity
 from ilmek.weaving.knots.crossings import arc_lengths
@@ -55,6 +57,17 @@ class Asked:
     def warps(self) -> ComplexArray:
         """Places of the warps [m]."""
         return self.first + self.pitch * np.arange(self.count)
+
+
+def knot_of(files: Sequence[Path], asked: Asked, columns: tuple[str, str] | None = None) -> Report:
+    """The knot that yarn ties whose end is led along the path of a file, or whose two ends along two.
+
+    columns  headings of the columns of x and y; default: the only two
+    Raises CarpetError for more than two files, a path that cannot be read, or one that comes too close to a warp.
+    """
+    if len(files) > 2:
+        raise CarpetError(f"{len(files)} paths", allowed="one, or two for both ends of the yarn")
+    return report(*judged([read_path(file, columns) for file in files], asked), asked)
 
 
 def judged(paths: Sequence[ComplexArray], asked: Asked) -> tuple[ComplexArray, TiedKnot]:

@@ -11,8 +11,8 @@ from ilmek.io.programme_file import Label, write_programme
 from ilmek.jobs.chart import Charted, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import Loomed, LoomOrder, make_loomed
 from ilmek.jobs.order import Order
-from ilmek.jobs.progress import Told, part
 from ilmek.machines.automated_loom.report import parts_of, report_with
+from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Report, at_most, check_as_json
 from ilmek.units import format_quantity, hour
 from ilmek.viz.page import CarpetPage, carpet_page
@@ -70,32 +70,26 @@ class Woven:
         return [str(self.folder / file.name) for file in self.notes]
 
 
-def weave(order: Order, asked: LoomOrder, folder: Path, *, force: bool = False, told: Told | None = None) -> Woven:
+def weave(order: Order, asked: LoomOrder, folder: Path, *, force: bool = False, progress: Progress = SILENT) -> Woven:
     """Do the whole job and put its files into a folder, whole or not at all.
 
     Raises any IlmekError; then nothing is written.
     """
-    charted = make_charted(order, _until(told, 0.4))
-    if told is not None:
-        told("loom", 0.4)
+    charted = make_charted(order, progress.part(0.0, 0.4, "picture"))
+    progress.part(0.4, 0.5, "loom")
     loomed = make_loomed(asked, order, charted.chart)
     parts = parts_of(loomed.design)
     woven = Woven(charted, asked, loomed, report_with(loomed.design, parts), parts, folder)
     with output_folder(folder, force=force) as work:
-        write_chart(charted, work, part(told, "chart.pdf", 0.5, 0.7))
+        write_chart(charted, work, progress.part(0.5, 0.7, "chart.pdf"))
         write_programme(
-            work / "programme.ilmek", loomed.programme, _label(woven), progress=part(told, "programme", 0.7, 0.8)
+            work / "programme.ilmek", loomed.programme, _label(woven), progress=progress.part(0.7, 0.8, "programme")
         )
         write_json(work / "machine.json", machine_json(woven))
         write_json(work / "report.json", weave_json(woven))
-        if told is not None:
-            told("report", 0.8)
+        progress.part(0.8, 1.0, "report")
         (work / "report.html").write_text(carpet_page(_page(woven)), encoding="utf-8")
     return woven
-
-
-def _until(told: Told | None, end: float) -> Told | None:
-    return None if told is None else lambda doing, share: told(doing, share * end)
 
 
 def loom_alone(loom: Report, parts: tuple[Report, ...]) -> Report:

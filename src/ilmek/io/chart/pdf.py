@@ -6,10 +6,10 @@ each 10 knots, row numbers (from the bottom, as woven) and knot numbers on the e
 and the neighbours' sheet numbers; the 3 knots that belong to the next sheet are shaded. Same chart, same file.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 from reportlab import rl_config
 from reportlab.lib.pagesizes import A4
@@ -20,12 +20,11 @@ from ilmek.io.chart.front_pages import draw_legend, draw_overview
 from ilmek.io.chart.grid import Inks, draw_sheet
 from ilmek.io.chart.sheets import Cut, cut
 from ilmek.io.chart.symbols import register_fonts, symbols
+from ilmek.progress import SILENT, Progress
 
-Progress: TypeAlias = Callable[[float], object]
 
-
-def write_chart_pdf(path: Path, chart: Chart, progress: Progress | None = None, title: str = "") -> None:
-    """Write the chart to `path`; `progress` is told the share done, from 0 to 1.
+def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title: str = "") -> None:
+    """Write the chart to `path`.
 
     A sheet takes about a hundredth of a second; see `chart_cut` for their number, which grows with the knots.
     """
@@ -41,8 +40,7 @@ def write_chart_pdf(path: Path, chart: Chart, progress: Progress | None = None, 
         draw_legend(canvas, chart, inks)
         for sheet in plan.sheets():
             draw_sheet(canvas, chart, plan, sheet, inks)
-            if progress:
-                progress(sheet.number / plan.count)
+            progress(sheet.number / plan.count)
         canvas.save()
 
 

@@ -8,6 +8,7 @@ Source: thesis, chapters 2.2.3 and 3. How heads share a row: `ilmek.loom.sharing
 
 from dataclasses import replace
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign, design
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
@@ -39,7 +40,7 @@ def cyclograms(loom: LoomDesign) -> tuple[Cyclogram, ...]:
 
 MACHINE = Machine(
     name="automated-loom",
-    summary="the loom for one carpet: heads, shedding, beat-up, warp tension, timed together",
+    summary=SUMMARIES["automated-loom"],
     params=AutomatedLoomParams,
     design=design,
     report=report,

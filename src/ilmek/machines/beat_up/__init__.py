@@ -8,6 +8,7 @@ The force given for the beater is the one the rocker pushes it with, m_E (a_E - 
 its bolts. It is greatest near the extended dead centre, where the beater turns back at the fell.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.beat_up.design import BeatUp, design
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.report import report
@@ -17,7 +18,7 @@ __all__ = ["MACHINE", "BeatUp", "BeatUpParams", "design", "report"]
 
 MACHINE = Machine(
     name="beat-up",
-    summary="crank-rocker that beats weft and knots to the fell: links, motion, forces",
+    summary=SUMMARIES["beat-up"],
     params=BeatUpParams,
     design=design,
     report=report,

@@ -4,6 +4,7 @@ The geometry stands on `ilmek.cams`, materials and life on `ilmek.elements`. Eve
 flat-faced and spherical followers.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.cam.design import CamDesign, design
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.report import report
@@ -13,7 +14,7 @@ __all__ = ["MACHINE", "CamDesign", "CamParams", "design", "report"]
 
 MACHINE = Machine(
     name="cam",
-    summary="a cam and its follower: profile, pressure angle, curvature, forces, spring, roller",
+    summary=SUMMARIES["cam"],
     params=CamParams,
     design=design,
     report=report,

@@ -4,6 +4,7 @@ Exact at three to five places (interpolation), or best over the whole range by l
 with the alternation that proves it.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.function_four_bar.design import FunctionFourBar, design
 from ilmek.machines.function_four_bar.params import FunctionFourBarParams
 from ilmek.machines.function_four_bar.report import report
@@ -13,7 +14,7 @@ __all__ = ["MACHINE", "FunctionFourBar", "FunctionFourBarParams", "design", "rep
 
 MACHINE = Machine(
     name="function-four-bar",
-    summary="four-bars whose rocker generates a function of the crank's angle, exact at places or best over the range",
+    summary=SUMMARIES["function-four-bar"],
     params=FunctionFourBarParams,
     design=design,
     report=report,

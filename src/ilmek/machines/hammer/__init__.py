@@ -4,6 +4,7 @@ Either leaves on the guide cams, which a vertical axis pulls down with the whole
 (`beat_up`). The fabric's resistance tells where the row ends up, the comb as a beam on the fell how evenly.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.hammer.design import Hammer, design
 from ilmek.machines.hammer.params import HammerParams
 from ilmek.machines.hammer.report import report
@@ -13,7 +14,7 @@ __all__ = ["MACHINE", "Hammer", "HammerParams", "design", "report"]
 
 MACHINE = Machine(
     name="hammer",
-    summary="comb that beats the rows: force per warp, rows it leaves, uniformity, stroke or crank-rockers",
+    summary=SUMMARIES["hammer"],
     params=HammerParams,
     design=design,
     report=report,

@@ -5,6 +5,7 @@ cycle and drives. Its links follow from four points of the way and the angles th
 thesis, 2.1.3, by all real roots at once: none to three arms. Four points of one's own are solved alike.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.knotting_dyad.design import KnottingDyad, design
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.report import report
@@ -14,7 +15,7 @@ __all__ = ["MACHINE", "KnottingDyad", "KnottingDyadParams", "design", "report"]
 
 MACHINE = Machine(
     name="knotting-dyad",
-    summary="two-link arms that tie a knot, proved and clear of the warps; or every arm through four timed points",
+    summary=SUMMARIES["knotting-dyad"],
     params=KnottingDyadParams,
     design=design,
     report=report,

@@ -8,6 +8,7 @@ is the four-bar of both arms of its own synthesis. With `poses` of one's own tha
 `sides=2` the mirrored four-bar stands beside it, and gears couple both cranks.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar, design
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.report import report
@@ -17,7 +18,7 @@ __all__ = ["MACHINE", "KnottingFourBar", "KnottingFourBarParams", "design", "rep
 
 MACHINE = Machine(
     name="knotting-four-bar",
-    summary="four-bar with a gripper on its coupler, of links or through three poses, one side or two on gears",
+    summary=SUMMARIES["knotting-four-bar"],
     params=KnottingFourBarParams,
     design=design,
     report=report,

@@ -4,6 +4,7 @@ Three poses leave both pivots (or both pins) free to be given, or to be chosen o
 five a few links. All pairs are judged, and those without defects ranked.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.machine import Machine
 from ilmek.machines.motion_four_bar.design import MotionFourBar, design
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
@@ -13,7 +14,7 @@ __all__ = ["MACHINE", "MotionFourBar", "MotionFourBarParams", "design", "report"
 
 MACHINE = Machine(
     name="motion-four-bar",
-    summary="four-bars whose coupler takes three, four or five poses of yours, those without defects ranked",
+    summary=SUMMARIES["motion-four-bar"],
     params=MotionFourBarParams,
     design=design,
     report=report,

@@ -4,6 +4,7 @@ Any 4 to 200 points are searched for the nearest four-bars within limits; 3 to 5
 met exactly, by all four-bars that do.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.machine import Machine
 from ilmek.machines.path_four_bar.design import PathFourBar, design
 from ilmek.machines.path_four_bar.params import PathFourBarParams
@@ -13,7 +14,7 @@ __all__ = ["MACHINE", "PathFourBar", "PathFourBarParams", "design", "report"]
 
 MACHINE = Machine(
     name="path-four-bar",
-    summary="four-bars whose coupler point goes through points of yours, the nearest within limits or all exact ones",
+    summary=SUMMARIES["path-four-bar"],
     params=PathFourBarParams,
     design=design,
     report=report,

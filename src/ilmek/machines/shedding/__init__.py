@@ -8,6 +8,7 @@ the limit behind it is 1 mm, not 0.1 mm; 550 kg weigh 5395 N, not 5489 N; only t
 time, so that 600 x 10 N never act together.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.machine import Machine
 from ilmek.machines.shedding.design import SheddingDesign, design
 from ilmek.machines.shedding.params import SheddingParams
@@ -17,7 +18,7 @@ __all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design", "report"]
 
 MACHINE = Machine(
     name="shedding",
-    summary="cams that open the shed: profile, pressure angle, curvature, torque, square shaft",
+    summary=SUMMARIES["shedding"],
     params=SheddingParams,
     design=design,
     report=report,

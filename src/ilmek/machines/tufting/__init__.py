@@ -7,6 +7,7 @@ tufting machine's driving system", Fibres and Textiles in Eastern Europe; moved 
 287 deg.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.machine import Machine
 from ilmek.machines.tufting.design import Tufting, design
 from ilmek.machines.tufting.params import TuftingParams
@@ -16,7 +17,7 @@ __all__ = ["MACHINE", "Tufting", "TuftingParams", "design", "report"]
 
 MACHINE = Machine(
     name="tufting",
-    summary="needle six-bar of a tufting machine: motion, torques of both shafts, forces, friction of the backing",
+    summary=SUMMARIES["tufting"],
     params=TuftingParams,
     design=design,
     report=report,

@@ -8,6 +8,7 @@ of 5.3e-4 (not 5.2e-5); and a reducer that locks itself cannot bring 630 N m out
 takes an efficiency of 0.9 where self-locking allows one half.
 """
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.machine import Machine
 from ilmek.machines.warp_tension.design import WarpTensionDesign, design
 from ilmek.machines.warp_tension.params import WarpTensionParams
@@ -17,7 +18,7 @@ __all__ = ["MACHINE", "WarpTensionDesign", "WarpTensionParams", "design", "repor
 
 MACHINE = Machine(
     name="warp-tension",
-    summary="cylinder that tensions the warps: slope, deflection, torque, reducer and motor, take-up",
+    summary=SUMMARIES["warp-tension"],
     params=WarpTensionParams,
     design=design,
     report=report,

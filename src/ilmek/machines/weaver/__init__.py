@@ -6,6 +6,7 @@ limits are parameters, since the thesis prints none.
 
 from dataclasses import replace
 
+from ilmek.machines import SUMMARIES
 from ilmek.machines.machine import Machine
 from ilmek.machines.weaver.cyclogram import relations
 from ilmek.machines.weaver.design import Weaver, design
@@ -36,10 +37,10 @@ def cyclograms(weaver: Weaver) -> tuple[Cyclogram, ...]:
 
 
 MACHINE = Machine(
-    "weaver",
-    "knotting head: five cams on one shaft, one knot a turn (thesis, 2.2.3)",
-    WeaverParams,
-    design,
-    report,
-    cyclograms,
+    name="weaver",
+    summary=SUMMARIES["weaver"],
+    params=WeaverParams,
+    design=design,
+    report=report,
+    cyclograms=cyclograms,
 )

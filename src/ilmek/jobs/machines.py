@@ -1,0 +1,40 @@
+"""The catalogue of machines, and the parameters of one of them."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ilmek.machines import SUMMARIES
+
+if TYPE_CHECKING:
+    from ilmek.params import Parameter
+
+FIELDS = ("name", "default", "unit", "above", "at_least", "below", "at_most", "choices", "doc", "symbol", "alias")
+"""What the JSON of a parameter holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class MachineForm:
+    """The declared parameters of a machine."""
+
+    machine: str
+    summary: str
+    parameters: "tuple[Parameter, ...]"
+
+    def as_json(self) -> dict[str, Any]:
+        """The parameters as plain data: default and bounds in SI, and the unit they are shown in."""
+        parameters = [{name: getattr(parameter, name) for name in FIELDS} for parameter in self.parameters]
+        return {"machine": self.machine, "summary": self.summary, "parameters": parameters}
+
+
+def machine_list() -> dict[str, str]:
+    """What each machine is, by its name. No machine is imported."""
+    return dict(SUMMARIES)
+
+
+def machine_form(name: str) -> MachineForm:
+    """The parameters of a machine. Raises ParameterError for an unknown name."""
+    from ilmek.machines.catalogue import find_machine
+    from ilmek.params import declared
+
+    machine = find_machine(name)
+    return MachineForm(machine.name, machine.summary, tuple(declared(machine.params)))

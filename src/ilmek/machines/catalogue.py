@@ -1,0 +1,40 @@
+"""The machines of the catalogue, each found by its name."""
+
+import difflib
+import importlib
+from collections.abc import Iterator, Mapping
+
+from ilmek.errors import ParameterError
+from ilmek.machines import SUMMARIES
+from ilmek.machines.machine import Machine
+
+
+class Catalogue(Mapping[str, Machine]):
+    """Every machine by its name. A machine's package is imported when the machine is looked up: most jobs need one."""
+
+    def __getitem__(self, name: str) -> Machine:
+        """The machine of a name; KeyError for any other."""
+        if name not in SUMMARIES:
+            raise KeyError(name)
+        machine = importlib.import_module(f"ilmek.machines.{name.replace('-', '_')}").MACHINE
+        assert isinstance(machine, Machine)
+        return machine
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(SUMMARIES)
+
+    def __len__(self) -> int:
+        return len(SUMMARIES)
+
+
+MACHINES = Catalogue()
+"""Every machine by its name, in the order of the catalogue."""
+
+
+def find_machine(name: str) -> Machine:
+    """The machine of a name. Raises ParameterError, naming the nearest."""
+    if name in SUMMARIES:
+        return MACHINES[name]
+    near = difflib.get_close_matches(name.lower().replace("_", "-"), SUMMARIES, n=1)
+    hint = f"did you mean {near[0]}?" if near else ""
+    raise ParameterError(f"unknown machine {name!r}", allowed=f"machines: {', '.join(SUMMARIES)}", do=hint)
