@@ -68,7 +68,7 @@ def test_thesis_knot_by_two_mirrored_grippers() -> None:
     left = path((6.5, 3), (5.5, 2), (5.5, -2), (6.4, -2), (6.4, 6))
     right = 2 * (5.5 * PITCH) - np.conj(left)
     assert tied_knot(joined_ends(left, right), WARPS, keep_out=0.6 * mm).words == "symmetric knot over warps 6 and 7"
-    with pytest.raises(CarpetError, match=r"4 mm apart.*one place"):
+    with pytest.raises(CarpetError, match=r"4 mm apart.*one position"):
         joined_ends(left, right + PITCH)
 
 
@@ -188,7 +188,7 @@ def test_a_loop_round_a_warp_that_the_samples_miss_is_not_missed() -> None:
     assert tied_knot(points, WARPS).word == ()
     with pytest.raises(CarpetError, match="too coarse near warp"):
         tied_knot(points, WARPS, lengths=np.full(2, 20 * mm))
-    with pytest.raises(CarpetError, match=r"4\.02 mm apart.*said to be 1 mm long"):
+    with pytest.raises(CarpetError, match=r"4\.02 mm apart.*stated to be 1 mm long"):
         tied_knot(points, WARPS, lengths=np.full(2, 1 * mm))
 
 

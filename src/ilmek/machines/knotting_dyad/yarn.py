@@ -1,8 +1,8 @@
-"""The yarn's two ends over a cycle: where they are led, by whom, and which knot that ties.
+"""The yarn's two ends over a cycle: where they are led, by whom, and which knot that ties [`ilmek.weaving.knots`].
 
 The yarn lies straight in front of the warps between its two ends when the cycle begins. Each end then goes where its
-carrier goes, phase by phase. A hand-over from one carrier to the next must be at one place; an end that nobody carries
-stays where it was left. The first end's way backwards, then the second end's, is the yarn: `tied_knot` proves the knot.
+carrier goes, phase by phase. The carriers of a hand-over must meet at one position; an end that nobody carries stays
+where it was left.
 """
 
 from collections.abc import Sequence
@@ -10,19 +10,16 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Complex, Float
 
-from ilmek.arrays import FloatArray
 from ilmek.errors import CarpetError
 from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.section import Section
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, Phase
 from ilmek.units import format_quantity, um
-from ilmek.weaving.knots.proof import TiedKnot, tied_knot
+from ilmek.weaving.knots.led_yarn import SampledPath, end_path, knot_of_ends
+from ilmek.weaving.knots.proof import TiedKnot
 
 MISSED = 1 * um
 """How far apart two grippers may be at a hand-over."""
-
-SAMPLES = (201, 1601, 12801)
-"""Places along a phase: more where the path comes so near a warp that fewer do not tell its side."""
 
 
 def carried(
@@ -37,50 +34,33 @@ def carried(
     return tip if carrier == LEFT else np.asarray(2 * section.middle - np.conj(tip))
 
 
-def _length(arm: Arm, carrier: str, phase: Phase) -> float:
-    """Bound of a carrier's way during a phase [m]."""
-    begin, end = phase.centre if carrier == CENTRE else (phase.left if carrier == LEFT else phase.right)
-    return abs(end - begin) * (1.0 if carrier == CENTRE else arm.speed_bound)
-
-
 def tied_by(section: Section, arm: Arm, phases: Sequence[Phase]) -> TiedKnot:
     """The knot that the phases tie with this arm and its mirror image; none where an end is led through a warp."""
-    said = ""
-    for samples in SAMPLES:
-        try:
-            return _tied_by(section, arm, phases, samples)
-        except CarpetError as error:
-            said = error.given
-    return TiedKnot(None, (), False, f"no knot: {said}")
+
+    def ends(samples: int) -> tuple[SampledPath, SampledPath]:
+        return _end(section, arm, phases, 0, samples), _end(section, arm, phases, 1, samples)
+
+    return knot_of_ends(ends, section.warps, keep_out=section.warp / 2)
 
 
-def _tied_by(section: Section, arm: Arm, phases: Sequence[Phase], samples: int) -> TiedKnot:
+def _end(section: Section, arm: Arm, phases: Sequence[Phase], end: int, samples: int) -> SampledPath:
+    """Path of an end over the phases. Raises CarpetError where a hand-over misses it."""
     shares = np.linspace(0.0, 1.0, samples)
-    ways: list[Complex[np.ndarray, " n"]] = []
-    bounds: list[FloatArray] = []
-    for end in (0, 1):
-        places, lengths = np.empty(0, complex), np.empty(0)
-        for phase in phases:
-            carrier = phase.carries[end]
-            if not carrier:
-                continue
-            way = carried(section, arm, carrier, phase, shares)
-            if len(places) and abs(way[0] - places[-1]) > MISSED:
-                return _missed(end, carrier, phase, abs(way[0] - places[-1]))
-            step = np.full(samples - 1, _length(arm, carrier, phase) / (samples - 1) * (1 + 1e-9))
-            gap = np.abs(way[:1] - places[-1:])
-            places, lengths = np.concatenate([places, way]), np.concatenate([lengths, gap, step])
-        ways.append(places)
-        bounds.append(lengths)
-    between = np.abs(ways[1][:1] - ways[0][:1])  # the yarn at the beginning, straight
-    lengths = np.concatenate([bounds[0][::-1], between, bounds[1]])
-    points = np.concatenate([ways[0][::-1], ways[1]])
-    return tied_knot(
-        points, section.warps, keep_out=section.warp / 2, lengths=np.maximum(lengths, np.abs(np.diff(points)))
-    )
+    motions: list[tuple[Complex[np.ndarray, " points"], Float[np.ndarray, " chords"]]] = []
+    for phase in phases:
+        carrier = phase.carries[end]
+        if not carrier:
+            continue
+        points = carried(section, arm, carrier, phase, shares)
+        gap = abs(points[0] - motions[-1][0][-1]) if motions else 0.0
+        if gap > MISSED:
+            name, missed = ("first", "second")[end], format_quantity(gap, "mm")
+            raise CarpetError(f"at '{phase.name}' the {name} end is {missed} from the {carrier} gripper")
+        motions.append((points, np.full(samples - 1, _length(arm, carrier, phase) / (samples - 1))))
+    return end_path(motions)
 
 
-def _missed(end: int, carrier: str, phase: Phase, gap: float) -> TiedKnot:
-    name = ("first", "second")[end]
-    words = f"no knot: at '{phase.name}' the {name} end is {format_quantity(gap, 'mm')} from the {carrier} gripper"
-    return TiedKnot(None, (), False, words)
+def _length(arm: Arm, carrier: str, phase: Phase) -> float:
+    """Upper bound of the length of a carrier's path during a phase [m]."""
+    begin, end = phase.centre if carrier == CENTRE else (phase.left if carrier == LEFT else phase.right)
+    return abs(end - begin) * (1.0 if carrier == CENTRE else arm.speed_bound)

@@ -1,59 +1,45 @@
-"""Which knot the head ties: the way of the yarn's two ends over one turn of the cyclogram, and the proof.
+"""Which knot the head ties: the paths of the yarn's two ends over one turn of the cyclogram, and the proof.
 
 Each end is held by its side gripper from the moment its jaws are closed until they open, then by the centre gripper
-from closed jaws to open ones. The places of the tips follow from the cams' positions at every cam angle. Between two
-angles at which a motion begins or ends, a tip goes along one curve, by the position of its cam, whatever the law; so
-the curve's length over a part of that way is at most the way times sqrt(1 + (rho turn / crossing)²). The first end's
-way backwards, then the second's, is the yarn: `weaving.knots.proof` proves its knot, with the warps as they stand in
-the opener. A yarn that is let go, missed, or led while the warps close, ties none, and the words say why.
+from closed jaws to open ones. The positions of the tips follow from the cams' positions at every cam angle. Between two
+angles at which a motion begins or ends, a tip follows one curve, by the position of its cam, whatever the law; so the
+length of the curve over a part of a stroke is at most that part times sqrt(1 + (rho turn / crossing)²). The knot is
+proved with the warps as they stand in the opener [`ilmek.weaving.knots`]. A yarn that is released, missed, or led while
+the warps close, ties none, and the words state why.
 """
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.errors import CarpetError
+from ilmek.arrays import FloatArray
 from ilmek.machines.weaver.cyclogram import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
 from ilmek.machines.weaver.grippers import Grippers, crossing_point
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, sample
 from ilmek.units import format_quantity
-from ilmek.weaving.knots.proof import TiedKnot, tied_knot
+from ilmek.weaving.knots.led_yarn import SampledPath, end_path, knot_of_ends
+from ilmek.weaving.knots.proof import TiedKnot, no_knot
 from ilmek.weaving.knots.word import Word, knot
 
-SAMPLES = (101, 801, 6401)
-"""Places along a motion: more where the yarn comes so near a warp that fewer do not tell its side."""
-
-NOTHING = 1e-9
-"""Metres that are rounding."""
+ROUNDING = 1e-9
+"""Length below which an overlap is rounding [m]."""
 
 PAIR: Word = (2, 3)
 """The pair among the warps of the plan view; on either side of it one more."""
-
-
-@dataclass(frozen=True, slots=True)
-class Led:
-    """The way of one end: places [m], and bounds of the way between each two [m]."""
-
-    places: Complex[np.ndarray, " n"]
-    lengths: Float[np.ndarray, " parts"]
 
 
 def tied_by(cyclogram: Cyclogram, grippers: Grippers, jaw: float) -> TiedKnot:
     """The knot that a turn of the cyclogram ties with these grippers; none where order or hand-over are wrong."""
     wrong = _order(cyclogram, grippers) or _hand_over(grippers, jaw)
     if wrong:
-        return TiedKnot(None, (), False, f"no knot: {wrong}")
-    said = ""
-    for samples in SAMPLES:
-        try:
-            return _tied(cyclogram, grippers, samples)
-        except CarpetError as error:
-            said = error.given
-    return TiedKnot(None, (), False, f"no knot: {said}")
+        return no_knot(wrong)
+
+    def ends(samples: int) -> tuple[SampledPath, SampledPath]:
+        left = led(cyclogram, grippers, samples)
+        return left, SampledPath(-np.conj(left.points), left.lengths)
+
+    return knot_of_ends(ends, grippers.warps, keep_out=grippers.warp / 2)
 
 
 def on_the_pair(tied: TiedKnot) -> str | None:
@@ -67,26 +53,14 @@ def told(tied: TiedKnot) -> str:
     return tied.words if kind is None else knot(kind).name
 
 
-def led(cyclogram: Cyclogram, grippers: Grippers, samples: int) -> Led:
-    """The way of the left end from where its gripper holds it to where the centre gripper lets it go."""
+def led(cyclogram: Cyclogram, grippers: Grippers, samples: int) -> SampledPath:
+    """Path of the left end from where its gripper holds it to where the centre gripper releases it."""
     held, taken = _angle(cyclogram, SIDE_GRASP, "close"), _angle(cyclogram, CENTRE_GRASP, "close")
     let_go = _start(cyclogram, CENTRE_GRASP, "open")
     side = _positions(cyclogram.track(SIDE_MOTION), held, taken, samples)
     centre = _positions(cyclogram.track(CENTRE_MOTION), taken, let_go, samples)
-    there, then = grippers.tip(side), grippers.centre(centre)
-    over = np.abs(then[:1] - there[-1:])
-    lengths = (np.abs(np.diff(side)) * grippers.reach_bound, over, np.abs(np.diff(centre)))
-    return Led(np.concatenate([there, then]), np.concatenate(lengths) * (1 + 1e-9))
-
-
-def _tied(cyclogram: Cyclogram, grippers: Grippers, samples: int) -> TiedKnot:
-    left = led(cyclogram, grippers, samples)
-    first, second = left.places, -np.conj(left.places)
-    points: ComplexArray = np.concatenate([first[::-1], second])
-    between = np.abs(second[:1] - first[:1])  # the yarn at the beginning, straight before the warps
-    lengths = np.concatenate([left.lengths[::-1], between, left.lengths])
-    bounds = np.maximum(lengths, np.abs(np.diff(points)))
-    return tied_knot(points, grippers.warps, keep_out=grippers.warp / 2, lengths=bounds)
+    by_side = (grippers.tip(side), np.abs(np.diff(side)) * grippers.reach_bound)
+    return end_path([by_side, (grippers.centre(centre), np.abs(np.diff(centre)))])
 
 
 def _order(cyclogram: Cyclogram, grippers: Grippers) -> str:
@@ -120,7 +94,7 @@ def _hand_over(grippers: Grippers, jaw: float) -> str:
         shown = format_quantity(needed, "mm"), format_quantity(jaw, "mm")
         return f"the ends cross {shown[0]} high, the centre gripper's jaws open {shown[1]}"
     room = -tip.imag - grippers.finger / 2 - grippers.depth
-    if room < -NOTHING:
+    if room < -ROUNDING:
         return f"the centre gripper's tip runs {format_quantity(-room, 'mm')} into the side grippers' arms"
     return "" if crossing_point(grippers).imag < -grippers.warp / 2 else "the ends cross before the warps"
 

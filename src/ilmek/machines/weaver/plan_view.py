@@ -80,7 +80,7 @@ def _mirrored(points: ComplexArray) -> ComplexArray:
 
 def _yarn(weaver: Weaver) -> ComplexArray:
     """The whole way of both ends: the knot as it lies."""
-    left = led(weaver.cyclogram, weaver.grippers, EACH).places
+    left = led(weaver.cyclogram, weaver.grippers, EACH).points
     return np.concatenate([left[::-1], _mirrored(left)])
 
 

@@ -36,21 +36,23 @@ _SLACK = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class WarpRow:
-    """Warps in section: their places [m] from left to right, seen with the pile upwards, and the room each keeps [m].
+    """Warps in section: positions [m] from left to right, seen with the pile upwards, and the room each keeps [m].
 
-    keep_out  radius about each place that the path may not enter: the warp's, plus half of what moves
+    keep_out  radius about each axis that the path may not enter: the warp's, plus half of what moves
     Raises CarpetError where warps are missing, not finite, or not in order.
     """
 
-    places: Complex[np.ndarray, " warps"]
+    positions: Complex[np.ndarray, " warps"]
     keep_out: float = 0.0
 
     def __post_init__(self) -> None:
-        if not len(self.places) or not np.isfinite(self.places).all():
-            raise CarpetError(f"{len(self.places)} warps, or places that are not numbers", allowed="one or more places")
+        if not len(self.positions) or not np.isfinite(self.positions).all():
+            raise CarpetError(
+                f"{len(self.positions)} warps, or positions that are not numbers", allowed="one or more positions"
+            )
         if not 0 <= self.keep_out < math.inf:
             raise CarpetError(f"room of {self.keep_out} m about a warp", allowed="0 or more")
-        steps = np.diff(self.places.real)
+        steps = np.diff(self.positions.real)
         if (steps <= 0).any():
             late = int(np.argmin(steps)) + 2
             raise CarpetError(
@@ -77,11 +79,11 @@ def arc_lengths(points: Complex[np.ndarray, " points"]) -> Float[np.ndarray, " c
     """
     chords = np.diff(points)
     moved = np.abs(chords) > 0
-    ways = chords[moved]
-    turns = np.abs(np.angle(ways[1:] * np.conj(ways[:-1])))
-    half = np.maximum(np.append(turns, 0.0), np.append(0.0, turns))[: len(ways)] / 2
+    steps = chords[moved]
+    turns = np.abs(np.angle(steps[1:] * np.conj(steps[:-1])))
+    half = np.maximum(np.append(turns, 0.0), np.append(0.0, turns))[: len(steps)] / 2
     lengths = np.zeros(len(chords))
-    lengths[moved] = np.abs(ways) / np.sinc(half / np.pi)
+    lengths[moved] = np.abs(steps) / np.sinc(half / np.pi)
     return lengths
 
 
@@ -95,9 +97,9 @@ def crossings(row: WarpRow, points: Complex[np.ndarray, " points"], lengths: Flo
     check_points(points)
     sag = _sag(np.abs(np.diff(points)), lengths)
     found: list[tuple[int, int, int]] = []
-    for number, place in enumerate(row.places.tolist(), start=1):
-        _clear_of(number, place, row.keep_out, points, sag)
-        segments, signs = _across(number, place, points)
+    for number, axis in enumerate(row.positions.tolist(), start=1):
+        _clear_of(number, axis, row.keep_out, points, sag)
+        segments, signs = _across(number, axis, points)
         found += [(segment, sign * number, sign * number) for segment, sign in zip(segments, signs, strict=True)]
     return tuple(letter for *_, letter in sorted(found))
 
@@ -120,25 +122,25 @@ def _sag(chords: FloatArray, lengths: FloatArray | None) -> FloatArray:
         at = int(np.argmax(short | ~np.isfinite(lengths)))
         raise CarpetError(
             f"samples {at} and {at + 1} lie {format_quantity(float(chords[at]), 'mm')} apart, "
-            f"the path between them is said to be {lengths[at] * 1e3:.4g} mm long",
+            f"the path between them is stated to be {lengths[at] * 1e3:.4g} mm long",
             allowed="at least as long as the samples lie apart",
         )
     return np.asarray(np.sqrt(np.maximum(lengths**2 - chords**2, 0.0)) / 2)
 
 
-def distances(place: complex, points: ComplexArray) -> FloatArray:
-    """Least distance of a place from each segment of a polyline [m]."""
-    start, way = points[:-1] - place, np.diff(points)
-    square = way.real**2 + way.imag**2
-    share = -(start.real * way.real + start.imag * way.imag) / np.where(square > 0, square, 1.0)
-    return np.asarray(np.abs(start + np.clip(share, 0.0, 1.0) * way))
+def distances(axis: complex, points: ComplexArray) -> FloatArray:
+    """Least distance of a position from each segment of a polyline [m]."""
+    start, step = points[:-1] - axis, np.diff(points)
+    square = step.real**2 + step.imag**2
+    share = -(start.real * step.real + start.imag * step.imag) / np.where(square > 0, square, 1.0)
+    return np.asarray(np.abs(start + np.clip(share, 0.0, 1.0) * step))
 
 
-def _clear_of(number: int, place: complex, keep_out: float, points: ComplexArray, sag: FloatArray) -> None:
+def _clear_of(number: int, axis: complex, keep_out: float, points: ComplexArray, sag: FloatArray) -> None:
     """Raises CarpetError where the path touches the warp, or may pass it on either side."""
     room = keep_out * (1 - _SLACK)
-    gap = distances(place, points)
-    _untouched(number, place, keep_out, points)
+    gap = distances(axis, points)
+    _untouched(number, axis, keep_out, points)
     chord = ((gap < room) | (gap == 0)) & (sag == 0)
     if chord.any():
         raise _touching(number, int(np.argmax(chord)), float(gap[chord].min()), keep_out)
@@ -153,9 +155,9 @@ def _clear_of(number: int, place: complex, keep_out: float, points: ComplexArray
         )
 
 
-def _untouched(number: int, place: complex, keep_out: float, points: ComplexArray) -> None:
+def _untouched(number: int, axis: complex, keep_out: float, points: ComplexArray) -> None:
     """Raises CarpetError where a point of the path itself lies in the warp's room."""
-    near = np.abs(points - place)
+    near = np.abs(points - axis)
     inside = (near < keep_out * (1 - _SLACK)) | (near == 0)
     if inside.any():
         raise _touching(number, int(np.argmax(inside)), float(near.min()), keep_out)
@@ -169,11 +171,11 @@ def _touching(number: int, at: int, least: float, keep_out: float) -> CarpetErro
     )
 
 
-def _across(number: int, place: complex, points: ComplexArray) -> tuple[list[int], list[int]]:
+def _across(number: int, axis: complex, points: ComplexArray) -> tuple[list[int], list[int]]:
     """Segments that cross the warp's cut, and +1 (from left to right) or -1 for each."""
-    left = points.real <= place.real
+    left = points.real <= axis.real
     segments = np.flatnonzero(left[1:] != left[:-1])
-    side = orientation(points[segments], points[segments + 1], place)
+    side = orientation(points[segments], points[segments + 1], axis)
     if (side == 0).any():
         raise CarpetError(
             f"the path goes through the axis of warp {number} after point {int(segments[side == 0][0])}",
@@ -185,26 +187,26 @@ def _across(number: int, place: complex, points: ComplexArray) -> tuple[list[int
     return segments[behind].tolist(), heading[behind].tolist()
 
 
-def orientation(start: ComplexArray, end: ComplexArray, place: complex) -> Int[np.ndarray, " segments"]:
-    """+1 where the place lies left of the segment, -1 right, 0 on its line; exact for the floats as they are.
+def orientation(start: ComplexArray, end: ComplexArray, axis: complex) -> Int[np.ndarray, " segments"]:
+    """+1 where the position lies left of the segment, -1 right, 0 on its line; exact for the floats as they are.
 
     >>> orientation(np.array([0j]), np.array([3 + 3j]), 0.1 + 0.1j), orientation(np.array([0j]), np.array([1 + 0j]), 1j)
     (array([0]), array([1]))
     """
-    plus = (end.real - start.real) * (place.imag - start.imag)
-    minus = (end.imag - start.imag) * (place.real - start.real)
+    plus = (end.real - start.real) * (axis.imag - start.imag)
+    minus = (end.imag - start.imag) * (axis.real - start.real)
     value = plus - minus
     sign: Int[np.ndarray, " segments"] = np.sign(value).astype(np.int64)
     unsure = np.abs(value) <= _ERROR * (np.abs(plus) + np.abs(minus)) + 1e-300
     for at in np.flatnonzero(unsure):
-        sign[at] = _exact(complex(start[at]), complex(end[at]), place)
+        sign[at] = _exact(complex(start[at]), complex(end[at]), axis)
     return sign
 
 
-def _exact(start: complex, end: complex, place: complex) -> int:
+def _exact(start: complex, end: complex, axis: complex) -> int:
     sx, sy = Fraction(start.real), Fraction(start.imag)
-    value = (Fraction(end.real) - sx) * (Fraction(place.imag) - sy)
-    value -= (Fraction(end.imag) - sy) * (Fraction(place.real) - sx)
+    value = (Fraction(end.real) - sx) * (Fraction(axis.imag) - sy)
+    value -= (Fraction(end.imag) - sy) * (Fraction(axis.real) - sx)
     return (value > 0) - (value < 0)
 
 
@@ -213,17 +215,17 @@ def sampled_curve(
 ) -> tuple[ComplexArray, FloatArray]:
     """Samples of a curve fine enough to tell which side of every warp it passes, and bounds of the lengths between.
 
-    curve  places [m] for values 0 to 1; takes an array      speed  its greatest speed |dz/du| [m], a bound
+    curve  positions [m] for values 0 to 1; takes an array      speed  its greatest speed |dz/du| [m], a bound
     Halves only what does not yet tell. Raises CarpetError where it is so near a warp that `most` samples do not tell.
     """
     at = np.linspace(0.0, 1.0, 65)
     points = np.asarray(curve(at), complex)
     check_points(points)
     while True:
-        for number, place in enumerate(row.places.tolist(), start=1):
-            _untouched(number, place, row.keep_out, points)
+        for number, axis in enumerate(row.positions.tolist(), start=1):
+            _untouched(number, axis, row.keep_out, points)
         lengths = speed * np.diff(at)
-        unsure, warp = _untold(row, points, _sag(np.abs(np.diff(points)), lengths))
+        unsure, warp = _undecided(row, points, _sag(np.abs(np.diff(points)), lengths))
         if not unsure.any():
             return points, lengths
         middle = (at[:-1] + at[1:])[unsure] / 2
@@ -233,15 +235,15 @@ def sampled_curve(
                 allowed=f"more than {format_quantity(row.keep_out, 'mm')} from its axis",
                 do=f"lead it round warp {warp}",
             )
-        places = np.searchsorted(at, middle)
-        at, points = np.insert(at, places, middle), np.insert(points, places, curve(middle))
+        index = np.searchsorted(at, middle)
+        at, points = np.insert(at, index, middle), np.insert(points, index, curve(middle))
 
 
-def _untold(row: WarpRow, points: ComplexArray, sag: FloatArray) -> tuple[BoolArray, int]:
-    """Chords that do not tell their side of some warp, and the last such warp."""
+def _undecided(row: WarpRow, points: ComplexArray, sag: FloatArray) -> tuple[BoolArray, int]:
+    """Chords that do not decide their side of some warp, and the last such warp."""
     unsure, warp = np.zeros(len(sag), bool), 0
-    for number, place in enumerate(row.places.tolist(), start=1):
-        here = distances(place, points) - sag <= row.keep_out
+    for number, axis in enumerate(row.positions.tolist(), start=1):
+        here = distances(axis, points) - sag <= row.keep_out
         unsure |= here
         warp = number if here.any() else warp
     return unsure, warp

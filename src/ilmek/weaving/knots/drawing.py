@@ -17,24 +17,24 @@ def knot_drawing(path: KnotPath, *, cuts: bool = False) -> Drawing:
     """
     size = path.dimensions
     warps = range(path.knot.warps[0] - 1, path.knot.warps[-1] + 2)
-    places = warp_positions(tuple(warps), size.pitch)
+    positions = warp_positions(tuple(warps), size.pitch)
     ring = size.warp_diameter / 2 * np.exp(2j * np.pi * np.arange(72) / 72)
-    strokes = [Stroke(place + ring, "outline", closed=True, filled=True) for place in places]
+    strokes = [Stroke(position + ring, "outline", closed=True, filled=True) for position in positions]
     if cuts:
-        ways = [_cut(place, size.radius, size.warp_diameter) for place in places]
-        strokes += [Stroke(way, "construction", str(warp)) for warp, way in zip(warps, ways, strict=True)]
+        lines = [_cut(position, size.radius, size.warp_diameter) for position in positions]
+        strokes += [Stroke(line, "construction", str(warp)) for warp, line in zip(warps, lines, strict=True)]
     low = complex(0.0, -2.4 * size.radius if cuts else -1.7 * size.radius)
-    strokes.append(Stroke(places[1:3] + low, "dimension", "p"))
+    strokes.append(Stroke(positions[1:3] + low, "dimension", "p"))
     line = path.point(path.distances(size.radius * _SHARE))
     strokes.append(Stroke(line, "yarn"))
     names = [""] * len(warps) if cuts else [str(warp) for warp in warps]
-    dots = [Dot(complex(place), name, "point") for name, place in zip(names, places, strict=True)]
+    dots = [Dot(complex(position), name, "point") for name, position in zip(names, positions, strict=True)]
     dots += [Dot(complex(line[0]), "begins", "point"), Dot(complex(line[-1]), "ends", "point")]
     letters = ", ".join(f"{letter:+d}" for letter in path.knot.word)
     note = f"word {letters}" if cuts else ""
     return Drawing("knot", path.knot.name, tuple(strokes), tuple(dots), "mm", note)
 
 
-def _cut(place: complex, radius: float, diameter: float) -> ComplexArray:
+def _cut(position: complex, radius: float, diameter: float) -> ComplexArray:
     """From the back of a warp away from the pile."""
-    return place - 1j * np.array([diameter / 2, 2.1 * radius])
+    return position - 1j * np.array([diameter / 2, 2.1 * radius])

@@ -1,18 +1,19 @@
-"""Knots as curves: the way of the pile yarn, and of the gripper that leads its end, in the section across the warps.
+"""Knots as curves: the path of the pile yarn, and of the gripper that leads its end, in the section across the warps.
 
 Warp k of pitch p stands at (k - 1) p, the pile is upwards. The yarn's axis keeps the radius
 
     r = (D + d)/2 + e         D warp's, d yarn's diameter, e clearance
 
-about every warp it goes round; between two warps it runs along their common tangent, outer where it turns the same way
-round both, inner where it turns the other way, at the angle alpha to the row, sin alpha = 2r/p. Both ends rise upright
-from the height of the warps' axes to the height a. So the curve is a chain of straight lines and arcs, of curvature 0
-and +-1/r, with one tangent throughout, and from a start z0 of heading h a piece of curvature kappa goes to
+about every warp it goes round; between two warps it runs along their common tangent, outer where it turns in the same
+sense round both, inner where it turns in the other sense, at the angle alpha to the row, sin alpha = 2r/p. Both ends
+rise upright from the height of the warps' axes to the height a. So the curve is a chain of straight lines and arcs, of
+curvature 0 and +-1/r, with one tangent throughout, and from a start z0 of heading h a piece of curvature kappa goes to
 
     z(s) = z0 + s sinc(kappa s/2) exp(i (h + kappa s/2))        sinc x = sin x / x
 
-Its length is 2 a and the wrap of `knots`, for warps of any pitch p >= 2r. Closer warps leave the yarn no room between
-them: there is no such curve, while `knots` still tells how much yarn the knot takes, pressed as it is in the carpet.
+Its length is 2 a and the wrap of its kind [`elements.knot_kinds`], for warps of any pitch p >= 2r. Closer warps leave
+the yarn no room between them: there is no such curve, while `carpet.pile` still gives how much yarn the knot takes,
+pressed as it is in the carpet.
 """
 
 import math
@@ -96,11 +97,11 @@ class KnotPath:
 
     @property
     def warps(self) -> ComplexArray:
-        """Places of the knot's own warps [m]."""
+        """Positions of the knot's own warps [m]."""
         return warp_positions(self.knot.warps, self.dimensions.pitch)
 
     def point(self, s: RealField) -> ComplexArray:
-        """Places at arc lengths s [m]; straight on beyond the ends."""
+        """Positions at arc lengths s [m]; straight on beyond the ends."""
         piece, along = self._at(s)
         half = self.curvatures[piece] * along / 2
         return np.asarray(
@@ -160,7 +161,7 @@ def wrap_length(knot: Knot, dimensions: KnotDimensions) -> float:
 
 
 def warp_positions(warps: Word, pitch: float) -> ComplexArray:
-    """Places [m] of warps of these numbers in a row of this pitch, warp 1 at 0.
+    """Positions [m] of warps of these numbers in a row of this pitch, warp 1 at 0.
 
     >>> warp_positions((2, 3), 4.0).tolist()
     [(4+0j), (8+0j)]

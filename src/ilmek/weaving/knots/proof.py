@@ -1,11 +1,11 @@
 """Which knot a motion of the yarn's end ties.
 
 A yarn held at the pile and led by its other end lies as the end went: pulled tight without crossing a warp, it is the
-path of the end, with all to and fro pulled out. So the reduced word of the path (`knots.word`) says which knot it is;
+path of the end, with all loops pulled out. So the reduced word of the path (`knots.word`) says which knot it is;
 equal words are a proof, since the words tell all paths apart that cannot be pulled into each other. Where two grippers
-lead an end each from one place, the yarn is the first path backwards and then the second: `joined_ends`.
+lead one end each from one position, the yarn is the first path backwards and then the second: `joined_ends`.
 
-The warps stand still, and both ends must lie in the pile, in front of every warp; which side that is, `pile` says.
+The warps stand still, and both ends must lie in the pile, in front of every warp; `pile` states which side that is.
 """
 
 from collections.abc import Callable
@@ -36,6 +36,11 @@ class TiedKnot:
     words: str
 
 
+def no_knot(reason: str) -> TiedKnot:
+    """The result where no knot is tied, with the reason in words."""
+    return TiedKnot(None, (), False, f"no knot: {reason}")
+
+
 def tied_knot(
     points: Complex[np.ndarray, " points"],
     warps: Complex[np.ndarray, " warps"],
@@ -48,7 +53,7 @@ def tied_knot(
     """The knot that a path of the yarn's end ties on a row of warps, or that it ties none and why.
 
     points    corners of the path, or samples of it, in the order of the motion [m]
-    warps     places of the warps from left to right [m], seen with the pile upwards; they are numbered from 1
+    warps     positions of the warps from left to right [m], seen with the pile upwards; they are numbered from 1
     keep_out  radius about each warp's axis that the path may not enter [m]
     lengths   of the path between each two samples at most [m], such as greatest speed times time step, or
               `arc_lengths(points)`; None: the path is the polyline itself
@@ -66,7 +71,7 @@ def tied_knot(
         points = np.append(points, points[0])
     row = WarpRow(_turned(warps, turn), keep_out)
     upright = _turned(points, turn)
-    return _judged(row, upright, reduced(crossings(row, upright, lengths)))
+    return _knot_of_word(row, upright, reduced(crossings(row, upright, lengths)))
 
 
 def knot_of_curve(
@@ -79,7 +84,7 @@ def knot_of_curve(
 ) -> TiedKnot:
     """The knot that a curve ties: sampled as finely as it takes to be sure.
 
-    curve  places [m] of the yarn's end for values 0 to 1, an array of them     speed  its greatest speed |dz/du| [m]
+    curve  positions [m] of the yarn's end for values 0 to 1, an array of them     speed  its greatest speed |dz/du| [m]
     the rest as of `tied_knot`. Raises CarpetError where the curve touches a warp, or nearly.
 
     >>> ring = lambda u: 2.5j * np.exp(2j * np.pi * u)
@@ -89,15 +94,15 @@ def knot_of_curve(
     turn = _upright(pile)
     row = WarpRow(_turned(warps, turn), keep_out)
     points, lengths = sampled_curve(row, lambda u: _turned(curve(u), turn), speed)
-    return _judged(row, points, reduced(crossings(row, points, lengths)))
+    return _knot_of_word(row, points, reduced(crossings(row, points, lengths)))
 
 
 def joined_ends(
     first: Complex[np.ndarray, " first"], second: Complex[np.ndarray, " second"]
 ) -> Complex[np.ndarray, " both"]:
-    """The path of a yarn whose two ends were led from one place: the first motion backwards, then the second.
+    """The path of a yarn whose two ends were led from one position: the first motion backwards, then the second.
 
-    Raises CarpetError where they do not start at one place.
+    Raises CarpetError where they do not start at one position.
 
     >>> joined_ends(np.array([0j, -1 + 0j]), np.array([0j, 1 + 0j])).real.tolist()
     [-1.0, 0.0, 1.0]
@@ -108,7 +113,7 @@ def joined_ends(
     if gap > 1e-9 * float(max(np.abs(np.diff(first)).sum(), np.abs(np.diff(second)).sum())):
         raise CarpetError(
             f"the two motions start {format_quantity(gap, 'mm')} apart",
-            allowed="both ends led from one place of the yarn",
+            allowed="both ends led from one position of the yarn",
         )
     return np.concatenate([first[::-1], second[1:]])
 
@@ -122,12 +127,12 @@ def _upright(pile: complex) -> complex:
 
 
 def _turned(points: ComplexArray, turn: complex) -> ComplexArray:
-    with np.errstate(invalid="ignore"):  # places that are not finite are refused in words later
+    with np.errstate(invalid="ignore"):  # positions that are not finite are refused in words later
         return np.asarray(points * turn, complex)
 
 
-def _judged(row: WarpRow, points: ComplexArray, word: Word) -> TiedKnot:
-    front = float(row.places.imag.max())
+def _knot_of_word(row: WarpRow, points: ComplexArray, word: Word) -> TiedKnot:
+    front = float(row.positions.imag.max())
     for end, name in ((points[0], "begins"), (points[-1], "ends")):
         if end.imag <= front:
             low = format_quantity(front - float(end.imag), "mm")

@@ -1,9 +1,9 @@
-"""Which knot both hands tie on the two warps between them: the yarn that they lead, reduced to its crossing word.
+"""Which knot two hands tie on the two warps between them: the yarn that they lead, reduced to its crossing word.
 
-The yarn is held by both hands from the first pose on, straight between them; each hand leads its end over the way. So
-it lies as the first hand's way backwards, the straight line, and the second hand's way. The warps stand half a pitch on
-either side of the mirror. How high is not said by the poses: every height at which the yarn begins and ends in the pile
-is looked at, with the pile above the warps and below.
+The yarn is held by both hands from the first pose on, straight between them; each hand leads its end along its path. So
+the yarn lies as the first hand's path backwards, the straight line, and the second hand's path. The warps stand half a
+pitch on either side of the mirror. The poses do not state the height of the warps: every height at which the yarn
+begins and ends in the pile is tried, with the pile above the warps and below.
 """
 
 from dataclasses import dataclass
@@ -16,11 +16,10 @@ from ilmek.units import format_quantity
 from ilmek.weaving.knots.proof import TiedKnot, joined_ends, tied_knot
 
 HEIGHTS = 24
-"""Heights of the warps that are looked at for either side of the pile, over all of the ways' height."""
-
+"""Heights of the warps that are tried for either side of the pile, over the whole height of the paths."""
 
 TRIED, HALVED = 32, 12
-"""Pitches of the warps that are looked at, and how often the step to one that ties is halved."""
+"""Pitches of the warps that are tried, and how often the step to one on which a knot is tied is halved."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,8 +28,8 @@ class TwoHandKnot:
 
     name   the knot in words, or "no knot"                      why    where it is tied, or why it is none
     tied   the knot, None where there is none
-    warps  places of the two warps [m]: of the knot, or half way up
-    yarn   the yarn's course from end to end [m]
+    warps  positions of the two warps [m]: of the knot, or at half of the height
+    yarn   the yarn's path from end to end [m]
     """
 
     name: str
@@ -41,30 +40,34 @@ class TwoHandKnot:
 
 
 def knot_of_hands(first: ComplexArray, second: ComplexArray, pitch: float) -> TwoHandKnot:
-    """What two hands tie that lead a yarn on these ways [m], mirror images, on two warps of a pitch [m].
+    """What two hands tie on two warps of a pitch [m].
 
-    >>> way = np.array([-3 + 0j, -1 + 2j])
-    >>> knot_of_hands(way, -way.conj(), 1.0).why
+    first, second  paths of the two hands [m], mirror images about an upright line; one dimension, the same length
+
+    >>> path = np.array([-3 + 0j, -1 + 2j])
+    >>> knot_of_hands(path, -path.conj(), 1.0).why
     'at every height of the warps: the yarn only passes behind warps 1 and 2 from left to right'
     """
-    yarn = np.asarray(joined_ends(*(np.append((first[0] + second[0]) / 2, way) for way in (first, second))))
+    yarn = np.asarray(joined_ends(*(np.append((first[0] + second[0]) / 2, path) for path in (first, second))))
     mirror, low, high = float((first[0] + second[0]).real) / 2, float(np.min(yarn.imag)), float(np.max(yarn.imag))
     share = (np.arange(HEIGHTS) + 0.5) / HEIGHTS
     rows = mirror + np.array([-0.5, 0.5]) * pitch + 1j * (low + (high - low) * share)[:, None]
-    told: list[str] = []
+    reasons: list[str] = []
     for pile in (1j, -1j):
         for warps in rows:
             found = _tied(yarn, warps, pile)
             if found is not None and found.knot is not None:
                 height, side = format_quantity(float(warps[0].imag), "mm"), "above" if pile == 1j else "below"
                 return TwoHandKnot(found.words, f"warps at y = {height}, the pile {side} them", found, warps, yarn)
-            told += [] if found is None else [found.words.removeprefix("no knot: ")]
-    why = "; ".join(dict.fromkeys(told)) or "nowhere are both its ends in the pile"
+            reasons += [] if found is None else [found.words.removeprefix("no knot: ")]
+    why = "; ".join(dict.fromkeys(reasons)) or "nowhere are both its ends in the pile"
     return TwoHandKnot("no knot", f"at every height of the warps: {why}", None, rows[HEIGHTS // 2], yarn)
 
 
 def pitch_range(first: ComplexArray, second: ComplexArray) -> tuple[float, float] | None:
-    """The least and the greatest pitch of the two warps [m] that these ways tie a knot on; None where none was found.
+    """The least and the greatest pitch of the two warps [m] on which a knot is tied; None where none was found.
+
+    first, second  paths of the two hands [m], as of `knot_of_hands`
 
     >>> round_one_warp = np.array([-3 + 0j, -3 + 3j, -0.5 + 3j, -0.5 + 0j])
     >>> least, most = pitch_range(round_one_warp, -round_one_warp.conj())

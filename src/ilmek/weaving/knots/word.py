@@ -1,4 +1,4 @@
-"""Words of yarns and knots: which way the yarn passes behind which warps, in the free group of the row's warps.
+"""Words of yarns and knots: how the yarn passes behind which warps, in the free group of the warps of a row.
 
 In the section across the warps every warp is a hole in the plane. A cut runs from each hole away from the pile; a yarn
 that comes from the pile and goes back to it crosses the cuts one after the other, and each crossing is a letter:
@@ -85,7 +85,7 @@ def listed(warps: Word) -> str:
 
 
 def word_text(word: Word) -> str:
-    """The word as a weaver would say it.
+    """The word in plain text, as a weaver would describe the path.
 
     >>> word_text((-1, -3, -2))
     'behind warp 1 from right to left, behind warps 3 and 2 from right to left'

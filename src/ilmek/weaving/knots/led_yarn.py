@@ -1,0 +1,85 @@
+"""The yarn that grippers lead by its two ends: sampled paths of the ends, and the proof of the knot that they tie.
+
+The yarn starts as a straight line between the starts of its ends. Each end then follows the gripper that holds it;
+where one gripper hands it over to the next, the end goes straight from one to the other. So the yarn lies as the first
+end's path backwards, the straight line, and the second end's path. The proof [`proof`] needs samples of that path and
+an upper bound of its length between each two; where the samples are too coarse to tell on which side of a warp the path
+passes, it is sampled more finely.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Complex, Float
+
+from ilmek.errors import CarpetError
+from ilmek.weaving.knots.proof import TiedKnot, no_knot, tied_knot
+
+SAMPLES = (201, 1601, 12801)
+"""Samples of each motion, from coarse to fine."""
+
+_ROUNDING = 1e-9
+"""Relative surplus of a bound, for rounding."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SampledPath:
+    """A path by samples: its points [m], and upper bounds of its length between each two of them [m]."""
+
+    points: Complex[np.ndarray, " points"]
+    lengths: Float[np.ndarray, " chords"]
+
+
+def end_path(motions: Sequence[tuple[Complex[np.ndarray, " points"], Float[np.ndarray, " chords"]]]) -> SampledPath:
+    """The path of an end that follows one motion after the other, straight from each to the next.
+
+    motions  of each gripper that leads the end: samples [m], and upper bounds of the path between each two [m]
+
+    >>> path = end_path([(np.array([0j, 1 + 0j]), np.ones(1)), (np.array([1 + 2j, 1 + 3j]), np.ones(1))])
+    >>> path.points.tolist(), path.lengths.round(6).tolist()
+    ([0j, (1+0j), (1+2j), (1+3j)], [1.0, 2.0, 1.0])
+    """
+    points, lengths = np.empty(0, complex), np.empty(0)
+    for motion, bounds in motions:
+        over = np.abs(motion[:1] - points[-1:])
+        points = np.concatenate([points, motion])
+        lengths = np.concatenate([lengths, over, bounds * (1 + _ROUNDING)])
+    return SampledPath(points, lengths)
+
+
+def led_yarn(first: SampledPath, second: SampledPath) -> SampledPath:
+    """The yarn between two ends that were led: the first path backwards, straight to the second's start, the second.
+
+    >>> one, other = (end_path([(np.array([x + 0j, x + 1j]), np.ones(1))]) for x in (-1, 1))
+    >>> led_yarn(one, other).points.tolist()
+    [(-1+1j), (-1+0j), (1+0j), (1+1j)]
+    """
+    points = np.concatenate([first.points[::-1], second.points])
+    between = np.abs(second.points[:1] - first.points[:1])
+    lengths = np.concatenate([first.lengths[::-1], between, second.lengths])
+    return SampledPath(points, np.maximum(lengths, np.abs(np.diff(points))))
+
+
+def knot_of_ends(
+    ends: Callable[[int], tuple[SampledPath, SampledPath]],
+    warps: Complex[np.ndarray, " warps"],
+    *,
+    keep_out: float = 0.0,
+) -> TiedKnot:
+    """The knot that two led ends tie, sampled as finely as the proof takes.
+
+    ends      paths of both ends for a number of samples of each motion
+    warps     positions of the warps from left to right [m], the pile upwards; they are numbered from 1
+    keep_out  radius about each warp's axis that the yarn may not enter [m]
+    Where nothing is proved at the finest sampling, such as of a yarn that touches a warp, no knot is tied; the result
+    states the reason.
+    """
+    reason = ""
+    for samples in SAMPLES:
+        try:
+            yarn = led_yarn(*ends(samples))
+            return tied_knot(yarn.points, warps, keep_out=keep_out, lengths=yarn.lengths)
+        except CarpetError as error:
+            reason = error.given
+    return no_knot(reason)
