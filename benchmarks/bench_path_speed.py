@@ -14,8 +14,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad import KnottingDyadParams, design
-from ilmek.timing.path_speed.line import LineMotion, line_motion
-from ilmek.timing.path_speed.solve import AxisLimits, JointPath, PathMotion, quickest_motion
+from ilmek.timing.path_speed.solve import AxesLimits, JointPath, PathMotion, quickest_motion
+from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
 
 RUNS = 5
 RANDOM = 30
@@ -25,14 +25,14 @@ SHAPES = [(speed, bend) for speed, bend in itertools.product(np.geomspace(0.1, 1
 TIMES = np.linspace(0.0, 1.0, 2001)
 
 
-def plain(path: JointPath, limits: AxisLimits) -> float:
+def plain(path: JointPath, limits: AxesLimits) -> float:
     """Time of the plain way [s]."""
-    return min(slowed(path, limits, line_motion(1.0, speed, bend, 1.0)) for speed, bend in SHAPES)
+    return min(slowed(path, limits, s_curve(1.0, AxisLimits(speed, bend, 1.0))) for speed, bend in SHAPES)
 
 
-def slowed(path: JointPath, limits: AxisLimits, motion: LineMotion) -> float:
+def slowed(path: JointPath, limits: AxesLimits, motion: SCurve) -> float:
     """Time of a motion over the way's length of 1, slowed down until all limits hold [s]."""
-    s, v, a, j = (one[:, None] for one in motion.at(TIMES * motion.duration))
+    s, v, a, j = (one[:, None] for one in motion.at(TIMES * motion.time))
     along = path.s[0] + path.length * np.clip(s[:, 0], 0.0, 1.0)
     q1, q2, q3 = (path.at(along, order) * path.length**order for order in (1, 2, 3))
     speed, bend, jerk = q1 * v, q2 * v**2 + q1 * a, q3 * v**3 + 3 * q2 * v * a + q1 * j
@@ -41,11 +41,11 @@ def slowed(path: JointPath, limits: AxisLimits, motion: LineMotion) -> float:
         math.sqrt(np.max(np.abs(bend) / limits.acceleration)),
         math.cbrt(np.max(np.abs(jerk) / limits.jerk)),
     )
-    return motion.duration * slow
+    return motion.time * slow
 
 
-def equal(axes: int, *limits: float) -> AxisLimits:
-    return AxisLimits(*(np.full(axes, limit) for limit in limits))
+def equal(axes: int, *limits: float) -> AxesLimits:
+    return AxesLimits(*(np.full(axes, limit) for limit in limits))
 
 
 def waves(seed: int, nodes: int = 300) -> JointPath:
@@ -73,7 +73,7 @@ def parts(course: np.ndarray) -> FloatArray:
     return np.stack([course.real, course.imag], axis=1)
 
 
-def arm() -> tuple[JointPath, AxisLimits]:
+def arm() -> tuple[JointPath, AxesLimits]:
     """The knotting dyad's own way and limits."""
     params = KnottingDyadParams()
     head = design(params).head
@@ -93,7 +93,7 @@ def timed(job: Callable[[], PathMotion | float]) -> float:
     return statistics.median(taken)
 
 
-def show(name: str, path: JointPath, limits: AxisLimits) -> None:
+def show(name: str, path: JointPath, limits: AxesLimits) -> None:
     motion = quickest_motion(path, limits)
     course = motion.even(20_001)
     used = max(

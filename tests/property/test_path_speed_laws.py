@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
-from ilmek.timing.path_speed.line import line_motion
-from ilmek.timing.path_speed.solve import AxisLimits, JointPath, PathMotion, quickest_motion
+from ilmek.timing.path_speed.solve import AxesLimits, JointPath, PathMotion, quickest_motion
+from ilmek.timing.s_curve import AxisLimits, s_curve
 
 INTERVALS = 100
 LIMIT = st.floats(-1.0, 1.0).map(lambda power: 10**power)
@@ -24,11 +24,11 @@ def path_of(seed: int, axes: int = 2, nodes: int = 61) -> JointPath:
     return JointPath(s, size * np.sin(phase), size * pace * np.cos(phase), -size * pace**2 * np.sin(phase))
 
 
-def limits_of(speed: float, acceleration: float, jerk: float, axes: int = 2) -> AxisLimits:
-    return AxisLimits(*(np.linspace(limit, 2 * limit, axes) for limit in (speed, 10 * acceleration, 100 * jerk)))
+def limits_of(speed: float, acceleration: float, jerk: float, axes: int = 2) -> AxesLimits:
+    return AxesLimits(*(np.linspace(limit, 2 * limit, axes) for limit in (speed, 10 * acceleration, 100 * jerk)))
 
 
-def moved(seed: int, limits: AxisLimits) -> PathMotion:
+def moved(seed: int, limits: AxesLimits) -> PathMotion:
     return quickest_motion(path_of(seed, len(limits.jerk)), limits, INTERVALS)
 
 
@@ -79,7 +79,7 @@ def test_positions_speeds_accelerations_and_jerks_belong_together(seed: int, spe
 def test_backwards_and_in_other_units_it_takes_the_same_time(seed: int, jerk: float) -> None:
     path, limits = path_of(seed), limits_of(1.0, 1.0, jerk)
     back = JointPath(1 - path.s[::-1], path.positions[::-1], np.asarray(-path.slopes[::-1]), path.bends[::-1])
-    other = AxisLimits(limits.speed / 3, limits.acceleration / 9, limits.jerk / 27)  # three times slower
+    other = AxesLimits(limits.speed / 3, limits.acceleration / 9, limits.jerk / 27)  # three times slower
     longer = JointPath(5 * path.s, path.positions, path.slopes / 5, path.bends / 25)
     time = quickest_motion(path, limits, INTERVALS).duration
     assert quickest_motion(back, limits, INTERVALS).duration == pytest.approx(time, rel=2e-3)
@@ -97,10 +97,10 @@ def test_backwards_and_in_other_units_it_takes_the_same_time(seed: int, jerk: fl
 def test_the_seven_phases_end_where_they_should_and_keep_the_limits(
     distance: float, speed: float, acceleration: float, jerk: float
 ) -> None:
-    motion = line_motion(distance, speed, acceleration, jerk)
-    position, rate, bend, third = motion.at(np.linspace(0.0, motion.duration, 501))
+    motion = s_curve(distance, AxisLimits(speed, acceleration, jerk))
+    position, rate, bend, third = motion.at(np.linspace(0.0, motion.time, 501))
     size = max(abs(distance), 1e-3)
-    just_before = motion.at(np.array([np.nextafter(motion.duration, 0.0)]))[:3, 0]
+    just_before = motion.at(np.array([np.nextafter(motion.time, 0.0)]))[:3, 0]
     assert just_before == pytest.approx([distance, 0.0, 0.0], abs=1e-7 * size + 1e-7)
     assert position[-1] == distance
     assert np.abs(rate).max() <= speed * (1 + 1e-9)
@@ -116,15 +116,15 @@ def ones(axes: int) -> FloatArray:
 @pytest.mark.parametrize(
     ("made", "said"),
     [
-        (lambda: AxisLimits(ones(1), -ones(1), ones(1)), "acceleration limits"),
-        (lambda: AxisLimits(ones(1), ones(1), np.array([np.inf])), "jerk's finite"),
+        (lambda: AxesLimits(ones(1), -ones(1), ones(1)), "acceleration limits"),
+        (lambda: AxesLimits(ones(1), ones(1), np.array([np.inf])), "jerk's finite"),
         (lambda: JointPath(np.zeros(2), np.zeros((2, 1)), np.ones((2, 1)), np.zeros((2, 1))), "s ascending"),
         (lambda: JointPath(np.arange(2.0), np.zeros((2, 1)), np.zeros((2, 1)), np.zeros((2, 1))), "no axis moves"),
         (lambda: quickest_motion(path_of(1), limits_of(1, 1, 1, 3)), "2 axes with limits of 3"),
         (lambda: quickest_motion(path_of(1), limits_of(1, 1, 1), 3), "ten intervals or more"),
-        (lambda: line_motion(1.0, 0.0, 1.0, 1.0), "speed limit 0"),
-        (lambda: line_motion(1.0, 1.0, 1.0, np.inf), "jerk limit inf"),
-        (lambda: line_motion(np.nan, 1.0, 1.0, 1.0), "a finite distance"),
+        (lambda: AxisLimits(0.0, 1.0, 1.0), "speed limit 0"),
+        (lambda: s_curve(1.0, AxisLimits(1.0, 1.0)).at(ones(1)), "a finite jerk limit"),
+        (lambda: s_curve(np.nan, AxisLimits(1.0, 1.0, 1.0)), "a finite distance"),
     ],
 )
 def test_refuses_in_words(made: object, said: str) -> None:

@@ -100,5 +100,16 @@ def test_no_move_takes_no_time_and_bad_limits_are_told():
     assert move_time(0.0, AxisLimits(1.0, 1.0, 1.0)) == 0.0
     with pytest.raises(ParameterError, match="acceleration"):
         AxisLimits(1.0, -1.0)
-    with pytest.raises(ParameterError, match="0 or more"):
-        s_curve(-1.0, AxisLimits(1.0, 1.0))
+    with pytest.raises(ParameterError, match="one of them finite"):
+        AxisLimits(1.0, math.inf)
+    with pytest.raises(ParameterError, match="a finite distance"):
+        s_curve(math.nan, AxisLimits(1.0, 1.0))
+
+
+@given(SIZES, SIZES, SIZES, SIZES)
+def test_backwards_a_move_is_the_same_move(distance, speed, acceleration, jerk):
+    limits = AxisLimits(speed, acceleration, jerk)
+    there, back = s_curve(distance, limits), s_curve(-distance, limits)
+    assert (there.time, there.speed) == (back.time, back.speed)
+    time = np.linspace(-0.1, 1.1, 30) * there.time
+    np.testing.assert_array_equal(there.at(time), -back.at(time))

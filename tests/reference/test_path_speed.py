@@ -7,9 +7,9 @@ import pytest
 from scipy.optimize import linprog
 
 from ilmek.arrays import FloatArray
-from ilmek.timing.path_speed.line import line_motion
 from ilmek.timing.path_speed.path import rise
-from ilmek.timing.path_speed.solve import AxisLimits, JointPath, quickest_motion
+from ilmek.timing.path_speed.solve import AxesLimits, JointPath, quickest_motion
+from ilmek.timing.s_curve import AxisLimits, move_time
 
 
 def straight(distance: float = 1.0, nodes: int = 9, direction: tuple[float, ...] = (1.0,)) -> JointPath:
@@ -34,8 +34,8 @@ def wave(nodes: int = 241) -> JointPath:
     return JointPath(s, np.sin(phase) / k, np.cos(phase), -k * np.sin(phase))
 
 
-def equal(axes: int, speed: float, acceleration: float, jerk: float) -> AxisLimits:
-    return AxisLimits(*(np.full(axes, limit) for limit in (speed, acceleration, jerk)))
+def equal(axes: int, speed: float, acceleration: float, jerk: float) -> AxesLimits:
+    return AxesLimits(*(np.full(axes, limit) for limit in (speed, acceleration, jerk)))
 
 
 @pytest.mark.parametrize(
@@ -53,14 +53,14 @@ def equal(axes: int, speed: float, acceleration: float, jerk: float) -> AxisLimi
 )
 def test_one_axis_takes_the_time_of_the_seven_phases(speed: float, acceleration: float, jerk: float) -> None:
     found = quickest_motion(straight(), equal(1, speed, acceleration, jerk)).duration
-    exact = line_motion(1.0, speed, acceleration, jerk).duration
+    exact = move_time(1.0, AxisLimits(speed, acceleration, jerk))
     assert exact * (1 - 1e-4) <= found <= exact * 1.0015
 
 
 def test_the_slowest_axis_sets_the_time_of_a_straight_way() -> None:
-    limits = AxisLimits(np.array([0.3, 1.0]), np.array([0.5, 1.0]), np.array([2.0, 9.0]))
+    limits = AxesLimits(np.array([0.3, 1.0]), np.array([0.5, 1.0]), np.array([2.0, 9.0]))
     found = quickest_motion(straight(1.0, 9, (1.0, -0.25)), limits).duration
-    assert found == pytest.approx(line_motion(1.0, 0.3, 0.5, 2.0).duration, rel=1.5e-3)
+    assert found == pytest.approx(move_time(1.0, AxisLimits(0.3, 0.5, 2.0)), rel=1.5e-3)
 
 
 def phase_plane_time(path: JointPath, acceleration: FloatArray, count: int = 1500) -> float:
@@ -108,11 +108,11 @@ def phase_plane_time(path: JointPath, acceleration: FloatArray, count: int = 150
 
 def test_with_little_need_of_jerk_it_is_the_phase_planes_time() -> None:
     path, limit = arc(), np.array([1.0, 1.0])
-    found = quickest_motion(path, AxisLimits(np.full(2, math.inf), limit, np.full(2, 1e5)))
+    found = quickest_motion(path, AxesLimits(np.full(2, math.inf), limit, np.full(2, 1e5)))
     assert found.duration == pytest.approx(phase_plane_time(path, limit, 400), rel=3e-3)
 
 
-def by_linear_programmes(path: JointPath, limits: AxisLimits, count: int) -> float:
+def by_linear_programmes(path: JointPath, limits: AxesLimits, count: int) -> float:
     """Time of the same problem by sequential linear programmes in w = u'² at nodes, with differences for derivatives.
 
     The jerk's J / sqrt(w) is taken by its tangent, the objective by its own, within a region of trust.

@@ -23,7 +23,7 @@ from ilmek.machines.knotting_dyad.motion_report import (
 )
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.report import Plot, Timing
-from ilmek.timing.path_speed.line import line_motion
+from ilmek.timing.s_curve import AxisLimits, move_time
 from ilmek.units import turn
 
 Settings = tuple[tuple[str, str], ...]
@@ -145,8 +145,8 @@ def test_parts_follow_one_another_and_every_grip_has_its_grippers() -> None:
     ]
     pauses = sum(part.end - part.start for part in parts if part.grippers)
     assert pauses == pytest.approx(3 * params.grasp_time + 4 * params.release_time)
-    centre = line_motion(head.centre_stroke, params.centre_speed, params.centre_acceleration, params.centre_jerk)
-    assert parts[2].end - parts[2].start == pytest.approx(centre.duration)
+    centre = AxisLimits(params.centre_speed, params.centre_acceleration, params.centre_jerk)
+    assert parts[2].end - parts[2].start == pytest.approx(move_time(head.centre_stroke, centre))
 
 
 def test_tighter_limits_take_longer_and_grips_without_time_are_no_parts() -> None:

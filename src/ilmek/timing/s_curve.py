@@ -1,13 +1,13 @@
 """A jerk-limited move of one axis from rest to rest: the shortest that keeps speed, acceleration and jerk.
 
-Seven parts: jerk +J, acceleration held, jerk -J, cruise, and the same mirrored. With r the time of a jerk (ramp), h
+Seven phases: jerk +J, acceleration held, jerk -J, cruise, and the same mirrored. With r the time of a jerk (ramp), h
 that of held acceleration and c that of the cruise:
 
     v = J r (r + h),    d = v (2 r + h + c),    T = 4 r + 2 h + c
 
-    r = A/J, h = V/A - A/J          where V J >= A^2; else r = sqrt(V/J), h = 0
-    c = d/V - (2 r + h)             where that is not negative; else the speed is not reached, c = 0 and
-    r = A/J, h = (sqrt(r^2 + 4 d/A) - 3 r)/2      where d >= 2 A^3/J^2; else r = (d/(2 J))^(1/3), h = 0
+    to reach a speed v:   r = A/J, h = v/A - A/J   where v J >= A^2;   else r = sqrt(v/J), h = 0
+    c = d/V - (2 r + h)   where the speed limit V is reached, else c = 0 and
+    v = 2 d / (sqrt((A/J)^2 + 4 d/A) + A/J)        where d >= 2 A^3/J^2;   else v = (J d^2 / 4)^(1/3)
 
 [derived; Biagiotti and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 3.4]
 """
@@ -15,14 +15,17 @@ that of held acceleration and c that of the cruise:
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
+from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 
 
 @dataclass(frozen=True, slots=True)
 class AxisLimits:
-    """What an axis keeps: speed [SI/s], acceleration [SI/s^2], jerk [SI/s^3]; inf jerk: none is kept.
+    """Limits of one axis: speed [SI/s], acceleration [SI/s^2], jerk [SI/s^3]; inf: not limited.
 
-    Raises ParameterError where one is not above 0, or speed or acceleration is not finite.
+    Raises ParameterError where one is not above 0, or neither acceleration nor jerk is finite.
     """
 
     speed: float
@@ -32,18 +35,24 @@ class AxisLimits:
     def __post_init__(self) -> None:
         for name in self.__slots__:
             value = float(getattr(self, name))
-            if not value > 0 or (name != "jerk" and not math.isfinite(value)):
-                raise ParameterError(f"{name} limit of an axis {value:g}", allowed="above 0, and finite but for jerk")
+            if not value > 0:
+                raise ParameterError(f"{name} limit {value:g} of an axis", allowed="above 0", do="give another limit")
+        if math.isinf(self.acceleration) and math.isinf(self.jerk):
+            raise ParameterError("an axis without limits of acceleration and jerk", allowed="one of them finite")
 
 
 @dataclass(frozen=True, slots=True)
 class SCurve:
-    """A move over `distance` [SI]: times of each jerk, of held acceleration and of the cruise [s]."""
+    """A move over `distance` [SI], of either sign: times of each jerk, of held acceleration and of the cruise [s].
+
+    jerk  of the phases 1, 3, 5 and 7, its magnitude; inf where the acceleration jumps
+    """
 
     distance: float
     ramp: float
     hold: float
     cruise: float
+    jerk: float = math.inf
 
     @property
     def time(self) -> float:
@@ -52,31 +61,48 @@ class SCurve:
 
     @property
     def speed(self) -> float:
-        """Greatest speed [SI/s]; 0 for no distance."""
+        """Largest speed [SI/s], its magnitude; 0 for no distance."""
         spent = 2 * self.ramp + self.hold + self.cruise
-        return self.distance / spent if spent > 0 else 0.0
+        return abs(self.distance) / spent if spent > 0 else 0.0
+
+    def at(self, time: FloatArray) -> FloatArray:
+        """Position, speed, acceleration and jerk at times [s], stacked in this order; at rest outside the move.
+
+        Where two phases meet the jerk is that of the later one. Raises ParameterError for a jerk without limit.
+        """
+        if math.isinf(self.jerk):
+            raise ParameterError("the course of a move whose jerk is not limited", allowed="a finite jerk limit")
+        times = (self.ramp, self.hold, self.ramp, self.cruise, self.ramp, self.hold, self.ramp)
+        jerks = math.copysign(self.jerk, self.distance) * np.array([0, 1, 0, -1, 0, -1, 0, 1, 0])
+        ends = np.append(0.0, np.cumsum(times))
+        ends[-1] = self.time
+        phase = np.searchsorted(ends, time, side="right")
+        states = np.zeros((9, 3))
+        for at, length in enumerate(times, 1):
+            states[at + 1] = _after(states[at], float(jerks[at]), length)
+        states[-1] = self.distance, 0.0, 0.0
+        begin = np.append(0.0, ends)[phase]
+        rest = (phase == 0) | (phase == 8)
+        moved = _after(states[phase].T, jerks[phase], np.where(rest, 0.0, time - begin))
+        return np.asarray(np.concatenate([moved, jerks[phase][None]]))
 
 
 def s_curve(distance: float, limits: AxisLimits) -> SCurve:
-    """The shortest move over a distance [SI], not below 0.
+    """The shortest move over a distance [SI] of either sign. Raises ParameterError where it is not finite.
 
     >>> move = s_curve(1.0, AxisLimits(speed=1.0, acceleration=2.0, jerk=8.0))
     >>> move.ramp, move.hold, move.cruise, move.time
     (0.25, 0.25, 0.25, 1.75)
     """
-    if not distance >= 0:
-        raise ParameterError(f"a move over {distance:g}", allowed="a distance of 0 or more")
-    speed, most, jerk = limits.speed, limits.acceleration, limits.jerk
-    held = speed * jerk >= most**2
-    ramp = most / jerk if held else math.sqrt(speed / jerk)
-    hold = speed / most - most / jerk if held else 0.0
-    cruise = distance / speed - (2 * ramp + hold)
-    if cruise >= 0:
-        return SCurve(distance, ramp, hold, cruise)
-    ramp = most / jerk
-    if distance >= 2 * most * ramp**2:
-        return SCurve(distance, ramp, 0.5 * (math.sqrt(ramp**2 + 4 * distance / most) - 3 * ramp), 0.0)
-    return SCurve(distance, (distance / (2 * jerk)) ** (1 / 3), 0.0, 0.0)
+    if not math.isfinite(distance):
+        raise ParameterError(f"a move over {distance:g}", allowed="a finite distance")
+    length, jerk = abs(distance), limits.jerk
+    if length == 0:
+        return SCurve(distance, 0.0, 0.0, 0.0, jerk)
+    top = _top_speed(length, limits.acceleration, jerk)
+    ramp, hold = _ramp(min(top, limits.speed), limits.acceleration, jerk)
+    cruise = max(length / limits.speed - (2 * ramp + hold), 0.0) if limits.speed < top else 0.0
+    return SCurve(distance, ramp, hold, cruise, jerk)
 
 
 def move_time(distance: float, limits: AxisLimits) -> float:
@@ -86,3 +112,31 @@ def move_time(distance: float, limits: AxisLimits) -> float:
     (1.0, 0.5)
     """
     return s_curve(distance, limits).time
+
+
+def _ramp(speed: float, acceleration: float, jerk: float) -> tuple[float, float]:
+    """Time of a jerk phase, and of constant acceleration between two, to reach a speed."""
+    if speed * jerk < acceleration**2:
+        return math.sqrt(speed / jerk), 0.0
+    return acceleration / jerk, speed / acceleration - acceleration / jerk
+
+
+def _top_speed(length: float, acceleration: float, jerk: float) -> float:
+    """Speed that a move over a length reaches where speed is not limited."""
+    top = math.cbrt(jerk * length**2 / 4)
+    if top * jerk <= acceleration**2:
+        return top
+    lag = acceleration / jerk
+    return 2 * length / (math.sqrt(lag**2 + 4 * length / acceleration) + lag)
+
+
+def _after(state: FloatArray, jerk: FloatArray | float, time: FloatArray | float) -> FloatArray:
+    """Position, speed and acceleration after a time of constant jerk."""
+    position, speed, acceleration = state
+    return np.stack(
+        [
+            position + time * (speed + time * (acceleration / 2 + time * jerk / 6)),
+            speed + time * (acceleration + time * jerk / 2),
+            acceleration + time * jerk,
+        ]
+    )

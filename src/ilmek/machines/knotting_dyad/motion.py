@@ -16,8 +16,8 @@ from ilmek.machines.knotting_dyad.arm_path import ArmWay
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, OUT, RIGHT, Phase
-from ilmek.timing.path_speed.line import LineMotion, line_motion
-from ilmek.timing.path_speed.solve import AxisLimits, Course, JointPath, PathMotion, quickest_motion
+from ilmek.timing.path_speed.solve import AxesLimits, Course, JointPath, PathMotion, quickest_motion
+from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
 
 SAMPLES, PAUSED, INTERVALS = 161, 21, 200
 """Times of a phase and of a grip that are tabulated, and intervals of a phase's spline."""
@@ -82,7 +82,7 @@ class _Motions:
     way: ArmWay
     single: PathMotion
     both: PathMotion
-    centre: LineMotion
+    centre: SCurve
     absolute: FloatArray  # of the drives' angles, the links' absolute ones
 
 
@@ -119,14 +119,17 @@ def _motions(params: KnottingDyadParams, head: Head) -> _Motions:
         way,
         quickest_motion(JointPath(way.s, *of_one), _limits(params, 2), INTERVALS),
         quickest_motion(JointPath(way.s, *together), _limits(params, 4), INTERVALS),
-        line_motion(head.centre_stroke, params.centre_speed, params.centre_acceleration, params.centre_jerk),
+        s_curve(
+            head.centre_stroke,
+            AxisLimits(params.centre_speed, params.centre_acceleration, params.centre_jerk),
+        ),
         np.linalg.inv(turned),
     )
 
 
-def _limits(params: KnottingDyadParams, axes: int) -> AxisLimits:
+def _limits(params: KnottingDyadParams, axes: int) -> AxesLimits:
     each = params.joint_speed, params.joint_acceleration, params.joint_jerk
-    return AxisLimits(*(np.full(axes, limit) for limit in each))
+    return AxesLimits(*(np.full(axes, limit) for limit in each))
 
 
 def _grips(params: KnottingDyadParams, last: Phase, phase: Phase, now: float) -> Iterator[Part]:
@@ -146,7 +149,7 @@ def _moved(
     """A phase's motion from a time on, both arms as left ones."""
     moves = [name for name, span in ((LEFT, phase.left), (RIGHT, phase.right)) if span[0] != span[1]]
     if not moves:
-        duration = motions.centre.duration if phase.centre[0] != phase.centre[1] else 0.0
+        duration = motions.centre.time if phase.centre[0] != phase.centre[1] else 0.0
         time, left, right, centre = _still(motions, phase, now + np.linspace(0.0, duration, SAMPLES))
         return duration, (time, left, right, _centre(motions, phase, time - now))
     motion = motions.both if len(moves) == 2 else motions.single
@@ -222,9 +225,9 @@ def _use(params: KnottingDyadParams, arms: Mapping[str, ArmCourse]) -> FloatArra
     return np.stack([speed / params.joint_speed, acceleration / params.joint_acceleration, jerk / params.joint_jerk])
 
 
-def _centre_use(params: KnottingDyadParams, centre: LineMotion) -> float:
+def _centre_use(params: KnottingDyadParams, centre: SCurve) -> float:
     """The centre gripper's greatest use of a limit."""
-    top = centre.jerk * centre.times[0]
+    top = centre.jerk * centre.ramp
     return max(centre.speed / params.centre_speed, top / params.centre_acceleration, centre.jerk / params.centre_jerk)
 
 

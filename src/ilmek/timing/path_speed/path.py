@@ -25,7 +25,7 @@ Three: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class AxisLimits:
+class AxesLimits:
     """Greatest speed, acceleration and jerk of every axis; speed and acceleration may be infinite.
 
     Raises ParameterError where one is not above 0, a jerk is infinite, or they are of different numbers.

@@ -21,9 +21,9 @@ from scipy.interpolate import BSpline
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 from ilmek.timing.path_speed.barrier import SpeedTask, clamped, local_basis, quickest
-from ilmek.timing.path_speed.path import AxisLimits, JointPath, Three, rates, rise
+from ilmek.timing.path_speed.path import AxesLimits, JointPath, Three, rates, rise
 
-__all__ = ["AxisLimits", "Course", "JointPath", "PathMotion", "quickest_motion"]
+__all__ = ["AxesLimits", "Course", "JointPath", "PathMotion", "quickest_motion"]
 
 INTERVALS, COARSE = 300, 80
 """Intervals of the spline, and of the first one, which tells where they are needed."""
@@ -61,7 +61,7 @@ class PathMotion:
     """
 
     path: JointPath
-    limits: AxisLimits
+    limits: AxesLimits
     knots: FloatArray
     times: FloatArray
     square: BSpline
@@ -100,7 +100,7 @@ class PathMotion:
         return np.asarray(u)
 
 
-def quickest_motion(path: JointPath, limits: AxisLimits, intervals: int = INTERVALS) -> PathMotion:
+def quickest_motion(path: JointPath, limits: AxesLimits, intervals: int = INTERVALS) -> PathMotion:
     """The quickest motion along a path, from rest to rest, within the limits of every axis.
 
     intervals  of the spline: the time lost goes with the square of their size
@@ -108,8 +108,8 @@ def quickest_motion(path: JointPath, limits: AxisLimits, intervals: int = INTERV
 
     >>> one = np.ones((5, 1))
     >>> straight = JointPath(np.linspace(0, 2, 5), np.linspace(0, 2, 5)[:, None], one, 0 * one)
-    >>> motion = quickest_motion(straight, AxisLimits(np.array([1.0]), np.array([2.0]), np.array([4.0])))
-    >>> round(motion.duration, 2)  # line_motion: 3 s
+    >>> motion = quickest_motion(straight, AxesLimits(np.array([1.0]), np.array([2.0]), np.array([4.0])))
+    >>> round(motion.duration, 2)  # s_curve: 3 s
     3.0
     """
     if path.positions.shape[1] != len(limits.jerk) or intervals < 10:
@@ -122,7 +122,7 @@ def quickest_motion(path: JointPath, limits: AxisLimits, intervals: int = INTERV
     return _timed(path, limits, *_found(path, limits, knots, ROUNDS))
 
 
-def _found(path: JointPath, limits: AxisLimits, knots: FloatArray, rounds: int) -> tuple[FloatArray, BSpline]:
+def _found(path: JointPath, limits: AxesLimits, knots: FloatArray, rounds: int) -> tuple[FloatArray, BSpline]:
     """The best w, and its knots; each round after the first divides or tightens the intervals that overstepped."""
     share = np.ones((len(knots) - 1, 1 + 4 * len(limits.jerk)))
     while True:
@@ -137,7 +137,7 @@ def _found(path: JointPath, limits: AxisLimits, knots: FloatArray, rounds: int) 
         knots = np.append(0.0, np.cumsum(np.repeat(np.diff(knots) / parts, parts)))
 
 
-def _best(path: JointPath, limits: AxisLimits, knots: FloatArray, share: FloatArray) -> BSpline:
+def _best(path: JointPath, limits: AxesLimits, knots: FloatArray, share: FloatArray) -> BSpline:
     """The best w where every interval may use a share of the limits."""
     task, tight = _task(path, limits, knots), np.repeat(share, len(_PLACES), axis=0)
     task = replace(task, constant=task.constant * tight, root=task.root * tight)
@@ -145,7 +145,7 @@ def _best(path: JointPath, limits: AxisLimits, knots: FloatArray, share: FloatAr
     return BSpline(clamped(knots), x, 3)
 
 
-def _slowness(path: JointPath, limits: AxisLimits, knots: FloatArray) -> float:
+def _slowness(path: JointPath, limits: AxesLimits, knots: FloatArray) -> float:
     """Factor to time by which u = t must be slowed down for every limit to hold."""
     q1, q2, q3 = (np.abs(one) for one in path.led(_at(knots, np.append(_FINE, _PLACES))))
     return float(
@@ -157,7 +157,7 @@ def _slowness(path: JointPath, limits: AxisLimits, knots: FloatArray) -> float:
     )
 
 
-def _task(path: JointPath, limits: AxisLimits, knots: FloatArray) -> SpeedTask:
+def _task(path: JointPath, limits: AxesLimits, knots: FloatArray) -> SpeedTask:
     """The limits at the places, each over its own: one of the speeds, then accelerations and jerks both ways."""
     q1, q2, q3 = (one[..., None] for one in path.led(_at(knots, _PLACES)))
     b0, b1, b2 = (local_basis(knots, _PLACES, order) for order in range(3))
@@ -171,7 +171,7 @@ def _task(path: JointPath, limits: AxisLimits, knots: FloatArray) -> SpeedTask:
     return SpeedTask(knots, b0, weight, rows, constant, 1.0 - constant)
 
 
-def _overstep(path: JointPath, limits: AxisLimits, knots: FloatArray, square: BSpline) -> FloatArray:
+def _overstep(path: JointPath, limits: AxesLimits, knots: FloatArray, square: BSpline) -> FloatArray:
     """Greatest use of every constraint in every interval, over what is allowed: (intervals, constraints)."""
     used = _used(path, limits, _at(knots, _FINE), square)
     speed = np.max(used[0] ** 2, axis=1)[:, None]
@@ -179,7 +179,7 @@ def _overstep(path: JointPath, limits: AxisLimits, knots: FloatArray, square: BS
     return np.asarray(every.reshape(len(knots) - 1, len(_FINE), -1).max(axis=1))
 
 
-def _used(path: JointPath, limits: AxisLimits, u: FloatArray, square: BSpline) -> Three:
+def _used(path: JointPath, limits: AxesLimits, u: FloatArray, square: BSpline) -> Three:
     """Speed, acceleration and jerk over their limits, with their signs."""
     w, w1, w2 = (one[:, None] for one in _derivatives(square, u))
     speed, acceleration, jerk = rates(path.led(u), (w, w1, w2))
@@ -200,7 +200,7 @@ def _knots(path: JointPath, square: BSpline, intervals: int) -> FloatArray:
     return np.interp(np.linspace(0.0, grown[-1], intervals + 1), grown, u)
 
 
-def _timed(path: JointPath, limits: AxisLimits, knots: FloatArray, square: BSpline) -> PathMotion:
+def _timed(path: JointPath, limits: AxesLimits, knots: FloatArray, square: BSpline) -> PathMotion:
     """The motion of a spline, slowed down until every limit holds on the fine grid, or sped up until one is reached."""
     u = np.append(_at(knots, _FINE), _beside_nodes(path))
     used = [np.abs(one).max(axis=0) for one in _used(path, limits, u, square)]
