@@ -8,11 +8,12 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help weave test lint types layers unit bench docs venv lock clean
+.PHONY: help weave test lint types layers unit shapes bench docs venv lock clean
 
 help:
 	@echo "make weave   weave the shipped example and print where its report lies"
 	@echo "make test    every check and every test"
+	@echo "make shapes  the engine's tests with the shapes of all arrays checked (slower)"
 	@echo "make bench   the benchmarks, side by side with their peers"
 	@echo "make docs    the documentation, in docs/_build/html"
 	@echo "make venv    .venv with everything for development"
@@ -51,7 +52,10 @@ types: venv
 	$(BIN)/mypy
 
 unit: venv
-	$(BIN)/pytest -n 2
+	$(BIN)/pytest -n 2 --dist worksteal
+
+shapes: venv
+	$(BIN)/pytest -n 2 --dist worksteal --jaxtyping-packages=ilmek,typecheck.checker $$($(BIN)/python tests/support/engine_paths.py)
 
 bench: venv
 	$(BIN)/python -m benchmarks

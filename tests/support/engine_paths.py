@@ -1,0 +1,36 @@
+"""The paths that `make shapes` runs: unit and property tests of the engine, and the engine's doctests.
+
+A test is one of the engine's where it imports one of its packages, and nothing of the machines, files and commands.
+"""
+
+import ast
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+ENGINE = ("linkage", "plane", "num", "dynamics", "cams", "carpet", "weaving")
+BEYOND = {"machines", "verification", "jobs", "io", "viz", "cli"}
+
+
+def imported_packages(path: Path) -> set[str]:
+    """Packages of ilmek that a test file imports."""
+    modules = [
+        node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.ImportFrom)
+    ]
+    names = [f"{node.module}.{alias.name}".split(".") for node in modules for alias in node.names]
+    return {name[1] for name in names if name[0] == "ilmek"}
+
+
+def engine_paths() -> Iterator[str]:
+    """Paths relative to the repository."""
+    for kind in ("unit", "property"):
+        for path in sorted((ROOT / "tests" / kind).glob("test_*.py")):
+            packages = imported_packages(path)
+            if packages & set(ENGINE) and not packages & BEYOND:
+                yield str(path.relative_to(ROOT))
+    yield from (f"src/ilmek/{package}" for package in ENGINE)
+
+
+if __name__ == "__main__":
+    sys.stdout.write(" ".join(engine_paths()))
