@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines import warp_tension
-from ilmek.machines.automated_loom import AutomatedLoomParams, design, report
+from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design, report
 from ilmek.machines.automated_loom.cyclogram import BEATER, SHUTTLE
 from ilmek.machines.automated_loom.energy import energy_of, positive_work
 from ilmek.machines.automated_loom.frame import (
@@ -24,21 +24,31 @@ from ilmek.machines.automated_loom.frame import (
     frame_for,
     rail_sag,
 )
-from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
 from ilmek.machines.automated_loom.prices import PRICES, read_prices
 from ilmek.machines.automated_loom.production_time import estimated_time, estimated_times_at, time_shares
 from ilmek.report import Report
 from ilmek.timing.track import peak_acceleration
 from ilmek.units import turn
 
-LOOM = design(AutomatedLoomParams())
-LISTED = parts_of_loom(LOOM)
-TASK = LISTED.frame.task
+
+@cache
+def loom() -> LoomDesign:
+    return design(AutomatedLoomParams())
+
+
+@cache
+def listed() -> PartsList:
+    return parts_of_loom(loom())
+
+
+def task_of_frame() -> FrameTask:
+    return listed().frame.task
 
 
 @cache
 def loose() -> Report:
-    return report(LOOM)
+    return report(loom())
 
 
 def test_a_price_list_from_a_text_changes_what_it_names_and_nothing_else():
@@ -72,17 +82,17 @@ def test_the_price_is_linear_in_every_rate():
         k: replace(r, each=2 * r.each, per_kg=2 * r.per_kg, per_m=2 * r.per_m, per_W=2 * r.per_W)
         for k, r in PRICES.items()
     }
-    assert sum(part.price(double) for part in LISTED.parts) == pytest.approx(2 * LISTED.price)
-    assert LISTED.price > 0
+    assert sum(part.price(double) for part in listed().parts) == pytest.approx(2 * listed().price)
+    assert listed().price > 0
 
 
 def test_the_list_has_a_part_for_every_warp_head_and_axis():
-    numbers = {part.name: part.number for part in LISTED.parts}
-    assert numbers["shedding cam"] == numbers["guide cam"] == LOOM.warps == 600
-    assert numbers["knotting head"] == numbers["motor of a head"] == numbers["motor of a carriage"] == LOOM.heads
+    numbers = {part.name: part.number for part in listed().parts}
+    assert numbers["shedding cam"] == numbers["guide cam"] == loom().warps == 600
+    assert numbers["knotting head"] == numbers["motor of a head"] == numbers["motor of a carriage"] == loom().heads
     assert numbers["cylinder"] + numbers["spacer cylinder"] == 3
-    assert numbers["yarn tube"] == LOOM.heads * LOOM.params.colours
-    motors = sum(part.number for part in LISTED.parts if part.name.startswith("motor"))
+    assert numbers["yarn tube"] == loom().heads * loom().params.colours
+    motors = sum(part.number for part in listed().parts if part.name.startswith("motor"))
     assert motors == numbers["axis of the control"]
 
 
@@ -115,7 +125,7 @@ def test_work_of_a_torque_counts_only_where_it_drives():
 
 def test_energy_without_losses_or_standby_is_the_work_alone():
     bare = design(AutomatedLoomParams(drive_efficiency=1.0, standby_power=0.0))
-    usual = energy_of(LOOM)
+    usual = energy_of(loom())
     work = energy_of(bare)
     assert work.shares["standing by"] == 0
     assert usual.total - usual.shares["standing by"] == pytest.approx(work.total / 0.7)
@@ -140,7 +150,7 @@ def test_sag_of_a_load_over_the_middle_is_its_influence_line_integrated(share):
     """Deflection in the middle of a point load at a from an end: P a (3 l^2 - 4 a^2) / (48 E I), a <= l/2."""
     section, span = Section(0.1, 0.005), 1.3
     wide = share * span
-    task = replace(TASK, width=2 * span, rail_spans=2, heads=1, head_mass=40.0, head_width=wide)
+    task = replace(task_of_frame(), width=2 * span, rail_spans=2, heads=1, head_mass=40.0, head_width=wide)
     own = rail_sag(replace(task, head_mass=0.0), section)
     places = (span - wide) / 2 + (np.arange(2000) + 0.5) / 2000 * wide / 2
     influence = places * (3 * span**2 - 4 * places**2) / (48 * STEEL.modulus * section.inertia)
@@ -161,44 +171,46 @@ def test_the_frame_keeps_its_limits_with_the_lightest_section(pull, width, lever
 
 def test_as_many_heads_count_on_a_span_as_find_room_on_it():
     section = Section(0.1, 0.005)
-    few = rail_sag(replace(TASK, heads=3, head_width=0.5, width=1.5, rail_spans=1), section)
-    assert rail_sag(replace(TASK, heads=30, head_width=0.5, width=1.5, rail_spans=1), section) == few
-    assert rail_sag(replace(TASK, heads=3, head_width=0.5, width=3.0, rail_spans=2), section) == few
+    few = rail_sag(replace(task_of_frame(), heads=3, head_width=0.5, width=1.5, rail_spans=1), section)
+    assert rail_sag(replace(task_of_frame(), heads=30, head_width=0.5, width=1.5, rail_spans=1), section) == few
+    assert rail_sag(replace(task_of_frame(), heads=3, head_width=0.5, width=3.0, rail_spans=2), section) == few
 
 
 def test_a_frame_that_no_section_makes_is_told():
     with pytest.raises(LoomError, match="rail"):
-        frame_for(replace(TASK, width=50.0))
+        frame_for(replace(task_of_frame(), width=50.0))
     with pytest.raises(LoomError, match="columns"):
-        frame_for(replace(TASK, pull=1e8))
+        frame_for(replace(task_of_frame(), pull=1e8))
 
 
 def test_time_at_the_own_pitch_is_the_time_and_half_the_pitch_is_four_times_the_knots():
-    own = estimated_time(LOOM)
-    assert estimated_times_at(LOOM, LOOM.params.pitch, [LOOM.heads])[0] == pytest.approx(own)
-    wefts = LOOM.rows * LOOM.times.weft
-    half = estimated_times_at(LOOM, LOOM.params.pitch / 2, [LOOM.heads])[0]
+    own = estimated_time(loom())
+    assert estimated_times_at(loom(), loom().params.pitch, [loom().heads])[0] == pytest.approx(own)
+    wefts = loom().rows * loom().times.weft
+    half = estimated_times_at(loom(), loom().params.pitch / 2, [loom().heads])[0]
     assert half == pytest.approx(4 * (own - wefts) + 2 * wefts)  # four times the knots, twice the rows
 
 
 def test_shares_of_the_time_name_the_bottleneck():
-    assert time_shares(LOOM).bottleneck == "knotting"
+    assert time_shares(loom()).bottleneck == "knotting"
     quick = design(
         AutomatedLoomParams(width=0.4, length=0.2, knot_cycle=0.3, head_acceleration=1e4, heads=1, shed_speed=0.02)
     )
     assert time_shares(quick).bottleneck == "wefts and beats"
 
 
-COMB = design(AutomatedLoomParams(hammer="comb"))
+@cache
+def comb_loom() -> LoomDesign:
+    return design(AutomatedLoomParams(hammer="comb"))
 
 
 @cache
 def pressed() -> Report:
-    return report(COMB)
+    return report(comb_loom())
 
 
 def test_the_comb_presses_the_rows_together_where_the_paper_s_linkage_leaves_them_loose():
-    linkage, comb = LOOM.left, COMB.left
+    linkage, comb = loom().left, comb_loom().left
     assert linkage.needed == comb.needed == pytest.approx(10.0)  # the hammer's fabric: 10 N on 15 N of tension
     assert comb.spacing == pytest.approx(4e-3)
     assert linkage.force == pytest.approx(0.1066, abs=1e-4)
@@ -220,10 +232,10 @@ def test_a_loom_beats_with_one_of_them():
 
 
 def test_the_comb_beats_within_its_acceleration_and_after_the_shuttle():
-    row = COMB.row_cyclogram
-    assert peak_acceleration(row.track(BEATER), row.period) == pytest.approx(COMB.params.comb_acceleration)
+    row = comb_loom().row_cyclogram
+    assert peak_acceleration(row.track(BEATER), row.period) == pytest.approx(comb_loom().params.comb_acceleration)
     assert row.track(BEATER).segment("beat 1").start > row.track(SHUTTLE).segment("pass").end
     slow = design(AutomatedLoomParams(hammer="comb", comb_acceleration=0.5))
     assert slow.row_cyclogram.period > row.period  # a longer beat needs a longer turn
     pressed = row.track(BEATER).segment("back 1").start - row.track(BEATER).segment("beat 1").end
-    assert pressed / COMB.row_timing.beat.time * row.period / turn == pytest.approx(0.15)
+    assert pressed / comb_loom().row_timing.beat.time * row.period / turn == pytest.approx(0.15)

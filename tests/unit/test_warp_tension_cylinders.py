@@ -1,6 +1,7 @@
 """Three cylinders under the warps and their own weight; bearings, shaft ends, slots; the tension over a row."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -9,14 +10,17 @@ from ilmek.elements.beam.model import Beam, LineLoad
 from ilmek.elements.beam.solve import bend
 from ilmek.elements.bearings import find_bearing
 from ilmek.errors import ParameterError
-from ilmek.machines.warp_tension import MACHINE, WarpTensionParams
+from ilmek.machines.warp_tension import MACHINE, WarpTensionDesign, WarpTensionParams
 from ilmek.machines.warp_tension.cylinders import cylinders, slots_of, spacer_load, stub_stress, tension_beyond
 from ilmek.machines.warp_tension.design import keeps_limits, lightest_tube
 from ilmek.machines.warp_tension.tension import history, tension_of
 from ilmek.units import deg, mm, turn
 from ilmek.weaving.shed import shed_lengthening
 
-DESIGN = MACHINE.design(WarpTensionParams())
+
+@cache
+def usual() -> WarpTensionDesign:
+    return MACHINE.design(WarpTensionParams())
 
 
 def results(**given: str) -> dict:
@@ -28,11 +32,11 @@ def failed(**given: str) -> list[str]:
 
 
 def test_the_weight_adds_above_and_relieves_below() -> None:
-    upper, lower, _ = cylinders(DESIGN)
-    assert abs(upper.load) == pytest.approx(DESIGN.load + DESIGN.self_weight)
-    assert abs(lower.load) == pytest.approx(DESIGN.load - DESIGN.self_weight)
-    assert upper.deflection == pytest.approx(DESIGN.deflection_loaded)
-    assert upper.deflection_bare == lower.deflection_bare == pytest.approx(DESIGN.deflection)
+    upper, lower, _ = cylinders(usual())
+    assert abs(upper.load) == pytest.approx(usual().load + usual().self_weight)
+    assert abs(lower.load) == pytest.approx(usual().load - usual().self_weight)
+    assert upper.deflection == pytest.approx(usual().deflection_loaded)
+    assert upper.deflection_bare == lower.deflection_bare == pytest.approx(usual().deflection)
 
 
 @pytest.mark.parametrize("wrap", [0, 60, 90, 180])
@@ -45,8 +49,8 @@ def test_the_spacer_bears_both_strands(wrap: float) -> None:
 
 def test_every_cylinder_bends_as_a_beam_of_its_section() -> None:
     """Against the general beam with the same complex load."""
-    width, modulus = DESIGN.params.width, DESIGN.params.modulus
-    for one in cylinders(DESIGN):
+    width, modulus = usual().params.width, usual().params.modulus
+    for one in cylinders(usual()):
         rigidity = modulus * math.pi / 4 * (one.outer**4 - one.inner**4)
         bent = bend(Beam(width, (0.0, width), (LineLoad(0.0, width, one.load),)))
         assert bent.deflection_max(rigidity).size == pytest.approx(one.deflection, rel=1e-9)
@@ -54,10 +58,10 @@ def test_every_cylinder_bends_as_a_beam_of_its_section() -> None:
 
 
 def test_the_lightest_stock_tube_is_the_lightest_that_keeps_the_limits() -> None:
-    found = lightest_tube(DESIGN.params)
-    assert keeps_limits(DESIGN.params, found.inner_radius, found.outer_radius)
+    found = lightest_tube(usual().params)
+    assert keeps_limits(usual().params, found.inner_radius, found.outer_radius)
     assert results(tube="lightest")["cylinder_tube"]["upper"] == found.name
-    assert results(tube="140 x 5")["deflection"] == pytest.approx(DESIGN.deflection)
+    assert results(tube="140 x 5")["deflection"] == pytest.approx(usual().deflection)
     assert found.area < math.pi * (0.070**2 - 0.065**2)
 
 
@@ -96,7 +100,7 @@ def test_a_wide_loom_takes_larger_bearings_and_small_ones_fail() -> None:
 
 def test_stress_of_a_shaft_end() -> None:
     bending, twisting = 32 * 4500 * 0.04 / (math.pi * 0.035**3), 16 * 630 / (math.pi * 0.035**3)
-    assert stub_stress(DESIGN.params, 4500.0, 630.0, 0.035) == pytest.approx(
+    assert stub_stress(usual().params, 4500.0, 630.0, 0.035) == pytest.approx(
         math.hypot(bending, math.sqrt(3) * twisting)
     )
 
@@ -116,13 +120,13 @@ def test_slots_that_do_not_fit_fail() -> None:
 
 def test_the_tension_over_a_row_is_the_stretch_of_a_spring() -> None:
     """EA / L = 2.1 N/tex of 857 tex over 1.5 m: 1200 N/m."""
-    made = tension_of(DESIGN)
+    made = tension_of(usual())
     found = made.over
     assert found.rate == pytest.approx(2.1e6 * 3 / 7 * 1e-3 * 2 / 1.5)
     assert found.woven - found.rest == pytest.approx(found.rate * 0.004 * 0.03)
     assert found.locked - found.woven == pytest.approx(found.rate * 0.004)
     assert found.shed - found.woven == pytest.approx(found.rate * 2 * (math.hypot(0.17, 0.06) - 0.17))
-    assert made.correction * DESIGN.outer_radius * found.rate == pytest.approx(found.woven - found.rest)
+    assert made.correction * usual().outer_radius * found.rate == pytest.approx(found.woven - found.rest)
 
 
 def test_no_lift_no_lengthening() -> None:
@@ -147,7 +151,7 @@ def test_warps_that_slip_on_the_spacer_pull_more_behind_it() -> None:
 
 
 def test_a_step_of_the_motor_is_fine_enough() -> None:
-    found = tension_of(DESIGN)
+    found = tension_of(usual())
     assert found.step == pytest.approx(found.over.rate * 70 * mm * turn / 200 / 200)
     assert failed(free_length="20mm", ratio="1", motor_torque="1e4Nm") != []
 
@@ -155,4 +159,4 @@ def test_a_step_of_the_motor_is_fine_enough() -> None:
 def test_a_spacer_that_no_stock_tube_can_be_is_told() -> None:
     made = MACHINE.report(MACHINE.design(WarpTensionParams(tension=1e4)))
     assert any("stiff enough for the spacer" in said for said in made.warnings)
-    assert not MACHINE.report(DESIGN).warnings
+    assert not MACHINE.report(usual()).warnings

@@ -1,24 +1,30 @@
 """The head's cams: motion kept, limits met, forces by energy; drive, cutter, selector, plates and tables."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
 
 from ilmek.cams import limits as cam_limits
-from ilmek.machines.weaver import WeaverParams, design, report
+from ilmek.machines.weaver import Weaver, WeaverParams, design, report
 from ilmek.machines.weaver.cams import FASTER, WALL, programme_of, torque_at
 from ilmek.machines.weaver.cyclogram import HANDLER, SLEY
 from ilmek.machines.weaver.limits import cut_share, cycle_limits
 from ilmek.timing.track import sample
 from ilmek.units import deg, mm, turn
 
-HEAD = design(WeaverParams())
+
+@cache
+def usual() -> Weaver:
+    return design(WeaverParams())
+
+
 ANGLE = np.linspace(0.0, turn, 2001)
 
 
 def test_every_follower_moves_as_its_track_asks() -> None:
-    for track, cam in zip(HEAD.cyclogram.tracks, HEAD.cams, strict=True):
+    for track, cam in zip(usual().cyclogram.tracks, usual().cams, strict=True):
         asked, given = sample(track, ANGLE), cam.programme.at(ANGLE)
         stays = track.segments[-1].end if track.name == HANDLER else 7.0
         forward = stays > ANGLE
@@ -28,10 +34,10 @@ def test_every_follower_moves_as_its_track_asks() -> None:
 
 
 def test_the_handlers_rack_comes_back_while_the_handler_stands() -> None:
-    track = HEAD.cyclogram.track(HANDLER)
-    programme = programme_of(track, 1 / HEAD.params.pinion)
+    track = usual().cyclogram.track(HANDLER)
+    programme = programme_of(track, 1 / usual().params.pinion)
     back = [part for part in programme.segments if part.name == "back"]
-    assert back[0].change == pytest.approx(-turn * HEAD.params.pinion)
+    assert back[0].change == pytest.approx(-turn * usual().params.pinion)
     behind = programme.at(ANGLE).ds < -1e-9
     assert (ANGLE[behind] > track.segments[-1].end).all()
 
@@ -68,9 +74,9 @@ def test_the_cams_torque_does_only_the_brakes_work(closure: str) -> None:
 
 
 def test_springs_hold_the_followers_and_no_more() -> None:
-    for cam in HEAD.cams:
-        assert cam.force.min() >= HEAD.params.contact_force - 1e-9
-        assert cam.lift_off >= FASTER * HEAD.cyclogram.speed
+    for cam in usual().cams:
+        assert cam.force.min() >= usual().params.contact_force - 1e-9
+        assert cam.lift_off >= FASTER * usual().cyclogram.speed
     bare = design(WeaverParams(contact_force=0.0))
     jaws = [cam for cam in bare.cams if cam.name.endswith("grasp")]
     assert all(cam.lift_off == pytest.approx(FASTER * bare.cyclogram.speed, rel=1e-6) for cam in jaws)
@@ -83,15 +89,15 @@ def test_a_groove_needs_no_spring_and_room_on_its_outer_flank() -> None:
 
 
 def test_the_inertia_of_a_cam_is_between_those_of_its_circles() -> None:
-    for cam in HEAD.cams:
+    for cam in usual().cams:
         inner = float(np.abs(cam.trace.surface).min())
         assert cam.mass * inner**2 / 2 < cam.inertia < cam.mass * cam.radius**2 / 2
 
 
 def test_five_cams_on_the_shaft_and_the_sleys_on_a_geared_one() -> None:
-    results = report(HEAD).as_json()["results"]
-    assert results["cam_stack_width"] == pytest.approx(5 * HEAD.params.cam_thickness + 6 * HEAD.params.cam_gap)
-    assert [cam.actuator for cam in HEAD.cams if cam.name == SLEY] == ["gear"]
+    results = report(usual()).as_json()["results"]
+    assert results["cam_stack_width"] == pytest.approx(5 * usual().params.cam_thickness + 6 * usual().params.cam_gap)
+    assert [cam.actuator for cam in usual().cams if cam.name == SLEY] == ["gear"]
     failed = [check.name for check in report(design(WeaverParams(head_width=0.05, cam_room=0.15))).failed]
     assert failed == ["cams beside each other", "diameter, side-gripper motion"]
 
@@ -99,7 +105,7 @@ def test_five_cams_on_the_shaft_and_the_sleys_on_a_geared_one() -> None:
 @pytest.mark.parametrize("faster", [0.999, 1.001])
 def test_the_limits_of_the_cycle_are_where_they_are_said(faster: float) -> None:
     """Designed for a cycle a little shorter or longer than a limit, the head breaks or keeps it."""
-    found = cycle_limits(HEAD)
+    found = cycle_limits(usual())
     assert max(found, key=lambda name: found[name]) == "tools"
     free = WeaverParams(cycle=faster * found["cutter"], acceleration_limit=1e4)
     head = design(free)
@@ -107,9 +113,9 @@ def test_the_limits_of_the_cycle_are_where_they_are_said(faster: float) -> None:
 
 
 def test_plates_and_tables_of_all_tracks() -> None:
-    made = report(HEAD)
+    made = report(usual())
     assert len(made.plates) == len(made.cam_tables) == 6
-    for plate, cam in zip(made.plates, HEAD.cams, strict=True):
+    for plate, cam in zip(made.plates, usual().cams, strict=True):
         one, then = plate.outline, np.roll(plate.outline, -1)
         polygon = float(np.sum((np.conj(one) * then).imag)) / 2
         assert polygon == pytest.approx(cam.area, rel=1e-9)
@@ -124,7 +130,7 @@ def test_plates_and_tables_of_all_tracks() -> None:
 
 
 def test_motions_stretched_within_their_order_are_gentler_and_quicker() -> None:
-    plain, better = HEAD, design(WeaverParams(optimise=True))
+    plain, better = usual(), design(WeaverParams(optimise=True))
     assert better.cycle == plain.cycle
     assert max(p.acceleration for p in better.peaks.values()) < max(p.acceleration for p in plain.peaks.values())
     assert better.shortest < plain.shortest
@@ -136,7 +142,7 @@ def test_motions_stretched_within_their_order_are_gentler_and_quicker() -> None:
 
 
 def test_the_selector_and_the_masses() -> None:
-    results = report(HEAD).as_json()["results"]
+    results = report(usual()).as_json()["results"]
     assert results["selector_step"] == pytest.approx(2 * math.pi * 0.010 / 200)
     assert results["mass"] == pytest.approx(sum(results["masses"].values()))
     assert results["cutting_force"] == pytest.approx(96.0)
