@@ -14,7 +14,7 @@ from click.testing import CliRunner
 
 from ilmek.cli import main
 from ilmek.machines.catalogue import MACHINES
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 from ilmek.params import Parameter, declared
 from ilmek.units import format_quantity, printed_unit
 from ilmek.verification import PAPERS, TITLES, reproduce
@@ -60,15 +60,15 @@ def said(parameter: Parameter) -> str:
     return f"{parameter.doc} ({parameter.symbol})" if parameter.symbol else parameter.doc
 
 
-def machine_section(machine: Machine) -> str:
+def machine_section(machine: Component) -> str:
     """One machine: its parameters and, from a run of its defaults, its results and checks."""
     parameters = [
         (names(p), default(p), printed_unit(p.unit) or "–", p.allowed().removeprefix("allowed: "), said(p))
         for p in declared(machine.params)
     ]
-    report = machine.report(machine.design(machine.params()))
+    report = machine.report_for({})
     results = [(f"`{r.name}`", printed_unit(r.unit) or "–", r.meaning) for r in report.results]
-    checks = [(c.name, c.relation, format_quantity(c.limit, c.unit), c.source) for c in report.checks]
+    checks = [(c.name, c.relation, format_quantity(c.limit, c.unit), c.source) for c in report.all_checks]
     return "\n\n".join(
         (
             f"## {machine.name}",
@@ -155,7 +155,7 @@ def write_machine_pages(app: Any, failed: Exception | None) -> None:
     folder = Path(app.outdir) / "machines"
     folder.mkdir(exist_ok=True)
     for machine in MACHINES.values():
-        page = machine_page(machine.report(machine.design(machine.params())))
+        page = machine_page(machine.report_for({}))
         (folder / f"{machine.name}.html").write_text(page, encoding="utf-8")
 
 

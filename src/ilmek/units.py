@@ -162,6 +162,29 @@ def format_number(value: float, digits: int = 4) -> str:
     return plain.rstrip("0").rstrip(".") if "." in plain else plain
 
 
+def has_unit(text: str) -> bool:
+    """Whether a quantity's text has a unit behind its number.
+
+    >>> has_unit("40/dm"), has_unit("40")
+    (True, False)
+    """
+    matched = _NUMBER.match(text)
+    return matched is not None and bool(matched[2])
+
+
+def similar_units(unit: str) -> tuple[str, ...]:
+    """Units of the same dimension in which people give a number without naming the unit.
+
+    >>> similar_units("m"), similar_units("rad/s")
+    (('mm', 'cm'), ('rpm',))
+    """
+    dimension = parse_unit(unit).dimension
+    return tuple(name for name in _OFTEN_LEFT_OUT if name != unit and parse_unit(name).dimension == dimension)
+
+
+_OFTEN_LEFT_OUT = ("deg", "mm", "cm", "1/dm", "rpm", "MPa", "ms", "g")
+
+
 def _example(unit: str) -> str:
     return f"60{unit}" if unit not in ("", "1") else "60"
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.errors import ParameterError
-from ilmek.machines.beat_up import BeatUpParams, design, report
+from ilmek.machines.beat_up import MACHINE, BeatUpParams, design
 from ilmek.machines.beat_up.family import QUANTITIES, chosen_ratio, tabulate
 from ilmek.machines.beat_up.params import LIMITS, OBJECTIVES
 from ilmek.synthesis.crank_rocker.dead_centres import beta_of_ratio, links_of_ratio, rotation_limits
@@ -56,7 +56,7 @@ def test_a_member_has_the_peaks_that_its_design_has(asked_of: dict[str, Any], pl
         "drive_torque_max": peaks["drive_torque"].value,
         "joint_force_max": max(peaks[pin].value for pin in "ABCD"),
         "rocker_speed_max": peaks["beater_velocity"].value / made.lengths["beater"],
-        "beta": made.beat_angle,
+        "beta": made.beta,
     }
     assert {name: float(table[name][place]) for name in expected} == pytest.approx(expected, rel=1e-4)
     assert made.at is not None
@@ -101,7 +101,7 @@ def test_no_member_within_the_limits_beats_the_chosen_one(
 def test_limits_alone_choose_what_beats_hardest_within_them() -> None:
     made = design(BeatUpParams.read({"transmission_min": "45deg", "ratio_max": "0.3"}))
     assert float(made.links.crank / made.links.coupler) == pytest.approx(0.3, rel=1e-12)
-    said = report(made)
+    said = MACHINE.report(made)
     assert [check.name for check in said.checks[-2:]] == [
         "crank/coupler ratio, ratio_max",
         "least transmission angle, transmission_min",
@@ -144,7 +144,7 @@ def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
 
 
 def test_the_front_is_told_by_the_names_that_are_promised() -> None:
-    said = report(design(BeatUpParams.read({"crank_rotation": "200deg", "front": "transmission_angle, force_at_beat"})))
+    said = MACHINE.report_for({"crank_rotation": "200deg", "front": "transmission_angle, force_at_beat"})
     results = said.as_json()["results"]
     assert results["pareto_weighed"] == ["transmission_angle", "force_at_beat"]
     assert 25 == len(results["pareto"]) < results["pareto_count"] < 500

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import pytest
 
 from ilmek.errors import ParameterError
-from ilmek.params import Params, declared, param
+from ilmek.params import Overrides, Params, declared, kind, nested, overrides, param, reachable
 from ilmek.units import deg, mm
 
 
@@ -41,7 +41,7 @@ def test_reads_units_and_keeps_defaults() -> None:
         ({"lift": "0mm"}, "above 0 mm"),
         ({"lift": "60kg"}, "wrong unit"),
         ({"lift": float("nan")}, "not a number"),
-        ({"lift": "1e-320"}, "next to nothing"),
+        ({"lift": "1e-320"}, "is too small"),
         ({"warps": "3.5"}, "whole number"),
         ({"warps": "1"}, "at least 2"),
         ({"law": "harmonik"}, "did you mean harmonic"),
@@ -58,3 +58,70 @@ def test_says_what_is_wrong(settings: dict[str, str], said: str) -> None:
 @pytest.mark.parametrize("name", ["lift", "H1", "h1"])
 def test_an_alias_sets_the_same_parameter(name: str) -> None:
     assert Sample.read({name: "50mm"}).as_dict()["lift"] == 50 * mm
+
+
+@dataclass(frozen=True, slots=True)
+class Inner(Params):
+    rise: float = kind.angle(60 * deg, above=0.0, below=math.pi, doc="rise")
+    density: float = kind.knot_density(250.0, at_least=1.0, at_most=1e4, doc="knots across")
+
+
+@dataclass(frozen=True, slots=True)
+class Outer(Params):
+    lift: float = kind.length(60 * mm, unit="m", above=0.0, at_most=1.0, doc="lift")
+    handler: Inner = nested(Inner, doc="pile handler")
+    machines: Overrides = overrides(lambda: {"sample": Sample, "outer": Middle}, doc="machines in the loom")
+
+
+@dataclass(frozen=True, slots=True)
+class Middle(Params):
+    inner: Inner = nested(Inner, doc="inner")
+
+
+def test_dotted_names_reach_nested_parameters_and_those_of_other_machines() -> None:
+    outer = Outer.read({"lift": "5cm", "handler.rise": "70deg", "sample.law": "cycloidal", "outer.inner.rise": "80deg"})
+    assert outer.handler == Inner(rise=70 * deg)
+    assert outer.machines.over("sample", Sample(warps=300)) == Sample(warps=300, law="cycloidal")
+    assert outer.machines.over("outer", Middle()).inner.rise == pytest.approx(80 * deg)
+    assert outer.as_dict() == {
+        "lift": 0.05,
+        "handler.rise": 70 * deg,
+        "handler.density": 250.0,
+        "sample.law": "cycloidal",
+        "outer.inner.rise": pytest.approx(80 * deg),
+    }
+    assert {"lift", "handler.rise", "sample.swing", "outer.inner.density"} < set(reachable(Outer))
+    assert outer != Outer()
+    assert hash(outer) != hash(Outer())
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"handler.ries": "70deg"}, r"unknown parameter 'handler.ries'; did you mean handler.rise\?"),
+        ({"handler.rise": "200deg"}, r"handler.rise=200 deg is out of bounds; allowed: .* below 180 deg"),
+        ({"sample.lwa": "cycloidal"}, r"did you mean sample.law\?"),
+        ({"sample.warps": "1"}, "sample.warps=1 is out of bounds; allowed: at least 2"),
+        ({"smaple.law": "cycloidal"}, r"did you mean sample.law\?"),
+        ({"rise": "70deg"}, r"did you mean handler.rise\?"),
+        ({"handler.density": "40"}, r"handler.density=40 has no unit; did you mean 40/dm\?"),
+        ({"lift": "120"}, r"did you mean 120mm\?"),
+    ],
+)
+def test_a_wrong_dotted_setting_names_the_nearest(settings: dict[str, str], message: str) -> None:
+    with pytest.raises(ParameterError, match=message):
+        Outer.read(settings)
+
+
+def test_a_kind_refuses_a_unit_of_another_dimension() -> None:
+    with pytest.raises(TypeError, match="mm is not a unit of the same dimension as kg"):
+        kind.mass(1.0, unit="mm", doc="mass")
+
+
+@pytest.mark.parametrize(("bounds", "inside"), [({"at_most": 1.0}, True), ({"below": 1.0}, False)])
+def test_a_bound_is_included_or_excluded_as_declared(bounds: dict[str, float], inside: bool) -> None:
+    @dataclass(frozen=True, slots=True)
+    class Bounded(Params):
+        share: float = kind.ratio(0.5, doc="share", **bounds)
+
+    assert declared(Bounded)[0].within(1.0) is inside

@@ -14,7 +14,7 @@ from ilmek.cli import main
 from ilmek.errors import OutputError, ParameterError
 from ilmek.io.cam_tables import FORMATS
 from ilmek.jobs.workshop import Tolerance, read_tolerance, write_workshop
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 from ilmek.machines.plates import link_plate
 from ilmek.params import Params, param
 from ilmek.report import CamTable, Plate, Report
@@ -129,7 +129,14 @@ class Made(Params):
 @pytest.fixture
 def made_up(monkeypatch: pytest.MonkeyPatch) -> None:
     made = report(plates=(crank(),), tables=(table(),))
-    machine = Machine("made-up", "for this test", Made, lambda params: params, lambda _: made)
+    machine = Component(
+        name="made-up",
+        title="Made up",
+        summary="for this test",
+        params=Made,
+        design=lambda params: params,
+        reporter=lambda _: made,
+    )
     monkeypatch.setattr("ilmek.jobs.design.find_machine", lambda _: machine)
 
 

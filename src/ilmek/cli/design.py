@@ -77,14 +77,15 @@ def show_report(report: Report) -> None:
     shown = [(r.name, _shown(r), r.meaning) for r in report.results if r.shown]
     show_table(("result", "value", "meaning"), shown, right=(1,))
     more = [result.name for result in report.results if not result.shown]
+    more += [f"{child.key}.*" for child in report.children]
     if more:
         console().print(f"with --json also: {', '.join(more)}")
     for table in report.tables:
         if table.brief:
             _show(table)
-    if report.checks:
-        show_checks(report.checks)
-        console().print(f"checks: {passed(report.checks)}")
+    if report.all_checks:
+        show_checks(report.all_checks)
+        console().print(f"checks: {passed(report.all_checks)}")
 
 
 def _show(table: Table) -> None:
@@ -111,9 +112,11 @@ def _shown(result: Result) -> str:
     return _value(result.value, result.unit)
 
 
-def _value(value: object, unit: str) -> str:
-    if isinstance(value, bool) or value is None:
-        return {True: "yes", False: "no", None: "–"}[value]
+def _value(value: object, unit: str) -> str:  # noqa: PLR0911 - one line for each kind
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, int | float):
         return format_quantity(value, unit)
     if isinstance(value, list | tuple | dict) and not value:

@@ -18,7 +18,7 @@ from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.order import Order
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, at_most, check_as_json
+from ilmek.report import Check, at_most
 from ilmek.units import format_quantity
 
 MOST_SHEETS = 400
@@ -151,7 +151,7 @@ def chart_json(charted: Charted, files: Sequence[str]) -> dict[str, Any]:
         "chart",
         charted.order.as_dict(),
         chart_results(charted),
-        checks=[check_as_json(check) for check in charted.checks],
+        checks=[check.as_json() for check in charted.checks],
         notes=list(charted.notes),
         warnings=list(charted.warnings),
         files=list(files),

@@ -43,7 +43,7 @@ class Designed:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Warnings of the design and of its workshop files."""
-        return (*self.report.warnings, *(self.workshop.notes if self.workshop else ()))
+        return (*self.report.all_warnings, *(self.workshop.notes if self.workshop else ()))
 
     def as_json(self) -> dict[str, Any]:
         """The report as plain data, SI; with workshop files also their paths."""

@@ -13,7 +13,7 @@ from ilmek.jobs.loom import Loomed, LoomOrder, make_loomed
 from ilmek.jobs.order import Order
 from ilmek.machines.automated_loom.report import parts_of, report_with
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, Report, at_most, check_as_json
+from ilmek.report import Check, Report, at_most
 from ilmek.units import format_quantity, hour
 from ilmek.viz.page import CarpetPage, carpet_page
 from ilmek.viz.page_parts import Fact, FileNote
@@ -133,7 +133,7 @@ def weave_json(woven: Woven) -> dict[str, Any]:
         "weave",
         {**woven.charted.order.as_dict(), **woven.asked.as_dict()},
         weave_results(woven),
-        checks=[check_as_json(check) for check in woven.checks],
+        checks=[check.as_json() for check in woven.checks],
         notes=list(woven.charted.notes),
         warnings=list(woven.warnings),
         files=woven.files,

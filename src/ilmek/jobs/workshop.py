@@ -134,11 +134,11 @@ def write_workshop(
     Raises OutputError where there is nothing to write, a plate does not enclose the area of its design, or the folder
     cannot be written; then nothing is.
     """
-    if not (report.plates or report.cam_tables):
+    if not (report.all_plates or report.all_cam_tables):
         raise OutputError(
             f"{report.machine} has no plates and no cam tables", do="leave out --workshop; its page: --report FILE.html"
         )
-    plates, tables = _own_names(report.plates), _own_names(report.cam_tables)
+    plates, tables = _own_names(report.all_plates), _own_names(report.all_cam_tables)
     asked = tolerance or Tolerance()
     with output_folder(folder, force=force) as work:
         files = [

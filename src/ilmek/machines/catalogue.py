@@ -6,18 +6,18 @@ from collections.abc import Iterator, Mapping
 
 from ilmek.errors import ParameterError
 from ilmek.machines import SUMMARIES
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 
 
-class Catalogue(Mapping[str, Machine]):
+class Catalogue(Mapping[str, Component]):
     """Every machine by its name. A machine's package is imported when the machine is looked up: most jobs need one."""
 
-    def __getitem__(self, name: str) -> Machine:
+    def __getitem__(self, name: str) -> Component:
         """The machine of a name; KeyError for any other."""
         if name not in SUMMARIES:
             raise KeyError(name)
         machine = importlib.import_module(f"ilmek.machines.{name.replace('-', '_')}").MACHINE
-        assert isinstance(machine, Machine)
+        assert isinstance(machine, Component)
         return machine
 
     def __iter__(self) -> Iterator[str]:
@@ -31,7 +31,7 @@ MACHINES = Catalogue()
 """Every machine by its name, in the order of the catalogue."""
 
 
-def find_machine(name: str) -> Machine:
+def find_machine(name: str) -> Component:
     """The machine of a name. Raises ParameterError, naming the nearest."""
     if name in SUMMARIES:
         return MACHINES[name]

@@ -166,13 +166,13 @@ def _peak(name: str) -> Callable[[], float]:
 
 def _at_the_beat() -> float:
     found = _as_printed()
-    at = design(replace(found.params, crank_angle=found.beat_angle)).at
+    at = design(replace(found.params, crank_angle=found.beta)).at
     return float(np.abs(at.beater.acceleration)[0]) if at else math.nan
 
 
 def _speed_at_dead_centres() -> float:
     found = _as_printed()
-    speeds = [design(replace(found.params, crank_angle=at)).at for at in (found.beat_angle, found.back_angle)]
+    speeds = [design(replace(found.params, crank_angle=at)).at for at in (found.beta, found.back_angle)]
     most = found.peaks["beater_velocity"].value
     return max(float(np.abs(at.beater.velocity)[0]) for at in speeds if at) / most
 

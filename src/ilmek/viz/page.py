@@ -109,12 +109,14 @@ def machine_page(report: Report) -> str:
     return _render(
         "machine.html.j2",
         title=report.title,
-        lead=f"{len(report.checks) - len(report.failed)} of {len(report.checks)} checks hold" if report.checks else "",
+        lead=f"{len(report.all_checks) - len(report.failed)} of {len(report.all_checks)} checks hold"
+        if report.all_checks
+        else "",
         failed=report.failed,
         section=section,
         moves=_holds(section, "moves"),
         timed=_holds(section, "wide timed"),
-        checks=_failures_first([_Judged(report.title, check) for check in report.checks]),
+        checks=_failures_first([_Judged(report.title, check) for check in report.all_checks]),
     )
 
 

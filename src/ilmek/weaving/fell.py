@@ -100,7 +100,6 @@ class Fabric:
         while self.energy(high) < energy:
             high *= 2
 
-
         def excess(force: FloatArray) -> FloatArray:
             return np.array([self.energy(one) - energy for one in force.tolist()])
 

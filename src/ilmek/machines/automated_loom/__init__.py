@@ -14,7 +14,7 @@ from ilmek.machines.automated_loom.design import LoomDesign, design
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.production_time import Production, estimated_time, production_time, programme_for
 from ilmek.machines.automated_loom.report import report
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 from ilmek.timing.cyclogram import Cyclogram
 
 __all__ = [
@@ -38,11 +38,12 @@ def cyclograms(loom: LoomDesign) -> tuple[Cyclogram, ...]:
     return knot, replace(row, tracks=made)
 
 
-MACHINE = Machine(
+MACHINE = Component(
     name="automated-loom",
+    title="Automated loom",
     summary=SUMMARIES["automated-loom"],
     params=AutomatedLoomParams,
     design=design,
-    report=report,
+    reporter=report,
     cyclograms=cyclograms,
 )

@@ -14,8 +14,7 @@ from ilmek.machines.automated_loom.frame import BOW_LIMIT, BUCKLING_SAFETY, STEE
 from ilmek.machines.automated_loom.knotting import arms_of
 from ilmek.machines.automated_loom.parts import Part, PartsList, parts_of_loom
 from ilmek.machines.automated_loom.production_time import estimated_time, time_shares
-from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
-from ilmek.report.limits import snap_to_limit
+from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most, snap_to_limit
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
@@ -61,7 +60,7 @@ def parts_of(loom: LoomDesign) -> tuple[Report, ...]:
     return (
         _without(weaver.report(loom.weaver), "knot", "weaver-moving", "acceleration"),
         *(() if arms is None else (arms,)),
-        *(() if loom.beat_up is None else (_without(beat_up.report(loom.beat_up), "family"),)),
+        *(() if loom.beat_up is None else (beat_up.MACHINE.report(loom.beat_up, in_a_loom=True),)),
         *(() if loom.hammer is None else (hammer.report(loom.hammer),)),
         _without(shedding.report(loom.shedding), "shedding-stagger"),
         warp_tension.report(loom.warp_tension),

@@ -11,15 +11,23 @@ its bolts. It is greatest near the extended dead centre, where the beater turns 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.beat_up.design import BeatUp, design
 from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.machines.beat_up.report import report
-from ilmek.machines.machine import Machine
+from ilmek.machines.beat_up.report import BeatUpAnalysis, analyse, checks, figures, plates, tables, warnings
+from ilmek.machines.component import Component
 
-__all__ = ["MACHINE", "BeatUp", "BeatUpParams", "design", "report"]
+__all__ = ["MACHINE", "BeatUp", "BeatUpParams", "design"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="beat-up",
+    title="Beat-up",
     summary=SUMMARIES["beat-up"],
     params=BeatUpParams,
     design=design,
-    report=report,
+    analysis=analyse,
+    reported=(BeatUpAnalysis,),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
+    plates=plates,
+    own_figures=("family",),
 )

@@ -6,8 +6,8 @@ D is the origin, A lies on the x axis; crank angles are counted from D-A, counte
 at the crank angle beta, is the beat.
 """
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,6 +27,8 @@ from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams, weight
 from ilmek.machines.beat_up.running import Running, run
 from ilmek.machines.beat_up.shaking import Balance, balance
 from ilmek.num.piecewise import Extremum, around, suprema
+from ilmek.records import record
+from ilmek.report import Json, computed, group, result
 from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
     Links,
@@ -36,7 +38,7 @@ from ilmek.synthesis.crank_rocker.dead_centres import (
     transmission_angle_min,
 )
 from ilmek.synthesis.crank_rocker.selection import member
-from ilmek.units import format_quantity, turn
+from ilmek.units import format_quantity, minute, turn
 
 PINS = ("A", "B", "C", "D")
 
@@ -47,7 +49,7 @@ TOGGLE = 1e-9
 """Least Grashof margin, in ground links, of a crank-rocker that does not stand in a toggle."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class State:
     """The mechanism at given crank angles, one value a sample.
 
@@ -66,47 +68,95 @@ class State:
     beater_force: ComplexArray
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BeatUp:
     """A designed beat-up mechanism.
 
     links     ratios to the ground link        dead_centres  swing, crank rotation and beta of these links
-    lengths   ground, crank, coupler, rocker, beater [m]
-    masses    of the bars crank, coupler, rocker [kg]       inertias  of the same about their own centres [kg m²]
     bodies    the moving bodies, the beater on the rocker
     state     over one turn, both ends included             peaks     greatest values over the turn
-    balance     shaking force and counterweights
-    at        at the crank angle asked for, if any
+    balance   shaking force and counterweights              at        state at the crank angle given, if any
     """
 
     params: BeatUpParams
     links: Links
     dead_centres: DeadCentres
-    lengths: Mapping[str, float]
-    masses: Mapping[str, float]
-    inertias: Mapping[str, float]
     bodies: Mapping[str, Inertia]
     plan: Plan
     state: State
     peaks: Mapping[str, Extremum]
-    balance: Balance
     at: State | None
+    lengths: Mapping[str, float] = result("mm", "lengths of the links, and of the beater from the rocker's pivot")
+    masses: Mapping[str, float] = result("kg", "masses of the bars; the rocker's reaches to the beater")
+    inertias: Mapping[str, float] = result("kg*m^2", "moments of inertia of the bars about their centres")
+    balance: Balance = group()
 
-    @property
+    crank = computed("1", "crank over ground (paper, Eq 1)", lambda it: float(it.links.crank))
+    coupler = computed("1", "coupler over ground (paper, Eq 1)", lambda it: float(it.links.coupler))
+    rocker = computed("1", "rocker over ground (paper, Eq 3)", lambda it: float(it.links.rocker))
+    crank_coupler_ratio = computed("1", "crank over coupler, r/l", lambda it: it.crank / it.coupler)
+    swing = computed("deg", "swing of the rocker between its dead centres", lambda it: float(it.dead_centres.swing))
+    crank_rotation = computed(
+        "deg",
+        "rotation of the crank from the beat to the other dead centre",
+        lambda it: float(it.dead_centres.rotation),
+    )
+    beta = computed("deg", "crank angle of the beat, the extended dead centre", lambda it: float(it.dead_centres.beta))
+
+    period = computed("s", "time of one beat, a turn of the crank", lambda it: turn / it.params.speed)
+    beats_per_minute = computed("1", "beats a minute", lambda it: minute / it.period)
+    beater_velocity_max = computed("m/s", "greatest speed of the beater", lambda it: it.peaks["beater_velocity"].value)
+    beater_acceleration_max = computed(
+        "m/s^2",
+        "greatest acceleration of the beater, along and across its path together",
+        lambda it: it.peaks["beater_acceleration"].value,
+    )
+    beater_acceleration_angle = computed(
+        "deg",
+        "crank angle of the greatest acceleration, near the beat",
+        lambda it: it.peaks["beater_acceleration"].at,
+    )
+    beater_force_max = computed(
+        "N",
+        "greatest force between rocker and beater: beater mass times acceleration, less its weight",
+        lambda it: it.peaks["beater_force"].value,
+    )
+    pin_force_max = computed("N", "greatest force in each pin", lambda it: {pin: it.peaks[pin].value for pin in PINS})
+    drive_torque_max = computed(
+        "N*m", "greatest magnitude of the torque on the crank", lambda it: it.peaks["drive_torque"].value
+    )
+    drive_power_max = computed(
+        "W",
+        "greatest power to and from the drive, at constant speed",
+        lambda it: it.drive_torque_max * it.params.speed,
+    )
+
+    @computed("deg", "least acute transmission angle over a turn")
     def transmission_angle_min(self) -> float:
-        """Least acute angle between coupler and rocker over a turn [rad]."""
         return float(transmission_angle_min(self.links))
 
-    @property
-    def beat_angle(self) -> float:
-        """Crank angle of the beat, beta [rad]."""
-        return float(self.dead_centres.beta)
+    @computed("mm", "chord of the beater's path between the dead centres")
+    def beater_stroke(self) -> float:
+        return 2 * self.lengths["beater"] * math.sin(self.swing / 2)
+
+    @computed("", "the same at crank_angle: torque with its sign, the others as magnitudes", name="at", optional=True)
+    def at_crank_angle(self) -> Json:
+        if self.at is None:
+            return None
+        state = self.at
+        return {
+            "drive_torque": float(state.torque[0]),
+            "pin_forces": {pin: float(force[0]) for pin, force in state.pins.items()},
+            "beater_acceleration": float(abs(state.beater.acceleration[0])),
+            "beater_velocity": float(abs(state.beater.velocity[0])),
+            "beater_force": float(abs(state.beater_force[0])),
+        }
 
     @property
     def rocker_angles(self) -> tuple[float, float]:
         """Angle of the rocker A-B at the beat and at the other dead centre [rad]."""
-        at_beat = (self.links.crank + self.links.coupler) * np.exp(1j * self.beat_angle) - 1
-        return float(np.angle(at_beat)), float(np.angle(at_beat)) + float(self.dead_centres.swing)
+        at_beat = float(np.angle((self.crank + self.coupler) * np.exp(1j * self.beta) - 1))
+        return at_beat, at_beat + self.swing
 
     @property
     def back_angle(self) -> float:

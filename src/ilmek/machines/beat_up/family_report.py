@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.family import QUANTITIES, Weighed, limits
-from ilmek.report import Check, Column, Result, Table, at_least, at_most
-from ilmek.report.limits import snap_to_limit
+from ilmek.records import record
+from ilmek.report import Check, Column, Json, Table, at_least, at_most, columns, computed
 from ilmek.synthesis.crank_rocker.dead_centres import (
     Limits,
     best_ratio,
@@ -16,8 +16,8 @@ from ilmek.synthesis.crank_rocker.dead_centres import (
     transmission_angle_min,
 )
 
-TOLD, SHOWN = 25, 9
-"""Members of the front that the results tell, and that the table shows."""
+REPORTED, SHOWN = 25, 9
+"""Members of the front in the results, and in the table."""
 
 ROUNDING = 1e-5
 """A best ratio this small is that of the centric crank-rocker, whose cubic has its roots at 0; so is an end of it."""
@@ -34,34 +34,41 @@ COLUMNS = (
 """Quantities of the table."""
 
 
-def family_results(design: BeatUp, weighed: Weighed) -> tuple[Result, ...]:
-    """Ends of the family, the cubic's member, the design's own quantities, and members of the front."""
-    place = float(design.dead_centres.swing), float(design.dead_centres.rotation)
-    best = float(best_ratio(*place))
-    best = 0.0 if best < ROUNDING else best
-    angle = float(transmission_angle_min(links_of_ratio(*place, best)))
-    return (
-        Result(
-            "family_limits",
-            {
-                "crank_coupler_ratio": _ends(ratio_limits(*place)),
-                "coupler": _ends(coupler_limits(*place)),
-                "beta": _ends(beta_limits(*place)),
-            },
-            "",
-            "ends of the family of this swing and crank rotation, themselves excluded; beta in radians",
-        ),
-        Result(
-            "best_ratio", best, "1", "crank/coupler ratio of the family's best transmission angle; 0: never reached"
-        ),
-        Result("best_transmission_angle", angle, "deg", "that angle, by the cubic"),
-        Result("own", dict(weighed.own), "", "the quantities of this beat-up; SI and radians", shown=False),
-        Result("pareto_weighed", list(weighed.weighed), "", "what Pareto's front weighs"),
-        Result("pareto_count", int(weighed.front.sum()), "", f"members on the front, of {len(weighed)}"),
-        Result(
-            "pareto", [dict(one) for one in weighed.some(TOLD)], "", "members of the front, by their ratio", shown=False
-        ),
-    )
+@record
+class FamilyResults:
+    """Ends of the family, the cubic's member, the design's own quantities, and members of the front.
+
+    swing, rotation  of the family [rad]
+    """
+
+    weighed: Weighed
+    swing: float
+    rotation: float
+
+    pareto_weighed = computed("", "objectives of the Pareto front", lambda it: list(it.weighed.weighed))
+    pareto_count = computed("", "members on the front", lambda it: int(it.weighed.front.sum()))
+    own = computed("", "the quantities of this beat-up; SI and radians", lambda it: dict(it.weighed.own), shown=False)
+
+    @computed("", "ends of the family of this swing and crank rotation, themselves excluded; beta in radians")
+    def family_limits(self) -> Json:
+        return {
+            "crank_coupler_ratio": _ends(ratio_limits(self.swing, self.rotation)),
+            "coupler": _ends(coupler_limits(self.swing, self.rotation)),
+            "beta": _ends(beta_limits(self.swing, self.rotation)),
+        }
+
+    @computed("1", "crank/coupler ratio of the family's best transmission angle; 0: never reached")
+    def best_ratio(self) -> float:
+        best = float(best_ratio(self.swing, self.rotation))
+        return 0.0 if best < ROUNDING else best
+
+    @computed("deg", "that angle, by the cubic")
+    def best_transmission_angle(self) -> float:
+        return float(transmission_angle_min(links_of_ratio(self.swing, self.rotation, self.best_ratio)))
+
+    @computed("", "members of the front, by their ratio", shown=False)
+    def pareto(self) -> Json:
+        return [dict(one) for one in self.weighed.some(REPORTED)]
 
 
 def _ends(limits_: Limits) -> list[float]:
@@ -73,10 +80,10 @@ def limit_checks(design: BeatUp, weighed: Weighed) -> tuple[Check, ...]:
     return tuple(
         (at_least if limit.sign > 0 else at_most)(
             f"{QUANTITIES[limit.quantity][0]}, {limit.name}",
-            snap_to_limit(weighed.own[limit.quantity], limit.bound),
+            weighed.own[limit.quantity],
             limit.bound,
             limit.unit,
-            "asked",
+            "given",
         )
         for limit in limits(design.params)
     )
@@ -84,10 +91,10 @@ def limit_checks(design: BeatUp, weighed: Weighed) -> tuple[Check, ...]:
 
 def front_table(weighed: Weighed) -> Table:
     """Some members of the front, and the beat-up itself."""
-    columns = (Column("member"), *(Column(*QUANTITIES[name]) for name in COLUMNS))
+    heads = columns("member", *(Column(*QUANTITIES[name]) for name in COLUMNS))
     rows = (*(_row("front", one) for one in weighed.some(SHOWN)), _row("this", weighed.own))
-    return Table("beat-up-front", "Members on Pareto's front, and this beat-up", columns, rows)
+    return Table("beat-up-front", "Members on Pareto's front, and this beat-up", heads, rows)
 
 
-def _row(said: str, member: Mapping[str, float]) -> tuple[float | int | str, ...]:
-    return (said, *(member[name] for name in COLUMNS))
+def _row(label: str, member: Mapping[str, float]) -> tuple[float | int | str, ...]:
+    return (label, *(member[name] for name in COLUMNS))

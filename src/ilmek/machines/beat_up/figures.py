@@ -18,7 +18,7 @@ CARPET = 0.35
 """Length of carpet and of warp drawn, over the length of the beater."""
 
 
-def figures(design: BeatUp, running: Running) -> tuple[Figure, ...]:
+def figures_of(design: BeatUp, running: Running) -> tuple[Figure, ...]:
     """The drawing, the same in motion, seven plots, and the start under the motor."""
     return (
         drawing(design),
@@ -30,7 +30,7 @@ def figures(design: BeatUp, running: Running) -> tuple[Figure, ...]:
 
 def drawing(design: BeatUp) -> Drawing:
     """The mechanism to scale at its beat, the other dead centre dashed, with the paths of crank pin and beater."""
-    beat, back = (_pose(design, angle) for angle in (design.beat_angle, design.back_angle))
+    beat, back = (_pose(design, angle) for angle in (design.beta, design.back_angle))
     crank, coupler, rocker = (_labelled(design, name) for name in ("crank", "coupler", "rocker"))
     D, A = 0j, complex(design.lengths["ground"])
     circle = design.lengths["crank"] * np.exp(1j * np.linspace(0, turn, 121))
@@ -67,16 +67,14 @@ def moving(design: BeatUp) -> Animation:
         Reading("beater from the fell", distance * design.lengths["beater"], "mm"),
         Reading("drive torque", np.interp(at, design.state.angle, design.state.torque), "N*m"),
     )
-    drawing = Drawing(
-        "beat-up-moving", "Beat-up mechanism in motion", _cloth(design, _pose(design, design.beat_angle)["E"])
-    )
+    drawing = Drawing("beat-up-moving", "Beat-up mechanism in motion", _cloth(design, _pose(design, design.beta)["E"]))
     return animated(
         motion,
         at,
         drawing,
         traces=(("rocker", "E"),),
         names=names,
-        start=design.beat_angle,
+        start=design.beta,
         period=turn / design.params.speed,
         readings=readings,
     )
@@ -176,5 +174,5 @@ def _plot(design: BeatUp, name: str, title: str, y: Axis, curves: Mapping[str, F
         Series(said, design.state.angle, values, dashed=place > 0 and len(curves) == 2)
         for place, (said, values) in enumerate(curves.items())
     )
-    marks = (Mark(design.beat_angle, "beat"), Mark(design.back_angle, "farthest back"))
+    marks = (Mark(design.beta, "beat"), Mark(design.back_angle, "farthest back"))
     return Plot(name, title, Axis("crank angle", "deg"), y, series, marks)

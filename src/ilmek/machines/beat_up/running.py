@@ -7,7 +7,6 @@ omega_0 the speed without load, s the slip at which it would give M_0 were its c
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,6 +19,8 @@ from ilmek.dynamics.loads import Gravity
 from ilmek.dynamics.reduced import Reduced, reduce
 from ilmek.linkage.structure import Plan
 from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.records import record
+from ilmek.report import computed, result
 from ilmek.units import turn
 
 REACHED = 0.95
@@ -30,26 +31,57 @@ MOST_TURNS = 100
 
 STEADY_TURNS, STEADY_SAMPLES = 4, 120
 RTOL = 1e-9
+ROUNDING = 1e-10
+"""A mean torque this small against the greatest is rounding."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Running:
     """The beat-up under its motor.
 
-    duty       of the torque at constant speed
-    flywheel   on the crank [kg m²]: that given, or that which keeps the fluctuation
-    torque     the motor's greatest, on the crank [N m]
-    start      the run from rest, the beater farthest back, to 95 % of the speed; `started`: whether it came there
-    steady     turns at speed, after it; None where it does not start
+    duty      of the torque at constant speed
+    start     the run from rest, the beater farthest back, to 95 % of the speed; `started`: whether it came there
+    steady    turns at speed, after it; None where it does not start
     Both are None where the linkage stands so near a toggle that its inertia has no usable Fourier series.
     """
 
     duty: Duty
-    flywheel: float
-    torque: float
+    flywheel: float = result("kg*m^2", "flywheel and rotor on the crank, for the fluctuation", name="flywheel_inertia")
+    torque: float = result("N*m", "greatest torque of the motor, on the crank", name="motor_torque")
     start: Run | None
     started: bool
     steady: Run | None
+
+    drive_torque_rms = computed("N*m", "root mean square of the torque", lambda it: it.duty.rms)
+    work_excess = computed(
+        "J", "work above the mean between least and greatest speed, over a turn", lambda it: it.duty.excess
+    )
+
+    @computed("N*m", "mean torque: nothing is lost, so that it is zero")
+    def drive_torque_mean(self) -> float:
+        return self.duty.mean if abs(self.duty.mean) > ROUNDING * self.duty.peak.value else 0.0
+
+    @computed("s", "from rest to 95 % of the speed; none: not reached", optional=True)
+    def start_time(self) -> float | None:
+        if self.start is None:
+            return None
+        return float(self.start.time[-1]) if self.started else math.nan
+
+    @computed("rad/s", "mean speed of the last turn that was run", optional=True)
+    def run_speed_mean(self) -> float | None:
+        return float(self.last_turn[0].mean()) if self.steady else None
+
+    @computed("1", "fluctuation of the speed in that turn", optional=True)
+    def run_fluctuation(self) -> float | None:
+        return self.fluctuation if self.steady else None
+
+    @computed("N*m", "greatest torque of the motor in it", optional=True)
+    def run_motor_torque_max(self) -> float | None:
+        return float(np.max(np.abs(self.last_turn[1]))) if self.steady else None
+
+    @computed("N*m", "root mean square of the same", optional=True)
+    def run_motor_torque_rms(self) -> float | None:
+        return math.sqrt(float(np.mean(self.last_turn[1] ** 2))) if self.steady else None
 
     @property
     def last_turn(self) -> tuple[FloatArray, FloatArray]:

@@ -1,11 +1,11 @@
 """What the beat-up shakes the loom with, and the counterweights against it."""
 
+import cmath
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import FloatArray, NumberArray
 from ilmek.dynamics.balance import (
     Shaking,
     counterweighted,
@@ -17,15 +17,18 @@ from ilmek.dynamics.balance import (
 from ilmek.dynamics.inertia import Inertia
 from ilmek.linkage.motion import Motion
 from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.records import record
+from ilmek.report import computed, result
+from ilmek.units import turn
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Balance:
     """The shaking force over a turn, the crank's pivot D its point of reference.
 
     before, after   without the counterweight and with it, over the angles of the motion
     first           parts of its first harmonic that turn with the crank and against it, before [N]
-    counterweight   static moment on the crank [kg m], complex in its frame, and its mass at the radius [kg]
+    counterweight   static moment on the crank [kg m], complex in its frame
     whole           static moments on crank and rocker that would cancel the force altogether [kg m]
     """
 
@@ -33,13 +36,50 @@ class Balance:
     after: Shaking
     first: tuple[float, float]
     counterweight: complex
-    mass: float
+    mass: float = result("kg", "mass of the counterweight at counterweight_radius", name="counterweight_mass")
     whole: tuple[complex, complex]
 
-    def greatest(self, name: str) -> tuple[float, float]:
-        """Greatest size of `force` [N] or `moment` [N m] before and after."""
-        before, after = (float(np.max(np.abs(getattr(one, name)))) for one in (self.before, self.after))
-        return before, after
+    shaking_force_max = computed(
+        "N", "greatest force of the moving masses on the frame", lambda it: _most(it.before.force)
+    )
+    shaking_moment_max = computed(
+        "N*m", "its greatest moment about the crank's pivot", lambda it: _most(it.before.moment)
+    )
+    shaking_first_harmonic = computed(
+        "N",
+        "the parts of its first harmonic that turn with the crank and against it",
+        lambda it: dict(zip(("with_crank", "against_crank"), it.first, strict=True)),
+    )
+    counterweight_moment = computed("", "on the crank: mass times radius (kg m)", lambda it: abs(it.counterweight))
+    counterweight_angle = computed("deg", "its direction, from the crank", lambda it: _direction(it.counterweight))
+    shaking_force_max_balanced = computed(
+        "N", "greatest shaking force with that counterweight", lambda it: _most(it.after.force)
+    )
+    shaking_moment_max_balanced = computed("N*m", "greatest shaking moment with it", lambda it: _most(it.after.moment))
+    full_balance_moment = computed(
+        "",
+        "counterweights that would leave no shaking force at all: mass times radius (kg m)",
+        lambda it: {link: abs(one) for link, one in zip(("crank", "rocker"), it.whole, strict=True)},
+    )
+    full_balance_angle = computed(
+        "deg",
+        "their directions, from crank and rocker",
+        lambda it: {link: _direction(one) for link, one in zip(("crank", "rocker"), it.whole, strict=True)},
+    )
+
+
+def _most(values: NumberArray) -> float:
+    return float(np.max(np.abs(values)))
+
+
+def _direction(static_moment: complex) -> float:
+    """Angle in [0, 2 pi) [rad], rounding below 0 taken for 0."""
+    angle = cmath.phase(static_moment) % turn
+    return 0.0 if turn - angle < ROUNDING else angle
+
+
+ROUNDING = 1e-10
+"""An angle this near to a turn is rounding [rad]."""
 
 
 def balance(

@@ -8,14 +8,15 @@ from ilmek.machines import SUMMARIES
 from ilmek.machines.cam.design import CamDesign, design
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.report import report
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 
 __all__ = ["MACHINE", "CamDesign", "CamParams", "design", "report"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="cam",
+    title="Cam",
     summary=SUMMARIES["cam"],
     params=CamParams,
     design=design,
-    report=report,
+    reporter=report,
 )

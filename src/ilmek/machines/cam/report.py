@@ -20,8 +20,7 @@ from ilmek.machines.cam.results import pressure_angle_on, results
 from ilmek.machines.cam.shape import size_without_undercut
 from ilmek.machines.cam.tables import tables
 from ilmek.num.piecewise import infimum
-from ilmek.report import Check, Report, at_least, at_most
-from ilmek.report.limits import snap_to_limit
+from ilmek.report import Check, Report, at_least, at_most, snap_to_limit
 from ilmek.units import format_quantity
 
 

@@ -5,17 +5,18 @@ with the alternation that proves it.
 """
 
 from ilmek.machines import SUMMARIES
+from ilmek.machines.component import Component
 from ilmek.machines.function_four_bar.design import FunctionFourBar, design
 from ilmek.machines.function_four_bar.params import FunctionFourBarParams
 from ilmek.machines.function_four_bar.report import report
-from ilmek.machines.machine import Machine
 
 __all__ = ["MACHINE", "FunctionFourBar", "FunctionFourBarParams", "design", "report"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="function-four-bar",
+    title="Four-bar for a function",
     summary=SUMMARIES["function-four-bar"],
     params=FunctionFourBarParams,
     design=design,
-    report=report,
+    reporter=report,
 )

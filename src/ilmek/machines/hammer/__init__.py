@@ -5,17 +5,18 @@ Either leaves on the guide cams, which a vertical axis pulls down with the whole
 """
 
 from ilmek.machines import SUMMARIES
+from ilmek.machines.component import Component
 from ilmek.machines.hammer.design import Hammer, design
 from ilmek.machines.hammer.params import HammerParams
 from ilmek.machines.hammer.report import report
-from ilmek.machines.machine import Machine
 
 __all__ = ["MACHINE", "Hammer", "HammerParams", "design", "report"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="hammer",
+    title="Hammer",
     summary=SUMMARIES["hammer"],
     params=HammerParams,
     design=design,
-    report=report,
+    reporter=report,
 )

@@ -36,7 +36,7 @@ def linkage_for(params: HammerParams) -> Linkage:
     one = beat_up.design(
         beat_up.BeatUpParams(ground=params.ground, speed=params.beat_speed, beater_mass=share, beat_force=0.0)
     )
-    beat = evaluate(one.params, one.plan, one.bodies, np.array([one.beat_angle]))
+    beat = evaluate(one.params, one.plan, one.bodies, np.array([one.beta]))
     quickest = one.peaks["beater_velocity"].value
     return Linkage(
         one=one,

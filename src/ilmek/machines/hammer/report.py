@@ -8,8 +8,7 @@ from ilmek.arrays import FloatArray
 from ilmek.machines.hammer.axis import BUCKLING, stroke_needed
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.figures import figures
-from ilmek.report import CamTable, Check, Column, Json, Report, Result, Table, at_least, at_most
-from ilmek.report.limits import snap_to_limit
+from ilmek.report import CamTable, Check, Column, Json, Report, Result, Table, at_least, at_most, snap_to_limit
 from ilmek.units import dm, format_quantity
 
 THESIS = "thesis, 3.3"

@@ -6,17 +6,18 @@ thesis, 2.1.3, by all real roots at once: none to three arms. Four points of one
 """
 
 from ilmek.machines import SUMMARIES
+from ilmek.machines.component import Component
 from ilmek.machines.knotting_dyad.design import KnottingDyad, design
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.report import report
-from ilmek.machines.machine import Machine
 
 __all__ = ["MACHINE", "KnottingDyad", "KnottingDyadParams", "design", "report"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="knotting-dyad",
+    title="Knotting dyad",
     summary=SUMMARIES["knotting-dyad"],
     params=KnottingDyadParams,
     design=design,
-    report=report,
+    reporter=report,
 )

@@ -9,17 +9,18 @@ is the four-bar of both arms of its own synthesis. With `poses` of one's own tha
 """
 
 from ilmek.machines import SUMMARIES
+from ilmek.machines.component import Component
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar, design
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.report import report
-from ilmek.machines.machine import Machine
 
 __all__ = ["MACHINE", "KnottingFourBar", "KnottingFourBarParams", "design", "report"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="knotting-four-bar",
+    title="Knotting four-bar",
     summary=SUMMARIES["knotting-four-bar"],
     params=KnottingFourBarParams,
     design=design,
-    report=report,
+    reporter=report,
 )

@@ -5,17 +5,18 @@ five a few links. All pairs are judged, and those without defects ranked.
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 from ilmek.machines.motion_four_bar.design import MotionFourBar, design
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
 from ilmek.machines.motion_four_bar.report import report
 
 __all__ = ["MACHINE", "MotionFourBar", "MotionFourBarParams", "design", "report"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="motion-four-bar",
+    title="Four-bar for a motion",
     summary=SUMMARIES["motion-four-bar"],
     params=MotionFourBarParams,
     design=design,
-    report=report,
+    reporter=report,
 )

@@ -5,17 +5,18 @@ met exactly, by all four-bars that do.
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 from ilmek.machines.path_four_bar.design import PathFourBar, design
 from ilmek.machines.path_four_bar.params import PathFourBarParams
 from ilmek.machines.path_four_bar.report import report
 
 __all__ = ["MACHINE", "PathFourBar", "PathFourBarParams", "design", "report"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="path-four-bar",
+    title="Four-bar for a path",
     summary=SUMMARIES["path-four-bar"],
     params=PathFourBarParams,
     design=design,
-    report=report,
+    reporter=report,
 )

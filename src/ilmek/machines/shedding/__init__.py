@@ -9,17 +9,18 @@ time, so that 600 x 10 N never act together.
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 from ilmek.machines.shedding.design import SheddingDesign, design
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.report import report
 
 __all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design", "report"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="shedding",
+    title="Shedding cams",
     summary=SUMMARIES["shedding"],
     params=SheddingParams,
     design=design,
-    report=report,
+    reporter=report,
 )

@@ -19,8 +19,7 @@ from ilmek.machines.shedding.tables import cycle_phases, tables
 from ilmek.machines.shedding.warp import lifting_work
 from ilmek.machines.shedding.warp_report import warp_checks, warp_results, warp_warnings
 from ilmek.num.piecewise import supremum
-from ilmek.report import Check, Json, Report, Result, at_least, at_most
-from ilmek.report.limits import snap_to_limit
+from ilmek.report import Check, Json, Report, Result, at_least, at_most, snap_to_limit
 from ilmek.units import format_quantity, mm, rpm
 
 THESIS = "thesis, 3.2"

@@ -8,17 +8,18 @@ tufting machine's driving system", Fibres and Textiles in Eastern Europe; moved 
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 from ilmek.machines.tufting.design import Tufting, design
 from ilmek.machines.tufting.params import TuftingParams
 from ilmek.machines.tufting.report import report
 
 __all__ = ["MACHINE", "Tufting", "TuftingParams", "design", "report"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="tufting",
+    title="Tufting needle mechanism",
     summary=SUMMARIES["tufting"],
     params=TuftingParams,
     design=design,
-    report=report,
+    reporter=report,
 )

@@ -9,8 +9,7 @@ from ilmek.machines.tufting.design import Tufting
 from ilmek.machines.tufting.figures import figures
 from ilmek.machines.tufting.model import PINS, State, inertias
 from ilmek.num.piecewise import Extremum
-from ilmek.report import Check, Column, Json, Plate, Report, Result, Table, at_least, at_most
-from ilmek.report.limits import snap_to_limit
+from ilmek.report import Check, Column, Json, Plate, Report, Result, Table, at_least, at_most, snap_to_limit
 from ilmek.units import deg, format_quantity, mm, turn
 
 PAPER = "Xu et al., needle multi-linkage mechanism"

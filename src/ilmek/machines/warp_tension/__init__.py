@@ -9,17 +9,18 @@ takes an efficiency of 0.9 where self-locking allows one half.
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 from ilmek.machines.warp_tension.design import WarpTensionDesign, design
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.machines.warp_tension.report import report
 
 __all__ = ["MACHINE", "WarpTensionDesign", "WarpTensionParams", "design", "report"]
 
-MACHINE = Machine(
+MACHINE = Component(
     name="warp-tension",
+    title="Warp tension",
     summary=SUMMARIES["warp-tension"],
     params=WarpTensionParams,
     design=design,
-    report=report,
+    reporter=report,
 )

@@ -17,8 +17,7 @@ from ilmek.machines.warp_tension.cylinder_report import (
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders
 from ilmek.machines.warp_tension.design import WarpTensionDesign, outer_radii_min
 from ilmek.machines.warp_tension.params import WarpTensionParams
-from ilmek.report import Check, Column, Figure, Report, Result, Table, at_most
-from ilmek.report.limits import snap_to_limit
+from ilmek.report import Check, Column, Figure, Report, Result, Table, at_most, snap_to_limit
 from ilmek.units import format_number, format_quantity, mm, turn
 
 THESIS = "thesis, 3.1"

@@ -7,7 +7,7 @@ limits are parameters, since the thesis prints none.
 from dataclasses import replace
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.machine import Machine
+from ilmek.machines.component import Component
 from ilmek.machines.weaver.cyclogram import relations
 from ilmek.machines.weaver.design import Weaver, design
 from ilmek.machines.weaver.limits import mass_of
@@ -36,11 +36,12 @@ def cyclograms(weaver: Weaver) -> tuple[Cyclogram, ...]:
     return (replace(weaver.cyclogram, relations=tuple(dict.fromkeys(order))),)
 
 
-MACHINE = Machine(
+MACHINE = Component(
     name="weaver",
+    title="Knotting head",
     summary=SUMMARIES["weaver"],
     params=WeaverParams,
     design=design,
-    report=report,
+    reporter=report,
     cyclograms=cyclograms,
 )

@@ -1,0 +1,117 @@
+"""A component: a machine, or a part of one, by what it can do; everything but parameters and design is optional.
+
+    params --design--> design --analysis--> analysis --> results, checks, tables, figures, warnings
+                        |
+                        +--> plates, cam tables, cyclograms, parts, work, tracks, children
+
+A machine is a component with children; `report` makes its report and those of its children. In a loom a component
+gets its parameters from the loom's task (`fit`), and the loom sums what its components return.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ilmek.machines.loom_task import LoomTask
+from ilmek.params import Params, Setting
+from ilmek.records import record
+from ilmek.report import CamTable, Check, Figure, Part, Plate, Report, Table, Work, results_of
+from ilmek.timing.cyclogram import Cyclogram, Track
+
+
+def _itself(design: Any) -> Any:
+    return design
+
+
+def _nothing(_design: Any) -> tuple[Any, ...]:
+    return ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Component:
+    """A machine of the catalogue, or of a loom.
+
+    name        as typed on the command line: `beat-up`          title    heading of its report
+    summary     one line for `ilmek machines`                    params   its declared parameters
+    design      parameters -> design, a frozen record of the machine's own
+    analysis    design -> what is computed for its report only; default: the design
+    results     analysis -> records with declared results (one, or a tuple of them); default: the analysis
+    reported    the classes of these records, from which the reference of its JSON names is made
+    checks, tables, figures, warnings   analysis -> each
+    plates, cam_tables, cyclograms      design -> what is made of it, what its axes follow, its timing
+    parts       design -> lines of the parts list                work     design -> work of its acts
+    tracks      design -> its tracks on the loom's cyclogram of a row
+    children    design -> the machines in it
+    parameters  design -> the parameters in force, where the design chose some that were left open
+    fit         loom's task -> parameters, for a machine that can be in a loom
+    own_figures beginnings of the names of figures that only its own page shows, not a loom's
+    """
+
+    name: str
+    title: str
+    summary: str
+    params: type[Params]
+    design: Callable[[Any], Any]
+    analysis: Callable[[Any], Any] = _itself
+    results: Callable[[Any], Any] = _itself
+    reported: tuple[type, ...] = ()
+    checks: Callable[[Any], tuple[Check, ...]] = _nothing
+    tables: Callable[[Any], tuple[Table, ...]] = _nothing
+    figures: Callable[[Any], tuple[Figure, ...]] = _nothing
+    warnings: Callable[[Any], tuple[str, ...]] = _nothing
+    plates: Callable[[Any], tuple[Plate, ...]] = _nothing
+    cam_tables: Callable[[Any], tuple[CamTable, ...]] = _nothing
+    cyclograms: Callable[[Any], tuple[Cyclogram, ...]] | None = None
+    parts: Callable[[Any], tuple[Part, ...]] = _nothing
+    work: Callable[[Any], tuple[Work, ...]] = _nothing
+    tracks: Callable[[Any], tuple[Track, ...]] = _nothing
+    children: Callable[[Any], "tuple[Child, ...]"] = _nothing
+    parameters: Callable[[Any], Params] = field(default=lambda design: design.params)
+    fit: Callable[[LoomTask], Any] | None = None
+    own_figures: tuple[str, ...] = ()
+    reporter: Callable[[Any], Report] | None = None
+
+    def report(self, design: Any, *, in_a_loom: bool = False) -> Report:
+        """The report of a design, with those of the machines in it.
+
+        in_a_loom  True: without the figures that only the machine's own page shows
+        """
+        if self.reporter is not None:
+            return self.reporter(design)
+        analysis = self.analysis(design)
+        records = self.results(analysis)
+        figures = self.figures(analysis)
+        if in_a_loom and self.own_figures:
+            figures = tuple(figure for figure in figures if not figure.name.startswith(self.own_figures))
+        return Report(
+            machine=self.name,
+            title=self.title,
+            parameters=self.parameters(design).as_dict(),
+            results=results_of(*(records if isinstance(records, tuple) else (records,))),
+            checks=self.checks(analysis),
+            tables=self.tables(analysis),
+            figures=figures,
+            warnings=self.warnings(analysis),
+            plates=self.plates(design),
+            cam_tables=self.cam_tables(design),
+            parts=self.parts(design),
+            children=tuple(child.component.report(child.design, in_a_loom=True) for child in self.children(design)),
+        )
+
+    def report_for(self, settings: Mapping[str, Setting]) -> Report:
+        """The report of the design for settings of its parameters, texts with units allowed. Raises any IlmekError."""
+        return self.report(self.design(self.params.read(settings)))
+
+
+@record
+class Child:
+    """A machine in another: its component, its design, and the number of them."""
+
+    component: Component
+    design: Any
+    number: int = 1
+
+    @property
+    def name(self) -> str:
+        """The component's name."""
+        return self.component.name

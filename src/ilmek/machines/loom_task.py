@@ -1,0 +1,51 @@
+"""What a loom requires of a machine in it: the carpet, the warps, and the machines designed before."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ilmek.records import record
+
+if TYPE_CHECKING:
+    from ilmek.machines.automated_loom.params import AutomatedLoomParams
+
+
+@record
+class LoomTask:
+    """The loom's task for one of its machines.
+
+    params   of the loom                                   rows, columns  of knots
+    tension, stiffness  of a warp [N], force over strain [N]
+    period   time of a row's wefts and beats [s]; nan before it is known
+    take_up_time, row_time  [s]: of the take-up; of the shortest row; nan before they are known
+    designs  of the machines designed before, by their names
+    """
+
+    params: "AutomatedLoomParams"
+    rows: int
+    columns: int
+    tension: float
+    stiffness: float
+    designs: Mapping[str, Any]
+    period: float = float("nan")
+    take_up_time: float = float("nan")
+    row_time: float = float("nan")
+
+    @property
+    def warps(self) -> int:
+        """Warps: two for each knot of a row."""
+        return 2 * self.columns
+
+    @property
+    def width(self) -> float:
+        """Distance of the bearings of cylinders and cam shaft [m]."""
+        return self.params.width + 2 * self.params.margin
+
+    @property
+    def knot_pitch(self) -> float:
+        """Distance of two neighbouring knots [m]."""
+        return 2 * self.params.pitch
+
+    @property
+    def row_pitch(self) -> float:
+        """Distance of two rows [m]."""
+        return 1 / self.params.quality.along

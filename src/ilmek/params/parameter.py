@@ -1,0 +1,132 @@
+"""One declared parameter: its kind, unit, bounds and meaning; reading and judging a setting of it."""
+
+import difflib
+import math
+import typing
+from dataclasses import dataclass
+
+from ilmek.errors import ParameterError, UnitError
+from ilmek.units import format_quantity, has_unit, parse_quantity, parse_unit, similar_units
+
+Value: typing.TypeAlias = float | int | bool | str | None
+"""The value of a parameter: SI, radians."""
+
+Setting: typing.TypeAlias = float | int | bool | str | None
+"""What a user sets: a number is SI, a text is read with its unit."""
+
+SMALLEST_MAGNITUDE = 1e-60
+"""Smallest magnitude accepted other than 0: powers of smaller numbers underflow."""
+
+_UNIT_REQUIRED = ("1/dm",)
+"""Units of quantities that nobody writes in SI: a bare 40 is never 40 per metre."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A declared parameter.
+
+    kind      float, int, bool or str
+    unit      in which it is shown and explained; bounds and default are SI
+    choices   of a text: the only values allowed; empty: any
+    alias     second name under which it can be set, small and capital letters alike
+    """
+
+    name: str
+    kind: type
+    default: Value
+    unit: str
+    above: float | None
+    at_least: float | None
+    below: float | None
+    at_most: float | None
+    choices: tuple[str, ...]
+    doc: str
+    symbol: str
+    alias: str
+
+    def read(self, setting: Setting) -> Value:
+        """The value of a setting: a number is SI, a text is read with its unit.
+
+        Raises ParameterError where the text is no value of this kind, or has no unit where one is required.
+        """
+        if not isinstance(setting, str):
+            return setting
+        text = setting.strip()
+        try:
+            if self.kind is str:
+                return text
+            if self.kind is bool:
+                return _TRUTH[text.lower()]
+            if text.lower() == "none" and self.default is None:
+                return None
+            number = parse_quantity(text, self.unit)
+        except KeyError:
+            raise ParameterError(f"{self.name}={setting!r} is neither true nor false", do="write yes or no") from None
+        except UnitError as error:
+            raise ParameterError(f"{self.name}: {error.given}", allowed=error.allowed, do=error.do) from None
+        if self.unit in _UNIT_REQUIRED and number != 0 and not has_unit(text):
+            per = self.unit.removeprefix("1")
+            raise ParameterError(f"{self.name}={text} has no unit", do=f"did you mean {text}{per}?")
+        if self.kind is int:
+            if number != round(number):
+                raise ParameterError(f"{self.name}={setting} is not a whole number", allowed=self.allowed())
+            return round(number)
+        return number
+
+    def check(self, value: Value) -> None:
+        """Raise ParameterError unless the value is of the declared kind and within the bounds."""
+        if value is None and self.default is None:
+            return
+        if self.kind is str:
+            if self.choices and value not in self.choices:
+                near = difflib.get_close_matches(str(value), self.choices, n=1)
+                hint = f"did you mean {near[0]}?" if near else ""
+                raise ParameterError(f"{self.name}={value!r} is unknown", allowed=self.allowed(), do=hint)
+            return
+        if self.kind is bool:
+            if not isinstance(value, bool):
+                raise ParameterError(f"{self.name}={value!r} is neither true nor false")
+            return
+        if isinstance(value, bool | str) or value is None or not math.isfinite(value):
+            raise ParameterError(f"{self.name}={value!r} is not a number", allowed=self.allowed())
+        if self.kind is int and value != int(value):
+            raise ParameterError(f"{self.name}={value!r} is not a whole number", allowed=self.allowed())
+        if 0 < abs(value) < SMALLEST_MAGNITUDE:
+            raise ParameterError(f"{self.name}={value:g} is too small", allowed=self.allowed(), do="did you mean 0?")
+        if not self.within(value):
+            shown = format_quantity(value, self.unit)
+            raise ParameterError(
+                f"{self.name}={shown} is out of bounds", allowed=self.allowed(), do=self._likely_slip(value)
+            )
+
+    def within(self, value: float) -> bool:
+        """Whether a number lies within the declared bounds: `above`, `below` exclude, `at_least`, `at_most` include."""
+        return (
+            (self.above is None or value > self.above)
+            and (self.at_least is None or value >= self.at_least)
+            and (self.below is None or value < self.below)
+            and (self.at_most is None or value <= self.at_most)
+        )
+
+    def allowed(self) -> str:
+        """The bounds or choices in words: `allowed: above 0 mm, at most 500 mm`."""
+        if self.choices:
+            return f"one of {', '.join(self.choices)}"
+        limits = (("above", self.above), ("at least", self.at_least), ("below", self.below), ("at most", self.at_most))
+        bounds = [f"{word} {format_quantity(limit, self.unit)}" for word, limit in limits if limit is not None]
+        return f"allowed: {', '.join(bounds)}" if bounds else ""
+
+    def _likely_slip(self, value: float) -> str:
+        """The unit that was probably forgotten, where the number is short enough to have been typed as it is."""
+        if float(f"{value:.6g}") != value:
+            return ""
+        for unit in (self.unit, *similar_units(self.unit)):
+            factor = parse_unit(unit).factor
+            if factor != 1.0 and self.within(value * factor):
+                written = f"{value:g}{unit.removeprefix('1')}"
+                base = {"deg": "radians", "mm": "metres", "cm": "metres"}.get(unit, "SI units")
+                return f"did you mean {written}? a bare number is in {base}"
+        return ""
+
+
+_TRUTH = {"yes": True, "true": True, "on": True, "1": True, "no": False, "false": False, "off": False, "0": False}

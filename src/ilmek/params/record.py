@@ -1,0 +1,212 @@
+"""Parameters of a machine: a frozen record whose fields are declared by kind, and may hold further `Params`.
+
+    @dataclass(frozen=True, slots=True)
+    class BeatUpParams(Params):
+        swing: float = kind.angle(30 * deg, above=0.0, below=180 * deg, doc="swing of the rocker", symbol="psi")
+
+`| None` with the default None makes a parameter optional. A parameter of a nested record is set by its dotted name.
+"""
+
+import difflib
+import types
+import typing
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import MISSING, Field, dataclass, field, fields, replace
+from functools import cache
+from types import MappingProxyType
+from typing import Any, TypeVar
+
+from ilmek.errors import ParameterError
+from ilmek.params.parameter import Parameter, Setting, Value
+
+P = TypeVar("P", bound="Params")
+
+Namespaces: typing.TypeAlias = Callable[[], Mapping[str, type["Params"]]]
+
+
+@dataclass(frozen=True, slots=True)
+class Overrides:
+    """Values set for the parameters of other machines, which replace the values derived for them.
+
+    values  dotted name, `shedding.law`, to value [SI]
+    """
+
+    values: Mapping[str, Value] = field(default_factory=lambda: MappingProxyType({}))
+
+    def __hash__(self) -> int:
+        return hash(tuple(self.values.items()))
+
+    def of(self, machine: str) -> dict[str, Value]:
+        """The values set for one machine, by dotted name below it."""
+        return {
+            name.removeprefix(f"{machine}."): value
+            for name, value in self.values.items()
+            if name.startswith(f"{machine}.")
+        }
+
+    def over(self, machine: str, derived: P) -> P:
+        """The derived parameters with the values set for that machine in place of theirs.
+
+        Raises ParameterError where the values contradict each other.
+        """
+        try:
+            return derived.with_values(self.of(machine))
+        except ParameterError as error:
+            raise ParameterError(f"{machine}: {error.given}", allowed=error.allowed, do=error.do) from None
+
+
+def overrides(namespaces: Namespaces, *, doc: str) -> Any:
+    """Declare a field of `Overrides`; `namespaces`, called when needed, gives the Params of each machine by name."""
+    return field(default_factory=Overrides, metadata=dict(overrides=namespaces, doc=doc))
+
+
+@dataclass(frozen=True, slots=True)
+class Params:
+    """Base of every machine's parameters: a frozen dataclass whose fields are declared by `ilmek.params`."""
+
+    def __post_init__(self) -> None:
+        for parameter in declared(type(self)):
+            parameter.check(getattr(self, parameter.name))
+        self.check_together()
+
+    def check_together(self) -> None:
+        """Raise ParameterError where parameters contradict each other; nothing by default."""
+
+    @classmethod
+    def read(cls: type[P], settings: Mapping[str, Setting], *, prefix: str = "") -> P:
+        """Parameters from settings by name, alias or dotted name; texts with units are allowed.
+
+        prefix  of the names in messages, where these parameters are nested in others
+        Raises ParameterError for an unknown name, and for a parameter set by its name and by its alias.
+        """
+        own, below = _sorted_settings(cls, settings, prefix)
+        values: dict[str, Any] = {}
+        for parameter, setting in own:
+            shown = replace(parameter, name=f"{prefix}{parameter.name}")
+            values[parameter.name] = value = shown.read(setting)
+            shown.check(value)
+        for one in fields(cls):
+            if "nested" in one.metadata and one.name in below:
+                values[one.name] = one.metadata["nested"].read(below[one.name], prefix=f"{prefix}{one.name}.")
+            elif "overrides" in one.metadata:
+                values[one.name] = Overrides(MappingProxyType(_read_overrides(one.metadata["overrides"](), below)))
+        return cls(**values)
+
+    def with_values(self: P, values: Mapping[str, Value]) -> P:
+        """The same with other values [SI] by name or dotted name. Raises ParameterError as the record itself does."""
+        own = {name: value for name, value in values.items() if "." not in name}
+        groups: dict[str, dict[str, Value]] = {}
+        for name, value in values.items():
+            if "." in name:
+                head, _, rest = name.partition(".")
+                groups.setdefault(head, {})[rest] = value
+        below = {head: getattr(self, head).with_values(rest) for head, rest in groups.items()}
+        changes: dict[str, Any] = {**own, **below}
+        return replace(self, **changes) if changes else self
+
+    def as_dict(self) -> dict[str, Value]:
+        """Name to SI value in order of declaration, nested ones by dotted name; of overrides those that are set."""
+        values: dict[str, Value] = {}
+        for one in fields(self):
+            value = getattr(self, one.name)
+            if isinstance(value, Params):
+                values |= {f"{one.name}.{name}": item for name, item in value.as_dict().items()}
+            elif isinstance(value, Overrides):
+                values |= value.values
+            else:
+                values[one.name] = value
+        return values
+
+
+def _sorted_settings(
+    cls: type[Params], settings: Mapping[str, Setting], prefix: str
+) -> tuple[list[tuple[Parameter, Setting]], dict[str, dict[str, Setting]]]:
+    """Settings of the class's own parameters, and those with a dotted name by what stands before the first dot."""
+    known = {parameter.name: parameter for parameter in declared(cls)}
+    aliases = {parameter.alias.casefold(): name for name, parameter in known.items() if parameter.alias}
+    groups = {
+        name
+        for one in fields(cls)
+        for name in (
+            (one.name,)
+            if "nested" in one.metadata
+            else one.metadata["overrides"]()
+            if "overrides" in one.metadata and any("." in given for given in settings)
+            else ()
+        )
+    }
+    given_as: dict[str, str] = {}
+    below: dict[str, dict[str, Setting]] = {}
+    for given, setting in settings.items():
+        head, dot, rest = given.partition(".")
+        if dot and head in groups:
+            below.setdefault(head, {})[rest] = setting
+            continue
+        name = given if given in known else aliases.get(given.casefold(), "")
+        if not name:
+            raise _unknown(cls, f"{prefix}{given}", prefix)
+        if name in given_as:
+            raise ParameterError(f"{name} is set twice, as {given_as[name]} and as {given}", do="set it once")
+        given_as[name] = given
+    return [(known[name], settings[given]) for name, given in given_as.items()], below
+
+
+def _unknown(cls: type[Params], given: str, prefix: str) -> ParameterError:
+    names = [f"{prefix}{name}" for name in reachable(cls)]
+    names += [f"{prefix}{parameter.alias}".casefold() for parameter in declared(cls) if parameter.alias]
+    last = given.rpartition(".")[2]
+    near = difflib.get_close_matches(given, names, n=1) or [name for name in names if name.endswith(f".{last}")][:1]
+    known = ", ".join(f"{prefix}{parameter.name}" for parameter in declared(cls))
+    return ParameterError(f"unknown parameter {given!r}", do=f"did you mean {near[0]}?" if near else f"known: {known}")
+
+
+def _read_overrides(
+    namespaces: Mapping[str, type[Params]], below: Mapping[str, Mapping[str, Setting]]
+) -> dict[str, Value]:
+    values: dict[str, Value] = {}
+    for machine, cls in namespaces.items():
+        known = reachable(cls)
+        for given, setting in below.get(machine, {}).items():
+            if given not in known:
+                raise _unknown(cls, f"{machine}.{given}", f"{machine}.")
+            parameter = replace(known[given], name=f"{machine}.{given}")
+            values[parameter.name] = value = parameter.read(setting)
+            parameter.check(value)
+    return values
+
+
+def declared(cls: type[Params]) -> tuple[Parameter, ...]:
+    """The parameters declared by a class itself, in order; not those of records nested in it."""
+    known: Any = cls  # a checker takes a class of dataclasses for one of its objects, which cannot be hashed
+    return _declared(known)
+
+
+def reachable(cls: type[Params]) -> dict[str, Parameter]:
+    """Every parameter that can be set, by name or dotted name: own, nested, and of the machines it overrides."""
+    return dict(_reachable(cls))
+
+
+def _reachable(cls: type[Params]) -> Iterator[tuple[str, Parameter]]:
+    yield from ((parameter.name, parameter) for parameter in declared(cls))
+    for one in fields(cls):
+        inner: Mapping[str, type[Params]] = {}
+        if "nested" in one.metadata:
+            inner = {one.name: one.metadata["nested"]}
+        elif "overrides" in one.metadata:
+            inner = one.metadata["overrides"]()
+        for head, below in inner.items():
+            yield from ((f"{head}.{name}", parameter) for name, parameter in _reachable(below))
+
+
+@cache
+def _declared(cls: Any) -> tuple[Parameter, ...]:
+    """The same, looked up once: every set of parameters that is made needs them."""
+    hints = typing.get_type_hints(cls)
+    return tuple(_parameter(f, hints[f.name]) for f in fields(cls) if not {"nested", "overrides"} & set(f.metadata))
+
+
+def _parameter(declared_field: "Field[Any]", hint: Any) -> Parameter:
+    kinds = [kind for kind in typing.get_args(hint) if kind is not types.NoneType] or [hint]
+    if declared_field.default is MISSING or "doc" not in declared_field.metadata:
+        raise TypeError(f"{declared_field.name} is not declared by a kind of ilmek.params")
+    return Parameter(name=declared_field.name, kind=kinds[0], default=declared_field.default, **declared_field.metadata)

@@ -1,0 +1,195 @@
+"""Frozen records, and the results that they declare.
+
+    @record
+    class Shaft:
+        motion: Motion
+        slope: float = result("rad", "slope at the supports", name="shaft_slope")
+
+        @computed("mm", "deflection between the supports", name="shaft_deflection")
+        def deflection(self) -> float: ...
+
+    @record
+    class Shedding:
+        mass: float = result("kg", "mass of all cams")
+        shaft: Shaft = group()
+
+A record may hold arrays and mappings: two are equal only where they are the same object, every one can be hashed, and
+its representation is a short line. Records of plain values that are compared by value are frozen dataclasses.
+
+Report, JSON, its reference and the columns of studies are made from the declared results: `layout` finds them on a
+class, `declared_results` lists them without a record.
+"""
+
+import types
+import typing
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from functools import cache
+from typing import Any, Generic, TypeVar, dataclass_transform, overload
+
+import numpy as np
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class DeclaredResult:
+    """The declaration of a result.
+
+    name      stable, as in JSON           unit   in which it is shown; the value is SI
+    meaning   a phrase                     shown  False: for JSON alone, where a table shows it better to a reader
+    optional  it is left out where its value is None; otherwise None is reported as null
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    shown: bool = True
+    optional: bool = False
+
+
+def result(
+    unit: str, doc: str, *, name: str = "", shown: bool = True, optional: bool = False, default: Any = ...
+) -> Any:
+    """Declare a field of a record as a result.
+
+    unit   in which it is shown, "" for texts and groups of values     doc       meaning, a phrase
+    name   in JSON, where it is not the field's                        shown     False: in JSON only
+    optional  left out where the value is None                         default   of the field, if any
+    """
+    declaration = DeclaredResult(name, unit, doc, shown, optional)
+    given = {} if default is ... else {"default": default}
+    return field(metadata={"result": declaration}, **given)
+
+
+def group(prefix: str = "") -> Any:
+    """Declare a field that holds a record with results of its own, reported with `prefix` before their names.
+
+    Where the field is None its results are left out.
+    """
+    return field(metadata={"group": prefix})
+
+
+_LONGEST = 60
+"""Characters of a field's value in a representation."""
+
+
+@dataclass_transform(eq_default=False, frozen_default=True, field_specifiers=(result, group, field))
+def record(cls: type[T]) -> type[T]:
+    """The class as a frozen, slotted dataclass with equality by identity and a short representation.
+
+    >>> @record
+    ... class Curve:
+    ...     name: str
+    ...     values: np.ndarray
+    >>> one, other = Curve("s", np.zeros(500)), Curve("s", np.zeros(500))
+    >>> one, one == other, len({one, other})
+    (Curve(name='s', values=float64[500]), False, 2)
+    """
+    made = dataclass(frozen=True, slots=True, eq=False, repr=False)(cls)
+    if "__repr__" not in vars(cls):
+        made.__repr__ = brief  # type: ignore[method-assign]
+    return made
+
+
+def brief(value: Any) -> str:
+    """A record in one line: plain values as they are, arrays by type and shape, records and collections by size."""
+    shown = ", ".join(f"{one.name}={_shown(getattr(value, one.name))}" for one in fields(value))
+    return f"{type(value).__name__}({shown})"
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return f"{value.dtype}[{'x'.join(str(size) for size in value.shape)}]"
+    if value is None or isinstance(value, bool | int | float | complex | str):
+        text = repr(value)
+        return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
+    if isinstance(value, tuple | list | dict):
+        return f"{type(value).__name__}[{len(value)}]"
+    return type(value).__name__
+
+
+class Computed(Generic[T]):
+    """A property of a record that is a result; its meaning is its documentation."""
+
+    def __init__(self, function: Callable[[Any], T], declaration: DeclaredResult) -> None:
+        self.function = function
+        self.declaration = declaration
+        self.__doc__ = f"{declaration.meaning} [{declaration.unit}]" if declaration.unit else declaration.meaning
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        """The result has the attribute's name where it is given no other."""
+        if not self.declaration.name:
+            self.declaration = replace(self.declaration, name=name)
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> "Computed[T]": ...
+    @overload
+    def __get__(self, instance: object, owner: type) -> T: ...
+    def __get__(self, instance: object | None, owner: type) -> "Computed[T] | T":
+        """The value for a record, the declaration for its class."""
+        return self if instance is None else self.function(instance)
+
+
+@overload
+def computed(
+    unit: str, doc: str, function: Callable[[Any], T], *, name: str = ..., shown: bool = ..., optional: bool = ...
+) -> Computed[T]: ...
+@overload
+def computed(
+    unit: str, doc: str, *, name: str = ..., shown: bool = ..., optional: bool = ...
+) -> Callable[[Callable[[Any], T]], Computed[T]]: ...
+def computed(
+    unit: str,
+    doc: str,
+    function: Callable[[Any], Any] | None = None,
+    *,
+    name: str = "",
+    shown: bool = True,
+    optional: bool = False,
+) -> Any:
+    """Declare a result that is computed from its record when it is read; other arguments as of `result`.
+
+    On one line with a function of the record, or as the decorator of a method without arguments:
+
+        crank = computed("1", "crank over ground", lambda design: design.links.crank)
+
+        @computed("mm", "chord of the beater's path")
+        def stroke(self) -> float: ...
+    """
+    declaration = DeclaredResult(name, unit, doc, shown, optional)
+    return Computed(function, declaration) if function else lambda method: Computed(method, declaration)
+
+
+def declared_results(*classes: type) -> tuple[DeclaredResult, ...]:
+    """The results declared by classes of records, in order, those of their groups included."""
+    return tuple(one for cls in classes for one in _declarations(cls, ""))
+
+
+def _declarations(cls: type, prefix: str) -> Iterator[DeclaredResult]:
+    hints = typing.get_type_hints(cls)
+    for attribute, declaration, inner in layout(cls):
+        if declaration is not None:
+            yield replace(declaration, name=prefix + declaration.name)
+            continue
+        hint = hints[attribute]
+        kinds = [kind for kind in typing.get_args(hint) if kind is not types.NoneType] or [hint]
+        for kind in kinds:
+            if is_dataclass(kind) and isinstance(kind, type):
+                yield from _declarations(kind, prefix + (inner or ""))
+
+
+@cache
+def layout(cls: Any) -> tuple[tuple[str, DeclaredResult | None, str | None], ...]:
+    """Attributes that are results (with their declaration) or groups (with their prefix), in order of declaration."""
+    found: list[tuple[str, DeclaredResult | None, str | None]] = []
+    if is_dataclass(cls):
+        for one in fields(cls):
+            if "result" in one.metadata:
+                declaration = one.metadata["result"]
+                found.append((one.name, replace(declaration, name=declaration.name or one.name), None))
+            elif "group" in one.metadata:
+                found.append((one.name, None, one.metadata["group"]))
+    for base in reversed(cls.__mro__):
+        found += [(name, one.declaration, None) for name, one in vars(base).items() if isinstance(one, Computed)]
+    return tuple(found)

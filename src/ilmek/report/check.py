@@ -1,0 +1,48 @@
+"""Checks: every judgement of a design is a value against a limit, with the source of the limit."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from ilmek.report.json import plain
+
+ROUNDING = 1e-9
+"""Relative difference to a limit that counts as rounding: a part made for exactly its limit keeps it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A judgement: `value` against `limit` [SI, shown in `unit`], and the source of the limit."""
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    ok: bool
+    source: str
+    relation: str = "<="
+
+    def as_json(self) -> dict[str, Any]:
+        """The check as plain data: name, value, limit, unit (to show it in), ok, source, relation."""
+        return {name: plain(getattr(self, name)) for name in Check.__slots__}
+
+
+def at_most(name: str, value: float, limit: float, unit: str, source: str) -> Check:
+    """The check value <= limit; a value that differs from the limit by rounding keeps it, NaN fails.
+
+    >>> at_most("pressure angle", 0.1 + 0.2, 0.3, "rad", "given").ok
+    True
+    """
+    value = snap_to_limit(value, limit)
+    return Check(name, value, float(limit), unit, bool(value <= limit), source, "<=")
+
+
+def at_least(name: str, value: float, limit: float, unit: str, source: str) -> Check:
+    """The check value >= limit; a value that differs from the limit by rounding keeps it, NaN fails."""
+    value = snap_to_limit(value, limit)
+    return Check(name, value, float(limit), unit, bool(value >= limit), source, ">=")
+
+
+def snap_to_limit(value: float, limit: float) -> float:
+    """The limit where the value equals it but for rounding, else the value."""
+    return float(limit if math.isclose(value, limit, rel_tol=ROUNDING) else value)

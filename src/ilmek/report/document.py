@@ -1,0 +1,121 @@
+"""The report of a machine: results, checks, tables and figures, and the reports of the machines it consists of."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any, TypeVar
+
+from ilmek.records import record
+from ilmek.report.bill import Part
+from ilmek.report.check import Check
+from ilmek.report.figure import Figure
+from ilmek.report.json import Json, plain
+from ilmek.report.results import Result
+from ilmek.report.table import Table
+from ilmek.report.workshop import CamTable, Plate
+
+_Named = TypeVar("_Named", Plate, CamTable)
+
+
+@record
+class Report:
+    """What a design reports; `children` are the reports of the machines in it.
+
+    `results`, `checks`, `warnings`, `plates` and `cam_tables` are its own; those of the whole tree carry the name of
+    their machine: `all_checks`, `all_warnings`, `all_plates`, `all_cam_tables`.
+    """
+
+    machine: str
+    title: str
+    parameters: Mapping[str, Json]
+    results: tuple[Result, ...]
+    checks: tuple[Check, ...]
+    tables: tuple[Table, ...] = ()
+    figures: tuple[Figure, ...] = ()
+    warnings: tuple[str, ...] = ()
+    plates: tuple[Plate, ...] = ()
+    cam_tables: tuple[CamTable, ...] = ()
+    parts: tuple[Part, ...] = ()
+    children: tuple["Report", ...] = ()
+
+    @property
+    def key(self) -> str:
+        """Name of the machine as a key of JSON: `beat_up`."""
+        return self.machine.replace("-", "_")
+
+    @property
+    def all_checks(self) -> tuple[Check, ...]:
+        """The checks of the whole tree; those of a machine in it begin with its name."""
+        below = (
+            replace(check, name=f"{child.machine}: {check.name}")
+            for child in self.children
+            for check in child.all_checks
+        )
+        return (*self.checks, *below)
+
+    @property
+    def all_warnings(self) -> tuple[str, ...]:
+        """The warnings of the whole tree; those of a machine in it begin with its name."""
+        below = (f"{child.machine}: {warning}" for child in self.children for warning in child.all_warnings)
+        return (*self.warnings, *below)
+
+    @property
+    def all_plates(self) -> tuple[Plate, ...]:
+        """The plates of the whole tree."""
+        return (*self.plates, *(one for child in self.children for one in _named(child, child.all_plates)))
+
+    @property
+    def all_cam_tables(self) -> tuple[CamTable, ...]:
+        """The cam tables of the whole tree, those of the machines in it first."""
+        return (*(one for child in self.children for one in _named(child, child.all_cam_tables)), *self.cam_tables)
+
+    @property
+    def failed(self) -> tuple[Check, ...]:
+        """The checks of the whole tree that do not hold."""
+        return tuple(check for check in self.all_checks if not check.ok)
+
+    def __getitem__(self, name: str) -> Json:
+        """The value of a result [SI] by its name, of a machine in it by a dotted name: `beat_up.crank`.
+
+        Raises KeyError, listing the names, for any other.
+        """
+        head, dot, rest = name.partition(".")
+        if dot:
+            for child in self.children:
+                if head in (child.key, child.machine):
+                    return child[rest]
+        for result in self.results:
+            if result.name == name:
+                return result.value
+        raise KeyError(f"{name!r}: {self.machine} reports {', '.join(self.names())}")
+
+    def names(self) -> Iterator[str]:
+        """The names of all results, dotted for the machines in it."""
+        yield from (result.name for result in self.results)
+        yield from (f"{child.key}.{name}" for child in self.children for name in child.names())
+
+    def __repr__(self) -> str:
+        held = len(self.all_checks) - len(self.failed)
+        return f"<Report {self.machine}: {len(self.results)} results, {held} of {len(self.all_checks)} checks hold>"
+
+    def results_as_json(self) -> dict[str, Any]:
+        """Name to value, and under the key of each machine in it its results."""
+        own = {result.name: plain(result.value) for result in self.results}
+        return own | {child.key: child.results_as_json() for child in self.children}
+
+    def as_json(self) -> dict[str, Any]:
+        """The contract of `--json`: machine, parameters, results, checks, warnings; SI, full precision."""
+        return {
+            "machine": self.machine,
+            "parameters": plain(self.parameters),
+            "results": self.results_as_json(),
+            "checks": [check.as_json() for check in self.all_checks],
+            "warnings": list(self.all_warnings),
+        }
+
+    def own(self) -> "Report":
+        """The same without the machines in it."""
+        return replace(self, children=())
+
+
+def _named(child: Report, made: tuple[_Named, ...]) -> Iterator[_Named]:
+    return (replace(one, name=f"{child.machine}-{one.name}") for one in made)

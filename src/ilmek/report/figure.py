@@ -1,0 +1,234 @@
+"""Figures as plain data: plots, drawings to scale, machines in motion, cyclograms. Values are SI."""
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.records import record
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """A plot's axis: label, and the unit its SI data are shown in."""
+
+    label: str
+    unit: str = ""
+
+
+@record
+class Series:
+    """A curve: SI abscissae and ordinates of one length."""
+
+    label: str
+    x: FloatArray
+    y: FloatArray
+    dashed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A named abscissa: a vertical line in a plot."""
+
+    x: float
+    label: str
+
+
+@record
+class Plot:
+    """Curves over one axis."""
+
+    name: str
+    title: str
+    x: Axis
+    y: Axis
+    series: tuple[Series, ...]
+    marks: tuple[Mark, ...] = ()
+    note: str = ""
+
+
+@record
+class Stroke:
+    """A polyline of a drawing [m]. Its role sets how it is drawn.
+
+    role  outline (thick), link (thick, coloured), ground (hatched grey), guide (hatched beside a slider), path (thin,
+          coloured), construction (thin dashed), dimension (thin with arrows at both ends), yarn
+    """
+
+    points: ComplexArray
+    role: str
+    label: str = ""
+    closed: bool = False
+    filled: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Dot:
+    """A named point of a drawing [m]; role: pin (moving joint), pivot (joint on the ground), point."""
+
+    at: complex
+    label: str
+    role: str = "pin"
+
+
+@record
+class Drawing:
+    """A drawing to scale: strokes and dots [m], shown in `unit`."""
+
+    name: str
+    title: str
+    strokes: tuple[Stroke, ...]
+    dots: tuple[Dot, ...] = ()
+    unit: str = "mm"
+    note: str = ""
+
+
+@record
+class MovingStroke:
+    """A line that moves: its points [m] at every frame, (frames, points); roles as of `Stroke`, link or outline."""
+
+    points: ComplexArray
+    role: str
+    label: str = ""
+    closed: bool = False
+
+
+@record
+class MovingDot:
+    """A point that moves [m], (frames).
+
+    role   pin, point, or block: a slider, drawn along its guide
+    along  unit directions of the guide, (frames), of a block
+    """
+
+    at: ComplexArray
+    label: str
+    role: str = "pin"
+    along: ComplexArray | None = None
+
+
+@record
+class Reading:
+    """A number shown beside a machine that moves: its SI values at the frames, shown in `unit`."""
+
+    label: str
+    values: FloatArray
+    unit: str = ""
+
+
+@record
+class Animation:
+    """A machine in motion, to scale: what stands still, and what moves over the frames of one run.
+
+    still    name, title, and all that does not move: ground, pivots, traced paths
+    drive    what a person turns: label and unit      at  its value at the frames [SI], ascending, evenly apart
+    closes   the frame after the last is the first again, a step later; otherwise the machine goes to and fro
+    start    the frame shown first, and alone where nothing can move
+    period   time of a run of the real machine [s]; None: it has no speed of its own
+    """
+
+    still: Drawing
+    drive: Axis
+    at: FloatArray
+    strokes: tuple[MovingStroke, ...]
+    dots: tuple[MovingDot, ...]
+    closes: bool = True
+    start: int = 0
+    period: float | None = None
+    readings: tuple[Reading, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The drawing's name."""
+        return self.still.name
+
+    @property
+    def title(self) -> str:
+        """The drawing's title."""
+        return self.still.title
+
+    @property
+    def note(self) -> str:
+        """The drawing's note."""
+        return self.still.note
+
+
+@record
+class LawCurve:
+    """A motion law to draw: s, v and a on places u from 0 to 1; twice the same u where a or v jumps."""
+
+    name: str
+    u: FloatArray
+    s: FloatArray
+    v: FloatArray
+    a: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """A motion of a lane: from `begin` to `finish` [SI] over master angles [rad], by the law of a name."""
+
+    name: str
+    start: float
+    end: float
+    begin: float
+    finish: float
+    law: str
+
+
+@dataclass(frozen=True, slots=True)
+class Shade:
+    """A window of a lane: master angles [rad], what it is, and whether it is one that must not be."""
+
+    start: float
+    end: float
+    label: str = ""
+    bad: bool = False
+
+
+@record
+class Lane:
+    """One track of a cyclogram: position of an actuator over the master angle.
+
+    angle     master angle [rad], ascending from 0 to 2 pi     position  0 to 1 of the stroke
+    events    named master angles [rad]
+    moves     its motions, where they are known, in order, and the `unit` their positions are shown in
+    shades    windows to be shaded
+    """
+
+    name: str
+    actuator: str
+    angle: FloatArray
+    position: FloatArray
+    events: tuple[Mark, ...] = ()
+    moves: tuple[Move, ...] = ()
+    unit: str = ""
+    shades: tuple[Shade, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """What must come after what: from a place to a place, each the number of a lane and a master angle [rad]."""
+
+    first: tuple[int, float]
+    then: tuple[int, float]
+    label: str
+    ok: bool = True
+
+
+@record
+class Timing:
+    """A cyclogram to draw: lanes over one turn of the master shaft, which takes `period` [s].
+
+    laws    of the lanes' moves      links  between instants of the lanes
+    """
+
+    name: str
+    title: str
+    period: float
+    lanes: tuple[Lane, ...]
+    note: str = ""
+    laws: tuple[LawCurve, ...] = ()
+    links: tuple[Link, ...] = ()
+
+
+Figure: TypeAlias = Plot | Drawing | Animation | Timing

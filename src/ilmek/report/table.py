@@ -1,0 +1,46 @@
+"""Tables of a report: rows of SI numbers and texts under columns with units."""
+
+import re
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A table's column: heading and the unit its SI numbers are shown in ("" for text and plain numbers)."""
+
+    heading: str
+    unit: str = ""
+    digits: int = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of SI numbers and texts under columns.
+
+    brief  True: short, and worth being shown on a terminal too
+    """
+
+    name: str
+    title: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[float | int | str, ...], ...]
+    brief: bool = False
+
+
+_HEADING = re.compile(r"(.*?)(?:\s*\[([^\]]*)\](?:\s*(\d+))?)?$")
+
+
+def columns(*headings: str | Column) -> tuple[Column, ...]:
+    """Columns by their headings, the unit in brackets behind, and after it the number of significant digits.
+
+    >>> columns("link", "length [mm]", "mass of one [kg] 3")[1:]
+    (Column(heading='length', unit='mm', digits=4), Column(heading='mass of one', unit='kg', digits=3))
+    """
+    return tuple(_column(heading) if isinstance(heading, str) else heading for heading in headings)
+
+
+def _column(written: str) -> Column:
+    matched = _HEADING.match(written)
+    assert matched is not None
+    heading, unit, digits = matched.groups()
+    return Column(heading, unit or "", int(digits or 4))
