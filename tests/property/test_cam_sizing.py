@@ -13,7 +13,6 @@ from ilmek.cams.limits import (
     concave_radius_min,
     convex_radius_min,
     pressure_angle_max,
-    smallest_prime_radius,
     undercut,
 )
 from ilmek.cams.oscillating import OscillatingCam
@@ -37,7 +36,7 @@ def motion(lift, out=90 * deg, back=120 * deg, law="cycloidal") -> Programme:
 def test_the_pressure_angle_alone_agrees_with_the_closed_form(law) -> None:
     programme = motion(30 * mm, law=law)
     found = smallest_prime(PlateCam(programme, 1.0, 2 * mm), Limits(rise=30 * deg, back=30 * deg))
-    closed = smallest_prime_radius(programme, 30 * deg, 2 * mm)
+    closed = pressure_prime(programme, Limits(30 * deg, 30 * deg), 2 * mm)
     assert found.prime_radius == pytest.approx(closed.value, rel=1e-12)
     assert found.at == pytest.approx(closed.at, abs=1e-6)
     assert found.binds == "the pressure angle on the rise"

@@ -1,4 +1,4 @@
-"""Limits of a cam of any kind: pressure angle, curvature, undercut, area, smallest prime circle.
+"""Limits of a cam of any kind: pressure angle, curvature, undercut, area.
 
 All of them are searched or integrated piece by piece between the programme's knots, so that jumps of the acceleration
 are taken at both their sides.
@@ -12,12 +12,9 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import Programme
 from ilmek.cams.trace import Cam
-from ilmek.errors import ParameterError
 from ilmek.num.piecewise import Extremum, infimum, integral, supremum
 from ilmek.plane.vectors import dot
-from ilmek.units import format_quantity
 
 __all__ = [
     "Part",
@@ -27,7 +24,6 @@ __all__ = [
     "convex_radius_min",
     "largest_cutter",
     "pressure_angle_max",
-    "smallest_prime_radius",
     "undercut",
 ]
 
@@ -94,27 +90,6 @@ def area(cam: Cam) -> float:
         return np.asarray(0.5 * dot(trace.surface, trace.normal) * (trace.flow - trace.roller_radius * trace.turning))
 
     return integral(sector, cam.knots)
-
-
-def smallest_prime_radius(programme: Programme, pressure_angle_limit: float, offset: float = 0.0) -> Extremum:
-    """Smallest prime radius [m] that keeps |mu| within the limit [rad] all round, and the cam angle that asks for it.
-
-        Rp = sqrt(d^2 + e^2),   d = sup(|s' - e| / tan(limit) - s)
-
-    For a harmonic rise of L over beta with e = 0: Rp = -L/2 + sqrt((pi L / (2 beta tan limit))^2 + (L/2)^2).
-    Raises ParameterError for a limit that is not between 0 and 90 degrees.
-    """
-    if not 0 < pressure_angle_limit < math.pi / 2:
-        shown = format_quantity(pressure_angle_limit, "deg")
-        raise ParameterError(f"pressure_angle_limit={shown}", allowed="allowed: above 0 deg, below 90 deg")
-    slope = math.tan(pressure_angle_limit)
-
-    def demand(angle: FloatArray) -> FloatArray:
-        at = programme.at(angle)
-        return np.asarray(np.abs(at.ds - offset) / slope - at.s)
-
-    worst = supremum(demand, programme.knots)
-    return Extremum(worst.at, math.hypot(max(worst.value, 0.0), offset))
 
 
 def _within(part: Part, ds: FloatArray) -> BoolArray:

@@ -115,7 +115,9 @@ def require(cam: Cam, limits: Limits) -> None:
 def pressure_prime(programme: Programme, limits: Limits, offset: float = 0.0) -> Extremum:
     """Smallest prime radius [m] of a translating roller for the limits of the pressure angle alone, and where.
 
-    Rp = sqrt(d^2 + e^2),   d = sup(|s' - e| / tan(limit) - s), with the limit of the rise or of the way back
+        Rp = sqrt(d^2 + e^2),   d = sup(|s' - e| / tan(limit) - s), with the limit of the rise or of the return
+
+    For a harmonic rise of L over beta with e = 0: Rp = -L/2 + sqrt((pi L / (2 beta tan limit))^2 + (L/2)^2).
     """
     slope = {1: _slope(limits.rise), -1: _slope(limits.back)}
 

@@ -19,6 +19,7 @@ from ilmek.elements.reducers import Reducer, worm_efficiency
 from ilmek.units import rpm
 
 __all__ = [
+    "FULL_STEPS",
     "MOTORS",
     "Motor",
     "Reducer",
@@ -30,6 +31,9 @@ __all__ = [
 ]
 
 STEPPER, SERVO = "stepper", "servo"
+
+FULL_STEPS = 200
+"""Full steps of a stepper's turn, 1.8 degrees each."""
 
 
 @dataclass(frozen=True, slots=True)

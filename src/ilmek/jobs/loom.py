@@ -12,11 +12,9 @@ from ilmek.errors import ParameterError, UnitError
 from ilmek.jobs.order import Order
 from ilmek.loom.programme import Programme, heads_for, make_programme
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom.design import USUAL_HEADS
 from ilmek.params import Setting
 from ilmek.units import format_quantity, parse_quantity
-
-USUAL_HEADS = 4
-"""Heads where neither a number nor a deadline is given, provided that they fit."""
 
 
 @dataclass(frozen=True, slots=True)

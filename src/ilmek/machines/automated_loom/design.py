@@ -27,8 +27,8 @@ from ilmek.timing.cyclogram import Cyclogram
 from ilmek.units import format_quantity, mm, turn
 from ilmek.weaving.tension import usual_tension
 
-HEADS = 4
-"""Heads of a loom for which no number is said, where so many fit."""
+USUAL_HEADS = 4
+"""Heads of a loom for which no number is given, where so many fit."""
 
 STOCK_TUBES = (
     *((tube.outer, tube.wall) for tube in map(find_tube, ("140x5", "139.7x10", "168.3x6.3", "168.3x10", "193.7x8"))),
@@ -179,7 +179,7 @@ def _heads(params: AutomatedLoomParams, most: int) -> int:
             allowed=f"at most {most}: neighbours keep half a head's share of the row between them",
             do=f"set heads={most}, or narrower heads",
         )
-    return params.heads or min(HEADS, most)
+    return params.heads or min(USUAL_HEADS, most)
 
 
 def _weaver_params(params: AutomatedLoomParams) -> weaver.WeaverParams:

@@ -21,6 +21,7 @@ from ilmek.cams import limits
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
 from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
+from ilmek.cams.sizing import Limits, pressure_prime
 from ilmek.elements.duty import Cycle, Duty, duty
 from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor
 from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
@@ -111,7 +112,7 @@ def design(params: SheddingParams) -> SheddingDesign:
     """Cams, stack, shaft and drive for the parameters. Raises ParameterError where the cam cannot exist."""
     even = lifting(params)
     odd = even.shifted(TURN / 2)
-    smallest = limits.smallest_prime_radius(even, params.pressure_angle_limit)
+    smallest = pressure_prime(even, Limits(params.pressure_angle_limit, params.pressure_angle_limit))
     cam = PlateCam(even, params.prime_radius or smallest.value, roller_radius=params.roller_radius)
     thickness = params.cam_thickness or params.warp_pitch / 2
     guide_radius = cam.prime_radius + params.lift - params.roller_radius + params.guide_height

@@ -3,8 +3,9 @@
 import numpy as np
 
 from ilmek.cams.laws import LAWS, SMOOTH_LAWS
-from ilmek.cams.limits import PlateCam, convex_radius_min, smallest_prime_radius
+from ilmek.cams.limits import PlateCam, convex_radius_min
 from ilmek.cams.programme import Programme, jumps
+from ilmek.cams.sizing import Limits, pressure_prime
 from ilmek.elements import shafts
 from ilmek.machines.shedding.alternatives import Study
 from ilmek.machines.shedding.design import SheddingDesign, lifting
@@ -98,9 +99,10 @@ def law_table(design: SheddingDesign) -> Table:
 
 
 def _law_row(design: SheddingDesign, name: str) -> tuple[float | int | str, ...]:
+    limit = design.params.pressure_angle_limit
     params, law, shortest = design.params, LAWS[name], min(design.params.rise, design.params.fall_angle)
     programme: Programme = lifting(params, name)
-    prime = smallest_prime_radius(programme, params.pressure_angle_limit).value
+    prime = pressure_prime(programme, Limits(limit, limit)).value
     # The roller may be larger than this law's prime circle; the pitch curve does not ask for it.
     radius = convex_radius_min(PlateCam(programme, prime)).value
     rate = params.speed / shortest

@@ -8,14 +8,12 @@ over the ratio: the smallest change that the motor can set.
 from dataclasses import dataclass
 
 from ilmek.arrays import FloatArray
+from ilmek.elements.motors import FULL_STEPS
 from ilmek.elements.yarns import COTTON, warp_density, warp_stiffness
 from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.units import turn
 from ilmek.weaving.shed import shed_lengthening
 from ilmek.weaving.tension import TakeUpTension, take_up_tension, tension_history
-
-STEPS = 200
-"""Full steps of a stepper's turn."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +43,7 @@ def tension_of(design: WarpTensionDesign) -> WarpTension:
         stiffness,
         COTTON.breaking_force(warp_density(params.pitch)),
         woven * params.crimp / design.outer_radius,
-        rate * design.outer_radius * turn / STEPS / design.reducer.ratio,
+        rate * design.outer_radius * turn / FULL_STEPS / design.reducer.ratio,
     )
 
 

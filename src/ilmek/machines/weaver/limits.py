@@ -19,16 +19,13 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.elements.duty import MARGIN
-from ilmek.elements.motors import Motor, smallest_motor
+from ilmek.elements.motors import FULL_STEPS, Motor, smallest_motor
 from ilmek.elements.yarns import WOOL
 from ilmek.machines.weaver.cams import PRESSURE_LIMIT, STEEL
 from ilmek.machines.weaver.cyclogram import HANDLER
 from ilmek.machines.weaver.design import Weaver
 from ilmek.num.brackets import bracketed_roots
 from ilmek.units import turn
-
-STEPS = 200
-"""Full steps of a stepper's turn."""
 
 _SHORTEST = 1e-6
 """A cycle that no motor allows, as a part of the cycle."""
@@ -75,7 +72,7 @@ def selector_of(weaver: Weaver) -> Selector:
     params = weaver.params
     radius, mass = params.selector_pulley, params.tubes * params.tube_mass
     torque, speed = MARGIN * mass * params.selector_acceleration * radius, params.selector_speed / radius
-    return Selector(torque, speed, turn * radius / STEPS, smallest_motor(torque, speed, kind="stepper"))
+    return Selector(torque, speed, turn * radius / FULL_STEPS, smallest_motor(torque, speed, kind="stepper"))
 
 
 def mass_of(weaver: Weaver) -> Mapping[str, float]:
