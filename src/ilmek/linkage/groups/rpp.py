@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
-from ilmek.linkage.body_motion import BodyMotion, carried_acceleration, carried_velocity
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
-from ilmek.linkage.groups.shift import Track, refuse_parallel, track
-from ilmek.linkage.groups.turn import hung
+from ilmek.linkage.body_motion import carried_acceleration, carried_velocity
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved
+from ilmek.linkage.groups.pairs import SliderPair
+from ilmek.linkage.groups.shift import refuse_parallel, track
 from ilmek.linkage.model import Pin, Slide
 from ilmek.plane.vectors import cross, oblique
 
@@ -49,33 +49,16 @@ def zero(
 
 
 @dataclass(frozen=True, slots=True)
-class CrossSlide(Step):
+class CrossSlide(SliderPair):
     """A body on a known pin and the slider between it and a guide.
 
-    hinge  known pin in the frame of the body that the link hangs on [m]     at   the same pin in the link's frame [m]
-    track  the slider on its guide         lead   direction f in the slider's frame      twist  link against slider
-    zero   A at s = z = 0 in the guide's frame [m]
+    lead  direction f in the slider's frame      twist  link against slider
+    zero  A at s = z = 0 in the guide's frame [m]
     """
 
-    link: str
-    slider: str
-    on: tuple[str, str]
-    hinge: complex
-    at: complex
-    track: Track
     lead: complex
     twist: complex
     zero: complex
-
-    @property
-    def bodies(self) -> tuple[str, ...]:
-        """Link and slider."""
-        return self.link, self.slider
-
-    @property
-    def parents(self) -> tuple[str, ...]:
-        """The body with the known pin, and the guide."""
-        return self.on
 
     @property
     def words(self) -> str:
@@ -96,13 +79,6 @@ class CrossSlide(Step):
             self.slider: (oblique(d, e, f), oblique(ds, e, f), oblique(dds, e, f)),
         }
         return Solved(columns)
-
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
-        """The link, anchored at the known pin, and the slider, anchored at its point on the guide."""
-        return {
-            self.link: hung(known[self.on[0]], self.hinge, self.at, columns[self.link]),
-            self.slider: self.track.place(known[self.on[1]], columns[self.slider]),
-        }
 
     def jerk(
         self,

@@ -18,10 +18,9 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
-from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved
+from ilmek.linkage.groups.pairs import PinnedPair
 from ilmek.linkage.groups.shift import Track, track
-from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Pin, Slide
 from ilmek.plane.vectors import dot
 from ilmek.units import format_quantity
@@ -92,32 +91,17 @@ def shortness(d: ComplexField, o: RealField) -> RealField:
 
 
 @dataclass(frozen=True, slots=True)
-class SlidingDyad(Step):
+class SlidingDyad(PinnedPair):
     """Two bodies on known pins, the second sliding on the first.
 
-    hinges  known pins in the frames of the bodies in `on` [m]      at  the same pins in the bodies' own frames [m]
-    track   the second body on the first                            offset  o [m]      scale  of its lengths [m]
+    track  the second body on the first      offset  o [m]      scale  of its lengths [m]
     """
 
-    links: tuple[str, str]
-    on: tuple[str, str]
     slide: str
     branch: int
-    hinges: tuple[complex, complex]
-    at: tuple[complex, complex]
     track: Track
     offset: float
     scale: float
-
-    @property
-    def bodies(self) -> tuple[str, ...]:
-        """Both bodies."""
-        return self.links
-
-    @property
-    def parents(self) -> tuple[str, ...]:
-        """The bodies that they hang on."""
-        return self.on
 
     @property
     def words(self) -> str:
@@ -125,13 +109,9 @@ class SlidingDyad(Step):
         (p, q), (on_p, on_q) = self.links, self.on
         return f"{p} and {q} joined by slide {self.slide} (branch {self.branch:+d}), hung on {on_p} and {on_q}: RPR"
 
-    def hung(self, known: Known) -> tuple[PointMotion, PointMotion]:
-        """Motions of the known pins."""
-        return known[self.on[0]].carry(self.hinges[0]), known[self.on[1]].carry(self.hinges[1])
-
     def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
         """Directions of both bodies, their common angular velocity and acceleration."""
-        A, B = self.hung(known)
+        A, B = self.pins(known)
         d = B.position - A.position
         t = way(d, self.offset, self.branch)
         e = heading(d, self.offset, t)
@@ -142,13 +122,6 @@ class SlidingDyad(Step):
         direction = e * self.track.lead.conjugate()
         columns = {self.links[0]: (direction, w, alpha), self.links[1]: (direction * self.track.twist, w, alpha)}
         return Solved(columns, t, self.scale)
-
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
-        """The bodies, anchored at the known pins."""
-        return {
-            link: hung(known[on], hinge, at, columns[link])
-            for link, on, hinge, at in zip(self.links, self.on, self.hinges, self.at, strict=True)
-        }
 
     def jerk(
         self,
@@ -176,7 +149,7 @@ class SlidingDyad(Step):
 
     def gap(self, known: Known) -> RealField:
         """How much too near the known pins are for the offset [m]."""
-        A, B = self.hung(known)
+        A, B = self.pins(known)
         return shortness(B.position - A.position, self.offset)
 
     def shortfall(self, known: Known) -> tuple[str, str]:

@@ -15,10 +15,10 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import BodyJerk, carried_jerk, slid_jerk
-from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
-from ilmek.linkage.groups.shift import Track, slid_acceleration, slid_velocity, track
-from ilmek.linkage.groups.turn import hung
+from ilmek.linkage.body_motion import PointMotion
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved
+from ilmek.linkage.groups.pairs import SliderPair
+from ilmek.linkage.groups.shift import slid_acceleration, slid_velocity, track
 from ilmek.linkage.model import Pin, Slide
 from ilmek.units import format_quantity
 
@@ -78,34 +78,17 @@ def shortness(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField) -
 
 
 @dataclass(frozen=True, slots=True)
-class SliderDyad(Step):
+class SliderDyad(SliderPair):
     """A link of length a [m] hung on a known body and pinned to a slider on another (or the same) known body.
 
-    hinge  known pin in the frame of the body that the link hangs on [m]      at  the same pin in the link's frame [m]
-    arm    known pin -> free pin in the link's frame [m]      reach  slide's point -> free pin in the slider's frame [m]
+    arm  known pin -> free pin in the link's frame [m]      reach  slide's point -> free pin in the slider's frame [m]
     """
 
-    link: str
-    slider: str
-    on: tuple[str, str]
     pin: str
     branch: int
-    hinge: complex
-    at: complex
     arm: complex
     a: float
     reach: complex
-    track: Track
-
-    @property
-    def bodies(self) -> tuple[str, ...]:
-        """Link and slider."""
-        return self.link, self.slider
-
-    @property
-    def parents(self) -> tuple[str, ...]:
-        """The bodies that they hang on."""
-        return self.on
 
     @property
     def words(self) -> str:
@@ -136,13 +119,6 @@ class SliderDyad(Step):
             self.slider: (s, ds, slider_rate(u, r, cosine)),
         }
         return Solved(columns, cosine, self.a)
-
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
-        """The link, anchored at the known pin, and the slider, anchored at the slide's point."""
-        return {
-            self.link: hung(known[self.on[0]], self.hinge, self.at, columns[self.link]),
-            self.slider: self.track.place(known[self.on[1]], columns[self.slider]),
-        }
 
     def jerk(
         self,

@@ -14,9 +14,8 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import BodyJerk, carried_jerk
-from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
-from ilmek.linkage.groups.turn import hung
+from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved
+from ilmek.linkage.groups.pairs import PinnedPair
 from ilmek.linkage.model import Pin
 from ilmek.linkage.status import TOUCHING
 from ilmek.units import format_quantity
@@ -83,33 +82,18 @@ def misfit(A: ComplexField, B: ComplexField, a: RealField, b: RealField) -> Real
 
 
 @dataclass(frozen=True, slots=True)
-class Dyad(Step):
+class Dyad(PinnedPair):
     """Two links, of lengths a and b [m], hung on known bodies and joined by the free pin.
 
-    hinges  known pins in the frames of the bodies in `on` [m]      at  the same pins in the links' frames [m]
-    arms    known pin -> free pin in the links' frames [m]
+    arms  known pin -> free pin in the links' frames [m]
     """
 
-    links: tuple[str, str]
-    on: tuple[str, str]
     pin: str
     hung_at: tuple[str, str]
     branch: int
-    hinges: tuple[complex, complex]
-    at: tuple[complex, complex]
     arms: tuple[complex, complex]
     a: float
     b: float
-
-    @property
-    def bodies(self) -> tuple[str, ...]:
-        """Both links."""
-        return self.links
-
-    @property
-    def parents(self) -> tuple[str, ...]:
-        """The bodies that they hang on."""
-        return self.on
 
     @property
     def words(self) -> str:
@@ -117,13 +101,9 @@ class Dyad(Step):
         (p, q), (on_p, on_q) = self.links, self.on
         return f"{p} and {q} joined at {self.pin} (branch {self.branch:+d}), hung on {on_p} and {on_q}: RRR"
 
-    def hung(self, known: Known) -> tuple[PointMotion, PointMotion]:
-        """Motions of the known pins."""
-        return known[self.on[0]].carry(self.hinges[0]), known[self.on[1]].carry(self.hinges[1])
-
     def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
         """Directions, angular velocities and accelerations of the links."""
-        A, B = self.hung(known)
+        A, B = self.pins(known)
         C = position(A.position, B.position, self.a, self.b, self.branch)
         u, v = C - A.position, C - B.position
         sine = turning(u, v)
@@ -135,13 +115,6 @@ class Dyad(Step):
             self.links[1]: (v * (1 / self.arms[1]), wb, second_rate(u, r, sine)),
         }
         return Solved(columns, sine, self.a * self.b)
-
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
-        """The links, anchored at the known pins."""
-        return {
-            link: hung(known[on], hinge, at, columns[link])
-            for link, on, hinge, at in zip(self.links, self.on, self.hinges, self.at, strict=True)
-        }
 
     def jerk(
         self,
@@ -168,12 +141,12 @@ class Dyad(Step):
 
     def gap(self, known: Known) -> RealField:
         """How much too far apart (above 0) or too near (below 0) the known pins are [m]."""
-        A, B = self.hung(known)
+        A, B = self.pins(known)
         return misfit(A.position, B.position, self.a, self.b)
 
     def shortfall(self, known: Known) -> tuple[str, str]:
         """The worst distance of the known pins against the links."""
-        A, B = self.hung(known)
+        A, B = self.pins(known)
         gaps = np.ravel(self.gap(known))
         worst = int(np.nanargmax(np.abs(gaps)))
         reach, gap = np.ravel(np.abs(B.position - A.position))[worst], gaps[worst]
