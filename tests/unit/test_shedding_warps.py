@@ -10,9 +10,9 @@ from ilmek.errors import ParameterError
 from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams
 from ilmek.machines.shedding.draped import bridged, draped, nose_radius
 from ilmek.machines.shedding.warp import lifting_work, shed_warp, warp_force
+from ilmek.plane.curves import hull_indices
 from ilmek.report import Report
 from ilmek.units import deg, mm
-from ilmek.weaving.draped_warp import hull
 from ilmek.weaving.tension import capstan
 
 ELASTIC = dict(tension=15.0, front_span=0.25, back_span=0.4, warp_stiffness=1800.0, warp_length=1.5)
@@ -67,7 +67,7 @@ def test_a_short_warp_that_nothing_gives_way_for_is_strained_too_far() -> None:
 def test_hull_of_a_star() -> None:
     angle = np.arange(10) * (2 * math.pi / 10)
     star = np.where(np.arange(10) % 2 == 0, 1.0, 0.4) * np.exp(1j * angle)
-    assert sorted(hull(star).tolist()) == [0, 2, 4, 6, 8]
+    assert sorted(hull_indices(star).tolist()) == [0, 2, 4, 6, 8]
 
 
 def test_a_yarn_bridges_the_foot_of_rise_and_fall() -> None:

@@ -44,22 +44,33 @@ def crossing_segments(points: Complex[np.ndarray, " points"], closed: bool) -> I
 
 
 def hull(points: Complex[np.ndarray, " points"]) -> Complex[np.ndarray, " corners"]:
-    """Corners of the convex hull, counter-clockwise from the leftmost [Andrew's monotone chain]; points in line: two.
+    """Corners of the convex hull, counter-clockwise from the leftmost; points in line: two, of one position: one.
 
     >>> hull(np.array([0, 1, 1 + 1j, 1j, 0.5 + 0.5j]))
     array([0.+0.j, 1.+0.j, 1.+1.j, 0.+1.j])
     """
-    ordered = sorted(set(points.tolist()), key=lambda z: (z.real, z.imag))
-    if len(ordered) < 3:
-        return np.array(ordered, dtype=complex)
-    return np.array(_chain(ordered)[:-1] + _chain(ordered[::-1])[:-1], dtype=complex)
+    distinct = np.array(list(dict.fromkeys(points.tolist())), dtype=complex)
+    return distinct[hull_indices(distinct)] if len(distinct) > 1 else distinct
 
 
-def _chain(ordered: list[complex]) -> list[complex]:
-    """The lower chain of the hull of points in order."""
-    chain: list[complex] = []
-    for z in ordered:
-        while len(chain) > 1 and ((chain[-1] - chain[-2]).conjugate() * (z - chain[-2])).imag <= 0:
+def hull_indices(points: Complex[np.ndarray, " points"]) -> Int[np.ndarray, " corners"]:
+    """Indices of the points on the convex hull, counter-clockwise from the leftmost.      [Andrew's monotone chain]
+
+    points  two or more; of points in line only the two ends are on the hull
+
+    >>> hull_indices(np.array([0j, 1 + 0j, 0.5 + 0.1j, 1j])).tolist()
+    [0, 1, 3]
+    """
+    order = np.lexsort((points.imag, points.real)).tolist()
+    plane = points.tolist()
+    return np.array(_chain(plane, order)[:-1] + _chain(plane, order[::-1])[:-1])
+
+
+def _chain(plane: list[complex], order: list[int]) -> list[int]:
+    """The lower chain of the hull of points, taken in this order."""
+    chain: list[int] = []
+    for index in order:
+        while len(chain) > 1 and cross(plane[chain[-1]] - plane[chain[-2]], plane[index] - plane[chain[-2]]) <= 0:
             chain.pop()
-        chain.append(z)
+        chain.append(index)
     return chain

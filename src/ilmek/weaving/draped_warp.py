@@ -13,9 +13,10 @@ T dl/dtheta. The cam is taken as the polygon of its points.                     
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float, Int
+from jaxtyping import Complex, Float
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.plane.curves import hull_indices
 from ilmek.units import turn
 from ilmek.weaving.shed import ShedWarp
 
@@ -56,31 +57,6 @@ class DrapedWarp:
     lifted: float
 
 
-def hull(points: Complex[np.ndarray, " points"]) -> Int[np.ndarray, " corners"]:
-    """Indices of the points on the convex hull, counter-clockwise from the leftmost.      [Andrew's monotone chain]
-
-    >>> hull(np.array([0j, 1 + 0j, 0.5 + 0.1j, 1j])).tolist()
-    [0, 1, 3]
-    """
-    order = np.lexsort((points.imag, points.real)).tolist()
-    plane = points.tolist()
-    lower, upper = _chain(plane, order), _chain(plane, order[::-1])
-    return np.array(lower[:-1] + upper[:-1])
-
-
-def _chain(plane: list[complex], order: list[int]) -> list[int]:
-    kept: list[int] = []
-    for index in order:
-        while len(kept) > 1 and _turn(plane[kept[-2]], plane[kept[-1]], plane[index]) <= 0:
-            kept.pop()
-        kept.append(index)
-    return kept
-
-
-def _turn(a: complex, b: complex, c: complex) -> float:
-    return ((b - a).conjugate() * (c - b)).imag
-
-
 def bridges(surface: Complex[np.ndarray, " points"]) -> Bridges | None:
     """Where a yarn bridges a cam; None where the cam is convex all round.
 
@@ -88,7 +64,7 @@ def bridges(surface: Complex[np.ndarray, " points"]) -> Bridges | None:
     """
     count = len(surface)
     angle = np.arange(count) * (turn / count)
-    kept = np.sort(hull(surface))
+    kept = np.sort(hull_indices(surface))
     gaps = np.flatnonzero(np.diff(np.append(kept, kept[0] + count)) > 1)
     arcs, excess, at = [], 0.0, 0.0
     for gap in gaps.tolist():
@@ -123,7 +99,7 @@ def draped_warp(
     front, back = complex(radius, warp.front), complex(radius, -warp.back)
     if min(abs(front), abs(back)) <= float(np.max(np.abs(surface))):
         return None
-    ring = surface[hull(surface)]
+    ring = surface[hull_indices(surface)]
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(ring)))])
     circumference = float(along[-1] + abs(ring[0] - ring[-1]))
     turned = ring * np.exp(1j * angle)[:, None]
