@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Complex, Float
 
+from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import CarpetError
 from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.section import Section
@@ -46,7 +47,7 @@ def tied_by(section: Section, arm: Arm, phases: Sequence[Phase]) -> TiedKnot:
 def _end(section: Section, arm: Arm, phases: Sequence[Phase], end: int, samples: int) -> SampledPath:
     """Path of an end over the phases. Raises CarpetError where a hand-over misses it."""
     shares = np.linspace(0.0, 1.0, samples)
-    motions: list[tuple[Complex[np.ndarray, " points"], Float[np.ndarray, " chords"]]] = []
+    motions: list[tuple[ComplexArray, FloatArray]] = []
     for phase in phases:
         carrier = phase.carries[end]
         if not carrier:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.draped import bridged, draped
 from ilmek.machines.shedding.phases import Shed, flattest, shed_of
-from ilmek.weaving.draped_warp import Bridges, DrapedWarp
+from ilmek.weaving.draping import Bridges, DrapedWarp
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""The warps of the shedding cams as taut yarns draped over them [`ilmek.weaving.draped_warp`]."""
+"""The warps of the shedding cams as taut yarns draped over them [`ilmek.weaving.draping`]."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from ilmek.cams.programme import TURN
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.phases import Shed
 from ilmek.machines.shedding.warp import shed_warp
-from ilmek.weaving.draped_warp import Bridges, DrapedWarp, bridges, draped_warp
+from ilmek.weaving.draping import Bridges, DrapedWarp, bridges, draped_warp
 
 POINTS = 720
 ANGLES = np.arange(POINTS) * (TURN / POINTS)

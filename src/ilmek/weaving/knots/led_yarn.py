@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Complex, Float
 
+from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import CarpetError
 from ilmek.weaving.knots.proof import TiedKnot, no_knot, tied_knot
 
@@ -31,7 +32,7 @@ class SampledPath:
     lengths: Float[np.ndarray, " chords"]
 
 
-def end_path(motions: Sequence[tuple[Complex[np.ndarray, " points"], Float[np.ndarray, " chords"]]]) -> SampledPath:
+def end_path(motions: Sequence[tuple[ComplexArray, FloatArray]]) -> SampledPath:
     """The path of an end that follows one motion after the other, straight from each to the next.
 
     motions  of each gripper that leads the end: samples [m], and upper bounds of the path between each two [m]
@@ -48,11 +49,11 @@ def end_path(motions: Sequence[tuple[Complex[np.ndarray, " points"], Float[np.nd
     return SampledPath(points, lengths)
 
 
-def led_yarn(first: SampledPath, second: SampledPath) -> SampledPath:
+def yarn_between(first: SampledPath, second: SampledPath) -> SampledPath:
     """The yarn between two ends that were led: the first path backwards, straight to the second's start, the second.
 
     >>> one, other = (end_path([(np.array([x + 0j, x + 1j]), np.ones(1))]) for x in (-1, 1))
-    >>> led_yarn(one, other).points.tolist()
+    >>> yarn_between(one, other).points.tolist()
     [(-1+1j), (-1+0j), (1+0j), (1+1j)]
     """
     points = np.concatenate([first.points[::-1], second.points])
@@ -78,7 +79,7 @@ def knot_of_ends(
     reason = ""
     for samples in SAMPLES:
         try:
-            yarn = led_yarn(*ends(samples))
+            yarn = yarn_between(*ends(samples))
             return tied_knot(yarn.points, warps, keep_out=keep_out, lengths=yarn.lengths)
         except CarpetError as error:
             reason = error.given
