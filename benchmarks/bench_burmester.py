@@ -13,7 +13,7 @@ from ilmek.arrays import ComplexArray, FloatArray, NumberArray
 from ilmek.num.pencil import real_roots
 from ilmek.synthesis.burmester.curve import burmester_curve
 from ilmek.synthesis.burmester.links import arms_through_five_poses, four_bars
-from ilmek.synthesis.dyad import Found, arms_through_points, arms_through_poses
+from ilmek.synthesis.dyad import RootKind, arms_through_points, arms_through_poses
 from ilmek.synthesis.path.points import timed_four_bars
 
 Task = TypeVar("Task")
@@ -69,8 +69,10 @@ def batch() -> None:
     arms = arms_through_points(points, th1)
     taken = time.process_time() - start
     apart = np.abs(arms.pivot - pivot[:, None]) + np.abs(arms.first - first[:, None])
-    off = np.nanmin(np.where(arms.found == Found.ARM, apart + np.abs(arms.second - second[:, None]), np.inf), axis=-1)
-    counted = np.bincount(np.sum(arms.found == Found.ARM, axis=-1), minlength=4) / TASKS
+    off = np.nanmin(
+        np.where(arms.found == RootKind.ARM, apart + np.abs(arms.second - second[:, None]), np.inf), axis=-1
+    )
+    counted = np.bincount(np.sum(arms.found == RootKind.ARM, axis=-1), minlength=4) / TASKS
     print(f"four timed points, {TASKS} planted arms, all roots: {taken:.2f} s of one core (wanted: 5)")
     plain = looped(four_point_task, (points, th1))
     print(f"  {plain / taken:.1f} times quicker than a loop over the tasks ({plain:.1f} s)")
@@ -90,7 +92,7 @@ def pose_batch() -> None:
     arms = arms_through_poses(points, th2, th0)
     taken = time.process_time() - start
     apart = np.abs(arms.ground - ground[:, None]) + np.abs(arms.second - second[:, None])
-    off = np.nanmin(np.where(arms.found == Found.ARM, apart, np.inf), axis=-1)
+    off = np.nanmin(np.where(arms.found == RootKind.ARM, apart, np.inf), axis=-1)
     plain = looped(three_pose_task, (points, th2, th0))
     print(f"three poses, {TASKS} planted arms, all roots: {taken:.2f} s of one core")
     print(f"  {plain / taken:.1f} times quicker than a loop over the tasks ({plain:.1f} s)")

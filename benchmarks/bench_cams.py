@@ -19,8 +19,8 @@ from ilmek.cams import limits
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
-from ilmek.cams.programme import Programme, dwell, fall, rise
-from ilmek.cams.sizing import Limits, pressure_prime
+from ilmek.cams.programme import CamProgramme, dwell, fall, rise
+from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.cams.sweep import sweep, wanted
 from ilmek.machines.cam import CamParams, design, report
 from ilmek.num.piecewise import supremum
@@ -52,7 +52,7 @@ def taken(work: Callable[[], object]) -> float:
 def one_cam() -> None:
     """Profile, pressure angle and curvature at 3,600 places, and a whole design."""
     law = LAWS["modified-sine"]
-    programme = Programme((rise(1.5, 0.06, law), fall(1.5, 0.06, law), dwell(2 * np.pi - 3)))
+    programme = CamProgramme((rise(1.5, 0.06, law), fall(1.5, 0.06, law), dwell(2 * np.pi - 3)))
     cam = PlateCam(programme, 0.09, 0.005, 0.011)
 
     def places() -> None:
@@ -76,8 +76,8 @@ def many_cams() -> None:
     def alone(i: int) -> None:
         law = laws[which[i]]
         turn = (rise(span[i], lift[i], law), fall(span[i], lift[i], law), dwell(2 * np.pi - 2 * span[i]))
-        programme = Programme(turn)
-        prime = pressure_prime(programme, Limits(rise=limit[i])).value
+        programme = CamProgramme(turn)
+        prime = pressure_prime(programme, CamLimits(rise=limit[i])).value
         cam = PlateCam(programme, prime, 0.0, 1 * mm)
         _ = limits.pressure_angle_max(cam, "rise"), limits.undercut(cam), limits.area(cam)
 
@@ -118,7 +118,7 @@ def trapezoids() -> None:
 def flat_faces() -> None:
     """The profile for a flat-faced follower, lift 20 mm, base radius 30 mm: a circle of 40 mm."""
     law = LAWS["harmonic"]
-    ours = FlatCam(Programme((rise(np.pi, 20 * mm, law), fall(np.pi, 20 * mm, law))), 30 * mm)
+    ours = FlatCam(CamProgramme((rise(np.pi, 20 * mm, law), fall(np.pi, 20 * mm, law))), 30 * mm)
     rows = {"mechanism": exported_profile(), "ilmek": ours.trace(ANGLES).surface}
     print("\nflat-faced harmonic cam           radius of fit    off its fit by    off the circle of 40 mm by")
     for name, points in rows.items():

@@ -19,11 +19,11 @@ from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.isolated_knots import count_lone
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn, yarn_labs, yarns_from_records
 
 WIDTH, HEIGHT = 2400, 3600
-SIZE, QUALITY = Size(2.4, 3.6), Quality(1000.0, 1000.0)
+SIZE, QUALITY = CarpetSize(2.4, 3.6), Quality(1000.0, 1000.0)
 
 
 def medallion(width: int = WIDTH, height: int = HEIGHT, seed: int = 2) -> Rgb:
@@ -123,7 +123,7 @@ def run() -> None:
     """Print the table."""
     rgb, yarns = medallion(), wool()
     labs = yarn_labs(yarns)
-    small = make_chart(rgb[:60, :40], Size(0.04, 0.06), QUALITY, yarns)  # compiles the kernels
+    small = make_chart(rgb[:60, :40], CarpetSize(0.04, 0.06), QUALITY, yarns)  # compiles the kernels
     distinct = len(np.unique(rgb.reshape(-1, 3) @ np.array([65536, 256, 1])))
     print(f"{WIDTH} × {HEIGHT} picture, {distinct:,} distinct colours, {len(small.yarns)} yarns")
     print(f"{'method':<42} {'s':>8} {'mean dE00':>9} {'lone':>9} {'chg/knot':>9}")

@@ -17,7 +17,7 @@ from ilmek.machines.beat_up.design import evaluate, mechanism, sizes
 from ilmek.machines.beat_up.family import tabulate
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
 from ilmek.num.pareto import front
-from ilmek.synthesis.crank_rocker.family import Family, family
+from ilmek.synthesis.crank_rocker.family import CrankRockerFamily, family
 from ilmek.units import deg
 
 MEMBERS, LOOPED, STEPS = 10_000, 60, 360
@@ -44,7 +44,7 @@ def whole(params: BeatUpParams, count: int) -> tuple[dict[str, FloatArray], int]
     return table, int(front(np.stack([sign * table[name] for name, sign in FRONT], axis=1)).sum())
 
 
-def looped(params: BeatUpParams, members: Family, places: Sequence[int]) -> FloatArray:
+def looped(params: BeatUpParams, members: CrankRockerFamily, places: Sequence[int]) -> FloatArray:
     """The greatest samples of `PEAKS`, (members, peaks), one member after another."""
     found = []
     for place in places:

@@ -17,7 +17,7 @@ from ilmek.arrays import FloatArray
 from ilmek.cams.laws import LAWS
 from ilmek.io.cyclogram_file import read_cyclogram
 from ilmek.timing.constraints import exclusion_rows, standing_rows, unknowns
-from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Segment, Track
+from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Track, TrackSegment
 from ilmek.timing.solver import least_acceleration
 from ilmek.timing.track import peak_acceleration
 from ilmek.units import deg, turn
@@ -33,8 +33,8 @@ def chain(tracks: int, seed: int) -> Cyclogram:
     for number, stroke in enumerate(rng.uniform(0.02, 0.2, tracks)):
         cuts = width * (number + np.array([0.1, 0.45, 0.5, 0.9]))
         parts = (
-            Segment("out", cuts[0], cuts[1], 0.0, stroke, LAWS["modified-sine"]),
-            Segment("home", cuts[2], cuts[3], stroke, 0.0, LAWS["cycloidal"]),
+            TrackSegment("out", cuts[0], cuts[1], 0.0, stroke, LAWS["modified-sine"]),
+            TrackSegment("home", cuts[2], cuts[3], stroke, 0.0, LAWS["cycloidal"]),
         )
         made.append(Track(f"t{number}", "cam", parts))
     gaps = rng.uniform(0.2, 1.0, tracks) * deg

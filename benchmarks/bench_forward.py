@@ -2,17 +2,17 @@
 
 import time
 
-from ilmek.dynamics.forward import Run, State, forward
+from ilmek.dynamics.forward import ForwardRun, ForwardState, forward
 from ilmek.dynamics.inertia import bar
 from ilmek.dynamics.loads import Gravity
-from ilmek.dynamics.reduced import Reduced, reduce
+from ilmek.dynamics.reduced import ReducedMechanism, reduce
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.structure import plan
 
 CRANK, COUPLER, ROCKER = 0.0597, 0.2007, 0.2308
 
 
-def beat_up() -> Reduced:
+def beat_up() -> ReducedMechanism:
     """The beat-up's crank-rocker."""
     bodies = {
         "crank": bar(0, CRANK, mass=0.129),
@@ -22,12 +22,12 @@ def beat_up() -> Reduced:
     return reduce(plan(four_bar(0.3, CRANK, COUPLER, ROCKER, branch=+1)), bodies, (Gravity(-9.81j),))
 
 
-def free(reduced: Reduced, rtol: float) -> Run:
-    return forward(reduced, State(0.0, 20.0), 2.0, rtol=rtol)
+def free(reduced: ReducedMechanism, rtol: float) -> ForwardRun:
+    return forward(reduced, ForwardState(0.0, 20.0), 2.0, rtol=rtol)
 
 
-def spun(reduced: Reduced, rtol: float) -> Run:
-    return forward(reduced, State(0.0), 2.0, drive=lambda _time, _position, _speed: 0.5, rtol=rtol)
+def spun(reduced: ReducedMechanism, rtol: float) -> ForwardRun:
+    return forward(reduced, ForwardState(0.0), 2.0, drive=lambda _time, _position, _speed: 0.5, rtol=rtol)
 
 
 def run() -> None:

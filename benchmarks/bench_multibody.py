@@ -18,7 +18,7 @@ import numpy as np
 
 from benchmarks.bench_forward import beat_up, free
 from ilmek.dynamics.clearance import ClearancePin, hertz_stiffness
-from ilmek.dynamics.forward import Run
+from ilmek.dynamics.forward import ForwardRun
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.multibody.system import System, SystemRun, from_motion, loosened, simulate
 from ilmek.linkage.solve import solve
@@ -105,7 +105,7 @@ def lines() -> list[Line]:
     def tip(run: SystemRun) -> float:
         return off(float(run.angle("crank")[-1]))
 
-    def reduced_tip(run: Run) -> float:
+    def reduced_tip(run: ForwardRun) -> float:
         return off(float(run.position[-1]))
 
     def balance(run: SystemRun) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ilmek.arrays import Indices
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.programme_file import Label, open_programme, write_programme
 from ilmek.loom.programme import Times, heads_for, make_programme
@@ -46,7 +46,7 @@ def run() -> None:
 
 def _measure(name: str, knots: Indices) -> None:
     grey = tuple(Yarn(f"yarn {k}", (k, k, k), (0.0, 0.0, 0.0), 2.5, 2) for k in range(YARNS))
-    label = Label(Size(COLUMNS / 1800, ROWS / 1800), Quality(1800.0, 1800.0), "symmetric", grey, 0.5 / 1800)
+    label = Label(CarpetSize(COLUMNS / 1800, ROWS / 1800), Quality(1800.0, 1800.0), "symmetric", grey, 0.5 / 1800)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "programme.ilmek"
         start = time.perf_counter()

@@ -11,7 +11,7 @@ from ilmek.synthesis.circuit_loops import circuit_loops
 from ilmek.synthesis.cognates import cognates
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.freudenstein import function_generators
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 
 PROBLEMS = 300
 
@@ -42,7 +42,7 @@ def judging() -> None:
     crank_rocker = FourBar(0j, 4 + 0j, 1j, 3 + 3j, tracer=2 + 3j)
     u = np.array([np.pi / 2, 2.0, 2.9, 4.1, 5.0])
     points = circuit_loops(crank_rocker)[0].at(u).tracer
-    timing, free = Task(points=points, crank=u), Task(points=points)
+    timing, free = PrecisionTask(points=points, crank=u), PrecisionTask(points=points)
     print(f"judging a four-bar, 5 timed points {timed(lambda: judge(crank_rocker, timing)) * 1e3:8.3f} ms each")
     print(f"judging a four-bar, 5 points       {timed(lambda: judge(crank_rocker, free)) * 1e3:8.3f} ms each")
     print(f"three cognates                     {timed(lambda: cognates(crank_rocker)) * 1e3:8.3f} ms each")

@@ -10,8 +10,8 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.report import Dot, Drawing, Stroke
-from ilmek.synthesis.burmester.curve import Branch, BurmesterCurve, burmester_curve
-from ilmek.synthesis.burmester.links import Kind
+from ilmek.synthesis.burmester.curve import BurmesterCurve, CurveBranch, burmester_curve
+from ilmek.synthesis.burmester.links import GuideKind
 from ilmek.units import deg, mm
 from ilmek.viz.svg import svg
 
@@ -31,7 +31,9 @@ def figure(curve: BurmesterCurve) -> Drawing:
     pivots = [stroke for branch in curve.centre_branches for stroke in within(branch, "path", "pivots")]
     pins = [stroke for branch in curve.circle_branches for stroke in within(branch, "path", "pins")]
     poses = [Stroke(p + BODY * np.exp(1j * a), "outline", closed=True) for p, a in zip(POINTS, ANGLES, strict=True)]
-    link = min((one for one in curve.guides() if one.kind is Kind.CRANK), key=lambda one: abs(one.length - 60 * mm))
+    link = min(
+        (one for one in curve.guides() if one.kind is GuideKind.CRANK), key=lambda one: abs(one.length - 60 * mm)
+    )
     at = link.pins(POINTS, ANGLES)
     arms = [Stroke(np.array([link.pivot, pin]), "construction") for pin in at[1:]]
     asymptote = []
@@ -47,7 +49,7 @@ def figure(curve: BurmesterCurve) -> Drawing:
     )
 
 
-def within(branch: Branch, role: str, label: str) -> Iterator[Stroke]:
+def within(branch: CurveBranch, role: str, label: str) -> Iterator[Stroke]:
     """The parts of a branch within the window."""
     places = np.append(branch.places, branch.places[:1]) if branch.closed else branch.places
     for part in runs(places):
@@ -64,6 +66,6 @@ def runs(places: ComplexArray) -> list[ComplexArray]:
 if __name__ == "__main__":
     found = burmester_curve(POINTS, ANGLES)
     OUT.write_text(svg(figure(found)), encoding="utf-8")
-    cranks = [one for one in found.guides() if one.kind is Kind.CRANK and one.length < 1]
+    cranks = [one for one in found.guides() if one.kind is GuideKind.CRANK and one.length < 1]
     print(f"{len(cranks)} links of less than a metre")
     print(f"{max(np.ptp(one.reach(POINTS, ANGLES)) for one in cranks) / mm:.1e}")

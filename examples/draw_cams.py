@@ -18,9 +18,9 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.oscillating import OscillatingCam, roller_motion
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, Course, Programme, dwell, fall, rise
+from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion, dwell, fall, rise
 from ilmek.cams.strip import WedgeCam
-from ilmek.cams.trace import Trace, trace_of_point
+from ilmek.cams.trace import CamTrace, trace_of_point
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
@@ -39,10 +39,10 @@ ROLLER, PIVOT, ARM = 9 * mm, 110 * mm, 95 * mm
 CIRCLE, SHIFT = 42 * mm, 16 * mm
 
 
-def motion(lift: float) -> Programme:
+def motion(lift: float) -> CamProgramme:
     """Out over 110 degrees, a dwell, back over 120 degrees and a rest."""
     law = LAWS["modified-sine"]
-    return Programme((rise(110 * deg, lift, law), dwell(50 * deg), fall(120 * deg, lift, law), dwell(80 * deg)))
+    return CamProgramme((rise(110 * deg, lift, law), dwell(50 * deg), fall(120 * deg, lift, law), dwell(80 * deg)))
 
 
 def disc(centre: complex, radius: float, role: str = "outline", label: str = "") -> Stroke:
@@ -216,12 +216,12 @@ def sheet(wide: int = 420, high: int = 300, columns: int = 2) -> str:
     return f"{head}{inner}</svg>\n"
 
 
-def arm_on_circle(angle: np.ndarray) -> tuple[Trace, np.ndarray]:
+def arm_on_circle(angle: np.ndarray) -> tuple[CamTrace, np.ndarray]:
     """A roller arm on an eccentric circle, moved by its four-bar; and the deviation of the transmission angle [rad]."""
     moved = solve(plan(four_bar(PIVOT, SHIFT, CIRCLE + ROLLER, ARM, branch=+1)), angle, 1.0).require()
     psi, dpsi, ddpsi = math.pi - moved.angle("rocker"), -moved.omega("rocker"), -moved.alpha("rocker")
     centre = roller_motion(psi, dpsi, ddpsi, pivot=PIVOT, arm=ARM, side=1)
-    course = Course(psi, dpsi, ddpsi, np.zeros_like(psi))
+    course = FollowerMotion(psi, dpsi, ddpsi, np.zeros_like(psi))
     trace = trace_of_point(angle, course, centre, 1j * np.exp(-1j * psi), ROLLER)
     return trace, np.abs(math.pi / 2 - transmission_angle(moved, "B"))
 

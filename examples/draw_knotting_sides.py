@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design
-from ilmek.machines.knotting_four_bar.sides import Sides, hands
+from ilmek.machines.knotting_four_bar.sides import KnottingSides, hands
 from ilmek.machines.knotting_four_bar.sides_figures import drawing
 from ilmek.report import Drawing, Stroke
 from ilmek.units import deg, mm, turn
@@ -23,7 +23,7 @@ OPENED, THICK = 30 * mm, 3 * mm
 """Distance and diameter of the two warps as drawn."""
 
 
-def machine() -> tuple[KnottingFourBar, Sides]:
+def machine() -> tuple[KnottingFourBar, KnottingSides]:
     """The published poses, with both sides."""
     made = design(KnottingFourBarParams(poses=POSES, ground_angle=275 * deg, sides=2))
     if made.sides is None:
@@ -31,13 +31,13 @@ def machine() -> tuple[KnottingFourBar, Sides]:
     return made, made.sides
 
 
-def tied(made: KnottingFourBar, sides: Sides) -> TwoHandKnot:
+def tied(made: KnottingFourBar, sides: KnottingSides) -> TwoHandKnot:
     """What the hands tie on the opened warps."""
     first, second = (way[made.onward] for way in hands(sides.course.motion))
     return knot_of_hands(first, second, OPENED)
 
 
-def figure(made: KnottingFourBar, sides: Sides, knot: TwoHandKnot) -> Drawing:
+def figure(made: KnottingFourBar, sides: KnottingSides, knot: TwoHandKnot) -> Drawing:
     """The machine where the hands are nearest, the yarn and the two warps half way up it."""
     middle = knot.warps.real + 1j * float(np.mean([knot.yarn.imag.min(), knot.yarn.imag.max()]))
     ring = THICK / 2 * np.exp(1j * turn * np.arange(48) / 48)

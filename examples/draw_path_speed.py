@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from ilmek.report import Axis, Plot, Series
-from ilmek.timing.path_speed.solve import AxisLimits, JointPath, PathMotion, quickest_motion
+from ilmek.timing.path_speed.solve import AxesLimits, JointPath, PathMotion, quickest_motion
 from ilmek.viz.svg import svg
 
 OUT = Path(__file__).parents[1] / "docs" / "_static" / "path-speed.svg"
 
-LIMITS = AxisLimits(np.array([1.0, 1.0]), np.array([4.0, 4.0]), np.array([60.0, 60.0]))
+LIMITS = AxesLimits(np.array([1.0, 1.0]), np.array([4.0, 4.0]), np.array([60.0, 60.0]))
 """Of both axes: 1 m/s, 4 m/s², 60 m/s³."""
 
 

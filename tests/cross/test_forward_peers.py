@@ -10,10 +10,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ilmek.dynamics.forward import State, forward
+from ilmek.dynamics.forward import ForwardState, forward
 from ilmek.dynamics.inertia import bar
 from ilmek.dynamics.loads import Gravity
-from ilmek.dynamics.multibody.system import Twist, from_motion, simulate
+from ilmek.dynamics.multibody.system import BodyTorque, from_motion, simulate
 from ilmek.dynamics.reduced import reduce
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.solve import solve
@@ -35,8 +35,8 @@ def ours(run: str) -> tuple[float, float]:
     masses = {name: bar(0, length, mass=MASS[name]) for name, length in LENGTH.items()}
     weights = Gravity(-FALL * 1j)
     drive = lambda _t, _q, now: torque - drag * now  # noqa: E731
-    reduced = forward(reduce(planned, masses, (weights,)), State(0.0, speed), duration, drive=drive, rtol=1e-11)
-    twist = Twist("crank", torque, drag)
+    reduced = forward(reduce(planned, masses, (weights,)), ForwardState(0.0, speed), duration, drive=drive, rtol=1e-11)
+    twist = BodyTorque("crank", torque, drag)
     system = from_motion(solve(planned, 0.0, speed), masses, gravity=-FALL * 1j, loads=(twist,))
     general = simulate(system, np.array([0.0, duration]), rtol=1e-11)
     return float(reduced.position[-1]), float(general.angle("crank")[-1])

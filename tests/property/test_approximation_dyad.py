@@ -8,7 +8,7 @@ from scipy.optimize import least_squares as peer
 
 from ilmek.errors import ParameterError
 from ilmek.synthesis.approximation.dyad import dyads_along
-from ilmek.synthesis.dyad import Dyad
+from ilmek.synthesis.dyad import TwoLinkArm
 
 U = np.linspace(0, 1, 15)
 PATH = 0.04 * U + 0.015j * np.sin(np.pi * U)  # 40 mm long, 15 mm high
@@ -26,7 +26,7 @@ def misses(arm: np.ndarray, points: np.ndarray, angles: np.ndarray) -> np.ndarra
 def test_a_planted_arm_is_found_without_error(seed: int, criterion: str) -> None:
     random = np.random.default_rng(seed)
     th1, th2 = random.uniform(-3, 3, (2, 1)) + np.cumsum(random.uniform(0.1, 0.4, (2, 8)), axis=-1)
-    arm = Dyad(complex(*random.uniform(-1, 1, 2)), 0.0, *random.uniform(0.4, 2, 2).tolist())
+    arm = TwoLinkArm(complex(*random.uniform(-1, 1, 2)), 0.0, *random.uniform(0.4, 2, 2).tolist())
     best = dyads_along(arm.place(th1, th2), th1, criterion).found[0]
     assert best.worst < 1e-8
     assert abs(best.dyad.pivot - arm.pivot) + abs(best.dyad.first - arm.first) < 1e-5

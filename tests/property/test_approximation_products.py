@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from ilmek.errors import ParameterError
 from ilmek.num.newton import newton
 from ilmek.synthesis.approximation.polynomial import SynthesisPolynomial, even_places, interpolation, minimax, of_table
-from ilmek.synthesis.approximation.products import Rows, errors_of, gradient, solve_products, stationary
+from ilmek.synthesis.approximation.products import EquationRows, errors_of, gradient, solve_products, stationary
 
 PRODUCTS = [(), ((0, 1),), ((0, 1), (0, 2)), ((0, 1), (2, 3))]
 
@@ -18,7 +18,7 @@ PRODUCTS = [(), ((0, 1),), ((0, 1), (0, 2)), ((0, 1), (2, 3))]
 def test_planted_parameters_are_found_and_every_answer_solves_the_equations(seed: int, products: tuple) -> None:
     random = np.random.default_rng(seed)
     table, more, planted = random.normal(size=(4, 4)), random.normal(size=(4, len(products))), random.normal(size=4)
-    rows = Rows(table, more, np.zeros(4))
+    rows = EquationRows(table, more, np.zeros(4))
     rows = rows._replace(wanted=-errors_of(rows, products, planted)[0])
     slopes = errors_of(rows, products, planted)[1]
     assume(np.linalg.cond(slopes) < 1e4)  # a double root is known to half the digits
@@ -33,7 +33,7 @@ def test_planted_parameters_are_found_and_every_answer_solves_the_equations(seed
 @given(st.integers(0, 2**32 - 1), st.sampled_from(PRODUCTS[:3]))
 def test_newtons_method_from_anywhere_finds_no_stationary_answer_that_is_missing(seed: int, products: tuple) -> None:
     random = np.random.default_rng(seed)
-    rows = Rows(random.normal(size=(5, 4)), random.normal(size=(5, len(products))), random.normal(size=5))
+    rows = EquationRows(random.normal(size=(5, 4)), random.normal(size=(5, len(products))), random.normal(size=5))
     found = stationary(rows, products).parameters
     assert len(found) % 2  # a form of odd degree
     ends = newton(lambda p: gradient(rows, products, p), random.standard_cauchy(size=(60, 4)), tolerance=1e-9, steps=80)
@@ -67,13 +67,13 @@ def test_an_answer_infinitely_far_and_complex_ones_are_told() -> None:
     # With P_1 = 1: P_0 + P_0 P_1 = 0 where the product counts: t = -1 sends P_0 away.
     table = of_table(np.array([[1.0, 0.0], [0.0, 1.0]]), np.array([1.0, -1.0]), ((0, 1),), np.array([[1.0], [0.0]]))
     assert interpolation(table, np.arange(2.0), np.arange(2.0)) == ((), ("2 infinitely far",))
-    circle = Rows(np.array([[1.0, 1.0], [1.0, -1.0]]), np.array([[0.0], [-4.0]]), np.array([0.0, 1.0]))
+    circle = EquationRows(np.array([[1.0, 1.0], [1.0, -1.0]]), np.array([[0.0], [-4.0]]), np.array([0.0, 1.0]))
     assert solve_products(circle, ((0, 1),)).parameters[0].size == 2
-    no_root = Rows(np.array([[1.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]), np.array([0.0, 1.0]))
+    no_root = EquationRows(np.array([[1.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]), np.array([0.0, 1.0]))
     assert solve_products(no_root, ((0, 1),)) == ((), ("2 complex",))  # P_0 = -P_1, P_0 P_1 = 1
 
 
 def test_a_family_is_refused() -> None:
-    same = Rows(np.array([[1.0, 1.0], [2.0, 2.0]]), np.zeros((2, 0)), np.array([1.0, 2.0]))
+    same = EquationRows(np.array([[1.0, 1.0], [2.0, 2.0]]), np.zeros((2, 0)), np.array([1.0, 2.0]))
     with pytest.raises(ParameterError, match="whole family"):
         solve_products(same, ())

@@ -12,7 +12,7 @@ from ilmek.linkage.structure import plan
 from ilmek.synthesis.burmester.curve import burmester_curve
 from ilmek.synthesis.burmester.links import (
     Guide,
-    Kind,
+    GuideKind,
     arms_of_pins,
     arms_of_pivots,
     arms_through_five_poses,
@@ -20,7 +20,7 @@ from ilmek.synthesis.burmester.links import (
 )
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.four_bar import FourBar, LinkLengths, from_lengths
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg, mm
 
 EXACT = 1e-10
@@ -75,7 +75,7 @@ def test_five_poses_have_no_link_that_newton_s_method_finds_and_this_does_not() 
         found = arms_through_five_poses(points, angles)
 
         def change(x: np.ndarray, points: np.ndarray = points, angles: np.ndarray = angles) -> np.ndarray:
-            reach = Guide(Kind.CRANK, complex(x[0], x[1]), complex(x[2], x[3])).reach(points, angles)
+            reach = Guide(GuideKind.CRANK, complex(x[0], x[1]), complex(x[2], x[3])).reach(points, angles)
             return reach[1:] ** 2 - reach[0] ** 2
 
         for _ in range(60):
@@ -100,7 +100,7 @@ def test_a_four_bar_of_five_poses_takes_them_all_when_it_is_moved() -> None:
     motion = solve(plan(drawn.mechanism()), 0.4 + np.array([0, 0.8, 1.7, 2.9, 4.4]))
     points, angles = np.asarray(motion.point("coupler", "P").position), np.asarray(motion.angle("coupler"))
     judged = [
-        judge(one.four_bar, Task(points=points, coupler=angles))
+        judge(one.four_bar, PrecisionTask(points=points, coupler=angles))
         for one in four_bars(arms_through_five_poses(points, angles), complex(points[0]))
         if one.four_bar is not None
     ]
@@ -123,7 +123,7 @@ TURNS = np.array([0.1, 0.6, 1.1, 1.7, 2.4])
 def test_a_slider_is_a_link_with_its_pivot_infinitely_far() -> None:
     points, angles = slider_crank(TURNS)
     found = arms_through_five_poses(points, angles)
-    slider = next(one for one in found if one.kind is Kind.SLIDER)
+    slider = next(one for one in found if one.kind is GuideKind.SLIDER)
     assert np.sin(slider.line) == pytest.approx(0, abs=1e-9)
     np.testing.assert_allclose(slider.pins(points, angles).imag, 0.5, atol=1e-10)
     assert slider.length == np.inf
@@ -136,7 +136,7 @@ def test_a_turning_block_is_a_link_with_its_pin_infinitely_far() -> None:
     pin = np.exp(1j * TURNS)
     angles = np.angle(3 - pin)
     points = pin + (0.7 + 0.9j) * np.exp(1j * angles)
-    block = next(one for one in arms_through_five_poses(points, angles) if one.kind is Kind.BLOCK)
+    block = next(one for one in arms_through_five_poses(points, angles) if one.kind is GuideKind.BLOCK)
     assert block.pivot == pytest.approx(3)
     assert np.sin(block.line - angles[0]) == pytest.approx(0, abs=1e-9)
     assert spread(block, points, angles) < EXACT
@@ -146,7 +146,7 @@ def test_a_body_with_two_angles_has_a_link_with_both_ends_infinitely_far() -> No
     points = np.array([0, 1 + 0.3j, 0.2 + 1.1j, -0.4 + 0.9j, 0.8 - 0.6j])
     angles = np.array([0.0, 0.0, 0.7, 0.7, 0.7])
     found = arms_through_five_poses(points, angles)
-    assert Kind.ANGLE in {one.kind for one in found}
+    assert GuideKind.ANGLE in {one.kind for one in found}
     assert all(spread(one, points, angles) < EXACT for one in found)
 
 
@@ -238,7 +238,7 @@ def test_a_pivot_in_a_pole_has_a_line_of_pins() -> None:
     points, angles = np.array([0, 1 + 1j, 3 + 0j]), np.array([0.0, 0.5, 1.2])
     pole = (points[1] - np.exp(0.5j) * points[0]) / (1 - np.exp(0.5j))
     (guide,) = arms_of_pivots(points, angles, np.array([pole]))
-    assert guide.kind is Kind.FREE
+    assert guide.kind is GuideKind.FREE
     assert "any point of a line" in guide.kind.words
 
 

@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.cams import profile
-from ilmek.cams.contact import Held, Touch, pressed
+from ilmek.cams.contact import FollowerLoad, Touch, pressed
 from ilmek.cams.laws import LAWS
-from ilmek.cams.programme import Programme, dwell, fall, rise
+from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.cams.return_spring import doubling_spring, least_force, least_preload, least_rate, lift_off
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import infimum
@@ -20,12 +20,12 @@ from ilmek.units import deg
 LIFT, PRIME = 0.02, 0.05
 RESTING = [name for name in ("harmonic", "cycloidal", "3-4-5", "modified-sine", "parabolic") if name in LAWS]
 laws = st.sampled_from(RESTING)
-held = st.builds(Held, speed=st.floats(5.0, 60.0), mass=st.floats(0.1, 3.0), load=st.floats(0.0, 20.0))
+held = st.builds(FollowerLoad, speed=st.floats(5.0, 60.0), mass=st.floats(0.1, 3.0), load=st.floats(0.0, 20.0))
 
 
-def programme(law: str, span: float = 80 * deg) -> Programme:
+def programme(law: str, span: float = 80 * deg) -> CamProgramme:
     motion = LAWS[law]
-    return Programme(
+    return CamProgramme(
         (rise(span, LIFT, motion), dwell(0.4), fall(1.3 * span, LIFT, motion), dwell(2 * math.pi - 0.4 - 2.3 * span))
     )
 
@@ -102,8 +102,8 @@ def test_springs_hold_and_no_weaker_one_does(law, held, rate) -> None:
 def test_lift_off_of_the_harmonic_cam_by_hand() -> None:
     """At the top s'' = -L/2 (pi/beta)^2 is most negative and s largest: w^2 = (k L + P) / (m L/2 (pi/beta)^2)."""
     span = 90 * deg
-    motion = Programme((rise(span, LIFT, LAWS["harmonic"]), fall(span, LIFT, LAWS["harmonic"]), dwell(math.pi)))
-    spring = Held(speed=0.0, mass=0.5, rate=200.0, preload=60.0)
+    motion = CamProgramme((rise(span, LIFT, LAWS["harmonic"]), fall(span, LIFT, LAWS["harmonic"]), dwell(math.pi)))
+    spring = FollowerLoad(speed=0.0, mass=0.5, rate=200.0, preload=60.0)
     found = lift_off(motion, spring)
     push = [(60.0 + 200.0 * s, -s2) for s, s2 in [(LIFT, -LIFT / 2 * 4)]]
     assert found.speed == pytest.approx(math.sqrt(push[0][0] / (0.5 * push[0][1])), rel=1e-9)
@@ -113,12 +113,12 @@ def test_lift_off_of_the_harmonic_cam_by_hand() -> None:
 
 def test_no_spring_holds_a_follower_whose_velocity_drops() -> None:
     motion = programme("uniform")
-    assert lift_off(motion, Held(1.0, 1.0, 10.0, 10.0)).speed == 0
+    assert lift_off(motion, FollowerLoad(1.0, 1.0, 10.0, 10.0)).speed == 0
     with pytest.raises(ParameterError, match="velocity jumps down at 80 deg"):
-        doubling_spring(motion, Held(1.0, 1.0))
+        doubling_spring(motion, FollowerLoad(1.0, 1.0))
 
 
 def test_rate_cannot_do_what_the_preload_must() -> None:
-    short = Programme((fall(math.pi, LIFT, LAWS["parabolic"]), rise(math.pi, LIFT, LAWS["parabolic"])))
+    short = CamProgramme((fall(math.pi, LIFT, LAWS["parabolic"]), rise(math.pi, LIFT, LAWS["parabolic"])))
     with pytest.raises(ParameterError, match="lets the follower lift off where the spring is longest"):
-        least_rate(short.shifted(0.0), Held(30.0, 1.0))
+        least_rate(short.shifted(0.0), FollowerLoad(30.0, 1.0))

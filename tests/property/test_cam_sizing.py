@@ -18,16 +18,16 @@ from ilmek.cams.limits import (
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
-from ilmek.cams.sizing import Limits, best_offset, pressure_prime, require, smallest_prime
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
+from ilmek.cams.sizing import CamLimits, best_offset, pressure_prime, require, smallest_prime
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import infimum
 from ilmek.units import deg, mm
 
 
-def motion(lift, out=90 * deg, back=120 * deg, law="cycloidal") -> Programme:
+def motion(lift, out=90 * deg, back=120 * deg, law="cycloidal") -> CamProgramme:
     rest = TURN - out - back
-    return Programme(
+    return CamProgramme(
         (rise(out, lift, LAWS[law]), dwell(rest / 2), fall(back, lift, LAWS[law]), dwell(rest / 2)),
     )
 
@@ -35,8 +35,8 @@ def motion(lift, out=90 * deg, back=120 * deg, law="cycloidal") -> Programme:
 @pytest.mark.parametrize("law", ["harmonic", "3-4-5"])
 def test_the_pressure_angle_alone_agrees_with_the_closed_form(law) -> None:
     programme = motion(30 * mm, law=law)
-    found = smallest_prime(PlateCam(programme, 1.0, 2 * mm), Limits(rise=30 * deg, back=30 * deg))
-    closed = pressure_prime(programme, Limits(30 * deg, 30 * deg), 2 * mm)
+    found = smallest_prime(PlateCam(programme, 1.0, 2 * mm), CamLimits(rise=30 * deg, back=30 * deg))
+    closed = pressure_prime(programme, CamLimits(30 * deg, 30 * deg), 2 * mm)
     assert found.prime_radius == pytest.approx(closed.value, rel=1e-12)
     assert found.at == pytest.approx(closed.at, abs=1e-6)
     assert found.binds == "the pressure angle on the rise"
@@ -44,14 +44,14 @@ def test_the_pressure_angle_alone_agrees_with_the_closed_form(law) -> None:
 
 def test_rise_and_way_back_keep_their_own_limits() -> None:
     programme = motion(30 * mm)
-    closed = pressure_prime(programme, Limits(rise=35 * deg, back=20 * deg), 3 * mm)
+    closed = pressure_prime(programme, CamLimits(rise=35 * deg, back=20 * deg), 3 * mm)
     cam = PlateCam(programme, closed.value, 3 * mm)
-    found = smallest_prime(cam, Limits(rise=35 * deg, back=20 * deg))
+    found = smallest_prime(cam, CamLimits(rise=35 * deg, back=20 * deg))
     assert found.prime_radius == pytest.approx(closed.value, rel=1e-12)
     assert found.binds == "the pressure angle on the way back"
     assert pressure_angle_max(cam, "return").value == pytest.approx(20 * deg, rel=1e-12)
     assert pressure_angle_max(cam, "rise").value < 35 * deg
-    rising = smallest_prime(cam, Limits(rise=35 * deg)).prime_radius
+    rising = smallest_prime(cam, CamLimits(rise=35 * deg)).prime_radius
     assert rising < found.prime_radius
     assert pressure_angle_max(cam.resized(rising), "rise").value == pytest.approx(35 * deg, rel=1e-12)
 
@@ -60,7 +60,7 @@ def test_rise_and_way_back_keep_their_own_limits() -> None:
 @settings(max_examples=4)
 def test_a_roller_has_room_and_no_smaller_circle_gives_it(lift, roller, share) -> None:
     cam = PlateCam(motion(lift), 1.0, roller_radius=roller)
-    limits = Limits(convex=share * roller)
+    limits = CamLimits(convex=share * roller)
     found = smallest_prime(cam, limits)
     if found.binds == "the follower's own size":
         return
@@ -71,7 +71,7 @@ def test_a_roller_has_room_and_no_smaller_circle_gives_it(lift, roller, share) -
 
 def test_a_groove_keeps_its_outer_flank() -> None:
     cam = PlateCam(motion(30 * mm), 1.0, roller_radius=12 * mm)
-    found = smallest_prime(cam, Limits(concave=40 * mm, rise=60 * deg))
+    found = smallest_prime(cam, CamLimits(concave=40 * mm, rise=60 * deg))
     hollow = concave_radius_min(cam.resized(found.prime_radius))
     assert hollow is not None
     assert hollow.value == pytest.approx(40 * mm, rel=1e-9)
@@ -83,13 +83,13 @@ def test_a_flat_faces_circle_is_the_closed_form() -> None:
     """Rb = rho - inf(s + s'')."""
     programme = motion(20 * mm)
     least = infimum(lambda angle: programme.at(angle).s + programme.at(angle).dds, programme.knots).value
-    found = smallest_prime(FlatCam(programme, 1.0), Limits(convex=5 * mm))
+    found = smallest_prime(FlatCam(programme, 1.0), CamLimits(convex=5 * mm))
     assert found.prime_radius == pytest.approx(5 * mm - least, rel=1e-9)
 
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_an_arms_circle_keeps_limits_that_a_smaller_one_breaks(side) -> None:
-    limits = Limits(rise=42 * deg, back=40 * deg, convex=14 * mm)
+    limits = CamLimits(rise=42 * deg, back=40 * deg, convex=14 * mm)
     cam = OscillatingCam(motion(20 * deg), 70 * mm, 110 * mm, 100 * mm, side, 10 * mm)
     found = cam.resized(smallest_prime(cam, limits).prime_radius)
     require(found, limits)
@@ -99,15 +99,15 @@ def test_an_arms_circle_keeps_limits_that_a_smaller_one_breaks(side) -> None:
 
 def test_a_swinging_faces_circle_is_just_convex() -> None:
     cam = OscillatingFlatCam(motion(12 * deg), 70 * mm, 120 * mm)
-    found = smallest_prime(cam, Limits(convex=8 * mm)).prime_radius
+    found = smallest_prime(cam, CamLimits(convex=8 * mm)).prime_radius
     assert convex_radius_min(cam.resized(found)).value == pytest.approx(8 * mm, rel=1e-8)
-    bare = smallest_prime(cam, Limits()).prime_radius
+    bare = smallest_prime(cam, CamLimits()).prime_radius
     assert not undercut(cam.resized(bare * 1.001))
     assert undercut(cam.resized(bare * 0.999))
 
 
 def test_the_best_offset_is_better_than_all_others() -> None:
-    programme, limits = motion(30 * mm), Limits(rise=30 * deg, back=45 * deg)
+    programme, limits = motion(30 * mm), CamLimits(rise=30 * deg, back=45 * deg)
     best = best_offset(programme, limits)
     assert best.offset > 0
     tried = [pressure_prime(programme, limits, float(e)).value for e in best.offset + np.linspace(-0.02, 0.02, 21)]
@@ -118,22 +118,22 @@ def test_the_best_offset_is_better_than_all_others() -> None:
 
 def test_equal_ways_out_and_back_want_no_offset() -> None:
     programme = motion(30 * mm, 120 * deg, 120 * deg)
-    assert best_offset(programme, Limits(rise=30 * deg, back=30 * deg)).offset == pytest.approx(0.0, abs=1e-7)
+    assert best_offset(programme, CamLimits(rise=30 * deg, back=30 * deg)).offset == pytest.approx(0.0, abs=1e-7)
 
 
 def test_a_circle_too_small_is_refused_with_the_smallest_that_works() -> None:
     cam = PlateCam(motion(30 * mm, law="harmonic"), 20 * mm, roller_radius=8 * mm)
     with pytest.raises(ParameterError) as caught:
-        require(cam, Limits(rise=30 * deg))
+        require(cam, CamLimits(rise=30 * deg))
     assert caught.value.given.startswith("prime_radius=20 mm is too small for ")
     assert caught.value.allowed.endswith("(for the pressure angle on the rise)")
     said = float(caught.value.allowed.split()[2]) * mm
-    require(cam.resized(said), Limits(rise=30 * deg))
+    require(cam.resized(said), CamLimits(rise=30 * deg))
 
 
 def test_limits_that_no_circle_keeps_are_said() -> None:
     cam = OscillatingCam(motion(40 * deg, 30 * deg), 70 * mm, 110 * mm, 100 * mm)
     with pytest.raises(ParameterError, match="no prime radius from .* keeps a pressure angle on the rise of 5 deg"):
-        smallest_prime(cam, Limits(rise=5 * deg))
+        smallest_prime(cam, CamLimits(rise=5 * deg))
     with pytest.raises(ParameterError, match="pressure angle of 90 deg; above 0 deg, below 90 deg"):
-        Limits(back=math.pi / 2)
+        CamLimits(back=math.pi / 2)

@@ -13,9 +13,9 @@ from ilmek.cams.limits import area
 from ilmek.cams.oscillating import OscillatingCam, roller_motion
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, Course, Programme, dwell, fall, rise
+from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion, dwell, fall, rise
 from ilmek.cams.strip import WedgeCam
-from ilmek.cams.trace import Cam, trace_of_point
+from ilmek.cams.trace import CamRole, trace_of_point
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
@@ -26,13 +26,13 @@ SMOOTH = ["3-4-5", "cycloidal", "4-5-6-7", "modified-sine"]
 PLATES = ["roller", "flat", "arm", "face"]
 
 
-def motion(law: str, lift: float, span: float, start: float) -> Programme:
+def motion(law: str, lift: float, span: float, start: float) -> CamProgramme:
     rest = TURN - 2 * span
     parts = (rise(span, lift, LAWS[law]), dwell(0.3 * rest), fall(span, lift, LAWS[law]), dwell(0.7 * rest))
-    return Programme(parts, start)
+    return CamProgramme(parts, start)
 
 
-def cam_of(kind: str, law: str, span: float, start: float, side: int) -> Cam:
+def cam_of(kind: str, law: str, span: float, start: float, side: int) -> CamRole:
     straight, swung = motion(law, 25 * mm, span, start), motion(law, 14 * deg, span, start)
     return {
         "roller": lambda: PlateCam(straight, 70 * mm, side * 12 * mm, 9 * mm),
@@ -132,7 +132,7 @@ def test_any_arm_on_any_eccentric_circle_is_a_four_bar(shift, coupler, arm, shar
     psi, dpsi, ddpsi = (-side * moved.angle("rocker"), -side * moved.omega("rocker"), -side * moved.alpha("rocker"))
     centre = roller_motion(psi + np.pi, dpsi, ddpsi, pivot=pivot, arm=arm, side=side)
     way = (pivot - centre[0]) * (1j * side / arm)
-    trace = trace_of_point(angle, Course(psi, dpsi, ddpsi, psi), centre, way, 0.0)
+    trace = trace_of_point(angle, FollowerMotion(psi, dpsi, ddpsi, psi), centre, way, 0.0)
     np.testing.assert_allclose(np.abs(trace.pitch - shift), coupler, rtol=1e-11)
     np.testing.assert_allclose(trace.curvature, 1 / coupler, rtol=1e-7)
     leaning = np.abs(np.pi / 2 - transmission_angle(moved, "B"))

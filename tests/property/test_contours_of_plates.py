@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam, area
-from ilmek.cams.programme import Programme, dwell, fall, rise
+from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.errors import ParameterError
 from ilmek.plane import contours
 from ilmek.plane.biarcs import deviation, fitted
@@ -46,7 +46,7 @@ def kinks(contour: Contour) -> np.ndarray:
 
 @pytest.mark.parametrize("law", ["harmonic", "cycloidal", "modified-sine"])
 def test_arcs_follow_a_cam_within_the_tolerance_and_without_a_kink(law: str) -> None:
-    turn = Programme((rise(1.4, 0.03, LAWS[law]), dwell(1.0), fall(1.6, 0.03, LAWS[law]), dwell(2 * math.pi - 4.0)))
+    turn = CamProgramme((rise(1.4, 0.03, LAWS[law]), dwell(1.0), fall(1.6, 0.03, LAWS[law]), dwell(2 * math.pi - 4.0)))
     cam = PlateCam(turn, 0.06, offset=0.004, roller_radius=0.01)
     arcs = fitted(cam.surface(-np.arange(1440) * math.pi / 720), 1e-7)
     between = cam.surface(np.linspace(0, 2 * math.pi, 5003))

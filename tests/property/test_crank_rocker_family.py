@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from ilmek.linkage import quality
 from ilmek.synthesis.crank_rocker.dead_centres import (
-    Links,
+    LinkRatios,
     best_ratio,
     beta_limits,
     beta_of_ratio,
@@ -89,7 +89,7 @@ def test_beta_and_coupler_intervals_are_those_of_strict_crank_rockers(task: tupl
     right = shortest & (grashof_margin(links) > 0) & (links.coupler > 0)
     # Outside, the formulas give other circuits (B below the ground line), other senses of rotation or no linkage.
     with np.errstate(invalid="ignore"):
-        measured = dead_centres(Links(*(np.where(right, link, np.nan) for link in links)))
+        measured = dead_centres(LinkRatios(*(np.where(right, link, np.nan) for link in links)))
     right &= (np.abs(measured.beta - beta) < 1e-6) & (np.abs(measured.rotation - rotation) < 1e-6)
     away = (np.abs(beta - low) > 1e-6) & (np.abs(beta - high) > 1e-6)
     assert np.array_equal(right[away], ((beta > low) & (beta < high))[away])

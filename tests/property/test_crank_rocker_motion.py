@@ -11,13 +11,13 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.synthesis.crank_rocker.circuit import extended, on_one_circuit
 from ilmek.synthesis.crank_rocker.dead_centres import (
-    Links,
+    LinkRatios,
     beta_of_ratio,
     links_of_ratio,
     ratio_limits,
     rotation_limits,
 )
-from ilmek.synthesis.crank_rocker.family import Family, family, link_ratio, size
+from ilmek.synthesis.crank_rocker.family import CrankRockerFamily, family, link_ratio, size
 from ilmek.synthesis.crank_rocker.motion import beat_acceleration, moved, rocker_extremes, sharp_angles
 from ilmek.units import deg
 
@@ -26,19 +26,19 @@ swings = st.floats(5 * deg, 150 * deg)
 
 
 @st.composite
-def families(draw: st.DrawFn) -> Family:
+def families(draw: st.DrawFn) -> CrankRockerFamily:
     swing = draw(swings)
     low, high = rotation_limits(swing)
     return family(swing, float(low + draw(unit) * (high - low)), 40)
 
 
-def one(links: Links, place: int) -> Links:
-    return Links(*(float(np.asarray(link)[place]) for link in links))
+def one(links: LinkRatios, place: int) -> LinkRatios:
+    return LinkRatios(*(float(np.asarray(link)[place]) for link in links))
 
 
 @settings(max_examples=20)
 @given(families(), st.integers(0, 39), st.floats(0, 6.28))
-def test_moves_as_the_solved_linkage(members: Family, place: int, angle: float) -> None:
+def test_moves_as_the_solved_linkage(members: CrankRockerFamily, place: int, angle: float) -> None:
     links = one(members.links, place)
     motion = solve(plan(four_bar(1.0, *links, branch=+1)), np.array([angle]), 1.0)
     at = moved(links, angle)
@@ -48,7 +48,7 @@ def test_moves_as_the_solved_linkage(members: Family, place: int, angle: float) 
             assert float(rate) == pytest.approx(float(getattr(motion, name)(body)[0]), rel=1e-8, abs=1e-9)
 
 
-def dense(links: Links) -> FloatArray:
+def dense(links: LinkRatios) -> FloatArray:
     """Angles ever closer to those where the motion is sharp."""
     near = np.geomspace(1e-7, 1, 3000)
     close = [centre + sign * near for centre in sharp_angles(links) for sign in (-1, 1)]
@@ -57,7 +57,7 @@ def dense(links: Links) -> FloatArray:
 
 @settings(max_examples=10)
 @given(families())
-def test_greatest_speed_and_acceleration_are_not_missed_by_dense_samples(members: Family) -> None:
+def test_greatest_speed_and_acceleration_are_not_missed_by_dense_samples(members: CrankRockerFamily) -> None:
     most = rocker_extremes(members.links)
     for place in (0, 3, 20, 36, 39):
         at = moved(one(members.links, place), dense(one(members.links, place)))
@@ -68,7 +68,7 @@ def test_greatest_speed_and_acceleration_are_not_missed_by_dense_samples(members
 
 @settings(max_examples=20)
 @given(families())
-def test_the_acceleration_at_the_beat_is_that_of_the_motion_at_beta(members: Family) -> None:
+def test_the_acceleration_at_the_beat_is_that_of_the_motion_at_beta(members: CrankRockerFamily) -> None:
     at = moved(members.links, members.beta)
     np.testing.assert_allclose(at.omega[1], 0, atol=1e-6)
     np.testing.assert_allclose(beat_acceleration(members.links), at.alpha[1], rtol=1e-6)
@@ -79,7 +79,7 @@ def test_the_acceleration_at_the_beat_is_that_of_the_motion_at_beta(members: Fam
 
 @settings(max_examples=30)
 @given(families())
-def test_every_member_passes_the_circuit_check_and_is_what_the_two_equations_give(members: Family) -> None:
+def test_every_member_passes_the_circuit_check_and_is_what_the_two_equations_give(members: CrankRockerFamily) -> None:
     at = extended(members.swing, members.rotation, members.ratio)
     assert on_one_circuit(members.swing, at.rocker).all()
     np.testing.assert_allclose(np.abs(at.crank), members.links.crank, rtol=1e-8)
@@ -101,7 +101,9 @@ def test_ratios_below_the_family_fail_the_circuit_check_or_turn_no_crank(
 
 @settings(max_examples=20)
 @given(families(), st.integers(0, 39), st.floats(0.3, 2.0))
-def test_size_is_the_greatest_distance_of_places_over_a_turn(members: Family, place: int, reach: float) -> None:
+def test_size_is_the_greatest_distance_of_places_over_a_turn(
+    members: CrankRockerFamily, place: int, reach: float
+) -> None:
     links, beta = one(members.links, place), float(members.beta[place])
     at = moved(links, np.linspace(0, 2 * np.pi, 721))
     far = reach * np.asarray(at.rocker) / links.rocker

@@ -19,15 +19,15 @@ from ilmek.io.cyclogram_file import (
     write_cyclogram,
 )
 from ilmek.timing.cyclogram import (
+    ActuatorLimits,
     Cyclogram,
-    Event,
     Exclusion,
-    Limits,
     Moment,
     Relation,
-    Segment,
     Spans,
     Track,
+    TrackEvent,
+    TrackSegment,
     Zone,
     fixed,
     riding,
@@ -54,11 +54,11 @@ def track(pick: np.random.Generator, called: str) -> Track:
     ends, low, high = names(pick, 2), -pick.uniform(0.01, 1), pick.uniform(0.01, 1)
     laws = [LAW[number] for number in pick.integers(0, len(LAW), 2)]
     parts = (
-        Segment(ends[0], cuts[0], cuts[1], low, high, laws[0]),
-        Segment(ends[1], cuts[2], cuts[3], high, low, laws[1]),
+        TrackSegment(ends[0], cuts[0], cuts[1], low, high, laws[0]),
+        TrackSegment(ends[1], cuts[2], cuts[3], high, low, laws[1]),
     )
-    events = (Event("alone", pick.uniform(0, turn)), riding("rides", parts[0], pick.uniform()))
-    limits = Limits(pick.uniform(0.1, 9), pick.choice([math.inf, 4.5]), pick.uniform(1, 1e6), pick.uniform())
+    events = (TrackEvent("alone", pick.uniform(0, turn)), riding("rides", parts[0], pick.uniform()))
+    limits = ActuatorLimits(pick.uniform(0.1, 9), pick.choice([math.inf, 4.5]), pick.uniform(1, 1e6), pick.uniform())
     unit, revolves = str(pick.choice(["mm", "deg", "m", "1"])), float(pick.choice([0.0, turn]))
     return Track(called, name(pick), parts, events, unit, revolves, limits, bool(pick.integers(2)))
 
@@ -127,7 +127,7 @@ def test_a_mistake_is_named(old: str, new: str, said: str) -> None:
 def test_events_of_one_name_are_numbered() -> None:
     press = read_cyclogram(EXAMPLE)
     (feeder,) = (one for one in press.tracks if one.name == "feeder")
-    beats = replace(press, tracks=(replace(feeder, events=(Event("beat", 1.0), Event("beat", 2.0))),), relations=(),
-                    exclusions=())  # fmt: skip
+    twice = replace(feeder, events=(TrackEvent("beat", 1.0), TrackEvent("beat", 2.0)))
+    beats = replace(press, tracks=(twice,), relations=(), exclusions=())
     (again,) = parse_cyclogram(cyclogram_toml(beats)).tracks
-    assert again.events == (Event("beat", 1.0), Event("beat 2", 2.0))
+    assert again.events == (TrackEvent("beat", 1.0), TrackEvent("beat 2", 2.0))

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from ilmek.errors import ParameterError
 from ilmek.num.pencil import real_roots, roots
-from ilmek.synthesis.dyad import Dyad, dyads_through_points, dyads_through_poses, four_bar
+from ilmek.synthesis.dyad import TwoLinkArm, dyads_through_points, dyads_through_poses, four_bar
 from ilmek.units import deg, mm
 
 angles = st.floats(-np.pi, np.pi)
@@ -16,15 +16,15 @@ lengths = st.floats(0.2, 3.0)
 
 
 @st.composite
-def places_of(draw: st.DrawFn, count: int) -> tuple[Dyad, np.ndarray, np.ndarray, float]:
+def places_of(draw: st.DrawFn, count: int) -> tuple[TwoLinkArm, np.ndarray, np.ndarray, float]:
     """An arm, well separated angles of its two links, and the angle of its ground."""
     th0, ground = draw(angles), draw(lengths)
     th1, elbow = (draw(angles) + np.cumsum([draw(steps) for _ in range(count)]) for _ in range(2))
-    arm = Dyad(ground * complex(np.exp(1j * th0)), ground, draw(lengths), draw(lengths))
+    arm = TwoLinkArm(ground * complex(np.exp(1j * th0)), ground, draw(lengths), draw(lengths))
     return arm, th1, th1 + elbow, th0
 
 
-def nearest(found: tuple[Dyad, ...], planted: Dyad) -> float:
+def nearest(found: tuple[TwoLinkArm, ...], planted: TwoLinkArm) -> float:
     return min(
         abs(x.pivot - planted.pivot) + abs(x.first - planted.first) + abs(x.second - planted.second) for x in found
     )
@@ -128,7 +128,7 @@ def test_what_is_no_task(points: list[complex], th1: list[float], said: str) -> 
 @pytest.mark.parametrize("second_angles", [[1.0, 2.0, 2.0], [1.0, 2.0, 3.0]], ids=["equal poses", "never bends"])
 def test_poses_that_leave_a_length_free(second_angles) -> None:
     th2 = np.array(second_angles)
-    points = Dyad(0.5j, 0.5, 1.0, 0.7).place(th2 - 0.5, th2)
+    points = TwoLinkArm(0.5j, 0.5, 1.0, 0.7).place(th2 - 0.5, th2)
     with pytest.raises(ParameterError, match="a whole family"):
         dyads_through_poses(points, th2, np.pi / 2)
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.machines.knotting_dyad import KnottingDyadParams
-from ilmek.machines.knotting_dyad.clearance import Least, arm_bars, least, to_warps
+from ilmek.machines.knotting_dyad.clearance import LeastDistance, arm_bars, least, to_warps
 from ilmek.machines.knotting_dyad.head import Head, head_of
 from ilmek.machines.knotting_dyad.search import best_arm
 from ilmek.machines.knotting_dyad.section import section_of
@@ -63,7 +63,7 @@ def test_the_least_distance_is_found_to_its_tolerance_among_any_cones(cones: lis
         heights = [abs(at[:, 0] - x) + abs(at[:, 1] - y) + h for x, y, h in cones]
         return np.min(heights, axis=0)
 
-    found: Least = least("cones", f, (1.0, 1.0))
+    found: LeastDistance = least("cones", f, (1.0, 1.0))
     true = min(h for *_, h in cones)
     assert true <= found.value <= true + found.sure
     assert found.sure <= 1e-6 + 5e-3 * found.value + 1e-12

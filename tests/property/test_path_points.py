@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.synthesis.burmester.links import Kind, arms_through_five_poses
-from ilmek.synthesis.dyad import Dyad, Found, arms_through_points, dyads_through_points
+from ilmek.synthesis.burmester.links import GuideKind, arms_through_five_poses
+from ilmek.synthesis.dyad import RootKind, TwoLinkArm, arms_through_points, dyads_through_points
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.path.points import (
     CrankKind,
@@ -93,7 +93,7 @@ def test_four_timed_points_have_a_curve_of_cranks_with_those_of_given_angle_on_i
     assert len(pivots) == len(vectors) == 60 * len(curve.loops)
     # The same crank in both: as its pivot, and as a vector.
     for guide in curve.guides()[::7]:
-        if guide.kind is Kind.CRANK:
+        if guide.kind is GuideKind.CRANK:
             size = curve.circle_frame.size
             vector = (guide.pin - curve.centre_frame.origin) / curve.centre_frame.size * size
             assert spread(TimedCrank(CrankKind.CRANK, guide.pivot, vector), points, angles) < EXACT
@@ -150,7 +150,7 @@ def test_points_on_a_line_are_told() -> None:
     assert CrankKind.LINE in kinds
     assert any("lie on a line" in one.said for one in timed_four_bars(points, TURNS))
     arms = arms_through_points(points[:4], TURNS[:4])
-    line = int(np.flatnonzero(arms.found == Found.LINE)[0])
+    line = int(np.flatnonzero(arms.found == RootKind.LINE)[0])
     assert (arms.first[line], arms.second[line]) == (0, np.inf)
     assert abs(arms.pivot[line].real) < 1e-9  # the direction at right angles to the line
 
@@ -167,7 +167,7 @@ def test_a_pivot_infinitely_far_is_told() -> None:
     """The arm p = W e^{i th} + s t with the pivot moving on a line: the second link is infinitely long."""
     points = 0.5 * np.exp(1j * TURNS[:4]) + np.array([0, 0.4, 1.3, 1.1]) * np.exp(0.3j)
     arms = arms_through_points(points, TURNS[:4])
-    (far,) = np.flatnonzero(arms.found == Found.FAR_PIVOT)
+    (far,) = np.flatnonzero(arms.found == RootKind.FAR_PIVOT)
     assert arms.first[far] == pytest.approx(0.5)
     assert abs((arms.pivot[far] * np.exp(-0.3j)).real) < 1e-9
     assert len(dyads_through_points(points, TURNS[:4])) in {0, 2}
@@ -177,7 +177,7 @@ def test_a_pivot_infinitely_far_is_told() -> None:
 def test_equal_radii_and_a_path_along_x_are_tasks_like_any_other() -> None:
     """Where the elimination by hand divides by zero: all |p| equal, and n1 = n4 = n5 = 0.  [thesis 2.40, 2.44]"""
     random = np.random.default_rng(5)
-    planted_arm = Dyad(0.3 + 0.2j, abs(0.3 + 0.2j), 0.8, 0.6)
+    planted_arm = TwoLinkArm(0.3 + 0.2j, abs(0.3 + 0.2j), 0.8, 0.6)
     th1 = np.sort(random.uniform(0, 2.5, size=4))
     points = planted_arm.place(th1, np.array([0.4, 1.5, 1.1, 2.9]))
     centre = circle_centre(points[:3])
@@ -185,7 +185,7 @@ def test_equal_radii_and_a_path_along_x_are_tasks_like_any_other() -> None:
     found = dyads_through_points(moved, th1)
     assert min(abs(one.pivot + centre - planted_arm.pivot) for one in found) < 1e-9
     along = arms_through_points(np.array([0, 0.5, 0.9, 1.6]) + 0j, TURNS[:4])
-    assert Found.LINE in along.found
+    assert RootKind.LINE in along.found
 
 
 def circle_centre(points: np.ndarray) -> complex:
@@ -202,13 +202,13 @@ def test_a_batch_is_its_tasks_one_by_one() -> None:
     points[1, 1] = 1 + np.exp(1j * angles[1, 1])
     arms = arms_through_points(points, angles)
     assert arms.pivot.shape == arms.first.shape == (3, 50, 3)
-    assert set(arms.found[0, 0]) == set(arms.found[1, 1]) == {Found.FAMILY}
+    assert set(arms.found[0, 0]) == set(arms.found[1, 1]) == {RootKind.FAMILY}
     for at in [(0, 1), (1, 7), (2, 49)]:
         one = dyads_through_points(points[at], angles[at])
-        real = arms.found[at] == Found.ARM
+        real = arms.found[at] == RootKind.ARM
         np.testing.assert_allclose([arm.pivot for arm in one], arms.pivot[at][real], rtol=1e-9)
         np.testing.assert_allclose([arm.first for arm in one], arms.first[at][real], rtol=1e-9)
-    real = arms.found == Found.ARM
+    real = arms.found == RootKind.ARM
     ends = points[..., None, :] - arms.pivot[..., None] - arms.first[..., None] * np.exp(1j * angles[..., None, :])
     uneven = np.ptp(np.abs(ends), axis=-1) / np.maximum(1, np.abs(arms.first) + np.abs(arms.pivot))
     assert np.max(uneven[real]) < 1e-9

@@ -8,23 +8,23 @@ from hypothesis import strategies as st
 from ilmek.errors import ParameterError
 from ilmek.synthesis.approximation.dyad import design_polynomial
 from ilmek.synthesis.approximation.polynomial import interpolation
-from ilmek.synthesis.dyad import Dyad, dyads_through_points, dyads_through_poses
+from ilmek.synthesis.dyad import TwoLinkArm, dyads_through_points, dyads_through_poses
 from ilmek.synthesis.superposition import superposed_through_points, superposed_through_poses
 
 SEEDS = st.integers(0, 2**32 - 1)
 
 
-def planted(seed: int, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, Dyad]:
+def planted(seed: int, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, TwoLinkArm]:
     """Points of a random arm, the angles of both links, and the arm."""
     random = np.random.default_rng(seed)
     pivot = complex(*random.uniform(0.3, 1, 2) * random.choice([-1, 1], 2))
     links = random.uniform(0.4, 2, 2)
     th1, th2 = random.uniform(-3, 3, (2, 1)) + np.cumsum(random.uniform(0.3, 0.9, (2, count)), axis=-1)
-    arm = Dyad(pivot, abs(pivot), float(links[0]), float(links[1]))
+    arm = TwoLinkArm(pivot, abs(pivot), float(links[0]), float(links[1]))
     return arm.place(th1, th2), th1, th2, arm
 
 
-def apart(one: Dyad, other: Dyad) -> float:
+def apart(one: TwoLinkArm, other: TwoLinkArm) -> float:
     """Greatest difference of two arms, in their own size."""
     ours = np.array([one.pivot, one.first, one.second])
     theirs = np.array([other.pivot, other.first, other.second])

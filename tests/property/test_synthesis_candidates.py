@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from ilmek.synthesis.candidate import Candidate, judge
-from ilmek.synthesis.circuit_loops import Loop, circuit_loops
+from ilmek.synthesis.circuit_loops import CircuitLoop, circuit_loops
 from ilmek.synthesis.filters import defects
 from ilmek.synthesis.four_bar import FourBar
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 
 
-def drawn_on(four_bar: FourBar, loops: tuple[Loop, ...]) -> tuple[int, float]:
+def drawn_on(four_bar: FourBar, loops: tuple[CircuitLoop, ...]) -> tuple[int, float]:
     """The circuit on which a four-bar is drawn, and where."""
     for index, loop in enumerate(loops):
         for u in loop.places(four_bar.crank_angle, 1e-6):
@@ -21,12 +21,12 @@ def drawn_on(four_bar: FourBar, loops: tuple[Loop, ...]) -> tuple[int, float]:
     raise AssertionError("drawn on none of its circuits")
 
 
-def task_on(loops: tuple[Loop, ...], circuits: np.ndarray, u: np.ndarray, timed: bool) -> Task:
+def task_on(loops: tuple[CircuitLoop, ...], circuits: np.ndarray, u: np.ndarray, timed: bool) -> PrecisionTask:
     """Points, and timing, of configurations."""
     pairs = list(zip(circuits, u, strict=True))
     points = np.array([loops[circuit].at(np.array([at])).tracer[0] for circuit, at in pairs])
     cranks = np.array([float(loops[circuit].crank(np.array([at]))[0]) for circuit, at in pairs])
-    return Task(points=points, crank=np.angle(np.exp(1j * (cranks - cranks[0]))) if timed else None)
+    return PrecisionTask(points=points, crank=np.angle(np.exp(1j * (cranks - cranks[0]))) if timed else None)
 
 
 @pytest.mark.parametrize("timed", [False, True], ids=["points", "timed points"])
@@ -54,7 +54,7 @@ def test_where_positions_were_planted_is_where_they_are_told_to_be(planted: str,
 
 
 def judged(four_bar: FourBar, points: np.ndarray) -> Candidate:
-    return judge(four_bar, Task(points=points))
+    return judge(four_bar, PrecisionTask(points=points))
 
 
 def test_the_frame_and_the_size_change_nothing_in_the_judgement() -> None:
@@ -80,7 +80,7 @@ def test_the_frame_and_the_size_change_nothing_in_the_judgement() -> None:
 
 def test_a_linkage_that_stands_in_its_only_pose_gets_nowhere_else_and_says_so() -> None:
     rigid = FourBar(0j, 1 + 0j, 0.4 + 0j, 0.7 + 0j)
-    found = judge(rigid, Task(crank=np.array([0.0, 0.1]), rocker=np.array([0.0, 0.1])))
+    found = judge(rigid, PrecisionTask(crank=np.array([0.0, 0.1]), rocker=np.array([0.0, 0.1])))
     assert found.circuits == 0
     assert defects(found) == {"closes": "does not close at position 1, 2"}
     assert math.isnan(found.least_transmission)

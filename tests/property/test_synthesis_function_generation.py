@@ -12,7 +12,7 @@ from ilmek.synthesis.circuit_loops import circuit_loops
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.freudenstein import Generators, function_generators, generators_of
 from ilmek.synthesis.function import Function, error_curve, function_of_samples
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg
 
 places = st.builds(complex, st.floats(-2, 2), st.floats(-2, 2))
@@ -62,7 +62,7 @@ def test_a_planted_function_generator_is_found_again(task: Drawn, swap: bool) ->
 def test_every_generator_found_takes_the_angles(task: Drawn) -> None:
     _, crank, rocker = planted(task)
     for one in solved(crank, rocker).four_bars:
-        found = judge(one, Task(crank=crank, rocker=rocker))
+        found = judge(one, PrecisionTask(crank=crank, rocker=rocker))
         assert found.reached
         assert found.angle_error < 1e-6
 

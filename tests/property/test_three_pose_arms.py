@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from ilmek.errors import ParameterError
 from ilmek.num.pencil2 import roots2
-from ilmek.synthesis.dyad import Found, PoseArms, arms_through_poses, dyads_through_poses
+from ilmek.synthesis.dyad import PoseArms, RootKind, arms_through_poses, dyads_through_poses
 
 PLANTED = 1000
 
@@ -24,16 +24,16 @@ def planted(random: np.random.Generator) -> tuple[np.ndarray, ...]:
     return ground, np.abs(first), second, sum(arm), th2, th0
 
 
-def roots_of(points, angles, ground_angle, start=0j) -> tuple[list[Found], PoseArms]:
+def roots_of(points, angles, ground_angle, start=0j) -> tuple[list[RootKind], PoseArms]:
     arms = arms_through_poses(np.asarray(points, dtype=complex), np.asarray(angles, dtype=float), ground_angle, start)
-    return [Found(int(one)) for one in arms.found], arms
+    return [RootKind(int(one)) for one in arms.found], arms
 
 
 def test_a_thousand_planted_arms_are_all_found_and_every_arm_closes() -> None:
     ground, first, second, points, th2, th0 = planted(np.random.default_rng(30))
     arms = arms_through_poses(points, th2, th0)
-    there = arms.found == Found.ARM
-    assert set(np.unique(arms.found)) == {Found.ARM}  # one root is planted, so the other is real too
+    there = arms.found == RootKind.ARM
+    assert set(np.unique(arms.found)) == {RootKind.ARM}  # one root is planted, so the other is real too
     apart = [np.abs(one - sought[:, None]) for one, sought in zip((arms.ground, arms.first, arms.second),
                                                                 (ground, first, second), strict=True)]  # fmt: skip
     off = np.min(sum(apart), axis=-1)
@@ -80,9 +80,9 @@ def test_a_pin_on_a_straight_line_across_the_ray_is_told_by_a_pivot_infinitely_f
     pins = (0.7 + 1j * step * np.array([0.0, 1.0, -1.6])) * np.exp(1j * th0)
     assume(np.min(np.abs(np.diff(np.cos(th2 - th0)))) > 0.05)
     kinds, arms = roots_of(pins + second * np.exp(1j * th2), th2, th0)
-    assert Found.FAR_PIVOT in kinds
-    assert arms.second[kinds.index(Found.FAR_PIVOT)] == pytest.approx(second, abs=1e-6)
-    assert arms.ground[kinds.index(Found.FAR_PIVOT)] == np.inf
+    assert RootKind.FAR_PIVOT in kinds
+    assert arms.second[kinds.index(RootKind.FAR_PIVOT)] == pytest.approx(second, abs=1e-6)
+    assert arms.ground[kinds.index(RootKind.FAR_PIVOT)] == np.inf
 
 
 @given(st.floats(-3, 3), st.floats(-3, 3), st.floats(-2, 2))
@@ -91,8 +91,8 @@ def test_a_line_through_the_pivot_is_told_by_an_elbow_infinitely_far(th0, ground
     assume(np.min(np.abs(np.diff(np.cos(th2 - th0)))) > 0.05)
     points = ground * np.exp(1j * th0) + (aside + 1j * slid) * np.exp(1j * th2)
     kinds, arms = roots_of(points, th2, th0)
-    assert Found.FAR_ELBOW in kinds
-    at = kinds.index(Found.FAR_ELBOW)
+    assert RootKind.FAR_ELBOW in kinds
+    at = kinds.index(RootKind.FAR_ELBOW)
     assert arms.ground[at] == pytest.approx(ground, abs=1e-6)
     assert arms.second[at] == arms.first[at] == np.inf
 
@@ -100,13 +100,13 @@ def test_a_line_through_the_pivot_is_told_by_an_elbow_infinitely_far(th0, ground
 @pytest.mark.parametrize(
     ("points", "angles", "ground_angle", "said"),
     [
-        ([1 + 1j, 2 + 1j, 2.5 + 3j], [0.3, 0.3, 0.3], 0.2, [Found.ARM, Found.FAR_BOTH]),
-        ([1 + 1j, 1 + 2j, 1 + 4j], [0.3, 0.3, 0.3], 0.0, [Found.FAR_PIVOT, Found.FAR_PIVOT]),
-        ([0, 1 + 1j, 2 + 0.3j], [0.8, 0.2, 0.8], 0.5, [Found.ARM, Found.FAR_BOTH]),
-        ([0, 3, 5], [0, 0.4, -0.2], np.pi / 2, [Found.ARM, Found.FAR_PIVOT]),
-        ([0, 1, 2j], [0, 1, np.nan], 0.0, [Found.FAMILY, Found.FAMILY]),
-        ([0, 1, 1], [0, 1, 1], 0.5, [Found.FAMILY, Found.FAMILY]),
-        ([0, 0, 0], [0, 0, 0], 0.5, [Found.FAMILY, Found.FAMILY]),
+        ([1 + 1j, 2 + 1j, 2.5 + 3j], [0.3, 0.3, 0.3], 0.2, [RootKind.ARM, RootKind.FAR_BOTH]),
+        ([1 + 1j, 1 + 2j, 1 + 4j], [0.3, 0.3, 0.3], 0.0, [RootKind.FAR_PIVOT, RootKind.FAR_PIVOT]),
+        ([0, 1 + 1j, 2 + 0.3j], [0.8, 0.2, 0.8], 0.5, [RootKind.ARM, RootKind.FAR_BOTH]),
+        ([0, 3, 5], [0, 0.4, -0.2], np.pi / 2, [RootKind.ARM, RootKind.FAR_PIVOT]),
+        ([0, 1, 2j], [0, 1, np.nan], 0.0, [RootKind.FAMILY, RootKind.FAMILY]),
+        ([0, 1, 1], [0, 1, 1], 0.5, [RootKind.FAMILY, RootKind.FAMILY]),
+        ([0, 0, 0], [0, 0, 0], 0.5, [RootKind.FAMILY, RootKind.FAMILY]),
     ],
     ids=["shifted only", "shifted across the ray", "one angle to the ray", "a straight path across the ray",
          "no number", "equal poses", "no task"],
@@ -115,7 +115,7 @@ def test_every_bad_root_is_told(points, angles, ground_angle, said) -> None:
     kinds, arms = roots_of(points, angles, ground_angle)
     assert kinds == said
     assert all(kind.words for kind in kinds)
-    assert np.isfinite(arms.pivot[arms.found == Found.ARM]).all()
+    assert np.isfinite(arms.pivot[arms.found == RootKind.ARM]).all()
 
 
 def test_places_equally_far_from_the_origin_are_an_arm_without_ground_and_second_link() -> None:
@@ -129,7 +129,7 @@ def test_places_equally_far_from_the_origin_are_an_arm_without_ground_and_second
 def test_poses_that_no_real_arm_takes_have_none() -> None:
     points, th2 = np.array([0, 25 + 15j, 30 + 1j]), np.radians([10.0, 3.0, -25.0])
     kinds, arms = roots_of(points, th2, np.radians(40.0))
-    assert kinds == [Found.COMPLEX, Found.COMPLEX]
+    assert kinds == [RootKind.COMPLEX, RootKind.COMPLEX]
     assert np.isnan(arms.first).all()
     assert dyads_through_poses(points, th2, np.radians(40.0)) == ()
 

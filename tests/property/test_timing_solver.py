@@ -14,15 +14,15 @@ from hypothesis import strategies as st
 from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
 from ilmek.timing.cyclogram import (
+    ActuatorLimits,
     Cyclogram,
-    Event,
     Exclusion,
-    Limits,
     Moment,
     Relation,
-    Segment,
     Spans,
     Track,
+    TrackEvent,
+    TrackSegment,
     Zone,
     fixed,
     judged,
@@ -38,7 +38,9 @@ LAW, OTHER = LAWS["modified-sine"], LAWS["cycloidal"]
 
 def moved(name: str, angles: list[float], stroke: float, law=LAW, **more) -> Track:
     a, b, c, d = angles
-    return Track(name, "cam", (Segment("out", a, b, 0.0, stroke, law), Segment("home", c, d, stroke, 0.0, law)), **more)
+    return Track(
+        name, "cam", (TrackSegment("out", a, b, 0.0, stroke, law), TrackSegment("home", c, d, stroke, 0.0, law)), **more
+    )
 
 
 def press(die: list[float], feeder: list[float], **more) -> Cyclogram:
@@ -123,7 +125,7 @@ def test_a_chain_has_the_closed_form(strokes, gaps) -> None:
 @given(strokes=st.lists(st.floats(0.01, 0.3), min_size=1, max_size=3), speed=st.floats(0.2, 5), a=st.floats(0.5, 50))
 def test_the_shortest_turn_of_a_chain_has_the_closed_form(strokes, speed, a) -> None:
     # T (1 - gaps/turn) = sum of the least times of the motions.
-    limits = Limits(speed=speed, acceleration=a)
+    limits = ActuatorLimits(speed=speed, acceleration=a)
     start = chain(strokes, [0.1] * len(strokes))
     start = replace(start, tracks=tuple(replace(track, limits=limits) for track in start.tracks))
     times = (max(h * LAW.velocity_peak / speed, math.sqrt(h * LAW.acceleration_peak / a)) for h in strokes)
@@ -154,7 +156,7 @@ def test_what_does_not_settle_the_answer_is_stretched_too() -> None:
 
 @pytest.mark.parametrize("goal", [least_acceleration, least_period])
 def test_overlapping_presences_are_parted_the_better_way(goal) -> None:
-    limits = Limits(acceleration=100.0)
+    limits = ActuatorLimits(acceleration=100.0)
     both = [0.5, 1.0, 1.5, 2.0]
     tracks = tuple(moved(name, both, stroke, limits=limits) for name, stroke in (("a", 0.1), ("b", 0.3)))
     apart = Exclusion(Zone("a", low=0.0), Zone("b", low=0.02), 0.01, "one place")
@@ -170,9 +172,9 @@ def test_overlapping_presences_are_parted_the_better_way(goal) -> None:
 
 
 def test_held_tracks_windows_events_and_delays() -> None:
-    tool = moved("tool", [1.0, 1.5, 2.0, 2.5], 0.1, limits=Limits(acceleration=40.0, speed=3.0, jerk=8000.0))
-    tool = replace(tool, events=(riding("there", tool.segments[0], 1.0), Event("cut", 1.7)))
-    held = moved("crank", [0.0, 1.0, 1.0, 2.0], 0.05, held=True, limits=Limits(time=0.02))
+    tool = moved("tool", [1.0, 1.5, 2.0, 2.5], 0.1, limits=ActuatorLimits(acceleration=40.0, speed=3.0, jerk=8000.0))
+    tool = replace(tool, events=(riding("there", tool.segments[0], 1.0), TrackEvent("cut", 1.7)))
+    held = moved("crank", [0.0, 1.0, 1.0, 2.0], 0.05, held=True, limits=ActuatorLimits(time=0.02))
     relations = (
         Relation(Moment("tool", "cut", "event"), Moment("tool", "there", "event"), 0.0, "valve", delay=0.01),
         Relation(Moment("tool", "home"), Moment("tool", "cut", "event"), 5 * deg, "cut first", most=60 * deg),
@@ -220,7 +222,7 @@ def test_a_relation_loop_is_named() -> None:
     [
         ({"held": True}, "nothing may move"),
         ({}, "no limit of axis is known"),
-        ({"law": LAWS["uniform"], "limits": Limits(acceleration=1.0)}, "never keeps its limit of acceleration"),
+        ({"law": LAWS["uniform"], "limits": ActuatorLimits(acceleration=1.0)}, "never keeps its limit of acceleration"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_solved_is_said(more, said) -> None:

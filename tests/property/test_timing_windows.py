@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from ilmek.cams.laws import LAWS
 from ilmek.timing.crossings import crossing_shares, zone_windows
-from ilmek.timing.cyclogram import Segment, Track
+from ilmek.timing.cyclogram import Track, TrackSegment
 from ilmek.timing.interference import distance_from, in_region, windows_where
 from ilmek.timing.track import joints, sample
 from ilmek.timing.windows import Window, Windows, common, outside, separation, windows_of
@@ -65,7 +65,7 @@ def test_separation_is_the_way_out_of_one_another() -> None:
 @settings(max_examples=30)
 @given(law=st.sampled_from(RISING), share=st.floats(0.02, 0.98), begin=st.floats(-1, 1), stroke=st.floats(0.05, 2))
 def test_a_crossing_is_where_the_position_is(law, share, begin, stroke) -> None:
-    motion = Segment("go", 0.3, 1.9, begin, begin + stroke, law)
+    motion = TrackSegment("go", 0.3, 1.9, begin, begin + stroke, law)
     position = begin + stroke * float(law.s(share))
     found = crossing_shares(motion, position)
     assert found
@@ -77,8 +77,8 @@ def test_a_crossing_is_where_the_position_is(law, share, begin, stroke) -> None:
 def there_and_back(start: float, way: float, back: float) -> Track:
     """Out in `way`, a rest of 0.5, home in `back` [rad], modified-sine over 80 mm, maybe through the turn."""
     law = LAWS["modified-sine"]
-    out = Segment("out", start, start + way, 0.0, 0.08, law)
-    return Track("carriage", "belt", (out, Segment("home", out.end + 0.5, out.end + 0.5 + back, 0.08, 0.0, law)))
+    out = TrackSegment("out", start, start + way, 0.0, 0.08, law)
+    return Track("carriage", "belt", (out, TrackSegment("home", out.end + 0.5, out.end + 0.5 + back, 0.08, 0.0, law)))
 
 
 @settings(max_examples=20)

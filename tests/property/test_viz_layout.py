@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.viz.flags import flags
-from ilmek.viz.labels import Wanted, placed
+from ilmek.viz.labels import LabelRequest, placed
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 coordinates = st.floats(-100.0, 100.0)
@@ -68,7 +68,7 @@ def test_no_tick_crosses_the_name_of_a_flag_that_flies_right(places: list[float]
 
 @given(st.lists(st.tuples(st.floats(60.0, 340.0), st.floats(60.0, 240.0)), min_size=1, max_size=8))
 def test_names_lie_on_the_sheet_and_apart(places: list[tuple[float, float]]) -> None:
-    wanted = [Wanted(np.array([complex(x, y)]), f"name {n}", 8.0) for n, (x, y) in enumerate(places)]
+    wanted = [LabelRequest(np.array([complex(x, y)]), f"name {n}", 8.0) for n, (x, y) in enumerate(places)]
     centres = placed(wanted, np.array([complex(x, y) for x, y in places]), 0j, 400 + 300j)
     for one, centre in zip(wanted, centres, strict=True):
         assert one.half.real <= centre.real <= 400 - one.half.real

@@ -17,13 +17,13 @@ from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn, yarns_from_records
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.io.chart.symbols import symbols
 from ilmek.io.yarn_csv import write_yarn_csv
-from ilmek.jobs.chart import Charted, chart_results
-from ilmek.jobs.order import Order
+from ilmek.jobs.chart import ChartResult, chart_results
+from ilmek.jobs.order import CarpetOrder
 from ilmek.viz.page_parts import yarn_lines
 
 PILE = PileParams(pile_height=0.0065)
@@ -38,18 +38,18 @@ DENSITY = st.floats(20.0, 190.0)
 KNOTS = arrays(np.uint8, st.tuples(st.integers(2, 9), st.integers(2, 9)), elements=st.integers(0, 11))
 
 
-def charted(records: list[dict[str, Any]], knots: Indices, across: float, along: float, kind: str) -> Charted:
+def charted(records: list[dict[str, Any]], knots: Indices, across: float, along: float, kind: str) -> ChartResult:
     """The chart of such knots, each knot's number taken as far as there are yarns; not every yarn has a knot."""
     yarns = yarns_from_records([{"name": f'yarn {place}, "fine"', **one} for place, one in enumerate(records)])
     knots = knots % np.uint8(len(yarns))
     quality = Quality(across, along)
-    size = Size(knots.shape[1] / across, knots.shape[0] / along)
+    size = CarpetSize(knots.shape[1] / across, knots.shape[0] / along)
     chart = Chart(knots, yarns, size, quality, kind, 0.0, 0.0)
-    order = Order(Path("x.png"), size, quality, kind, yarns, None, False, PILE)
-    return Charted(order, chart, yarn_bill(chart, PILE), ())
+    order = CarpetOrder(Path("x.png"), size, quality, kind, yarns, None, False, PILE)
+    return ChartResult(order, chart, yarn_bill(chart, PILE), ())
 
 
-def written(made: Charted) -> list[dict[str, str]]:
+def written(made: ChartResult) -> list[dict[str, str]]:
     with TemporaryDirectory() as folder:
         write_yarn_csv(Path(folder) / "yarn.csv", made.bill, made.chart.yarns)
         with (Path(folder) / "yarn.csv").open(encoding="utf-8", newline="") as file:

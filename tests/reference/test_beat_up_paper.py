@@ -8,7 +8,7 @@ import pytest
 
 from ilmek.machines.beat_up import BeatUp, BeatUpParams, design
 from ilmek.synthesis.crank_rocker.dead_centres import (
-    Links,
+    LinkRatios,
     best_ratio,
     links_of_beta,
     links_of_coupler,
@@ -47,7 +47,7 @@ def table_1() -> list[tuple[tuple[int, int, str], str]]:
     ]
 
 
-def links_of_row(phi: int, beta: int) -> Links:
+def links_of_row(phi: int, beta: int) -> LinkRatios:
     if (phi, beta) in {(120, 75), (120, 60)}:  # change points: links, but no crank-rockers, so `member` refuses them
         return links_of_beta(SWING, phi * deg, beta * deg)
     return member(SWING, phi * deg, beta * deg).links
@@ -57,7 +57,7 @@ def computed(cell: tuple[int, int, str]) -> float:
     phi, beta, column = cell
     links = links_of_row(phi, beta)
     # Rounded, because at the change points the last bit decides between a toggle and no linkage.
-    angle = float(transmission_angle_min(Links(*np.round(links, 12)))) / deg
+    angle = float(transmission_angle_min(LinkRatios(*np.round(links, 12)))) / deg
     values = dict(zip(COLUMNS, (*links, links.crank / links.coupler, angle), strict=True))
     return float(values[column])
 

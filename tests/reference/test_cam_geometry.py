@@ -17,16 +17,16 @@ from ilmek.cams.limits import (
     pressure_angle_max,
     undercut,
 )
-from ilmek.cams.programme import Programme, dwell, fall, rise
-from ilmek.cams.sizing import Limits, pressure_prime
+from ilmek.cams.programme import CamProgramme, dwell, fall, rise
+from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.errors import ParameterError
 from ilmek.units import deg, mm
 
 HARMONIC = LAWS["harmonic"]
 
 
-def opposed(lift, span, law=HARMONIC) -> Programme:
-    return Programme((rise(span, lift, law), fall(span, lift, law), dwell(2 * math.pi - 2 * span)))
+def opposed(lift, span, law=HARMONIC) -> CamProgramme:
+    return CamProgramme((rise(span, lift, law), fall(span, lift, law), dwell(2 * math.pi - 2 * span)))
 
 
 def harmonic_prime_radius(lift, span, limit) -> float:
@@ -39,13 +39,13 @@ def harmonic_prime_radius(lift, span, limit) -> float:
     [(20, 137.5561870), (25, 102.1214432), (30, 78.16653826), (35, 60.78867895), (45, 37.08203932)],
 )
 def test_prime_circle_of_the_shedding_cam(limit, printed) -> None:
-    found = pressure_prime(opposed(60 * mm, 90 * deg), Limits(limit * deg, limit * deg))
+    found = pressure_prime(opposed(60 * mm, 90 * deg), CamLimits(limit * deg, limit * deg))
     assert found.value == pytest.approx(printed * mm, rel=1e-9)
     assert found.value == pytest.approx(harmonic_prime_radius(60 * mm, 90 * deg, limit * deg), rel=1e-14)
 
 
 def test_place_of_the_largest_pressure_angle() -> None:
-    assert pressure_prime(opposed(60 * mm, 90 * deg), Limits(30 * deg, 30 * deg)).at == pytest.approx(
+    assert pressure_prime(opposed(60 * mm, 90 * deg), CamLimits(30 * deg, 30 * deg)).at == pytest.approx(
         36.948943 * deg, abs=1e-8
     )
 
@@ -61,7 +61,7 @@ def test_curvature_of_the_shedding_cam() -> None:
 @given(lift=st.floats(5e-3, 0.2), span=st.floats(30 * deg, 175 * deg), limit=st.floats(10 * deg, 60 * deg))
 @settings(max_examples=20)
 def test_harmonic_closed_form_everywhere(lift, span, limit) -> None:
-    found = pressure_prime(opposed(lift, span), Limits(limit, limit))
+    found = pressure_prime(opposed(lift, span), CamLimits(limit, limit))
     assert found.value == pytest.approx(harmonic_prime_radius(lift, span, limit), rel=1e-12)
 
 
@@ -74,7 +74,7 @@ def test_harmonic_closed_form_everywhere(lift, span, limit) -> None:
 @settings(max_examples=15)
 def test_the_smallest_prime_circle_uses_the_limit_up_and_no_more(law, span, limit, offset) -> None:
     programme = opposed(60 * mm, span, law)
-    smallest = pressure_prime(programme, Limits(limit, limit), offset).value
+    smallest = pressure_prime(programme, CamLimits(limit, limit), offset).value
     assert pressure_angle_max(PlateCam(programme, smallest, offset)).value == pytest.approx(limit, rel=1e-10)
     smaller = PlateCam(programme, max(0.99 * smallest, abs(offset) * 1.0001), offset)
     assert pressure_angle_max(smaller).value > limit
@@ -143,7 +143,7 @@ def test_area_is_that_of_the_drawn_polygon(roller, offset) -> None:
 
 
 def test_a_dwell_all_round_is_a_circle() -> None:
-    cam = PlateCam(Programme((dwell(2 * math.pi),)), 50 * mm, roller_radius=10 * mm)
+    cam = PlateCam(CamProgramme((dwell(2 * math.pi),)), 50 * mm, roller_radius=10 * mm)
     assert area(cam) == pytest.approx(math.pi * (40 * mm) ** 2, rel=1e-12)
     assert convex_radius_min(cam).value == pytest.approx(50 * mm)
     assert concave_radius_min(cam) is None
@@ -153,7 +153,7 @@ def test_a_dwell_all_round_is_a_circle() -> None:
 @pytest.mark.parametrize("limit", [0.0, -0.1, math.pi / 2, 30.0])
 def test_a_pressure_angle_limit_beyond_a_right_angle_is_refused(limit) -> None:
     with pytest.raises(ParameterError, match="above 0 deg, below 90 deg"):
-        pressure_prime(opposed(60 * mm, 90 * deg), Limits(limit, limit))
+        pressure_prime(opposed(60 * mm, 90 * deg), CamLimits(limit, limit))
 
 
 def test_a_prime_circle_inside_the_roller_is_refused() -> None:

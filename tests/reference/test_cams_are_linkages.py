@@ -15,7 +15,7 @@ from ilmek.cams.limits import area, convex_radius_min, pressure_angle_max
 from ilmek.cams.oscillating import OscillatingCam, arm_angle
 from ilmek.cams.oscillating_flat import OscillatingFlatCam, face_span
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, Programme, Segment
+from ilmek.cams.programme import TURN, CamProgramme, CamSegment
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.quality import transmission_angle
@@ -31,12 +31,12 @@ SIDES = pytest.mark.parametrize("side", [1, -1])
 Rows = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
-def programme_of(follower: Rows, lowest: float, highest: float) -> Programme:
+def programme_of(follower: Rows, lowest: float, highest: float) -> CamProgramme:
     """The follower's motion as a rise from its lowest pose and a fall from its highest, cam angles [rad]."""
     ends = follower(np.array([lowest, highest]))[0]
     lift, out = float(ends[1] - ends[0]), float((highest - lowest) % TURN)
 
-    def segment(name: str, begin: float, span: float, change: float) -> Segment:
+    def segment(name: str, begin: float, span: float, change: float) -> CamSegment:
         start = ends[0] if change > 0 else ends[1]
 
         def row(order: int) -> Callable[[np.ndarray], np.ndarray]:
@@ -49,10 +49,10 @@ def programme_of(follower: Rows, lowest: float, highest: float) -> Programme:
 
         still = [math.inf] * 5
         law = Law("linkage", row(0), row(1), row(2), lambda u: 0.0 * np.asarray(u), *still)
-        return Segment(name, span, change, law)
+        return CamSegment(name, span, change, law)
 
     segments = segment("rise", lowest, out, lift), segment("fall", highest, TURN - out, -lift)
-    return Programme(segments, start=lowest)
+    return CamProgramme(segments, start=lowest)
 
 
 def rocker(side: int) -> Mechanism:

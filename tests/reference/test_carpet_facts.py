@@ -7,7 +7,7 @@ from ilmek.carpet.design import knot_grid
 from ilmek.carpet.ground import GroundParams, ground_yarns, warp_need
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality, parse_quality, write_quality
-from ilmek.carpet.sizes import Size, parse_size
+from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.elements.yarns import warp_density
 from ilmek.units import cm, g, mg, mm
@@ -122,7 +122,7 @@ def test_knot_of_40_raj_with_the_waste_of_a_hand_cut() -> None:
 
 def test_mass_per_knot_within_nepals_range() -> None:
     """60-, 80- and 100-knot Nepal carpets: 85, 48, 24 mg a knot, all yarns (nepalcarpet.org, divided)."""
-    size, quality = Size(1.2, 1.8), parse_quality("25x25/dm")
+    size, quality = CarpetSize(1.2, 1.8), parse_quality("25x25/dm")
     rows, columns = knot_grid(size, quality)
     yarn = 2 / 2.5 * g
     pile = rows * columns * knot_length("symmetric", quality, yarn) * yarn
@@ -135,7 +135,7 @@ def test_pazyryk_carpet() -> None:
     quality = parse_quality("347000/m2")
     assert 1 / quality.across / mm == pytest.approx(1.6976, abs=5e-5)
     side = (3.62) ** 0.5
-    rows, columns = knot_grid(Size(side, side), quality)
+    rows, columns = knot_grid(CarpetSize(side, side), quality)
     assert rows * columns == pytest.approx(1_256_140, rel=1e-3)
     assert parse_size("362x100cm").area == pytest.approx(3.62)
     assert parse_size("362x100cm").width / cm == pytest.approx(362)

@@ -11,7 +11,7 @@ import pytest
 from ilmek.arrays import BoolArray, FloatArray
 from ilmek.synthesis.crank_rocker.circuit import extended, on_one_circuit
 from ilmek.synthesis.crank_rocker.dead_centres import (
-    Links,
+    LinkRatios,
     best_ratio,
     grashof_margin,
     links_of_ratio,
@@ -37,7 +37,7 @@ def by_force(swing: float, rotation: float) -> tuple[FloatArray, BoolArray]:
     """Least transmission angles of all ratios, 0 where the linkage is no crank-rocker, and the circuit check."""
     at = extended(swing, rotation, RATIOS)
     crank = np.abs(at.crank)
-    links = Links(crank, crank / RATIOS, np.abs(at.rocker))
+    links = LinkRatios(crank, crank / RATIOS, np.abs(at.rocker))
     shortest = (crank < 1) & (crank < links.coupler) & (crank < links.rocker)
     with np.errstate(invalid="ignore"):
         angles = np.where(shortest & (grashof_margin(links) > 0), transmission_angle_min(links), 0.0)

@@ -8,15 +8,15 @@ import pytest
 from ilmek.cams.flat import FlatCam, face_span
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import area, concave_radius_min, convex_radius_min, pressure_angle_max, undercut
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
 from ilmek.errors import ParameterError
 from ilmek.units import deg, mm
 
 ANGLE = np.linspace(0.0, TURN, 361)
 
 
-def there_and_back(lift, law, span=math.pi) -> Programme:
-    return Programme((rise(span, lift, LAWS[law]), fall(TURN - span, lift, LAWS[law])))
+def there_and_back(lift, law, span=math.pi) -> CamProgramme:
+    return CamProgramme((rise(span, lift, LAWS[law]), fall(TURN - span, lift, LAWS[law])))
 
 
 def test_harmonic_there_and_back_is_a_circle() -> None:
@@ -33,7 +33,7 @@ def test_harmonic_there_and_back_is_a_circle() -> None:
 
 
 def test_every_face_touches_the_cam_and_none_cuts_it() -> None:
-    programme = Programme((rise(100 * deg, 20 * mm, LAWS["cycloidal"]), dwell(100 * deg),
+    programme = CamProgramme((rise(100 * deg, 20 * mm, LAWS["cycloidal"]), dwell(100 * deg),
                            fall(160 * deg, 20 * mm, LAWS["3-4-5"])))  # fmt: skip
     cam = FlatCam(programme, 60 * mm)
     normal = np.exp(-1j * ANGLE)

@@ -9,11 +9,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from ilmek.dynamics.forward import State, forward
+from ilmek.dynamics.forward import ForwardState, forward
 from ilmek.dynamics.inertia import bar
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import Gravity, Torque
-from ilmek.dynamics.reduced import Reduced, reduce
+from ilmek.dynamics.reduced import ReducedMechanism, reduce
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.structure import plan
 
@@ -23,7 +23,7 @@ FALL = 9.81
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(400)
 
 
-def linkage() -> Reduced:
+def linkage() -> ReducedMechanism:
     bodies = {
         name: bar(0, length, mass=mass)
         for name, length, mass in zip(("crank", "coupler", "rocker"), (A, B, C), MASS, strict=True)
@@ -69,13 +69,13 @@ def time_to(q: float, speed: float, torque: float) -> float:
 
 @pytest.mark.parametrize(("rtol", "error"), [(1e-9, 3e-8), (1e-12, 5e-11)])
 def test_a_free_run_takes_the_time_that_its_energy_says(rtol: float, error: float) -> None:
-    run = forward(linkage(), State(0.0, 20.0), 2.0, rtol=rtol)
+    run = forward(linkage(), ForwardState(0.0, 20.0), 2.0, rtol=rtol)
     assert abs(time_to(float(run.position[-1]), 20.0, 0.0) - 2.0) < error
     assert run.energy_error < 10 * rtol
 
 
 def test_a_constant_torque_spins_it_up_as_its_work_says() -> None:
-    run = forward(linkage(), State(0.0), 2.0, drive=lambda _t, _q, _w: 0.5, rtol=1e-11)
+    run = forward(linkage(), ForwardState(0.0), 2.0, drive=lambda _t, _q, _w: 0.5, rtol=1e-11)
     assert round(float(run.position[-1]) / (2 * np.pi), 1) == 99.6
     assert abs(time_to(float(run.position[-1]), 0.0, 0.5) - 2.0) < 1e-8
     assert np.allclose(run.drive_work, 0.5 * run.position, rtol=0, atol=1e-8)
@@ -85,7 +85,7 @@ def test_the_motion_of_a_run_needs_the_effort_that_drove_it() -> None:
     def motor(time: float, _q: float, speed: float) -> float:
         return 0.8 - 0.02 * speed + 0.1 * np.sin(40 * time)
 
-    run = forward(linkage(), State(0.3, 5.0), 0.5, drive=motor, every=0.01)
+    run = forward(linkage(), ForwardState(0.3, 5.0), 0.5, drive=motor, every=0.01)
     needed = inverse(run.motion().require(), run.reduced.inertias, (Gravity(-FALL * 1j),)).effort("crank")
     assert np.max(np.abs(needed - run.effort)) < 1e-12
     assert np.allclose(run.time, 0.01 * np.arange(51), rtol=0, atol=1e-12)
@@ -95,7 +95,7 @@ def test_loads_enter_alike_as_constants_functions_and_drive() -> None:
     plain = linkage()
     loaded = reduce(plain.plan, plain.inertias, (*plain.weights, Torque("rocker", 0.3)))
     lively = reduce(plain.plan, plain.inertias, (*plain.weights, Torque("rocker", lambda _motion: 0.3)))
-    runs = [forward(one, State(0.0, 15.0), 0.05, rtol=1e-11) for one in (loaded, lively)]
+    runs = [forward(one, ForwardState(0.0, 15.0), 0.05, rtol=1e-11) for one in (loaded, lively)]
     assert len(lively.live) == len(loaded.steady) == 1
     assert abs(runs[0].position[-1] - runs[1].position[-1]) < 1e-10
     turned = runs[0].motion().angle("rocker")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams, design
-from ilmek.synthesis.dyad import Dyad
+from ilmek.synthesis.dyad import TwoLinkArm
 from ilmek.units import mm
 from ilmek.verification import thesis_arm
 
@@ -23,7 +23,7 @@ def made() -> KnottingDyad:
     return design(KnottingDyadParams.read({"points": points, "angles": angles, "link_limit": "1m"}))
 
 
-def parameters(dyad: Dyad) -> np.ndarray:
+def parameters(dyad: TwoLinkArm) -> np.ndarray:
     """P0 to P5 of an arm, lengths in units of 100 mm: a1 = 1/(2 P1), X = P4, Y = P5."""
     a1, a2, pivot = dyad.first / (100 * mm), dyad.second / (100 * mm), dyad.pivot / (100 * mm)
     K = abs(pivot) ** 2 + a1**2 - a2**2

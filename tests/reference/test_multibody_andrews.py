@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.multibody.system import Pose, Spring, System, SystemRun, Twist, simulate
+from ilmek.dynamics.multibody.system import BodyState, BodyTorque, Spring, System, SystemRun, simulate
 from ilmek.linkage.model import GROUND, Body, Pin
 
 A, B, C = -0.06934 - 0.00227j, -0.03635 + 0.03273j, 0.014 + 0.072j
@@ -55,8 +55,8 @@ def squeezer() -> System:
         (ground, *(Body(name, one) for name, one in zip(names, points, strict=True))),
         tuple(Pin(*pin) for pin in pins),
         {n: Inertia(m, complex(c), i) for n, m, c, i in zip(names, MASS, centres, MOMENT, strict=True)},
-        {n: Pose(complex(o), t) for n, o, t in zip(names, origins, turns, strict=True)},
-        loads=(Spring("K3", "D", GROUND, "C", 4530.0, 0.07785), Twist("K1", TORQUE)),
+        {n: BodyState(complex(o), t) for n, o, t in zip(names, origins, turns, strict=True)},
+        loads=(Spring("K3", "D", GROUND, "C", 4530.0, 0.07785), BodyTorque("K1", TORQUE)),
         name="squeezing mechanism",
     )
 

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from ilmek.dynamics.inertia import bar
-from ilmek.dynamics.multibody.system import Pose, System, simulate
+from ilmek.dynamics.multibody.system import BodyState, System, simulate
 from ilmek.linkage.model import GROUND, Body, Pin
 
 FALL = 9.81
@@ -23,7 +23,7 @@ def pendulum() -> System:
         (Body(GROUND, {"O": 0}), Body("bob", {"O": -1, "tip": 0})),
         (Pin("O", GROUND, "bob"),),
         {"bob": type(bob)(1.0, 0j, moment)},
-        {"bob": Pose(-1 + 0j, np.pi)},
+        {"bob": BodyState(-1 + 0j, np.pi)},
         gravity=-FALL * 1j,
     )
 
@@ -39,8 +39,8 @@ def row_of_four_bars(count: int) -> System:
     pins = [Pin(f"A{k}", GROUND, name) for k, name in enumerate(uprights)]
     pins += [Pin(f"R{k}", uprights[k], couplers[k]) for k in range(count)]
     pins += [Pin(f"L{k + 1}", couplers[k], uprights[k + 1]) for k in range(count)]
-    poses = {name: Pose(complex(k), np.pi / 2, 0j, -1.0) for k, name in enumerate(uprights)}
-    poses |= {name: Pose(k + 1j, 0.0, 1 + 0j) for k, name in enumerate(couplers)}
+    poses = {name: BodyState(complex(k), np.pi / 2, 0j, -1.0) for k, name in enumerate(uprights)}
+    poses |= {name: BodyState(k + 1j, 0.0, 1 + 0j) for k, name in enumerate(couplers)}
     masses = dict.fromkeys((*uprights, *couplers), bar(0, 1, mass=1.0))
     return System(tuple(bodies), tuple(pins), masses, poses, gravity=-FALL * 1j, name=f"{count} four-bars")
 

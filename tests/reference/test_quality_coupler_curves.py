@@ -6,7 +6,7 @@ import pytest
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.circuits import circuits
-from ilmek.linkage.configuration_path import InputWay
+from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.coupler_curve import coupler_curve
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.instant_centres import centrodes
@@ -20,7 +20,7 @@ LOOP = (1.0, 0.4, 1.0, 0.9)
 def path(sizes, local, branch=+1):
     """The path of a coupler point over a turn of the crank."""
     mechanism = four_bar(*sizes, branch=branch, points={"coupler": {"P": local}})
-    return coupler_curve(InputWay(one_input(plan(mechanism))), "coupler", "P")
+    return coupler_curve(InputPath(one_input(plan(mechanism))), "coupler", "P")
 
 
 def test_chebychevs_linkage_draws_his_line():
@@ -100,7 +100,7 @@ def test_a_point_on_the_moving_centrode_has_a_cusp():
 
 def test_lengths_are_exact():
     """Of a circle, of an ellipse of the trammel by its elliptic integral, and of a path with a cusp in two parts."""
-    crank = coupler_curve(InputWay(one_input(plan(four_bar(*LOOP, branch=+1)))), "crank", "A")
+    crank = coupler_curve(InputPath(one_input(plan(four_bar(*LOOP, branch=+1)))), "crank", "A")
     assert crank.length() == pytest.approx(2 * np.pi * 0.4, rel=1e-14)
     np.testing.assert_allclose(crank.curvature(np.linspace(0, 6, 9)), 1 / 0.4)
     curve = path(LOOP, 0.5 + 0.8j)
@@ -123,14 +123,14 @@ def test_inflections_have_no_curvature_and_part_left_from_right():
 
 def test_a_path_run_back_on_itself_does_not_cross_itself():
     mechanism = four_bar(*LOOP, branch=+1)
-    assert coupler_curve(InputWay(one_input(plan(mechanism))), "rocker", "B").crossings() == ()
+    assert coupler_curve(InputPath(one_input(plan(mechanism))), "rocker", "B").crossings() == ()
 
 
 def test_what_has_no_path_is_refused():
     mechanism = four_bar(0.3, 0.2, 0.2, 0.23, branch=+1)
     with pytest.raises(MechanismError, match="cannot close for crank"):
-        InputWay(one_input(plan(mechanism)))
+        InputPath(one_input(plan(mechanism)))
     with pytest.raises(MechanismError, match="from 1.0 to 1.0"):
-        InputWay(one_input(plan(mechanism)), 1.0, 1.0)
+        InputPath(one_input(plan(mechanism)), 1.0, 1.0)
     with pytest.raises(MechanismError, match="straight within 0 m for 1.0 m"):
         path(LOOP, 1 + 1j).straights(0, least=1.0)

@@ -11,7 +11,7 @@ import pytest
 from ilmek.arrays import FloatArray
 from ilmek.linkage.structure import plan
 from ilmek.machines.tufting import Tufting, TuftingParams, design
-from ilmek.machines.tufting.model import State, evaluate, mechanism, move
+from ilmek.machines.tufting.model import TuftingState, evaluate, mechanism, move
 from ilmek.units import deg, mm, turn
 
 
@@ -20,7 +20,7 @@ def made(**settings: float | str) -> Tufting:
     return design(TuftingParams.read(settings))
 
 
-def at(angle: float, side: float = 1.0, **settings: float | str) -> State:
+def at(angle: float, side: float = 1.0, **settings: float | str) -> TuftingState:
     params = TuftingParams.read(settings)
     return evaluate(params, plan(mechanism(params)), np.array([angle * deg]), side)
 
@@ -163,7 +163,7 @@ def test_moments_of_inertia_of_uniform_bars_would_change_little() -> None:
         assert uniform[name].value == pytest.approx(made().peaks[name].value, rel=2e-3)
 
 
-def moment_row(state: State, sign: float) -> FloatArray:
+def moment_row(state: TuftingState, sign: float) -> FloatArray:
     """M_r [N m] clockwise on the arm by Eq 35's moment row, clockwise-positive, M_4 = -J_4 a_4 with the sign given."""
     params = TuftingParams()
     arm = state.motion.direction("arm") * params.arm

@@ -18,7 +18,7 @@ from ilmek.machines.automated_loom.frame import (
     SECTIONS,
     STEEL,
     FrameTask,
-    Section,
+    HollowSquare,
     eccentric,
     euler,
     frame_for,
@@ -132,7 +132,7 @@ def test_energy_without_losses_or_standby_is_the_work_alone():
 
 
 def test_column_formulas_at_their_limits():
-    section = Section(0.1, 0.005)
+    section = HollowSquare(0.1, 0.005)
     assert section.area == pytest.approx(0.0019)
     assert section.inertia == pytest.approx((0.1**4 - 0.09**4) / 12)
     load = euler(2.0, section)
@@ -148,7 +148,7 @@ def test_column_formulas_at_their_limits():
 @given(st.floats(0.01, 1.0))
 def test_sag_of_a_load_over_the_middle_is_its_influence_line_integrated(share):
     """Deflection in the middle of a point load at a from an end: P a (3 l^2 - 4 a^2) / (48 E I), a <= l/2."""
-    section, span = Section(0.1, 0.005), 1.3
+    section, span = HollowSquare(0.1, 0.005), 1.3
     wide = share * span
     task = replace(task_of_frame(), width=2 * span, rail_spans=2, heads=1, head_mass=40.0, head_width=wide)
     own = rail_sag(replace(task, head_mass=0.0), section)
@@ -165,12 +165,12 @@ def test_the_frame_keeps_its_limits_with_the_lightest_section(pull, width, lever
     assert frame.buckling_factor >= 4
     assert frame.column_bow <= 1e-3
     assert frame.rail_sag <= task.sag_limit
-    lighter = [Section(*size) for size in SECTIONS if Section(*size).area < frame.rail.area]
+    lighter = [HollowSquare(*size) for size in SECTIONS if HollowSquare(*size).area < frame.rail.area]
     assert all(rail_sag(task, section) > task.sag_limit for section in lighter)
 
 
 def test_as_many_heads_count_on_a_span_as_find_room_on_it():
-    section = Section(0.1, 0.005)
+    section = HollowSquare(0.1, 0.005)
     few = rail_sag(replace(task_of_frame(), heads=3, head_width=0.5, width=1.5, rail_spans=1), section)
     assert rail_sag(replace(task_of_frame(), heads=30, head_width=0.5, width=1.5, rail_spans=1), section) == few
     assert rail_sag(replace(task_of_frame(), heads=3, head_width=0.5, width=3.0, rail_spans=2), section) == few

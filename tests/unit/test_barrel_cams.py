@@ -9,8 +9,8 @@ from ilmek.cams.barrel import BarrelArmCam, BarrelCam, cutter_error, undercut_in
 from ilmek.cams.groove import Groove
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import concave_radius_min, convex_radius_min, pressure_angle_max, undercut
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
-from ilmek.cams.sizing import Limits, smallest_prime
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
+from ilmek.cams.sizing import CamLimits, smallest_prime
 from ilmek.cams.strip import WedgeCam
 from ilmek.errors import ParameterError
 from ilmek.units import deg, mm
@@ -19,8 +19,8 @@ ANGLE = np.linspace(0.0, TURN, 61)
 FINE = np.linspace(-0.5, TURN + 0.5, 4001)
 
 
-def motion(lift, law="cycloidal", span=100 * deg) -> Programme:
-    return Programme((rise(span, lift, LAWS[law]), dwell(60 * deg), fall(span, lift, LAWS[law]),
+def motion(lift, law="cycloidal", span=100 * deg) -> CamProgramme:
+    return CamProgramme((rise(span, lift, LAWS[law]), dwell(60 * deg), fall(span, lift, LAWS[law]),
                       dwell(300 * deg - 2 * span)))  # fmt: skip
 
 
@@ -77,7 +77,7 @@ def test_development_has_the_closed_forms() -> None:
 
 def test_smallest_barrel_for_a_pressure_angle() -> None:
     """R = s'max / tan(limit)."""
-    found = smallest_prime(BARREL, Limits(rise=30 * deg, back=30 * deg))
+    found = smallest_prime(BARREL, CamLimits(rise=30 * deg, back=30 * deg))
     assert found.prime_radius == pytest.approx(2 * 40 * mm / (100 * deg) / math.tan(30 * deg), rel=1e-10)
 
 
@@ -119,7 +119,7 @@ def test_a_roller_that_reaches_the_axis_is_refused() -> None:
 
 
 def test_a_wedge_of_a_straight_slope_is_a_straight_line() -> None:
-    programme = Programme((rise(math.pi, 30 * mm, LAWS["uniform"]), fall(math.pi, 30 * mm, LAWS["uniform"])))
+    programme = CamProgramme((rise(math.pi, 30 * mm, LAWS["uniform"]), fall(math.pi, 30 * mm, LAWS["uniform"])))
     wedge = WedgeCam(programme, 200 * mm, 8 * mm, used=math.pi)
     angle = np.linspace(0.01, math.pi - 0.01, 20)
     slope = math.atan2(30, 100)
@@ -144,9 +144,9 @@ def test_a_leaning_follower_is_pushed_by_so_much_less_askew() -> None:
 
 
 def test_a_wedge_for_a_pressure_angle_is_the_shortest() -> None:
-    programme = Programme((rise(math.pi, 30 * mm, LAWS["harmonic"]), fall(math.pi, 30 * mm, LAWS["harmonic"])))
+    programme = CamProgramme((rise(math.pi, 30 * mm, LAWS["harmonic"]), fall(math.pi, 30 * mm, LAWS["harmonic"])))
     wedge = WedgeCam(programme, 1.0, 8 * mm, used=math.pi)
-    found = wedge.resized(smallest_prime(wedge, Limits(rise=25 * deg)).prime_radius)
+    found = wedge.resized(smallest_prime(wedge, CamLimits(rise=25 * deg)).prime_radius)
     assert found.length / 2 == pytest.approx(math.pi / 2 * 30 * mm / math.tan(25 * deg), rel=1e-9)
     with pytest.raises(ParameterError, match="length=0 mm; above 0 mm"):
         WedgeCam(programme, 0.0)

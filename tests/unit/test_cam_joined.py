@@ -8,13 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.cams.laws import LAWS, SMOOTH_LAWS, law_of
-from ilmek.cams.programme import TURN, Programme, all_jumps, blend, dwell, even, fall, free, joined, jumps, rise
+from ilmek.cams.programme import TURN, CamProgramme, all_jumps, blend, dwell, even, fall, free, joined, jumps, rise
 from ilmek.errors import ParameterError
 
 
-def uniform() -> Programme:
+def uniform() -> CamProgramme:
     law = LAWS["uniform"]
-    return Programme((rise(1.0, 0.02, law), dwell(2.0), fall(1.0, 0.02, law), dwell(TURN - 4.0)))
+    return CamProgramme((rise(1.0, 0.02, law), dwell(2.0), fall(1.0, 0.02, law), dwell(TURN - 4.0)))
 
 
 def test_uniform_motion_jumps_in_the_velocity_and_nowhere_else() -> None:
@@ -33,7 +33,7 @@ def test_continuity_not_met_names_place_angle_and_derivative() -> None:
     with pytest.raises(ParameterError, match=said):
         uniform().require_continuity(2)
     law = LAWS["cycloidal"]
-    smooth = Programme((rise(1.0, 0.02, law), fall(1.0, 0.02, law), dwell(TURN - 2.0)))
+    smooth = CamProgramme((rise(1.0, 0.02, law), fall(1.0, 0.02, law), dwell(TURN - 2.0)))
     assert smooth.require_continuity(2) is smooth
     with pytest.raises(ParameterError, match="the jerk jumps from 0 to .* m/rad.3 at 0 deg"):
         smooth.require_continuity(3)
@@ -101,21 +101,21 @@ def test_a_free_part_has_the_derivatives_it_was_given(start, end, change, span) 
 
 def test_a_rise_that_overshoots_is_counted_in_the_bounds() -> None:
     over = free(2.0, 0.01, (0.03, 0.0), (0.0, 0.0))
-    made = Programme((over, fall(2.0, 0.01, LAWS["3-4-5"]), dwell(TURN - 4.0)))
+    made = CamProgramme((over, fall(2.0, 0.01, LAWS["3-4-5"]), dwell(TURN - 4.0)))
     angle = np.linspace(0, TURN, 200_001)
     assert made.bounds == pytest.approx((made.at(angle).s.min(), made.at(angle).s.max()), abs=1e-10)
     assert made.bounds[1] > 0.0101
 
 
 def test_an_indexing_programme_gains_its_step_every_turn() -> None:
-    table = Programme((rise(2.0, 0.05, LAWS["modified-sine"]), dwell(TURN - 2.0)), start=0.3, revolves=0.05)
+    table = CamProgramme((rise(2.0, 0.05, LAWS["modified-sine"]), dwell(TURN - 2.0)), start=0.3, revolves=0.05)
     angle = np.linspace(-7, 20, 500)
     here, later = table.at(angle), table.at(angle + TURN)
     np.testing.assert_allclose(later.s - here.s, 0.05, atol=1e-15)
     np.testing.assert_allclose(later.ds, here.ds, atol=1e-13)
     assert np.all(np.diff(here.s) >= -1e-16)
     with pytest.raises(ParameterError, match="miss revolves=60 mm by -10 mm"):
-        Programme(table.segments, revolves=0.06)
+        CamProgramme(table.segments, revolves=0.06)
 
 
 @settings(max_examples=25)
@@ -125,7 +125,7 @@ def test_an_indexing_programme_gains_its_step_every_turn() -> None:
     start=st.floats(-7, 7),
 )
 def test_any_order_of_angles_is_the_angles_one_by_one(law, angles, start) -> None:
-    made = Programme((rise(1.7, 0.03, law), dwell(0.8), fall(2.1, 0.03, law), dwell(TURN - 4.6)), start)
+    made = CamProgramme((rise(1.7, 0.03, law), dwell(0.8), fall(2.1, 0.03, law), dwell(TURN - 4.6)), start)
     whole = np.stack(made.at(np.array(angles)))
     single = np.array([[float(row) for row in made.at(np.array(angle))] for angle in angles]).T
     np.testing.assert_array_equal(whole, single)
@@ -138,4 +138,4 @@ def test_a_law_that_does_not_end_at_one_is_no_rise() -> None:
     half = law_of("polynomial", {"end": (0.5, 0, 0)})
     said = "rise: its law polynomial goes from 0 to 0.5; from 0 to 1; let it end at 1, or take `free`"
     with pytest.raises(ParameterError, match=said):
-        Programme((rise(1.0, 0.02, half), fall(1.0, 0.02, LAWS["3-4-5"]), dwell(TURN - 2.0)))
+        CamProgramme((rise(1.0, 0.02, half), fall(1.0, 0.02, LAWS["3-4-5"]), dwell(TURN - 2.0)))

@@ -16,7 +16,7 @@ from ilmek.machines.cam.compliant_follower import springy
 from ilmek.machines.cam.hub import Hub, bore_for, hub_for
 from ilmek.machines.cam.parts import cam_table, plates
 from ilmek.machines.cam.results import results as numbers
-from ilmek.machines.cam.rollers import ROLLERS, Duty
+from ilmek.machines.cam.rollers import ROLLERS, RollerDuty
 from ilmek.machines.catalogue import MACHINES
 from ilmek.plane import contours
 from ilmek.units import deg, mm, rpm
@@ -262,7 +262,7 @@ def test_spherical_and_crowned_followers_press_harder_than_a_line() -> None:
 def test_roller_of_a_table_lasts_as_long_as_its_rating_says() -> None:
     """Under its dynamic rating a bearing lives a million turns."""
     roller = ROLLERS["CF 10"]
-    assert Duty(roller.dynamic, roller.dynamic, 2.0, TURN).time(roller) == pytest.approx(1e6 / 2.0)
+    assert RollerDuty(roller.dynamic, roller.dynamic, 2.0, TURN).time(roller) == pytest.approx(1e6 / 2.0)
 
 
 def test_smallest_roller_that_lasts_is_taken() -> None:

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from ilmek.cams.laws import LAWS
-from ilmek.cams.programme import Programme, dwell, fall, jumps, rise
+from ilmek.cams.programme import CamProgramme, dwell, fall, jumps, rise
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import infimum, integral, supremum
 
 QUARTER = math.pi / 2
 
 
-def shed(name: str) -> Programme:
+def shed(name: str) -> CamProgramme:
     law = LAWS[name]
-    return Programme((rise(QUARTER, 0.06, law), fall(QUARTER, 0.06, law), dwell(math.pi)))
+    return CamProgramme((rise(QUARTER, 0.06, law), fall(QUARTER, 0.06, law), dwell(math.pi)))
 
 
 def test_shedding_programme_is_the_printed_law() -> None:
@@ -64,7 +64,7 @@ def test_names_where_the_acceleration_jumps(name, places) -> None:
 
 def test_whole_turns_are_the_begin_of_the_first_part() -> None:
     law = LAWS["uniform"]
-    saw = Programme((rise(1.0, 0.01, law), fall(2 * math.pi - 1.0, 0.01, law)))
+    saw = CamProgramme((rise(1.0, 0.01, law), fall(2 * math.pi - 1.0, 0.01, law)))
     np.testing.assert_allclose(saw.at(2 * math.pi * np.arange(-300, 301)).ds, 0.01, rtol=1e-12)
 
 
@@ -94,7 +94,7 @@ def test_the_jerk_jumps_where_a_smooth_law_meets_a_dwell() -> None:
 )
 def test_refuses_what_is_no_turn(segments, said) -> None:
     with pytest.raises(ParameterError, match=said):
-        Programme(segments)
+        CamProgramme(segments)
 
 
 def test_least_upper_bound_takes_the_side_where_it_is_larger() -> None:

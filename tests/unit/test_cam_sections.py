@@ -11,19 +11,19 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import area, undercut
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
 from ilmek.cams.section import section
 from ilmek.units import deg, mm
 
 
-def motion(lift, law="cycloidal") -> Programme:
-    return Programme((rise(90 * deg, lift, LAWS[law]), dwell(40 * deg), fall(110 * deg, lift, LAWS[law]),
+def motion(lift, law="cycloidal") -> CamProgramme:
+    return CamProgramme((rise(90 * deg, lift, LAWS[law]), dwell(40 * deg), fall(110 * deg, lift, LAWS[law]),
                       dwell(120 * deg)))  # fmt: skip
 
 
 def test_the_flat_faced_circle_weighs_as_a_circle_off_centre() -> None:
     """Harmonic over 180/180: circle of Rb + h/2 about -h/2; polar moment pi R^4/2 + A (h/2)^2 (Steiner)."""
-    programme = Programme((rise(math.pi, 20 * mm, LAWS["harmonic"]), fall(math.pi, 20 * mm, LAWS["harmonic"])))
+    programme = CamProgramme((rise(math.pi, 20 * mm, LAWS["harmonic"]), fall(math.pi, 20 * mm, LAWS["harmonic"])))
     found, radius = section(FlatCam(programme, 30 * mm)), 40 * mm
     assert found.area == pytest.approx(math.pi * radius**2, rel=1e-13)
     assert found.centre == pytest.approx(-10 * mm, abs=1e-15)
@@ -60,7 +60,9 @@ def test_undercut_is_seen_as_interference_too() -> None:
 def test_a_finger_that_the_roller_cuts_at_its_root_is_seen_where_the_curvature_is_sound() -> None:
     """A long narrow finger on a small circle: rho > roller all round, but from both sides the roller meets itself."""
     law = LAWS["3-4-5"]
-    finger = Programme((rise(40 * deg, 80 * mm, law), dwell(20 * deg), fall(40 * deg, 80 * mm, law), dwell(260 * deg)))
+    finger = CamProgramme(
+        (rise(40 * deg, 80 * mm, law), dwell(20 * deg), fall(40 * deg, 80 * mm, law), dwell(260 * deg))
+    )
     cam = PlateCam(finger, 10 * mm, roller_radius=9 * mm)
     assert not undercut(cam)
     found = interference(cam)

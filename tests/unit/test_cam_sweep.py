@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from ilmek.cams import limits
-from ilmek.cams.contact import Held
+from ilmek.cams.contact import FollowerLoad
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
-from ilmek.cams.sizing import Limits, pressure_prime
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
+from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.cams.sweep import sweep, wanted
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import supremum
@@ -44,10 +44,10 @@ def alone(designs, i: int) -> tuple[PlateCam, float]:
     """The single design, and its largest torque."""
     law, lift = LAWS[NAMES[designs.law[i]]], float(designs.lift[i])
     up, down = float(designs.rise[i]), float(designs.fall[i])
-    programme = Programme((rise(up, lift, law), fall(down, lift, law), dwell(TURN - up - down)))
+    programme = CamProgramme((rise(up, lift, law), fall(down, lift, law), dwell(TURN - up - down)))
     offset = float(designs.offset[i])
-    prime = pressure_prime(programme, Limits(rise=float(designs.limit[i])), offset).value
-    held = Held(*(float(getattr(designs, name)[i]) for name in ("speed", "mass", "rate", "preload", "load")))
+    prime = pressure_prime(programme, CamLimits(rise=float(designs.limit[i])), offset).value
+    held = FollowerLoad(*(float(getattr(designs, name)[i]) for name in ("speed", "mass", "rate", "preload", "load")))
 
     def torque(angle):
         at = programme.at(angle)

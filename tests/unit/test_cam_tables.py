@@ -12,20 +12,22 @@ import pytest
 from scipy.interpolate import BPoly, CubicSpline
 
 from ilmek.cams.laws import LAWS
-from ilmek.cams.programme import Programme, dwell, fall, rise
+from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.errors import OutputError
 from ilmek.io.cam_tables import FORMATS
-from ilmek.io.cam_tables.sampling import Rule, Sampled, sample, stroke
+from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule, sample, stroke
 from ilmek.report import CamTable
 from ilmek.timing.cyclogram import Track
-from ilmek.timing.track import Segment
+from ilmek.timing.track import TrackSegment
 from ilmek.timing.track import sample as track_sample
 
 Course = Callable[[np.ndarray], np.ndarray]
 
 
 def programme_table(law: str, *, lift: float = 0.03, start: float = 0.7) -> CamTable:
-    turn = Programme((rise(1.5, lift, LAWS[law]), dwell(1.0), fall(1.7, lift, LAWS[law]), dwell(math.tau - 4.2)), start)
+    turn = CamProgramme(
+        (rise(1.5, lift, LAWS[law]), dwell(1.0), fall(1.7, lift, LAWS[law]), dwell(math.tau - 4.2)), start
+    )
     knots = np.sort(np.mod(turn.knots[:-1], math.tau))
     return CamTable("cam-1", "Cam 1", lambda angle: np.stack(turn.at(angle)[:3]), knots, "mm", 2.0)
 
@@ -36,7 +38,7 @@ def handler_table() -> CamTable:
     ends = (0.0, 0.5 * math.pi, 1.2 * math.pi, math.tau)
     times = ((0.0, 1.1), (1.6, 2.9), (3.5, 5.8))
     moves = tuple(
-        Segment(f"move {k}", *times[k], ends[k], ends[k + 1], law)  # type: ignore[arg-type]
+        TrackSegment(f"move {k}", *times[k], ends[k], ends[k + 1], law)  # type: ignore[arg-type]
         for k in range(3)
     )
     track = Track("pile handler", "cam 5", moves, unit="deg", revolves=math.tau)
@@ -103,7 +105,7 @@ def read_positions(text: str) -> Course:
     return cyclic_spline(*pairs.T)
 
 
-def read_kollmorgen(text: str, sampled: Sampled, table: CamTable) -> Course:
+def read_kollmorgen(text: str, sampled: SampledTable, table: CamTable) -> Course:
     first, begin, *rows, end = text.splitlines()
     assert (first, begin, end) == ("CYCLIC;YES;", "TABLE_BEGIN;;", "TABLE_END;;")
     cells = [row.split(";") for row in rows]
@@ -128,7 +130,7 @@ def cyclic_spline(x: np.ndarray, y: np.ndarray) -> Course:
     return lambda at: course(at) + gain * at
 
 
-def read(name: str, text: str, sampled: Sampled, table: CamTable) -> Course:
+def read(name: str, text: str, sampled: SampledTable, table: CamTable) -> Course:
     readers: dict[str, Callable[[], Course]] = {
         "neutral": lambda: read_neutral(text),
         "iec": lambda: read_iec(text),
@@ -143,7 +145,7 @@ def read(name: str, text: str, sampled: Sampled, table: CamTable) -> Course:
 
 
 @cache
-def sampled_once(case: str, rule: Rule) -> Sampled:
+def sampled_once(case: str, rule: SamplingRule) -> SampledTable:
     """Formats of one rule share their points."""
     return sample(TABLES[case], rule, 1e-4 * stroke(TABLES[case]))
 
@@ -184,7 +186,7 @@ def test_the_block_of_structured_text_counts_turns_both_ways(case: str) -> None:
 
 def test_joints_are_points_where_steps_are_uneven() -> None:
     table = TABLES["harmonic"]
-    for rule in (Rule("linear"), Rule("spline"), Rule("quintic")):
+    for rule in (SamplingRule("linear"), SamplingRule("spline"), SamplingRule("quintic")):
         angle = sample(table, rule, 1e-6).nodes.angle
         assert np.abs(angle[:, None] - table.knots).min(axis=0).max() < 1e-12
         assert (np.diff(angle) > 0).all()
@@ -192,16 +194,21 @@ def test_joints_are_points_where_steps_are_uneven() -> None:
 
 def test_a_controller_with_too_few_points_is_told_the_error_it_reaches() -> None:
     table = programme_table("uniform")
-    sampled = sample(table, Rule("quintic", most=20), 1e-9)
+    sampled = sample(table, SamplingRule("quintic", most=20), 1e-9)
     assert len(sampled.nodes.angle) == 20
     assert not sampled.kept
     assert 1e-6 < sampled.error < 1e-3
-    assert len(sample(table, Rule("quintic", most=4), 1e-9).nodes.angle) == 4
+    assert len(sample(table, SamplingRule("quintic", most=4), 1e-9).nodes.angle) == 4
 
 
 def test_a_finer_tolerance_is_reached_by_more_points() -> None:
     table = TABLES["modified sine"]
-    for rule in (Rule("linear"), Rule("spline"), Rule("quintic"), Rule("linear", even=True)):
+    for rule in (
+        SamplingRule("linear"),
+        SamplingRule("spline"),
+        SamplingRule("quintic"),
+        SamplingRule("linear", even=True),
+    ):
         coarse, fine = (sample(table, rule, share * stroke(table)) for share in (1e-3, 1e-5))
         assert fine.kept
         assert len(fine.nodes.angle) > len(coarse.nodes.angle)
@@ -212,7 +219,7 @@ def test_a_course_that_jumps_at_the_end_of_the_turn_is_refused() -> None:
         "ramp", "Ramp", lambda a: np.stack([a, np.ones_like(a), 0 * a]), np.array([0.0, math.tau]), "mm", 1.0
     )
     with pytest.raises(OutputError, match="ramp ends a turn 6283 mm from where it began; a cam table runs on"):
-        sample(ramp, Rule("linear"), 1e-6)
+        sample(ramp, SamplingRule("linear"), 1e-6)
 
 
 def test_a_slave_that_stands_still_is_a_table_of_zeros() -> None:

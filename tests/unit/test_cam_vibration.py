@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from ilmek.cams.follower_dynamics import (
-    Follower,
+    FollowerModel,
     Stage,
     one_mass,
     residual_of,
@@ -19,7 +19,7 @@ from ilmek.cams.follower_dynamics import (
     steady_response,
 )
 from ilmek.cams.laws import LAWS, SMOOTH_LAWS, law_of
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
 from ilmek.cams.vibration import least_ratio, residual, spectrum_plot
 from ilmek.errors import ParameterError
 
@@ -110,7 +110,7 @@ def test_rise_of_one_mass_against_the_integrated_equation(name, damping) -> None
 @settings(max_examples=8)
 def test_two_masses_are_one_where_the_second_is_nothing(ratio, law) -> None:
     single = one_mass(2.0, 2.0 * (2 * PI * 30) ** 2)
-    double = Follower((*single.stages, Stage(1e-5, 1e4)))
+    double = FollowerModel((*single.stages, Stage(1e-5, 1e4)))
     near, far = residual_of(double, law, ratio / 30)
     assert near == pytest.approx(float(residual_of(single, law, ratio / 30)[0]), abs=1e-4)
     assert far == pytest.approx(near, abs=1e-4)
@@ -118,7 +118,7 @@ def test_two_masses_are_one_where_the_second_is_nothing(ratio, law) -> None:
 
 def test_frequencies_of_two_equal_masses_on_equal_springs() -> None:
     """w^2 = k/m (3 -+ sqrt 5)/2."""
-    pair = Follower((Stage(2.0, 800.0), Stage(2.0, 800.0)))
+    pair = FollowerModel((Stage(2.0, 800.0), Stage(2.0, 800.0)))
     expected = np.sqrt(400 * (3 + np.array([-1, 1]) * math.sqrt(5)) / 2)
     np.testing.assert_allclose(pair.frequencies, expected, rtol=1e-13)
 
@@ -127,7 +127,7 @@ def test_frequencies_of_two_equal_masses_on_equal_springs() -> None:
 @settings(max_examples=8)
 def test_energy_of_two_masses_is_what_the_cam_gives_less_what_the_dampers_take(law, time, damped) -> None:
     stages = (Stage(1.5, 2e4, 10.0 * damped, 300.0), Stage(0.4, 8e3, 6.0 * damped))
-    follower = Follower(stages)
+    follower = FollowerModel(stages)
     got = rise_response(follower, law, 0.01, time, after=0.0, count=2001)
     cam_speed = 0.01 / time * np.asarray(law.v(got.at / time))
     stretch = np.array([got.displacement[0] - got.cam, got.displacement[1] - got.displacement[0]])
@@ -143,7 +143,7 @@ def test_energy_of_two_masses_is_what_the_cam_gives_less_what_the_dampers_take(l
 
 def test_the_motion_that_repeats_is_what_a_damped_follower_settles_to() -> None:
     law = LAWS["modified-trapezoid"]
-    made = Programme((rise(1.2, 0.02, law), dwell(0.7), fall(1.5, 0.02, law), dwell(TURN - 3.4)), start=0.4)
+    made = CamProgramme((rise(1.2, 0.02, law), dwell(0.7), fall(1.5, 0.02, law), dwell(TURN - 3.4)), start=0.4)
     follower = one_mass(2.0, 2.0 * 90.0**2, 0.1, preload=200.0)
     got = steady_response(follower, made, 11.0, 181)
     for row in (got.displacement, got.velocity, got.acceleration):
@@ -161,7 +161,7 @@ def test_the_motion_that_repeats_is_what_a_damped_follower_settles_to() -> None:
 
 def test_a_stiff_follower_does_what_the_cam_says() -> None:
     law = LAWS["4-5-6-7"]
-    made = Programme((rise(2.0, 0.02, law), fall(2.0, 0.02, law), dwell(TURN - 4.0)))
+    made = CamProgramme((rise(2.0, 0.02, law), fall(2.0, 0.02, law), dwell(TURN - 4.0)))
     got = steady_response(one_mass(1.0, 1e8, 0.01, preload=50.0), made, 20.0)
     course = made.at(got.at)
     np.testing.assert_allclose(got.displacement[0], course.s, atol=1e-6)
@@ -171,7 +171,7 @@ def test_a_stiff_follower_does_what_the_cam_says() -> None:
 def test_uniform_motion_kicks_a_follower_every_turn() -> None:
     """Without damping the mass takes the step of the velocity as its own: the lag turns by it at the first moment."""
     law = LAWS["uniform"]
-    made = Programme((rise(1.0, 0.02, law), dwell(1.0), fall(1.0, 0.02, law), dwell(TURN - 3.0)))
+    made = CamProgramme((rise(1.0, 0.02, law), dwell(1.0), fall(1.0, 0.02, law), dwell(TURN - 3.0)))
     got = steady_response(one_mass(1.0, 1e4, 0.2), made, 5.0, 4001)
     slope = np.diff(got.lag[0]) / np.diff(got.at / 5.0)
     first = int(np.searchsorted(got.at, 1.0))
@@ -210,7 +210,7 @@ def test_plots_hold_what_was_asked() -> None:
         (lambda: least_ratio(LAWS["cubic"], 0.6), "residual share 0.6 of the lift; 1e-05 to 0.5"),
         (lambda: least_ratio(LAWS["uniform"], 0.1), "law uniform: its velocity jumps; a law of finite acceleration"),
         (lambda: one_mass(0.0, 1.0), "a follower of mass 0 kg"),
-        (lambda: Follower(()), "a follower without a mass"),
+        (lambda: FollowerModel(()), "a follower without a mass"),
         (lambda: rise_response(one_mass(1.0, 1.0), LAWS["cubic"], 0.01, 0.0), "a rise in 0 s; above 0"),
         (lambda: rise_response(one_mass(1.0, 1e14), LAWS["cubic"], 0.01, 1.0), "take it as rigid"),
     ],
@@ -222,7 +222,7 @@ def test_refuses(call, said) -> None:
 
 def test_an_undamped_follower_in_tune_with_the_cam_is_refused() -> None:
     law = LAWS["cycloidal"]
-    made = Programme((rise(2.0, 0.02, law), fall(2.0, 0.02, law), dwell(TURN - 4.0)))
+    made = CamProgramme((rise(2.0, 0.02, law), fall(2.0, 0.02, law), dwell(TURN - 4.0)))
     with pytest.raises(ParameterError, match="the follower resonates: .* give it damping, or another speed"):
         steady_response(one_mass(1.0, 30.0**2), made, 10.0)
     assert np.all(np.isfinite(steady_response(one_mass(1.0, 31.0**2), made, 10.0).displacement))

@@ -8,13 +8,13 @@ from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.ground import GroundParams, sinuous_length
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn, yarns_from_records
 from ilmek.elements.knot_kinds import asymmetric_wrap, parse_knot, symmetric_wrap
 from ilmek.errors import CarpetError, PictureError, YarnError
 from ilmek.progress import Progress
 
-SIZE, QUALITY = Size(0.6, 0.9), Quality(1000.0, 1000.0)
+SIZE, QUALITY = CarpetSize(0.6, 0.9), Quality(1000.0, 1000.0)
 
 
 def wools(*colours: str, price: float | None = 20.0) -> tuple[Yarn, ...]:
@@ -71,13 +71,13 @@ def test_same_picture_same_chart(chart: Chart) -> None:
 def test_top_of_the_picture_is_row_0() -> None:
     rgb = np.zeros((40, 20, 3), dtype=np.uint8)
     rgb[:20] = (255, 255, 255)
-    knots = make_chart(rgb, Size(0.2, 0.4), Quality(100.0, 100.0), wools("ffffff", "000000")).knots
+    knots = make_chart(rgb, CarpetSize(0.2, 0.4), Quality(100.0, 100.0), wools("ffffff", "000000")).knots
     assert knots[0].tolist() == [0] * 20
     assert knots[39].tolist() == [1] * 20
 
 
 def test_best_colours_keep_the_order_of_the_list() -> None:
-    chart = make_chart(medallion(90, 60), Size(0.6, 0.9), Quality(100.0, 100.0), YARNS, colours=4, knot="Persian")
+    chart = make_chart(medallion(90, 60), CarpetSize(0.6, 0.9), Quality(100.0, 100.0), YARNS, colours=4, knot="Persian")
     places = [YARNS.index(yarn) for yarn in chart.yarns]
     assert len(places) == 4
     assert places == sorted(places)
@@ -88,7 +88,7 @@ def test_progress_rises_to_one() -> None:
     shares: list[float] = []
     make_chart(
         medallion(90, 60),
-        Size(0.5, 0.7),
+        CarpetSize(0.5, 0.7),
         Quality(400.0, 400.0),
         YARNS,
         progress=Progress(lambda _, share: shares.append(share)),
@@ -172,6 +172,6 @@ def test_bill_of_the_ground(chart: Chart) -> None:
 def test_bill_without_prices_or_knots_of_a_yarn() -> None:
     rgb = np.zeros((10, 10, 3), dtype=np.uint8)
     yarns = wools("000000", "ffffff", price=None)
-    bill = yarn_bill(make_chart(rgb, Size(0.1, 0.1), Quality(100.0, 100.0), yarns))
+    bill = yarn_bill(make_chart(rgb, CarpetSize(0.1, 0.1), Quality(100.0, 100.0), yarns))
     assert [need.name for need in bill.pile] == ["000000"]
     assert bill.price is None

@@ -6,7 +6,7 @@ import pytest
 from ilmek.carpet.colour import LINEAR, decode, encode
 from ilmek.carpet.design import distortion, knot_grid, resampled
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError
 
 
@@ -64,22 +64,22 @@ def test_same_grid_is_untouched() -> None:
 
 
 def test_knots_need_not_be_square() -> None:
-    assert knot_grid(Size(1.0, 1.0), Quality(260.0, 330.0)) == (330, 260)
+    assert knot_grid(CarpetSize(1.0, 1.0), Quality(260.0, 330.0)) == (330, 260)
 
 
 @pytest.mark.parametrize(
     ("size", "quality", "said"),
     [
-        (Size(0.01, 1.0), Quality(60.0, 60.0), "at least 2 × 2"),
-        (Size(50.0, 50.0), Quality(500.0, 500.0), "625 million"),
+        (CarpetSize(0.01, 1.0), Quality(60.0, 60.0), "at least 2 × 2"),
+        (CarpetSize(50.0, 50.0), Quality(500.0, 500.0), "625 million"),
     ],
 )
-def test_grids_refused(size: Size, quality: Quality, said: str) -> None:
+def test_grids_refused(size: CarpetSize, quality: Quality, said: str) -> None:
     with pytest.raises(CarpetError, match=said):
         knot_grid(size, quality)
 
 
 def test_distortion_is_signed() -> None:
     wide = np.zeros((100, 300, 3), dtype=np.uint8)
-    assert distortion(wide, Size(3.0, 1.0)) == 0.0
-    assert distortion(wide, Size(1.5, 1.0)) == -0.5
+    assert distortion(wide, CarpetSize(3.0, 1.0)) == 0.0
+    assert distortion(wide, CarpetSize(1.5, 1.0)) == -0.5

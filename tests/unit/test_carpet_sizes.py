@@ -2,7 +2,7 @@
 
 import pytest
 
-from ilmek.carpet.sizes import STANDARD_SIZES, Size, parse_size
+from ilmek.carpet.sizes import STANDARD_SIZES, CarpetSize, parse_size
 from ilmek.errors import CarpetError
 
 
@@ -33,12 +33,12 @@ def test_standard_names(text: str, name: str) -> None:
     ["120x180cm", "120 x 180 cm", "120 × 180 cm", "1.2x1.8m", "1200X1800mm", "120cm x 180cm", "12*18 dm", "1.2mx1.8m"],
 )
 def test_free_sizes(text: str) -> None:
-    assert parse_size(text) == Size(1.2, 1.8)
+    assert parse_size(text) == CarpetSize(1.2, 1.8)
 
 
 def test_feet_and_inches_are_exact() -> None:
-    assert parse_size("4x6ft") == Size(1.2192, 1.8288)
-    assert parse_size("47x71in") == Size(1.1938, 1.8034)
+    assert parse_size("4x6ft") == CarpetSize(1.2192, 1.8288)
+    assert parse_size("47x71in") == CarpetSize(1.1938, 1.8034)
     assert parse_size("48 in x 72 in") == parse_size("4' x 6'")
 
 

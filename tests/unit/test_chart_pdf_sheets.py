@@ -10,7 +10,7 @@ from pypdf import PdfReader
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart.sheets import OVERLAP, cut
@@ -22,7 +22,7 @@ def chart(rows: int, columns: int, yarns: int, along: float = 250.0) -> Chart:
     colours = rng.integers(0, 256, (yarns, 3)).tolist()
     threads = tuple(Yarn(f"yarn-{n}", (r, g, b), (0.0, 0.0, 0.0), 4.0) for n, (r, g, b) in enumerate(colours))
     knots = rng.integers(0, yarns, (rows, columns), dtype=np.uint8)
-    size = Size(columns / 250.0, rows / along, "seccade")
+    size = CarpetSize(columns / 250.0, rows / along, "seccade")
     return Chart(knots, threads, size, Quality(250.0, along), "symmetric", 1.0, 1.0)
 
 

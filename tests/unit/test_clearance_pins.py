@@ -8,7 +8,7 @@ import pytest
 
 from ilmek.dynamics.clearance import LAWS, ClearancePin, exact_hysteresis, hertz_stiffness
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.multibody.system import Pose, System, loosened, simulate
+from ilmek.dynamics.multibody.system import BodyState, System, loosened, simulate
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body
 
@@ -17,7 +17,7 @@ STEEL = hertz_stiffness(RADIUS, CLEARANCE, 207e9)
 PIN = ClearancePin("P", GROUND, "disc", CLEARANCE, RADIUS, STEEL)
 
 
-def disc(pin: ClearancePin, pose: Pose, gravity: complex = 0j) -> System:
+def disc(pin: ClearancePin, pose: BodyState, gravity: complex = 0j) -> System:
     """A journal alone in a bearing of the ground."""
     bodies = (Body(GROUND, {"P": 0}), Body("disc", {"P": 0}))
     return System(bodies, (pin,), {"disc": Inertia(MASS, 0j, MOMENT)}, {"disc": pose}, gravity)
@@ -26,7 +26,7 @@ def disc(pin: ClearancePin, pose: Pose, gravity: complex = 0j) -> System:
 def rebound(pin: ClearancePin, speed: float) -> tuple[float, float]:
     """Speed after an impact over the speed before, energy lost over the energy before."""
     run = simulate(
-        disc(pin, Pose(0j, 0.0, speed + 0j)),
+        disc(pin, BodyState(0j, 0.0, speed + 0j)),
         np.array([0.0, (1 + 0.5 / pin.restitution) * CLEARANCE / speed]),
         rtol=1e-10,
     )
@@ -59,7 +59,7 @@ def test_all_hystereses_meet_for_nearly_elastic_contacts() -> None:
 
 
 def test_a_journal_comes_to_rest_at_the_depth_of_hertz() -> None:
-    run = simulate(disc(replace(PIN, restitution=0.5), Pose(0j), gravity=-9.81j), np.array([0.0, 0.2]))
+    run = simulate(disc(replace(PIN, restitution=0.5), BodyState(0j), gravity=-9.81j), np.array([0.0, 0.2]))
     assert run.pin("P")[-1] == pytest.approx(MASS * 9.81j, rel=1e-6)
     depth = -np.imag(run.eccentricity("P")[-1]) - CLEARANCE
     assert depth == pytest.approx((MASS * 9.81 / STEEL) ** (2 / 3), rel=1e-6)
@@ -72,8 +72,8 @@ def test_friction_turns_a_pressed_journal_about_the_angle_of_friction() -> None:
     depth = (weight * math.cos(angle) / STEEL) ** (2 / 3)
     place = -1j * (CLEARANCE + depth) * np.exp(1j * angle)
     pin = replace(PIN, friction=friction, slip=1e-6)
-    run = simulate(disc(pin, Pose(complex(place), 0.0, 0j, -spin), gravity=-9.81j), np.array([0.0, 1e-6]))
-    mirrored = simulate(disc(pin, Pose(-complex(place).conjugate(), 0.0, 0j, spin), -9.81j), np.array([0.0, 1e-6]))
+    run = simulate(disc(pin, BodyState(complex(place), 0.0, 0j, -spin), gravity=-9.81j), np.array([0.0, 1e-6]))
+    mirrored = simulate(disc(pin, BodyState(-complex(place).conjugate(), 0.0, 0j, spin), -9.81j), np.array([0.0, 1e-6]))
     assert np.abs(run.pin("P")[0]) == pytest.approx(weight, rel=1e-9)
     braking = weight * math.sin(angle) * RADIUS / MOMENT
     for course, sign in ((run, 1), (mirrored, -1)):
@@ -86,7 +86,7 @@ def test_two_free_bodies_keep_their_momentum_and_their_spin() -> None:
     bodies = (Body(GROUND, {}), Body("ring", {"P": 0.02j}), Body("disc", {"P": -0.01}))
     masses = {"ring": Inertia(0.5, 0.01 + 0j, 4e-4), "disc": Inertia(0.2, 0j, 2e-5)}
     origin = complex(0.02j * np.exp(0.1j) + 0.01 * np.exp(0.4j))
-    poses = {"ring": Pose(0j, 0.1, 0.2 + 0j, 3.0), "disc": Pose(origin, 0.4, 0.3j, -40.0)}
+    poses = {"ring": BodyState(0j, 0.1, 0.2 + 0j, 3.0), "disc": BodyState(origin, 0.4, 0.3j, -40.0)}
     run = simulate(System(bodies, (pin,), masses, poses), np.linspace(0.0, 0.02, 11), rtol=1e-10)
     assert run.peaks["P"] > 100
     mass = np.array([0.5, 0.2])
@@ -113,7 +113,7 @@ def test_clearance_pins_that_make_no_sense_are_refused(what: str, value: float |
 def test_places_of_clearance_that_are_not_there_are_refused() -> None:
     with pytest.raises(MechanismError, match="modulus -1"):
         hertz_stiffness(RADIUS, CLEARANCE, -1.0)
-    system = disc(PIN, Pose(0j))
+    system = disc(PIN, BodyState(0j))
     with pytest.raises(MechanismError, match="no pin 'Q'"):
         loosened(system, replace(PIN, name="Q"))
     with pytest.raises(MechanismError, match="no pin with clearance 'Q'"):

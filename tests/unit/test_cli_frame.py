@@ -15,7 +15,7 @@ from click.testing import CliRunner, Result
 
 import ilmek
 from ilmek.cli import main
-from ilmek.cli.frame import Frame
+from ilmek.cli.frame import LazyGroup
 from ilmek.errors import OutputError
 
 
@@ -23,14 +23,14 @@ def run(*arguments: str) -> Result:
     return CliRunner().invoke(main, arguments)
 
 
-def failing(error: BaseException) -> Frame:
+def failing(error: BaseException) -> LazyGroup:
     """A program whose one command fails so."""
 
     @click.command()
     def command() -> None:
         raise error
 
-    class One(Frame):
+    class One(LazyGroup):
         def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's
             return command if cmd_name == "go" else None
 
@@ -92,7 +92,7 @@ SLOW = """
 import time
 from pathlib import Path
 import click
-from ilmek.cli.frame import Frame
+from ilmek.cli.frame import LazyGroup
 from ilmek.io.output import output_folder
 
 @click.command()
@@ -102,8 +102,8 @@ def command():
         print("writing", flush=True)
         time.sleep(60)
 
-Frame.get_command = lambda self, ctx, name: command
-Frame(name="ilmek", modules={}).main(["go"])
+LazyGroup.get_command = lambda self, ctx, name: command
+LazyGroup(name="ilmek", modules={}).main(["go"])
 """
 
 

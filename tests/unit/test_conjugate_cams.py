@@ -20,8 +20,8 @@ from ilmek.cams.limits import concave_radius_min, convex_radius_min, largest_cut
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
-from ilmek.cams.sizing import Limits
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
+from ilmek.cams.sizing import CamLimits
 from ilmek.errors import ParameterError
 from ilmek.units import deg, mm
 
@@ -29,8 +29,8 @@ ANGLE = np.linspace(0.0, TURN, 121)
 FINE = np.linspace(0.0, TURN, 7201)
 
 
-def motion(lift, law="cycloidal") -> Programme:
-    return Programme((rise(90 * deg, lift, LAWS[law]), dwell(40 * deg), fall(110 * deg, lift, LAWS[law]),
+def motion(lift, law="cycloidal") -> CamProgramme:
+    return CamProgramme((rise(90 * deg, lift, LAWS[law]), dwell(40 * deg), fall(110 * deg, lift, LAWS[law]),
                       dwell(120 * deg)), start=0.3)  # fmt: skip
 
 
@@ -60,7 +60,7 @@ def test_both_rollers_of_a_slide_touch_their_plates_all_round(offset) -> None:
 
 
 def test_the_smallest_pair_uses_the_limit_up_on_both_ways() -> None:
-    pair = smallest_conjugate(PlateCam(motion(25 * mm), 1.0, 5 * mm, 8 * mm), Limits(rise=32 * deg))
+    pair = smallest_conjugate(PlateCam(motion(25 * mm), 1.0, 5 * mm, 8 * mm), CamLimits(rise=32 * deg))
     for cam in (pair.first, pair.second):
         assert pressure_angle_max(cam, "rise").value == pytest.approx(32 * deg, rel=1e-9)
     np.testing.assert_allclose(np.abs(pair.between(ANGLE)), abs(pair.between(ANGLE)[0]), rtol=1e-12)
@@ -85,7 +85,7 @@ def test_two_faces_hold_two_plates_and_a_symmetric_one_alone() -> None:
     faces = [np.max((np.conj(way)[:, None] * cam.surface(FINE)).real, axis=1) for way, cam in
              ((out, pair.first), (-out, pair.second))]  # fmt: skip
     np.testing.assert_allclose(faces[0] + faces[1], 140 * mm, rtol=1e-6)
-    breadth = Programme((rise(math.pi, 10 * mm, LAWS["3-4-5"]), fall(math.pi, 10 * mm, LAWS["3-4-5"])))
+    breadth = CamProgramme((rise(math.pi, 10 * mm, LAWS["3-4-5"]), fall(math.pi, 10 * mm, LAWS["3-4-5"])))
     alone = conjugate_faces(FlatCam(breadth, 40 * mm), 90 * mm)
     np.testing.assert_allclose(alone.first.surface(ANGLE), alone.second.surface(ANGLE), atol=1e-14)
 
@@ -140,7 +140,7 @@ def test_a_smaller_cutter_cuts_both_flanks_and_one_of_its_width_runs_once() -> N
 
 
 def test_a_groove_is_undercut_on_a_flank_that_a_plate_does_not_have() -> None:
-    steep = Programme((rise(60 * deg, 150 * mm, LAWS["cycloidal"]), fall(60 * deg, 150 * mm, LAWS["cycloidal"]),
+    steep = CamProgramme((rise(60 * deg, 150 * mm, LAWS["cycloidal"]), fall(60 * deg, 150 * mm, LAWS["cycloidal"]),
                        dwell(240 * deg)))  # fmt: skip
     bare = PlateCam(steep, 100 * mm)
     hollow = concave_radius_min(bare)

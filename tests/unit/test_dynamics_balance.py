@@ -14,7 +14,7 @@ from ilmek.dynamics.balance import (
     shaking,
 )
 from ilmek.dynamics.flywheel import duty, flywheel
-from ilmek.dynamics.forward import State, forward
+from ilmek.dynamics.forward import ForwardState, forward
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.joint_friction import PinFriction, SlideFriction
@@ -150,7 +150,7 @@ def test_a_flywheel_keeps_the_speed_within_its_fluctuation() -> None:
     assert found.excess == pytest.approx(2 * 2.0 * 9.81 * abs(0.05 + 0.02j), rel=1e-12)
     wheel = flywheel(found.excess, 12.0, 0.03) - out_of_balance["rotor"].about(0)
     reduced = reduce(planned, out_of_balance, (Gravity(-9.81j),), flywheel=wheel)
-    run = forward(reduced, State(found.fastest, 12.0 * 1.015), 1.2, every=1e-4)
+    run = forward(reduced, ForwardState(found.fastest, 12.0 * 1.015), 1.2, every=1e-4)
     most, least = run.speed.max(), run.speed.min()
     assert (most - least) / ((most + least) / 2) == pytest.approx(0.03, rel=1e-4)
     slowest = float(np.mod(run.position[np.argmin(run.speed)], TURN))

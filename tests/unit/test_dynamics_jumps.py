@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.friction import Friction, Window
+from ilmek.dynamics.friction import AngleRange, Friction
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
 from ilmek.errors import MechanismError
@@ -19,7 +19,7 @@ BREAKS = (1.0, 4.0)
 
 def saw(angle: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
     """Up from 0 to 3 between the breaks, elsewhere from -1 upward; and a smooth curve beside it."""
-    inside = Window(*BREAKS).holds(angle + 1e-9 * side)
+    inside = AngleRange(*BREAKS).holds(angle + 1e-9 * side)
     after = np.mod(angle - 4.0 + 1e-7, turn) - 1e-7
     return {"saw": np.where(inside, angle - 1.0, -1.0 + 0.1 * after), "smooth": np.cos(angle - 2.0)}
 
@@ -69,7 +69,7 @@ def test_zeros_are_found_to_rounding_also_at_the_seam() -> None:
     ],
 )
 def test_windows(start: float, end: float, inside: tuple[float, ...], outside: tuple[float, ...]) -> None:
-    window = Window(start * deg, end * deg)
+    window = AngleRange(start * deg, end * deg)
     assert window.holds(np.array(inside) * deg).all()
     assert not window.holds(np.array(outside) * deg).any()
 
@@ -96,7 +96,7 @@ def test_friction_has_two_values_at_a_dead_centre_and_at_the_ends_of_its_window(
     side = np.array([-1.0, 1.0])
     force, _ = rubbed(np.array([np.pi, np.pi]), 3.0, side=side)
     np.testing.assert_allclose(force, [50.0, -50.0])
-    force, _ = rubbed(np.array([1.0, 1.0, 2.0, 2.0]), 3.0, side=np.tile(side, 2), window=Window(1.0, 2.0))
+    force, _ = rubbed(np.array([1.0, 1.0, 2.0, 2.0]), 3.0, side=np.tile(side, 2), window=AngleRange(1.0, 2.0))
     np.testing.assert_allclose(force, [0.0, 50.0, 50.0, 0.0])
 
 

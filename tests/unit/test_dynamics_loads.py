@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ilmek.dynamics.friction import During, Window
+from ilmek.dynamics.friction import AngleRange, WindowedLoad
 from ilmek.dynamics.inertia import Inertia, combined
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import PointForce, Torque
@@ -71,10 +71,10 @@ def test_a_spring_between_moving_bodies_balances_within() -> None:
 def test_a_load_in_a_window_has_a_value_on_either_side_of_its_ends() -> None:
     ends = np.array([1.0, 1.0, 1.5, 2.0, 2.0, 2.5])
     side = np.array([-1.0, 1.0, 1.0, -1.0, 1.0, 1.0])
-    load = During(Torque("arm", lambda motion: 7.0 * motion.angle("arm")), "arm", Window(1.0, 2.0), side)
+    load = WindowedLoad(Torque("arm", lambda motion: 7.0 * motion.angle("arm")), "arm", AngleRange(1.0, 2.0), side)
     forces = inverse(arm(ends, 1.0), {}, (load,))
     np.testing.assert_allclose(forces.effort("arm"), [0, -7.0, -10.5, -14.0, 0, 0], atol=1e-12)
-    push = During(PointForce("arm", "tip", 5j), "arm", Window(1.0, 2.0))
+    push = WindowedLoad(PointForce("arm", "tip", 5j), "arm", AngleRange(1.0, 2.0))
     at_middle = inverse(arm(np.array([1.5]), 1.0), {}, (push,))
     np.testing.assert_allclose(at_middle.effort("arm"), -5.0 * 0.2 * np.cos(1.5), rtol=1e-12)
 

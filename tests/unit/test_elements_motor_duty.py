@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ilmek.elements.duty import Cycle, bears, duty, size_motor
+from ilmek.elements.duty import LoadCycle, bears, duty, size_motor
 from ilmek.elements.motors import MOTORS, find_motor
 from ilmek.elements.reducers import PLANETARY, WORMS, Reducer
 from ilmek.errors import ParameterError
@@ -23,7 +23,7 @@ def test_trapezoidal_speed_has_the_textbook_rms() -> None:
     middle = (np.arange(200) + 0.5) / 200
     speed = np.concatenate((middle, np.ones(200), middle[::-1])) * 100
     friction, accelerating = 0.4, 0.2
-    cycle = Cycle(speed, thirds * 1000.0, np.full(600, friction), inertia=accelerating / 1000)
+    cycle = LoadCycle(speed, thirds * 1000.0, np.full(600, friction), inertia=accelerating / 1000)
     found = duty(cycle, SERVO)
     extra = SERVO.inertia * 1000
     torques = friction + np.array([1, 0, -1]) * (accelerating + extra)
@@ -35,14 +35,14 @@ def test_trapezoidal_speed_has_the_textbook_rms() -> None:
 
 
 def test_pure_inertia_takes_no_power_over_a_cycle() -> None:
-    swing = Cycle(10 * np.sin(TURN), 100 * np.cos(TURN), np.zeros(720), inertia=0.01)
+    swing = LoadCycle(10 * np.sin(TURN), 100 * np.cos(TURN), np.zeros(720), inertia=0.01)
     assert duty(swing, SERVO).power_mean == pytest.approx(0, abs=1e-12)
     assert duty(swing, SERVO).rms == pytest.approx(duty(swing, SERVO).peak / math.sqrt(2))
 
 
 def test_best_ratio_matches_the_inertias() -> None:
     """Pure inertia: the torque is least for i = sqrt(J / Jm), where the inertia ratio is 1."""
-    swing = Cycle(10 * np.sin(TURN), 100 * np.cos(TURN), np.zeros(720), inertia=0.01)
+    swing = LoadCycle(10 * np.sin(TURN), 100 * np.cos(TURN), np.zeros(720), inertia=0.01)
     best = math.sqrt(0.01 / SERVO.inertia)
     least = duty(swing, SERVO, Reducer(best, 1.0))
     assert least.inertia_ratio == pytest.approx(1)
@@ -70,13 +70,13 @@ def test_stepper_loses_torque_with_speed() -> None:
 
 @pytest.mark.parametrize("kind", [None, "servo", "stepper"])
 def test_sized_motor_bears_it_and_no_lesser_one_does(kind) -> None:
-    cycle = Cycle(8 + 3 * np.sin(TURN), 20 * np.cos(TURN), 12 + 5 * np.cos(TURN), inertia=0.05)
+    cycle = LoadCycle(8 + 3 * np.sin(TURN), 20 * np.cos(TURN), 12 + 5 * np.cos(TURN), inertia=0.05)
     drive = size_motor(cycle, kind=kind)
     assert drive is not None
     assert bears(drive.motor, drive.duty)
     for lesser in (motor for motor in MOTORS if motor.power < drive.motor.power and kind in (None, motor.kind)):
         assert not any(bears(lesser, duty(cycle, lesser, reducer)) for reducer in PLANETARY)
-    assert size_motor(Cycle(cycle.speed, cycle.acceleration, cycle.torque * 1e5, 0.05)) is None
+    assert size_motor(LoadCycle(cycle.speed, cycle.acceleration, cycle.torque * 1e5, 0.05)) is None
 
 
 def test_motors_of_the_table_are_of_their_kind() -> None:
@@ -105,4 +105,4 @@ def test_worms_lock_or_are_efficient_not_both() -> None:
 
 def test_cycle_of_unequal_samples_is_refused() -> None:
     with pytest.raises(ParameterError, match="as many of each"):
-        Cycle(np.zeros(3), np.zeros(4), np.zeros(3))
+        LoadCycle(np.zeros(3), np.zeros(4), np.zeros(3))

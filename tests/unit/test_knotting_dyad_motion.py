@@ -12,7 +12,7 @@ from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad import MACHINE, design
 from ilmek.machines.knotting_dyad.drives import drives_of, inertias
 from ilmek.machines.knotting_dyad.head import Head
-from ilmek.machines.knotting_dyad.motion import LEFT, RIGHT, Cycle
+from ilmek.machines.knotting_dyad.motion import LEFT, RIGHT, KnotCycle
 from ilmek.machines.knotting_dyad.motion_report import (
     HeadMotion,
     cyclogram,
@@ -73,7 +73,7 @@ def equations(params: KnottingDyadParams, head: Head, motion: HeadMotion, side: 
     return np.stack([q - (np.conj(pull) * way).real for q, way in zip((first, second), along, strict=True)], 1)
 
 
-def pulls(params: KnottingDyadParams, head: Head, cycle: Cycle, side: str) -> np.ndarray:
+def pulls(params: KnottingDyadParams, head: Head, cycle: KnotCycle, side: str) -> np.ndarray:
     """Force of the yarn on the tip."""
     arm = cycle.arms[side]
     velocity = (np.array(links_of(head)) * 1j * np.exp(1j * arm.angle) * arm.speed).sum(1)

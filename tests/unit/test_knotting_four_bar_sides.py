@@ -8,12 +8,12 @@ import pytest
 
 from ilmek.elements.gears import LEAST_TEETH, MODULES, PRESSURE_ANGLE, EqualGears, equal_gears, lewis
 from ilmek.errors import IlmekError, ParameterError
-from ilmek.linkage.clearance import Placed, distances
-from ilmek.linkage.configuration_path import InputWay
+from ilmek.linkage.clearance import OutlinedBody, distances
+from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.model import freedom
 from ilmek.linkage.one_input import one_input
 from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design, report
-from ilmek.machines.knotting_four_bar.sides import Sides, clearances, hands, other, outlines
+from ilmek.machines.knotting_four_bar.sides import KnottingSides, clearances, hands, other, outlines
 from ilmek.report import Animation, Drawing, Report
 from ilmek.units import MPa, mm
 from ilmek.weaving.knots.two_hands import knot_of_hands, pitch_range
@@ -26,7 +26,7 @@ def made(**given: str) -> KnottingFourBar:
     return design(KnottingFourBarParams.read({**PUBLISHED, **given}))
 
 
-def sides_of(design: KnottingFourBar) -> Sides:
+def sides_of(design: KnottingFourBar) -> KnottingSides:
     assert design.sides is not None
     return design.sides
 
@@ -99,11 +99,11 @@ def test_every_answer_by_its_name() -> None:
 def test_two_bodies_of_different_kinds_never_come_nearer() -> None:
     """Why only a body and its own mirror image are looked at."""
     sides, params = sides_of(made()), made().params
-    way = InputWay(one_input(sides.plan), *sides.course.angle[[0, -1]])
+    way = InputPath(one_input(sides.plan), *sides.course.angle[[0, -1]])
     least = min(one.least for one in clearances(params, sides).values())
     rocker = outlines(params, sides.plan.mechanism, "rocker")
     coupler = outlines(params, sides.plan.mechanism, "coupler")
-    crossed = distances(way, coupler, Placed(other("rocker"), rocker.outlines), sides.course.angle[::20])
+    crossed = distances(way, coupler, OutlinedBody(other("rocker"), rocker.outlines), sides.course.angle[::20])
     assert np.min(crossed) > least
 
 

@@ -15,11 +15,11 @@ from ilmek.machines.text_lists import read_poses
 from ilmek.plane.vectors import cross
 from ilmek.report import Animation, Report
 from ilmek.synthesis.burmester.curve import burmester_curve
-from ilmek.synthesis.burmester.links import Guide, Kind
+from ilmek.synthesis.burmester.links import Guide, GuideKind
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.guide_pairs import promising
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 
 THREE = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
 FOUR = "(0mm,0mm,35deg) (40mm,22mm,12deg) (78mm,12mm,-22deg) (92mm,-28mm,-60deg)"
@@ -63,7 +63,7 @@ def test_five_poses_list_every_link_and_judge_every_pair_both_ways() -> None:
     assert results["sieve"].startswith("12 four-bars: 7 kept, 5 removed")
     points, angles = read_poses("poses", FIVE)
     for link in results["links"]:
-        guide = Guide(Kind(link["kind"]), complex(*link["pivot"]), complex(*link["pin"]))
+        guide = Guide(GuideKind(link["kind"]), complex(*link["pivot"]), complex(*link["pin"]))
         assert np.ptp(guide.reach(points, angles)) < 1e-12
 
 
@@ -98,8 +98,8 @@ def test_pivots_stay_within_their_bounds() -> None:
 
 def test_promising_pairs_leave_out_none_that_judging_finds_without_defects() -> None:
     points, angles = read_poses("poses", FOUR)
-    found = [one for one in burmester_curve(points, angles, 12).guides() if one.kind is Kind.CRANK]
-    task, good = Task(points=points, coupler=angles), 0
+    found = [one for one in burmester_curve(points, angles, 12).guides() if one.kind is GuideKind.CRANK]
+    task, good = PrecisionTask(points=points, coupler=angles), 0
     for crank, rocker in itertools.product(found[::4], found[1::4]):
         seen = judge(FourBar(crank.pivot, rocker.pivot, crank.pin, rocker.pin, complex(points[0])), task)
         if seen.one_circuit and seen.one_branch and seen.in_order:

@@ -9,7 +9,7 @@ from scipy.special import ellipk
 
 from ilmek.dynamics.clearance import ClearancePin
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.multibody.system import Course, Pose, System, SystemEvent, simulate
+from ilmek.dynamics.multibody.system import BodyState, MultibodyHistory, System, SystemEvent, simulate
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body, Pin, Slide
 
@@ -20,10 +20,10 @@ QUARTER = float(ellipk(0.5)) / math.sqrt(9.81)
 def pendulum() -> System:
     bodies = (Body(GROUND, {"O": 0}), Body("bob", {"O": -1, "tip": 0}))
     bob = Inertia(1.0, 0j, 1e-13)
-    return System(bodies, (Pin("O", GROUND, "bob"),), {"bob": bob}, {"bob": Pose(1 + 0j)}, gravity=-9.81j)
+    return System(bodies, (Pin("O", GROUND, "bob"),), {"bob": bob}, {"bob": BodyState(1 + 0j)}, gravity=-9.81j)
 
 
-def across(course: Course) -> float:
+def across(course: MultibodyHistory) -> float:
     return float(np.real(course.position("bob", "tip")))
 
 
@@ -59,7 +59,7 @@ def test_an_event_at_the_start_is_not_met_there() -> None:
 def test_the_end_of_travel_of_a_slide_ends_the_run() -> None:
     bodies = (Body(GROUND, {"S": 0}), Body("block", {"S": 0}))
     slope = Slide("S", "block", GROUND, along=-math.pi / 2, turned=0.0)
-    system = System(bodies, (slope,), {"block": Inertia(1.0, 0j, 0.1)}, {"block": Pose(0j)}, gravity=-9.81j)
+    system = System(bodies, (slope,), {"block": Inertia(1.0, 0j, 0.1)}, {"block": BodyState(0j)}, gravity=-9.81j)
     stop = SystemEvent("end of travel", lambda course: float(course.travel("S")) - 0.5, direction=+1)
     run = simulate(system, np.array([0.0, 1.0]), events=(stop,))
     assert run.time[-1] == pytest.approx(math.sqrt(2 * 0.5 / 9.81), rel=1e-12)
@@ -70,7 +70,7 @@ def test_the_end_of_travel_of_a_slide_ends_the_run() -> None:
 def test_touching_a_bearing_is_an_event() -> None:
     pin = ClearancePin("P", GROUND, "disc", 1e-4, 9e-3, 1e10)
     bodies = (Body(GROUND, {"P": 0}), Body("disc", {"P": 0}))
-    system = System(bodies, (pin,), {"disc": Inertia(0.2, 0j, 1e-5)}, {"disc": Pose(0j)}, gravity=-9.81j)
+    system = System(bodies, (pin,), {"disc": Inertia(0.2, 0j, 1e-5)}, {"disc": BodyState(0j)}, gravity=-9.81j)
     touch = SystemEvent("touch", lambda course: float(np.abs(course.eccentricity("P"))) - 1e-4, +1, terminal=False)
     run = simulate(system, np.array([0.0, 0.02]), events=(touch,))
     assert run.events[0].time == pytest.approx(math.sqrt(2e-4 / 9.81), rel=1e-6)
@@ -83,7 +83,11 @@ def parallelogram(angle: float) -> System:
     bodies = (Body(GROUND, {"A": 0, "D": 1}), Body("one", {"A": 0, "B": 0.5}), Body("two", {"D": 0, "C": 0.5}),
               Body("coupler", {"B": 0, "C": 1}))  # fmt: skip
     joints = (Pin("A", GROUND, "one"), Pin("D", GROUND, "two"), Pin("B", "one", "coupler"), Pin("C", "coupler", "two"))
-    poses = {"one": Pose(0j, angle), "two": Pose(1 + 0j, angle), "coupler": Pose(complex(0.5 * turned), 0.0)}
+    poses = {
+        "one": BodyState(0j, angle),
+        "two": BodyState(1 + 0j, angle),
+        "coupler": BodyState(complex(0.5 * turned), 0.0),
+    }
     return System(bodies, joints, dict.fromkeys(poses, Inertia(1.0, 0.25 + 0j, 0.1)), poses, gravity=-9.81j)
 
 

@@ -6,11 +6,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ilmek.dynamics.forward import State, forward
+from ilmek.dynamics.forward import ForwardState, forward
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import Gravity
-from ilmek.dynamics.multibody.system import Event, Pose, Push, Spring, System, Twist, from_motion, simulate
+from ilmek.dynamics.multibody.system import (
+    BodyForce,
+    BodyState,
+    BodyTorque,
+    Event,
+    Spring,
+    System,
+    from_motion,
+    simulate,
+)
 from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
@@ -59,13 +68,13 @@ def test_absolute_coordinates_and_the_reduced_equation_agree(kind: str) -> None:
     mechanism = MACHINES[kind]
     inertias = masses(mechanism)
     planned = plan(mechanism)
-    drive = Twist("crank", 0.4, 0.01)
+    drive = BodyTorque("crank", 0.4, 0.01)
     system = from_motion(solve(planned, 0.3, 9.0), inertias, gravity=GRAVITY, loads=(drive,))
     times = np.linspace(0.0, 0.04, 3)
     run = simulate(system, times, rtol=1e-11)
     reduced = reduce(planned, inertias, (Gravity(GRAVITY),))
     peer = forward(
-        reduced, State(0.3, 9.0), 0.04, drive=lambda _t, _q, speed: 0.4 - 0.01 * speed, every=0.02, rtol=1e-9
+        reduced, ForwardState(0.3, 9.0), 0.04, drive=lambda _t, _q, speed: 0.4 - 0.01 * speed, every=0.02, rtol=1e-9
     )
     assert np.max(np.abs(run.angle("crank") - peer.position)) < 1e-8
     assert np.max(np.abs(run.omega("crank") - peer.speed)) < 1e-7
@@ -77,7 +86,7 @@ def test_absolute_coordinates_and_the_reduced_equation_agree(kind: str) -> None:
 def test_pin_forces_are_those_of_inverse_dynamics() -> None:
     mechanism = MACHINES["four-bar"]
     inertias, planned = masses(mechanism), plan(mechanism)
-    system = from_motion(solve(planned, 0.3, 20.0), inertias, gravity=GRAVITY, loads=(Twist("crank", 1.5),))
+    system = from_motion(solve(planned, 0.3, 20.0), inertias, gravity=GRAVITY, loads=(BodyTorque("crank", 1.5),))
     run = simulate(system, np.linspace(0.0, 0.3, 7), rtol=1e-11)
     motion = solve(planned, run.angle("crank"), run.omega("crank"), run.alpha("crank"))
     forces = inverse(motion, inertias, (Gravity(GRAVITY),))
@@ -94,8 +103,8 @@ def oscillator(damping: float = 0.0, force: complex = 0j) -> System:
         (Body(GROUND, {"S": 0.5j}), BLOCK),
         (Slide("S", "block", GROUND, along=line),),
         {"block": Inertia(2.0, 0.05 + 0.02j, 0.1)},
-        {"block": Pose(0.5j + 0.07 * np.exp(1j * line), 2 * math.pi, 0j, 0.0)},
-        loads=(replace(spring, second_point="S", length=0.05), Push("block", "eye", force)),
+        {"block": BodyState(0.5j + 0.07 * np.exp(1j * line), 2 * math.pi, 0j, 0.0)},
+        loads=(replace(spring, second_point="S", length=0.05), BodyForce("block", "eye", force)),
     )
 
 
@@ -146,9 +155,9 @@ def test_systems_that_make_no_sense_are_refused() -> None:
     with pytest.raises(MechanismError, match="no body 'wheel'"):
         replace(system, joints=(Pin("S", "wheel", GROUND),))
     with pytest.raises(MechanismError, match="acts on 'wheel'"):
-        replace(system, loads=(Twist("wheel", 1.0),))
+        replace(system, loads=(BodyTorque("wheel", 1.0),))
     with pytest.raises(MechanismError, match="finite"):
-        replace(system, poses={"block": Pose(complex(math.nan))})
+        replace(system, poses={"block": BodyState(complex(math.nan))})
 
 
 def test_mechanisms_that_are_no_such_system_are_refused() -> None:
@@ -161,9 +170,9 @@ def test_mechanisms_that_are_no_such_system_are_refused() -> None:
     with pytest.raises(MechanismError, match="gravity of four-bar is"):
         from_motion(motion, inertias, gravity=complex(math.nan))
     with pytest.raises(MechanismError, match="torque=nan"):
-        from_motion(motion, inertias, loads=(Twist("crank", math.nan),))
+        from_motion(motion, inertias, loads=(BodyTorque("crank", math.nan),))
     with pytest.raises(MechanismError, match="no point 'Z'"):
-        from_motion(motion, inertias, loads=(Push("crank", "Z", 1.0 + 0j),))
+        from_motion(motion, inertias, loads=(BodyForce("crank", "Z", 1.0 + 0j),))
     with pytest.raises(MechanismError, match="event 'x' gives nan"):
         simulate(from_motion(motion, inertias), np.array([0.0, 0.1]), events=(Event("x", lambda _course: math.nan),))
 

@@ -11,7 +11,7 @@ from ilmek.machines.path_four_bar import MACHINE, PathFourBarParams, design, rep
 from ilmek.report import Animation, Report
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.four_bar import FourBar
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg
 
 CASE_TWO = "(3mm,3mm) (2.759mm,3.363mm) (2.372mm,3.663mm) (1.890mm,3.862mm) (1.355mm,3.943mm)"
@@ -35,7 +35,7 @@ def test_the_default_task_is_met_exactly_and_said_by_the_names_that_are_promised
     assert results["error_max"] < 1e-12
     points = np.array([20 + (20 + 5 * k) * 1j for k in range(6)]) * 1e-3
     for found in results["solutions"]:
-        again = judge(four_bar(found), Task(points=points))
+        again = judge(four_bar(found), PrecisionTask(points=points))
         assert again.met
         assert again.in_order
         assert list(four_bar(found).lengths) == pytest.approx([found[name] for name in LINKS], rel=1e-12)
@@ -63,7 +63,7 @@ def test_five_timed_points_are_met_exactly_by_every_solution_and_what_is_removed
     points, turns = np.array([complex(*pair) for pair in POINTS]) * 1e-3, np.array([30, 45, 60, 75, 90]) * deg
     assert results["solutions"]
     for found in results["solutions"]:
-        seen = judge(four_bar(found), Task(points=points, crank=turns))
+        seen = judge(four_bar(found), PrecisionTask(points=points, crank=turns))
         assert seen.point_error < 1e-11
     strict = answer(points=CASE_TWO, timing=FIVE, exact="yes").as_json()["results"]
     assert len(strict["solutions"]) + len(strict["removed"]) == len(results["solutions"]) + len(results["removed"])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import LoomError, OutputError
 from ilmek.io.programme_file import Label, open_programme, write_programme
@@ -26,7 +26,7 @@ def programme() -> Programme:
 def label() -> Label:
     yarns = tuple(Yarn(f"wool {k}", (k, 2 * k, 255), (50.5, 1.0, -3.25), 2.5, 2, 30.0 if k else None) for k in range(3))
     return Label(
-        Size(0.12, 0.16), Quality(250.0, 250.0), "symmetric", yarns, 0.002, (design(WeaverParams()).cyclogram,)
+        CarpetSize(0.12, 0.16), Quality(250.0, 250.0), "symmetric", yarns, 0.002, (design(WeaverParams()).cyclogram,)
     )
 
 
@@ -80,7 +80,7 @@ def test_a_folder_that_is_not_there(tmp_path: Path) -> None:
 
 
 def test_yarns_must_be_those_of_the_chart(tmp_path: Path) -> None:
-    few = Label(Size(0.12, 0.16), Quality(250.0, 250.0), "symmetric", label().yarns[:2], 0.002)
+    few = Label(CarpetSize(0.12, 0.16), Quality(250.0, 250.0), "symmetric", label().yarns[:2], 0.002)
     with pytest.raises(LoomError, match="2 yarns for a programme of 3"):
         write_programme(tmp_path / "a.ilmek", programme(), few)
 

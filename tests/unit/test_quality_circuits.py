@@ -14,7 +14,7 @@ from ilmek.linkage.extremes import extremes
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.model import Body
 from ilmek.linkage.one_input import one_input
-from ilmek.linkage.outputs import Turning
+from ilmek.linkage.outputs import RelativeAngle
 from ilmek.linkage.quality import grashof, input_range
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
@@ -70,9 +70,9 @@ def test_toggles_of_a_circuit_are_the_extremes_on_its_branches():
             moved = one_input(plan(four_bar(*sizes, branch=branch.branches["B"])))
             seen += [
                 (one.input, one.value)
-                for one in extremes(moved, Turning("rocker"), branch.start + 1e-9, branch.stop - 1e-9)
+                for one in extremes(moved, RelativeAngle("rocker"), branch.start + 1e-9, branch.stop - 1e-9)
             ]
-        np.testing.assert_allclose(sorted(circuit.toggles(Turning("rocker"))), sorted(seen), atol=1e-9)
+        np.testing.assert_allclose(sorted(circuit.toggles(RelativeAngle("rocker"))), sorted(seen), atol=1e-9)
 
 
 def test_bodies_along_a_circuit_close_their_loops_with_their_rates():

@@ -6,8 +6,8 @@ import pytest
 
 from ilmek.errors import IlmekError, MechanismError
 from ilmek.linkage.circuits import circuits
-from ilmek.linkage.clearance import Placed, clearance, distances, outlined
-from ilmek.linkage.configuration_path import InputWay
+from ilmek.linkage.clearance import OutlinedBody, clearance, distances, outlined
+from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.one_input import one_input
@@ -17,13 +17,13 @@ from ilmek.plane.outlines import Outline, between, nearest, to_outline
 SQUARE = np.array([0, 1, 1 + 1j, 1j])
 
 
-def slider() -> InputWay:
-    return InputWay(one_input(plan(slider_crank(0.1, 0.3, branch=+1))))
+def slider() -> InputPath:
+    return InputPath(one_input(plan(slider_crank(0.1, 0.3, branch=+1))))
 
 
 def test_a_block_runs_up_to_a_wall_at_the_dead_centre_only():
-    wall = Placed(GROUND, (Outline((0.5 - 1j, 0.5 + 1j)),))
-    block = Placed("slider", (Outline((-0.02 - 0.01j, 0.03 - 0.01j, 0.03 + 0.01j)),))
+    wall = OutlinedBody(GROUND, (Outline((0.5 - 1j, 0.5 + 1j)),))
+    block = OutlinedBody("slider", (Outline((-0.02 - 0.01j, 0.03 - 0.01j, 0.03 + 0.01j)),))
     found = clearance(slider(), block, wall)
     assert found.least == pytest.approx(0.5 - 0.43, abs=1e-15)
     assert found.input == pytest.approx(0, abs=1e-7)
@@ -32,8 +32,8 @@ def test_a_block_runs_up_to_a_wall_at_the_dead_centre_only():
 
 
 def test_interference_begins_and_ends_where_the_way_says():
-    wall = Placed(GROUND, (Outline((0.40 - 1j, 0.40 + 1j)),))
-    block = Placed("slider", (Outline((0,), 0.03),))
+    wall = OutlinedBody(GROUND, (Outline((0.40 - 1j, 0.40 + 1j)),))
+    block = OutlinedBody("slider", (Outline((0,), 0.03),))
     found = clearance(slider(), block, wall)
     assert found.least == pytest.approx(-0.03, abs=1e-15)
     ((start, stop),) = found.interference
@@ -43,8 +43,8 @@ def test_interference_begins_and_ends_where_the_way_says():
 
 def test_an_overlap_shorter_than_a_sample_is_found():
     angle, radius = 1.234567, 1e-9
-    post = Placed(GROUND, (Outline((0.1 * np.exp(1j * angle) * (1 + radius),), 0.0),))
-    tip = Placed("crank", (Outline((0.1,), 2e-10 + 0.1 * radius),))
+    post = OutlinedBody(GROUND, (Outline((0.1 * np.exp(1j * angle) * (1 + radius),), 0.0),))
+    tip = OutlinedBody("crank", (Outline((0.1,), 2e-10 + 0.1 * radius),))
     found = clearance(slider(), tip, post)
     assert found.least < 0
     ((start, stop),) = found.interference
@@ -52,8 +52,8 @@ def test_an_overlap_shorter_than_a_sample_is_found():
 
 
 def test_overlap_across_the_end_of_the_turn_is_one_stretch():
-    post = Placed(GROUND, (Outline((-0.1,), 0.01),))
-    ((start, stop),) = clearance(slider(), Placed("crank", (Outline((0, 0.1)),)), post).interference
+    post = OutlinedBody(GROUND, (Outline((-0.1,), 0.01),))
+    ((start, stop),) = clearance(slider(), OutlinedBody("crank", (Outline((0, 0.1)),)), post).interference
     half = np.arcsin(0.01 / 0.1)
     assert (start, stop) == (pytest.approx(np.pi - half), pytest.approx(half - np.pi))
 
@@ -61,12 +61,12 @@ def test_overlap_across_the_end_of_the_turn_is_one_stretch():
 @pytest.mark.parametrize("names", [("crank", "rocker"), ("coupler", GROUND)])
 def test_least_clearance_is_that_of_a_very_fine_scan(names):
     mechanism = four_bar(1.0, 0.3, 0.9, 0.8, branch=+1, points={"coupler": {"P": 0.4 + 0.2j}})
-    way = InputWay(one_input(plan(mechanism)))
+    way = InputPath(one_input(plan(mechanism)))
     first = outlined(mechanism, names[0], 0.02)
     second = (
         outlined(mechanism, "rocker", 0.03)
         if names[1] != GROUND
-        else Placed(GROUND, (Outline((0.4j, 0.4 - 0.5j, 0.6), 0.01),))
+        else OutlinedBody(GROUND, (Outline((0.4j, 0.4 - 0.5j, 0.6), 0.01),))
     )
     found = clearance(way, first, second)
     scan = distances(way, first, second, np.linspace(-np.pi, np.pi, 100001))
@@ -79,7 +79,7 @@ def test_least_clearance_is_that_of_a_very_fine_scan(names):
 def test_clearance_round_a_circuit_goes_through_both_branches():
     mechanism = mechanisms.chebychev()
     first, *_ = circuits(one_input(plan(mechanism)))
-    post = Placed(GROUND, (Outline((1.0 - 2.1j, 1.0 - 2.3j), 0.02),))
+    post = OutlinedBody(GROUND, (Outline((1.0 - 2.1j, 1.0 - 2.3j), 0.02),))
     found = clearance(first, outlined(mechanism, "coupler", 0.01), post)
     scan = distances(first, outlined(mechanism, "coupler", 0.01), post, np.linspace(0, first.stop, 5001))
     assert found.least == pytest.approx(scan.min(), abs=2e-3)
@@ -109,7 +109,7 @@ def test_what_has_no_outline_is_refused():
     with pytest.raises(MechanismError, match="clearance of 'crank' from itself"):
         clearance(way, outlined(way.mechanism, "crank", 0.0), outlined(way.mechanism, "crank", 0.0))
     with pytest.raises(MechanismError, match="has no body 'wheel'"):
-        clearance(way, outlined(way.mechanism, "crank", 0.0), Placed("wheel", (Outline((0,)),)))
+        clearance(way, outlined(way.mechanism, "crank", 0.0), OutlinedBody("wheel", (Outline((0,)),)))
     with pytest.raises(IlmekError, match="an outline of radius -1 m"):
         Outline((0, 1), -1)
     with pytest.raises(IlmekError, match="one or more, all finite"):

@@ -11,7 +11,7 @@ from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.instant_centres import centrodes, instant_centre, instant_centres
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.one_input import one_input
-from ilmek.linkage.outputs import Travel, Turning
+from ilmek.linkage.outputs import RelativeAngle, Travel
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
@@ -123,7 +123,9 @@ def test_a_driven_slider_reads_the_same_ratio_the_other_way_round():
     angle = np.angle(moved.motion(way).direction("crank"))
     crank = one_input(plan(slider_crank(0.1, 0.3, branch=+1, offset=0.02)))
     np.testing.assert_allclose(
-        velocity_ratio(moved, Turning("crank"), way), mechanical_advantage(crank, Travel("line"), angle), rtol=1e-9
+        velocity_ratio(moved, RelativeAngle("crank"), way),
+        mechanical_advantage(crank, Travel("line"), angle),
+        rtol=1e-9,
     )
 
 

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from ilmek.errors import MechanismError
-from ilmek.linkage.dimensions import FixedAngle, LineDirection, Place, dimensions
+from ilmek.linkage.dimensions import BodyPoint, FixedAngle, LineDirection, dimensions
 from ilmek.linkage.extremes import dwells, extreme_derivatives, extremes, rate_extreme_derivatives, rate_extremes
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import Body
 from ilmek.linkage.one_input import one_input
-from ilmek.linkage.outputs import Coordinate, Travel, Turning, followed
+from ilmek.linkage.outputs import Coordinate, RelativeAngle, Travel, followed
 from ilmek.linkage.quality import dead_centres
 from ilmek.linkage.sensitivity import derivatives, spread
 from ilmek.linkage.solve import solve
@@ -22,9 +22,9 @@ WEIGHTS = (3 / 4, -3 / 20, 1 / 60)
 STEP = 5e-4
 
 CASES = [
-    (mechanisms.six_bar_with_moving_guide(), [Turning("link"), Coordinate("block", "D", 0.3), Travel("s")]),
-    (mechanisms.quick_return(), [Coordinate("on_ground", "C"), Travel("t"), Turning("lever", "crank")]),
-    (mechanisms.watt_six_bar(), [Turning("out"), Coordinate("link", "D", 1.0)]),
+    (mechanisms.six_bar_with_moving_guide(), [RelativeAngle("link"), Coordinate("block", "D", 0.3), Travel("s")]),
+    (mechanisms.quick_return(), [Coordinate("on_ground", "C"), Travel("t"), RelativeAngle("lever", "crank")]),
+    (mechanisms.watt_six_bar(), [RelativeAngle("out"), Coordinate("link", "D", 1.0)]),
 ]
 
 
@@ -38,7 +38,7 @@ def changed(mechanism, changes):
     points = {body.name: dict(body.points) for body in mechanism.bodies}
     angles = {joint.name: {} for joint in mechanism.joints}
     for dimension, by in changes:
-        if isinstance(dimension, Place):
+        if isinstance(dimension, BodyPoint):
             points[dimension.body][dimension.point] += by * np.exp(1j * dimension.along)
         else:
             name = "along" if isinstance(dimension, LineDirection) else "turned"
@@ -76,7 +76,7 @@ def test_lengths_times_derivatives_give_lengths_once_and_angles_never(mechanism,
     sizes = np.array([one.value(mechanism) for one in lengths])
     for output in outputs:
         course, found = followed(motion, output), derivatives(motion, output, lengths)
-        degree = 0 if isinstance(output, Turning) else 1
+        degree = 0 if isinstance(output, RelativeAngle) else 1
         np.testing.assert_allclose(sizes @ found.value, degree * course.value, atol=1e-12)
         np.testing.assert_allclose(sizes @ found.rate, degree * course.rate, atol=1e-11)
 
@@ -85,7 +85,7 @@ def test_two_inputs_are_held_alike():
     mechanism = mechanisms.two_motors()
     held = {"left": np.array([1.0, 1.5]), "right": np.array([2.0, 1.9])}
     motion = solve(plan(mechanism), held, {"left": 1.0, "right": -2.0}).require()
-    arm, output = Place("left", "A"), Coordinate("one", "C")
+    arm, output = BodyPoint("left", "A"), Coordinate("one", "C")
     found = derivatives(motion, output, [arm])
 
     def courses(by):
@@ -97,8 +97,8 @@ def test_two_inputs_are_held_alike():
 
 def test_dead_centres_move_with_each_link_as_their_closed_form_does():
     sizes = mechanisms.BEAT_UP
-    links = [Place("ground", "B0"), Place("crank", "A"), Place("coupler", "B"), Place("rocker", "B")]
-    moved, rocker = one_input(plan(four_bar(*sizes, branch=+1))), Turning("rocker")
+    links = [BodyPoint("ground", "B0"), BodyPoint("crank", "A"), BodyPoint("coupler", "B"), BodyPoint("rocker", "B")]
+    moved, rocker = one_input(plan(four_bar(*sizes, branch=+1))), RelativeAngle("rocker")
     folded, extended = extremes(moved, rocker, -np.pi, np.pi)
     for extreme, place in ((extended, 0), (folded, 1)):
         found = extreme_derivatives(moved, rocker, extreme, links)
@@ -153,7 +153,7 @@ def test_a_slider_dwells_about_its_dead_centres_as_long_as_its_closed_form_says(
 
 def test_a_dead_sample_has_no_derivative():
     motion = solve(plan(four_bar(1.0, 2.0, 1.4, 1.1, branch=+1)), np.array([0.1, 3.0]), 1.0)
-    found = derivatives(motion, Turning("rocker"), [Place("crank", "A")])
+    found = derivatives(motion, RelativeAngle("rocker"), [BodyPoint("crank", "A")])
     assert np.isfinite(found.value[0, 0])
     assert np.isnan(found.value[0, 1])
 
@@ -162,11 +162,11 @@ def test_what_has_no_derivative_is_refused():
     mechanism = mechanisms.quick_return()
     motion = solve(plan(mechanism), 0.3, 1.0)
     with pytest.raises(MechanismError, match="'B' is not a slide; a travel"):
-        derivatives(motion, Travel("B"), [Place("crank", "A")])
+        derivatives(motion, Travel("B"), [BodyPoint("crank", "A")])
     with pytest.raises(MechanismError, match="'B' is not a slide; only a slide"):
         derivatives(motion, Travel("t"), [FixedAngle("B")])
     with pytest.raises(MechanismError, match="has no point 'Z'"):
-        derivatives(motion, Travel("t"), [Place("crank", "Z")])
+        derivatives(motion, Travel("t"), [BodyPoint("crank", "Z")])
     with pytest.raises(MechanismError, match="1 tolerances for 2 dimensions"):
         spread(np.ones((2, 3)), [0.1])
     with pytest.raises(MechanismError, match="a tolerance is -0.1"):

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from ilmek.errors import MechanismError
-from ilmek.linkage.clearance import Placed, outlined
-from ilmek.linkage.configuration_path import InputWay
+from ilmek.linkage.clearance import OutlinedBody, outlined
+from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.structure import plan
@@ -14,8 +14,8 @@ from ilmek.linkage.swept_area import swept
 from ilmek.plane.outlines import Outline, to_outline
 from ilmek.plane.regions import region
 
-TURN = InputWay(one_input(plan(slider_crank(0.1, 0.3, branch=+1))))
-BAR = Placed("crank", (Outline((0.03 - 0.005j, 0.06 - 0.005j, 0.06 + 0.005j, 0.03 + 0.005j)),))
+TURN = InputPath(one_input(plan(slider_crank(0.1, 0.3, branch=+1))))
+BAR = OutlinedBody("crank", (Outline((0.03 - 0.005j, 0.06 - 0.005j, 0.06 + 0.005j, 0.03 + 0.005j)),))
 
 
 def test_a_bar_turned_about_its_end_covers_a_disc_ever_more_exactly():
@@ -43,7 +43,7 @@ def test_a_bar_that_misses_its_pivot_covers_a_ring():
 
 
 def test_a_part_turn_covers_a_sector_with_both_end_poses():
-    way = InputWay(TURN.moved, 0.2, 0.2 + 1.1)
+    way = InputPath(TURN.moved, 0.2, 0.2 + 1.1)
     found = swept(way, outlined(way.mechanism, "crank", 0.01), cells=64)
     sector = 0.5 * 1.1 * 0.11**2
     sides = 2 * 0.1 * 0.01 + 0.5 * np.pi * 0.01**2  # half a bar beside each end pose, a half tip on each
@@ -52,15 +52,15 @@ def test_a_part_turn_covers_a_sector_with_both_end_poses():
 
 
 def test_a_slider_covers_a_strip():
-    found = swept(TURN, Placed("slider", (Outline((0,), 0.02),)), cells=64)
+    found = swept(TURN, OutlinedBody("slider", (Outline((0,), 0.02),)), cells=64)
     assert found.area == pytest.approx(0.2 * 0.04 + np.pi * 0.02**2, rel=2e-3)
 
 
 def test_a_coupler_covers_all_its_poses_and_little_else():
     mechanism = four_bar(*mechanisms.BEAT_UP, branch=+1)
-    way = InputWay(one_input(plan(mechanism)))
+    way = InputPath(one_input(plan(mechanism)))
     outline = Outline((0, 0.2007), 0.01)
-    found = swept(way, Placed("coupler", (outline,)), cells=32)
+    found = swept(way, OutlinedBody("coupler", (outline,)), cells=32)
     poses = way.bodies(np.linspace(-np.pi, np.pi, 721))["coupler"]
     rng = np.random.default_rng(2)
     points = rng.uniform(-0.1, 0.32, 4000) + 1j * rng.uniform(-0.1, 0.3, 4000)
@@ -72,11 +72,11 @@ def test_a_coupler_covers_all_its_poses_and_little_else():
 def test_a_body_of_two_parts_covers_what_both_do():
     """Two discs on the slider, farther apart than its stroke: two strips; nearer: one."""
     parts = [Outline((place,), 0.02) for place in (0.0, 0.3, 0.1)]
-    apart = swept(TURN, Placed("slider", tuple(parts[:2])), cells=64)
+    apart = swept(TURN, OutlinedBody("slider", tuple(parts[:2])), cells=64)
     alone = 0.2 * 0.04 + np.pi * 0.02**2
     assert apart.area == pytest.approx(2 * alone, rel=1e-2)
     assert len(apart.outline) == 2
-    together = swept(TURN, Placed("slider", (parts[0], parts[2])), cells=64)
+    together = swept(TURN, OutlinedBody("slider", (parts[0], parts[2])), cells=64)
     assert together.area == pytest.approx(0.3 * 0.04 + np.pi * 0.02**2, rel=2e-3)
 
 

@@ -16,7 +16,7 @@ from ilmek.synthesis.circuit_loops import circuit_loops
 from ilmek.synthesis.crank_rocker.dead_centres import best_ratio, links_of_ratio, transmission_angle_min
 from ilmek.synthesis.filters import Filters, defects, sift
 from ilmek.synthesis.four_bar import FourBar, LinkLengths, from_lengths
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg
 
 CRANK_ROCKER = LinkLengths(1.0, 0.3, 0.9, 0.8)
@@ -39,7 +39,7 @@ def traced(four_bar: FourBar, turns: list[float], branches: list[int]) -> np.nda
 def planted(links: LinkLengths, turns: list[float], branches: list[int], order: list[int] | None = None) -> Candidate:
     four_bar = drawn(links, branch=branches[0])
     points = traced(four_bar, turns, branches)
-    return judge(four_bar, Task(points=points[order] if order else points))
+    return judge(four_bar, PrecisionTask(points=points[order] if order else points))
 
 
 def test_a_sound_four_bar_passes_with_nothing_to_say() -> None:
@@ -68,7 +68,7 @@ def test_a_circuit_told_by_the_crank_s_range() -> None:
     assert len(loops) == 2
     four_bar = drawn(TWO_RANGES, angle=1.0)
     other = -2 * 1.0  # mirrored: the crank on the other side of the ground
-    found = judge(four_bar, Task(points=traced(four_bar, [0.0, 0.1, other], [1, 1, 1])))
+    found = judge(four_bar, PrecisionTask(points=traced(four_bar, [0.0, 0.1, other], [1, 1, 1])))
     assert found.circuits == 2
     assert list(defects(found)) == ["one_circuit"]
 
@@ -114,7 +114,7 @@ def test_a_closed_path_may_end_where_it_began() -> None:
 
 def test_a_timed_position_out_of_reach_is_told() -> None:
     four_bar = drawn(ROCKER)
-    found = judge(four_bar, Task(rocker=np.array([0.0, 0.1, 0.2]), crank=np.array([0.0, 0.1, 2.6])))
+    found = judge(four_bar, PrecisionTask(rocker=np.array([0.0, 0.1, 0.2]), crank=np.array([0.0, 0.1, 2.6])))
     assert not found.reached
     assert math.isnan(found.positions[2].crank_angle)
     assert defects(found)["closes"] == "does not close at position 3"
@@ -124,29 +124,29 @@ def test_what_is_missed_most_is_told_with_its_size() -> None:
     four_bar = drawn(CRANK_ROCKER)
     points = traced(four_bar, [0.0, 1.0, 2.0], [1] * 3)
     points[1] += 0.01 * np.exp(1j)
-    found = judge(four_bar, Task(points=points))
+    found = judge(four_bar, PrecisionTask(points=points))
     assert 0 < found.point_error <= 0.01
     assert defects(found)["met"].startswith("misses position 2: point by ")
-    assert defects(judge(four_bar, Task(points=points, point_tolerance=0.011))) == {}
+    assert defects(judge(four_bar, PrecisionTask(points=points, point_tolerance=0.011))) == {}
 
 
 def test_timing_is_part_of_the_task() -> None:
     four_bar = drawn(CRANK_ROCKER)
     turns = np.array([0.0, 1.0, 2.0])
     points = traced(four_bar, list(turns), [1] * 3)
-    assert defects(judge(four_bar, Task(points=points, crank=turns))) == {}
-    late = judge(four_bar, Task(points=points, crank=turns + np.array([0, 0, 0.01])))
+    assert defects(judge(four_bar, PrecisionTask(points=points, crank=turns))) == {}
+    late = judge(four_bar, PrecisionTask(points=points, crank=turns + np.array([0, 0, 0.01])))
     assert list(defects(late)) == ["met"]
-    assert defects(judge(four_bar, Task(points=points))) == {}
+    assert defects(judge(four_bar, PrecisionTask(points=points))) == {}
 
 
 def test_angles_of_coupler_and_rocker_are_judged() -> None:
     four_bar, turns = drawn(CRANK_ROCKER), np.array([0.0, 1.0, 2.0])
     motion = solve(plan(four_bar.mechanism()), four_bar.crank_angle + turns)
     coupler, rocker = motion.angle("coupler"), motion.angle("rocker")
-    assert defects(judge(four_bar, Task(rocker=rocker, crank=turns))) == {}
-    assert defects(judge(four_bar, Task(points=motion.point("coupler", "P").position, coupler=coupler))) == {}
-    off = judge(four_bar, Task(rocker=rocker + np.array([0, 0, 1 * deg]), crank=turns))
+    assert defects(judge(four_bar, PrecisionTask(rocker=rocker, crank=turns))) == {}
+    assert defects(judge(four_bar, PrecisionTask(points=motion.point("coupler", "P").position, coupler=coupler))) == {}
+    off = judge(four_bar, PrecisionTask(rocker=rocker + np.array([0, 0, 1 * deg]), crank=turns))
     assert off.angle_error == pytest.approx(1 * deg)
     assert defects(off)["met"] == "misses position 3: rocker angle by 1 deg"
 
@@ -157,7 +157,7 @@ def test_a_curve_that_crosses_itself_is_passed_in_the_order_of_the_task() -> Non
     points = traced(four_bar, [0.0, 1.5, two - one, 5.0], [1] * 4)
     assert abs(points[2] - points[0]) < 0.005
     points[2] = points[0]
-    found = judge(four_bar, Task(points=points, point_tolerance=0.01))
+    found = judge(four_bar, PrecisionTask(points=points, point_tolerance=0.01))
     assert found.in_order
     assert found.positions[0].crank_angle % (2 * np.pi) == pytest.approx(one, abs=0.02)
     assert found.positions[2].crank_angle % (2 * np.pi) == pytest.approx(two, abs=0.02)
@@ -215,7 +215,7 @@ def test_the_circuit_trap_of_crank_rockers() -> None:
         if not best > 1 * deg:
             continue
         tried += 1
-        task = Task(crank=np.array([0.0, rotation]), rocker=np.array([0.0, swing]))
+        task = PrecisionTask(crank=np.array([0.0, rotation]), rocker=np.array([0.0, swing]))
         mu, crank, rocker = _dead_centres(swing, rotation)
         one_side = rocker.imag * (rocker * np.exp(1j * swing)).imag > 0
         winner, sound = np.argmax(mu), np.argmax(np.where(one_side, mu, 0))
@@ -243,16 +243,19 @@ def _dead_centres(swing: float, rotation: float) -> tuple[np.ndarray, np.ndarray
 @pytest.mark.parametrize(
     ("build", "said"),
     [
-        (Task, "asks nothing"),
-        (lambda: Task(points=np.array([0, 1, 1j]), crank=np.array([0.0, 1.0])), "points \\(3,\\), crank \\(2,\\)"),
-        (lambda: Task(points=np.array([0, np.nan])), "not finite"),
-        (lambda: Task(rocker=np.array([0.0, 30.0, 60.0])), "60 deg would be 1.0472"),
-        (lambda: Task(rocker=np.array([0.0, np.inf])), "not finite"),
-        (lambda: Task(points=np.array([0, 1]), point_tolerance=-1.0), "point_tolerance"),
+        (PrecisionTask, "asks nothing"),
+        (
+            lambda: PrecisionTask(points=np.array([0, 1, 1j]), crank=np.array([0.0, 1.0])),
+            "points \\(3,\\), crank \\(2,\\)",
+        ),
+        (lambda: PrecisionTask(points=np.array([0, np.nan])), "not finite"),
+        (lambda: PrecisionTask(rocker=np.array([0.0, 30.0, 60.0])), "60 deg would be 1.0472"),
+        (lambda: PrecisionTask(rocker=np.array([0.0, np.inf])), "not finite"),
+        (lambda: PrecisionTask(points=np.array([0, 1]), point_tolerance=-1.0), "point_tolerance"),
         (lambda: Filters(transmission=40.0), "40 deg is 0.698132 rad"),
         (lambda: Filters(link_ratio=0.5), "all links equal"),
         (lambda: Filters(size=0.0), "size 0 m"),
-        (lambda: judge(FourBar(0j, 1 + 0j, 1j, 1 + 1j), Task(points=np.array([0, 1]))), "has no tracer"),
+        (lambda: judge(FourBar(0j, 1 + 0j, 1j, 1 + 1j), PrecisionTask(points=np.array([0, 1]))), "has no tracer"),
     ],
 )
 def test_what_is_no_task_or_limit(build, said: str) -> None:

@@ -7,13 +7,13 @@ from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
 from ilmek.timing.cyclogram import (
     Cyclogram,
-    Event,
     Exclusion,
     Moment,
     Relation,
-    Segment,
     Spans,
     Track,
+    TrackEvent,
+    TrackSegment,
     Zone,
     check_all,
     check_apart,
@@ -28,10 +28,10 @@ LAW = LAWS["3-4-5"]
 
 def track(name: str, start: float, end: float) -> Track:
     parts = (
-        Segment("go", start * deg, end * deg, 0.0, 0.04, LAW),
-        Segment("back", 300 * deg, 350 * deg, 0.04, 0.0, LAW),
+        TrackSegment("go", start * deg, end * deg, 0.0, 0.04, LAW),
+        TrackSegment("back", 300 * deg, 350 * deg, 0.04, 0.0, LAW),
     )
-    return Track(name, "cam", parts, (Event("there", end * deg),))
+    return Track(name, "cam", parts, (TrackEvent("there", end * deg),))
 
 
 def two() -> Cyclogram:

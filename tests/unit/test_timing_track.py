@@ -8,10 +8,10 @@ import pytest
 from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
 from ilmek.timing.track import (
-    Event,
-    Limits,
-    Segment,
+    ActuatorLimits,
     Track,
+    TrackEvent,
+    TrackSegment,
     joints,
     peak_acceleration,
     peak_speed,
@@ -25,9 +25,9 @@ HARMONIC = LAWS["harmonic"]
 
 
 def up_and_down() -> Track:
-    rise = Segment("up", 0.0, 90 * deg, 0.0, 0.06, HARMONIC)
-    fall = Segment("down", 180 * deg, 270 * deg, 0.06, 0.0, HARMONIC)
-    return Track("shed", "cam", (rise, fall), (Event("open", 90 * deg),))
+    rise = TrackSegment("up", 0.0, 90 * deg, 0.0, 0.06, HARMONIC)
+    fall = TrackSegment("down", 180 * deg, 270 * deg, 0.06, 0.0, HARMONIC)
+    return Track("shed", "cam", (rise, fall), (TrackEvent("open", 90 * deg),))
 
 
 def test_positions_with_dwells_between() -> None:
@@ -46,8 +46,8 @@ def test_derivatives_are_those_of_the_position() -> None:
 
 def test_at_a_joint_the_later_motion_counts() -> None:
     parts = (
-        Segment("up", 0.0, math.pi, 0.0, 1.0, HARMONIC),
-        Segment("down", math.pi, turn, 1.0, 0.0, HARMONIC),
+        TrackSegment("up", 0.0, math.pi, 0.0, 1.0, HARMONIC),
+        TrackSegment("down", math.pi, turn, 1.0, 0.0, HARMONIC),
     )
     bend = sample(Track("x", "y", parts), np.array([math.pi])).bend
     assert bend == pytest.approx([-0.5])
@@ -74,7 +74,7 @@ def test_a_track_without_motion_rests() -> None:
 
 
 def test_a_shaft_may_turn_on() -> None:
-    parts = (Segment("round", 0.0, math.pi, 0.0, turn, HARMONIC),)
+    parts = (TrackSegment("round", 0.0, math.pi, 0.0, turn, HARMONIC),)
     assert Track("handler", "cam", parts, revolves=turn).stroke == turn
     with pytest.raises(ParameterError, match="never jumps"):
         Track("handler", "cam", parts)
@@ -93,7 +93,7 @@ def test_a_shaft_may_turn_on() -> None:
 )
 def test_what_is_no_track(spans: tuple[tuple[float, ...], ...], said: str) -> None:
     parts = tuple(
-        Segment(name, start * deg, end * deg, float(begin), float(finish), HARMONIC)
+        TrackSegment(name, start * deg, end * deg, float(begin), float(finish), HARMONIC)
         for name, (start, end, begin, finish) in zip("ab", spans, strict=True)
     )
     with pytest.raises(ParameterError, match=said):
@@ -102,13 +102,13 @@ def test_what_is_no_track(spans: tuple[tuple[float, ...], ...], said: str) -> No
 
 def test_an_event_lies_within_the_turn() -> None:
     with pytest.raises(ParameterError, match="event 'late' at 400 deg"):
-        Track("x", "y", (), (Event("late", 400 * deg),))
+        Track("x", "y", (), (TrackEvent("late", 400 * deg),))
 
 
 def test_a_motion_may_run_through_the_end_of_the_turn() -> None:
     parts = (
-        Segment("back", 60 * deg, 150 * deg, 1.0, 0.0, HARMONIC),
-        Segment("go", 330 * deg, 420 * deg, 0.0, 1.0, HARMONIC),
+        TrackSegment("back", 60 * deg, 150 * deg, 1.0, 0.0, HARMONIC),
+        TrackSegment("go", 330 * deg, 420 * deg, 0.0, 1.0, HARMONIC),
     )
     track = Track("x", "y", parts, (riding("half", parts[1], 0.5),))
     angle = np.array([0, 15, 60, 105, 240, 345, 360]) * deg
@@ -120,7 +120,7 @@ def test_a_motion_may_run_through_the_end_of_the_turn() -> None:
 
 
 def test_an_axis_that_steps_on_through_the_end_of_the_turn() -> None:
-    step = Segment("step", 300 * deg, 390 * deg, 0.0, 0.01, HARMONIC)
+    step = TrackSegment("step", 300 * deg, 390 * deg, 0.0, 0.01, HARMONIC)
     motion = sample(Track("carriage", "belt", (step,), revolves=0.01), np.array([0.0, 30.0, 299.0, 360.0]) * deg)
     late = 0.01 * float(HARMONIC.s(2 / 3))
     assert motion.position == pytest.approx([late - 0.01, 0.0, 0.0, late], abs=1e-15)
@@ -130,19 +130,19 @@ def test_an_axis_that_steps_on_through_the_end_of_the_turn() -> None:
 @pytest.mark.parametrize(
     ("event", "said"),
     [
-        (Event("cut", 0.5, "up", 0.25), "0.25 of up"),
-        (Event("cut", 0.0, "across", 0.0), "no motion 'across'"),
-        (Event("cut", 7.0), "at 401.1 deg"),
+        (TrackEvent("cut", 0.5, "up", 0.25), "0.25 of up"),
+        (TrackEvent("cut", 0.0, "across", 0.0), "no motion 'across'"),
+        (TrackEvent("cut", 7.0), "at 401.1 deg"),
     ],
 )
-def test_an_event_rides_where_its_motion_is(event: Event, said: str) -> None:
-    parts = (Segment("up", 0.0, 1.0, 0.0, 1.0, HARMONIC), Segment("down", 1.0, 2.0, 1.0, 0.0, HARMONIC))
+def test_an_event_rides_where_its_motion_is(event: TrackEvent, said: str) -> None:
+    parts = (TrackSegment("up", 0.0, 1.0, 0.0, 1.0, HARMONIC), TrackSegment("down", 1.0, 2.0, 1.0, 0.0, HARMONIC))
     with pytest.raises(ParameterError, match=said):
         Track("x", "y", parts, (event,))
 
 
 def test_motions_of_one_track_have_their_own_names() -> None:
-    parts = (Segment("a", 0.0, 1.0, 0.0, 1.0, HARMONIC), Segment("a", 1.0, 2.0, 1.0, 0.0, HARMONIC))
+    parts = (TrackSegment("a", 0.0, 1.0, 0.0, 1.0, HARMONIC), TrackSegment("a", 1.0, 2.0, 1.0, 0.0, HARMONIC))
     with pytest.raises(ParameterError, match="two motions are named 'a'"):
         Track("x", "y", parts)
 
@@ -150,4 +150,4 @@ def test_motions_of_one_track_have_their_own_names() -> None:
 @pytest.mark.parametrize("limits", [{"speed": 0.0}, {"jerk": math.nan}, {"time": -1.0}, {"time": math.inf}])
 def test_what_is_no_limit(limits: dict[str, float]) -> None:
     with pytest.raises(ParameterError):
-        Limits(**limits)
+        ActuatorLimits(**limits)

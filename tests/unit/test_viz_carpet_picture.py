@@ -8,7 +8,7 @@ from PIL import Image
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.viz.carpet_picture import carpet_picture, close_up
 
@@ -20,7 +20,9 @@ def chart(rows: int, columns: int, across: float, along: float) -> Chart:
     knots = np.zeros((rows, columns), dtype=np.uint8)
     knots[rows // 2 :] = 1
     yarns = tuple(Yarn(name, srgb, (0.0, 0.0, 0.0), 4.0, 2) for name, srgb in (("red", RED), ("blue", BLUE)))
-    return Chart(knots, yarns, Size(columns / across, rows / along), Quality(across, along), "symmetric", 0.0, 0.0)
+    return Chart(
+        knots, yarns, CarpetSize(columns / across, rows / along), Quality(across, along), "symmetric", 0.0, 0.0
+    )
 
 
 def opened(picture: bytes) -> Image.Image:

@@ -9,7 +9,7 @@ import pytest
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.report import Axis, Check, Column, Lane, Plot, Report, Result, Series, Table, Timing, at_least, at_most
 from ilmek.viz.page import CarpetPage, carpet_page, machine_page
@@ -86,7 +86,7 @@ def carpet(name: str = "madder") -> Chart:
         Yarn(name, (150, 30, 40), (0.0, 0.0, 0.0), 4.0, 2, 10.0),
         Yarn("ivory", (240, 230, 210), (9.0, 0.0, 0.0), 4.0),
     )
-    return Chart(knots, yarns, Size(0.08, 0.12), Quality(250.0, 250.0), "symmetric", 1.25, 1.0)
+    return Chart(knots, yarns, CarpetSize(0.08, 0.12), Quality(250.0, 250.0), "symmetric", 1.25, 1.0)
 
 
 def page(name: str = "plain", checks: tuple[Check, ...] = ()) -> str:

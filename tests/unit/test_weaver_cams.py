@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ilmek.cams import limits as cam_limits
-from ilmek.cams.sizing import Limits, pressure_prime
+from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.machines.weaver import Weaver, WeaverParams, design, report
 from ilmek.machines.weaver.cams import FASTER, WALL, programme_of, torque_at
 from ilmek.machines.weaver.cyclogram import HANDLER, SLEY
@@ -48,7 +48,7 @@ def test_cams_are_as_small_as_the_limits_let_them(limit: float) -> None:
     """Against the exact bounds of `cams.limits`."""
     params = WeaverParams(pressure_angle_limit=limit * deg)
     for cam in design(params).cams:
-        exact = pressure_prime(cam.programme, Limits(limit * deg, limit * deg)).value
+        exact = pressure_prime(cam.programme, CamLimits(limit * deg, limit * deg)).value
         hub = 0.7 * params.shaft + WALL + params.roller_radius
         grown = cam.cam.prime_radius > max(exact, hub) + 1.001 * mm
         assert cam.cam.prime_radius >= exact - 1e-6

@@ -13,14 +13,14 @@ from ilmek.machines.weaver import WeaverParams, design, report
 from ilmek.machines.weaver.cyclogram import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
 from ilmek.machines.weaver.grippers import clearance_min, crossing_point, taut
 from ilmek.machines.weaver.knot import on_the_pair, tied_by
-from ilmek.timing.cyclogram import Cyclogram, Event
-from ilmek.timing.track import Segment, Track
+from ilmek.timing.cyclogram import Cyclogram, TrackEvent
+from ilmek.timing.track import Track, TrackSegment
 
 
 def moved(cyclogram: Cyclogram, track: str, **ends: tuple[float, float]) -> Cyclogram:
     """The cyclogram with motions of a track at other cam angles [rad]; spaces of names are underscores."""
 
-    def part(one: Segment) -> Segment:
+    def part(one: TrackSegment) -> TrackSegment:
         at = ends.get(one.name.replace(" ", "_"))
         return one if at is None else replace(one, start=at[0], end=at[1])
 
@@ -160,5 +160,7 @@ def test_events_name_what_happens_to_the_yarn() -> None:
     names = [event.name for track in design(WeaverParams()).cyclogram.tracks for event in track.events]
     assert names.index("pile held") < names.index("warps open")
     assert {"knot held", "ends drawn out", "knot released", "knot down"} <= set(names)
-    assert all(isinstance(event, Event) for track in design(WeaverParams()).cyclogram.tracks for event in track.events)
+    assert all(
+        isinstance(event, TrackEvent) for track in design(WeaverParams()).cyclogram.tracks for event in track.events
+    )
     assert all(isinstance(track, Track) for track in design(WeaverParams()).cyclogram.tracks)

@@ -11,14 +11,14 @@ from ezdxf.path import make_path
 
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam, area
-from ilmek.cams.programme import Programme, dwell, fall, rise
+from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.errors import OutputError, ParameterError
 from ilmek.io.dxf import LAYERS, read_dxf, write_dxf
 from ilmek.machines.plates import link_plate, round_bore, square_bore, zero_mark
 from ilmek.report import Hole, Plate
 
 CAM = PlateCam(
-    Programme(
+    CamProgramme(
         (rise(1.5, 0.03, LAWS["modified-sine"]), dwell(1.0), fall(1.5, 0.03, LAWS["cycloidal"]), dwell(math.tau - 4.0))
     ),
     0.05,

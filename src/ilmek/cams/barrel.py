@@ -26,9 +26,9 @@ import numpy as np
 from jaxtyping import Float
 
 from ilmek.arrays import ComplexField, FloatArray
-from ilmek.cams.programme import Course, Programme
+from ilmek.cams.programme import CamProgramme, FollowerMotion
 from ilmek.cams.strip import trace_of_strip
-from ilmek.cams.trace import Trace, Traced
+from ilmek.cams.trace import CamCurves, CamTrace
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import Extremum, infimum
 from ilmek.plane.vectors import unit
@@ -38,7 +38,7 @@ Space = Float[np.ndarray, "*batch 3"]
 """Points in space: x, y, z [m]."""
 
 
-class Barrel(Traced):
+class Barrel(CamCurves):
     """What all barrel and end cams share; a follower gives its motion and its way in the development."""
 
     __slots__ = ()
@@ -48,14 +48,14 @@ class Barrel(Traced):
     roller_width: float
 
     @abstractmethod
-    def motion(self, course: Course) -> tuple[ComplexField, ComplexField, ComplexField]:
+    def motion(self, course: FollowerMotion) -> tuple[ComplexField, ComplexField, ComplexField]:
         """Roller's centre B = z + i y and its derivatives by the cam angle [m]."""
 
     @abstractmethod
-    def way(self, course: Course) -> ComplexField:
+    def way(self, course: FollowerMotion) -> ComplexField:
         """Unit direction in which the roller goes as the displacement grows."""
 
-    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
         """Everything at cam angles [rad], of the course there, in the development at the mean radius."""
         size = {"radius": self.prime_radius, "roller_radius": self.roller_radius}
         return trace_of_strip(angle, course, self.motion(course), self.way(course), **size)
@@ -88,7 +88,7 @@ class Barrel(Traced):
         wander = w.imag * distance * first.real / trace.flow**2
         return np.asarray(trace.flow + distance * trace.turning - wander)
 
-    def _section(self, angle: FloatArray, depth: float, side: int) -> tuple[Trace, np.ndarray]:
+    def _section(self, angle: FloatArray, depth: float, side: int) -> tuple[CamTrace, np.ndarray]:
         """Development at a depth, and the flank's points there as B + d n."""
         course = self.programme.at(angle)
         motion = self.motion(course)
@@ -105,7 +105,7 @@ class BarrelCam(Barrel):
     Raises ParameterError where the roller reaches the axis.
     """
 
-    programme: Programme
+    programme: CamProgramme
     prime_radius: float
     roller_radius: float = 0.0
     roller_width: float = 0.0
@@ -114,11 +114,11 @@ class BarrelCam(Barrel):
     def __post_init__(self) -> None:
         _check_roller(self.prime_radius, self.roller_width)
 
-    def motion(self, course: Course) -> tuple[ComplexField, ComplexField, ComplexField]:
+    def motion(self, course: FollowerMotion) -> tuple[ComplexField, ComplexField, ComplexField]:
         """B = s, along the axis."""
         return course.s, course.ds, course.dds
 
-    def way(self, course: Course) -> ComplexField:  # noqa: ARG002
+    def way(self, course: FollowerMotion) -> ComplexField:  # noqa: ARG002
         """Along the axis."""
         return 1.0
 
@@ -142,7 +142,7 @@ class BarrelArmCam(Barrel):
     Raises ParameterError where the roller reaches the axis or the arm swings along it.
     """
 
-    programme: Programme
+    programme: CamProgramme
     prime_radius: float
     arm: float
     pivot: float
@@ -159,13 +159,13 @@ class BarrelArmCam(Barrel):
             shown = f"{format_quantity(low, 'deg')} to {format_quantity(high, 'deg')}"
             raise ParameterError(f"an arm that swings from {shown}", allowed="between -90 and 90 deg")
 
-    def motion(self, course: Course) -> tuple[ComplexField, ComplexField, ComplexField]:
+    def motion(self, course: FollowerMotion) -> tuple[ComplexField, ComplexField, ComplexField]:
         """B, B' = l psi' e and B'' = (psi'' - i side psi'^2) l e, with e the way."""
         out = self.arm * self.way(course)
         point = 1j * self.side * (out - self.pivot)
         return point, course.ds * out, (course.dds - 1j * self.side * course.ds**2) * out
 
-    def way(self, course: Course) -> ComplexField:
+    def way(self, course: FollowerMotion) -> ComplexField:
         """Square to the arm: exp(-i side phi)."""
         return unit(-self.side * (self.start + course.s))
 

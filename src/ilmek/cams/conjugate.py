@@ -21,22 +21,22 @@ from ilmek.cams.flat import FlatCam
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import Programme
-from ilmek.cams.sizing import Limits, smallest_prime
-from ilmek.cams.trace import Trace
+from ilmek.cams.programme import CamProgramme
+from ilmek.cams.sizing import CamLimits, smallest_prime
+from ilmek.cams.trace import CamTrace
 from ilmek.errors import ParameterError
 from ilmek.units import format_quantity
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class ConjugatePair:
     """Two conjugate plates; the second is met at the cam angle + `lag` [rad] of its own programme."""
 
     first: PlateCam | FlatCam | OscillatingCam | OscillatingFlatCam
     second: PlateCam | FlatCam | OscillatingCam | OscillatingFlatCam
     lag: float
 
-    def traces(self, angle: FloatArray) -> tuple[Trace, Trace]:
+    def traces(self, angle: FloatArray) -> tuple[CamTrace, CamTrace]:
         """Both plates' traces at the moments when the shaft stands at the angles [rad], in the shaft's frame."""
         return self.first.trace(angle), self.second.trace(angle + self.lag)
 
@@ -49,7 +49,7 @@ class Pair:
         return np.asarray(second.pitch - first.pitch)
 
 
-def rest_of_the_way(programme: Programme) -> Programme:
+def rest_of_the_way(programme: CamProgramme) -> CamProgramme:
     """The programme top - s, begun where s is highest between two parts, so that it starts from 0 again."""
     bases = programme.bases
     highest = max(range(len(bases)), key=lambda place: bases[place])
@@ -57,10 +57,10 @@ def rest_of_the_way(programme: Programme) -> Programme:
         replace(part, change=-part.change, scale=None if part.scale is None else -part.scale)
         for part in (*programme.segments[highest:], *programme.segments[:highest])
     ]
-    return Programme(tuple(turned), start=programme.start + float(programme.edges[highest]))
+    return CamProgramme(tuple(turned), start=programme.start + float(programme.edges[highest]))
 
 
-def conjugate(cam: PlateCam, distance: float, roller_radius: float | None = None) -> Pair:
+def conjugate(cam: PlateCam, distance: float, roller_radius: float | None = None) -> ConjugatePair:
     """A plate and the one that holds its slide back: roller centres `distance` [m] apart on the slide's line.
 
     roller_radius  of the second roller [m]; None: as the first
@@ -78,10 +78,10 @@ def conjugate(cam: PlateCam, distance: float, roller_radius: float | None = None
         offset=-cam.offset,
         roller_radius=cam.roller_radius if roller_radius is None else roller_radius,
     )
-    return Pair(cam, second, math.pi)
+    return ConjugatePair(cam, second, math.pi)
 
 
-def smallest_conjugate(cam: PlateCam, limits: Limits) -> Pair:
+def smallest_conjugate(cam: PlateCam, limits: CamLimits) -> ConjugatePair:
     """The pair whose plates are both as small as the limits allow; the cam's own prime radius does not matter.
 
     Each plate pushes where its own roller goes out, so that the limit of the rise is the second's on the way back.
@@ -94,7 +94,7 @@ def smallest_conjugate(cam: PlateCam, limits: Limits) -> Pair:
     return conjugate(first, sum(reaches) + _top(cam.programme))
 
 
-def conjugate_faces(cam: FlatCam, distance: float) -> Pair:
+def conjugate_faces(cam: FlatCam, distance: float) -> ConjugatePair:
     """A plate between two parallel faces `distance` [m] apart, and the second plate that the other face needs.
 
     Where s1(theta) + s1(theta + pi) = top both are one plate: a cam of constant breadth.
@@ -104,12 +104,12 @@ def conjugate_faces(cam: FlatCam, distance: float) -> Pair:
     if radius <= 0:
         _refuse(distance, cam.prime_radius + _top(cam.programme))
     rest = rest_of_the_way(cam.programme).shifted(math.pi)
-    return Pair(cam, FlatCam(rest, radius, -cam.offset), math.pi)
+    return ConjugatePair(cam, FlatCam(rest, radius, -cam.offset), math.pi)
 
 
 def conjugate_arms(
     cam: OscillatingCam, between: float, arm: float | None = None, roller_radius: float | None = None
-) -> Pair:
+) -> ConjugatePair:
     """A plate and the one that holds its arm back by a second arm on the same pivot.
 
     between  angle between the arms, over the shaft [rad]      arm, roller_radius  of the second; None: as the first
@@ -128,10 +128,10 @@ def conjugate_arms(
     prime = math.sqrt(cam.pivot**2 + length**2 - 2 * cam.pivot * length * math.cos(start))
     rest = rest_of_the_way(cam.programme)
     side: Literal[1, -1] = -1 if cam.side == 1 else 1
-    return Pair(cam, OscillatingCam(rest, prime, cam.pivot, length, side, radius), 0.0)
+    return ConjugatePair(cam, OscillatingCam(rest, prime, cam.pivot, length, side, radius), 0.0)
 
 
-def conjugate_swinging_faces(cam: OscillatingFlatCam, between: float, face_offset: float = 0.0) -> Pair:
+def conjugate_swinging_faces(cam: OscillatingFlatCam, between: float, face_offset: float = 0.0) -> ConjugatePair:
     """A plate and the one that holds its face back by a second face on the same pivot.
 
     between  angle between the faces, over the shaft [rad]
@@ -152,10 +152,10 @@ def conjugate_swinging_faces(cam: OscillatingFlatCam, between: float, face_offse
         )
     rest = rest_of_the_way(cam.programme)
     side: Literal[1, -1] = -1 if cam.side == 1 else 1
-    return Pair(cam, OscillatingFlatCam(rest, prime, cam.pivot, face_offset, side), 0.0)
+    return ConjugatePair(cam, OscillatingFlatCam(rest, prime, cam.pivot, face_offset, side), 0.0)
 
 
-def _top(programme: Programme) -> float:
+def _top(programme: CamProgramme) -> float:
     """Displacement at the highest end of a part."""
     return max(programme.bases)
 

@@ -25,7 +25,7 @@ from ilmek.plane.vectors import cross, dot
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
+class FollowerLoad:
     """What a follower carries and what holds it to the cam, at a speed [rad/s].
 
     mass [kg]    rate [N/m]    preload, of the spring at the lowest place [N]    load, always towards the cam [N]
@@ -55,17 +55,17 @@ class Touch(NamedTuple):
     way: ComplexField
 
 
-class Pressed(NamedTuple):
+class ContactForce(NamedTuple):
     """Force of the cam on the follower along the normal [N], and the shaft's torque [N m]."""
 
     normal: FloatArray
     torque: FloatArray
 
 
-def pressed(touch: Touch, ds: RealField, force: RealField, *, sliding: float = 0.0, guide: float = 0.0) -> Pressed:
+def pressed(touch: Touch, ds: RealField, force: RealField, *, sliding: float = 0.0, guide: float = 0.0) -> ContactForce:
     """Normal force and torque for a follower's need along its motion.
 
-    ds       s' [m/rad; 1 of an arm]        force    need along the motion [N; N m of an arm], `Held.force`
+    ds       s' [m/rad; 1 of an arm]        force    need along the motion [N; N m of an arm], `FollowerLoad.force`
     sliding  coefficient of friction between cam and follower; 0 for a roller
     guide    coefficient of friction in a straight guide; 0 for an arm
     """
@@ -77,4 +77,4 @@ def pressed(touch: Touch, ds: RealField, force: RealField, *, sliding: float = 0
     along = dot(push, touch.way) - resisted
     with np.errstate(divide="ignore", invalid="ignore"):
         normal = np.where(along > 0, force / along, np.nan)
-    return Pressed(np.asarray(normal), np.asarray(normal * cross(touch.point, push)))
+    return ContactForce(np.asarray(normal), np.asarray(normal * cross(touch.point, push)))

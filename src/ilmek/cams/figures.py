@@ -6,8 +6,8 @@ from typing import Literal
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.programme import TURN, Programme
-from ilmek.cams.trace import Cam
+from ilmek.cams.programme import TURN, CamProgramme
+from ilmek.cams.trace import CamRole
 from ilmek.report import Axis, Dot, Drawing, Mark, Plot, Series, Stroke
 from ilmek.units import format_quantity
 
@@ -15,7 +15,7 @@ _ANGLE = Axis("cam angle", "deg")
 _BESIDE = 1e-9
 
 
-def sample_angles(*programmes: Programme, count: int = 361) -> FloatArray:
+def sample_angles(*programmes: CamProgramme, count: int = 361) -> FloatArray:
     """Cam angles of one turn [rad] for a diagram: evenly spread, and both sides of every knot to show jumps upright."""
     knots = np.mod(np.concatenate([programme.knots for programme in programmes]), TURN)
     sides = np.clip(np.concatenate([knots - _BESIDE, knots + _BESIDE]), 0.0, TURN)
@@ -23,7 +23,7 @@ def sample_angles(*programmes: Programme, count: int = 361) -> FloatArray:
 
 
 def motion_plots(
-    programmes: Mapping[str, Programme],
+    programmes: Mapping[str, CamProgramme],
     speed: float,
     marks: tuple[Mark, ...] = (),
     note: str = "",
@@ -53,7 +53,7 @@ def motion_plots(
     )
 
 
-def pressure_plot(cam: Cam, limit: float, at: float) -> Plot:
+def pressure_plot(cam: CamRole, limit: float, at: float) -> Plot:
     """Pressure angle over the turn between +-limit [rad]; `at` [rad] marks the largest."""
     angle = sample_angles(cam.programme)
     bounds = tuple(Series(name, np.array([0.0, TURN]), np.full(2, y), True) for name, y in _bounds(limit))
@@ -62,7 +62,7 @@ def pressure_plot(cam: Cam, limit: float, at: float) -> Plot:
     return Plot("pressure-angle", "Pressure angle", _ANGLE, axis, series, (Mark(at, "largest"),))
 
 
-def curvature_plot(cam: Cam, at: float) -> Plot:
+def curvature_plot(cam: CamRole, at: float) -> Plot:
     """Curvature of the pitch curve over the turn; `at` [rad] marks the sharpest convex place."""
     angle = sample_angles(cam.programme)
     series = (Series("pitch curve", angle, cam.trace(angle).curvature),)
@@ -71,7 +71,7 @@ def curvature_plot(cam: Cam, at: float) -> Plot:
     return Plot("curvature", title, _ANGLE, Axis("curvature", "1/m"), series, (Mark(at, "sharpest"),), note)
 
 
-def cam_drawing(cam: Cam, bore_side: float, guide_radius: float) -> Drawing:
+def cam_drawing(cam: CamRole, bore_side: float, guide_radius: float) -> Drawing:
     """The cam to scale, zero of the cam angle to the right: surface, prime circle, pitch curve, square bore, guide."""
     angle = sample_angles(cam.programme, count=721)
     circle = np.exp(1j * np.linspace(0.0, TURN, 361))
@@ -99,6 +99,6 @@ def _bounds(limit: float) -> tuple[tuple[str, float], ...]:
     return ("limit", limit), ("limit on the return", -limit)
 
 
-def _to_the_tip(cam: Cam, angle: FloatArray) -> ComplexArray:
+def _to_the_tip(cam: CamRole, angle: FloatArray) -> ComplexArray:
     surface = cam.trace(angle).surface
     return np.array([0j, surface[np.argmax(np.abs(surface))]])

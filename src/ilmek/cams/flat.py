@@ -18,8 +18,8 @@ from typing import ClassVar
 import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray, RealField
-from ilmek.cams.programme import Course, Programme
-from ilmek.cams.trace import Trace, Traced
+from ilmek.cams.programme import CamProgramme, FollowerMotion
+from ilmek.cams.trace import CamCurves, CamTrace
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import infimum, supremum
 from ilmek.plane.vectors import unit
@@ -37,14 +37,14 @@ def curvature_radius(s: RealField, dds: RealField, base_radius: float) -> RealFi
 
 
 @dataclass(frozen=True, slots=True)
-class FlatCam(Traced):
+class FlatCam(CamCurves):
     """A plate cam with a translating flat-faced follower; lengths in m.
 
     prime_radius  radius of the base circle     offset  of the stem, on the line y = -offset; the cam is the same
     Raises ParameterError for a base circle that is not above 0.
     """
 
-    programme: Programme
+    programme: CamProgramme
     prime_radius: float
     offset: float = 0.0
     roller_radius: ClassVar[float] = 0.0
@@ -64,10 +64,10 @@ class FlatCam(Traced):
         """The same cam with another prime radius [m]."""
         return replace(self, prime_radius=prime_radius)
 
-    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
         """Everything at cam angles [rad], of the course there; the pitch curve is the surface itself."""
         normal = np.asarray(unit(-angle))
-        return Trace(
+        return CamTrace(
             angle=angle,
             course=course,
             pitch=(self.prime_radius + course.s - 1j * course.ds) * normal,

@@ -24,14 +24,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.follower_model import Follower, Stage, one_mass
+from ilmek.cams.follower_model import FollowerModel, Stage, one_mass
 from ilmek.cams.laws import Law
-from ilmek.cams.programme import TURN, Course, Programme, jumps
+from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion, jumps
 from ilmek.errors import ParameterError
 from ilmek.report import Axis, Plot, Series
 
 __all__ = [
-    "Follower",
+    "FollowerModel",
     "Response",
     "Stage",
     "one_mass",
@@ -76,7 +76,7 @@ class Response:
 
 
 def rise_response(
-    follower: Follower, law: Law, lift: float, time: float, *, after: float = 1.0, count: int = 401
+    follower: FollowerModel, law: Law, lift: float, time: float, *, after: float = 1.0, count: int = 401
 ) -> Response:
     """The follower from rest over a rise of `lift` [m] in `time` [s], and for `after` rises' time beyond it.
 
@@ -87,7 +87,7 @@ def rise_response(
     return _response(follower, motion, _even(0.0, 1.0 + after, count), (_rate(time), lift, time), _from_rest)
 
 
-def steady_response(follower: Follower, programme: Programme, speed: float, count: int = 721) -> Response:
+def steady_response(follower: FollowerModel, programme: CamProgramme, speed: float, count: int = 721) -> Response:
     """The motion that repeats every turn of a cam at a speed [rad/s], over one turn from the programme's start.
 
     Raises ParameterError where an undamped follower resonates with a multiple of the speed, or is too stiff.
@@ -97,7 +97,7 @@ def steady_response(follower: Follower, programme: Programme, speed: float, coun
     return _response(follower, motion, places, (speed, 1.0, 1.0), _repeating)
 
 
-def residual_of(follower: Follower, law: Law, time: float) -> FloatArray:
+def residual_of(follower: FollowerModel, law: Law, time: float) -> FloatArray:
     """Amplitude that each mass swings with after a rise in `time` [s], at its end, in lifts: summed over the modes.
 
     For one mass without return spring it is `vibration.residual` at time x frequency / 2 pi.
@@ -153,16 +153,16 @@ def _of_law(law: Law, after: float) -> _Motion:
     return _Motion(course, np.array(ends), ((0.0, float(law.v(0.0))), (1.0, -float(law.v(1.0)))))
 
 
-def _of_programme(programme: Programme) -> _Motion:
+def _of_programme(programme: CamProgramme) -> _Motion:
     def course(angle: FloatArray) -> FloatArray:
-        at: Course = programme.at(angle)
+        at: FollowerMotion = programme.at(angle)
         return np.array(at[:3])
 
     kicks = tuple((jump.angle, jump.after - jump.before) for jump in jumps(programme, 1))
     return _Motion(course, programme.knots, kicks)
 
 
-def _modes(follower: Follower, speed: float) -> _Modes:
+def _modes(follower: FollowerModel, speed: float) -> _Modes:
     if not (speed > 0 and math.isfinite(speed)):
         raise ParameterError(f"a follower driven at {speed:g} rad/s", allowed="above 0")
     n, mass = follower.masses.size, follower.masses[:, None]
@@ -252,7 +252,7 @@ def _even(first: float, last: float, count: int) -> FloatArray:
 
 
 def _response(
-    follower: Follower,
+    follower: FollowerModel,
     motion: _Motion,
     places: FloatArray,
     units: tuple[float, float, float],

@@ -26,7 +26,7 @@ class Stage:
 
 
 @dataclass(frozen=True, slots=True)
-class Follower:
+class FollowerModel:
     """Stages in a row, the first on the cam, and the force [N] that presses it on the cam at rest.
 
     Raises ParameterError for a row without stages, and for masses, springs or dampers of the wrong sign.
@@ -74,14 +74,14 @@ class Follower:
 
 def one_mass(
     mass: float, stiffness: float, damping_ratio: float = 0.0, return_rate: float = 0.0, preload: float = 0.0
-) -> Follower:
+) -> FollowerModel:
     """A mass [kg] on a linkage of a stiffness [N/m], damped by a share of the critical.
 
     >>> round(float(one_mass(2.0, 200.0).frequencies[0]), 9)
     10.0
     """
     critical = 2.0 * math.sqrt(mass * (stiffness + return_rate)) if mass > 0 and stiffness > 0 else 0.0
-    return Follower((Stage(mass, stiffness, damping_ratio * critical, return_rate),), preload)
+    return FollowerModel((Stage(mass, stiffness, damping_ratio * critical, return_rate),), preload)
 
 
 def _row(rates: list[float]) -> FloatArray:

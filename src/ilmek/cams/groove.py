@@ -9,7 +9,7 @@ its own width along one path, or, along two, by any smaller one. For plates and,
 from dataclasses import dataclass
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.trace import Cam
+from ilmek.cams.trace import CamRole
 from ilmek.errors import ParameterError
 from ilmek.units import format_quantity
 
@@ -21,7 +21,7 @@ class Groove:
     Raises ParameterError for a follower without a roller, or a clearance below 0.
     """
 
-    cam: Cam
+    cam: CamRole
     clearance: float = 0.0
 
     def __post_init__(self) -> None:

@@ -8,7 +8,7 @@ every pose against the whole surface.
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.trace import Cam, Trace
+from ilmek.cams.trace import CamRole, CamTrace
 from ilmek.num.piecewise import Extremum
 from ilmek.plane.vectors import dot
 
@@ -16,7 +16,7 @@ _SHARE = 1e-9
 """Share of the cam's size within which a depth is rounding."""
 
 
-def interference(cam: Cam, *, both_flanks: bool = False, count: int = 720) -> Extremum | None:
+def interference(cam: CamRole, *, both_flanks: bool = False, count: int = 720) -> Extremum | None:
     """The cam angle [rad] at which a plate cam enters its follower deepest, and how deep [m]; None where it never does.
 
     both_flanks  the outer flank of its groove too     count  poses, and points of the surface, evenly over the turn;
@@ -32,7 +32,7 @@ def interference(cam: Cam, *, both_flanks: bool = False, count: int = 720) -> Ex
     return Extremum(float(angle[worst]), float(depth[worst]))
 
 
-def _depth(cam: Cam, trace: Trace, flank: ComplexArray) -> FloatArray:
+def _depth(cam: CamRole, trace: CamTrace, flank: ComplexArray) -> FloatArray:
     """How deep [m] the deepest point of a flank lies inside the roller, or behind the face, in each pose."""
     if cam.flat:
         across = dot(trace.normal[:, None], flank[None, :] - trace.pitch[:, None])

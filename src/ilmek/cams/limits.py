@@ -12,7 +12,7 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.trace import Cam
+from ilmek.cams.trace import CamRole
 from ilmek.num.piecewise import Extremum, infimum, integral, supremum
 from ilmek.plane.vectors import dot
 
@@ -31,7 +31,7 @@ Part: TypeAlias = Literal["turn", "rise", "return"]
 """The whole turn, or only where the follower goes out, or only where it comes back."""
 
 
-def pressure_angle_max(cam: Cam, part: Part = "turn") -> Extremum:
+def pressure_angle_max(cam: CamRole, part: Part = "turn") -> Extremum:
     """Largest |pressure angle| [rad] over a part of the turn; 0 where the follower never moves so.
 
     A cam that is closed by a spring pushes on the rise alone; a groove or a second plate pushes on the return too.
@@ -44,7 +44,7 @@ def pressure_angle_max(cam: Cam, part: Part = "turn") -> Extremum:
     return supremum(leaning, cam.knots)
 
 
-def convex_radius_min(cam: Cam) -> Extremum:
+def convex_radius_min(cam: CamRole) -> Extremum:
     """Least radius of curvature [m] of the pitch curve where it is convex; a roller must be smaller.
 
     A flat face's pitch curve is the surface; its radius is not above 0 where no surface can guide the face.
@@ -54,7 +54,7 @@ def convex_radius_min(cam: Cam) -> Extremum:
     return Extremum(sharpest.at, cam.prime_radius / math.tan(sharpest.value) if sharpest.value > 0 else math.inf)
 
 
-def concave_radius_min(cam: Cam) -> Extremum | None:
+def concave_radius_min(cam: CamRole) -> Extremum | None:
     """Least radius of curvature [m] of the pitch curve where it is concave; None where it is convex all round.
 
     The outer flank of a groove needs it above the roller's radius.
@@ -63,7 +63,7 @@ def concave_radius_min(cam: Cam) -> Extremum | None:
     return Extremum(hollow.at, -cam.prime_radius / math.tan(hollow.value)) if hollow.value < 0 else None
 
 
-def undercut(cam: Cam, *, both_flanks: bool = False) -> bool:
+def undercut(cam: CamRole, *, both_flanks: bool = False) -> bool:
     """Whether no surface can guide the follower somewhere: convex rho <= roller radius, or a flat face on a hollow.
 
     both_flanks  a groove's outer flank too: concave rho <= roller radius
@@ -73,7 +73,7 @@ def undercut(cam: Cam, *, both_flanks: bool = False) -> bool:
     return bool(hollowed or convex_radius_min(cam).value <= cam.roller_radius)
 
 
-def largest_cutter(cam: Cam) -> float:
+def largest_cutter(cam: CamRole) -> float:
     """The largest radius [m] of a cutter that gets into every hollow of the cam's surface; infinite where none is.
 
     Where the pitch curve's centre of curvature lies outside, the surface's is the same: rho_surface = rho + Rr.
@@ -82,7 +82,7 @@ def largest_cutter(cam: Cam) -> float:
     return math.inf if hollow is None else hollow.value + cam.roller_radius
 
 
-def area(cam: Cam) -> float:
+def area(cam: CamRole) -> float:
     """Area [m^2] inside a plate cam's surface, without undercut: A = 1/2 integral of (K . n) flow_K  (Green)."""
 
     def sector(angle: FloatArray) -> FloatArray:
@@ -99,7 +99,7 @@ def _within(part: Part, ds: FloatArray) -> BoolArray:
     return np.asarray(ds > 0 if part == "rise" else ds < 0)
 
 
-def _bend(cam: Cam) -> Callable[[FloatArray], FloatArray]:
+def _bend(cam: CamRole) -> Callable[[FloatArray], FloatArray]:
     """The curvature as an angle, arctan(Rp kappa), which passes pi/2 where a flat face would cut the cam in a cusp."""
 
     def bend(angle: FloatArray) -> FloatArray:

@@ -19,8 +19,8 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray, RealField
-from ilmek.cams.programme import Course, Programme
-from ilmek.cams.trace import Trace, Traced, trace_of_point
+from ilmek.cams.programme import CamProgramme, FollowerMotion
+from ilmek.cams.trace import CamCurves, CamTrace, trace_of_point
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import unit
 from ilmek.units import format_quantity
@@ -44,7 +44,7 @@ def arm_angle(reach: RealField, pivot: float, arm: float) -> RealField:
 
 
 @dataclass(frozen=True, slots=True)
-class OscillatingCam(Traced):
+class OscillatingCam(CamCurves):
     """A plate cam with an oscillating roller or knife-edge follower; the programme's displacement is in rad.
 
     prime_radius  least distance [m] of the roller's centre from the axis, where the displacement is 0
@@ -54,7 +54,7 @@ class OscillatingCam(Traced):
     Raises ParameterError where the roller fills the prime circle, the arm does not reach it or swings past the pivot.
     """
 
-    programme: Programme
+    programme: CamProgramme
     prime_radius: float
     pivot: float
     arm: float
@@ -95,7 +95,7 @@ class OscillatingCam(Traced):
         """The same cam with another prime radius [m]."""
         return replace(self, prime_radius=prime_radius)
 
-    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
         """Everything at cam angles [rad] where the follower's course is known there."""
         psi = self.start_angle + course.s
         motion = roller_motion(psi, course.ds, course.dds, pivot=self.pivot, arm=self.arm, side=self.side)

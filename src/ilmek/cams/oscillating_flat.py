@@ -22,8 +22,8 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.programme import Course, Programme
-from ilmek.cams.trace import Trace, Traced
+from ilmek.cams.programme import CamProgramme, FollowerMotion
+from ilmek.cams.trace import CamCurves, CamTrace
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import infimum, supremum
 from ilmek.plane.vectors import unit
@@ -31,7 +31,7 @@ from ilmek.units import format_quantity
 
 
 @dataclass(frozen=True, slots=True)
-class OscillatingFlatCam(Traced):
+class OscillatingFlatCam(CamCurves):
     """A plate cam with an oscillating flat-faced follower; the programme's displacement is in rad.
 
     prime_radius  least distance [m] of the face from the axis, where the displacement is 0
@@ -42,7 +42,7 @@ class OscillatingFlatCam(Traced):
     Raises ParameterError where the face does not reach the base circle, or swings upright.
     """
 
-    programme: Programme
+    programme: CamProgramme
     prime_radius: float
     pivot: float
     face_offset: float = 0.0
@@ -79,7 +79,7 @@ class OscillatingFlatCam(Traced):
         """The same cam with another prime radius [m]."""
         return replace(self, prime_radius=prime_radius)
 
-    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
         """Everything at cam angles [rad], of the course there; the pitch curve is the surface itself."""
         swung = self.pivot * unit(self.start_angle + course.s)
         far = swung.imag + self.face_offset
@@ -88,7 +88,7 @@ class OscillatingFlatCam(Traced):
         wander = first / turning
         normal = 1j * self.side * unit(-self.side * (self.start_angle + course.s) - angle)
         flow = far * turning + (second - wander * self.side * course.dds) / turning
-        return Trace(
+        return CamTrace(
             angle=angle,
             course=course,
             pitch=np.asarray((far - 1j * wander) * normal),

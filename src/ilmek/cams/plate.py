@@ -12,21 +12,21 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams import profile
-from ilmek.cams.programme import Course, Programme
-from ilmek.cams.trace import Trace, Traced, trace_of_point
+from ilmek.cams.programme import CamProgramme, FollowerMotion
+from ilmek.cams.trace import CamCurves, CamTrace, trace_of_point
 from ilmek.errors import ParameterError
 from ilmek.units import format_quantity
 
 
 @dataclass(frozen=True, slots=True)
-class PlateCam(Traced):
+class PlateCam(CamCurves):
     """A plate cam with a translating roller or knife-edge follower; lengths in m, frame and signs as in `profile`.
 
     prime_radius  distance of the roller's centre from the axis where the displacement is 0
     Raises ParameterError where the follower's line misses the prime circle or the roller fills it.
     """
 
-    programme: Programme
+    programme: CamProgramme
     prime_radius: float
     offset: float = 0.0
     roller_radius: float = 0.0
@@ -54,7 +54,7 @@ class PlateCam(Traced):
         """The same cam with another prime radius [m]."""
         return replace(self, prime_radius=prime_radius)
 
-    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
         """Everything at cam angles [rad] where the follower's course is known there."""
         centre = profile.reach(course.s, self.prime_radius, self.offset) - 1j * self.offset
         return trace_of_point(angle, course, (centre, course.ds, course.dds), 1.0, self.roller_radius)

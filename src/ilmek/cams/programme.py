@@ -3,7 +3,7 @@
     s(theta) = base + change * law.s(u),   u = (theta - begin) / span     within each segment
 
 >>> from ilmek.cams.laws import LAWS
->>> shed = Programme((rise(math.pi / 2, 0.06, LAWS["harmonic"]), fall(math.pi / 2, 0.06, LAWS["harmonic"]),
+>>> shed = CamProgramme((rise(math.pi / 2, 0.06, LAWS["harmonic"]), fall(math.pi / 2, 0.06, LAWS["harmonic"]),
 ...                   dwell(math.pi)))
 >>> float(shed.at(np.array(math.pi / 2)).s)
 0.06
@@ -18,17 +18,17 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.segments import Open, Segment, blend, bounds, dwell, even, fall, free, rise
+from ilmek.cams.segments import CamSegment, OpenSegment, blend, bounds, dwell, even, fall, free, rise
 from ilmek.errors import ParameterError
 from ilmek.units import deg, format_quantity
 
 __all__ = [
     "TURN",
-    "Course",
+    "CamProgramme",
+    "CamSegment",
+    "FollowerMotion",
     "Jump",
-    "Open",
-    "Programme",
-    "Segment",
+    "OpenSegment",
     "all_jumps",
     "blend",
     "dwell",
@@ -46,7 +46,7 @@ _WHOLE = 4.5e-16
 _DERIVATIVES = ("", "velocity", "acceleration", "jerk")
 
 
-class Course(NamedTuple):
+class FollowerMotion(NamedTuple):
     """Displacement [m] and its derivatives by the cam angle [m/rad, m/rad^2, m/rad^3]; times w, w^2, w^3 by time."""
 
     s: FloatArray
@@ -74,7 +74,7 @@ class Jump:
 
 
 @dataclass(frozen=True, slots=True)
-class Programme:
+class CamProgramme:
     """Segments that fill one turn and come back to where they began.
 
     start     cam angle [rad] where the first segment begins
@@ -82,7 +82,7 @@ class Programme:
     Raises ParameterError where the segments do not fill the turn, do not come back, or have a law that is no rise.
     """
 
-    segments: tuple[Segment, ...]
+    segments: tuple[CamSegment, ...]
     start: float = 0.0
     revolves: float = 0.0
 
@@ -97,11 +97,11 @@ class Programme:
                 raise ParameterError(f"the parts of a turn miss revolves={gains} by {shown}", do="let them add up")
             raise ParameterError(f"the follower ends a turn {shown} from where it began", allowed="it must come back")
 
-    def shifted(self, angle: float) -> "Programme":
+    def shifted(self, angle: float) -> "CamProgramme":
         """The same programme, later by `angle` [rad]."""
         return replace(self, start=self.start + angle)
 
-    def require_continuity(self, order: int) -> "Programme":
+    def require_continuity(self, order: int) -> "CamProgramme":
         """The programme itself, where no derivative up to the order (0 to 3) jumps.
 
         Raises ParameterError that names the first jump of the lowest derivative that has one.
@@ -139,7 +139,7 @@ class Programme:
         """Least and greatest displacement over the first turn [m], overshoot of a law among it."""
         return bounds(self.segments)
 
-    def at(self, angle: FloatArray) -> Course:
+    def at(self, angle: FloatArray) -> FollowerMotion:
         """Motion at cam angles [rad] of any shape and any turn; at a boundary, that of the segment which begins."""
         turns, phase = _turn_and_phase(np.asarray(angle - self.start))
         flat = phase.ravel()
@@ -151,7 +151,7 @@ class Programme:
         rows = rows.reshape(4, *phase.shape)
         if self.revolves:
             rows[0] += self.revolves * turns
-        return Course(*rows)
+        return FollowerMotion(*rows)
 
     def _ascending(self, phase: FloatArray) -> FloatArray:
         """Rows s, s', s'', s''' at ascending phases: each segment has a stretch of its own."""
@@ -171,7 +171,9 @@ class Programme:
         return rows
 
 
-def joined(parts: Sequence[Segment | Open], order: int = 2, start: float = 0.0, revolves: float = 0.0) -> Programme:
+def joined(
+    parts: Sequence[CamSegment | OpenSegment], order: int = 2, start: float = 0.0, revolves: float = 0.0
+) -> CamProgramme:
     """A programme whose open parts are filled so that no derivative up to `order` (1 to 3) jumps at their ends.
 
     An open part gets the polynomial whose derivatives 1..order are those of its neighbours.
@@ -185,19 +187,19 @@ def joined(parts: Sequence[Segment | Open], order: int = 2, start: float = 0.0, 
         raise ParameterError(f"continuity of order {order}", allowed="1 (velocity), 2 (acceleration), 3 (jerk)")
     filled = []
     for i, part in enumerate(parts):
-        if isinstance(part, Segment):
+        if isinstance(part, CamSegment):
             filled.append(part)
             continue
         before, after = parts[i - 1], parts[(i + 1) % len(parts)]
-        if isinstance(before, Open) or isinstance(after, Open):
+        if isinstance(before, OpenSegment) or isinstance(after, OpenSegment):
             raise ParameterError("two blends side by side", do="say the motion of one of them, or make them one")
         orders = range(1, order + 1)
         ends = [before.derivative(1.0, k) for k in orders], [after.derivative(0.0, k) for k in orders]
         filled.append(replace(free(part.span, part.change, *ends), name=part.name))
-    return Programme(tuple(filled), start, revolves).require_continuity(order)
+    return CamProgramme(tuple(filled), start, revolves).require_continuity(order)
 
 
-def jumps(programme: Programme, order: int = 2) -> tuple[Jump, ...]:
+def jumps(programme: CamProgramme, order: int = 2) -> tuple[Jump, ...]:
     """Where the derivative of `order` (1 velocity, 2 acceleration, 3 jerk) jumps, in the order of the cam angle."""
     segments = programme.segments
     found = []
@@ -213,19 +215,19 @@ def jumps(programme: Programme, order: int = 2) -> tuple[Jump, ...]:
     return tuple(jump for jump in found if abs(jump.after - jump.before) > _FIT * scale)
 
 
-def all_jumps(programme: Programme, order: int = 3) -> tuple[Jump, ...]:
+def all_jumps(programme: CamProgramme, order: int = 3) -> tuple[Jump, ...]:
     """The jumps of all derivatives up to `order`, the lowest derivative first."""
     return tuple(itertools.chain.from_iterable(jumps(programme, k) for k in range(1, order + 1)))
 
 
-def _check_turn(segments: tuple[Segment, ...]) -> None:
+def _check_turn(segments: tuple[CamSegment, ...]) -> None:
     spans = [segment.span for segment in segments]
     if min(spans, default=0.0) <= 0 or abs(sum(spans) - TURN) > _FIT:
         said = " + ".join(f"{segment.name} {format_quantity(segment.span / deg, '')}" for segment in segments)
         raise ParameterError(f"a cam of {said or 'no parts'} degrees", allowed="its parts must add up to 360 degrees")
 
 
-def _check_laws(segments: tuple[Segment, ...]) -> None:
+def _check_laws(segments: tuple[CamSegment, ...]) -> None:
     """Raise ParameterError where a law does not begin at 0 and end at what its part moves by."""
     for segment in segments:
         law, factor = segment.law, segment.factor

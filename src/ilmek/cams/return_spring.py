@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.contact import Held
-from ilmek.cams.programme import Programme, jumps
+from ilmek.cams.contact import FollowerLoad
+from ilmek.cams.programme import CamProgramme, jumps
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import Extremum, infimum, supremum
 from ilmek.units import format_quantity
@@ -32,7 +32,7 @@ class LiftOff:
     at: float
 
 
-def lift_off(programme: Programme, held: Held) -> LiftOff:
+def lift_off(programme: CamProgramme, held: FollowerLoad) -> LiftOff:
     """Where and from which speed on the follower leaves the cam; the speed of `held` plays no part.
 
         1 / w^2 = sup( -m s'' / (k s + P + load) )
@@ -55,7 +55,7 @@ def lift_off(programme: Programme, held: Held) -> LiftOff:
     return LiftOff(0.0 if math.isinf(worst.value) else 1 / math.sqrt(worst.value), worst.at)
 
 
-def least_force(programme: Programme, held: Held) -> Extremum:
+def least_force(programme: CamProgramme, held: FollowerLoad) -> Extremum:
     """Least force along the motion over the turn [N] at the speed, and where; below 0 the follower lifts off."""
 
     def force(angle: FloatArray) -> FloatArray:
@@ -65,7 +65,7 @@ def least_force(programme: Programme, held: Held) -> Extremum:
     return infimum(force, programme.knots)
 
 
-def least_preload(programme: Programme, held: Held) -> float:
+def least_preload(programme: CamProgramme, held: FollowerLoad) -> float:
     """Least preload [N] of a spring of the given rate that keeps the follower on the cam at the speed.
 
     Raises ParameterError where the velocity jumps down.
@@ -74,7 +74,7 @@ def least_preload(programme: Programme, held: Held) -> float:
     return max(0.0, -least_force(programme, replace(held, preload=0.0)).value)
 
 
-def least_rate(programme: Programme, held: Held) -> float:
+def least_rate(programme: CamProgramme, held: FollowerLoad) -> float:
     """Least rate [N/m] of a spring of the given preload that keeps the follower on the cam at the speed.
 
     Raises ParameterError where the velocity jumps down, and where the preload alone must do it: at the lowest place.
@@ -100,7 +100,7 @@ def least_rate(programme: Programme, held: Held) -> float:
     return needed
 
 
-def doubling_spring(programme: Programme, held: Held) -> Held:
+def doubling_spring(programme: CamProgramme, held: FollowerLoad) -> FollowerLoad:
     """The weakest spring without lift-off at the speed among those whose force doubles over the lift: k = P / lift.
 
         P = sup( -(m w^2 s'' + load) / (1 + s / lift) )
@@ -119,12 +119,12 @@ def doubling_spring(programme: Programme, held: Held) -> Held:
     return replace(held, preload=preload, rate=preload / lift)
 
 
-def velocity_drop(programme: Programme) -> float | None:
+def velocity_drop(programme: CamProgramme) -> float | None:
     """The cam angle [rad] where the velocity jumps down; None where it does not."""
     return next((jump.angle for jump in jumps(programme, 1) if jump.after < jump.before), None)
 
 
-def _refuse_drop(programme: Programme) -> None:
+def _refuse_drop(programme: CamProgramme) -> None:
     at = velocity_drop(programme)
     if at is not None:
         where = format_quantity(at, "deg")

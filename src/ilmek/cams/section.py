@@ -14,12 +14,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.trace import Cam, Trace
+from ilmek.cams.trace import CamRole, CamTrace
 from ilmek.num.piecewise import integral
 from ilmek.plane.vectors import dot
 
 
-class Section(NamedTuple):
+class CamSection(NamedTuple):
     """Area [m^2], centre in the cam's frame [m] and second moment about the axis [m^4] of a plate cam's face."""
 
     area: float
@@ -27,17 +27,17 @@ class Section(NamedTuple):
     polar_moment: float
 
 
-def section(cam: Cam) -> Section:
+def section(cam: CamRole) -> CamSection:
     """The face of a plate cam, bore not taken off, without undercut.
 
     >>> from ilmek.cams.plate import PlateCam
-    >>> from ilmek.cams.programme import TURN, Programme, dwell
-    >>> disc = section(PlateCam(Programme((dwell(TURN),)), 0.03, roller_radius=0.01))
+    >>> from ilmek.cams.programme import TURN, CamProgramme, dwell
+    >>> disc = section(PlateCam(CamProgramme((dwell(TURN),)), 0.03, roller_radius=0.01))
     >>> round(disc.polar_moment / disc.area / 0.02**2, 12)
     0.5
     """
 
-    def summed(weight: Callable[[Trace], FloatArray]) -> float:
+    def summed(weight: Callable[[CamTrace], FloatArray]) -> float:
         def density(angle: FloatArray) -> FloatArray:
             trace = cam.trace(angle)
             sector = dot(trace.surface, trace.normal) * (trace.flow - trace.roller_radius * trace.turning)
@@ -48,4 +48,4 @@ def section(cam: Cam) -> Section:
     area = summed(lambda trace: np.full(trace.flow.shape, 0.5))
     x, y = summed(lambda trace: trace.surface.real / 3), summed(lambda trace: trace.surface.imag / 3)
     moment = summed(lambda trace: np.asarray(dot(trace.surface, trace.surface) / 4))
-    return Section(area, complex(x, y) / area, moment)
+    return CamSection(area, complex(x, y) / area, moment)

@@ -11,14 +11,14 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.laws import LAWS, REST, Law, law_of
-from ilmek.cams.laws.law import Motion
+from ilmek.cams.laws.law import LawValues
 
 _BESIDE = 1e-12
 """Share of a part at which a one-sided value is taken beside a break inside it."""
 
 
 @dataclass(frozen=True, slots=True)
-class Segment:
+class CamSegment:
     """A part of the turn: `change` [m] of the follower over `span` [rad] by a law.
 
     scale  what the law is multiplied by [m]; None: by the change, as fits a law that goes from 0 to 1
@@ -49,15 +49,15 @@ class Segment:
         """The derivative just before and just behind u = at inside the part."""
         return self.derivative(at - _BESIDE, order), self.derivative(at + _BESIDE, order)
 
-    def motion(self, u: FloatArray) -> Motion:
+    def motion(self, u: FloatArray) -> LawValues:
         """S from the part's begin, and its derivatives by the cam angle, at u."""
         at, factor, rate = self.law.motion(u), self.factor, 1.0 / self.span
         v, a, j = factor * rate, factor * rate**2, factor * rate**3
-        return Motion(factor * at.s, v * at.v, a * at.a, j * at.j)
+        return LawValues(factor * at.s, v * at.v, a * at.a, j * at.j)
 
 
 @dataclass(frozen=True, slots=True)
-class Open:
+class OpenSegment:
     """A part whose law is not given: `joined` finds the polynomial that meets both neighbours."""
 
     name: str
@@ -65,32 +65,34 @@ class Open:
     change: float
 
 
-def rise(span: float, lift: float, law: Law) -> Segment:
+def rise(span: float, lift: float, law: Law) -> CamSegment:
     """The follower goes `lift` [m] outwards over `span` [rad]."""
-    return Segment("rise", span, lift, law)
+    return CamSegment("rise", span, lift, law)
 
 
-def fall(span: float, lift: float, law: Law) -> Segment:
+def fall(span: float, lift: float, law: Law) -> CamSegment:
     """The follower comes back by `lift` [m] over `span` [rad]."""
-    return Segment("fall", span, -lift, law)
+    return CamSegment("fall", span, -lift, law)
 
 
-def dwell(span: float) -> Segment:
+def dwell(span: float) -> CamSegment:
     """The follower stands still over `span` [rad]."""
-    return Segment("dwell", span, 0.0, REST)
+    return CamSegment("dwell", span, 0.0, REST)
 
 
-def even(span: float, change: float) -> Segment:
+def even(span: float, change: float) -> CamSegment:
     """The follower moves by `change` [m] over `span` [rad] at constant speed."""
-    return Segment("constant speed", span, change, LAWS["uniform"])
+    return CamSegment("constant speed", span, change, LAWS["uniform"])
 
 
-def blend(span: float, change: float) -> Open:
+def blend(span: float, change: float) -> OpenSegment:
     """The follower moves by `change` [m] over `span` [rad] so that it joins both neighbours; for `joined`."""
-    return Open("blend", span, change)
+    return OpenSegment("blend", span, change)
 
 
-def free(span: float, change: float, start: Sequence[float] = (0.0, 0.0), end: Sequence[float] = (0.0, 0.0)) -> Segment:
+def free(
+    span: float, change: float, start: Sequence[float] = (0.0, 0.0), end: Sequence[float] = (0.0, 0.0)
+) -> CamSegment:
     """A polynomial part between given derivatives.
 
     start, end  s', s'', s''' [m/rad, m/rad^2, m/rad^3] at the begin and at the end, as many as are to be met
@@ -102,10 +104,10 @@ def free(span: float, change: float, start: Sequence[float] = (0.0, 0.0), end: S
     scale = scale or 1.0
     first, last = (tuple(value * span**k / scale for k, value in enumerate(row, 1)) for row in (start, end))
     law = law_of("polynomial", {"start": (0.0, *first), "end": (change / scale, *last)})
-    return Segment("blend", span, change, law, scale)
+    return CamSegment("blend", span, change, law, scale)
 
 
-def bounds(parts: Sequence[Segment]) -> tuple[float, float]:
+def bounds(parts: Sequence[CamSegment]) -> tuple[float, float]:
     """Least and greatest displacement [m] over parts in a row, from 0 at their begin; overshoot is counted."""
     base, lowest, highest = 0.0, math.inf, -math.inf
     for part in parts:

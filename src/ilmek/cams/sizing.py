@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray
-from ilmek.cams.programme import Programme
-from ilmek.cams.trace import Cam, Trace
+from ilmek.cams.programme import CamProgramme
+from ilmek.cams.trace import CamRole, CamTrace
 from ilmek.errors import ParameterError
 from ilmek.num.brackets import bracketed_minima, bracketed_roots
 from ilmek.num.piecewise import Extremum, supremum
@@ -31,7 +31,7 @@ _NEAR = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class CamLimits:
     """What a cam must keep; None: not asked.
 
     rise, back        largest |pressure angle| [rad] where the follower goes out, and where it comes back; a follower
@@ -54,7 +54,7 @@ class Limits:
                 raise ParameterError(f"a limit of the pressure angle of {shown}", allowed="above 0 deg, below 90 deg")
 
 
-class Size(NamedTuple):
+class PrimeRadius(NamedTuple):
     """A prime radius [m], the limit that asks for it, and the cam angle [rad] where it does."""
 
     prime_radius: float
@@ -69,7 +69,7 @@ class Offset(NamedTuple):
     prime_radius: float
 
 
-def smallest_prime(cam: Cam, limits: Limits) -> Size:
+def smallest_prime(cam: CamRole, limits: CamLimits) -> PrimeRadius:
     """The smallest prime circle at which a cam keeps the limits and can guide its follower; the rest stays as it is.
 
     The cam's own prime radius does not matter. Sizes from the least that can be built are looked at until one will do,
@@ -92,13 +92,13 @@ def smallest_prime(cam: Cam, limits: Limits) -> Size:
             do="allow more, give the motion a larger angle, or change offset, arm or pivot",
         )
     if first == 0:
-        return Size(float(sizes[0]), "the follower's own size", float(cam.knots[0]))
+        return PrimeRadius(float(sizes[0]), "the follower's own size", float(cam.knots[0]))
     found = _refined(cam, limits, float(sizes[first - 1]), float(sizes[min(first + 1, sizes.size - 1)]))
     worst = _worst(cam.resized(found), limits)
-    return Size(found, _binding(cam.resized(found), limits, worst.at), worst.at)
+    return PrimeRadius(found, _binding(cam.resized(found), limits, worst.at), worst.at)
 
 
-def require(cam: Cam, limits: Limits) -> None:
+def require(cam: CamRole, limits: CamLimits) -> None:
     """Raise ParameterError, naming the smallest that does, unless a cam keeps the limits and can guide its follower."""
     worst = _worst(cam, limits)
     if worst.value <= _NEAR:
@@ -112,7 +112,7 @@ def require(cam: Cam, limits: Limits) -> None:
     )
 
 
-def pressure_prime(programme: Programme, limits: Limits, offset: float = 0.0) -> Extremum:
+def pressure_prime(programme: CamProgramme, limits: CamLimits, offset: float = 0.0) -> Extremum:
     """Smallest prime radius [m] of a translating roller for the limits of the pressure angle alone, and where.
 
         Rp = sqrt(d^2 + e^2),   d = sup(|s' - e| / tan(limit) - s), with the limit of the rise or of the return
@@ -130,7 +130,7 @@ def pressure_prime(programme: Programme, limits: Limits, offset: float = 0.0) ->
     return Extremum(worst.at, math.hypot(max(worst.value, 0.0), offset))
 
 
-def best_offset(programme: Programme, limits: Limits) -> Offset:
+def best_offset(programme: CamProgramme, limits: CamLimits) -> Offset:
     """The offset of a translating roller at which the pressure angle allows the smallest prime circle, and that one.
 
     d(e) is a bound of straight lines and so convex, d^2 + e^2 has one least value. No better offset is larger than the
@@ -150,12 +150,12 @@ def _slope(limit: float | None) -> float:
     return math.inf if limit is None else math.tan(limit)
 
 
-def _asked(cam: Cam, limits: Limits) -> dict[str, tuple[float, Callable[[Trace], FloatArray]]]:
+def _asked(cam: CamRole, limits: CamLimits) -> dict[str, tuple[float, Callable[[CamTrace], FloatArray]]]:
     """Each limit by name: the angle [rad] allowed, and the one there is at every place of a trace."""
     size = cam.prime_radius
     convex = max(limits.convex or 0.0, cam.roller_radius)
     concave = math.inf if cam.flat else limits.concave
-    named: dict[str, tuple[float | None, Callable[[Trace], FloatArray]]] = {
+    named: dict[str, tuple[float | None, Callable[[CamTrace], FloatArray]]] = {
         "the pressure angle on the rise": (limits.rise, lambda trace: _leaning(trace, trace.course.ds > 0)),
         "the pressure angle on the way back": (limits.back, lambda trace: _leaning(trace, trace.course.ds < 0)),
         "the convex radius of curvature": (math.atan2(size, convex), lambda trace: _bend(trace, size)),
@@ -167,32 +167,32 @@ def _asked(cam: Cam, limits: Limits) -> dict[str, tuple[float, Callable[[Trace],
     return {name: (limit, value) for name, (limit, value) in named.items() if limit is not None}
 
 
-def _leaning(trace: Trace, moving: BoolArray) -> FloatArray:
+def _leaning(trace: CamTrace, moving: BoolArray) -> FloatArray:
     return np.where(moving, np.abs(trace.pressure_angle), 0.0)
 
 
-def _bend(trace: Trace, size: float) -> FloatArray:
+def _bend(trace: CamTrace, size: float) -> FloatArray:
     return np.asarray(np.arctan2(size * trace.turning, trace.flow))
 
 
-def _excess(cam: Cam, trace: Trace, limits: Limits) -> FloatArray:
+def _excess(cam: CamRole, trace: CamTrace, limits: CamLimits) -> FloatArray:
     """By how much [rad] the worst of the limits is passed, at every place of a trace."""
     passed = [value(trace) - limit for limit, value in _asked(cam, limits).values()]
     return np.asarray(np.max(passed, axis=0))
 
 
-def _worst(cam: Cam, limits: Limits) -> Extremum:
+def _worst(cam: CamRole, limits: CamLimits) -> Extremum:
     return supremum(lambda angle: _excess(cam, cam.trace(angle), limits), cam.knots)
 
 
-def _binding(cam: Cam, limits: Limits, at: float) -> str:
+def _binding(cam: CamRole, limits: CamLimits, at: float) -> str:
     """Name of the limit that is passed most at a cam angle, just before it or just after it."""
     trace = cam.trace(at + np.array([-1e-9, 1e-9]))
     asked = _asked(cam, limits)
     return max(asked, key=lambda name: float(np.max(asked[name][1](trace)) - asked[name][0]))
 
 
-def _refined(cam: Cam, limits: Limits, low: float, high: float) -> float:
+def _refined(cam: CamRole, limits: CamLimits, low: float, high: float) -> float:
     """Where between a size that will not do and one that does the worst limit is just kept."""
 
     def excess(size: FloatArray) -> FloatArray:
@@ -202,7 +202,7 @@ def _refined(cam: Cam, limits: Limits, low: float, high: float) -> float:
     return found if math.isfinite(found) else high
 
 
-def _sizes(cam: Cam) -> FloatArray:
+def _sizes(cam: CamRole) -> FloatArray:
     """Sizes to look at, ascending, within what can be built; of a cam without an upper bound up to 1000 lifts."""
     low, high = cam.prime_bounds
     if math.isfinite(high):
@@ -224,7 +224,7 @@ def _upwards(radius: float) -> str:
     return format_quantity(math.ceil(radius * digits) / digits, "mm", 6)
 
 
-def _said(limits: Limits) -> str:
+def _said(limits: CamLimits) -> str:
     said = [
         f"{name} {format_quantity(limit, unit)}"
         for name, limit, unit in (

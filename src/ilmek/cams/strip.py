@@ -17,8 +17,8 @@ from typing import ClassVar
 import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray
-from ilmek.cams.programme import TURN, Course, Programme
-from ilmek.cams.trace import Trace, Traced
+from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion
+from ilmek.cams.trace import CamCurves, CamTrace
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import cross
 from ilmek.units import format_quantity
@@ -26,13 +26,13 @@ from ilmek.units import format_quantity
 
 def trace_of_strip(
     angle: FloatArray,
-    course: Course,
+    course: FollowerMotion,
     motion: tuple[ComplexField, ComplexField, ComplexField],
     way: ComplexField,
     *,
     radius: float,
     roller_radius: float,
-) -> Trace:
+) -> CamTrace:
     """Trace of a roller on a cam laid flat at a radius [m]; motion (B, B', B'') and way of the follower as above."""
     point, first, second = motion
     along = np.asarray(first - 1j * radius)
@@ -40,7 +40,7 @@ def trace_of_strip(
     flow = np.sqrt(square)
     push = 1j * along / flow
     leaning = push * np.conj(way)
-    return Trace(
+    return CamTrace(
         angle=angle,
         course=course,
         pitch=np.asarray(point - 1j * radius * angle),
@@ -53,7 +53,7 @@ def trace_of_strip(
 
 
 @dataclass(frozen=True, slots=True)
-class WedgeCam(Traced):
+class WedgeCam(CamCurves):
     """A wedge: a plate that moves to and fro and lifts a roller or a knife edge; lengths in m.
 
     programme  the follower's motion over the plate; its turn is `length` of travel
@@ -63,7 +63,7 @@ class WedgeCam(Traced):
     Raises ParameterError for a length not above 0, a part not within a turn, or a lean of a right angle.
     """
 
-    programme: Programme
+    programme: CamProgramme
     length: float
     roller_radius: float = 0.0
     used: float = TURN
@@ -99,7 +99,7 @@ class WedgeCam(Traced):
         """The same wedge with another travel for a radian of the programme [m]."""
         return replace(self, length=prime_radius * TURN)
 
-    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
         """Everything at places of the programme [rad] where the follower's course is known there."""
         way = complex(math.cos(self.lean), math.sin(self.lean))
         motion = course.s * way, course.ds * way, course.dds * way

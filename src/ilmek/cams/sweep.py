@@ -36,7 +36,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class CamRequirements:
     """What is asked of many cams, one entry a design; lengths in m, angles in rad.
 
     law    place of the motion law in the list that goes with it
@@ -66,7 +66,7 @@ class Wanted:
 
 
 @dataclass(frozen=True, slots=True)
-class Swept:
+class CamSweep:
     """What the cams are, one entry a design.
 
     prime_radius, pressure_angle_max (on the rise), curvature_radius_min (pitch curve, convex), undercut, area and
@@ -82,20 +82,20 @@ class Swept:
     torque_max: PerDesign
 
 
-def wanted(count: int, **given: object) -> Wanted:
+def wanted(count: int, **given: object) -> CamRequirements:
     """Designs from numbers and arrays; what is not given is 0, the fall as the rise or the rest of the turn.
 
     >>> wanted(2, law=0, lift=0.02, rise=np.array([1.5, 4.0]), limit=0.5).fall.round(4).tolist()
     [1.5, 2.2832]
     """
-    fields = dict.fromkeys(Wanted.__slots__, 0.0) | given
+    fields = dict.fromkeys(CamRequirements.__slots__, 0.0) | given
     if "fall" not in given:
         fields["fall"] = np.minimum(fields["rise"], TURN - np.asarray(fields["rise"]))  # type: ignore[call-overload]
     arrays = {name: np.broadcast_to(np.asarray(value, dtype=float), (count,)) for name, value in fields.items()}
-    return Wanted(**(arrays | {"law": arrays["law"].astype(np.int64)}))
+    return CamRequirements(**(arrays | {"law": arrays["law"].astype(np.int64)}))
 
 
-def sweep(laws: Sequence[Law], designs: Wanted) -> Swept:
+def sweep(laws: Sequence[Law], designs: CamRequirements) -> CamSweep:
     """All designs, law by law. Raises IndexError for a law that is not in the list."""
     count = designs.law.size
     rows = np.empty((5, count))
@@ -105,7 +105,7 @@ def sweep(laws: Sequence[Law], designs: Wanted) -> Swept:
     prime, pressure, bend, area, torque = rows
     radius = 1 / bend
     filled = prime <= np.maximum(np.abs(designs.offset), designs.roller_radius)
-    return Swept(
+    return CamSweep(
         prime_radius=prime,
         pressure_angle_max=np.arctan(pressure),
         curvature_radius_min=radius,
@@ -141,9 +141,9 @@ _Value = Callable[[_Way, FloatArray, Callable[[FloatArray], FloatArray]], FloatA
 """A number of a way at u, with the rows of a per-design column picked by the last argument."""
 
 
-def _of_law(law: Law, designs: Wanted, here: Int[np.ndarray, " rows"]) -> FloatArray:
+def _of_law(law: Law, designs: CamRequirements, here: Int[np.ndarray, " rows"]) -> FloatArray:
     """Prime radius, tangent of the pressure angle, largest curvature, area, torque of the designs of one law."""
-    column = {name: getattr(designs, name)[here][:, None] for name in Wanted.__slots__ if name != "law"}
+    column = {name: getattr(designs, name)[here][:, None] for name in CamRequirements.__slots__ if name != "law"}
     lift, offset, roller = column["lift"], column["offset"], column["roller_radius"]
     rising = _Way(law, np.zeros_like(lift), lift, column["rise"])
     falling = _Way(law, lift, -lift, column["fall"])

@@ -21,12 +21,12 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from ilmek.arrays import ComplexArray, ComplexField, FloatArray
-from ilmek.cams.programme import Course, Programme
+from ilmek.cams.programme import CamProgramme, FollowerMotion
 from ilmek.plane.vectors import cross, unit
 
 
 @dataclass(frozen=True, slots=True)
-class Trace:
+class CamTrace:
     """Pitch curve and all that hangs on it at cam angles [rad], arrays of one shape, in the cam's frame.
 
     course          displacement of the follower and its derivatives by the cam angle
@@ -38,7 +38,7 @@ class Trace:
     """
 
     angle: FloatArray
-    course: Course
+    course: FollowerMotion
     pitch: ComplexArray
     normal: ComplexArray
     pressure_angle: FloatArray
@@ -72,11 +72,11 @@ class Trace:
 
 
 @runtime_checkable
-class Cam(Protocol):
+class CamRole(Protocol):
     """What the limits ask of a cam. `prime_radius` [m] sets its size; `flat` says that its follower is a flat face."""
 
     @property
-    def programme(self) -> Programme:
+    def programme(self) -> CamProgramme:
         """Motion of the follower over the turn."""
 
     @property
@@ -99,22 +99,22 @@ class Cam(Protocol):
     def flat(self) -> bool:
         """Whether the follower's face is flat, so that only a convex cam touches it."""
 
-    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
         """Everything at cam angles [rad] where the follower's course is known there."""
 
-    def trace(self, angle: FloatArray) -> Trace:
+    def trace(self, angle: FloatArray) -> CamTrace:
         """Everything at cam angles [rad]."""
 
-    def resized(self, prime_radius: float) -> "Cam":
+    def resized(self, prime_radius: float) -> "CamRole":
         """The same cam with another prime radius [m]."""
 
 
-class Traced(ABC):
+class CamCurves(ABC):
     """The curves of a cam one by one, for whoever needs only one; each reckons the whole trace."""
 
     __slots__ = ()
 
-    programme: Programme
+    programme: CamProgramme
 
     @property
     def knots(self) -> FloatArray:
@@ -122,10 +122,10 @@ class Traced(ABC):
         return self.programme.knots
 
     @abstractmethod
-    def trace_of(self, angle: FloatArray, course: Course) -> Trace:
+    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
         """Everything at cam angles [rad] where the follower's course is known there."""
 
-    def trace(self, angle: FloatArray) -> Trace:
+    def trace(self, angle: FloatArray) -> CamTrace:
         """Everything at cam angles [rad], in one pass."""
         return self.trace_of(angle, self.programme.at(angle))
 
@@ -153,11 +153,11 @@ class Traced(ABC):
 
 def trace_of_point(
     angle: FloatArray,
-    course: Course,
+    course: FollowerMotion,
     motion: tuple[ComplexField, ComplexField, ComplexField],
     way: ComplexField,
     roller_radius: float,
-) -> Trace:
+) -> CamTrace:
     """Trace of a follower that is a point (a roller's centre, a knife's edge) on a cam that turns counter-clockwise.
 
     motion  the point in the world, B, and its derivatives B', B'' by the cam angle [m]
@@ -175,7 +175,7 @@ def trace_of_point(
         turning = np.asarray(-cross(along, bend) / square)
     leaning = push * np.conj(way)
     frame = unit(-angle)
-    return Trace(
+    return CamTrace(
         angle=angle,
         course=course,
         pitch=np.asarray(point * frame),

@@ -14,7 +14,7 @@ from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.isolated_knots import count_lone, merge_lone
 from ilmek.carpet.palette import best_yarns, distinct_colours, nearest_yarns, paint
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import PictureError, YarnError
@@ -32,7 +32,7 @@ class Chart:
 
     knots: Indices
     yarns: tuple[Yarn, ...]
-    size: Size
+    size: CarpetSize
     quality: Quality
     knot: str
     mean_delta_e: float
@@ -72,7 +72,7 @@ class Chart:
 
 def make_chart(
     rgb: Rgb,
-    size: Size,
+    size: CarpetSize,
     quality: Quality,
     yarns: Sequence[Yarn],
     *,

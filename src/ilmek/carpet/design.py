@@ -13,7 +13,7 @@ from jaxtyping import UInt8
 from ilmek.arrays import Rgb
 from ilmek.carpet.colour import LINEAR, decode
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
@@ -30,12 +30,12 @@ _THRESHOLDS = np.append(decode((np.arange(255) + 0.5) / 255), np.inf)
 _GUESSES = np.searchsorted(_THRESHOLDS, np.arange(_STEPS + 1) / _STEPS).astype(np.int64)
 
 
-def knot_grid(size: Size, quality: Quality) -> tuple[int, int]:
+def knot_grid(size: CarpetSize, quality: Quality) -> tuple[int, int]:
     """(rows, columns) of knots: length × along and width × across, each rounded.
 
     Raises CarpetError where that is less than two knots a side or more than MOST_KNOTS.
 
-    >>> knot_grid(Size(1.2, 1.8), Quality(250.0, 250.0))
+    >>> knot_grid(CarpetSize(1.2, 1.8), Quality(250.0, 250.0))
     (450, 300)
     """
     rows, columns = round(size.length * quality.along), round(size.width * quality.across)
@@ -54,11 +54,11 @@ def knot_grid(size: Size, quality: Quality) -> tuple[int, int]:
     return rows, columns
 
 
-def distortion(rgb: Rgb, size: Size) -> float:
+def distortion(rgb: Rgb, size: CarpetSize) -> float:
     """How much wider the picture is drawn than it is, against its height: 0 for true proportions, 0.5 for half as wide
     again, negative where it is drawn narrower.
 
-    >>> round(distortion(np.zeros((180, 100, 3), np.uint8), Size(1.2, 1.8)), 9)
+    >>> round(distortion(np.zeros((180, 100, 3), np.uint8), CarpetSize(1.2, 1.8)), 9)
     0.2
     """
     height, width = int(rgb.shape[0]), int(rgb.shape[1])

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from scipy.special import ellipe
 
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.elements.yarns import WOOL, warp_density
 from ilmek.params import Params, param
 from ilmek.units import mm
@@ -75,7 +75,7 @@ def warp_need(columns: int, length: float, density: float, params: GroundParams)
 
 
 def ground_yarns(
-    size: Size, quality: Quality, rows: int, columns: int, params: GroundParams | None = None
+    size: CarpetSize, quality: Quality, rows: int, columns: int, params: GroundParams | None = None
 ) -> tuple[GroundYarn, GroundYarn, GroundYarn]:
     """Warp, straight weft and sinuous weft of a carpet of rows × columns knots.
 

@@ -3,8 +3,8 @@
 Source: thesis, Table 1.1 (which gives length × width in cm).
 
 >>> parse_size("seccade")
-Size(width=1.2, length=1.8, name='seccade')
->>> parse_size("120 × 180 cm") == parse_size("1.2x1.8m") == Size(1.2, 1.8)
+CarpetSize(width=1.2, length=1.8, name='seccade')
+>>> parse_size("120 × 180 cm") == parse_size("1.2x1.8m") == CarpetSize(1.2, 1.8)
 True
 """
 
@@ -20,7 +20,7 @@ from ilmek.units import cm, format_number, format_quantity
 
 
 @dataclass(frozen=True, slots=True)
-class Size:
+class CarpetSize:
     """A carpet's width (along a row of knots) and length (along the warps) [m]; name: the standard one, or ""."""
 
     width: float
@@ -49,16 +49,16 @@ class Size:
 SMALLEST, LARGEST = 0.01, 50.0
 EXAMPLE = "write it width x length, like 120x180cm"
 
-STANDARD_SIZES: dict[str, Size] = {
+STANDARD_SIZES: dict[str, CarpetSize] = {
     size.name: size
     for size in (
-        Size(0.25, 0.40, "küçük yastık"),
-        Size(0.60, 1.00, "yastık"),
-        Size(0.90, 1.35, "çeyrek"),
-        Size(1.20, 1.80, "seccade"),
-        Size(1.30, 2.00, "seccade-large"),
-        Size(1.50, 2.20, "karyola"),
-        Size(2.00, 3.00, "kelle"),
+        CarpetSize(0.25, 0.40, "küçük yastık"),
+        CarpetSize(0.60, 1.00, "yastık"),
+        CarpetSize(0.90, 1.35, "çeyrek"),
+        CarpetSize(1.20, 1.80, "seccade"),
+        CarpetSize(1.30, 2.00, "seccade-large"),
+        CarpetSize(1.50, 2.20, "karyola"),
+        CarpetSize(2.00, 3.00, "kelle"),
     )
 }
 """Thesis, Table 1.1; it gives seccade as 180 × 120 to 200 × 130 cm, here the two ends of that range."""
@@ -80,7 +80,7 @@ _NUMBER = r"([+-]?(?:\d{1,15}(?:\.\d{0,40})?|\.\d{1,40}))"
 _SIDES = re.compile(rf"\s*{_NUMBER}\s*([^\d\s.×x*]*)\s*[x×*]\s*{_NUMBER}\s*(\S*?)\s*", re.IGNORECASE)
 
 
-def parse_size(text: str) -> Size:
+def parse_size(text: str) -> CarpetSize:
     """The size of a standard name (Turkish letters or not, any case) or of `width x length unit`.
 
     Units: mm, cm, dm, m, in, ft; one for both sides. Raises CarpetError for anything else.
@@ -94,7 +94,7 @@ def parse_size(text: str) -> Size:
     if matched is None:
         raise CarpetError(f"unknown size {text!r}", allowed=_near_names(text), do=f"or {EXAMPLE}")
     unit = _common_unit(text, matched[2].lower(), matched[4].lower())
-    return Size(float(Fraction(matched[1]) * unit), float(Fraction(matched[3]) * unit))
+    return CarpetSize(float(Fraction(matched[1]) * unit), float(Fraction(matched[3]) * unit))
 
 
 def _common_unit(text: str, first: str, second: str) -> Fraction:

@@ -6,9 +6,9 @@ Nothing heavy is imported here: a command's module is loaded when the command is
 import click
 
 from ilmek import __version__
-from ilmek.cli.frame import Frame
+from ilmek.cli.frame import LazyGroup
 
-main = Frame(
+main = LazyGroup(
     name="ilmek",
     help="Carpet in, loom out: knot chart, yarn, loom and programme from a carpet picture.",
     epilog=(

@@ -10,7 +10,7 @@ from ilmek.cli.options import carpet_options, force_option, json_option
 from ilmek.cli.terminal import check_json, console, give_json, note, progress_bar, show_pairs, show_table
 from ilmek.io.json_file import write_json
 from ilmek.io.output import check_free, output_folder
-from ilmek.jobs.chart import Charted, chart_json, make_charted, write_chart
+from ilmek.jobs.chart import ChartResult, chart_json, make_charted, write_chart
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.units import format_quantity, g
@@ -49,7 +49,7 @@ def command(out: Path | None, force: bool, json_to: str | None, **order: Any) ->
         note(said)
 
 
-def _write(charted: Charted, folder: Path | None, force: bool) -> list[str]:
+def _write(charted: ChartResult, folder: Path | None, force: bool) -> list[str]:
     if folder is None:
         return []
     files = [str(folder / name) for name in (*charted.files, "chart.json")]
@@ -59,7 +59,7 @@ def _write(charted: Charted, folder: Path | None, force: bool) -> list[str]:
     return files
 
 
-def show_chart(charted: Charted) -> None:
+def show_chart(charted: ChartResult) -> None:
     """A chart in a few lines, and its yarn."""
     chart = charted.chart
     show_pairs(
@@ -76,7 +76,7 @@ def show_chart(charted: Charted) -> None:
     show_yarn(charted.bill)
 
 
-def pile_in_words(charted: Charted) -> str:
+def pile_in_words(charted: ChartResult) -> str:
     """The pile's mass, its mass per area, and how much of the ground it fills."""
     mass, area = charted.bill.pile_mass, charted.chart.size.area
     fill = charted.checks[0]

@@ -26,7 +26,7 @@ import click
 from ilmek.errors import IlmekError
 
 
-class Frame(click.Group):
+class LazyGroup(click.Group):
     """A group whose commands live in modules of their own, loaded when needed.
 
     modules  command name -> (module that holds the command under the name `command`, one line of help)

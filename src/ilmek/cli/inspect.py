@@ -7,7 +7,7 @@ import click
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import console, give_json, show_pairs, show_table
 from ilmek.io.programme_file import ProgrammeFile
-from ilmek.jobs.inspect import Inspected, inspect_programme, runs
+from ilmek.jobs.inspect import InspectionResult, inspect_programme, runs
 from ilmek.units import format_quantity
 
 EXAMPLES = """\b
@@ -60,7 +60,7 @@ def show_programme(programme: ProgrammeFile) -> None:
     show_table(("head", "knots", "colour changes", "busy"), heads, right=(0, 1, 2, 3))
 
 
-def show_row(found: Inspected) -> None:
+def show_row(found: InspectionResult) -> None:
     """One row: for each head the runs of knots in the order they are tied."""
     row, names = found.row, [yarn.name for yarn in found.programme.label.yarns]
     console().print(

@@ -9,7 +9,7 @@ from ilmek.cli.options import json_option
 from ilmek.cli.terminal import check_json, console, give_json
 from ilmek.errors import CarpetError
 from ilmek.io.output import check_file
-from ilmek.jobs.knot import Asked, knot_of
+from ilmek.jobs.knot import KnotRequest, knot_of
 from ilmek.jobs.page import write_page
 from ilmek.machines.text_lists import read_points
 from ilmek.units import parse_quantity
@@ -57,7 +57,9 @@ def command(
     check_json(json_to)
     if page_to is not None:
         check_file(page_to)
-    asked = Asked(warps, parse_quantity(pitch, "mm"), _place(first), parse_quantity(keep_out, "mm"), smooth, closed)
+    asked = KnotRequest(
+        warps, parse_quantity(pitch, "mm"), _place(first), parse_quantity(keep_out, "mm"), smooth, closed
+    )
     said = knot_of(paths, asked, columns)
     write_page(page_to, said)
     if not give_json(json_to, said.as_json()):

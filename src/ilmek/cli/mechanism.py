@@ -10,7 +10,7 @@ from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism
 from ilmek.io.output import check_file, write_whole
 from ilmek.io.table_csv import csv_text
-from ilmek.jobs.mechanism import Course, Run, run
+from ilmek.jobs.mechanism import MechanismRun, MotionRequest, run
 from ilmek.jobs.mechanism_report import as_json, columns, report
 from ilmek.jobs.page import write_page
 from ilmek.report import Report
@@ -57,7 +57,7 @@ def command(
         write = mechanism_toml if kind == "toml" else mechanism_json
         click.echo(write(found.mechanism, found.inertias), nl=False)
         return
-    moved = run(found, Course(_held(held), over, speed, steps))
+    moved = run(found, MotionRequest(_held(held), over, speed, steps))
     said = report(moved)
     write_page(page_to, said)
     quiet = give_json(json_to, as_json(moved)) if json_to else False
@@ -92,7 +92,7 @@ def _held(said: tuple[str, ...]) -> dict[str, str]:
     return held
 
 
-def _give_csv(to: str | None, moved: Run) -> bool:
+def _give_csv(to: str | None, moved: MechanismRun) -> bool:
     """Write the table where `--csv` says; whether it went to standard output."""
     if to is None:
         return False

@@ -12,7 +12,7 @@ from ilmek.io.output import check_free
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
-from ilmek.jobs.weave import Woven, time_in_words, weave, weave_json
+from ilmek.jobs.weave import WeaveResult, time_in_words, weave, weave_json
 from ilmek.units import format_quantity
 
 EXAMPLES = """\b
@@ -67,7 +67,7 @@ def command(
         note(said)
 
 
-def show_woven(woven: Woven) -> None:
+def show_woven(woven: WeaveResult) -> None:
     """The job in a few lines, and where the report lies."""
     chart, bill, programme = woven.charted.chart, woven.charted.bill, woven.loomed.programme
     heads = f"{programme.heads} (of {woven.loomed.design.heads_max} that fit)"

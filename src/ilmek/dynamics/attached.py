@@ -8,7 +8,7 @@ from ilmek.arrays import ComplexArray, ComplexField
 from ilmek.linkage.motion import Motion
 
 
-class Place(NamedTuple):
+class AttachedPoint(NamedTuple):
     """Motion of a place on a body [m, m/s, m/s²]: complex, one value a sample."""
 
     position: ComplexArray
@@ -16,10 +16,12 @@ class Place(NamedTuple):
     acceleration: ComplexArray
 
 
-def attached(motion: Motion, body: str, local: complex) -> Place:
+def attached(motion: Motion, body: str, local: complex) -> AttachedPoint:
     """Motion of the place at `local` [m] in a body's frame."""
     moved = motion.body(body).carry(local)
-    return Place(_over(moved.position, motion), _over(moved.velocity, motion), _over(moved.acceleration, motion))
+    return AttachedPoint(
+        _over(moved.position, motion), _over(moved.velocity, motion), _over(moved.acceleration, motion)
+    )
 
 
 def _over(value: ComplexField, motion: Motion) -> ComplexArray:

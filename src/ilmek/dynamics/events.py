@@ -45,7 +45,7 @@ class Event(Generic[At]):
 
 
 @dataclass(frozen=True)
-class Happening(Generic[At]):
+class EventRecord(Generic[At]):
     """An event that was met: its name, the time [s], the state there."""
 
     name: str
@@ -54,7 +54,7 @@ class Happening(Generic[At]):
     terminal: bool
 
 
-def until_terminal(met: list[Happening[At]]) -> list[Happening[At]]:
+def until_terminal(met: list[EventRecord[At]]) -> list[EventRecord[At]]:
     """What was met in one step, in its order, up to the first that ends the run."""
     met = sorted(met, key=lambda one: one.time)
     last = next((k for k, one in enumerate(met) if one.terminal), len(met))

@@ -22,7 +22,7 @@ ACCURACY = 1e-10
 
 
 @dataclass(frozen=True, slots=True)
-class Duty:
+class CyclicTorque:
     """A torque over a turn.
 
     mean, rms  [N m]          peak  the greatest size [N m] and where
@@ -38,7 +38,7 @@ class Duty:
     fastest: float
 
 
-def duty(torque: SidedCurve, breaks: Iterable[float] = ()) -> Duty:
+def duty(torque: SidedCurve, breaks: Iterable[float] = ()) -> CyclicTorque:
     """Mean, rms, peak and excess work of the torque that a machine asks for at constant speed.
 
     torque  [N m] at crank angles [rad] and sides, smooth between the `breaks` [rad]
@@ -53,7 +53,7 @@ def duty(torque: SidedCurve, breaks: Iterable[float] = ()) -> Duty:
         if np.allclose(found, before, rtol=ACCURACY, atol=ACCURACY * peak.value):
             break
     mean, rms = found
-    return Duty(mean, rms, peak, *_excess(torque, breaks, parts // 2, mean))
+    return CyclicTorque(mean, rms, peak, *_excess(torque, breaks, parts // 2, mean))
 
 
 def _means(torque: SidedCurve, breaks: tuple[float, ...], parts: int) -> tuple[float, float]:

@@ -19,21 +19,32 @@ import numpy as np
 from jaxtyping import Float
 from scipy.integrate import DOP853
 
-from ilmek.dynamics.events import Event, Happening, located, until_terminal
-from ilmek.dynamics.forward_run import Drive, End, Ending, Run, State, energies
-from ilmek.dynamics.fourier_terms import Table, tabulate
-from ilmek.dynamics.reduced import Reduced
+from ilmek.dynamics.events import Event, EventRecord, located, until_terminal
+from ilmek.dynamics.forward_run import Drive, EndKind, ForwardRun, ForwardState, RunEnd, energies
+from ilmek.dynamics.fourier_terms import FourierTerms, tabulate
+from ilmek.dynamics.reduced import ReducedMechanism
 from ilmek.errors import MechanismError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 
-__all__ = ["Drive", "End", "Ending", "Run", "RunEvent", "State", "at_angle", "at_rest", "at_speed", "forward"]
+__all__ = [
+    "Drive",
+    "EndKind",
+    "ForwardRun",
+    "ForwardState",
+    "RunEnd",
+    "RunEvent",
+    "at_angle",
+    "at_rest",
+    "at_speed",
+    "forward",
+]
 
 Row: TypeAlias = Float[np.ndarray, " 4"]
 """What is integrated: position, p, work of the drive, work of the loads other than weight and constants."""
 
 
-RunEvent: TypeAlias = Event[State]
+RunEvent: TypeAlias = Event[ForwardState]
 """An event of a run: its value is a function of the input's state: position, speed, time."""
 
 
@@ -53,15 +64,15 @@ def at_rest() -> RunEvent:
 
 
 def forward(
-    reduced: Reduced,
-    start: State,
+    reduced: ReducedMechanism,
+    start: ForwardState,
     duration: float,
     *,
     drive: Drive | None = None,
     events: Sequence[RunEvent] = (),
     every: float | None = None,
     rtol: float = 1e-9,
-) -> Run:
+) -> ForwardRun:
     """A run of the machine from a state, for a time [s].
 
     drive  effort on the input [N m, or N] of (t, q, q'): a motor's torque-speed curve, for example; None: coasting
@@ -84,8 +95,8 @@ def forward(
 class _Course:
     """The right-hand side of a run."""
 
-    reduced: Reduced
-    table: Table | None
+    reduced: ReducedMechanism
+    table: FourierTerms | None
     drive: Drive | None
 
     def terms(self, position: float) -> tuple[float, float, float]:
@@ -118,10 +129,10 @@ class _Course:
         load = steady + live
         return speed, (weight + load + effort) / root, effort * speed, load * speed
 
-    def state(self, time: float, row: Row) -> State:
+    def state(self, time: float, row: Row) -> ForwardState:
         """Position and speed of a row."""
         position = float(row[0])
-        return State(position, float(row[1]) / math.sqrt(self.terms(position)[0]), time)
+        return ForwardState(position, float(row[1]) / math.sqrt(self.terms(position)[0]), time)
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,8 +140,8 @@ class _Told:
     """What the integration found: samples (time and row), events met, the end."""
 
     samples: list[tuple[float, Row]]
-    happened: list[Happening[State]]
-    end: End
+    happened: list[EventRecord[ForwardState]]
+    end: RunEnd
 
 
 def _check(duration: float, every: float | None, rtol: float) -> None:
@@ -142,7 +153,7 @@ def _check(duration: float, every: float | None, rtol: float) -> None:
         raise MechanismError(f"relative error of a run is {rtol:g}", allowed="3e-14 to 1e-2")
 
 
-def _first(course: _Course, start: State) -> tuple[Row, Row]:
+def _first(course: _Course, start: ForwardState) -> tuple[Row, Row]:
     """The first row, and what an error is small against: 1 rad, and the energy at the start or that of a rad's work."""
     if not (math.isfinite(start.position) and math.isfinite(start.speed) and math.isfinite(start.time)):
         raise MechanismError(f"the start of the run is {start}", allowed="finite values")
@@ -163,7 +174,7 @@ def _first(course: _Course, start: State) -> tuple[Row, Row]:
 def _advance(solver: DOP853, course: _Course, events: tuple[RunEvent, ...], every: float | None) -> _Told:
     """Step to the end; the samples wanted, the last of them the end, and what happened."""
     samples: list[tuple[float, Row]] = [(float(solver.t), np.array(solver.y))]
-    happened: list[Happening[State]] = []
+    happened: list[EventRecord[ForwardState]] = []
     before = _values(events, course.state(solver.t, solver.y))
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         while solver.status == "running":
@@ -179,9 +190,9 @@ def _advance(solver: DOP853, course: _Course, events: tuple[RunEvent, ...], ever
             else:
                 samples += _between(solver, every, samples[0][0], until, last=bool(hit) or solver.status == "finished")
             if hit is not None:
-                return _Told(samples, happened, End(Ending.EVENT, hit.state, hit.name))
+                return _Told(samples, happened, RunEnd(EndKind.EVENT, hit.state, hit.name))
             before = now
-    return _Told(samples, happened, End(Ending.TIME, course.state(*samples[-1]), "its time was over"))
+    return _Told(samples, happened, RunEnd(EndKind.TIME, course.state(*samples[-1]), "its time was over"))
 
 
 def _between(solver: DOP853, every: float, start: float, until: float, *, last: bool) -> list[tuple[float, Row]]:
@@ -199,22 +210,22 @@ def _between(solver: DOP853, every: float, start: float, until: float, *, last: 
 
 def _met(
     solver: DOP853, course: _Course, events: tuple[RunEvent, ...], before: list[float], now: list[float]
-) -> list[Happening[State]]:
+) -> list[EventRecord[ForwardState]]:
     """What happened in the last step, in its order, up to the first terminal event."""
-    met: list[Happening[State]] = []
+    met: list[EventRecord[ForwardState]] = []
     for event, old, new in zip(events, before, now, strict=True):
         if event.crossed(old, new):
             dense = solver.dense_output()
 
-            def at(time: float, dense: Callable[[float], Row] = dense) -> State:
+            def at(time: float, dense: Callable[[float], Row] = dense) -> ForwardState:
                 return course.state(time, dense(time))
 
             time = located(lambda time, event=event, at=at: event.look(at(time)), solver.t_old, solver.t)  # type: ignore[misc]
-            met.append(Happening(event.name, time, at(time), event.terminal))
+            met.append(EventRecord(event.name, time, at(time), event.terminal))
     return until_terminal(met)
 
 
-def _values(events: tuple[RunEvent, ...], state: State) -> list[float]:
+def _values(events: tuple[RunEvent, ...], state: ForwardState) -> list[float]:
     return [event.look(state) for event in events]
 
 
@@ -233,7 +244,7 @@ def _arrested(solver: DOP853, course: _Course) -> bool:
     return bool(solve(course.reduced.plan, near, 1.0).status.any())
 
 
-def _failure(solver: DOP853, course: _Course) -> End:
+def _failure(solver: DOP853, course: _Course) -> RunEnd:
     """Why no further step could be made: what the engine says of the poses just ahead."""
     last = course.state(float(solver.t), solver.y)
     plan = course.reduced.plan
@@ -241,7 +252,7 @@ def _failure(solver: DOP853, course: _Course) -> End:
     status = solve(plan, ahead, 1.0).status
     bad = np.flatnonzero(status != Status.OK)
     if len(bad) == 0:
-        return End(Ending.STEP, last, "the drive or a load is not finite, or too rough for this error")
+        return RunEnd(EndKind.STEP, last, "the drive or a load is not finite, or too rough for this error")
     words = ""
     try:
         solve(plan, float(ahead[bad[-1]]), 1.0).require()
@@ -249,10 +260,10 @@ def _failure(solver: DOP853, course: _Course) -> End:
         words = fault.given
     # A pose that can be passed is a dead centre; one that ends the input's range is where links cannot close further.
     beyond = status[-1] if status[-1] != Status.OK else Status.DEAD_CENTRE
-    return End(Ending[Status(beyond).name], last, words)
+    return RunEnd(EndKind[Status(beyond).name], last, words)
 
 
-def _run(course: _Course, told: _Told) -> Run:
+def _run(course: _Course, told: _Told) -> ForwardRun:
     """The samples as arrays, with accelerations, efforts and energies from the engine."""
     time = np.array([sample[0] for sample in told.samples])
     position, momentum, drive_work, load_work = np.stack([sample[1] for sample in told.samples], axis=1)
@@ -262,7 +273,7 @@ def _run(course: _Course, told: _Told) -> Run:
     effort, live = np.array(efforts).T
     acceleration = (found.weight + found.push + live + effort - 0.5 * found.slope * speed**2) / found.inertia
     kinetic, potential = energies(course.reduced, position, speed)
-    return Run(
+    return ForwardRun(
         course.reduced,
         time,
         position,

@@ -7,8 +7,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ilmek.dynamics.events import Happening
-from ilmek.dynamics.reduced import Reduced, Samples
+from ilmek.dynamics.events import EventRecord
+from ilmek.dynamics.reduced import ReducedMechanism, Samples
 from ilmek.errors import MechanismError
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
@@ -19,7 +19,7 @@ Drive: TypeAlias = Callable[[float, float, float], float]
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class ForwardState:
     """Position [rad, m] and speed [rad/s, m/s] of the input at a time [s]."""
 
     position: float
@@ -27,7 +27,7 @@ class State:
     time: float = 0.0
 
 
-class Ending(Enum):
+class EndKind(Enum):
     """Why a run ended.
 
     TIME           its time was over               EVENT  a terminal event was met
@@ -45,16 +45,16 @@ class Ending(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class End:
+class RunEnd:
     """How a run ended: the kind, the last state, and the reason in words."""
 
-    kind: Ending
-    state: State
+    kind: EndKind
+    state: ForwardState
     words: str
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
+class ForwardRun:
     """A forward run, sample by sample; the last sample is the end.
 
     position, speed, acceleration  of the input [rad, m; per s; per s²]      effort  of the drive [N m, N]
@@ -64,7 +64,7 @@ class Run:
     table_error                    of the Fourier table, of the greatest value; None where the engine itself was run
     """
 
-    reduced: Reduced
+    reduced: ReducedMechanism
     time: Samples
     position: Samples
     speed: Samples
@@ -74,8 +74,8 @@ class Run:
     potential: Samples
     drive_work: Samples
     load_work: Samples
-    end: End
-    events: tuple[Happening[State], ...]
+    end: RunEnd
+    events: tuple[EventRecord[ForwardState], ...]
     table_error: float | None
 
     @property
@@ -96,7 +96,7 @@ class Run:
         """The mechanism's motion over the samples, ready for `inverse`: bearing loads of the run."""
         return solve(self.reduced.plan, self.position, self.speed, np.nan_to_num(self.acceleration))
 
-    def require_turns(self, turns: float = 1.0) -> "Run":
+    def require_turns(self, turns: float = 1.0) -> "ForwardRun":
         """The run itself, if the input made so many turns (or metres) in the direction in which it was driven.
 
         Raises MechanismError that says how far it came: a drive too weak to start, or a time too short.
@@ -114,6 +114,6 @@ class Run:
         )
 
 
-def energies(reduced: Reduced, position: Samples, speed: Samples) -> tuple[Samples, Samples]:
+def energies(reduced: ReducedMechanism, position: Samples, speed: Samples) -> tuple[Samples, Samples]:
     """Kinetic and potential energy [J] from the engine, not from a table."""
     return reduced.terms(position).inertia * speed**2 / 2, reduced.potential(position)

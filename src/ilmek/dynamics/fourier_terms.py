@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Complex, Float
 
-from ilmek.dynamics.reduced import Reduced
+from ilmek.dynamics.reduced import ReducedMechanism
 from ilmek.linkage.model import Rotation
 from ilmek.num.compiled import compiled
 from ilmek.units import turn
@@ -30,7 +30,7 @@ MOST = 8192
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class FourierTerms:
     """J, Q of the weights and of the other steady loads: the real part of Σ c_k e^{ikq}.
 
     error  the greatest found, of each one's greatest value
@@ -57,11 +57,11 @@ def evaluate(coefficients: np.ndarray, position: float) -> tuple[float, float, f
     return a.real, b.real, c.real
 
 
-def tabulate(reduced: Reduced) -> Table | None:
+def tabulate(reduced: ReducedMechanism) -> FourierTerms | None:
     """The table of a machine; None where its input slides or does not turn fully, or the terms are too sharp."""
     if not isinstance(reduced.plan.mechanism.inputs[0], Rotation):
         return None
-    best: Table | None = None
+    best: FourierTerms | None = None
     nodes = 64
     while nodes <= MOST:
         tried = _on(reduced, nodes)
@@ -76,7 +76,7 @@ def tabulate(reduced: Reduced) -> Table | None:
     return best if best is not None and best.error < USABLE else None
 
 
-def _on(reduced: Reduced, nodes: int) -> Table | None:
+def _on(reduced: ReducedMechanism, nodes: int) -> FourierTerms | None:
     """The table from that many nodes; None where the machine does not close all round."""
     at = np.arange(2 * nodes) * (turn / (2 * nodes))
     found = reduced.terms(at)
@@ -88,7 +88,7 @@ def _on(reduced: Reduced, nodes: int) -> Table | None:
     between = np.fft.irfft(series * half_step[:, None], nodes, axis=0)
     size = np.maximum(np.max(np.abs(values), axis=0), np.finfo(float).tiny)
     series[1:] *= 2
-    return Table(_trimmed(series / nodes, size), float(np.max(np.abs(between - values[1::2]) / size)))
+    return FourierTerms(_trimmed(series / nodes, size), float(np.max(np.abs(between - values[1::2]) / size)))
 
 
 def _trimmed(series: Complex[np.ndarray, "terms 3"], size: Float[np.ndarray, " 3"]) -> Complex[np.ndarray, "kept 3"]:

@@ -22,10 +22,10 @@ MOMENT = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Window:
+class AngleRange:
     """Angles of an input from `start` to `end` [rad], upward, whatever the turn; `end` below `start` goes through 0.
 
-    >>> Window(6.0, 1.0).holds(np.array([0.5, 3.0, 6.5]))
+    >>> AngleRange(6.0, 1.0).holds(np.array([0.5, 3.0, 6.5]))
     array([ True, False,  True])
     """
 
@@ -40,7 +40,7 @@ class Window:
 
 
 @dataclass(frozen=True, slots=True)
-class During:
+class WindowedLoad:
     """A load that acts only while an input is in a window: the backing's resistance, a knife's cut, a beat.
 
     paced   the input whose angle opens the window
@@ -49,7 +49,7 @@ class During:
 
     load: Load
     paced: str
-    window: Window
+    window: AngleRange
     side: RealField = 1.0
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:
@@ -74,7 +74,7 @@ class Friction:
     point: str | complex
     size: RealField
     paced: str
-    window: Window | None = None
+    window: AngleRange | None = None
     side: RealField = 1.0
 
     def force(self, motion: Motion) -> ComplexArray:

@@ -17,7 +17,7 @@ from ilmek.dynamics.equations import Needs, joint_pulls, needs
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import JointFriction, check_joints, frictions, loaded
 from ilmek.dynamics.loads import Load, Wrench
-from ilmek.dynamics.pose_block import BLOCK, Posed, Pull, cut, part_of, posed, receiver
+from ilmek.dynamics.pose_block import BLOCK, ForceAndMoment, PoseBlock, cut, part_of, posed, receiver
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Mechanism, Rotation, Slide
 from ilmek.linkage.motion import Motion
@@ -172,7 +172,7 @@ def _room(motion: Motion, rubbing: Sequence[JointFriction]) -> Forces:
 
 
 def _note_friction(
-    forces: Forces, part: slice, poses: Posed, found: Mapping[str, FloatArray], locked: BoolArray
+    forces: Forces, part: slice, poses: PoseBlock, found: Mapping[str, FloatArray], locked: BoolArray
 ) -> None:
     """Write the friction of a block of samples into the forces."""
     status = forces.status[part]
@@ -182,7 +182,7 @@ def _note_friction(
         forces.load_power[part] += friction * poses.rate(poses.joints[name])
 
 
-def _fill(forces: Forces, part: slice, poses: Posed, needed: Needs) -> None:
+def _fill(forces: Forces, part: slice, poses: PoseBlock, needed: Needs) -> None:
     """Solve a block of samples and write it into the forces."""
     pulls = joint_pulls(poses, needed)
     lost = forces.status[part] != Status.OK
@@ -192,14 +192,14 @@ def _fill(forces: Forces, part: slice, poses: Posed, needed: Needs) -> None:
         effort = np.where(lost, np.nan, joint.play(pull, joint.at))
         forces.efforts[entry.name][part] = effort if entry.name in (joint.on, joint.name) else -effort
         forces.input_power[part] += effort * poses.rate(joint)
-        pulls[entry.joint] = Pull(pull.force - effort * joint.drive.force, pull.moment)
+        pulls[entry.joint] = ForceAndMoment(pull.force - effort * joint.drive.force, pull.moment)
     for name, pull in pulls.items():
         forces.reactions[name][part] = np.where(lost, np.nan, pull.force)
         if name in forces.couples:
             forces.couples[name][part] = np.where(lost, np.nan, pull.moment)
 
 
-def _load_power(poses: Posed, wrenches: Sequence[Wrench]) -> RealField:
+def _load_power(poses: PoseBlock, wrenches: Sequence[Wrench]) -> RealField:
     power: RealField = 0.0
     for wrench in wrenches:
         velocity = poses.place(wrench.body, wrench.at).velocity
@@ -207,7 +207,7 @@ def _load_power(poses: Posed, wrenches: Sequence[Wrench]) -> RealField:
     return power
 
 
-def _kinetic_rate(poses: Posed, bodies: Mapping[str, Inertia]) -> RealField:
+def _kinetic_rate(poses: PoseBlock, bodies: Mapping[str, Inertia]) -> RealField:
     """d/dt Σ (m |v|² + J omega²) / 2 = Σ (m v · a + J omega alpha)."""
     rate: RealField = 0.0
     for body, inertia in bodies.items():

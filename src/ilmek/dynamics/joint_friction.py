@@ -21,7 +21,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, FloatArray, RealField
 from ilmek.dynamics.equations import Needs, add, joint_pulls
 from ilmek.dynamics.friction import MOMENT
-from ilmek.dynamics.pose_block import Held, Posed, Pull
+from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import carried_acceleration
 from ilmek.linkage.model import Mechanism, Pin, Slide
@@ -45,11 +45,11 @@ class PinFriction:
     def __post_init__(self) -> None:
         _require(self.joint, radius=self.radius, coefficient=self.coefficient, drag=self.drag)
 
-    def size(self, held: Held, pull: Pull) -> RealField:  # noqa: ARG002
+    def size(self, held: JointPoses, pull: ForceAndMoment) -> RealField:  # noqa: ARG002
         """The greatest torque [N m] that Coulomb's friction gives under a pin's force."""
         return self.coefficient * self.radius * np.abs(pull.force)
 
-    def slope(self, held: Held, pull: Pull, change: Pull) -> RealField:  # noqa: ARG002
+    def slope(self, held: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:  # noqa: ARG002
         """How `size` follows a small change of the pull."""
         force = np.abs(pull.force)
         along = np.divide(dot(pull.force, change.force), force, out=np.zeros_like(force), where=force > 0)
@@ -73,19 +73,19 @@ class SlideFriction:
         if not (math.isfinite(self.breadth) and self.breadth > 0):
             raise MechanismError(f"breadth of slide {self.joint!r} is {self.breadth:g} m", allowed="finite and above 0")
 
-    def size(self, held: Held, pull: Pull) -> RealField:
+    def size(self, held: JointPoses, pull: ForceAndMoment) -> RealField:
         """The greatest force [N] that Coulomb's friction gives under a slide's force and couple."""
         across, couple = self._parts(held, pull)
         return self.coefficient * np.maximum(np.abs(across), np.abs(couple))
 
-    def slope(self, held: Held, pull: Pull, change: Pull) -> RealField:
+    def slope(self, held: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:
         """How `size` follows a small change of the pull."""
         across, couple = self._parts(held, pull)
         to_across, to_couple = self._parts(held, change)
         leaning = np.abs(across) >= np.abs(couple)
         return self.coefficient * np.where(leaning, np.sign(across) * to_across, np.sign(couple) * to_couple)
 
-    def _parts(self, held: Held, pull: Pull) -> tuple[RealField, RealField]:
+    def _parts(self, held: JointPoses, pull: ForceAndMoment) -> tuple[RealField, RealField]:
         """N and 2 C / b."""
         line = held.line if held.line is not None else 1 + 0j
         return dot(1j * line, pull.force), 2 * pull.moment / self.breadth
@@ -108,7 +108,7 @@ def check_joints(mechanism: Mechanism, rubbing: Sequence[JointFriction]) -> None
 
 
 def frictions(
-    posed: Posed, needed: Needs, rubbing: Sequence[JointFriction], side: RealField
+    posed: PoseBlock, needed: Needs, rubbing: Sequence[JointFriction], side: RealField
 ) -> tuple[dict[str, FloatArray], BoolArray]:
     """Friction on each rubbing joint's `on` body [N m, or N along the line], and where the mechanism locks itself.
 
@@ -120,30 +120,30 @@ def frictions(
     viscous = -np.array([[one.drag] for one in rubbing]) * rates
     rest = loaded(posed, needed, dict(zip((one.joint for one in rubbing), viscous, strict=True)))
     frictionless = joint_pulls(posed, rest)
-    nothing = {body: Pull(0j, 0.0) for body in needed}
+    nothing = {body: ForceAndMoment(0j, 0.0) for body in needed}
     answers = [joint_pulls(posed, loaded(posed, nothing, {joint.name: np.ones(samples)})) for joint in joints]
     signs = np.sign(rates + _moment(posed, side) * np.stack([_second_rate(posed, joint) for joint in joints]))
     coulomb, locked = _consistent(joints, rubbing, signs, frictionless, answers)
     return {one.joint: found for one, found in zip(rubbing, viscous + coulomb, strict=True)}, locked
 
 
-def loaded(posed: Posed, needed: Needs, efforts: Mapping[str, FloatArray]) -> Needs:
+def loaded(posed: PoseBlock, needed: Needs, efforts: Mapping[str, FloatArray]) -> Needs:
     """The needs under efforts in joints [N m, or N], each on the joint's `on` body and back on the other."""
     changed = dict(needed)
     for name, effort in efforts.items():
         joint = posed.joints[name]
         for body, sign in ((joint.on, -1), (joint.by, +1)):
-            pull = Pull(sign * effort * joint.drive.force, sign * effort * joint.drive.moment)
+            pull = ForceAndMoment(sign * effort * joint.drive.force, sign * effort * joint.drive.moment)
             add(changed, posed, body, pull, joint.at)
     return changed
 
 
 def _consistent(
-    joints: Sequence[Held],
+    joints: Sequence[JointPoses],
     rubbing: Sequence[JointFriction],
     signs: FloatArray,
-    frictionless: Mapping[str, Pull],
-    answers: Sequence[Mapping[str, Pull]],
+    frictionless: Mapping[str, ForceAndMoment],
+    answers: Sequence[Mapping[str, ForceAndMoment]],
 ) -> tuple[FloatArray, BoolArray]:
     """Coulomb's frictions, one row a joint, and where there are none; Newton's method on all samples at once."""
     x = np.zeros_like(signs)
@@ -167,12 +167,14 @@ def _consistent(
     return np.where(locked, np.nan, x), locked
 
 
-def _sum(rest: Pull, answers: Sequence[Pull], x: FloatArray) -> Pull:
+def _sum(rest: ForceAndMoment, answers: Sequence[ForceAndMoment], x: FloatArray) -> ForceAndMoment:
     force = rest.force + sum(size * answer.force for size, answer in zip(x, answers, strict=True))
-    return Pull(force, rest.moment + sum(size * answer.moment for size, answer in zip(x, answers, strict=True)))
+    return ForceAndMoment(
+        force, rest.moment + sum(size * answer.moment for size, answer in zip(x, answers, strict=True))
+    )
 
 
-def _moment(posed: Posed, side: RealField) -> RealField:
+def _moment(posed: PoseBlock, side: RealField) -> RealField:
     """The time by which a joint's turning round is judged early or late [s]."""
     speeds = [np.abs(np.asarray(drive.speed, dtype=float)) for drive in posed.motion.drives.values()]
     fastest = np.asarray(sum(speeds))
@@ -185,7 +187,7 @@ def _moment(posed: Posed, side: RealField) -> RealField:
     return moment
 
 
-def _second_rate(posed: Posed, joint: Held) -> FloatArray:
+def _second_rate(posed: PoseBlock, joint: JointPoses) -> FloatArray:
     """Rate of the joint's rate where that is zero [rad/s², m/s²]."""
     on, by = posed.bodies[joint.on], posed.bodies[joint.by]
     if joint.line is None:

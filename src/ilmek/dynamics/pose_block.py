@@ -10,7 +10,7 @@ from ilmek.arrays import ComplexField, RealField
 from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion, carried_velocity
-from ilmek.linkage.groups.group import Drive
+from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.model import GROUND, Coupling, Joint, Mechanism, Pin, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import cross, dot, unit
@@ -19,7 +19,7 @@ BLOCK = 4096
 """Samples worked off at a time: more would leave the processor's cache."""
 
 
-class Pull(NamedTuple):
+class ForceAndMoment(NamedTuple):
     """A force [N] and its moment [N m] about a point that is said where it is used: numbers, or one a sample."""
 
     force: ComplexField
@@ -27,7 +27,7 @@ class Pull(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
+class JointPoses:
     """A joint or coupling in its poses; `on` one body, `by` the other.
 
     at    its point [m]; of gears the pitch point     line  of a slide, the direction of its line
@@ -41,7 +41,7 @@ class Held:
     line: ComplexField | None
     tooth: ComplexField | None = None
 
-    def play(self, pull: Pull, about: ComplexField) -> RealField:
+    def play(self, pull: ForceAndMoment, about: ComplexField) -> RealField:
         """Work of a pull, its moment about a given point, on the joint's own motion: nothing but its drive resists it.
 
         The moment about a pin [N m], the force along a slide's line [N].
@@ -51,20 +51,24 @@ class Held:
         return dot(self.line, pull.force)
 
     @property
-    def drive(self) -> Pull:
+    def drive(self) -> ForceAndMoment:
         """A unit of the effort that drives the joint: a torque, or a force along the line."""
-        return Pull(0j, 1.0) if self.line is None else Pull(self.line, 0.0)
+        return ForceAndMoment(0j, 1.0) if self.line is None else ForceAndMoment(self.line, 0.0)
 
     @property
-    def bears(self) -> tuple[Pull, ...]:
+    def bears(self) -> tuple[ForceAndMoment, ...]:
         """Units of what it bears by itself: two forces of a pin; across a line a force, and a couple; one of teeth."""
         if self.tooth is not None:
-            return (Pull(self.tooth, 0.0),)
-        return (Pull(1 + 0j, 0.0), Pull(1j, 0.0)) if self.line is None else (Pull(1j * self.line, 0.0), Pull(0j, 1.0))
+            return (ForceAndMoment(self.tooth, 0.0),)
+        return (
+            (ForceAndMoment(1 + 0j, 0.0), ForceAndMoment(1j, 0.0))
+            if self.line is None
+            else (ForceAndMoment(1j * self.line, 0.0), ForceAndMoment(0j, 1.0))
+        )
 
 
 @dataclass(frozen=True, slots=True)
-class Posed:
+class PoseBlock:
     """The bodies' motions, those of their mass centres, and the joints, by name.
 
     length   of the mechanism [m]: where forces and moments meet in one equation, moments are divided by it
@@ -74,7 +78,7 @@ class Posed:
     motion: Motion
     bodies: Mapping[str, BodyMotion]
     centres: Mapping[str, PointMotion]
-    joints: Mapping[str, Held]
+    joints: Mapping[str, JointPoses]
     length: float
     carried: dict[tuple[str, complex], PointMotion] = field(default_factory=dict)
 
@@ -89,21 +93,21 @@ class Posed:
         moved = self.bodies[body]
         return carried_velocity(moved.anchor.velocity, position - moved.anchor.position, moved.omega)
 
-    def rate(self, joint: Held) -> RealField:
+    def rate(self, joint: JointPoses) -> RealField:
         """How fast `on` moves against `by` in the joint's own motion [rad/s, or m/s along the line]."""
         if joint.line is None:
             return self.bodies[joint.on].omega - self.bodies[joint.by].omega
         return dot(joint.line, self.velocity(joint.on, joint.at) - self.velocity(joint.by, joint.at))
 
 
-def posed(motion: Motion, inertias: Mapping[str, Inertia]) -> Posed:
+def posed(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
     """The mechanism in the poses of a motion."""
     bodies: dict[str, BodyMotion] = {GROUND: STILL}
     for step in motion.plan.steps:
         bodies.update(step.place(bodies, {body: motion.columns[body] for body in step.bodies}))
     mechanism = motion.plan.mechanism
     centres = {body: bodies[body].carry(inertia.centre) for body, inertia in inertias.items()}
-    return Posed(
+    return PoseBlock(
         motion,
         bodies,
         centres,
@@ -114,16 +118,16 @@ def posed(motion: Motion, inertias: Mapping[str, Inertia]) -> Posed:
     )
 
 
-def _held(mechanism: Mechanism, joint: Joint, bodies: Mapping[str, BodyMotion]) -> Held:
+def _held(mechanism: Mechanism, joint: Joint, bodies: Mapping[str, BodyMotion]) -> JointPoses:
     on = receiver(joint)
     by = next(body for body in joint.bodies if body != on)
     moved = bodies[on]
     at = moved.anchor.position + moved.direction * (mechanism.point(on, joint.name) - moved.at)
     line = None if isinstance(joint, Pin) else bodies[by].direction * unit(joint.along)
-    return Held(joint.name, on, by, at, line)
+    return JointPoses(joint.name, on, by, at, line)
 
 
-def _meshed(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyMotion]) -> Held:
+def _meshed(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyMotion]) -> JointPoses:
     """Gears touch in the pitch point, the pole of their turning against one another:
 
         P = O_1 + ratio / (ratio - 1) (O_2 - O_1),   its force across O_1 O_2;    rack: P = O_1 - i ratio f, along f
@@ -136,7 +140,7 @@ def _meshed(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyM
     joint = mechanism.joint(two) if coupling.kind == "rack" else None
     if isinstance(joint, Slide):
         line = bodies[joint.guide].direction * unit(joint.along)
-        return Held(coupling.name, second, first, at - 1j * coupling.ratio * line, None, line)
+        return JointPoses(coupling.name, second, first, at - 1j * coupling.ratio * line, None, line)
     if coupling.kind == "belt" or coupling.ratio == 1:
         raise MechanismError(
             f"the force of {coupling.kind} {coupling.name!r} of {mechanism.name} is not determined",
@@ -145,7 +149,7 @@ def _meshed(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyM
         )
     way = bodies[second].carry(mechanism.point(second, two)).position - at
     pole = at + coupling.ratio / (coupling.ratio - 1) * way
-    return Held(coupling.name, second, first, pole, None, 1j * way / np.abs(way))
+    return JointPoses(coupling.name, second, first, pole, None, 1j * way / np.abs(way))
 
 
 def receiver(joint: Joint) -> str:
@@ -161,7 +165,7 @@ def characteristic_length(mechanism: Mechanism) -> float:
 def part_of(motion: Motion, part: slice) -> Motion:
     """Some samples of a motion, as views."""
     drives = {
-        name: Drive(cut(drive.value, part), cut(drive.speed, part), cut(drive.acceleration, part))
+        name: InputMotion(cut(drive.value, part), cut(drive.speed, part), cut(drive.acceleration, part))
         for name, drive in motion.drives.items()
     }
     columns = {body: tuple(cut(field, part) for field in fields) for body, fields in motion.columns.items()}

@@ -43,7 +43,7 @@ class Terms:
 
 
 @dataclass(frozen=True, slots=True)
-class Reduced:
+class ReducedMechanism:
     """A mechanism of one input with its masses and loads; made by `reduce`.
 
     weights   gravity
@@ -97,10 +97,11 @@ class Reduced:
 
 def reduce(
     plan: Plan, inertias: Mapping[str, Inertia], loads: Sequence[Load] = (), *, flywheel: float = 0.0
-) -> Reduced:
+) -> ReducedMechanism:
     """The mechanism reduced to its only input.
 
-    inertias  body -> inertia; a body not named is massless      loads  such as `Gravity`; see `Reduced.live_force`
+    inertias  body -> inertia; a body not named is massless
+    loads  such as `Gravity`; see `ReducedMechanism.live_force`
 
     Raises MechanismError for several inputs, an unknown body, a negative flywheel, a load that is given by sample or
     gravity that is not finite, and where no mass moves with the input.
@@ -125,7 +126,7 @@ def reduce(
             )
     others = [load for load in loads if not isinstance(load, Gravity)]
     steady, live = ([load for load in others if _steady(load) is kind] for kind in (True, False))
-    return Reduced(plan, moving, weights, tuple(steady), tuple(live), flywheel)
+    return ReducedMechanism(plan, moving, weights, tuple(steady), tuple(live), flywheel)
 
 
 def _steady(load: Load) -> bool:

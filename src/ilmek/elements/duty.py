@@ -25,7 +25,7 @@ MARGIN = 1.25
 
 
 @dataclass(frozen=True, slots=True)
-class Cycle:
+class LoadCycle:
     """What moves over a cycle, at equal steps of time (of the master angle, where that turns evenly).
 
     speed, acceleration  of the load [rad/s, rad/s²]      torque  that it resists with, without inertia [N m]
@@ -52,7 +52,7 @@ class Cycle:
 
 
 @dataclass(frozen=True, slots=True)
-class Duty:
+class MotorDuty:
     """What a motor bears over a cycle.
 
     rms, peak       of its torque [N m]      speed_max  [rad/s]      power_mean  that goes in [W], braking counted back
@@ -69,19 +69,19 @@ class Duty:
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class ServoDrive:
     """A motor, its reducer and their duty."""
 
     motor: Motor
     reducer: Reducer
-    duty: Duty
+    duty: MotorDuty
 
 
-def duty(cycle: Cycle, motor: Motor, reducer: Reducer = DIRECT) -> Duty:
+def duty(cycle: LoadCycle, motor: Motor, reducer: Reducer = DIRECT) -> MotorDuty:
     """The motor's duty over the cycle.
 
     >>> turn = 2 * np.pi * np.arange(360) / 360
-    >>> swing = Cycle(10 * np.sin(turn), 100 * np.cos(turn), np.zeros(360), inertia=0.01)
+    >>> swing = LoadCycle(10 * np.sin(turn), 100 * np.cos(turn), np.zeros(360), inertia=0.01)
     >>> servo = next(motor for motor in MOTORS if motor.name.startswith("servo 750 W"))
     >>> found = duty(swing, servo)
     >>> round(found.peak, 6), round(found.rms, 6), round(found.inertia_ratio, 3)
@@ -92,7 +92,7 @@ def duty(cycle: Cycle, motor: Motor, reducer: Reducer = DIRECT) -> Duty:
     asked = np.abs(torque)
     given = motor.peak_at(speed)
     reserve = np.divide(given, asked, out=np.full(asked.shape, np.inf), where=asked > 0)
-    return Duty(
+    return MotorDuty(
         rms=float(np.sqrt(np.mean(torque**2))),
         peak=float(np.max(asked)),
         speed_max=float(np.max(np.abs(speed))),
@@ -102,7 +102,7 @@ def duty(cycle: Cycle, motor: Motor, reducer: Reducer = DIRECT) -> Duty:
     )
 
 
-def bears(motor: Motor, found: Duty, *, margin: float = MARGIN, inertia_ratio: float = INERTIA_RATIO) -> bool:
+def bears(motor: Motor, found: MotorDuty, *, margin: float = MARGIN, inertia_ratio: float = INERTIA_RATIO) -> bool:
     """Whether the motor bears a duty: torque of every sample, lasting torque and speed of a servo, inertia ratio.
 
     A stepper's windings always carry their current, so that no rms is asked of it.
@@ -114,20 +114,20 @@ def bears(motor: Motor, found: Duty, *, margin: float = MARGIN, inertia_ratio: f
 
 
 def size_motor(
-    cycle: Cycle,
+    cycle: LoadCycle,
     reducers: Sequence[Reducer] = (DIRECT, *PLANETARY),
     kind: str | None = None,
     *,
     margin: float = MARGIN,
     inertia_ratio: float = INERTIA_RATIO,
-) -> Drive | None:
+) -> ServoDrive | None:
     """The motor of least power in `MOTORS` that bears the cycle behind one of the reducers; None where none does.
 
     Of several reducers the one with the least rms torque. kind  "stepper" or "servo"; None takes either
     """
     for motor in sorted(MOTORS, key=lambda one: one.power):
         if kind in (None, motor.kind):
-            drives = [Drive(motor, reducer, duty(cycle, motor, reducer)) for reducer in reducers]
+            drives = [ServoDrive(motor, reducer, duty(cycle, motor, reducer)) for reducer in reducers]
             able = [one for one in drives if bears(motor, one.duty, margin=margin, inertia_ratio=inertia_ratio)]
             if able:
                 return min(able, key=lambda one: one.duty.rms)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.elements.beam import uniform
-from ilmek.elements.beam.result import Bent
+from ilmek.elements.beam.result import BeamResult
 from ilmek.elements.gear_pair import GearPair
 from ilmek.elements.involute import outline
 from ilmek.report import Axis, Dot, Drawing, Mark, Plot, Series, Stroke
@@ -41,7 +41,9 @@ def tube_drawing(outer_radius: float, inner_radius: float, least_outer_radius: f
     return Drawing("section", "Section of the cylinder, to scale", strokes, (Dot(0j, "", "point"),), note=note)
 
 
-def beam_plots(bent: Bent, rigidity: float, planes: tuple[str, str] = ("vertical", "horizontal")) -> tuple[Plot, Plot]:
+def beam_plots(
+    bent: BeamResult, rigidity: float, planes: tuple[str, str] = ("vertical", "horizontal")
+) -> tuple[Plot, Plot]:
     """Moment and deflection along a beam of rigidity E I [N m²], of both planes where loads lie in both."""
     breaks = bent.breaks
     x = np.unique(np.concatenate([np.linspace(left, right, 33) for left, right in pairwise(breaks)]))

@@ -11,19 +11,19 @@ from ilmek.cams.laws import law_of
 from ilmek.cams.laws.law import Law
 from ilmek.errors import IlmekError, MechanismError, ParameterError, UnitError
 from ilmek.io.line_numbers import Path
-from ilmek.io.schema import Sheet
+from ilmek.io.schema import SourceText
 from ilmek.units import parse_quantity
 
 _MISSING = object()
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class FileEntry:
     """A table of a file, where it stands in it, and the file."""
 
     data: Any
     path: Path
-    sheet: Sheet
+    sheet: SourceText
 
     def __post_init__(self) -> None:
         if not isinstance(self.data, Mapping):
@@ -58,21 +58,21 @@ class Entry:
         """Whether the key is there."""
         return key in self.data
 
-    def entries(self) -> Iterator[tuple[str, "Entry"]]:
+    def entries(self) -> Iterator[tuple[str, "FileEntry"]]:
         """The tables in it by name."""
         for key, value in self.data.items():
-            yield key, Entry(value, (*self.path, key), self.sheet)
+            yield key, FileEntry(value, (*self.path, key), self.sheet)
 
-    def table(self, key: str) -> "Entry":
+    def table(self, key: str) -> "FileEntry":
         """A table in it; empty where it is not there."""
-        return Entry(self.data.get(key, {}), (*self.path, key), self.sheet)
+        return FileEntry(self.data.get(key, {}), (*self.path, key), self.sheet)
 
-    def rows(self, key: str) -> list["Entry"]:
+    def rows(self, key: str) -> list["FileEntry"]:
         """A list of tables in it; empty where it is not there."""
         rows = self.data.get(key, [])
         if not isinstance(rows, list):
             self.refuse(ParameterError(f"{_shown(rows)} is not a list of tables", do=f"write [[{key}]]"), key)
-        return [Entry(row, (*self.path, key, place), self.sheet) for place, row in enumerate(rows)]
+        return [FileEntry(row, (*self.path, key, place), self.sheet) for place, row in enumerate(rows)]
 
     def text(self, key: str, default: str | None = None) -> str:
         """A text."""
@@ -115,7 +115,7 @@ class Entry:
         """A law by its name, or by a table with its name and parameters."""
         value = self.data[key]
         table = {"name": value} if isinstance(value, str) else value
-        inner = Entry(table, (*self.path, key), self.sheet)
+        inner = FileEntry(table, (*self.path, key), self.sheet)
         name = inner.text("name")
         with inner.blamed():
             return law_of(name, {given: number for given, number in inner.data.items() if given != "name"})

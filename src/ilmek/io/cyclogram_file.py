@@ -38,14 +38,25 @@ from typing import Any
 
 from ilmek.cams.laws import LAWS
 from ilmek.errors import IlmekError, MechanismError, ParameterError
-from ilmek.io.cyclogram_entries import Entry
+from ilmek.io.cyclogram_entries import FileEntry
 from ilmek.io.line_numbers import Places, json_places, toml_places
 from ilmek.io.output import write_whole
-from ilmek.io.schema import Sheet
+from ilmek.io.schema import SourceText
 from ilmek.io.text_file import read_text
 from ilmek.io.toml_text import toml_section, toml_text
 from ilmek.timing.crossings import passing_share
-from ilmek.timing.cyclogram import Cyclogram, Event, Exclusion, Limits, Moment, Relation, Segment, Spans, Track, Zone
+from ilmek.timing.cyclogram import (
+    ActuatorLimits,
+    Cyclogram,
+    Exclusion,
+    Moment,
+    Relation,
+    Spans,
+    Track,
+    TrackEvent,
+    TrackSegment,
+    Zone,
+)
 from ilmek.timing.relations import Presence
 from ilmek.timing.track import MotionLaw, riding
 from ilmek.timing.windows import windows_of
@@ -77,7 +88,7 @@ def parse_cyclogram(text: str, *, name: str = "cyclogram", toml: bool = True) ->
     """The cyclogram of a TOML or JSON text; `name` is what messages call the text. Raises as `read_cyclogram`."""
     data, places = _data(text, name, toml)
     try:
-        return _cyclogram(Entry(data, (), Sheet(name, places)))
+        return _cyclogram(FileEntry(data, (), SourceText(name, places)))
     except MechanismError as error:
         raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
 
@@ -124,7 +135,7 @@ def _data(text: str, name: str, toml: bool) -> tuple[Any, Places]:
         raise ParameterError(f"{name} is no cyclogram, though it may be {'TOML' if toml else 'JSON'}") from None
 
 
-def _cyclogram(root: Entry) -> Cyclogram:
+def _cyclogram(root: FileEntry) -> Cyclogram:
     root.keys("name", "period", "tracks", "relations", "exclusions", needs=("period", "tracks"))
     tracks = tuple(_track(name, entry) for name, entry in root.table("tracks").entries())
     units = {track.name: track.unit for track in tracks}
@@ -143,7 +154,7 @@ def _cyclogram(root: Entry) -> Cyclogram:
         return Cyclogram(known.name, known.period, tracks, relations, exclusions)
 
 
-def _track(name: str, entry: Entry) -> Track:
+def _track(name: str, entry: FileEntry) -> Track:
     entry.keys("actuator", "unit", "revolves", "limits", "held", "motions", "events")
     with entry.blamed():
         unit = entry.text("unit", "mm")
@@ -155,34 +166,34 @@ def _track(name: str, entry: Entry) -> Track:
         return Track(name, bare.actuator, parts, events, unit, bare.revolves, limits, held=entry.flag("held"))
 
 
-def _motion(name: str, entry: Entry, unit: str) -> Segment:
+def _motion(name: str, entry: FileEntry, unit: str) -> TrackSegment:
     entry.keys("start", "end", "from", "to", "law", needs=("start", "end", "from", "to", "law"))
     angles = entry.quantity("start", "rad"), entry.quantity("end", "rad")
-    return Segment(name, *angles, entry.quantity("from", unit), entry.quantity("to", unit), entry.law("law"))
+    return TrackSegment(name, *angles, entry.quantity("from", unit), entry.quantity("to", unit), entry.law("law"))
 
 
-def _event(track: Track, name: str, entry: Entry) -> Event:
+def _event(track: Track, name: str, entry: FileEntry) -> TrackEvent:
     entry.keys("angle", "on", "share", "passing")
     with entry.blamed():
         if not entry.has("on"):
-            return Event(name, entry.quantity("angle", "rad"))
+            return TrackEvent(name, entry.quantity("angle", "rad"))
         segment = track.segment(entry.text("on"))
         if entry.has("passing"):
             place = entry.quantity("passing", track.unit)
             return riding(name, segment, passing_share(track.name, segment, place, track.unit))
         made = riding(name, segment, entry.quantity("share", "1", 1.0))
         angle = entry.quantity("angle", "rad", made.angle)
-        return Event(name, angle, made.on, made.share)
+        return TrackEvent(name, angle, made.on, made.share)
 
 
-def _limits(entry: Entry, unit: str) -> Limits:
+def _limits(entry: FileEntry, unit: str) -> ActuatorLimits:
     entry.keys(*_LIMITS, "time")
     with entry.blamed():
         found = {key: entry.quantity(key, unit + per, math.inf) for key, per in _LIMITS.items()}
-        return Limits(**found, time=entry.quantity("time", "s", 0.0))
+        return ActuatorLimits(**found, time=entry.quantity("time", "s", 0.0))
 
 
-def _relation(entry: Entry, units: Mapping[str, str]) -> Relation:
+def _relation(entry: FileEntry, units: Mapping[str, str]) -> Relation:
     entry.keys("then", "first", "gap", "most", "turns", "delay", "why", needs=("then", "first"))
     with entry.blamed():
         least = -math.inf if entry.has("most") else 0.0
@@ -197,7 +208,7 @@ def _relation(entry: Entry, units: Mapping[str, str]) -> Relation:
         )
 
 
-def _moment(entry: Entry, units: Mapping[str, str]) -> Moment:
+def _moment(entry: FileEntry, units: Mapping[str, str]) -> Moment:
     if entry.has("angle"):
         entry.keys("angle")
         return Moment("", "", "angle", entry.quantity("angle", "rad"))
@@ -208,7 +219,7 @@ def _moment(entry: Entry, units: Mapping[str, str]) -> Moment:
     return Moment(track, entry.text(edge), _EDGES[edge], at)
 
 
-def _known(entry: Entry, units: Mapping[str, str]) -> str:
+def _known(entry: FileEntry, units: Mapping[str, str]) -> str:
     """The track that an entry names; it is there."""
     track = entry.text("track")
     if track not in units:
@@ -216,14 +227,14 @@ def _known(entry: Entry, units: Mapping[str, str]) -> str:
     return track
 
 
-def _exclusion(entry: Entry, units: Mapping[str, str]) -> Exclusion:
+def _exclusion(entry: FileEntry, units: Mapping[str, str]) -> Exclusion:
     entry.keys("first", "second", "gap", "why", needs=("first", "second"))
     with entry.blamed():
         first, second = (_presence(entry.table(key), units) for key in ("first", "second"))
         return Exclusion(first, second, entry.quantity("gap", "rad", 0.0), entry.text("why", "never both"))
 
 
-def _presence(entry: Entry, units: Mapping[str, str]) -> Presence:
+def _presence(entry: FileEntry, units: Mapping[str, str]) -> Presence:
     if entry.has("windows"):
         entry.keys("name", "windows")
         with entry.blamed():
@@ -267,7 +278,7 @@ def _track_data(track: Track) -> dict[str, Any]:
     return {key: value for key, value in data.items() if value or key in ("actuator", "unit")}
 
 
-def _motion_data(part: Segment, unit: str) -> dict[str, Any]:
+def _motion_data(part: TrackSegment, unit: str) -> dict[str, Any]:
     angles = {key: _written(value, "deg") for key, value in (("start", part.start), ("end", part.end))}
     ends = {key: _written(value, unit) for key, value in (("from", part.begin), ("to", part.finish))}
     return {**angles, **ends, "law": _law_data(part.law)}
@@ -280,7 +291,7 @@ def _law_data(law: MotionLaw) -> str | dict[str, Any]:
     return {"name": law.name, **found} if found else law.name
 
 
-def _events_data(events: Sequence[Event]) -> dict[str, Any]:
+def _events_data(events: Sequence[TrackEvent]) -> dict[str, Any]:
     """Events by name; another one of a name gets a number behind it."""
     found: dict[str, Any] = {}
     for event in events:
@@ -290,7 +301,7 @@ def _events_data(events: Sequence[Event]) -> dict[str, Any]:
     return found
 
 
-def _event_data(event: Event) -> dict[str, Any]:
+def _event_data(event: TrackEvent) -> dict[str, Any]:
     rides = {"on": event.on, "share": event.share} if event.on else {}
     return {"angle": _written(event.angle, "deg"), **rides}
 

@@ -37,7 +37,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import IlmekError, MechanismError
 from ilmek.io.line_numbers import Places, json_places, toml_places
 from ilmek.io.output import write_whole
-from ilmek.io.schema import Reader, Schema, Sheet
+from ilmek.io.schema import Reader, Schema, SourceText
 from ilmek.io.text_file import read_text
 from ilmek.io.toml_text import toml_text
 from ilmek.linkage.model import (
@@ -65,7 +65,7 @@ class MechanismFile:
 
     mechanism: Mechanism
     inertias: Mapping[str, Inertia] = field(default_factory=dict)
-    sheet: Sheet = field(default_factory=lambda: Sheet("mechanism", {(): 1}), compare=False, repr=False)
+    sheet: SourceText = field(default_factory=lambda: SourceText("mechanism", {(): 1}), compare=False, repr=False)
 
     def plan(self) -> Plan:
         """The mechanism's plan. Raises MechanismError, naming the file, the line and the key, where it has none."""
@@ -92,7 +92,7 @@ def read_mechanism(path: Path) -> MechanismFile:
 def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) -> MechanismFile:
     """The mechanism of a TOML or JSON text; `name` is what messages call the text. Raises as `read_mechanism`."""
     data, places = _toml(text, name) if toml else _json(text, name)
-    sheet = Sheet(name, places)
+    sheet = SourceText(name, places)
     read = Reader(schema(), sheet).read(data)
     return _built(read, sheet)
 
@@ -149,7 +149,7 @@ def _json(text: str, name: str) -> tuple[Any, Places]:
 
 
 @contextmanager
-def _blamed(sheet: Sheet, *path: str) -> Iterator[None]:
+def _blamed(sheet: SourceText, *path: str) -> Iterator[None]:
     """While inside, an error of the model gets the line of what it is about, or of `path`."""
     try:
         yield
@@ -157,7 +157,7 @@ def _blamed(sheet: Sheet, *path: str) -> Iterator[None]:
         sheet.refuse(getattr(error, "about", ()) or path, error)
 
 
-def _built(data: Mapping[str, Any], sheet: Sheet) -> MechanismFile:
+def _built(data: Mapping[str, Any], sheet: SourceText) -> MechanismFile:
     """The records from data that fit the schema."""
     bodies, inertias = [], {}
     for name, table in data["bodies"].items():

@@ -24,13 +24,13 @@ import numpy as np
 from ilmek.arrays import IntArray
 from ilmek.cams.laws import law_of
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import IlmekError, LoomError, OutputError
 from ilmek.loom.programme import HeadWork, Programme, Times
-from ilmek.loom.row import Row
+from ilmek.loom.row import KnotRow
 from ilmek.progress import SILENT, Progress
-from ilmek.timing.cyclogram import Cyclogram, Event, Segment, Track
+from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
 
 APPLICATION, VERSION = 0x696C6D6B, 1
 """In the file's header: the letters `ilmk`, and the version of the format."""
@@ -50,7 +50,7 @@ class Label:
     cyclograms of a knot and of a row.
     """
 
-    size: Size
+    size: CarpetSize
     quality: Quality
     knot: str
     yarns: tuple[Yarn, ...]
@@ -139,7 +139,7 @@ class ProgrammeFile:
         self.totals = Totals(**{**meta["totals"], "counts": tuple(meta["totals"]["counts"])})
         self.work = HeadWork(**{name: np.array(values) for name, values in meta["work"].items()})
 
-    def row(self, number: int) -> Row:
+    def row(self, number: int) -> KnotRow:
         """Loom row `number`, 0 at the carpet's bottom edge. Raises LoomError beyond the carpet or where damaged."""
         data = self._fetch("data", number)
         try:
@@ -149,7 +149,7 @@ class ProgrammeFile:
         if len(raw) != self.columns + self._keys[0] * self._keys[1]:
             raise LoomError(f"{self.path}: row {number} is damaged", do=_AGAIN)
         plain = np.frombuffer(raw, np.uint8)
-        return Row(number, plain[: self.columns], plain[self.columns :].reshape(self._keys), self.edges, self.heads)
+        return KnotRow(number, plain[: self.columns], plain[self.columns :].reshape(self._keys), self.edges, self.heads)
 
     def row_time(self, number: int) -> float:
         """Time of a loom row, its wefts included [s]. Raises LoomError as `row`."""
@@ -240,7 +240,7 @@ def _label_from(meta: Mapping[str, Any]) -> Label:
     )
     cyclograms = tuple(_cyclogram_from(record) for record in meta["cyclograms"])
     pitch = float(meta["warp_pitch"])
-    return Label(Size(**meta["size"]), Quality(**meta["quality"]), meta["knot"], yarns, pitch, cyclograms)
+    return Label(CarpetSize(**meta["size"]), Quality(**meta["quality"]), meta["knot"], yarns, pitch, cyclograms)
 
 
 def _cyclogram_record(cyclogram: Cyclogram) -> dict[str, Any]:
@@ -278,7 +278,7 @@ def _cyclogram_from(record: Mapping[str, Any]) -> Cyclogram:
             track["name"],
             track["actuator"],
             tuple(_segment_from(part) for part in track["segments"]),
-            tuple(Event(**event) for event in track["events"]),
+            tuple(TrackEvent(**event) for event in track["events"]),
             track["unit"],
             track["revolves"],
         )
@@ -287,9 +287,9 @@ def _cyclogram_from(record: Mapping[str, Any]) -> Cyclogram:
     return Cyclogram(record["name"], record["period"], tracks)
 
 
-def _segment_from(part: Mapping[str, Any]) -> Segment:
+def _segment_from(part: Mapping[str, Any]) -> TrackSegment:
     law = law_of(part["law"], part["parameters"])
-    return Segment(**{key: part[key] for key in _SEGMENT}, law=law)
+    return TrackSegment(**{key: part[key] for key in _SEGMENT}, law=law)
 
 
 def _check_header(path: Path) -> None:

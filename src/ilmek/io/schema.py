@@ -21,7 +21,7 @@ _NAMES = {"object": "a table", "array": "a list", "string": "text in quotes", "n
 
 
 @dataclass(frozen=True, slots=True)
-class Sheet:
+class SourceText:
     """Where data come from: what a person calls them, and the line of each key."""
 
     name: str
@@ -41,7 +41,7 @@ class Reader:
     """Data read by a schema."""
 
     schema: Schema
-    sheet: Sheet
+    sheet: SourceText
 
     def read(self, data: Any) -> Any:
         """The data with every quantity as an SI number. Raises MechanismError at the first value that does not fit."""

@@ -16,7 +16,7 @@ from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart.png import write_chart_png
 from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
-from ilmek.jobs.order import Order
+from ilmek.jobs.order import CarpetOrder
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, at_most
 from ilmek.units import format_quantity
@@ -26,10 +26,10 @@ MOST_SHEETS = 400
 
 
 @dataclass(frozen=True, slots=True)
-class Charted:
+class ChartResult:
     """An order's chart and yarn bill; notes say what was done to the picture, and what was left out."""
 
-    order: Order
+    order: CarpetOrder
     chart: Chart
     bill: YarnBill
     notes: tuple[str, ...]
@@ -70,7 +70,7 @@ class Charted:
         return (f"{said}: {takes}; with ply {yarn.ply}, Nm {fits:g} or finer fits, or take a coarser quality",)
 
 
-def make_charted(order: Order, progress: Progress = SILENT) -> Charted:
+def make_charted(order: CarpetOrder, progress: Progress = SILENT) -> ChartResult:
     """Read the picture and chart it. Raises PictureError, CarpetError or YarnError."""
     progress.part(0.0, 0.1, "picture")
     picture = read_picture(order.picture)
@@ -85,10 +85,10 @@ def make_charted(order: Order, progress: Progress = SILENT) -> Charted:
         progress=progress.part(0.1, 1.0, "chart"),
     )
     notes = (*picture.notes, *_fit(picture.rgb, chart), *_left_out(order, chart))
-    return Charted(order, chart, yarn_bill(chart, order.pile), notes)
+    return ChartResult(order, chart, yarn_bill(chart, order.pile), notes)
 
 
-def _left_out(order: Order, chart: Chart) -> tuple[str, ...]:
+def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
     sheets = chart_cut(chart).count
     if order.pdf is not None or sheets <= MOST_SHEETS:
         return ()
@@ -112,7 +112,7 @@ def _fit(rgb: Rgb, chart: Chart) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def chart_results(charted: Charted) -> dict[str, Any]:
+def chart_results(charted: ChartResult) -> dict[str, Any]:
     """The results of a chart by their stable names, SI."""
     chart, bill = charted.chart, charted.bill
     return {
@@ -137,7 +137,7 @@ def _need(need: YarnNeed) -> dict[str, Any]:
     return {name: getattr(need, name) for name in ("name", "use", "knots", "length", "mass", "price")}
 
 
-def write_chart(charted: Charted, folder: Path, progress: Progress = SILENT) -> None:
+def write_chart(charted: ChartResult, folder: Path, progress: Progress = SILENT) -> None:
     """Write the chart's files into a folder. An OSError passes through."""
     write_chart_png(folder / "chart.png", charted.chart)
     if "chart.pdf" in charted.files:
@@ -145,7 +145,7 @@ def write_chart(charted: Charted, folder: Path, progress: Progress = SILENT) -> 
     write_yarn_csv(folder / "yarn.csv", charted.bill, charted.chart.yarns)
 
 
-def chart_json(charted: Charted, files: Sequence[str]) -> dict[str, Any]:
+def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Any]:
     """The JSON of a chart and the files it was written to."""
     return job_json(
         "chart",

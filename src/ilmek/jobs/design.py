@@ -34,7 +34,7 @@ class Outputs:
 
 
 @dataclass(frozen=True, slots=True)
-class Designed:
+class DesignResult:
     """The report of a design, and the workshop files that were written, if any."""
 
     report: Report
@@ -52,7 +52,7 @@ class Designed:
 
 def design_machine(
     name: str, settings: Mapping[str, Setting], outputs: Outputs | None = None, *, progress: Progress = SILENT
-) -> Designed:
+) -> DesignResult:
     """Design a machine of the catalogue, report it, and write the files that are wanted.
 
     settings  values of parameters by name: texts with units, or numbers in SI
@@ -73,7 +73,7 @@ def design_machine(
     workshop = write(report) if write is not None else None
     write_page(wanted.page, report)
     progress(1.0)
-    return Designed(report, workshop)
+    return DesignResult(report, workshop)
 
 
 def _workshop_writer(wanted: Outputs) -> "Callable[[Report], Workshop] | None":

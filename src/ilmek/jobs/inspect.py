@@ -10,15 +10,15 @@ import numpy as np
 
 from ilmek.errors import LoomError
 from ilmek.io.programme_file import ProgrammeFile, open_programme
-from ilmek.loom.row import Row, Ties
+from ilmek.loom.row import HeadTies, KnotRow
 
 
 @dataclass(frozen=True, slots=True)
-class Inspected:
+class InspectionResult:
     """A programme, whose file is closed, one of its rows, and the time of that row with its wefts [s]."""
 
     programme: ProgrammeFile
-    row: Row
+    row: KnotRow
     time: float
 
     def as_json(self) -> dict[str, Any]:
@@ -52,7 +52,7 @@ class Inspected:
         }
 
 
-def inspect_programme(file: Path, number: int | None = None) -> Inspected:
+def inspect_programme(file: Path, number: int | None = None) -> InspectionResult:
     """Read a programme's figures and one of its rows.
 
     number  of the row, from 1 at the bottom edge; default: a random one
@@ -60,7 +60,7 @@ def inspect_programme(file: Path, number: int | None = None) -> Inspected:
     """
     with open_programme(file) as programme:
         index = random.randrange(programme.rows) if number is None else _index(number, programme.rows)
-        return Inspected(programme, programme.row(index), programme.row_time(index))
+        return InspectionResult(programme, programme.row(index), programme.row_time(index))
 
 
 def _index(number: int, rows: int) -> int:
@@ -70,7 +70,7 @@ def _index(number: int, rows: int) -> int:
     return number - 1
 
 
-def runs(ties: Ties) -> list[tuple[int, int, int]]:
+def runs(ties: HeadTies) -> list[tuple[int, int, int]]:
     """(first knot, last knot, yarn) of neighbouring knots tied one after the other in one yarn; knots from 1 at the
     left, yarns from 0.
     """

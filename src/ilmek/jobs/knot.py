@@ -24,7 +24,7 @@ BESIDE = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class KnotRequest:
     """A row of warps [m], and how the path is to be taken.
 
     count, pitch, first  of the warps; the first stands at `first`, the others to its right
@@ -59,7 +59,7 @@ class Asked:
         return self.first + self.pitch * np.arange(self.count)
 
 
-def knot_of(files: Sequence[Path], asked: Asked, columns: tuple[str, str] | None = None) -> Report:
+def knot_of(files: Sequence[Path], asked: KnotRequest, columns: tuple[str, str] | None = None) -> Report:
     """The knot that yarn ties whose end is led along the path of a file, or whose two ends along two.
 
     columns  headings of the columns of x and y; default: the only two
@@ -70,14 +70,14 @@ def knot_of(files: Sequence[Path], asked: Asked, columns: tuple[str, str] | None
     return report(*judged([read_path(file, columns) for file in files], asked), asked)
 
 
-def judged(paths: Sequence[ComplexArray], asked: Asked) -> tuple[ComplexArray, TiedKnot]:
+def judged(paths: Sequence[ComplexArray], asked: KnotRequest) -> tuple[ComplexArray, TiedKnot]:
     """The yarn's whole path [m] of one end, or of two led from one place, and the knot that it ties."""
     path = paths[0] if len(paths) == 1 else joined_ends(paths[0], paths[1])
     lengths = arc_lengths(np.append(path, path[0]) if asked.closed else path) if asked.smooth else None
     return path, tied_knot(path, asked.warps, keep_out=asked.keep_out, lengths=lengths, closed=asked.closed)
 
 
-def report(path: Complex[np.ndarray, " places"], tied: TiedKnot, asked: Asked) -> Report:
+def report(path: Complex[np.ndarray, " places"], tied: TiedKnot, asked: KnotRequest) -> Report:
     """What is tied, in words, as a word, and drawn."""
     known = tied.knot
     results = (
@@ -96,7 +96,7 @@ def report(path: Complex[np.ndarray, " places"], tied: TiedKnot, asked: Asked) -
     return Report("knot", "Knot of a motion", parameters, results, (), figures=(_drawing(path, tied, asked),))
 
 
-def _drawing(path: ComplexArray, tied: TiedKnot, asked: Asked) -> Drawing:
+def _drawing(path: ComplexArray, tied: TiedKnot, asked: KnotRequest) -> Drawing:
     """The path among the warps that it comes to."""
     along = (path.real - asked.first.real) / asked.pitch
     low, high = int(np.floor(along.min())) - BESIDE, int(np.ceil(along.max())) + BESIDE

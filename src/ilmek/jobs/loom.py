@@ -9,7 +9,7 @@ from typing import Any
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.pile import knot_length
 from ilmek.errors import ParameterError, UnitError
-from ilmek.jobs.order import Order
+from ilmek.jobs.order import CarpetOrder
 from ilmek.loom.programme import Programme, heads_for, make_programme
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.design import USUAL_HEADS
@@ -35,7 +35,7 @@ class LoomOrder:
 
 
 @dataclass(frozen=True, slots=True)
-class Loomed:
+class LoomResult:
     """A loom for a chart, and the programme that weaves the chart on it."""
 
     design: LoomDesign
@@ -58,7 +58,7 @@ OF_THE_CARPET = {
 
 
 def read_loom_order(
-    order: Order,
+    order: CarpetOrder,
     *,
     heads: int | None = None,
     deadline: str | None = None,
@@ -98,7 +98,7 @@ def _deadline(text: str) -> float:
     return seconds
 
 
-def make_loomed(asked: LoomOrder, order: Order, chart: Chart) -> Loomed:
+def make_loomed(asked: LoomOrder, order: CarpetOrder, chart: Chart) -> LoomResult:
     """The loom for a chart with the heads that are asked for or needed, and its programme.
 
     Raises LoomError where the heads do not fit or the deadline cannot be met, or another error of the machines.
@@ -111,7 +111,7 @@ def make_loomed(asked: LoomOrder, order: Order, chart: Chart) -> Loomed:
     heads = _heads(asked, made, chart)
     if heads != params.heads:
         made = design(replace(params, heads=heads))
-    return Loomed(made, make_programme(chart.knots, len(chart.yarns), heads, made.times))
+    return LoomResult(made, make_programme(chart.knots, len(chart.yarns), heads, made.times))
 
 
 def _heads(asked: LoomOrder, made: LoomDesign, chart: Chart) -> int:

@@ -20,7 +20,7 @@ CUTS, PIECES = 9, 64
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class MotionRequest:
     """What a mechanism is driven through, as a person says it.
 
     held   input -> value; "" for the only input. At most one input is left to run
@@ -36,7 +36,7 @@ class Course:
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
+class MechanismRun:
     """A mechanism in motion.
 
     running  the input that runs over `values` [rad or m], at `speed`; None where all are held: one pose
@@ -79,7 +79,7 @@ class Run:
         return float(ends[0])
 
 
-def run(file: MechanismFile, course: Course) -> Run:
+def run(file: MechanismFile, course: MotionRequest) -> MechanismRun:
     """The mechanism moved through its course.
 
     Raises MechanismError where it has no plan, where the course names an unknown input or leaves two to run, and where
@@ -94,13 +94,13 @@ def run(file: MechanismFile, course: Course) -> Run:
         raise MechanismError(f"inputs {names} are both left to run", do=f"hold one, like --at {free[0].name}=0")
     if not free:
         motion = solve(plan, held).require()
-        return Run(plan.mechanism.name, plan, motion, None, np.zeros(1), 0.0)
+        return MechanismRun(plan.mechanism.name, plan, motion, None, np.zeros(1), 0.0)
     (running,) = free
     values, speed = _values(running, course), _speed(running, course.speed)
     motion = solve(plan, {**held, running.name: values}, {running.name: speed})
     if (motion.status != Status.OK).all():
         motion.require()
-    return Run(plan.mechanism.name, plan, motion, running, values, speed)
+    return MechanismRun(plan.mechanism.name, plan, motion, running, values, speed)
 
 
 def _held(plan: Plan, inputs: Mapping[str, Input], said: Mapping[str, str]) -> dict[str, RealField]:
@@ -117,7 +117,7 @@ def _held(plan: Plan, inputs: Mapping[str, Input], said: Mapping[str, str]) -> d
     return held
 
 
-def _values(running: Input, course: Course) -> FloatArray:
+def _values(running: Input, course: MotionRequest) -> FloatArray:
     """The values of the running input. Raises MechanismError for a range that cannot be read or has no length."""
     turning = isinstance(running, Rotation)
     if not course.over and not turning:

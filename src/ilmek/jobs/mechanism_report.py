@@ -6,7 +6,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray
 from ilmek.errors import MechanismError
-from ilmek.jobs.mechanism import Run
+from ilmek.jobs.mechanism import MechanismRun
 from ilmek.linkage.body_motion import PointMotion
 from ilmek.linkage.mobility import mobility
 from ilmek.linkage.model import GROUND, Pin, Rotation, freedom
@@ -20,7 +20,7 @@ CURVES = 4
 """Curves of a plot, at most, that a person can tell apart."""
 
 
-def places(run: Run) -> tuple[tuple[str, str], ...]:
+def places(run: MechanismRun) -> tuple[tuple[str, str], ...]:
     """The named points that move, each once: body and point; a joint's by the first body that carries it."""
     mechanism = run.plan.mechanism
     pins = {joint.name for joint in mechanism.joints if isinstance(joint, Pin)}
@@ -34,7 +34,7 @@ def places(run: Run) -> tuple[tuple[str, str], ...]:
     return tuple(found)
 
 
-def report(run: Run) -> Report:
+def report(run: MechanismRun) -> Report:
     """What the mechanism is and how it moves; lengths in mm, angles in degrees where shown."""
     mechanism = run.plan.mechanism
     results = (
@@ -66,7 +66,7 @@ def report(run: Run) -> Report:
     )
 
 
-def _warnings(run: Run) -> tuple[str, ...]:
+def _warnings(run: MechanismRun) -> tuple[str, ...]:
     try:
         run.motion.require()
     except MechanismError as error:
@@ -74,12 +74,12 @@ def _warnings(run: Run) -> tuple[str, ...]:
     return ()
 
 
-def _mobility(run: Run) -> str:
+def _mobility(run: MechanismRun) -> str:
     first = int(np.flatnonzero(run.motion.status == Status.OK)[0])
     return mobility(run.plan.mechanism, run.motion.pose(first)).words
 
 
-def _points_table(run: Run) -> Table:
+def _points_table(run: MechanismRun) -> Table:
     columns = (
         *(Column("point"), Column("x from", "mm"), Column("x to", "mm"), Column("y from", "mm"), Column("y to", "mm")),
         *(Column("speed up to", "m/s"), Column("acceleration up to", "m/s^2")),
@@ -87,13 +87,13 @@ def _points_table(run: Run) -> Table:
     return Table("points", "Points that move", columns, tuple(_point_row(run, *one) for one in places(run)))
 
 
-def _point_row(run: Run, body: str, point: str) -> tuple[float | int | str, ...]:
+def _point_row(run: MechanismRun, body: str, point: str) -> tuple[float | int | str, ...]:
     moved = run.motion.point(body, point)
     ends = [*_ends(np.real(moved.position)), *_ends(np.imag(moved.position))]
     return (f"{point} of {body}", *ends, _ends(np.abs(moved.velocity))[1], _ends(np.abs(moved.acceleration))[1])
 
 
-def _bodies_table(run: Run) -> Table:
+def _bodies_table(run: MechanismRun) -> Table:
     columns = (
         *(Column("body"), Column("angle from", "deg"), Column("angle to", "deg")),
         *(Column("speed up to", "rad/s"), Column("acceleration up to", "rad/s^2")),
@@ -101,7 +101,7 @@ def _bodies_table(run: Run) -> Table:
     return Table("bodies", "Bodies", columns, tuple(_body_row(run, body) for body in run.plan.mechanism.moving))
 
 
-def _body_row(run: Run, body: str) -> tuple[float | int | str, ...]:
+def _body_row(run: MechanismRun, body: str) -> tuple[float | int | str, ...]:
     omega, alpha = np.abs(run.motion.omega(body)), np.abs(run.motion.alpha(body))
     return (body, *_ends(_angle(run, body)), _ends(omega)[1], _ends(alpha)[1])
 
@@ -111,7 +111,7 @@ def _ends(values: FloatArray) -> tuple[float, float]:
     return float(np.nanmin(values)), float(np.nanmax(values))
 
 
-def _figures(run: Run) -> tuple[Figure, ...]:
+def _figures(run: MechanismRun) -> tuple[Figure, ...]:
     """The mechanism in motion over its longest range that closes, and the bodies' angles and speeds."""
     if run.running is None:
         return ()
@@ -129,7 +129,7 @@ def _figures(run: Run) -> tuple[Figure, ...]:
     return (*_moving(run, x), *plots)
 
 
-def _moving(run: Run, drive: Axis) -> Iterator[Figure]:
+def _moving(run: MechanismRun, drive: Axis) -> Iterator[Figure]:
     """The mechanism in motion, the paths of its free points drawn."""
     at, way = _frames(run)
     moved = solve(run.plan, run.at(at), {run.running.name: run.speed} if run.running else {})
@@ -141,7 +141,7 @@ def _moving(run: Run, drive: Axis) -> Iterator[Figure]:
         yield animated(moved, at, drawn, traces=traces, period=period, drive=drive)
 
 
-def _frames(run: Run) -> tuple[FloatArray, float]:
+def _frames(run: MechanismRun) -> tuple[FloatArray, float]:
     """Values of the running input to draw at, and their range: the longest that closes; of a turn not the end again."""
     one, other = max(run.closing, key=lambda ends: abs(ends[1] - ends[0]))
     first, last = min(one, other), max(one, other)
@@ -149,7 +149,7 @@ def _frames(run: Run) -> tuple[FloatArray, float]:
     return np.linspace(first, last, FRAMES, endpoint=not whole), last - first
 
 
-def _angle(run: Run, body: str) -> FloatArray:
+def _angle(run: MechanismRun, body: str) -> FloatArray:
     """The body's angle [rad], unwrapped over the samples that closed."""
     direction = run.motion.direction(body)
     angle = np.full(len(direction), np.nan)
@@ -158,15 +158,17 @@ def _angle(run: Run, body: str) -> FloatArray:
     return angle
 
 
-def _omega(run: Run, body: str) -> FloatArray:
+def _omega(run: MechanismRun, body: str) -> FloatArray:
     return run.motion.omega(body)
 
 
-def _series(run: Run, bodies: list[str], course: Callable[[Run, str], FloatArray]) -> tuple[Series, ...]:
+def _series(
+    run: MechanismRun, bodies: list[str], course: Callable[[MechanismRun, str], FloatArray]
+) -> tuple[Series, ...]:
     return tuple(Series(body, run.values, course(run, body)) for body in bodies)
 
 
-def as_json(run: Run) -> dict[str, object]:
+def as_json(run: MechanismRun) -> dict[str, object]:
     """The report and, sample by sample, everything that moves: SI and radians, points as [x, y]."""
     said = report(run).as_json()
     motion = run.motion
@@ -183,7 +185,7 @@ def as_json(run: Run) -> dict[str, object]:
     return {**said, "values": run.values, "status": status, "bodies": bodies, "points": points}
 
 
-def columns(run: Run) -> dict[str, FloatArray]:
+def columns(run: MechanismRun) -> dict[str, FloatArray]:
     """Every number of the motion as a column of a table, by its heading with the unit: SI and radians."""
     unit = "rad" if run.unit == "deg" else "m"
     found = {f"{run.running.name} [{unit}]": run.values} if run.running else {}

@@ -7,7 +7,7 @@ from typing import Any
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.pile import PileParams
 from ilmek.carpet.quality import Quality, parse_quality
-from ilmek.carpet.sizes import Size, parse_size
+from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import YarnError
@@ -16,13 +16,13 @@ from ilmek.params import Setting
 
 
 @dataclass(frozen=True, slots=True)
-class Order:
+class CarpetOrder:
     """Which carpet: picture file, size, quality, knot, yarn list, how many of its yarns, lone knots, pile; and whether
     its chart is printed as PDF (None: where the sheets are not too many).
     """
 
     picture: Path
-    size: Size
+    size: CarpetSize
     quality: Quality
     knot: str
     yarns: tuple[Yarn, ...]
@@ -57,7 +57,7 @@ def read_order(
     keep_lone: bool = False,
     pile_height: Setting = "8mm",
     pdf: bool | None = None,
-) -> Order:
+) -> CarpetOrder:
     """The order from texts. Raises CarpetError, YarnError or ParameterError; the picture is not opened yet."""
     kind, wide, fine = parse_knot(knot), parse_size(size), parse_quality(quality)
     pile = PileParams.read({"pile_height": pile_height})
@@ -67,4 +67,4 @@ def read_order(
         raise YarnError(
             f"--colours {colours}", allowed=f"2 to {len(yarns)}, the yarns of the list", do="or leave it out"
         )
-    return Order(picture, wide, fine, kind, yarns, colours, keep_lone, pile, pdf)
+    return CarpetOrder(picture, wide, fine, kind, yarns, colours, keep_lone, pile, pdf)

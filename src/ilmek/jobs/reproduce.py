@@ -11,7 +11,7 @@ from ilmek.verification import PAPERS, Verdict, reproduce
 
 
 @dataclass(frozen=True, slots=True)
-class Reproduced:
+class ReproductionResult:
     """The verdicts on the claims of each paper, and the time that they took [s]."""
 
     verdicts: dict[str, tuple[Verdict, ...]]
@@ -22,7 +22,7 @@ class Reproduced:
         return [verdict.as_json() for of_paper in self.verdicts.values() for verdict in of_paper]
 
 
-def reproduce_papers(papers: Sequence[str] = (), *, progress: Progress = SILENT) -> Reproduced:
+def reproduce_papers(papers: Sequence[str] = (), *, progress: Progress = SILENT) -> ReproductionResult:
     """Compute every number that the papers print, and judge it.
 
     papers  names of `PAPERS`; default: all
@@ -38,4 +38,4 @@ def reproduce_papers(papers: Sequence[str] = (), *, progress: Progress = SILENT)
         progress.part(number / len(wanted), (number + 1) / len(wanted), paper)
         verdicts[paper] = reproduce([paper])
     progress(1.0)
-    return Reproduced(verdicts, time.perf_counter() - begun)
+    return ReproductionResult(verdicts, time.perf_counter() - begun)

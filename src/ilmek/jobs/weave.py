@@ -8,9 +8,9 @@ from ilmek.io.chart.symbols import symbols
 from ilmek.io.json_file import write_json
 from ilmek.io.output import output_folder
 from ilmek.io.programme_file import Label, write_programme
-from ilmek.jobs.chart import Charted, chart_results, job_json, make_charted, write_chart
-from ilmek.jobs.loom import Loomed, LoomOrder, make_loomed
-from ilmek.jobs.order import Order
+from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
+from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed
+from ilmek.jobs.order import CarpetOrder
 from ilmek.machines.automated_loom.report import parts_of, report_with
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Report, at_most
@@ -31,15 +31,15 @@ FILES = (
 
 
 @dataclass(frozen=True, slots=True)
-class Woven:
+class WeaveResult:
     """All that the job found, and the folder it lies in.
 
     loom   the loom's report with everything of its machines in it     parts  the reports of its machines
     """
 
-    charted: Charted
+    charted: ChartResult
     asked: LoomOrder
-    loomed: Loomed
+    loomed: LoomResult
     loom: Report
     parts: tuple[Report, ...]
     folder: Path
@@ -70,7 +70,9 @@ class Woven:
         return [str(self.folder / file.name) for file in self.notes]
 
 
-def weave(order: Order, asked: LoomOrder, folder: Path, *, force: bool = False, progress: Progress = SILENT) -> Woven:
+def weave(
+    order: CarpetOrder, asked: LoomOrder, folder: Path, *, force: bool = False, progress: Progress = SILENT
+) -> WeaveResult:
     """Do the whole job and put its files into a folder, whole or not at all.
 
     Raises any IlmekError; then nothing is written.
@@ -79,7 +81,7 @@ def weave(order: Order, asked: LoomOrder, folder: Path, *, force: bool = False, 
     progress.part(0.4, 0.5, "loom")
     loomed = make_loomed(asked, order, charted.chart)
     parts = parts_of(loomed.design)
-    woven = Woven(charted, asked, loomed, report_with(loomed.design, parts), parts, folder)
+    woven = WeaveResult(charted, asked, loomed, report_with(loomed.design, parts), parts, folder)
     with output_folder(folder, force=force) as work:
         write_chart(charted, work, progress.part(0.5, 0.7, "chart.pdf"))
         write_programme(
@@ -104,14 +106,14 @@ def loom_alone(loom: Report, parts: tuple[Report, ...]) -> Report:
     )
 
 
-def job_checks(asked: LoomOrder, loomed: Loomed) -> tuple[Check, ...]:
+def job_checks(asked: LoomOrder, loomed: LoomResult) -> tuple[Check, ...]:
     """The deadline, where there is one."""
     if asked.deadline is None:
         return ()
     return (at_most("weaving time", loomed.programme.duration, asked.deadline, "h", "the deadline asked for"),)
 
 
-def weave_results(woven: Woven) -> dict[str, Any]:
+def weave_results(woven: WeaveResult) -> dict[str, Any]:
     """The results of the whole by their stable names, SI."""
     programme, made = woven.loomed.programme, woven.loomed.design
     return {
@@ -127,7 +129,7 @@ def weave_results(woven: Woven) -> dict[str, Any]:
     }
 
 
-def weave_json(woven: Woven) -> dict[str, Any]:
+def weave_json(woven: WeaveResult) -> dict[str, Any]:
     """The JSON of the whole."""
     return job_json(
         "weave",
@@ -140,13 +142,13 @@ def weave_json(woven: Woven) -> dict[str, Any]:
     )
 
 
-def machine_json(woven: Woven) -> dict[str, Any]:
+def machine_json(woven: WeaveResult) -> dict[str, Any]:
     """The loom's report as JSON, and under `machines` those of its machines by name."""
     machines = {part.machine: part.as_json() for part in woven.parts}
     return {**loom_alone(woven.loom, woven.parts).as_json(), "machines": machines}
 
 
-def _label(woven: Woven) -> Label:
+def _label(woven: WeaveResult) -> Label:
     chart, made = woven.charted.chart, woven.loomed.design
     return Label(chart.size, chart.quality, chart.knot, chart.yarns, made.params.pitch, made.cyclograms)
 
@@ -160,7 +162,7 @@ def time_in_words(seconds: float) -> str:
     return format_quantity(seconds, "h", 3) if seconds >= hour else format_quantity(seconds, "min", 3)
 
 
-def _page(woven: Woven) -> CarpetPage:
+def _page(woven: WeaveResult) -> CarpetPage:
     chart, programme, asked = woven.charted.chart, woven.loomed.programme, woven.asked
     heads = "as the deadline needs" if asked.deadline is not None else f"{woven.loomed.design.heads_max} would fit"
     facts = [

@@ -27,9 +27,9 @@ from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import PointMotion
 from ilmek.linkage.executor import run
-from ilmek.linkage.groups.group import Columns, Drive, Step
-from ilmek.linkage.groups.shift import Shift
-from ilmek.linkage.groups.turn import Turn
+from ilmek.linkage.groups.group import Columns, InputMotion, Step
+from ilmek.linkage.groups.shift import DrivenSlider
+from ilmek.linkage.groups.turn import DrivenCrank
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import Courses, drives_of, solve
@@ -38,7 +38,7 @@ from ilmek.linkage.tape import ALPHA, DIRECTION, OMEGA, Dimensions, Tape, is_com
 
 
 @dataclass(frozen=True, slots=True)
-class Turning:
+class BodyRotation:
     """A body's turning, (variants, samples): direction e^{i theta}, omega [rad/s], alpha [rad/s^2]."""
 
     direction: Complex[np.ndarray, "variants samples"]
@@ -57,7 +57,7 @@ class Sweep:
             cannot close are left out, see `status`
     """
 
-    bodies: Mapping[str, Turning]
+    bodies: Mapping[str, BodyRotation]
     points: Mapping[tuple[str, str], PointMotion]
     status: Int8[np.ndarray, "variants samples"]
     margin: Float[np.ndarray, " variants"]
@@ -115,7 +115,7 @@ def sweep(
         pairs += [to, to + 2, to + 4]
     answer = _run(written, drives, (pairs, singles), variants, judged=True)
     turning = {
-        body: Turning(answer.pair(row + DIRECTION), answer.single(row + OMEGA), answer.single(row + ALPHA))
+        body: BodyRotation(answer.pair(row + DIRECTION), answer.single(row + OMEGA), answer.single(row + ALPHA))
         for body, row in zip(bodies, rows, strict=True)
     }
     moved = {
@@ -145,7 +145,7 @@ class _Answer:
 
 def _run(
     written: Tape,
-    drives: Mapping[str, Drive],
+    drives: Mapping[str, InputMotion],
     wanted: tuple[list[int], list[int]],
     variants: int = 1,
     *,
@@ -185,21 +185,21 @@ def _run(
 def _kept(written: Tape, step: Step, body: str) -> tuple[list[int], list[int]]:
     """The rows of a body's columns, complex and real, that are not the inputs' own."""
     row = written.rows[body]
-    if isinstance(step, Shift):
+    if isinstance(step, DrivenSlider):
         return [], []
     if body in written.travel:
         return [], [written.travel[body] + order for order in range(3)]
     return [row + DIRECTION], [] if _is_free(step) else [row + OMEGA, row + ALPHA]
 
 
-def _columns(written: Tape, step: Step, body: str, drives: Mapping[str, Drive], answer: _Answer) -> Columns:
+def _columns(written: Tape, step: Step, body: str, drives: Mapping[str, InputMotion], answer: _Answer) -> Columns:
     """A body's columns, as its step would give them."""
-    if isinstance(step, Shift):
+    if isinstance(step, DrivenSlider):
         drive = drives[step.entry]
         return drive.value, drive.speed, drive.acceleration
     pairs, singles = _kept(written, step, body)
     columns = (*(answer.pair(row)[0] for row in pairs), *(answer.single(row)[0] for row in singles))
-    if isinstance(step, Turn) and _is_free(step):
+    if isinstance(step, DrivenCrank) and _is_free(step):
         drive = drives[step.entry]
         return (*columns, step.sign * drive.speed, step.sign * drive.acceleration)
     return columns
@@ -207,7 +207,7 @@ def _columns(written: Tape, step: Step, body: str, drives: Mapping[str, Drive], 
 
 def _is_free(step: Step) -> bool:
     """Whether a body is driven against the ground, so that its rates are the input's."""
-    return isinstance(step, Turn) and step.carrier == GROUND
+    return isinstance(step, DrivenCrank) and step.carrier == GROUND
 
 
 def _variants(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField]) -> int:

@@ -18,12 +18,12 @@ from jaxtyping import Float
 
 from ilmek.arrays import FloatArray
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.configuration import Configurations, Freed, freed
+from ilmek.linkage.configuration import Configurations, FreeInput, freed
 from ilmek.linkage.model import Mechanism
 from ilmek.linkage.one_input import OneInput
 from ilmek.linkage.outputs import Output, followed_bodies
 from ilmek.linkage.structure import plan
-from ilmek.linkage.tracing import Trace, trace
+from ilmek.linkage.tracing import ConfigurationCurve, trace
 from ilmek.num.brackets import bracketed_roots
 
 SEEDS = 180
@@ -53,7 +53,7 @@ class Branch:
 
 @dataclass(frozen=True, slots=True)
 class Circuit:
-    """A closed way through configurations: its branches in the order in which they are passed; a `Way`.
+    """A closed way through configurations: its branches in the order in which they are passed; a `ConfigurationPath`.
 
     dead_centres  values of the input [rad, m] at which it turns back, in order      turns  of the input, all round
     crossings     values of the input at which another circuit is crossed: a change point, the motion uncertain there
@@ -64,8 +64,8 @@ class Circuit:
     dead_centres: tuple[float, ...]
     crossings: tuple[float, ...]
     turns: int
-    freed: Freed
-    trace: Trace
+    freed: FreeInput
+    trace: ConfigurationCurve
 
     @property
     def closed(self) -> bool:
@@ -212,7 +212,11 @@ def _circuit(way: OneInput, seed: Configurations, ways: list[OneInput]) -> Circu
 
 
 def _parts(
-    free: Freed, line: Trace, folds: Float[np.ndarray, " folds"], inputs: FloatArray, ways: list[OneInput]
+    free: FreeInput,
+    line: ConfigurationCurve,
+    folds: Float[np.ndarray, " folds"],
+    inputs: FloatArray,
+    ways: list[OneInput],
 ) -> tuple[Branch, ...]:
     """The branches between the folds; the whole, where there are none."""
     end = float(line.lengths[-1])
@@ -238,7 +242,7 @@ def _parts(
     return tuple(found)
 
 
-def _label(free: Freed, at: Configurations, ways: list[OneInput]) -> Mapping[str, int]:
+def _label(free: FreeInput, at: Configurations, ways: list[OneInput]) -> Mapping[str, int]:
     """The signs under which the closed forms give a configuration."""
     for way in ways:
         given = freed(way).posed(at.inputs)

@@ -13,7 +13,7 @@ from jaxtyping import Complex, Float
 from ilmek.arrays import FloatArray
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.configuration_path import Way, spaced
+from ilmek.linkage.configuration_path import ConfigurationPath, spaced
 from ilmek.linkage.model import Mechanism
 from ilmek.num.brackets import bracketed_minima, bracketed_roots
 from ilmek.plane.outlines import Outline, between, nearest
@@ -40,14 +40,14 @@ class Clearance:
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class OutlinedBody:
     """A body with its outlines, in its frame."""
 
     body: str
     outlines: tuple[Outline, ...]
 
 
-def outlined(mechanism: Mechanism, body: str, radius: float) -> Placed:
+def outlined(mechanism: Mechanism, body: str, radius: float) -> OutlinedBody:
     """A body as the hull of its points with a round edge of the radius [m]: a link by its pins and half its width.
 
     Raises MechanismError for an unknown body, or one without points.
@@ -55,10 +55,12 @@ def outlined(mechanism: Mechanism, body: str, radius: float) -> Placed:
     points = tuple(mechanism.body(body).points.values())
     if not points:
         raise MechanismError(f"body {body!r} of {mechanism.name} has no points", do="give its outline")
-    return Placed(body, (Outline(points, radius),))
+    return OutlinedBody(body, (Outline(points, radius),))
 
 
-def distances(way: Way, first: Placed, second: Placed, places: FloatArray) -> Float[np.ndarray, " places"]:
+def distances(
+    way: ConfigurationPath, first: OutlinedBody, second: OutlinedBody, places: FloatArray
+) -> Float[np.ndarray, " places"]:
     """Distance of two bodies at places of a way [m], below 0 where they overlap."""
     bodies = way.bodies(places)
     pairs = []
@@ -73,7 +75,7 @@ def distances(way: Way, first: Placed, second: Placed, places: FloatArray) -> Fl
     return least
 
 
-def clearance(way: Way, first: Placed, second: Placed) -> Clearance:
+def clearance(way: ConfigurationPath, first: OutlinedBody, second: OutlinedBody) -> Clearance:
     """The least clearance of two bodies over a way, and the stretches in which they overlap.
 
     Raises MechanismError for an unknown body, or one and the same.
@@ -81,10 +83,10 @@ def clearance(way: Way, first: Placed, second: Placed) -> Clearance:
     >>> from ilmek.linkage.fourbar import four_bar
     >>> from ilmek.linkage.one_input import one_input
     >>> from ilmek.linkage.structure import plan
-    >>> from ilmek.linkage.configuration_path import InputWay
+    >>> from ilmek.linkage.configuration_path import InputPath
     >>> mechanism = four_bar(0.300, 0.060, 0.200, 0.230, branch=+1)
-    >>> post = Placed("ground", (Outline((0.1,), 0.005),))
-    >>> found = clearance(InputWay(one_input(plan(mechanism))), outlined(mechanism, "crank", 0.010), post)
+    >>> post = OutlinedBody("ground", (Outline((0.1,), 0.005),))
+    >>> found = clearance(InputPath(one_input(plan(mechanism))), outlined(mechanism, "crank", 0.010), post)
     >>> round(found.least, 9), round(found.input, 6) + 0.0
     (0.025, 0.0)
     """
@@ -155,7 +157,9 @@ def _interference(
     return np.stack([starts, stops], axis=1)
 
 
-def _nearest(way: Way, first: Placed, second: Placed, place: FloatArray) -> tuple[complex, complex]:
+def _nearest(
+    way: ConfigurationPath, first: OutlinedBody, second: OutlinedBody, place: FloatArray
+) -> tuple[complex, complex]:
     """The nearest points on both bodies."""
     bodies = way.bodies(place)
     found = []

@@ -16,7 +16,7 @@ from ilmek.arrays import FloatArray
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.displacements import moving
 from ilmek.linkage.equations import Equation
-from ilmek.linkage.groups.group import Drive
+from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.loops import Loops, loops
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.one_input import OneInput
@@ -45,7 +45,7 @@ class Configurations:
 
 
 @dataclass(frozen=True, slots=True)
-class Freed:
+class FreeInput:
     """A mechanism one of whose inputs is free, the others held; a step of it is a row of 3 a body, then the input."""
 
     moved: OneInput
@@ -147,14 +147,14 @@ class Freed:
         return names.index(self.moved.name) - len(names) + len(self.loops.joints)
 
     def _equations(self, at: Configurations, tangents: FloatArray | None = None) -> list[Equation]:
-        drives = {name: Drive(value, 0.0, 0.0) for name, value in self.moved.held.items()}
-        drives[self.moved.name] = Drive(at.inputs, 0.0, 0.0)
+        drives = {name: InputMotion(value, 0.0, 0.0) for name, value in self.moved.held.items()}
+        drives[self.moved.name] = InputMotion(at.inputs, 0.0, 0.0)
         bodies = self.bodies(at)
         if tangents is not None:
             bodies = moving(bodies, self.loops.moves(tangents[:, :-1]))
         return self.loops.equations(lambda _: bodies, drives)
 
 
-def freed(moved: OneInput) -> Freed:
+def freed(moved: OneInput) -> FreeInput:
     """The mechanism with the input that moves set free."""
-    return Freed(moved, loops(moved.plan.mechanism))
+    return FreeInput(moved, loops(moved.plan.mechanism))

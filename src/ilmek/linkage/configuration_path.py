@@ -19,7 +19,7 @@ from ilmek.linkage.one_input import OneInput
 
 
 @runtime_checkable
-class Way(Protocol):
+class ConfigurationPath(Protocol):
     """A way of a mechanism; `circuits.Circuit` is one too."""
 
     @property
@@ -42,7 +42,7 @@ class Way(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class InputWay:
+class InputPath:
     """The way from one value of the input to another [rad, m]; places are the values. Closed if they are a turn apart.
 
     Raises MechanismError where the mechanism does not close all along, or start is not below stop.

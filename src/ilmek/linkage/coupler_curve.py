@@ -16,7 +16,7 @@ from jaxtyping import Bool, Complex, Float
 from ilmek.arrays import FloatArray, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import PointMotion
-from ilmek.linkage.configuration_path import Way, spaced
+from ilmek.linkage.configuration_path import ConfigurationPath, spaced
 from ilmek.num.brackets import bracketed_roots
 from ilmek.num.linear import solve_many
 from ilmek.plane.curves import crossing_segments, curvature
@@ -43,7 +43,7 @@ MEET = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Spot:
+class CurvePoint:
     """A remarkable spot of a path: place on the way, the input's value there [rad, m], and where it is [m]."""
 
     place: float
@@ -62,7 +62,7 @@ class Crossing:
 
 
 @dataclass(frozen=True, slots=True)
-class Straight:
+class StraightSection:
     """A stretch of a path that stays within a strip along its chord.
 
     start, stop  places on the way      inputs  there [rad, m]      length  along the strip [m]
@@ -82,7 +82,7 @@ class Straight:
 class CouplerCurve:
     """The path of a point, at `local` [m] of a body's frame, along a way."""
 
-    way: Way
+    way: ConfigurationPath
     body: str
     local: complex
 
@@ -117,7 +117,7 @@ class CouplerCurve:
         speed = np.abs(self.at(places.ravel()).velocity).reshape(places.shape)
         return float(np.sum(speed * GAUSS[1] * half[:, None]))
 
-    def cusps(self) -> tuple[Spot, ...]:
+    def cusps(self) -> tuple[CurvePoint, ...]:
         """Where the point stands still and turns back."""
         slow = self._slowest()
         if not len(slow):
@@ -125,7 +125,7 @@ class CouplerCurve:
         mean = np.mean(np.abs(self.at(self.samples()).velocity))
         return self._spots(slow[np.abs(self.at(slow).velocity) <= CUSP * mean])
 
-    def inflections(self) -> tuple[Spot, ...]:
+    def inflections(self) -> tuple[CurvePoint, ...]:
         """Where the path changes from bending left to bending right."""
         return self._spots(self._roots(self.samples(), lambda one: cross(one.velocity, one.acceleration)))
 
@@ -148,7 +148,7 @@ class CouplerCurve:
             both = np.where(np.isfinite(both), np.clip(both, places[0], places[-1]), places[0])
         return self._crossed(both)
 
-    def straights(self, tolerance: float, *, least: float) -> tuple[Straight, ...]:
+    def straights(self, tolerance: float, *, least: float) -> tuple[StraightSection, ...]:
         """Stretches of at least `least` [m] within `tolerance` [m] of a line along their chord, longest first.
 
         None overlaps a longer one.
@@ -165,7 +165,7 @@ class CouplerCurve:
         z, turn = np.asarray(self.at(places).position), float(np.ptp(self.way.breaks))
         windows = [(abs(z[last] - z[first]), first, last) for first, last in _windows(z, tolerance)]
         step = float(np.max(np.abs(np.diff(z))))
-        found: list[Straight] = []
+        found: list[StraightSection] = []
         for extent, first, last in sorted(windows, reverse=True):
             start, stop = places[first], places[last]
             if extent + 2 * step >= least and stop - start < turn and not _overlaps(found, start, stop, turn):
@@ -190,11 +190,11 @@ class CouplerCurve:
         (found,) = np.nonzero(change & (value[:-1] < 0) if rising else change)
         return bracketed_roots(f, places[found], places[found + 1]) if len(found) else np.empty(0)
 
-    def _spots(self, places: FloatArray) -> tuple[Spot, ...]:
+    def _spots(self, places: FloatArray) -> tuple[CurvePoint, ...]:
         if not len(places):
             return ()
         inputs, positions = self.way.inputs(places), np.asarray(self.at(places).position)
-        return tuple(Spot(*one) for one in zip(places.tolist(), inputs.tolist(), positions.tolist(), strict=True))
+        return tuple(CurvePoint(*one) for one in zip(places.tolist(), inputs.tolist(), positions.tolist(), strict=True))
 
     def _crossed(self, both: Float[np.ndarray, "pairs 2"]) -> tuple[Crossing, ...]:
         """The pairs of places that do cross, each once."""
@@ -213,7 +213,7 @@ class CouplerCurve:
         return tuple(found)
 
 
-def _fitted(curve: CouplerCurve, low: float, high: float, tolerance: float) -> Straight:
+def _fitted(curve: CouplerCurve, low: float, high: float, tolerance: float) -> StraightSection:
     """The longest stretch between two places, in finer steps."""
     places = np.linspace(low, high, 200)
     every = np.asarray(curve.at(places).position)
@@ -223,7 +223,7 @@ def _fitted(curve: CouplerCurve, low: float, high: float, tolerance: float) -> S
     along, across = np.asarray(dot(direction, z)), np.asarray(cross(direction, z))
     middle = direction * (0.5 * (along.min() + along.max()) + 0.5j * (across.min() + across.max()))
     ends = curve.way.inputs(places[[first, last]])
-    return Straight(
+    return StraightSection(
         float(places[first]),
         float(places[last]),
         (float(ends[0]), float(ends[1])),
@@ -256,19 +256,19 @@ def _first_of_its_kind(both: Float[np.ndarray, "pairs 2"], near: float) -> Bool[
     return first
 
 
-def _overlaps(found: list[Straight], start: float, stop: float, turn: float) -> bool:
+def _overlaps(found: list[StraightSection], start: float, stop: float, turn: float) -> bool:
     """Whether a stretch has places in common with one found, on any turn."""
     return any(one.start < stop + shift and one.stop > start + shift for one in found for shift in (-turn, 0.0, turn))
 
 
-def coupler_curve(way: Way, body: str, point: str) -> CouplerCurve:
+def coupler_curve(way: ConfigurationPath, body: str, point: str) -> CouplerCurve:
     """The path of a body's named point along a way. Raises MechanismError for an unknown body or point.
 
-    >>> from ilmek.linkage.configuration_path import InputWay
+    >>> from ilmek.linkage.configuration_path import InputPath
     >>> from ilmek.linkage.fourbar import four_bar
     >>> from ilmek.linkage.one_input import one_input
     >>> from ilmek.linkage.structure import plan
-    >>> turn = InputWay(one_input(plan(four_bar(0.300, 0.060, 0.200, 0.230, branch=+1))))
+    >>> turn = InputPath(one_input(plan(four_bar(0.300, 0.060, 0.200, 0.230, branch=+1))))
     >>> round(coupler_curve(turn, "coupler", "A").length() / (2 * np.pi), 12)
     0.06
     """

@@ -15,22 +15,22 @@ from ilmek.linkage.model import Mechanism, Slide
 from ilmek.plane.vectors import unit
 
 
-class Nudge(NamedTuple):
+class BodyShift(NamedTuple):
     """A displacement in a body's own frame, a unit change of a dimension: shift [m], turn about the origin [rad]."""
 
     shift: ComplexField
     turn: RealField = 0.0
 
 
-NONE = Nudge(0j)
+NONE = BodyShift(0j)
 """No displacement."""
 
-Nudges: TypeAlias = Mapping[tuple[str, str], Nudge]
+Nudges: TypeAlias = Mapping[tuple[str, str], BodyShift]
 """(joint or point, body) -> how that joint sees the body displaced."""
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class BodyPoint:
     """Where a point stands in its body [m], measured in the direction `along` [rad] of the body's frame.
 
     A link's length is its far point's place along the link.
@@ -48,7 +48,7 @@ class Place:
     def nudges(self, mechanism: Mechanism) -> Nudges:
         """The body shifted. Raises MechanismError for an unknown body or point."""
         mechanism.point(self.body, self.point)
-        return {(self.point, self.body): Nudge(unit(self.along))}
+        return {(self.point, self.body): BodyShift(unit(self.along))}
 
     def value(self, mechanism: Mechanism) -> float:
         """The coordinate [m]."""
@@ -97,7 +97,7 @@ class FixedAngle:
         return _slide(mechanism, self.slide).turned
 
 
-Dimension: TypeAlias = Place | LineDirection | FixedAngle
+Dimension: TypeAlias = BodyPoint | LineDirection | FixedAngle
 
 
 def dimensions(mechanism: Mechanism) -> tuple[Dimension, ...]:
@@ -106,7 +106,10 @@ def dimensions(mechanism: Mechanism) -> tuple[Dimension, ...]:
     They are more than a drawing needs: those that only move a body's frame in the body cancel one another.
     """
     places = [
-        Place(body.name, point, along) for body in mechanism.bodies for point in body.points for along in (0.0, QUARTER)
+        BodyPoint(body.name, point, along)
+        for body in mechanism.bodies
+        for point in body.points
+        for along in (0.0, QUARTER)
     ]
     slides = [joint.name for joint in mechanism.joints if isinstance(joint, Slide)]
     return (*places, *(kind(slide) for slide in slides for kind in (LineDirection, FixedAngle)))
@@ -116,8 +119,8 @@ QUARTER = 1.5707963267948966
 """A quarter turn [rad]: along y."""
 
 
-def _about(centre: complex, turn: float) -> Nudge:
-    return Nudge(-1j * turn * centre, turn)
+def _about(centre: complex, turn: float) -> BodyShift:
+    return BodyShift(-1j * turn * centre, turn)
 
 
 def _slide(mechanism: Mechanism, name: str) -> Slide:

@@ -17,7 +17,7 @@ import numpy as np
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import carried_jerk
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.groups.group import Drive, Group, Known
+from ilmek.linkage.groups.group import Group, InputMotion, Known
 from ilmek.linkage.model import Coupling, Joint, Mechanism, Pin, Rotation, Slide
 from ilmek.plane.vectors import dot
 
@@ -59,13 +59,13 @@ def slide_equations(mechanism: Mechanism, slide: Slide, bodies: Known) -> list[E
     return [across, _angle(slide.body, slide.guide, slide.turned, bodies)]
 
 
-def displacement_equation(mechanism: Mechanism, slide: Slide, drive: Drive, bodies: Known) -> Equation:
+def displacement_equation(mechanism: Mechanism, slide: Slide, drive: InputMotion, bodies: Known) -> Equation:
     """D . f - s = 0: the driven slide."""
     along = _along(mechanism, slide, bodies, 1)
     return Equation(along.value - drive.value, along.row, along.bias, drive.speed, drive.acceleration, drive.jerk)
 
 
-def rotation_equation(mechanism: Mechanism, entry: Rotation, drive: Drive, bodies: Known) -> Equation:
+def rotation_equation(mechanism: Mechanism, entry: Rotation, drive: InputMotion, bodies: Known) -> Equation:
     """theta_body - theta_carrier - input = 0: the driven pin."""
     first, second = mechanism.joint(entry.about).bodies
     carrier = second if entry.body == first else first

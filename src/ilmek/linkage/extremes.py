@@ -15,14 +15,14 @@ from jaxtyping import Bool, Float
 from ilmek.errors import MechanismError
 from ilmek.linkage.dimensions import Dimension
 from ilmek.linkage.one_input import OneInput
-from ilmek.linkage.outputs import Followed, Output, followed
+from ilmek.linkage.outputs import Output, OutputHistory, followed
 from ilmek.linkage.sensitivity import derivatives
 from ilmek.num.brackets import bracketed_roots
 from ilmek.num.piecewise import roots
 
 
 @dataclass(frozen=True, slots=True)
-class Extreme:
+class OutputExtreme:
     """A local extreme of an output.
 
     input     value of the input there [rad, m]         value   of the output, or of its rate by the input
@@ -43,7 +43,9 @@ class ExtremeDerivatives:
     input: Float[np.ndarray, " dimensions"]
 
 
-def extremes(moved: OneInput, output: Output, start: float, stop: float, *, samples: int = 720) -> tuple[Extreme, ...]:
+def extremes(
+    moved: OneInput, output: Output, start: float, stop: float, *, samples: int = 720
+) -> tuple[OutputExtreme, ...]:
     """Local extremes of an output for inputs between start and stop, in order: the output's dead centres.
 
     Samples that do not close are left out; see `circuits` for what happens at the ends of the input's range.
@@ -64,7 +66,8 @@ def extremes(moved: OneInput, output: Output, start: float, stop: float, *, samp
         return ()
     there = followed(moved.motion(at), output)
     return tuple(
-        Extreme(float(q), float(y), bool(yy < 0)) for q, y, yy in zip(at, there.value, there.second_rate, strict=True)
+        OutputExtreme(float(q), float(y), bool(yy < 0))
+        for q, y, yy in zip(at, there.value, there.second_rate, strict=True)
     )
 
 
@@ -120,7 +123,7 @@ def dwells(
 
 def rate_extremes(
     moved: OneInput, output: Output, start: float, stop: float, *, samples: int = 720
-) -> tuple[Extreme, ...]:
+) -> tuple[OutputExtreme, ...]:
     """Local extremes of an output's rate by the input, in order; else as `extremes`."""
     nodes = _nodes(start, stop, samples)
     at = _roots(moved, output, nodes, _second_rate)
@@ -129,11 +132,13 @@ def rate_extremes(
     there = followed(moved.motion(at), output)
     step = 0.25 * (stop - start) / samples
     before = followed(moved.motion(at - step), output).second_rate
-    return tuple(Extreme(float(q), float(y), bool(yy > 0)) for q, y, yy in zip(at, there.rate, before, strict=True))
+    return tuple(
+        OutputExtreme(float(q), float(y), bool(yy > 0)) for q, y, yy in zip(at, there.rate, before, strict=True)
+    )
 
 
 def extreme_derivatives(
-    moved: OneInput, output: Output, extreme: Extreme, dimensions: Sequence[Dimension]
+    moved: OneInput, output: Output, extreme: OutputExtreme, dimensions: Sequence[Dimension]
 ) -> ExtremeDerivatives:
     """Exact derivatives of a local extreme of an output, of its value and its input, by dimensions.
 
@@ -146,7 +151,7 @@ def extreme_derivatives(
 
 
 def rate_extreme_derivatives(
-    moved: OneInput, output: Output, extreme: Extreme, dimensions: Sequence[Dimension]
+    moved: OneInput, output: Output, extreme: OutputExtreme, dimensions: Sequence[Dimension]
 ) -> Float[np.ndarray, " dimensions"]:
     """Exact derivatives of a local extreme of an output's rate (see `rate_extremes`) by dimensions."""
     motion = moved.motion(np.array([extreme.input])).require()
@@ -160,16 +165,16 @@ def _nodes(start: float, stop: float, samples: int) -> Float[np.ndarray, " nodes
     return np.linspace(start, stop, samples + 1)
 
 
-def _rate(course: Followed) -> Float[np.ndarray, " samples"]:
+def _rate(course: OutputHistory) -> Float[np.ndarray, " samples"]:
     return course.rate
 
 
-def _second_rate(course: Followed) -> Float[np.ndarray, " samples"]:
+def _second_rate(course: OutputHistory) -> Float[np.ndarray, " samples"]:
     return course.second_rate
 
 
 def _roots(
-    moved: OneInput, output: Output, nodes: Float[np.ndarray, " nodes"], part: Callable[[Followed], np.ndarray]
+    moved: OneInput, output: Output, nodes: Float[np.ndarray, " nodes"], part: Callable[[OutputHistory], np.ndarray]
 ) -> Float[np.ndarray, " roots"]:
     """Inputs between neighbouring nodes at which a part of the output's course changes its sign, polished."""
 

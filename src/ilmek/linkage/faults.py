@@ -7,7 +7,7 @@ from jaxtyping import Bool, Float, Int8
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
-from ilmek.linkage.groups.group import Drive, Known, Step
+from ilmek.linkage.groups.group import InputMotion, Known, Step
 from ilmek.linkage.initial_pose import starts
 from ilmek.linkage.model import GROUND, Input, Rotation
 from ilmek.linkage.status import Status, judge
@@ -18,7 +18,7 @@ SHOWN = 3
 """Ranges written out in a message; further ones are counted."""
 
 
-def first_fault(plan: Plan, drives: Mapping[str, Drive], status: Int8[np.ndarray, " samples"]) -> MechanismError:
+def first_fault(plan: Plan, drives: Mapping[str, InputMotion], status: Int8[np.ndarray, " samples"]) -> MechanismError:
     """The error for the first step that fails anywhere: the failing samples are solved once more, step by step."""
     bad = status != Status.OK
     moving = _moving(plan, drives)
@@ -37,7 +37,7 @@ def first_fault(plan: Plan, drives: Mapping[str, Drive], status: Int8[np.ndarray
     raise AssertionError("a sample that failed fails again")
 
 
-def _moving(plan: Plan, drives: Mapping[str, Drive]) -> tuple[Input, ...]:
+def _moving(plan: Plan, drives: Mapping[str, InputMotion]) -> tuple[Input, ...]:
     """The inputs whose value varies over the samples; all, where none does. The others are held, and not to blame."""
     varied = tuple(entry for entry in plan.mechanism.inputs if np.ptp(np.asarray(drives[entry.name].value)) > 0)
     return varied or plan.mechanism.inputs
@@ -65,7 +65,7 @@ def _error(plan: Plan, step: Step, said: tuple[str, str], known: Known, status: 
 
 def _where(
     moving: tuple[Input, ...],
-    drives: Mapping[str, Drive],
+    drives: Mapping[str, InputMotion],
     bad: Bool[np.ndarray, " samples"],
     found: Int8[np.ndarray, " bad"],
 ) -> str:

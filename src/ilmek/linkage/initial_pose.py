@@ -14,8 +14,8 @@ from jaxtyping import Float, Int
 
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.equations import relative_angle, travel
-from ilmek.linkage.groups.general import Block
-from ilmek.linkage.groups.group import Drive
+from ilmek.linkage.groups.general import GeneralGroup
+from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.model import GROUND, Mechanism, Rotation, Slide
 from ilmek.linkage.structure import Plan
 from ilmek.units import deg
@@ -27,9 +27,9 @@ SHIFT = 0.02
 """Longest step of a sliding input on the way from the pose, of the mechanism's size."""
 
 
-def starts(plan: Plan, drives: Mapping[str, Drive]) -> dict[str, BodyMotion]:
+def starts(plan: Plan, drives: Mapping[str, InputMotion]) -> dict[str, BodyMotion]:
     """A motion near the answer for every body that is left to Newton's method, at each sample."""
-    blocks = [step for step in plan.steps if isinstance(step, Block)]
+    blocks = [step for step in plan.steps if isinstance(step, GeneralGroup)]
     if not blocks:
         return {}
     reference = _inputs_in_pose(plan)
@@ -86,12 +86,12 @@ def _follow(
     count: int,
 ) -> list[dict[str, BodyMotion]]:
     """The bodies of the blocks at each of `count` even steps from the pose to the inputs wanted, the pose first."""
-    blocks = {body for step in plan.steps if isinstance(step, Block) for body in step.bodies}
+    blocks = {body for step in plan.steps if isinstance(step, GeneralGroup) for body in step.bodies}
     near = {body: motion for body, motion in drawn(plan.mechanism).items() if body in blocks}
     way = []
     for k in range(count + 1):
         drives = {
-            name: Drive(
+            name: InputMotion(
                 reference[name] + (value - reference[name]) * (k / count), (value - reference[name]) / count, 0.0
             )
             for name, value in wanted.items()

@@ -14,8 +14,8 @@ from ilmek.arrays import FloatArray, RealField
 from ilmek.linkage.body_motion import STILL
 from ilmek.linkage.displacements import Moves
 from ilmek.linkage.equations import Equation
-from ilmek.linkage.groups.general import Block
-from ilmek.linkage.groups.group import Drive, Group, Known
+from ilmek.linkage.groups.general import GeneralGroup
+from ilmek.linkage.groups.group import Group, InputMotion, Known
 from ilmek.linkage.groups.winding import angles
 from ilmek.linkage.model import Mechanism
 
@@ -29,10 +29,10 @@ class Loops:
 
     mechanism: Mechanism
     scale: float
-    held: tuple[tuple[str, Block], ...]
+    held: tuple[tuple[str, GeneralGroup], ...]
     joints: tuple[str, ...]
 
-    def equations(self, seen: Callable[[str], Known], drives: Mapping[str, Drive]) -> list[Equation]:
+    def equations(self, seen: Callable[[str], Known], drives: Mapping[str, InputMotion]) -> list[Equation]:
         """Every equation, in the poses in which its joint sees the bodies (anchored at their origins)."""
         return [equation for joint, block in self.held for equation in block.equations(seen(joint), drives)]
 
@@ -71,8 +71,8 @@ def loops(mechanism: Mechanism) -> Loops:
     inputs = [(one.joint, Group(mechanism, mechanism.moving, (), (one,))) for one in mechanism.inputs]
     couplings = [(one.name, Group(mechanism, mechanism.moving, (), (), (one,))) for one in mechanism.couplings]
     known = angles(mechanism) if couplings else {}
-    held = tuple((name, Block(group, scale, known)) for name, group in joints + couplings + inputs)
+    held = tuple((name, GeneralGroup(group, scale, known)) for name, group in joints + couplings + inputs)
     drawn = {body.name: STILL for body in mechanism.bodies}
-    drives = {entry.name: Drive(0.0, 0.0, 0.0) for entry in mechanism.inputs}
+    drives = {entry.name: InputMotion(0.0, 0.0, 0.0) for entry in mechanism.inputs}
     counted = tuple(name for name, block in held for _ in block.equations(drawn, drives))
     return Loops(mechanism, scale, held, counted)

@@ -11,7 +11,7 @@ from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import STILL_JERK, BodyJerk
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.faults import first_fault
-from ilmek.linkage.groups.group import Columns, Drive
+from ilmek.linkage.groups.group import Columns, InputMotion
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
@@ -33,7 +33,7 @@ class Motion:
     """
 
     plan: Plan
-    drives: Mapping[str, Drive]
+    drives: Mapping[str, InputMotion]
     columns: Mapping[str, Columns]
     status: Int8[np.ndarray, " samples"]
 

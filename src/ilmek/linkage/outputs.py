@@ -21,7 +21,7 @@ from jaxtyping import Float
 from ilmek.errors import MechanismError
 from ilmek.linkage.displacements import at_origins, contracted
 from ilmek.linkage.equations import Equation, Row, displacement_equation
-from ilmek.linkage.groups.group import Drive, Known
+from ilmek.linkage.groups.group import InputMotion, Known
 from ilmek.linkage.model import GROUND, Mechanism, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import dot, unit
@@ -40,7 +40,7 @@ class Output(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Turning:
+class RelativeAngle:
     """The angle [rad] of a body's frame against another's, in (-pi, pi]."""
 
     body: str
@@ -96,11 +96,11 @@ class Travel:
         joint = mechanism.joint(self.slide)
         if not isinstance(joint, Slide):
             raise MechanismError(f"{self.slide!r} is not a slide", allowed="a travel is that of a slide")
-        return displacement_equation(mechanism, joint, Drive(0.0, 0.0, 0.0), bodies)
+        return displacement_equation(mechanism, joint, InputMotion(0.0, 0.0, 0.0), bodies)
 
 
 @dataclass(frozen=True, slots=True)
-class Followed:
+class OutputHistory:
     """An output along a motion: value, rate and second rate, one a sample; an angle's value is unwrapped."""
 
     value: Float[np.ndarray, " samples"]
@@ -108,13 +108,13 @@ class Followed:
     second_rate: Float[np.ndarray, " samples"]
 
 
-def followed(motion: Motion, output: Output) -> Followed:
+def followed(motion: Motion, output: Output) -> OutputHistory:
     """The course of an output over a motion; NaN where the mechanism does not close."""
     mechanism = motion.plan.mechanism
     return followed_bodies(mechanism, {body.name: motion.body(body.name) for body in mechanism.bodies}, output)
 
 
-def followed_bodies(mechanism: Mechanism, bodies: Known, output: Output) -> Followed:
+def followed_bodies(mechanism: Mechanism, bodies: Known, output: Output) -> OutputHistory:
     """The course of an output over the bodies' motions, all of one length; rates are by what theirs are."""
     bodies = at_origins(bodies)
     equation = output.equation(mechanism, bodies)
@@ -128,4 +128,4 @@ def followed_bodies(mechanism: Mechanism, bodies: Known, output: Output) -> Foll
     if not equation.length:
         closed = np.isfinite(value)
         value[closed] = np.unwrap(value[closed])
-    return Followed(value, rate, second)
+    return OutputHistory(value, rate, second)

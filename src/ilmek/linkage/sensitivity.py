@@ -19,7 +19,7 @@ from jaxtyping import Float
 from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.dimensions import NONE, Dimension, Nudge, Nudges
+from ilmek.linkage.dimensions import NONE, BodyShift, Dimension, Nudges
 from ilmek.linkage.displacements import Moves, added, at_origins, contracted, largest, moving, times
 from ilmek.linkage.equations import Equation
 from ilmek.linkage.loops import Loops, loops
@@ -38,7 +38,7 @@ class Derivatives:
 
 
 @dataclass(frozen=True, slots=True)
-class Spread:
+class OutputTolerance:
     """By how much an output may miss, for given tolerances: all against it, and as independent errors add up."""
 
     worst_case: Float[np.ndarray, " samples"]
@@ -52,13 +52,13 @@ def derivatives(motion: Motion, output: Output, dimensions: Sequence[Dimension])
     The rate's derivative is at the inputs' speeds of the motion: per second, or per radian where they are 1.
     Raises MechanismError for an unknown body, point or slide.
 
-    >>> from ilmek.linkage.dimensions import Place
+    >>> from ilmek.linkage.dimensions import BodyPoint
     >>> from ilmek.linkage.fourbar import slider_crank
     >>> from ilmek.linkage.outputs import Travel
     >>> from ilmek.linkage.solve import solve
     >>> from ilmek.linkage.structure import plan
     >>> motion = solve(plan(slider_crank(0.1, 0.3, branch=+1)), np.array([0.0, np.pi]), 1.0)
-    >>> derivatives(motion, Travel("line"), [Place("crank", "A"), Place("rod", "B")]).value.round(12)
+    >>> derivatives(motion, Travel("line"), [BodyPoint("crank", "A"), BodyPoint("rod", "B")]).value.round(12)
     array([[ 1., -1.],
            [ 1.,  1.]])
     """
@@ -72,7 +72,7 @@ def derivatives(motion: Motion, output: Output, dimensions: Sequence[Dimension])
     return Derivatives(tuple(dimensions), np.broadcast_to(value, shape) + 0.0, np.broadcast_to(rate, shape) + 0.0)
 
 
-def spread(by_dimension: Float[np.ndarray, "dimensions samples"], tolerances: Sequence[float]) -> Spread:
+def spread(by_dimension: Float[np.ndarray, "dimensions samples"], tolerances: Sequence[float]) -> OutputTolerance:
     """Worst case sum |d| t and root of sum (d t)^2 over the dimensions, for tolerances +-t of each [m, rad].
 
     Raises MechanismError where there are not as many tolerances as dimensions, or one is negative or not finite.
@@ -86,7 +86,7 @@ def spread(by_dimension: Float[np.ndarray, "dimensions samples"], tolerances: Se
         if not (np.isfinite(tolerance) and tolerance >= 0):
             raise MechanismError(f"a tolerance is {tolerance}", allowed="0 or above, in metres or radians")
     shares = np.abs(by_dimension) * np.asarray(tolerances, dtype=float)[:, None]
-    return Spread(shares.sum(axis=0), np.sqrt((shares**2).sum(axis=0)))
+    return OutputTolerance(shares.sum(axis=0), np.sqrt((shares**2).sum(axis=0)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +134,7 @@ class _Poses:
 def _together(apart: Sequence[Nudges]) -> Nudges:
     """The nudges of all dimensions, one a row; rows on which a dimension does not act are zero."""
     return {
-        key: Nudge(
+        key: BodyShift(
             np.array([[complex(one.get(key, NONE).shift)] for one in apart]),
             np.array([[float(one.get(key, NONE).turn)] for one in apart]),
         )
@@ -172,7 +172,7 @@ def _mixed(at: _Poses, output: Output, moved: Moves, nudges: Nudges) -> list[Rea
 
     def biases(sign: RealField) -> list[RealField]:
         """q(v + w) and q(v - w), w with the sign."""
-        seen = {key: Nudge(nudge.shift * sign, nudge.turn * sign) for key, nudge in nudges.items()}
+        seen = {key: BodyShift(nudge.shift * sign, nudge.turn * sign) for key, nudge in nudges.items()}
         return [one.bias for one in at.equations(output, added(v, times(moved, sign)), seen)]
 
     pairs = zip(biases(share), biases(-share), strict=True)

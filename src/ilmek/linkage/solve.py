@@ -11,8 +11,8 @@ import numpy as np
 from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
-from ilmek.linkage.groups.general import Block
-from ilmek.linkage.groups.group import Columns, Drive
+from ilmek.linkage.groups.general import GeneralGroup
+from ilmek.linkage.groups.group import Columns, InputMotion
 from ilmek.linkage.initial_pose import starts
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
@@ -42,7 +42,7 @@ def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Course
     inputs, values that are not finite, and arrays that are empty or of different lengths.
     """
     drives = drives_of(plan, angle, speed, acceleration, jerk)
-    size = NEWTON_BLOCK if any(isinstance(step, Block) for step in plan.steps) else BLOCK
+    size = NEWTON_BLOCK if any(isinstance(step, GeneralGroup) for step in plan.steps) else BLOCK
     samples = np.size(drives[plan.mechanism.inputs[0].name].value)
     status = np.zeros(samples, dtype=np.int8)
     columns: dict[str, Columns] = {}
@@ -57,7 +57,7 @@ def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Course
     return Motion(plan, drives, columns, status)
 
 
-def _block(plan: Plan, drives: Mapping[str, Drive], status: np.ndarray) -> dict[str, Columns]:
+def _block(plan: Plan, drives: Mapping[str, InputMotion], status: np.ndarray) -> dict[str, Columns]:
     """Every body's columns for one block of samples; writes into `status`."""
     known: dict[str, BodyMotion] = {GROUND: STILL, **starts(plan, drives)}
     columns: dict[str, Columns] = {}
@@ -84,7 +84,7 @@ def _write(room: Columns, fields: Columns, part: slice) -> None:
 
 def drives_of(
     plan: Plan, angle: Courses, speed: Courses, acceleration: Courses, jerk: Courses = 0.0
-) -> dict[str, Drive]:
+) -> dict[str, InputMotion]:
     """The inputs' courses by name, checked, their values spread over the samples; for the errors see `solve`."""
     names = [entry.name for entry in plan.mechanism.inputs]
     values, *rates = (
@@ -97,7 +97,7 @@ def drives_of(
     fields = [course for given in (values, *rates) for course in given.values()]
     samples = _samples(fields)
     return {
-        name: Drive(
+        name: InputMotion(
             np.broadcast_to(values[name], samples),
             *(_spread(given.get(name, 0.0), samples) for given in rates),
         )

@@ -5,7 +5,7 @@ from enum import IntEnum
 import numpy as np
 from jaxtyping import Int8
 
-from ilmek.linkage.groups.group import Known, Solved, Step
+from ilmek.linkage.groups.group import GroupSolution, Known, Step
 
 DEAD = 2e-6
 """A margin (sine of the transmission angle) this small leaves rates too few digits: the pose is known to rounding by
@@ -30,7 +30,7 @@ class Status(IntEnum):
     NOT_CONVERGED = 3
 
 
-def judge(step: Step, known: Known, solved: Solved, status: Int8[np.ndarray, " samples"]) -> None:
+def judge(step: Step, known: Known, solved: GroupSolution, status: Int8[np.ndarray, " samples"]) -> None:
     """Write into `status` what a step's margin says of the samples that were still OK."""
     margin, least = solved.margin, DEAD * solved.best
     if margin is None or np.min(margin) > least or np.max(margin) < -least:  # never true with a NaN among them

@@ -13,8 +13,8 @@ from jaxtyping import Complex, Float
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import MechanismError
-from ilmek.linkage.clearance import Placed
-from ilmek.linkage.configuration_path import Way, spaced
+from ilmek.linkage.clearance import OutlinedBody
+from ilmek.linkage.configuration_path import ConfigurationPath, spaced
 from ilmek.num.brackets import bracketed_minima
 from ilmek.plane.outlines import to_outline
 from ilmek.plane.regions import Region, region
@@ -32,7 +32,7 @@ STEPS = 22
 """Steps of the golden section: a sample's length shrinks by 4e4."""
 
 
-def swept(way: Way, placed: Placed, *, cells: int = 256) -> Region:
+def swept(way: ConfigurationPath, placed: OutlinedBody, *, cells: int = 256) -> Region:
     """The region that a body covers over a way: area [m^2], bound of its error, outline; see `plane.regions.Region`.
 
     cells  small squares across the region's bounding square, a power of 2; twice as many halve the bound, and take
@@ -43,8 +43,8 @@ def swept(way: Way, placed: Placed, *, cells: int = 256) -> Region:
     >>> from ilmek.linkage.clearance import outlined
     >>> from ilmek.linkage.one_input import one_input
     >>> from ilmek.linkage.structure import plan
-    >>> from ilmek.linkage.configuration_path import InputWay
-    >>> turn = InputWay(one_input(plan(four_bar(0.300, 0.060, 0.200, 0.230, branch=+1))))
+    >>> from ilmek.linkage.configuration_path import InputPath
+    >>> turn = InputPath(one_input(plan(four_bar(0.300, 0.060, 0.200, 0.230, branch=+1))))
     >>> disc = swept(turn, outlined(turn.mechanism, "crank", 0.010), cells=64)
     >>> bool(abs(disc.area - np.pi * 0.070**2) < 1e-5), bool(disc.bound < 2e-3)
     (True, True)
@@ -61,7 +61,7 @@ def swept(way: Way, placed: Placed, *, cells: int = 256) -> Region:
 
 
 def _poses(
-    way: Way, placed: Placed, places: FloatArray
+    way: ConfigurationPath, placed: OutlinedBody, places: FloatArray
 ) -> tuple[Complex[np.ndarray, " places"], Complex[np.ndarray, " places"]]:
     """Origin and direction of the body at places of the way."""
     body = way.bodies(places)[placed.body]
@@ -73,8 +73,8 @@ def _poses(
 class _Covered:
     """A body in all its poses, sampled."""
 
-    way: Way
-    placed: Placed
+    way: ConfigurationPath
+    placed: OutlinedBody
     places: Float[np.ndarray, " places"]
     origins: Complex[np.ndarray, " places"]
     directions: Complex[np.ndarray, " places"]

@@ -21,9 +21,9 @@ from ilmek.linkage.groups.prp import CrossedSliders
 from ilmek.linkage.groups.rpp import CrossSlide
 from ilmek.linkage.groups.rpr import SlidingDyad
 from ilmek.linkage.groups.rrp import SliderDyad
-from ilmek.linkage.groups.rrr import Dyad
-from ilmek.linkage.groups.shift import Shift, Track
-from ilmek.linkage.groups.turn import Turn
+from ilmek.linkage.groups.rrr import RRRDyad
+from ilmek.linkage.groups.shift import DrivenSlider, SlideTrack
+from ilmek.linkage.groups.turn import DrivenCrank
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.structure import Plan
 
@@ -124,7 +124,7 @@ def is_compiled(plan: Plan) -> bool:
     return all(type(step) in WRITERS for step in plan.steps)
 
 
-def _turn(tape: Tape, step: Turn, inputs: list[str]) -> None:
+def _turn(tape: Tape, step: DrivenCrank, inputs: list[str]) -> None:
     pin = next(entry.joint for entry in tape.mechanism.inputs if entry.name == step.entry)
     to = tape.room(BODY)
     tape.carry(step.carrier, tape.point(step.carrier, pin), to)
@@ -132,12 +132,12 @@ def _turn(tape: Tape, step: Turn, inputs: list[str]) -> None:
     tape.rows[step.body], tape.at[step.body] = to, tape.point(step.body, pin)
 
 
-def _shift(tape: Tape, step: Shift, inputs: list[str]) -> None:
+def _shift(tape: Tape, step: DrivenSlider, inputs: list[str]) -> None:
     to = tape.room(BODY)
     _slip(tape, (step.body, step.on, step.entry), step.track, to, BODY + DRIVE * inputs.index(step.entry))
 
 
-def _dyad(tape: Tape, step: Dyad, inputs: list[str]) -> None:  # noqa: ARG001 - all writers are called alike
+def _dyad(tape: Tape, step: RRRDyad, inputs: list[str]) -> None:  # noqa: ARG001 - all writers are called alike
     to = tape.room(MARGIN + 1)
     arms = []
     for link, on, pin, row in zip(step.links, step.on, step.hung_at, (to, to + SECOND), strict=True):
@@ -200,7 +200,7 @@ def _cross_slide(tape: Tape, step: CrossSlide, inputs: list[str]) -> None:  # no
     _slip(tape, (slider, guide, slide), step.track, to + SECOND, to + TRAVEL)
 
 
-def _line(tape: Tape, names: tuple[str, str, str], track: Track, zero: int) -> tuple[str, str, str]:
+def _line(tape: Tape, names: tuple[str, str, str], track: SlideTrack, zero: int) -> tuple[str, str, str]:
     """The place of a slider's pin at zero travel, carried by the guide; slider, guide and slide."""
     slider, guide, pin = names
     slide = _between(tape.mechanism, slider, guide)
@@ -209,7 +209,7 @@ def _line(tape: Tape, names: tuple[str, str, str], track: Track, zero: int) -> t
     return slider, guide, slide
 
 
-def _slip(tape: Tape, names: tuple[str, str, str], track: Track, to: int, travel: int) -> None:
+def _slip(tape: Tape, names: tuple[str, str, str], track: SlideTrack, to: int, travel: int) -> None:
     """The body on its guide: its anchor, the slide's point, carried and slid; its direction and rates."""
     body, guide, slide = names
     tape.carry(guide, tape.point(guide, slide), to)
@@ -233,9 +233,9 @@ def _between(mechanism: Mechanism, body: str, other: str) -> str:
 
 
 WRITERS: dict[type[Step], Callable[[Tape, Any, list[str]], None]] = {
-    Turn: _turn,
-    Shift: _shift,
-    Dyad: _dyad,
+    DrivenCrank: _turn,
+    DrivenSlider: _shift,
+    RRRDyad: _dyad,
     SliderDyad: _slider_dyad,
     SlidingDyad: _sliding_dyad,
     CrossedSliders: _crossed_sliders,

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from ilmek.arrays import FloatArray
-from ilmek.linkage.configuration import Configurations, Freed
+from ilmek.linkage.configuration import Configurations, FreeInput
 from ilmek.num.brackets import bracketed_roots
 
 TURN = 0.3
@@ -30,13 +30,13 @@ REACH = 100.0
 
 
 @dataclass(frozen=True, slots=True)
-class Trace:
+class ConfigurationCurve:
     """A configuration curve: nodes on it, their unit tangents, and lengths from the first (measured by the chords).
 
     crossings  values of the input at which another curve is crossed
     """
 
-    freed: Freed
+    freed: FreeInput
     at_nodes: Configurations
     tangents: Float[np.ndarray, "nodes unknowns"]
     lengths: Float[np.ndarray, " nodes"]
@@ -75,7 +75,7 @@ class Trace:
         return found, self.freed.tangents(found, across), across
 
 
-def trace(freed: Freed, seed: Configurations) -> Trace:
+def trace(freed: FreeInput, seed: Configurations) -> ConfigurationCurve:
     """The curve through a configuration: followed until it closes; else to both ends, where it leaves the reach."""
     ahead = np.zeros((1, 3 * len(freed.moved.plan.mechanism.moving) + 1))
     ahead[0, -1] = 1.0
@@ -95,11 +95,11 @@ def trace(freed: Freed, seed: Configurations) -> Trace:
     chords[:, -1] = np.diff(at_nodes.inputs) * freed.per_input
     along = np.sum(chords * stacked[:-1], axis=1)
     lengths = np.concatenate([[0.0], np.cumsum(along)])
-    return Trace(freed, at_nodes, stacked, lengths, closed, tuple(crossings))
+    return ConfigurationCurve(freed, at_nodes, stacked, lengths, closed, tuple(crossings))
 
 
 def _followed(
-    freed: Freed, seed: Configurations, first: FloatArray
+    freed: FreeInput, seed: Configurations, first: FloatArray
 ) -> tuple[list[Configurations], list[FloatArray], bool, list[float]]:
     """Nodes and tangents from the seed on, the seed repeated at the end if the curve closes; inputs at crossings.
 
@@ -134,7 +134,7 @@ def _followed(
 
 
 def _step(
-    freed: Freed, at: Configurations, t: FloatArray, step: float
+    freed: FreeInput, at: Configurations, t: FloatArray, step: float
 ) -> tuple[Configurations, FloatArray, FloatArray]:
     """The configuration a step on, its tangent, and the sign of det [A; t] there."""
     new = freed.corrected(freed.stepped(at, step * t), t)
@@ -150,7 +150,7 @@ def _is_home(home: FloatArray, t: FloatArray, first: FloatArray, step: float) ->
     return far <= 1.05 * step and shadow >= 0 and aside <= 2 * TURN * max(far, 1e-12) and float(np.sum(t * first)) > 0.9
 
 
-def _input_left(freed: Freed, at: Configurations, seed: Configurations) -> FloatArray:
+def _input_left(freed: FreeInput, at: Configurations, seed: Configurations) -> FloatArray:
     """What the input has still to go to the seed's value, up to whole turns."""
     left = seed.inputs - at.inputs
     shortest: FloatArray = (left + np.pi) % (2 * np.pi) - np.pi if freed.moved.turns else left

@@ -13,8 +13,8 @@ from jaxtyping import UInt8
 
 from ilmek.arrays import FloatArray, Indices, IntArray
 from ilmek.errors import LoomError
-from ilmek.loom.row import Row
-from ilmek.loom.schedule import ByteTable, Layout, Outcome, schedule
+from ilmek.loom.row import KnotRow
+from ilmek.loom.schedule import ByteTable, Layout, ScheduleResult, schedule
 from ilmek.loom.sharing import halves, share
 from ilmek.units import format_number, hour
 
@@ -99,11 +99,11 @@ class Programme:
         """Weaving time of the whole carpet [s]."""
         return float(self.row_times.sum())
 
-    def row(self, number: int) -> Row:
+    def row(self, number: int) -> KnotRow:
         """Loom row `number`, 0 at the carpet's bottom edge. Raises LoomError beyond the carpet."""
         if not 0 <= number < self.rows:
             raise LoomError(f"row {number}", allowed=f"rows 0 to {self.rows - 1}")
-        return Row(number, self.knots[self.rows - 1 - number], self.keys[number], self.edges, self.heads)
+        return KnotRow(number, self.knots[self.rows - 1 - number], self.keys[number], self.edges, self.heads)
 
 
 def make_programme(knots: Indices, yarns: int, heads: int, times: Times) -> Programme:
@@ -154,9 +154,11 @@ def heads_for(knots: Indices, yarns: int, deadline: float, times: Times, heads_m
     )
 
 
-def _run(knots: Indices, layout: Layout, times: Times, keys: ByteTable, deadline: float) -> tuple[Outcome, float]:
+def _run(
+    knots: Indices, layout: Layout, times: Times, keys: ByteTable, deadline: float
+) -> tuple[ScheduleResult, float]:
     heads = layout.heads
-    outcome = Outcome(keys, np.zeros(knots.shape[0]), np.zeros((heads, 4), np.int64), np.zeros(heads))
+    outcome = ScheduleResult(keys, np.zeros(knots.shape[0]), np.zeros((heads, 4), np.int64), np.zeros(heads))
     limits = (deadline * _ROUNDING, _least_row(layout.edges, heads, times))
     total = schedule(np.ascontiguousarray(knots), layout, times.as_tuple(), limits, outcome)
     return outcome, float(total)

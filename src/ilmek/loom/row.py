@@ -15,7 +15,7 @@ _ALL_COLOURS = 255
 
 
 @dataclass(frozen=True, slots=True)
-class Ties:
+class HeadTies:
     """What a head ties in a row, in order: the warp pair (column of the chart) and the yarn of each knot."""
 
     pairs: IntArray
@@ -23,7 +23,7 @@ class Ties:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class KnotRow:
     """A row of knots as the loom ties it.
 
     number   loom row, 0 at the carpet's bottom edge: even rows are swept from column 0, odd rows back
@@ -47,15 +47,15 @@ class Row:
         parts = halves(self.heads)
         return tuple(bool(key == PASSES) for key in self.keys[head * parts : (head + 1) * parts, 0])
 
-    def ties(self) -> tuple[Ties, ...]:
+    def ties(self) -> tuple[HeadTies, ...]:
         """What each head ties, in order."""
         order = np.empty(len(self.colours), np.int64)
         colours = np.ascontiguousarray(self.colours)
         replay(colours, Layout(_ALL_COLOURS, self.heads, self.edges), self.forward, self.keys, order)
         tied, blocks = colours[order], self.edges[:: halves(self.heads)].tolist()
-        return tuple(Ties(order[low:high], tied[low:high]) for low, high in pairwise(blocks))
+        return tuple(HeadTies(order[low:high], tied[low:high]) for low, high in pairwise(blocks))
 
-    def ties_of(self, head: int) -> Ties:
+    def ties_of(self, head: int) -> HeadTies:
         """What one head ties, in order. Raises LoomError for a head that is not there."""
         if not 0 <= head < self.heads:
             raise LoomError(f"head {head}", allowed=f"heads 0 to {self.heads - 1}")

@@ -45,7 +45,7 @@ class Layout(NamedTuple):
     edges: IntArray
 
 
-class Outcome(NamedTuple):
+class ScheduleResult(NamedTuple):
     """Where `schedule` writes.
 
     keys       uint8 (rows, parts, 3), loom row first; or of 0 rows where only the time is wanted
@@ -61,7 +61,9 @@ class Outcome(NamedTuple):
 
 
 @compiled
-def schedule(knots: Indices, layout: Layout, times: FourTimes, limits: tuple[float, float], outcome: Outcome) -> float:
+def schedule(
+    knots: Indices, layout: Layout, times: FourTimes, limits: tuple[float, float], outcome: ScheduleResult
+) -> float:
     """Choose the order of every part and add up the times, from the carpet's bottom edge upward.
 
     knots   chart, uint8 (rows, columns), row 0 = top

@@ -23,7 +23,7 @@ POSES, PAIRS = "poses are written (0mm,0mm,10deg) (25mm,15mm,3deg)", "pairs are 
 BOUNDS = "bounds are written 10mm..60mm, ..60mm, 10mm.. or 60mm alone"
 
 
-class Poses(NamedTuple):
+class BodyPoses(NamedTuple):
     """Poses of a body in a list: places of one of its points [m] and its angles [rad]."""
 
     points: Complex[np.ndarray, " poses"]
@@ -39,14 +39,14 @@ def read_points(name: str, text: str) -> ComplexArray:
     return np.array([complex(*row) for row in _rows(name, text, ("mm", "mm"), "points", POINTS)])
 
 
-def read_poses(name: str, text: str) -> Poses:
+def read_poses(name: str, text: str) -> BodyPoses:
     """The poses of a text, x and y of a point and the body's angle. Raises ParameterError where it holds anything else.
 
     >>> read_poses("poses", "(1cm,4mm,0) (0,-2mm,1rad)").angles.tolist()
     [0.0, 1.0]
     """
     rows = np.array(_rows(name, text, ("mm", "mm", "deg"), "poses", POSES))
-    return Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy())
+    return BodyPoses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy())
 
 
 def read_pairs(name: str, text: str) -> Float[np.ndarray, "pairs 2"]:

@@ -32,7 +32,7 @@ TWICE = 1e-9
 """Distance of unit vectors at which a double root, told as two, is one."""
 
 
-class Meetings(NamedTuple):
+class Intersections(NamedTuple):
     """Points s [unit vectors] where two conics meet.
 
     points  four of each pair, complex: with multiplicity, all of them
@@ -44,7 +44,7 @@ class Meetings(NamedTuple):
     share: Bool[np.ndarray, "*batch"]
 
 
-def meet(C: Conic, D: Conic) -> Meetings:
+def meet(C: Conic, D: Conic) -> Intersections:
     """All four points of two conics given by symmetric matrices; conics that share a line have no four.
 
     >>> found = meet(np.diag([1.0, 1.0, -5.0]), np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -4]]))  # x² + y² = 5, xy = 2
@@ -59,7 +59,7 @@ def meet(C: Conic, D: Conic) -> Meetings:
     real = np.max(np.abs(s.imag), axis=-1) <= REAL
     s = np.where(real[..., None], s.real + 0j, s)
     s = _polished(C[..., None, :, :], D[..., None, :, :], s)
-    return Meetings(s @ TURN.T, real & ~_told_before(s, real), share)
+    return Intersections(s @ TURN.T, real & ~_told_before(s, real), share)
 
 
 def _first(C: Conic, D: Conic) -> tuple[NumberArray, BoolArray]:

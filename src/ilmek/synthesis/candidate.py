@@ -17,17 +17,17 @@ from ilmek.errors import ParameterError
 from ilmek.linkage.quality import Grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.synthesis.circuit_loops import Loop, circuit_loops
+from ilmek.synthesis.circuit_loops import CircuitLoop, circuit_loops
 from ilmek.synthesis.four_bar import TRACER, FourBar
-from ilmek.synthesis.precision import Place, order, places
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.precision import PositionMatch, order, places
+from ilmek.synthesis.task import PrecisionTask
 
 SWEEP = 72
 """Crank angles at which size and transmission angle are looked at."""
 
 
 @dataclass(frozen=True, slots=True)
-class Met:
+class PositionResult:
     """How a precision position is met.
 
     crank_angle [rad, world; NaN where the linkage does not get there]
@@ -49,10 +49,10 @@ class Met:
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
+class CircuitSegment:
     """A part of a circuit: crank angles from `low` to `high` [rad] on a branch, or with branch 0 the whole of it."""
 
-    loop: Loop
+    loop: CircuitLoop
     low: float
     high: float
     branch: int
@@ -90,9 +90,9 @@ class Candidate:
     """
 
     four_bar: FourBar
-    task: Task
+    task: PrecisionTask
     grashof: Grashof
-    positions: tuple[Met, ...]
+    positions: tuple[PositionResult, ...]
     circuits: int
     order: tuple[int, ...]
     in_order: bool
@@ -142,14 +142,14 @@ class Candidate:
         return min(self.transmission[0], math.pi - self.transmission[1])
 
 
-def judge(four_bar: FourBar, task: Task) -> Candidate:
+def judge(four_bar: FourBar, task: PrecisionTask) -> Candidate:
     """Everything that is to be known of a four-bar before it is built for a task.
 
     Never fails for a four-bar that is bad: what is wrong is said in the candidate.
     Raises ParameterError where the task asks for points and the four-bar has no tracer.
 
     >>> drawn = FourBar(0j, 4 + 0j, 1j, 3 + 3j, tracer=2 + 3j)
-    >>> found = judge(drawn, Task(points=np.array([2 + 3j, 0.9 + 2.1j]), point_tolerance=0.2))
+    >>> found = judge(drawn, PrecisionTask(points=np.array([2 + 3j, 0.9 + 2.1j]), point_tolerance=0.2))
     >>> found.grashof.kind, found.circuits, found.one_branch, found.met
     ('crank-rocker', 2, True, True)
     """
@@ -175,7 +175,7 @@ def judge(four_bar: FourBar, task: Task) -> Candidate:
     )
 
 
-def _met(four_bar: FourBar, task: Task, chosen: Sequence[Place | None]) -> tuple[Met, ...]:
+def _met(four_bar: FourBar, task: PrecisionTask, chosen: Sequence[PositionMatch | None]) -> tuple[PositionResult, ...]:
     """Each position by forward simulation at the crank angle chosen for it."""
     count = len(chosen)
     errors = {name: np.full(count, np.nan) for name in ("point", "coupler", "rocker")}
@@ -186,7 +186,7 @@ def _met(four_bar: FourBar, task: Task, chosen: Sequence[Place | None]) -> tuple
             for name, values in _errors(four_bar, task, branch, cranks, which).items():
                 errors[name][which] = values
     return tuple(
-        Met(
+        PositionResult(
             one.crank if one else math.nan,
             one.loop + 1 if one else 0,
             one.branch if one else 0,
@@ -197,7 +197,7 @@ def _met(four_bar: FourBar, task: Task, chosen: Sequence[Place | None]) -> tuple
 
 
 def _errors(
-    four_bar: FourBar, task: Task, branch: int, cranks: FloatArray, which: np.ndarray
+    four_bar: FourBar, task: PrecisionTask, branch: int, cranks: FloatArray, which: np.ndarray
 ) -> dict[str, Float[np.ndarray, " positions"]]:
     """Errors of positions `which` at crank angles: the four-bar moved through `linkage`."""
     motion = solve(plan(four_bar.mechanism(branch)), cranks)
@@ -213,7 +213,7 @@ def _errors(
     return found
 
 
-def _stretches(reached: Sequence[Place], loops: Sequence[Loop]) -> list[Stretch]:
+def _stretches(reached: Sequence[PositionMatch], loops: Sequence[CircuitLoop]) -> list[CircuitSegment]:
     """Where the four-bar works: between the positions of one branch of a crank that rocks, else on all the circuit."""
     found = []
     for index in sorted({one.loop for one in reached}):
@@ -221,13 +221,13 @@ def _stretches(reached: Sequence[Place], loops: Sequence[Loop]) -> list[Stretch]
         branches = {one.branch for one in here} - {0}
         if not loop.branch and len(branches) <= 1:
             cranks = [one.crank for one in here]
-            found.append(Stretch(loop, min(cranks), max(cranks), next(iter(branches), +1)))
+            found.append(CircuitSegment(loop, min(cranks), max(cranks), next(iter(branches), +1)))
         else:
-            found.append(Stretch(loop, loop.low, loop.high, 0))
+            found.append(CircuitSegment(loop, loop.low, loop.high, 0))
     return found
 
 
-def _transmission(four_bar: FourBar, stretches: Sequence[Stretch]) -> tuple[float, float]:
+def _transmission(four_bar: FourBar, stretches: Sequence[CircuitSegment]) -> tuple[float, float]:
     """Least and greatest transmission angle [rad]: it grows with |A B0|, so with the crank's angle off the ground."""
     if not stretches:
         return math.nan, math.nan
@@ -238,7 +238,7 @@ def _transmission(four_bar: FourBar, stretches: Sequence[Stretch]) -> tuple[floa
     return math.acos(min(1.0, max(-1.0, mu[0]))), math.acos(min(1.0, max(-1.0, mu[1])))
 
 
-def _size(four_bar: FourBar, stretches: Sequence[Stretch]) -> float:
+def _size(four_bar: FourBar, stretches: Sequence[CircuitSegment]) -> float:
     """Greatest distance between two of the places that pins and tracer get to [m]."""
     spots = [np.array([four_bar.a0, four_bar.b0, four_bar.a, four_bar.b])]
     for one in stretches:

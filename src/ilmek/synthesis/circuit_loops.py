@@ -19,7 +19,7 @@ from ilmek.synthesis.four_bar import FourBar
 
 
 @dataclass(frozen=True, slots=True)
-class Poses:
+class LoopConfigurations:
     """Configurations: moving pins and tracer [m], unit vectors along the coupler and the rocker; tracer 0 if none."""
 
     a: ComplexArray
@@ -30,7 +30,7 @@ class Poses:
 
 
 @dataclass(frozen=True, slots=True)
-class Loop:
+class CircuitLoop:
     """A circuit: crank angles from `low` to `high` [rad, world]; `branch` of a crank that turns fully, else 0."""
 
     four_bar: FourBar
@@ -59,7 +59,7 @@ class Loop:
         u = float(np.arccos(np.clip(off / half, -1.0, 1.0)))
         return np.array([u, -u])
 
-    def at(self, u: FloatArray) -> Poses:
+    def at(self, u: FloatArray) -> LoopConfigurations:
         """The configurations at u."""
         drawn = self.four_bar
         _, crank, coupler, rocker = drawn.lengths
@@ -71,10 +71,10 @@ class Loop:
         b = a + (along + 1j * across) * d
         tilt = (b - a) / coupler
         tracer = drawn.tracer_on_coupler
-        return Poses(a, b, 0 * a if tracer is None else a + tracer * tilt, tilt, (b - drawn.b0) / rocker)
+        return LoopConfigurations(a, b, 0 * a if tracer is None else a + tracer * tilt, tilt, (b - drawn.b0) / rocker)
 
 
-def circuit_loops(four_bar: FourBar) -> tuple[Loop, ...]:
+def circuit_loops(four_bar: FourBar) -> tuple[CircuitLoop, ...]:
     """All circuits of a four-bar: one or two.
 
     >>> [loop.branch for loop in circuit_loops(FourBar(0j, 4 + 0j, 1j, 3 + 3j))]
@@ -83,5 +83,5 @@ def circuit_loops(four_bar: FourBar) -> tuple[Loop, ...]:
     ground = float(np.angle(four_bar.b0 - four_bar.a0))
     ranges = input_range(*four_bar.lengths)
     if ranges and ranges[0][1] - ranges[0][0] >= 2 * np.pi:
-        return tuple(Loop(four_bar, -np.pi, np.pi, branch) for branch in (+1, -1))
-    return tuple(Loop(four_bar, low + ground, high + ground, 0) for low, high in ranges)
+        return tuple(CircuitLoop(four_bar, -np.pi, np.pi, branch) for branch in (+1, -1))
+    return tuple(CircuitLoop(four_bar, low + ground, high + ground, 0) for low, high in ranges)

@@ -34,7 +34,7 @@ STILL = 1e-11
 
 
 @dataclass(frozen=True, slots=True)
-class Dyad:
+class TwoLinkArm:
     """A two-link arm.
 
     pivot   O [m], complex      first, second  a1, a2 [m]
@@ -73,7 +73,7 @@ class Lengths(NamedTuple):
     rocker: float
 
 
-class Found(IntEnum):
+class RootKind(IntEnum):
     """What a root of a task is, of four timed points or of three poses."""
 
     ARM = 0
@@ -93,15 +93,15 @@ class Found(IntEnum):
 
 
 WORDS = {
-    Found.ARM: "an arm",
-    Found.COMPLEX: "no real arm",
-    Found.STILL: "the points lie on a circle about the pivot: the first link has no length",
-    Found.FAR_PIVOT: "the pivot is infinitely far: the first link would turn on a slide",
-    Found.LINE: "the points lie on a line: the pivot is infinitely far and the first link has no length",
-    Found.LONG: "both links are infinitely long",
-    Found.FAMILY: "a whole family of arms solves this task, or no task was given",
-    Found.FAR_ELBOW: "the elbow is infinitely far: a line of the second link would slide through the pivot",
-    Found.FAR_BOTH: "pivot and elbow are infinitely far: the second link keeps its angle to the ground ray",
+    RootKind.ARM: "an arm",
+    RootKind.COMPLEX: "no real arm",
+    RootKind.STILL: "the points lie on a circle about the pivot: the first link has no length",
+    RootKind.FAR_PIVOT: "the pivot is infinitely far: the first link would turn on a slide",
+    RootKind.LINE: "the points lie on a line: the pivot is infinitely far and the first link has no length",
+    RootKind.LONG: "both links are infinitely long",
+    RootKind.FAMILY: "a whole family of arms solves this task, or no task was given",
+    RootKind.FAR_ELBOW: "the elbow is infinitely far: a line of the second link would slide through the pivot",
+    RootKind.FAR_BOTH: "pivot and elbow are infinitely far: the second link keeps its angle to the ground ray",
 }
 
 
@@ -112,7 +112,7 @@ class PoseArms:
     pivot   O [m], complex; of a pivot infinitely far the direction of the ray, a unit vector
     ground, second  a0, a2 [m] with their signs; infinite where they are, NaN where there is no real arm, and where any
             will do        first  a1 [m], 0 or more
-    found   `Found` of each
+    found   `RootKind` of each
     """
 
     pivot: Complex[np.ndarray, "*batch 2"]
@@ -138,7 +138,7 @@ def arms_through_poses(
     `found`.                                                          [knotting report, 2, with F's bracket mended]
 
     >>> along = arms_through_poses(np.array([0, 3 + 0j, 5 + 0j]), np.array([0.0, 0.4, -0.2]), np.pi / 2)
-    >>> [Found(int(one)).name for one in along.found], along.ground.round(9).tolist()  # p itself goes along x
+    >>> [RootKind(int(one)).name for one in along.found], along.ground.round(9).tolist()  # p itself goes along x
     (['ARM', 'FAR_PIVOT'], [2.167450549, inf])
     """
     finite = np.isfinite(points).all(axis=-1) & np.isfinite(second_angles).all(axis=-1) & np.isfinite(ground_angle)
@@ -155,11 +155,11 @@ def arms_through_poses(
     found = _told_poses(roots, usable)
     with np.errstate(divide="ignore", invalid="ignore"):
         along, second = roots.numerator / roots.denominator, roots.vectors[..., 0] / roots.vectors[..., 1]
-    far = np.isin(found, (Found.FAR_PIVOT, Found.FAR_BOTH))
-    none = np.isin(found, (Found.COMPLEX, Found.FAMILY))
-    second = np.where(np.isin(found, (Found.FAR_ELBOW, Found.FAR_BOTH)), np.inf, second)
+    far = np.isin(found, (RootKind.FAR_PIVOT, RootKind.FAR_BOTH))
+    none = np.isin(found, (RootKind.COMPLEX, RootKind.FAMILY))
+    second = np.where(np.isin(found, (RootKind.FAR_ELBOW, RootKind.FAR_BOTH)), np.inf, second)
     second = np.where(none | (far & ~roots.alone), np.nan, second)
-    scale, foot, arm = size[..., None], np.asarray(dot(e0, first))[..., None], found == Found.ARM
+    scale, foot, arm = size[..., None], np.asarray(dot(e0, first))[..., None], found == RootKind.ARM
     with np.errstate(invalid="ignore"):
         reach = np.abs(q[..., :1] - along * e0[..., None] - second * e2[..., :1])
         length = np.where(arm, reach, np.where(none, np.nan, np.inf))
@@ -173,7 +173,7 @@ def arms_through_poses(
 
 def dyads_through_poses(
     points: Complex[np.ndarray, "3"], second_angles: Float[np.ndarray, "3"], ground_angle: float, start: complex = 0j
-) -> tuple[Dyad, ...]:
+) -> tuple[TwoLinkArm, ...]:
     """All arms through three poses of the second link with the pivot on the ray of `ground_angle`: none, 1 or 2.
 
     `arms_through_poses` of one task. `first` is positive, ground and second carry signs. Sorted by ground. What is no
@@ -184,22 +184,22 @@ def dyads_through_poses(
     _frame(points, second_angles)
     require_angles("angle of the second link", second_angles)
     arms = arms_through_poses(points, second_angles, ground_angle, start)
-    if np.any(arms.found == Found.FAMILY):
+    if np.any(arms.found == RootKind.FAMILY):
         raise _family()
     return tuple(
-        Dyad(complex(pivot), float(ground), float(first), float(second))
+        TwoLinkArm(complex(pivot), float(ground), float(first), float(second))
         for pivot, ground, first, second, found in zip(*_each(arms), strict=True)
-        if found == Found.ARM
+        if found == RootKind.ARM
     )
 
 
 @dataclass(frozen=True, slots=True)
-class Arms:
+class PointArms:
     """All roots of four-point tasks, three each, in the order of `first`; what they are is in `found`.
 
     pivot  O [m], complex; of a pivot infinitely far the direction, a unit vector
     first, second  a1 with its sign, a2 [m]; infinite where they are, NaN where there is no real arm
-    found  `Found` of each
+    found  `RootKind` of each
     """
 
     pivot: Complex[np.ndarray, "*batch 3"]
@@ -208,7 +208,9 @@ class Arms:
     found: Int8[np.ndarray, "*batch 3"]
 
 
-def arms_through_points(points: Complex[np.ndarray, "*batch 4"], first_angles: Float[np.ndarray, "*batch 4"]) -> Arms:
+def arms_through_points(
+    points: Complex[np.ndarray, "*batch 4"], first_angles: Float[np.ndarray, "*batch 4"]
+) -> PointArms:
     """All arms whose end is at four points [m] at four angles of the first link [rad]: any batch of tasks.
 
         |p_i - O - a1 e^{i th1_i}|² = a2²,    less the first:    (A + a1 B) (O - p_1, 1)^T = 0
@@ -217,17 +219,17 @@ def arms_through_points(points: Complex[np.ndarray, "*batch 4"], first_angles: F
     Never raises for a task: a bad one is told in `found`.                                           [thesis 2.36, 2.37]
 
     >>> arms = arms_through_points(np.array([0, 2, 2 + 2j, 2j]), np.array([0.1, 0.7, 1.9, 3.0]))
-    >>> [Found(one).name for one in arms.found], complex(np.round(arms.pivot[0], 12))  # a circle about 1 + i
+    >>> [RootKind(one).name for one in arms.found], complex(np.round(arms.pivot[0], 12))  # a circle about 1 + i
     (['STILL', 'COMPLEX', 'COMPLEX'], (1+1j))
     """
     batch = points.shape[:-1]
     flat, angles = points.reshape(-1, 4), first_angles.reshape(-1, 4)
     parts = [_arms(flat[k : k + BLOCK], angles[k : k + BLOCK]) for k in range(0, max(len(flat), 1), BLOCK)]
-    whole = [np.concatenate([getattr(part, name) for part in parts]) for name in Arms.__slots__]
-    return Arms(*(one.reshape(*batch, 3) for one in whole))
+    whole = [np.concatenate([getattr(part, name) for part in parts]) for name in PointArms.__slots__]
+    return PointArms(*(one.reshape(*batch, 3) for one in whole))
 
 
-def dyads_through_points(points: ComplexArray, first_angles: FloatArray) -> tuple[Dyad, ...]:
+def dyads_through_points(points: ComplexArray, first_angles: FloatArray) -> tuple[TwoLinkArm, ...]:
     """All arms whose end is at four points at four angles of the first link: 1 or 3, seldom fewer.
 
     `arms_through_points` of one task. `second` is positive, `first` carries a sign. Sorted by `first`. An arm with
@@ -238,16 +240,16 @@ def dyads_through_points(points: ComplexArray, first_angles: FloatArray) -> tupl
     _frame(points, first_angles)
     require_task("timed point", points, first_angles, 4, "dyads_through_points")
     arms = arms_through_points(points, first_angles)
-    if np.any(arms.found == Found.FAMILY):
+    if np.any(arms.found == RootKind.FAMILY):
         raise _family()
     return tuple(
-        Dyad(complex(pivot), abs(pivot), float(first), float(second))
+        TwoLinkArm(complex(pivot), abs(pivot), float(first), float(second))
         for pivot, first, second, found in zip(arms.pivot, arms.first, arms.second, arms.found, strict=True)
-        if found in (Found.ARM, Found.STILL)
+        if found in (RootKind.ARM, RootKind.STILL)
     )
 
 
-def four_bar(one: Dyad, other: Dyad) -> Lengths:
+def four_bar(one: TwoLinkArm, other: TwoLinkArm) -> Lengths:
     """The four-bar of two arms through the same poses: their second links are one body, the coupler.
 
     Both joints of the coupler lie on the line through p along th2, both pivots on the ray of the ground angle, so that
@@ -293,14 +295,14 @@ def _told_poses(roots: Roots, usable: BoolArray) -> Int8[np.ndarray, "*batch 2"]
     far = np.abs(k) * FAR <= np.abs(x)
     straight = roots.alone & (np.abs(vectors[..., 1]) * FAR <= np.abs(vectors[..., 0]))
     told = [
-        ((roots.free | ~usable)[..., None] | np.zeros_like(far), Found.FAMILY),
-        (~roots.real, Found.COMPLEX),
-        (far & straight, Found.FAR_BOTH),
-        (far, Found.FAR_PIVOT),
-        (~roots.alone, Found.FAMILY),
-        (straight, Found.FAR_ELBOW),
+        ((roots.free | ~usable)[..., None] | np.zeros_like(far), RootKind.FAMILY),
+        (~roots.real, RootKind.COMPLEX),
+        (far & straight, RootKind.FAR_BOTH),
+        (far, RootKind.FAR_PIVOT),
+        (~roots.alone, RootKind.FAMILY),
+        (straight, RootKind.FAR_ELBOW),
     ]
-    return np.select([case for case, _ in told], [value for _, value in told], Found.ARM).astype(np.int8)
+    return np.select([case for case, _ in told], [value for _, value in told], RootKind.ARM).astype(np.int8)
 
 
 def _family() -> ParameterError:
@@ -310,7 +312,7 @@ def _family() -> ParameterError:
     )
 
 
-def _arms(points: Complex[np.ndarray, "n 4"], angles: Float[np.ndarray, "n 4"]) -> Arms:
+def _arms(points: Complex[np.ndarray, "n 4"], angles: Float[np.ndarray, "n 4"]) -> PointArms:
     """The arms of a block of tasks."""
     usable = np.isfinite(points).all(axis=-1) & np.isfinite(angles).all(axis=-1)
     points, angles = np.where(usable[:, None], points, 0), np.where(usable[:, None], angles, 0)
@@ -325,14 +327,16 @@ def _arms(points: Complex[np.ndarray, "n 4"], angles: Float[np.ndarray, "n 4"]) 
     with np.errstate(divide="ignore", invalid="ignore"):
         first = roots.numerator / roots.denominator
         away = -(roots.vectors[..., 0] + 1j * roots.vectors[..., 1])  # the forms' moving point is -(O - p_1)
-        far = np.isin(found, (Found.FAR_PIVOT, Found.LINE))
+        far = np.isin(found, (RootKind.FAR_PIVOT, RootKind.LINE))
         pivot = np.where(far, away / np.abs(away), size[:, None] * away / roots.vectors[..., 2] + points[:, :1])
-        first = np.where(found == Found.LONG, np.inf, np.where(found == Found.STILL, 0.0, first * size[:, None]))
-        second = np.where(far | (found == Found.LONG), np.inf, np.abs(points[:, :1] - pivot - first * start[:, None]))
-    none = np.isin(found, (Found.COMPLEX, Found.FAMILY))
+        first = np.where(found == RootKind.LONG, np.inf, np.where(found == RootKind.STILL, 0.0, first * size[:, None]))
+        second = np.where(
+            far | (found == RootKind.LONG), np.inf, np.abs(points[:, :1] - pivot - first * start[:, None])
+        )
+    none = np.isin(found, (RootKind.COMPLEX, RootKind.FAMILY))
     first, second, pivot = (np.where(none, np.nan, one) for one in (first, second, pivot))
     order = np.argsort(first, axis=-1)  # NaN comes last
-    return Arms(*(np.take_along_axis(one, order, axis=-1) for one in (pivot, first, second, found)))
+    return PointArms(*(np.take_along_axis(one, order, axis=-1) for one in (pivot, first, second, found)))
 
 
 def _told(roots: Roots, usable: np.ndarray) -> Int8[np.ndarray, "n 3"]:
@@ -342,11 +346,11 @@ def _told(roots: Roots, usable: np.ndarray) -> Int8[np.ndarray, "n 3"]:
     still = np.abs(x) <= STILL * np.abs(k)
     free = (roots.free | ~usable)[:, None] | (roots.real & ~roots.alone)
     told = [
-        (free, Found.FAMILY),
-        (~roots.real, Found.COMPLEX),
-        (np.abs(k) * FAR <= np.abs(x), Found.LONG),
-        (far & still, Found.LINE),
-        (far, Found.FAR_PIVOT),
-        (still, Found.STILL),
+        (free, RootKind.FAMILY),
+        (~roots.real, RootKind.COMPLEX),
+        (np.abs(k) * FAR <= np.abs(x), RootKind.LONG),
+        (far & still, RootKind.LINE),
+        (far, RootKind.FAR_PIVOT),
+        (still, RootKind.STILL),
     ]
-    return np.select([case for case, _ in told], [value for _, value in told], Found.ARM).astype(np.int8)
+    return np.select([case for case, _ in told], [value for _, value in told], RootKind.ARM).astype(np.int8)

@@ -5,9 +5,9 @@ sight, with all its reasons in words, and counted.
 
 >>> from ilmek.synthesis.candidate import judge
 >>> from ilmek.synthesis.four_bar import FourBar
->>> from ilmek.synthesis.task import Task
+>>> from ilmek.synthesis.task import PrecisionTask
 >>> drawn = FourBar(0j, 4 + 0j, 1j, 3 + 3j, tracer=2 + 3j)
->>> print(sift([judge(drawn, Task(points=np.array([2 + 3j, 0j])))]).words)
+>>> print(sift([judge(drawn, PrecisionTask(points=np.array([2 + 3j, 0j])))]).words)
 1 four-bar: 0 kept, 1 removed
 misses a position: 1
 """
@@ -63,7 +63,7 @@ class Filters:
 
 
 @dataclass(frozen=True, slots=True)
-class Removed:
+class RemovedCandidate:
     """A candidate that was sieved out: for each filter that it failed, why, in words."""
 
     candidate: Candidate
@@ -71,11 +71,11 @@ class Removed:
 
 
 @dataclass(frozen=True, slots=True)
-class Sifted:
+class FilterResult:
     """What was kept, the best transmission angle first, and what was removed."""
 
     kept: tuple[Candidate, ...]
-    removed: tuple[Removed, ...]
+    removed: tuple[RemovedCandidate, ...]
 
     @property
     def counts(self) -> Mapping[str, int]:
@@ -108,17 +108,17 @@ FEW = 12
 """Positions whose order is said in full."""
 
 
-def sift(candidates: Iterable[Candidate], filters: Filters | None = None) -> Sifted:
+def sift(candidates: Iterable[Candidate], filters: Filters | None = None) -> FilterResult:
     """Candidates without defects and within limits, the best transmission angle first; the others with reasons."""
     filters = filters or Filters()
     kept, removed = [], []
     for one in candidates:
         reasons = defects(one, filters)
         if reasons:
-            removed.append(Removed(one, reasons))
+            removed.append(RemovedCandidate(one, reasons))
         else:
             kept.append(one)
-    return Sifted(tuple(sorted(kept, key=lambda one: -one.least_transmission)), tuple(removed))
+    return FilterResult(tuple(sorted(kept, key=lambda one: -one.least_transmission)), tuple(removed))
 
 
 def defects(one: Candidate, filters: Filters | None = None) -> dict[str, str]:

@@ -16,7 +16,7 @@ from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.synthesis.four_bar import FourBar
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg
 
 
@@ -68,12 +68,12 @@ class Function:
         first, last = self.range
         return np.asarray(self.rocker_swing * (self.f(x) - first) / (last - first))
 
-    def task(self, x: FloatArray) -> Task:
+    def task(self, x: FloatArray) -> PrecisionTask:
         """The precision positions at places x. Raises ParameterError where f is not finite."""
         if not np.isfinite(self.f(x)).all():
             bad = float(np.asarray(x)[~np.isfinite(self.f(x))][0])
             raise ParameterError(f"the function is not finite at x = {bad:g}", do="choose another range of x")
-        return Task(crank=self.crank(x), rocker=self.rocker(x))
+        return PrecisionTask(crank=self.crank(x), rocker=self.rocker(x))
 
     def nodes(self, count: int) -> Float[np.ndarray, " count"]:
         """Chebyshev's places for `count` precision points: the error of interpolation is spread about evenly.

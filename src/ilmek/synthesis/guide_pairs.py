@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Complex, Float
 
 from ilmek.plane.vectors import cross
-from ilmek.synthesis.burmester.links import Guide, Kind
+from ilmek.synthesis.burmester.links import Guide, GuideKind
 
 ROUND = 2 * np.pi
 
@@ -36,12 +36,12 @@ def promising(
     Left out: what is no crank, pairs that pass a dead centre or lose the order of the poses, and neighbours of a better
     pair.
 
-    >>> square = [Guide(Kind.CRANK, 0j, 1j), Guide(Kind.CRANK, 2 + 0j, 2 + 1j)]
+    >>> square = [Guide(GuideKind.CRANK, 0j, 1j), Guide(GuideKind.CRANK, 2 + 0j, 2 + 1j)]
     >>> moved, still = np.array([1j, 0.3 + 0.9j]), np.zeros(2)
     >>> [one.pivot for one, _ in promising(square, moved, still, most=5)]
     [0j, (2+0j)]
     """
-    cranks = [one for one in found if one.kind is Kind.CRANK]
+    cranks = [one for one in found if one.kind is GuideKind.CRANK]
     if len(cranks) < 2:
         return ()
     pivots = np.array([one.pivot for one in cranks])

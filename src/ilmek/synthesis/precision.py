@@ -17,9 +17,9 @@ import numpy as np
 from jaxtyping import Float
 
 from ilmek.arrays import FloatArray, IntArray
-from ilmek.synthesis.circuit_loops import Loop
+from ilmek.synthesis.circuit_loops import CircuitLoop
 from ilmek.synthesis.four_bar import FourBar
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 
 SAMPLES = 360
 """Configurations of each circuit among which nearest ones are looked for."""
@@ -43,7 +43,7 @@ ROUND = 2 * math.pi
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class PositionMatch:
     """A configuration chosen for a precision position: index of the circuit, its parameter, and by how much it misses.
 
     branch  +1, -1, or 0 in a dead centre of the crank      miss  the largest error, in units of what counts as met
@@ -56,7 +56,7 @@ class Place:
     miss: float
 
 
-def places(four_bar: FourBar, task: Task, loops: Sequence[Loop]) -> tuple[Place | None, ...]:
+def places(four_bar: FourBar, task: PrecisionTask, loops: Sequence[CircuitLoop]) -> tuple[PositionMatch | None, ...]:
     """For each precision position the configuration that is taken for it; None where the linkage does not get there."""
     if not loops:
         return (None,) * task.count
@@ -74,7 +74,7 @@ def places(four_bar: FourBar, task: Task, loops: Sequence[Loop]) -> tuple[Place 
     return tuple(ways[0] for ways in preferred)
 
 
-class Order(NamedTuple):
+class PositionOrder(NamedTuple):
     """How far the crank has to go from the first position to each, and whether it rocks.
 
     A crank that rocks on one branch: its turn [rad], with a sign. Else the way round the circuit, from 0 to 2 pi.
@@ -101,18 +101,18 @@ class Order(NamedTuple):
         return tuple(met)
 
 
-def order(chosen: Sequence[Place], loops: Sequence[Loop]) -> Order | None:
+def order(chosen: Sequence[PositionMatch], loops: Sequence[CircuitLoop]) -> PositionOrder | None:
     """The order in which the crank meets configurations; None where they are not on one circuit."""
     if len({one.loop for one in chosen}) != 1:
         return None
     if not loops[chosen[0].loop].branch and len({one.branch for one in chosen} - {0}) <= 1:
-        return Order(np.array([one.crank - chosen[0].crank for one in chosen]), rocks=True)
+        return PositionOrder(np.array([one.crank - chosen[0].crank for one in chosen]), rocks=True)
     way = np.mod([one.u - chosen[0].u for one in chosen], ROUND)
     way[way > ROUND - SAME_TURN] = 0.0
-    return Order(way, rocks=False)
+    return PositionOrder(way, rocks=False)
 
 
-def misses(four_bar: FourBar, task: Task, loop: Loop, u: FloatArray, which: IntArray) -> FloatArray:
+def misses(four_bar: FourBar, task: PrecisionTask, loop: CircuitLoop, u: FloatArray, which: IntArray) -> FloatArray:
     """What is asked of positions `which`, missed in the configurations at u: components on a leading axis.
 
     Points in units of what counts as met, and so angles: chords of unit vectors.
@@ -129,18 +129,18 @@ def misses(four_bar: FourBar, task: Task, loop: Loop, u: FloatArray, which: IntA
     return np.stack([component for part in parts for component in (part.real, part.imag)])
 
 
-def _all_places(four_bar: FourBar, task: Task, loops: Sequence[Loop]) -> list[list[Place]]:
-    found: list[list[Place]] = [[] for _ in range(task.count)]
+def _all_places(four_bar: FourBar, task: PrecisionTask, loops: Sequence[CircuitLoop]) -> list[list[PositionMatch]]:
+    found: list[list[PositionMatch]] = [[] for _ in range(task.count)]
     for index, loop in enumerate(loops):
         for position, u in _looked_at(four_bar, task, loop):
             miss = float(np.max(np.abs(misses(four_bar, task, loop, np.array([u]), np.array([position])))))
             crank = float(loop.crank(np.array(u)))
             branch = loop.branch or (0 if abs(math.sin(u)) < LEAN else int(loop.branches(np.array(u))))
-            found[position].append(Place(index, u, crank, branch, miss))
+            found[position].append(PositionMatch(index, u, crank, branch, miss))
     return found
 
 
-def _looked_at(four_bar: FourBar, task: Task, loop: Loop) -> Iterator[tuple[int, float]]:
+def _looked_at(four_bar: FourBar, task: PrecisionTask, loop: CircuitLoop) -> Iterator[tuple[int, float]]:
     """Positions and the parameters at which this circuit may meet them."""
     if task.crank_turns is not None:
         for position, turn in enumerate(task.crank_turns):
@@ -154,11 +154,11 @@ def _looked_at(four_bar: FourBar, task: Task, loop: Loop) -> Iterator[tuple[int,
     yield from zip(which.tolist(), _polished(four_bar, task, loop, grid[at], which).tolist(), strict=True)
 
 
-def _square(four_bar: FourBar, task: Task, loop: Loop, u: FloatArray, which: IntArray) -> FloatArray:
+def _square(four_bar: FourBar, task: PrecisionTask, loop: CircuitLoop, u: FloatArray, which: IntArray) -> FloatArray:
     return np.asarray(np.sum(misses(four_bar, task, loop, u, which) ** 2, axis=0))
 
 
-def _polished(four_bar: FourBar, task: Task, loop: Loop, u: FloatArray, which: IntArray) -> FloatArray:
+def _polished(four_bar: FourBar, task: PrecisionTask, loop: CircuitLoop, u: FloatArray, which: IntArray) -> FloatArray:
     """The parameters at which positions `which` are missed least, from u: Gauss and Newton's steps, cut where worse."""
 
     def near(at: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -180,7 +180,7 @@ def _polished(four_bar: FourBar, task: Task, loop: Loop, u: FloatArray, which: I
     return u
 
 
-def _home(four_bar: FourBar, loops: Sequence[Loop]) -> tuple[int, int]:
+def _home(four_bar: FourBar, loops: Sequence[CircuitLoop]) -> tuple[int, int]:
     """The circuit and branch in which the four-bar is drawn."""
     gaps = []
     for loop in loops:
@@ -189,7 +189,7 @@ def _home(four_bar: FourBar, loops: Sequence[Loop]) -> tuple[int, int]:
     return int(np.argmin(gaps)), four_bar.branch
 
 
-def _preferred(ways: list[Place], home: tuple[int, int]) -> list[Place]:
+def _preferred(ways: list[PositionMatch], home: tuple[int, int]) -> list[PositionMatch]:
     """Configurations that will do for a position, the best kind only, those that miss least first."""
     ways = sorted(ways, key=lambda one: one.miss)
     circuit = [one for one in ways if one.loop == home[0]]

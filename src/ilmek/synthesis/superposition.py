@@ -16,7 +16,7 @@ from scipy.linalg import lu_factor, lu_solve
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import dot
-from ilmek.synthesis.dyad import Dyad
+from ilmek.synthesis.dyad import TwoLinkArm
 
 SINGULAR = 1e-11
 """Smallest by largest singular value, or divisor by its neighbours, that counts as nothing."""
@@ -27,7 +27,7 @@ REAL = 1e-6
 
 def superposed_through_points(
     points: Complex[np.ndarray, "4"], first_angles: Float[np.ndarray, "4"]
-) -> tuple[Dyad, ...]:
+) -> tuple[TwoLinkArm, ...]:
     """All arms through four points [m] timed by the first link [rad], by two virtual parameters; sorted by `first`.
 
         P0 f0 + P1 f1 + P4 f4 + P5 f5 = F - 2 lam1 f2 - 2 lam2 f3,    lam1 = P1 P4, lam2 = P1 P5
@@ -73,13 +73,13 @@ def superposed_through_points(
         P0, P1, P4, P5 = ell + lam1 * m + lam2 * n
         first, pivot = 1 / (2 * P1), complex(P4, P5)
         second = np.sqrt(abs(pivot) ** 2 + first**2 - 2 * first * P0)
-        found.append(Dyad(pivot * size, abs(pivot) * size, float(first) * size, float(second) * size))
+        found.append(TwoLinkArm(pivot * size, abs(pivot) * size, float(first) * size, float(second) * size))
     return tuple(sorted(found, key=lambda arm: arm.first))
 
 
 def superposed_through_poses(
     points: Complex[np.ndarray, "3"], second_angles: Float[np.ndarray, "3"], ground_angle: float
-) -> tuple[Dyad, ...]:
+) -> tuple[TwoLinkArm, ...]:
     """All arms through three poses with the pivot on the ray of `ground_angle`, by one virtual parameter.
 
         P1 + P2 f2 + P3 f3 = F - lam f4,    lam = P2 P3
@@ -102,7 +102,9 @@ def superposed_through_poses(
         P1, P2, P3 = ell + lam * m
         ground, second = 1 / P3, 1 / P2
         first = np.sqrt(P1 * ground * second + ground**2 + second**2)
-        found.append(Dyad(complex(ground * e0) * size, float(ground) * size, float(first) * size, float(second) * size))
+        found.append(
+            TwoLinkArm(complex(ground * e0) * size, float(ground) * size, float(first) * size, float(second) * size)
+        )
     return tuple(sorted(found, key=lambda arm: arm.ground))
 
 

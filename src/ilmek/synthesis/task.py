@@ -16,7 +16,7 @@ TURN = 2 * math.pi + 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Task:
+class PrecisionTask:
     """Precision positions in the order in which they are to be met; the first is the one in which a four-bar is drawn.
 
     points   places of the tracer [m], complex
@@ -29,7 +29,7 @@ class Task:
     Raises ParameterError for a task that asks nothing, fields of different lengths, values that are not finite, and
     angles more than a turn apart (told apart from degrees).
 
-    >>> Task(crank=np.radians([0, 30, 60]), rocker=np.radians([0, 20, 30])).count
+    >>> PrecisionTask(crank=np.radians([0, 30, 60]), rocker=np.radians([0, 20, 30])).count
     3
     """
 

@@ -16,10 +16,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.timing.crossings import Place, passages, passing_share
+from ilmek.timing.crossings import TrackInstant, passages, passing_share
 from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, Spans, Track, moment_angle
 from ilmek.timing.relations import Presence
-from ilmek.timing.track import Segment
+from ilmek.timing.track import TrackSegment
 from ilmek.units import turn
 
 
@@ -46,7 +46,7 @@ class Form:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Row:
+class Constraint:
     """form >= 0, what it is in words, and its kind: relation, exclusion, order, turn, limit or motion."""
 
     form: Form
@@ -98,17 +98,17 @@ class Unknowns:
                 return self.share(track, track.segment(event.on), event.share)
         return self.constant(moment_angle(self.cyclogram, moment))
 
-    def share(self, track: Track, segment: Segment, u: float) -> Form:
+    def share(self, track: Track, segment: TrackSegment, u: float) -> Form:
         """The instant at a share of a motion's time."""
         start = self.moment(Moment(track.name, segment.name, "start"))
         return start + self.beta(track, segment).scaled(u)
 
-    def beta(self, track: Track, segment: Segment) -> Form:
+    def beta(self, track: Track, segment: TrackSegment) -> Form:
         """The master angle that a motion takes."""
         start, end = (self.moment(Moment(track.name, segment.name, edge)) for edge in ("start", "end"))
         return end - start
 
-    def at(self, track: Track, place: Place) -> Form:
+    def at(self, track: Track, place: TrackInstant) -> Form:
         """The instant of a place on a track's motions."""
         return self.share(track, track.segments[place.motion], place.share).shifted(turn * place.turns)
 
@@ -135,52 +135,54 @@ def _stands_alone(track: Track, event: str) -> bool:
     return not track.held and not track.event(event).on
 
 
-def standing_rows(known: Unknowns, *, period_free: bool) -> list[Row]:
+def standing_rows(known: Unknowns, *, period_free: bool) -> list[Constraint]:
     """Rows of all relations, and of the order of each track in the turn."""
     rows = [row for relation in known.cyclogram.relations for row in _relation(known, relation, period_free)]
     rows += [row for track in known.cyclogram.tracks if not track.held for row in _order(known, track)]
     events = [key for key in known.place if key[2] == "event"]
     for key in events:
         at, said = known.moment(Moment(*key)), f"{key[0]}: {key[1]} within the turn"
-        rows += [Row(at, said, "turn"), Row(known.constant(turn) - at, said, "turn")]
+        rows += [Constraint(at, said, "turn"), Constraint(known.constant(turn) - at, said, "turn")]
     return rows
 
 
-def _relation(known: Unknowns, relation: Relation, period_free: bool) -> Iterator[Row]:
+def _relation(known: Unknowns, relation: Relation, period_free: bool) -> Iterator[Constraint]:
     units = known.cyclogram.units
     gap = (known.moment(relation.then) - known.moment(relation.first)).shifted(turn * relation.turns)
     delay = relation.delay
     late = known.growth(delay) if period_free else known.constant(delay * known.cyclogram.speed)
     said = relation.said(units)
     if relation.gap > -math.inf:
-        yield Row((gap - late).shifted(-relation.gap), said, "relation")
+        yield Constraint((gap - late).shifted(-relation.gap), said, "relation")
     if relation.most < math.inf:
-        yield Row(known.constant(relation.most) - gap, f"{said}, at most", "relation")
+        yield Constraint(known.constant(relation.most) - gap, f"{said}, at most", "relation")
 
 
-def _order(known: Unknowns, track: Track) -> Iterator[Row]:
+def _order(known: Unknowns, track: Track) -> Iterator[Constraint]:
     """Motions one after the other, within the turn unless the track runs through its end now."""
     if not track.segments:
         return
     starts = [known.share(track, part, 0.0) for part in track.segments]
     ends = [known.share(track, part, 1.0) for part in track.segments]
     for part, start, end in zip(track.segments, starts, ends, strict=True):
-        yield Row(end - start, f"{track.name}: {part.name} ends after it starts", "order")
+        yield Constraint(end - start, f"{track.name}: {part.name} ends after it starts", "order")
         if part.stroke == 0:
             kept = f"{track.name}: {part.name} keeps its angle"
-            yield Row((end - start).shifted(-part.beta), kept, "order")
+            yield Constraint((end - start).shifted(-part.beta), kept, "order")
     pairs = zip(track.segments, track.segments[1:], ends, starts[1:], strict=False)
     for first, then, end, start in pairs:
-        yield Row(start - end, f"{track.name}: {then.name} starts after {first.name} ends", "order")
-    yield Row(starts[0], f"{track.name}: {track.segments[0].name} starts within the turn", "turn")
+        yield Constraint(start - end, f"{track.name}: {then.name} starts after {first.name} ends", "order")
+    yield Constraint(starts[0], f"{track.name}: {track.segments[0].name} starts within the turn", "turn")
     last, through = track.segments[-1], track.segments[-1].end > turn + 1e-9
     limit = starts[0].shifted(turn) if through else known.constant(turn)
-    yield Row(limit - ends[-1], f"{track.name}: {last.name} ends within the turn", "turn")
+    yield Constraint(limit - ends[-1], f"{track.name}: {last.name} ends within the turn", "turn")
     if through:
-        yield Row(known.constant(turn - 1e-6) - starts[-1], f"{track.name}: {last.name} starts within the turn", "turn")
+        yield Constraint(
+            known.constant(turn - 1e-6) - starts[-1], f"{track.name}: {last.name} starts within the turn", "turn"
+        )
 
 
-def exclusion_rows(known: Unknowns, exclusion: Exclusion) -> Iterator[tuple[tuple[Row, ...], ...]]:
+def exclusion_rows(known: Unknowns, exclusion: Exclusion) -> Iterator[tuple[tuple[Constraint, ...], ...]]:
     """For every two stays the ways to keep them apart: the one there is now, or both orders where they overlap."""
     for a in _stays(known, exclusion.first):
         for b in _stays(known, exclusion.second):
@@ -189,14 +191,14 @@ def exclusion_rows(known: Unknowns, exclusion: Exclusion) -> Iterator[tuple[tupl
 
 def _ways(
     known: Unknowns, exclusion: Exclusion, a: tuple[Form, Form], b: tuple[Form, Form]
-) -> tuple[tuple[Row, ...], ...]:
+) -> tuple[tuple[Constraint, ...], ...]:
     x, said = known.present, exclusion.said(known.cyclogram.units)
     now = [float(form.weights @ x) + form.constant for form in (*a, *b)]
     after = -math.floor((now[2] - now[0]) / turn)
     ways = []
     for shift in (after, after - 1):
         gaps = (b[0] - a[1]).shifted(turn * shift), (a[0] - b[1]).shifted(turn * (1 - shift))
-        ways.append(tuple(Row(gap.shifted(-exclusion.gap), said, "exclusion") for gap in gaps))
+        ways.append(tuple(Constraint(gap.shifted(-exclusion.gap), said, "exclusion") for gap in gaps))
         if shift == after and min(float(gap.weights @ x) + gap.constant for gap in gaps) >= 0:
             break
     return tuple(ways)

@@ -12,7 +12,7 @@ import numpy as np
 from ilmek.arrays import FloatArray, RealField
 from ilmek.errors import ParameterError
 from ilmek.num.brackets import bracketed_roots
-from ilmek.timing.track import MotionLaw, Segment, Track
+from ilmek.timing.track import MotionLaw, Track, TrackSegment
 from ilmek.timing.windows import WHOLE, Windows, windows_of
 from ilmek.units import format_quantity, turn
 
@@ -22,7 +22,7 @@ _SAME, _AT_END = 1e-9, 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class TrackInstant:
     """An instant on a track's motions: number of the motion, share of its time, turns later."""
 
     motion: int
@@ -38,8 +38,8 @@ class Place:
 class Passage:
     """A stay of a track in a zone: where it comes in and where it goes out."""
 
-    entry: Place
-    exit: Place
+    entry: TrackInstant
+    exit: TrackInstant
 
 
 def turning_shares(law: MotionLaw) -> FloatArray:
@@ -54,13 +54,13 @@ def turning_shares(law: MotionLaw) -> FloatArray:
     return np.unique(np.concatenate([[0.0, 1.0], roots, zeros]))
 
 
-def crossing_shares(segment: Segment, position: RealField) -> tuple[float, ...]:
+def crossing_shares(segment: TrackSegment, position: RealField) -> tuple[float, ...]:
     """Shares of a motion's time at which it is at a position [SI], ascending; to rounding."""
     found = (_crossed(segment, piece, float(position)) for piece in _pieces(segment))
     return tuple(sorted({u for u in found if u is not None}))
 
 
-def passing_share(track: str, segment: Segment, position: float, unit: str = "mm") -> float:
+def passing_share(track: str, segment: TrackSegment, position: float, unit: str = "mm") -> float:
     """The share at which a motion first is at a position [SI]. Raises ParameterError where it never is."""
     shares = crossing_shares(segment, position)
     if not shares:
@@ -86,7 +86,7 @@ def passages(track: Track, low: float, high: float) -> tuple[Passage, ...] | Non
     found: list[Passage] = []
     for number, segment in enumerate(track.segments):
         for inside in _inside(segment, low, high):
-            here = Passage(Place(number, inside[0]), Place(number, inside[1]))
+            here = Passage(TrackInstant(number, inside[0]), TrackInstant(number, inside[1]))
             if found and inside[0] == 0 and _rests_on(track, found[-1], number, low, high):
                 found[-1] = Passage(found[-1].entry, here.exit)
             else:
@@ -96,19 +96,23 @@ def passages(track: Track, low: float, high: float) -> tuple[Passage, ...] | Non
 
 def _closed(track: Track, found: list[Passage], low: float, high: float) -> tuple[Passage, ...] | None:
     """The stays with the last one joined to the first where the track rests in the zone through the turn's end."""
-    if not found or found[0].entry != Place(0, 0.0) or not _rests_on(track, found[-1], len(track.segments), low, high):
+    if (
+        not found
+        or found[0].entry != TrackInstant(0, 0.0)
+        or not _rests_on(track, found[-1], len(track.segments), low, high)
+    ):
         return tuple(found)
     if len(found) == 1:
         return None
     first, last = found[0], found[-1]
-    end = Place(first.exit.motion, first.exit.share, 1)
+    end = TrackInstant(first.exit.motion, first.exit.share, 1)
     return (*found[1:-1], Passage(last.entry, end))
 
 
 def _rests_on(track: Track, stay: Passage, number: int, low: float, high: float) -> bool:
     """Whether a stay goes on to the start of the motion of that number, the track resting in the zone."""
     before = track.segments[number - 1]
-    meets = stay.exit == Place(number - 1, 1.0) and _within(before.finish, low, high)
+    meets = stay.exit == TrackInstant(number - 1, 1.0) and _within(before.finish, low, high)
     return meets and _within(track.segments[number % len(track.segments)].begin, low, high)
 
 
@@ -116,7 +120,7 @@ def _within(position: float, low: float, high: float) -> bool:
     return low + _SAME < position < high - _SAME
 
 
-def _inside(segment: Segment, low: float, high: float) -> Iterator[tuple[float, float]]:
+def _inside(segment: TrackSegment, low: float, high: float) -> Iterator[tuple[float, float]]:
     """Ranges of the share in which the motion is between both positions, ascending and apart."""
     if segment.stroke == 0:
         if _within(segment.begin, low, high):
@@ -135,13 +139,15 @@ def _inside(segment: Segment, low: float, high: float) -> Iterator[tuple[float, 
         yield held
 
 
-def _pieces(segment: Segment) -> Iterator[tuple[float, float]]:
+def _pieces(segment: TrackSegment) -> Iterator[tuple[float, float]]:
     """Ranges of the share in which the motion goes one way."""
     shares = turning_shares(segment.law)
     return zip(shares[:-1].tolist(), shares[1:].tolist(), strict=True)
 
 
-def _piece_inside(segment: Segment, piece: tuple[float, float], low: float, high: float) -> tuple[float, float] | None:
+def _piece_inside(
+    segment: TrackSegment, piece: tuple[float, float], low: float, high: float
+) -> tuple[float, float] | None:
     ends = [_position(segment, u) for u in piece]
     if min(ends) >= high - _SAME or max(ends) <= low + _SAME:
         return None
@@ -150,11 +156,11 @@ def _piece_inside(segment: Segment, piece: tuple[float, float], low: float, high
     return piece[0] if start is None else start, piece[1] if end is None else end
 
 
-def _position(segment: Segment, u: float) -> float:
+def _position(segment: TrackSegment, u: float) -> float:
     return segment.begin + segment.stroke * float(segment.law.s(u))
 
 
-def _crossed(segment: Segment, piece: tuple[float, float], position: float) -> float | None:
+def _crossed(segment: TrackSegment, piece: tuple[float, float], position: float) -> float | None:
     """The share within a piece at which the motion is at a position; None where it is not."""
     if segment.stroke == 0 or not np.isfinite(position):
         return None

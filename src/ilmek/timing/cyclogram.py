@@ -8,20 +8,20 @@ from ilmek.errors import ParameterError
 from ilmek.report import Check, at_least, at_most
 from ilmek.timing.crossings import passing_share, zone_windows
 from ilmek.timing.relations import Exclusion, Moment, Presence, Relation, Spans, Zone, fixed
-from ilmek.timing.track import Event, Limits, Segment, Track, riding
+from ilmek.timing.track import ActuatorLimits, Track, TrackEvent, TrackSegment, riding
 from ilmek.timing.windows import Windows, separation
 from ilmek.units import turn
 
 __all__ = [
+    "ActuatorLimits",
     "Cyclogram",
-    "Event",
     "Exclusion",
-    "Limits",
     "Moment",
     "Relation",
-    "Segment",
     "Spans",
     "Track",
+    "TrackEvent",
+    "TrackSegment",
     "Zone",
     "check_all",
     "check_apart",

@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.report import Lane, LawCurve, Link, Mark, Move, Shade, Timing
 from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, check_all, moment_angle, present
 from ilmek.timing.relations import Presence, Zone
-from ilmek.timing.track import MotionLaw, Segment, Track, joints, laid, sample
+from ilmek.timing.track import MotionLaw, Track, TrackSegment, joints, laid, sample
 from ilmek.timing.windows import Windows, common
 from ilmek.units import deg, format_number, turn
 
@@ -39,7 +39,7 @@ def _lane(cyclogram: Cyclogram, track: Track, step: float) -> Lane:
     return Lane(track.name, track.actuator, angle, share, events, moves, track.unit, shades)
 
 
-def _move(part: Segment) -> Move:
+def _move(part: TrackSegment) -> Move:
     return Move(part.name, part.start, part.end, part.begin, part.finish, law_label(part.law))
 
 

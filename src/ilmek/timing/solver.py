@@ -19,9 +19,9 @@ from scipy.optimize import linprog
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
-from ilmek.timing.constraints import Form, Row, Unknowns, exclusion_rows, standing_rows, unknowns
+from ilmek.timing.constraints import Constraint, Form, Unknowns, exclusion_rows, standing_rows, unknowns
 from ilmek.timing.cyclogram import Cyclogram
-from ilmek.timing.track import Segment, Track, peak_acceleration
+from ilmek.timing.track import Track, TrackSegment, peak_acceleration
 from ilmek.units import format_quantity, parse_unit, turn
 
 ORDERS = 4096
@@ -135,7 +135,7 @@ def require_possible(cyclogram: Cyclogram) -> None:
         _best(known, rows, motions)
 
 
-def _moving(cyclogram: Cyclogram) -> list[tuple[Track, Segment]]:
+def _moving(cyclogram: Cyclogram) -> list[tuple[Track, TrackSegment]]:
     """The motions that may be changed. Raises ParameterError where there are none."""
     found = [(track, part) for track in cyclogram.tracks if not track.held for part in track.segments if part.stroke]
     if not found:
@@ -143,19 +143,19 @@ def _moving(cyclogram: Cyclogram) -> list[tuple[Track, Segment]]:
     return found
 
 
-def _stretch(known: Unknowns, track: Track, part: Segment, rate: float, limit: str = "") -> Row:
+def _stretch(known: Unknowns, track: Track, part: TrackSegment, rate: float, limit: str = "") -> Constraint:
     """The row: a motion takes the angle rate r, at least; by which limit."""
     said = f"{track.name}: {part.name}{f' at its limit of {limit}' if limit else ''}"
-    return Row(known.beta(track, part) - known.growth(rate), said, "motion")
+    return Constraint(known.beta(track, part) - known.growth(rate), said, "motion")
 
 
-def _bound(known: Unknowns, track: Track, part: Segment, limit: str, beta: float) -> Row:
+def _bound(known: Unknowns, track: Track, part: TrackSegment, limit: str, beta: float) -> Constraint:
     """The row: a motion takes an angle, at least, by a limit at the period that is given."""
     said = f"{track.name}: {part.name} at its limit of {limit}"
-    return Row(known.beta(track, part).shifted(-beta), said, "limit")
+    return Constraint(known.beta(track, part).shifted(-beta), said, "limit")
 
 
-def _peak(track: Track, part: Segment) -> float:
+def _peak(track: Track, part: TrackSegment) -> float:
     if not math.isfinite(part.law.acceleration_peak):
         raise ParameterError(
             f"{track.name}: {part.name} moves by the law {part.law.name}, whose acceleration has no bound",
@@ -164,7 +164,7 @@ def _peak(track: Track, part: Segment) -> float:
     return part.law.acceleration_peak
 
 
-def _limited(track: Track, part: Segment) -> Iterator[tuple[str, float]]:
+def _limited(track: Track, part: TrackSegment) -> Iterator[tuple[str, float]]:
     """Each limit, and the least time by it that a motion takes [s]."""
     limits, law, h = track.limits, part.law, abs(part.stroke)
     times = {
@@ -209,7 +209,9 @@ def _level(cyclogram: Cyclogram, weights: dict[str, float]) -> float:
     return max(peak_acceleration(cyclogram.track(name), cyclogram.period) / by for name, by in weights.items())
 
 
-def _best(known: Unknowns, rows: list[Row], motions: list[Row]) -> tuple[float, list[Row], _Answer]:
+def _best(
+    known: Unknowns, rows: list[Constraint], motions: list[Constraint]
+) -> tuple[float, list[Constraint], _Answer]:
     """The largest r over all orders of presences that overlap now; with the rows of that order, and its answer."""
     ways = [way for exclusion in known.cyclogram.exclusions for way in exclusion_rows(known, exclusion)]
     if math.prod(map(len, ways)) > ORDERS:
@@ -217,7 +219,7 @@ def _best(known: Unknowns, rows: list[Row], motions: list[Row]) -> tuple[float, 
             f"{sum(len(way) > 1 for way in ways)} pairs of presences overlap, too many to try every order",
             do="place the motions roughly in the order that is wanted",
         )
-    best: tuple[float, list[Row], _Answer] | None = None
+    best: tuple[float, list[Constraint], _Answer] | None = None
     for chosen in itertools.product(*ways):
         all_rows = [*rows, *(row for one in chosen for row in one)]
         answer = _maximum([*all_rows, *motions])
@@ -229,7 +231,7 @@ def _best(known: Unknowns, rows: list[Row], motions: list[Row]) -> tuple[float, 
     return best
 
 
-def _maximum(rows: Sequence[Row]) -> _Answer | None:
+def _maximum(rows: Sequence[Constraint]) -> _Answer | None:
     """The largest r within rows; None where nothing is within them."""
     weights = np.array([row.form.weights for row in rows])
     least = -np.array([row.form.constant for row in rows])
@@ -243,9 +245,9 @@ def _maximum(rows: Sequence[Row]) -> _Answer | None:
     return _Answer(np.asarray(found.x), -np.asarray(found.ineqlin.marginals))
 
 
-def _even(known: Unknowns, rows: list[Row], motions: list[Row], first: _Answer) -> _Answer:
+def _even(known: Unknowns, rows: list[Constraint], motions: list[Constraint], first: _Answer) -> _Answer:
     """The answer with the motions that do not settle r stretched too, the largest of the rest made least each time."""
-    kept: list[Row] = []
+    kept: list[Constraint] = []
     loose, answer = list(motions), first
     while loose:
         count = len(rows) + len(kept)
@@ -260,13 +262,15 @@ def _even(known: Unknowns, rows: list[Row], motions: list[Row], first: _Answer) 
     return _Answer(_polished([*rows, *kept, *loose], answer.x), first.multipliers)
 
 
-def _frozen(known: Unknowns, row: Row, r: float) -> Row:
+def _frozen(known: Unknowns, row: Constraint, r: float) -> Constraint:
     """The row of a motion at this r, whatever r becomes."""
     rate = row.form.weights[0]
-    return Row(Form(row.form.weights - known.growth(rate).weights, row.form.constant + rate * r), row.said, row.kind)
+    return Constraint(
+        Form(row.form.weights - known.growth(rate).weights, row.form.constant + rate * r), row.said, row.kind
+    )
 
 
-def _polished(rows: Sequence[Row], x: FloatArray) -> FloatArray:
+def _polished(rows: Sequence[Constraint], x: FloatArray) -> FloatArray:
     """The answer moved so that the rows it stands at hold to rounding."""
     weights = np.array([row.form.weights for row in rows])
     left = weights @ x + np.array([row.form.constant for row in rows])
@@ -308,7 +312,7 @@ def _placed(known: Unknowns, x: FloatArray, period: float) -> Cyclogram:
     return replace(known.cyclogram, period=period, tracks=tuple(tracks))
 
 
-def _binding(rows: Sequence[Row], answer: _Answer, power: int) -> tuple[Binding, ...]:
+def _binding(rows: Sequence[Constraint], answer: _Answer, power: int) -> tuple[Binding, ...]:
     """What binds, in the order of the turn; the answer goes with r to -power."""
     r, found = answer.x[0], []
     for row, y in zip(rows, answer.multipliers, strict=True):
@@ -319,7 +323,7 @@ def _binding(rows: Sequence[Row], answer: _Answer, power: int) -> tuple[Binding,
     return tuple(binding for _, binding in sorted(found, key=lambda one: one[0]))
 
 
-def _blame(rows: Sequence[Row], known: Unknowns) -> None:
+def _blame(rows: Sequence[Constraint], known: Unknowns) -> None:
     """Raise ParameterError that names the rows which cannot hold together: those with a multiplier when all are
     relaxed by the same angle, as little as it takes. Of gaps alone they are a loop of positive length.
     """

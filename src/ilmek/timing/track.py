@@ -69,7 +69,7 @@ class MotionLaw(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Segment:
+class TrackSegment:
     """A motion from `begin` to `finish` [SI] while the master turns from `start` to `end` [rad], by a law."""
 
     name: str
@@ -95,7 +95,7 @@ class Segment:
 
 
 @dataclass(frozen=True, slots=True)
-class Event:
+class TrackEvent:
     """A named instant of a track: master angle [rad].
 
     on, share   the motion it rides on, and the share of that motion's time at which it comes: it goes along where the
@@ -108,13 +108,15 @@ class Event:
     share: float = 0.0
 
 
-def riding(name: str, segment: Segment, share: float = 1.0) -> Event:
+def riding(name: str, segment: TrackSegment, share: float = 1.0) -> TrackEvent:
     """The event at a share of a motion's time, 0 its start, 1 its end."""
-    return Event(name, segment.angle(share) % turn if segment.end > turn else segment.angle(share), segment.name, share)
+    return TrackEvent(
+        name, segment.angle(share) % turn if segment.end > turn else segment.angle(share), segment.name, share
+    )
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class ActuatorLimits:
     """What an actuator can do: largest speed, acceleration and jerk [SI/s, SI/s^2, SI/s^3], least time of a motion [s].
 
     Raises ParameterError for a limit that is not positive, or a time below 0.
@@ -150,11 +152,11 @@ class Track:
 
     name: str
     actuator: str
-    segments: tuple[Segment, ...]
-    events: tuple[Event, ...] = ()
+    segments: tuple[TrackSegment, ...]
+    events: tuple[TrackEvent, ...] = ()
     unit: str = "mm"
     revolves: float = 0.0
-    limits: Limits = Limits()
+    limits: ActuatorLimits = ActuatorLimits()
     held: bool = False
 
     def __post_init__(self) -> None:
@@ -172,7 +174,7 @@ class Track:
         for event in self.events:
             _require_event(self, event)
 
-    def segment(self, name: str) -> Segment:
+    def segment(self, name: str) -> TrackSegment:
         """The motion of that name. Raises ParameterError where there is none."""
         for segment in self.segments:
             if segment.name == name:
@@ -180,7 +182,7 @@ class Track:
         known = ", ".join(segment.name for segment in self.segments)
         raise ParameterError(f"{self.name} has no motion {name!r}", allowed=f"its motions: {known}")
 
-    def event(self, name: str) -> Event:
+    def event(self, name: str) -> TrackEvent:
         """The event of that name. Raises ParameterError where there is none."""
         for event in self.events:
             if event.name == name:
@@ -226,7 +228,7 @@ def sample(track: Track, angle: FloatArray) -> TrackMotion:
     return TrackMotion(angle, position, slope, bend)
 
 
-def laid(track: Track) -> Iterator[Segment]:
+def laid(track: Track) -> Iterator[TrackSegment]:
     """The motions as they lie over the turn: the end of one that runs through its end lies at its beginning too."""
     last = track.segments[-1] if track.segments else None
     if last is not None and last.end > turn + _SAME:
@@ -268,7 +270,7 @@ def _shown(angle: float) -> str:
     return format_quantity(angle, "deg")
 
 
-def _require_inside(track: Track, segment: Segment) -> None:
+def _require_inside(track: Track, segment: TrackSegment) -> None:
     first = track.segments[0].start
     if segment.start >= turn or not 0 <= segment.start < segment.end <= turn + max(first, 0.0) + _SAME:
         raise ParameterError(
@@ -278,7 +280,7 @@ def _require_inside(track: Track, segment: Segment) -> None:
         )
 
 
-def _require_event(track: Track, event: Event) -> None:
+def _require_event(track: Track, event: TrackEvent) -> None:
     if not 0 <= event.angle <= turn:
         raise ParameterError(f"{track.name}: event {event.name!r} at {_shown(event.angle)}", allowed="0..360 deg")
     if event.on:
@@ -291,7 +293,7 @@ def _require_event(track: Track, event: Event) -> None:
             )
 
 
-def _require_apart(track: str, first: Segment, then: Segment) -> None:
+def _require_apart(track: str, first: TrackSegment, then: TrackSegment) -> None:
     if then.start < first.end - _SAME:
         raise ParameterError(
             f"{track}: {then.name} starts at {_shown(then.start)}, before {first.name} ends at {_shown(first.end)}",
@@ -300,7 +302,7 @@ def _require_apart(track: str, first: Segment, then: Segment) -> None:
         )
 
 
-def _require_joined(track: Track, first: Segment, then: Segment, revolves: float) -> None:
+def _require_joined(track: Track, first: TrackSegment, then: TrackSegment, revolves: float) -> None:
     gap = first.finish - then.begin
     if revolves:
         gap -= revolves * round(gap / revolves)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ilmek.dynamics.inertia import bar_moment
 from ilmek.machines.beat_up import BeatUp, BeatUpParams, design
-from ilmek.synthesis.crank_rocker.dead_centres import Links, beta_limits, dead_centres
+from ilmek.synthesis.crank_rocker.dead_centres import LinkRatios, beta_limits, dead_centres
 from ilmek.units import deg
 from ilmek.verification import beat_up_equations, beat_up_table
 from ilmek.verification.beat_up_table import SWING
@@ -189,7 +189,7 @@ def _great_peaks() -> int:
     return 2 * int(np.count_nonzero(tops))
 
 
-def _row_values() -> list[tuple[int, int, beat_up_table.Row]]:
+def _row_values() -> list[tuple[int, int, beat_up_table.TableRow]]:
     return [(phi, beta, beat_up_table.computed(phi, beta)) for phi, beta, _ in beat_up_table.rows()]
 
 
@@ -208,4 +208,4 @@ def _chosen_row() -> tuple[int, int]:
 def _swing_of_chosen() -> float:
     """From the links as Table 1 prints them: 0.1991, 0.6691, 0.7694."""
     texts = next(numbers for phi, beta, numbers in beat_up_table.rows() if (phi, beta) == (180, 48))
-    return float(dead_centres(Links(*(float(text) for text in texts[:3]))).swing) / deg
+    return float(dead_centres(LinkRatios(*(float(text) for text in texts[:3]))).swing) / deg

@@ -11,7 +11,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
-    Links,
+    LinkRatios,
     beta_limits,
     dead_centres,
     grashof_margin,
@@ -67,7 +67,7 @@ def _equation(
     return Claim("beat-up", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended)
 
 
-def _members(turns: tuple[float, float]) -> tuple[Links, DeadCentres]:
+def _members(turns: tuple[float, float]) -> tuple[LinkRatios, DeadCentres]:
     """Crank-rockers with turns of the crank in an interval [deg], and what they do, measured in their dead centres."""
     rotation, share = (np.ravel(grid) for grid in np.meshgrid(np.linspace(*turns, 23) * deg, [0.2, 0.5, 0.8]))
     low, high = ratio_limits(SWING, rotation)
@@ -75,7 +75,7 @@ def _members(turns: tuple[float, float]) -> tuple[Links, DeadCentres]:
     return links, dead_centres(links)
 
 
-def _all_members() -> tuple[Links, DeadCentres]:
+def _all_members() -> tuple[LinkRatios, DeadCentres]:
     return _members((float(rotation_limits(SWING).low / deg) + 0.5, float(rotation_limits(SWING).high / deg) - 0.5))
 
 
@@ -126,12 +126,12 @@ def _eq_8() -> float:
 def _transmission(side: int, sign: int, turns: tuple[float, float]) -> float:
     """Residual of cos mu = sign (b² + c² - (1 + side a)²) / (2bc)."""
     (a, b, c), _ = _members(turns)
-    at_zero, at_half_turn = transmission_angles(Links(a, b, c))
+    at_zero, at_half_turn = transmission_angles(LinkRatios(a, b, c))
     least = np.minimum(at_zero, np.pi - at_half_turn)
     return residual(np.cos(least), sign * (b**2 + c**2 - (1 + side * a) ** 2) / (2 * b * c))
 
 
-def _free_couplers() -> Links:
+def _free_couplers() -> LinkRatios:
     return links_of_coupler(SWING, np.pi + SWING, np.linspace(0.3, 2.0, 40))
 
 
@@ -155,7 +155,7 @@ def _eq_14() -> float:
     return residual(np.cos(transmission_angle_min(links)), 2 * np.sqrt(a) / (1 + a))
 
 
-def _centric() -> tuple[Links, FloatArray]:
+def _centric() -> tuple[LinkRatios, FloatArray]:
     beta = np.linspace(1, 74, 74) * deg
     return links_of_beta(SWING, np.pi, beta), beta
 

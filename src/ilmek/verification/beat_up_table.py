@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.synthesis.crank_rocker.dead_centres import (
-    Links,
+    LinkRatios,
     best_ratio,
     links_of_beta,
     links_of_ratio,
@@ -63,7 +63,7 @@ NOTES = {
 }
 
 
-class Row(NamedTuple):
+class TableRow(NamedTuple):
     """One crank-rocker of the table: links by ground link, crank / coupler, least transmission angle [deg]."""
 
     a: float
@@ -74,7 +74,7 @@ class Row(NamedTuple):
 
 
 @cache
-def computed(phi: int, beta: int) -> Row:
+def computed(phi: int, beta: int) -> TableRow:
     """The row for a turn of the crank and a beta [deg], by Eqs 1 to 3; of Case V by Eqs 11 to 13."""
     free = abs(phi * deg - np.pi - SWING) < 1e-9
     found = (
@@ -84,8 +84,8 @@ def computed(phi: int, beta: int) -> Row:
     )
     a, b, c = (float(link) for link in found)
     # Rounded, because at the change points the last bit decides between a toggle and no linkage.
-    mu_min = float(transmission_angle_min(Links(round(a, 12), round(b, 12), round(c, 12)))) / deg
-    return Row(a, b, c, a / b, mu_min)
+    mu_min = float(transmission_angle_min(LinkRatios(round(a, 12), round(b, 12), round(c, 12)))) / deg
+    return TableRow(a, b, c, a / b, mu_min)
 
 
 def rows() -> list[tuple[int, int, tuple[str, ...]]]:

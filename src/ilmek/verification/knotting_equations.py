@@ -17,7 +17,7 @@ from ilmek.units import deg, mm
 from ilmek.verification.claim import RESIDUAL, Claim, Computation, residual
 
 
-class Poses(NamedTuple):
+class ReportPoses(NamedTuple):
     """Lengths, angles, speeds and accelerations by the report's symbols; th0 = 180° - direction of the ground."""
 
     r: tuple[float, float, float, float]
@@ -30,7 +30,7 @@ class Poses(NamedTuple):
 
 
 @cache
-def poses() -> Poses:
+def poses() -> ReportPoses:
     """The machine's four-bar from 5 to 20 deg short of the quoted crank angle."""
     params = KnottingFourBarParams()
     ground = closing_ground(params)
@@ -42,7 +42,7 @@ def poses() -> Poses:
     a1, a2, a3 = (np.asarray(motion.alpha(body)) for body in bodies)
     far = motion.point("coupler", "O2'").position
     lengths = params.ground, params.crank, params.coupler, params.rocker
-    return Poses(
+    return ReportPoses(
         lengths,
         np.pi - ground,
         (t1, t2, t3),

@@ -7,7 +7,7 @@ F1 = (-x, y) on link 1.
 from collections.abc import Callable
 from functools import partial
 
-from ilmek.machines.knotting_four_bar.model import State
+from ilmek.machines.knotting_four_bar.model import KnottingState
 from ilmek.units import mm
 from ilmek.verification.claim import Claim
 from ilmek.verification.knotting_pose import quoted, vector
@@ -18,21 +18,21 @@ SIGNS = {"F2'": ("O2'", 1 - 1j), "F2": ("O2", -1 - 1j), "F1'": ("O1'", 1 + 1j), 
 _claim = partial(Claim, "knotting")
 
 
-def rest(of: Callable[[State], complex]) -> complex:
+def rest(of: Callable[[KnottingState], complex]) -> complex:
     """What there is at rest."""
     return of(quoted().static)
 
 
-def swing(of: Callable[[State], complex]) -> complex:
+def swing(of: Callable[[KnottingState], complex]) -> complex:
     """What ω1² multiplies."""
     return of(quoted().unit) - of(quoted().static)
 
 
-def joint(name: str) -> Callable[[State], complex]:
+def joint(name: str) -> Callable[[KnottingState], complex]:
     """A joint's force [N] with the report's signs."""
     pin, sign = SIGNS[name]
 
-    def turned(state: State) -> complex:
+    def turned(state: KnottingState) -> complex:
         force = complex(state.pins[pin][0])
         return complex(sign.real * force.real, sign.imag * force.imag)
 
@@ -55,7 +55,7 @@ def claims() -> tuple[Claim, ...]:
     }
     at = "5, forces"
 
-    def torque(state: State) -> complex:
+    def torque(state: KnottingState) -> complex:
         return complex(state.torque[0]) / mm
 
     joints = {name: joint(name) for name in SIGNS}

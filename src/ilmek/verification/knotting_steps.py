@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from ilmek.machines.knotting_four_bar.model import State
+from ilmek.machines.knotting_four_bar.model import KnottingState
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.units import mm
 from ilmek.verification.claim import Claim, Computation
@@ -22,7 +22,7 @@ R1, R2, R3, HAND = (length / mm for length in (PARAMS.crank, PARAMS.coupler, PAR
 TH1, TH2 = PARAMS.stated_crank_angle, PARAMS.stated_coupler_angle
 
 
-class Pose(NamedTuple):
+class StepPose(NamedTuple):
     """Angle of link 3 [rad], and speeds of links 2 and 3 by w1."""
 
     th3: float
@@ -30,12 +30,12 @@ class Pose(NamedTuple):
     w3: float
 
 
-ROUNDED = Pose(ROUNDED_TH3, 100.55, -23.41)
+ROUNDED = StepPose(ROUNDED_TH3, 100.55, -23.41)
 """As the report goes on with it."""
 
 NEAR = "θ3 was rounded, 0.01° from a dead point"
 WRONG = "with the wrong α2 and G2 at mid-length"
-Part: TypeAlias = Callable[[Callable[[State], complex]], complex]
+Part: TypeAlias = Callable[[Callable[[KnottingState], complex]], complex]
 """`rest` or `swing`."""
 
 _claim = partial(Claim, "knotting")
@@ -52,7 +52,7 @@ def _speed(body: str) -> float:
 
 def _alpha() -> Iterator[Claim]:
     """The terms of α2 and α3, each from θ3, ω2 and ω3 as computed and as the report rounds them."""
-    terms: dict[str, tuple[str, Callable[[Pose], float]]] = {
+    terms: dict[str, tuple[str, Callable[[StepPose], float]]] = {
         "α2: r3 ω3²": ("35855.29", lambda of: R3 * of.w3**2),
         "α2: r1 cos(θ1-θ3)": ("44.215", lambda of: R1 * math.cos(TH1 - of.th3)),
         "α2: r2 ω2² cos(θ2-θ3)": ("-158456.55", lambda of: R2 * of.w2**2 * math.cos(TH2 - of.th3)),
@@ -62,8 +62,8 @@ def _alpha() -> Iterator[Claim]:
         "α3: -r3 ω3² cos(θ3-θ2)": ("35820.5", lambda of: -R3 * of.w3**2 * math.cos(of.th3 - TH2)),
     }
 
-    def exact(term: Callable[[Pose], float]) -> float:
-        return term(Pose(angle("rocker"), _speed("coupler"), _speed("rocker")))
+    def exact(term: Callable[[StepPose], float]) -> float:
+        return term(StepPose(angle("rocker"), _speed("coupler"), _speed("rocker")))
 
     for item, (printed, term) in terms.items():
         yield _claim(item, printed, "", partial(exact, term), "4", NEAR, partial(term, ROUNDED))

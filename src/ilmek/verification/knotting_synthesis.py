@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from jaxtyping import Float
 
-from ilmek.synthesis.dyad import Dyad, Lengths, dyads_through_poses, four_bar
+from ilmek.synthesis.dyad import Lengths, TwoLinkArm, dyads_through_poses, four_bar
 from ilmek.units import deg
 from ilmek.verification.claim import RESIDUAL, Claim, Computation, residual
 
@@ -22,7 +22,7 @@ TH0 = 275 * deg
 _claim = partial(Claim, "knotting")
 
 
-class Steps(NamedTuple):
+class SynthesisSteps(NamedTuple):
     """f2, f3, F of the poses; l (here L) and M of P1, P2, P3; the quadratic and its roots, the larger first."""
 
     f2: Three
@@ -40,7 +40,7 @@ def claims() -> tuple[Claim, ...]:
 
 
 @cache
-def steps() -> Steps:
+def steps() -> SynthesisSteps:
     """The report's steps with exact numbers and the right sign of rho²."""
     e0, e2, rho = np.exp(1j * TH0), np.exp(1j * TH2), np.abs(POINTS)
     f2, f3 = 2 * (POINTS * np.conj(e0)).real, 2 * (POINTS * np.conj(e2)).real
@@ -49,11 +49,11 @@ def steps() -> Steps:
     L, M = np.linalg.solve(matrix, F), np.linalg.solve(matrix, rho**2)
     p, q, r = M[1] * M[2], L[1] * M[2] + L[2] * M[1] - 1, L[1] * L[2]
     small, large = np.sort(np.roots([p, q, r]).real)
-    return Steps(f2, f3, F, L, M, (float(p), float(q), float(r)), (float(large), float(small)))
+    return SynthesisSteps(f2, f3, F, L, M, (float(p), float(q), float(r)), (float(large), float(small)))
 
 
 @cache
-def dyads() -> tuple[Dyad, Dyad]:
+def dyads() -> tuple[TwoLinkArm, TwoLinkArm]:
     """The two arms of the example: that of the larger factor 1/(a0 a2), which is the report's case 1, first."""
     one, other = dyads_through_poses(POINTS, TH2, TH0)
     return (one, other) if one.ground * one.second < other.ground * other.second else (other, one)

@@ -12,14 +12,14 @@ from jaxtyping import Float
 from numpy.polynomial import Polynomial
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.synthesis.dyad import Dyad
+from ilmek.synthesis.dyad import TwoLinkArm
 from ilmek.verification.claim import residual
 
 Six: TypeAlias = Float[np.ndarray, "6"]
 
 TH1 = np.array([0.3, 1.1, 2.0, 2.6])
 TH2 = np.array([-0.4, 0.5, 1.9, 3.3])
-ARM = Dyad(pivot=0.31 - 0.52j, ground=abs(0.31 - 0.52j), first=0.83, second=0.57)
+ARM = TwoLinkArm(pivot=0.31 - 0.52j, ground=abs(0.31 - 0.52j), first=0.83, second=0.57)
 POINTS = ARM.place(TH1, TH2)
 
 HALF_TOO_MUCH, WHOLE = 0.5, 1.0
@@ -39,7 +39,7 @@ class Superposition(NamedTuple):
     lam2: float
 
 
-class Eliminated(NamedTuple):
+class EliminatedCoefficients(NamedTuple):
     """Coefficients of Eq 2.45."""
 
     A1: float
@@ -168,11 +168,11 @@ def eq_2_43(k: int, less: float) -> float:
     return float(abs(np.sum(terms)) / np.max(np.abs(terms)))
 
 
-def eliminated(less: float) -> Eliminated:
+def eliminated(less: float) -> EliminatedCoefficients:
     """A1 .. A5; `less` is 1/2 as printed."""
     _, _, _, L, m, n, _, _ = planted()
     part = n[4] / n[5]
-    return Eliminated(
+    return EliminatedCoefficients(
         A1=float(m[1] * m[4] - m[1] * m[5] * part),
         A2=float(m[4] * n[1] - m[5] * n[1] * part),
         A3=float(L[4] * m[1] + L[1] * m[4] - L[5] * m[1] * part - L[1] * m[5] * part - less),

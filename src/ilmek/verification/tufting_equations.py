@@ -14,7 +14,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.attached import attached
 from ilmek.linkage.structure import plan
 from ilmek.machines.tufting import TuftingParams
-from ilmek.machines.tufting.model import State, evaluate, inertias, mechanism
+from ilmek.machines.tufting.model import TuftingState, evaluate, inertias, mechanism
 from ilmek.plane.vectors import cross
 from ilmek.units import deg
 from ilmek.verification.claim import COUNT, RESIDUAL, Claim, Computation, residual
@@ -28,7 +28,7 @@ class Sample:
     """The mechanism at many crank angles: angle, speed and acceleration of links 1 to 5; forces; centres."""
 
     params: TuftingParams
-    state: State
+    state: TuftingState
     theta: Mapping[int, FloatArray]
     omega: Mapping[int, FloatArray]
     alpha: Mapping[int, FloatArray]

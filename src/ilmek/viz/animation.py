@@ -15,9 +15,9 @@ from ilmek.arrays import ComplexArray
 from ilmek.report import Animation, Stroke
 from ilmek.units import parse_unit
 from ilmek.viz.drawing import FOOT, WIDTH, colours, dotted, draw_still, extent, names, obstacles, pen_for
-from ilmek.viz.labels import Wanted
+from ilmek.viz.labels import LabelRequest
 from ilmek.viz.moving_names import named
-from ilmek.viz.moving_parts import Course, block, dot, line, name
+from ilmek.viz.moving_parts import PointTracks, block, dot, line, name
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import Pen
 from ilmek.viz.style import INK, STRONG, TEXT, colour, shown_unit, text_width, tint
@@ -46,14 +46,14 @@ def draw_animation(animation: Animation) -> tuple[Sheet, str]:
     unnamed = tuple(dataclasses.replace(one, label="") if one.role == "path" else one for one in still.strokes)
     quiet = dataclasses.replace(still, strokes=unnamed, dots=())
     boxes = names(pen, quiet, np.concatenate([obstacles(pen, still), *bars]), foot)
-    course = Course(pen.sheet.height, start)
+    course = PointTracks(pen.sheet.height, start)
     parts = [*_lines(pen, animation, course), *_dots(pen, animation, course)]
     met = [np.concatenate([at, obstacles(pen, still), *(_filled(*box) for box in boxes)]) for at in bars]
     parts += _names(pen, animation, course, met, foot)
     return pen.sheet, "\n".join((*parts, f"<metadata>{escape(_run(animation, course))}</metadata>"))
 
 
-def _lines(pen: Pen, animation: Animation, course: Course) -> Iterator[str]:
+def _lines(pen: Pen, animation: Animation, course: PointTracks) -> Iterator[str]:
     """Bars as wide lines in a pale shade inside slightly wider ones in the full colour, others as plain lines."""
     first = len(animation.still.strokes)
     for number, one in enumerate(animation.strokes, first):
@@ -68,7 +68,7 @@ def _lines(pen: Pen, animation: Animation, course: Course) -> Iterator[str]:
         yield line(course, track, tint(shade, 0.45), 4.8, closed=one.closed)
 
 
-def _dots(pen: Pen, animation: Animation, course: Course) -> Iterator[str]:
+def _dots(pen: Pen, animation: Animation, course: PointTracks) -> Iterator[str]:
     """Blocks below the pins; the pins of the pivots once more, for bars pass over them."""
     for one in animation.dots:
         if one.role == "block" and one.along is not None:
@@ -97,12 +97,12 @@ def _filled(centre: complex, half: complex) -> ComplexArray:
     return np.asarray((centre + across[:, np.newaxis] + 1j * up).ravel())
 
 
-def _names(pen: Pen, animation: Animation, course: Course, met: list[ComplexArray], foot: float) -> Iterator[str]:
+def _names(pen: Pen, animation: Animation, course: PointTracks, met: list[ComplexArray], foot: float) -> Iterator[str]:
     """Names of all dots; those of still ones stand still."""
     frames = len(animation.at)
     fixed = [(np.full(frames, one.at), one.label, _STILL) for one in animation.still.dots]
     wanted = [
-        Wanted(pen(at), label, STRONG, 6.0, pull)
+        LabelRequest(pen(at), label, STRONG, 6.0, pull)
         for at, label, pull in (*fixed, *((one.at, one.label, _MOVING) for one in animation.dots))
         if label
     ]
@@ -141,7 +141,7 @@ def _legend(pen: Pen, rows: list[list[tuple[float, int, str]]]) -> None:
             pen.sheet.text(complex(left + 21.0, height), label, fontsize=TEXT, color=INK, va="center_baseline")
 
 
-def _run(animation: Animation, course: Course) -> str:
+def _run(animation: Animation, course: PointTracks) -> str:
     """What the script needs, as JSON."""
     factor = parse_unit(animation.drive.unit).factor
     at = animation.at / factor

@@ -12,7 +12,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.report import Drawing, Stroke
 from ilmek.units import parse_unit
-from ilmek.viz.labels import Wanted, placed
+from ilmek.viz.labels import LabelRequest, placed
 from ilmek.viz.scale import tick_labels
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import DOTS, STROKES, Pen
@@ -102,18 +102,18 @@ def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT)
 
     Returns the middle of each name and half its size [pt].
     """
-    wanted: list[Wanted] = []
+    wanted: list[LabelRequest] = []
     looks: list[dict[str, Any]] = []
     for dot in drawing.dots:
         if dot.label:
-            wanted.append(Wanted(pen(np.array([dot.at])), dot.label, STRONG, 5.5, pull=3.0))
+            wanted.append(LabelRequest(pen(np.array([dot.at])), dot.label, STRONG, 5.5, pull=3.0))
             looks.append({"color": INK, "weight": "bold", "fontsize": STRONG})
     seen: set[str] = set()
     for number, stroke in enumerate(drawing.strokes):
         if stroke.label and stroke.label not in seen and stroke.role != "dimension" and len(stroke.points) > 1:
             seen.add(stroke.label)
             places = _beside(thinned_line(pen(stroke.points)), stroke.closed)
-            wanted.append(Wanted(places, stroke.label, TEXT, 7.0 if stroke.role == "link" else 4.5))
+            wanted.append(LabelRequest(places, stroke.label, TEXT, 7.0 if stroke.role == "link" else 4.5))
             looks.append({"color": _shade(pen, stroke, number), "fontsize": TEXT})
     corner = complex(pen.sheet.width, pen.sheet.height)
     centres = placed(wanted, covered, complex(2.0, foot), corner - (2 + 2j))

@@ -12,7 +12,7 @@ _REACHES = (1.0, 1.8, 2.8)
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class LabelRequest:
     """A name to place: the points it may stand beside [pt], the first the dearest, and the least distance to keep [pt].
 
     pull  how much a place far from its point costs; the higher, the closer the name stays
@@ -30,7 +30,7 @@ class Wanted:
         return complex(text_width(self.text, self.size) / 2 + 1.0, 0.62 * self.size)
 
 
-def placed(wanted: list[Wanted], obstacles: ComplexArray, lower: complex, upper: complex) -> list[complex]:
+def placed(wanted: list[LabelRequest], obstacles: ComplexArray, lower: complex, upper: complex) -> list[complex]:
     """Centres of the names [pt], chosen one after the other among places around their points.
 
     obstacles       points that should not be covered [pt], those along the lines of the drawing
@@ -53,7 +53,7 @@ def placed(wanted: list[Wanted], obstacles: ComplexArray, lower: complex, upper:
     return [centre for centre, _ in boxes]
 
 
-def _candidates(one: Wanted) -> tuple[ComplexArray, FloatArray]:
+def _candidates(one: LabelRequest) -> tuple[ComplexArray, FloatArray]:
     """Centres such that the box of the text just clears the distance from an anchor, and what their distance costs."""
     half = one.half
     way = np.tile(_AROUND, len(_REACHES))

@@ -10,14 +10,14 @@ found by dynamic programming; where the run closes, the last frame is followed b
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, IntArray
-from ilmek.viz.labels import Wanted, covered
+from ilmek.viz.labels import LabelRequest, covered
 
 PLACES = 16
 _TOUCHED = 30.0
 """What it costs to touch another name, or to leave the sheet."""
 
 
-def places_around(one: Wanted) -> ComplexArray:
+def places_around(one: LabelRequest) -> ComplexArray:
     """Where the middle of the name may stand, from its point [pt]: its box clears the distance in every direction."""
     angle = 2 * np.pi * np.arange(PLACES) / PLACES + np.pi / 4
     aside = (
@@ -27,7 +27,7 @@ def places_around(one: Wanted) -> ComplexArray:
 
 
 def named(
-    wanted: list[Wanted], obstacles: list[ComplexArray], lower: complex, upper: complex, *, closes: bool
+    wanted: list[LabelRequest], obstacles: list[ComplexArray], lower: complex, upper: complex, *, closes: bool
 ) -> list[ComplexArray]:
     """The middle of each name at every frame [pt].
 

@@ -12,7 +12,7 @@ from ilmek.viz.style import INK, PAPER, STEEL, STRONG
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class PointTracks:
     """The places of all points at every frame, in the figure's units, each point once.
 
     height  of the sheet [pt]: a sheet counts upward, a figure downward      start  the frame that is written out
@@ -37,7 +37,7 @@ class Course:
 
 
 def line(
-    course: Course,
+    course: PointTracks,
     track: Sequence[ComplexArray],
     stroke: str,
     width: float,
@@ -53,13 +53,13 @@ def line(
     return f'<path data-line="{",".join(map(str, points))}"{end} d="M{through}" {look}/>'
 
 
-def dot(course: Course, at: ComplexArray, role: str) -> str:
+def dot(course: PointTracks, at: ComplexArray, role: str) -> str:
     """A pin (a circle) or a point (a small disc)."""
     size, look = (3.4, f'fill="{PAPER}" stroke="{INK}" stroke-width="1.1"') if role == "pin" else (2.2, f'fill="{INK}"')
     return f'<circle r="{size:g}" {look} {_placed(course, at)}/>'
 
 
-def block(course: Course, at: ComplexArray, along: ComplexArray) -> str:
+def block(course: PointTracks, at: ComplexArray, along: ComplexArray) -> str:
     """A slider: a rectangle along its guide."""
     ahead = course.point(at + 10.0 * along)
     turned = float(np.degrees(-np.angle(along[course.start])))
@@ -68,13 +68,13 @@ def block(course: Course, at: ComplexArray, along: ComplexArray) -> str:
     return f'<rect {box} {look} data-ahead="{ahead}" {_placed(course, at, f" rotate({turned:.2f})")}/>'
 
 
-def name(course: Course, middle: ComplexArray, text: str) -> str:
+def name(course: PointTracks, middle: ComplexArray, text: str) -> str:
     """A bold name with a pale edge, so that a line behind it does not cross it."""
     edge = f'stroke="{PAPER}" stroke-width="2.6" paint-order="stroke"'
     look = f'font-size="{STRONG:g}px" font-weight="bold" text-anchor="middle" dy="0.35em" fill="{INK}" {edge}'
     return f"<text {look} {_placed(course, middle)}>{escape(text)}</text>"
 
 
-def _placed(course: Course, at: ComplexArray, more: str = "") -> str:
+def _placed(course: PointTracks, at: ComplexArray, more: str = "") -> str:
     point = course.point(at)
     return f'data-at="{point}" transform="translate({course.first(point)}){more}"'

@@ -43,7 +43,7 @@ class FileNote:
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class PagePicture:
     """A picture of the page: data address, proportions, what it shows; `times` is how much a click enlarges it."""
 
     source: str
@@ -104,21 +104,21 @@ def _cm(length: float) -> str:
     return format_number(100 * length)
 
 
-def pictures(chart: Chart) -> list[Picture]:
+def pictures(chart: Chart) -> list[PagePicture]:
     """The chart, the carpet as it will look, and some of its knots."""
     name = f"{chart.columns} by {chart.rows} knots in {chart.colours} colours"
     whole, near = carpet_picture(chart), close_up(chart)
     width, height = round(1000 * chart.size.width), round(1000 * chart.size.length)
     return [
-        Picture(
+        PagePicture(
             _address(_chart_png(chart), "png"), width, height, "Knot chart.", f"Knot chart, {name}",
             "One cell one knot; click to enlarge.", pixelated=True, times=max(1.0, 3 * chart.columns / width),
         ),
-        Picture(
+        PagePicture(
             _address(whole, "jpeg"), *_size(whole), "As it will look.", f"Simulated carpet, {name}",
             "Simulated pile, fringe and selvedge.", times=1.25,
         ),
-        Picture(
+        PagePicture(
             _address(near, "jpeg"), *_size(near), "The knots at its centre.", "Simulated close-up of single tufts",
             "Simulated; each tuft is one knot.", wide=True, times=1.25,
         ),

@@ -23,12 +23,12 @@ from ilmek.cams.laws import (
     spline,
     uniform,
 )
-from ilmek.cams.laws.law import NONE, REST, Family, Law, Parameters, fixed
+from ilmek.cams.laws.law import NONE, REST, Law, LawFamily, Parameters, fixed
 from ilmek.errors import ParameterError
 
 __all__ = ["FAMILIES", "LAWS", "REST", "SMOOTH_LAWS", "Law", "Parameters", "law_of"]
 
-FAMILIES: Mapping[str, Family] = MappingProxyType(
+FAMILIES: Mapping[str, LawFamily] = MappingProxyType(
     {
         "uniform": fixed(uniform.LAW),
         "modified-uniform": modified_uniform.FAMILY,

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from ilmek.arrays import RealField
-from ilmek.cams.laws.law import Law, Motion
+from ilmek.cams.laws.law import Law, LawValues
 
 _TURN = 2.0 * math.pi
 
@@ -41,11 +41,11 @@ def j(u: RealField) -> RealField:
     return _TURN**2 * np.cos(_TURN * u)
 
 
-def motion(u: RealField) -> Motion:
+def motion(u: RealField) -> LawValues:
     """All four, from one sine and one cosine."""
     turned = _TURN * u
     sin, cos = np.sin(turned), np.cos(turned)
-    return Motion(u - sin / _TURN, 1.0 - cos, _TURN * sin, _TURN**2 * cos)
+    return LawValues(u - sin / _TURN, 1.0 - cos, _TURN * sin, _TURN**2 * cos)
 
 
 LAW = Law(

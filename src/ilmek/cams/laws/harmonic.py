@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ilmek.arrays import RealField
-from ilmek.cams.laws.law import Law, Motion
+from ilmek.cams.laws.law import Law, LawValues
 
 
 def s(u: RealField) -> RealField:
@@ -38,11 +38,11 @@ def j(u: RealField) -> RealField:
     return -0.5 * math.pi**3 * np.sin(math.pi * u)
 
 
-def motion(u: RealField) -> Motion:
+def motion(u: RealField) -> LawValues:
     """All four, from one sine and one cosine."""
     turned = math.pi * u
     sin, cos = np.sin(turned), np.cos(turned)
-    return Motion(0.5 - 0.5 * cos, 0.5 * math.pi * sin, 0.5 * math.pi**2 * cos, -0.5 * math.pi**3 * sin)
+    return LawValues(0.5 - 0.5 * cos, 0.5 * math.pi * sin, 0.5 * math.pi**2 * cos, -0.5 * math.pi**3 * sin)
 
 
 _LARGEST = math.pi**2 / 2

@@ -24,7 +24,7 @@ NONE: Parameters = MappingProxyType({})
 """Of a law without parameters."""
 
 
-class Motion(NamedTuple):
+class LawValues(NamedTuple):
     """A law and its derivatives at the same places."""
 
     s: RealField
@@ -66,25 +66,25 @@ class Law:
     highest: float = 1.0
     first: float = 0.0
     last: float = 1.0
-    at_once: Callable[[RealField], Motion] | None = None
+    at_once: Callable[[RealField], LawValues] | None = None
 
-    def motion(self, u: RealField) -> Motion:
+    def motion(self, u: RealField) -> LawValues:
         """s, v, a and j at u of any shape."""
         if self.at_once is not None:
             return self.at_once(u)
-        return Motion(self.s(u), self.v(u), self.a(u), self.j(u))
+        return LawValues(self.s(u), self.v(u), self.a(u), self.j(u))
 
 
-class Family(NamedTuple):
+class LawFamily(NamedTuple):
     """A law that takes parameters: how it is made, and what it is made with where nothing is said."""
 
     make: Callable[..., Law]
     defaults: Parameters = NONE
 
 
-def fixed(law: Law) -> Family:
+def fixed(law: Law) -> LawFamily:
     """A law without parameters, as a family of one."""
-    return Family(lambda: law)
+    return LawFamily(lambda: law)
 
 
 def _still(u: RealField) -> RealField:

@@ -6,7 +6,7 @@
 time at constant velocity in the middle the ramps keep their split of 1 to 3: (b, c, d) = (1 - k) (1/4, 0, 3/4).
 """
 
-from ilmek.cams.laws.law import Family, Law
+from ilmek.cams.laws.law import Law, LawFamily
 from ilmek.cams.laws.scca import family
 from ilmek.errors import ParameterError
 
@@ -25,4 +25,4 @@ def law(constant_velocity: float) -> Law:
     return family("modified-sine", 0.25 * ramps, 0.0, 0.75 * ramps, {"constant_velocity": constant_velocity})
 
 
-FAMILY = Family(law, {"constant_velocity": 0.0})
+FAMILY = LawFamily(law, {"constant_velocity": 0.0})

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import RealField
-from ilmek.cams.laws.law import Family, Law
+from ilmek.cams.laws.law import Law, LawFamily
 from ilmek.errors import ParameterError
 
 _ROUNDING = 1e-12
@@ -67,4 +67,4 @@ def law(b1: float, b2: float) -> Law:
     return Law("modified-uniform", curves.s, curves.v, curves.a, curves.j, *peaks, breaks, given)
 
 
-FAMILY = Family(law, {"b1": 0.25, "b2": 0.25})
+FAMILY = LawFamily(law, {"b1": 0.25, "b2": 0.25})

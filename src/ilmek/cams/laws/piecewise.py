@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray, IntArray, RealField
-from ilmek.cams.laws.law import Law, Motion, Parameters
+from ilmek.cams.laws.law import Law, LawValues, Parameters
 
 _SAME = 1e-9
 """Below this share of a derivative's size its step at a knot, or its value at an end, is rounding."""
@@ -39,7 +39,7 @@ class Piecewise:
         piece = np.asarray(np.searchsorted(self.knots[1:-1], u, side="right"))
         return piece, np.asarray((u - self.knots[piece]) / np.diff(self.knots)[piece])
 
-    def motion(self, u: RealField) -> Motion:
+    def motion(self, u: RealField) -> LawValues:
         """Values and the first three derivatives by u, in one pass of Horner's scheme."""
         piece, t = self.local(u)
         per_length = 1.0 / np.diff(self.knots)[piece]
@@ -49,7 +49,7 @@ class Piecewise:
             second = second * t + first
             first = first * t + value
             value = value * t + coefficient
-        return Motion(value, first * per_length, 2.0 * second * per_length**2, 6.0 * third * per_length**3)
+        return LawValues(value, first * per_length, 2.0 * second * per_length**2, 6.0 * third * per_length**3)
 
     def derivative(self) -> "Piecewise":
         """The derivative by u."""

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.laws.law import Family, Law
+from ilmek.cams.laws.law import Law, LawFamily
 from ilmek.cams.laws.piecewise import Piecewise, law_of_pieces
 from ilmek.errors import ParameterError
 
@@ -65,7 +65,7 @@ def law(
     return law_of_pieces("polynomial", Piecewise(np.array([0.0, 1.0]), solved(conditions)[None, :]), parameters)
 
 
-FAMILY = Family(law, {"start": (0.0, 0.0, 0.0), "end": (1.0, 0.0, 0.0), "u": (), "s": (), "orders": ()})
+FAMILY = LawFamily(law, {"start": (0.0, 0.0, 0.0), "end": (1.0, 0.0, 0.0), "u": (), "s": (), "orders": ()})
 
 
 def solved(conditions: Sequence[Condition]) -> FloatArray:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
-from ilmek.cams.laws.law import Family, Law
+from ilmek.cams.laws.law import Law, LawFamily
 from ilmek.errors import ParameterError
 
 _SIGNS = (1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0)
@@ -78,4 +78,4 @@ def law(ramp: float, cruise: float) -> Law:
     return Law("s-curve", curves.s, curves.v, curves.a, curves.j, *peaks, inner, given)
 
 
-FAMILY = Family(law, {"ramp": 0.125, "cruise": 0.25})
+FAMILY = LawFamily(law, {"ramp": 0.125, "cruise": 0.25})

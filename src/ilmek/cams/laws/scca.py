@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import RealField
-from ilmek.cams.laws.law import Family, Law, Motion, Parameters
+from ilmek.cams.laws.law import Law, LawFamily, LawValues, Parameters
 from ilmek.errors import ParameterError
 
 _ROUNDING = 1e-12
@@ -97,11 +97,11 @@ class _Waves:
         at = self.zones(u)
         return self._j(at, np.cos(at.y))
 
-    def motion(self, u: RealField) -> Motion:
+    def motion(self, u: RealField) -> LawValues:
         """All four, from one sine and one cosine."""
         at = self.zones(u)
         sin, cos = np.sin(at.y), np.cos(at.y)
-        return Motion(self._s(at, sin), self._v(at, cos), -self.peak * at.side * sin, self._j(at, cos))
+        return LawValues(self._s(at, sin), self._v(at, cos), -self.peak * at.side * sin, self._j(at, cos))
 
     def _s(self, at: _Zones, sin: RealField) -> RealField:
         p, q, hold = self.p, self.q, self.constant + self.q
@@ -181,4 +181,4 @@ def _breaks(waves: _Waves) -> tuple[float, ...]:
     return tuple(sorted(inside))
 
 
-FAMILY = Family(law, {"b": 0.25, "c": 0.25, "d": 0.5})
+FAMILY = LawFamily(law, {"b": 0.25, "c": 0.25, "d": 0.5})

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.laws.law import Family, Law
+from ilmek.cams.laws.law import Law, LawFamily
 from ilmek.cams.laws.piecewise import Piecewise, law_of_pieces
 from ilmek.cams.laws.polynomial import Condition, solved
 from ilmek.errors import ParameterError
@@ -49,7 +49,7 @@ def law(
     return law_of_pieces("spline", Piecewise(knots, rows), given)
 
 
-FAMILY = Family(law, {"u": (0.25, 0.5, 0.75), "s": (0.1, 0.5, 0.9), "start": (), "end": (), "degree": 5.0})
+FAMILY = LawFamily(law, {"u": (0.25, 0.5, 0.75), "s": (0.1, 0.5, 0.9), "start": (), "end": (), "degree": 5.0})
 
 
 def pieces(knots: FloatArray, values: FloatArray, ends: tuple[FloatArray, FloatArray]) -> FloatArray:

@@ -20,7 +20,7 @@ from ilmek.plane.vectors import unit
 
 
 @dataclass(frozen=True, slots=True)
-class Pose:
+class BodyState:
     """Where a body's frame is and how it moves: origin [m], angle [rad], the origin's velocity [m/s], omega [rad/s]."""
 
     origin: complex
@@ -30,7 +30,7 @@ class Pose:
 
 
 @dataclass(frozen=True, slots=True)
-class Push:
+class BodyForce:
     """A constant force [N], in the world's directions, at a point of a body."""
 
     body: str
@@ -39,7 +39,7 @@ class Push:
 
 
 @dataclass(frozen=True, slots=True)
-class Twist:
+class BodyTorque:
     """A torque on a body that falls with its speed: torque - drag omega [N m, N m s]; a motor's straight curve."""
 
     body: str
@@ -63,9 +63,9 @@ class System:
     bodies: tuple[Body, ...]
     joints: tuple[Joint | ClearancePin, ...]
     inertias: Mapping[str, Inertia]
-    poses: Mapping[str, Pose]
+    poses: Mapping[str, BodyState]
     gravity: complex = 0j
-    loads: Sequence[Spring | Push | Twist] = ()
+    loads: Sequence[Spring | BodyForce | BodyTorque] = ()
     name: str = "system"
     order: tuple[str, ...] = field(init=False)
 
@@ -160,7 +160,7 @@ def from_motion(
     inertias: Mapping[str, Inertia],
     *,
     gravity: complex = 0j,
-    loads: Sequence[Spring | Push | Twist] = (),
+    loads: Sequence[Spring | BodyForce | BodyTorque] = (),
 ) -> System:
     """The system that a mechanism is with its inputs let go, starting from the first sample of a motion.
 
@@ -179,7 +179,7 @@ def from_motion(
     for body in mechanism.moving:
         origin = attached(motion, body, 0j)
         angle, omega = float(motion.angle(body)[0]), float(motion.omega(body)[0])
-        poses[body] = Pose(complex(origin.position[0]), angle, complex(origin.velocity[0]), omega)
+        poses[body] = BodyState(complex(origin.position[0]), angle, complex(origin.velocity[0]), omega)
     return System(mechanism.bodies, mechanism.joints, inertias, poses, gravity, loads, mechanism.name)
 
 
@@ -199,7 +199,7 @@ def modelled(system: System) -> Model:
     place = {name: k for k, name in enumerate(system.order)} | {GROUND: -1}
     loose = system.clearances
     springs = [load for load in system.loads if isinstance(load, Spring)]
-    pushes = [load for load in system.loads if isinstance(load, Push)]
+    pushes = [load for load in system.loads if isinstance(load, BodyForce)]
     touched = [[place[body] for body in joint.bodies] for joint in system.rigid for _ in range(2)]
     apart = [abs(a - b) for a, b in touched if min(a, b) >= 0]
     inertias = [system.inertias[name] for name in system.order]
@@ -249,7 +249,7 @@ def _contact(system: System, pin: ClearancePin) -> tuple[float, ...]:
     return *law, pin.radius, pin.clearance, pin.friction, pin.slip, series
 
 
-def _check_load(system: System, load: Spring | Push | Twist) -> None:
+def _check_load(system: System, load: Spring | BodyForce | BodyTorque) -> None:
     """Refuse a load on a body or point that is not there, or whose numbers are not finite."""
     if isinstance(load, Spring):
         ends, numbers = (
@@ -257,7 +257,7 @@ def _check_load(system: System, load: Spring | Push | Twist) -> None:
             [load.stiffness, load.length],
         )
         numbers.append(load.damping)
-    elif isinstance(load, Push):
+    elif isinstance(load, BodyForce):
         ends, numbers = [(load.body, load.point)], [abs(load.force)]
     else:
         ends, numbers = [], [load.torque, load.drag]
@@ -280,7 +280,7 @@ def _held(system: System, slide: Slide) -> float:
 def _twists(system: System) -> np.ndarray:
     twists = np.zeros((len(system.order), 2))
     for load in system.loads:
-        if isinstance(load, Twist):
+        if isinstance(load, BodyTorque):
             twists[system.order.index(load.body)] += load.torque, load.drag
     return twists
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.dynamics.clearance import ClearancePin
-from ilmek.dynamics.events import Happening
+from ilmek.dynamics.events import EventRecord
 from ilmek.dynamics.multibody.kernel import Model, joints
 from ilmek.dynamics.multibody.model import System
 from ilmek.dynamics.springs import Spring
@@ -18,7 +18,7 @@ HOLDS = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class MultibodyHistory:
     """A system over the samples of a run, or at one instant: each answer is then an array of no dimension.
 
     time       [s]
@@ -123,7 +123,7 @@ class Course:
 
 
 @dataclass(frozen=True, slots=True)
-class SystemRun(Course):
+class SystemRun(MultibodyHistory):
     """A run of a general system, sample by sample; the last sample is the end.
 
     steps   the integrator's, those refused among them      peaks   greatest force at each clearance pin, any step [N]
@@ -131,11 +131,11 @@ class SystemRun(Course):
     """
 
     steps: int
-    events: tuple[Happening[Course], ...]
+    events: tuple[EventRecord[MultibodyHistory], ...]
     peaks: dict[str, float]
 
     @property
-    def end(self) -> Happening[Course] | None:
+    def end(self) -> EventRecord[MultibodyHistory] | None:
         """The event that ended the run; None where its time was over."""
         return self.events[-1] if self.events and self.events[-1].terminal else None
 

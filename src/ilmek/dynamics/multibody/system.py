@@ -14,10 +14,19 @@ import numpy as np
 from scipy.integrate import DOP853
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.events import Event, Happening, located, until_terminal
+from ilmek.dynamics.events import Event, EventRecord, located, until_terminal
 from ilmek.dynamics.multibody.kernel import Model, joints
-from ilmek.dynamics.multibody.model import Pose, Push, System, Twist, from_motion, loosened, modelled, start_of
-from ilmek.dynamics.multibody.run import Course, SystemRun
+from ilmek.dynamics.multibody.model import (
+    BodyForce,
+    BodyState,
+    BodyTorque,
+    System,
+    from_motion,
+    loosened,
+    modelled,
+    start_of,
+)
+from ilmek.dynamics.multibody.run import MultibodyHistory, SystemRun
 from ilmek.dynamics.multibody.steps import (
     DONE,
     DONE_TO,
@@ -35,11 +44,23 @@ from ilmek.dynamics.multibody.steps import (
 from ilmek.dynamics.springs import Spring
 from ilmek.errors import MechanismError
 
-__all__ = ["Course", "Event", "Pose", "Push", "Spring", "System", "SystemEvent", "SystemRun", "Twist", "from_motion",
-           "loosened", "simulate"]  # fmt: skip
+__all__ = [
+    "BodyForce",
+    "BodyState",
+    "BodyTorque",
+    "Event",
+    "MultibodyHistory",
+    "Spring",
+    "System",
+    "SystemEvent",
+    "SystemRun",
+    "from_motion",
+    "loosened",
+    "simulate",
+]  # fmt: skip
 
-SystemEvent: TypeAlias = Event[Course]
-"""An event of a system's run: its value is a function of the system at an instant (see `Course`)."""
+SystemEvent: TypeAlias = Event[MultibodyHistory]
+"""An event of a system's run: its value is a function of the system at an instant (see `MultibodyHistory`)."""
 
 METHOD = (np.vstack((DOP853.A[:STAGES, :STAGES], DOP853.B)), np.array(DOP853.E3), np.array(DOP853.E5))
 """Coefficients of the integrator: stages and, last, the step; its errors of third and of fifth order."""
@@ -85,7 +106,7 @@ class _Simulation:
     def run(self, events: tuple[SystemEvent, ...]) -> SystemRun:
         """From the start to the last time or the first terminal event."""
         begin(self.model, self.y, self.slope, self.force, self.kept)
-        met: list[Happening[Course]] = []
+        met: list[EventRecord[MultibodyHistory]] = []
         before = [event.look(self._now()) for event in events]
         while int(self.clock[DONE_TO]) < len(self.times) - 1:
             start = float(self.clock[TIME]), self.y.copy(), self.slope.copy()
@@ -108,8 +129,8 @@ class _Simulation:
                 do="allow more steps or more error" if many else "look at its pose there",
             )
 
-    def _now(self) -> Course:
-        return Course(self.system, self.model, float(self.clock[TIME]), self.y, self.slope, self.force)
+    def _now(self) -> MultibodyHistory:
+        return MultibodyHistory(self.system, self.model, float(self.clock[TIME]), self.y, self.slope, self.force)
 
     def _met(
         self,
@@ -117,24 +138,24 @@ class _Simulation:
         before: list[float],
         after: list[float],
         start: tuple[float, FloatArray, FloatArray],
-    ) -> list[Happening[Course]]:
+    ) -> list[EventRecord[MultibodyHistory]]:
         """What happened in the last step, in its order, up to the first terminal event."""
         time, y, slope = start
         length = float(self.clock[TIME]) - time
 
-        def at(part: float) -> Course:
+        def at(part: float) -> MultibodyHistory:
             new, end, force = np.empty_like(y), np.empty_like(slope), np.empty_like(self.force)
             leap(self.model, y, slope, part, METHOD, new, end, force)
-            return Course(self.system, self.model, time + part, new, end, force)
+            return MultibodyHistory(self.system, self.model, time + part, new, end, force)
 
         found = []
         for event, old, new in zip(events, before, after, strict=True):
             if event.crossed(old, new):
                 part = located(lambda part, event=event: event.look(at(part)), 0.0, length)  # type: ignore[misc]
-                found.append(Happening(event.name, time + part, at(part), event.terminal))
+                found.append(EventRecord(event.name, time + part, at(part), event.terminal))
         return until_terminal(found)
 
-    def _told(self, met: list[Happening[Course]]) -> SystemRun:
+    def _told(self, met: list[EventRecord[MultibodyHistory]]) -> SystemRun:
         """The samples up to the end."""
         last, times = int(self.clock[DONE_TO]) + 1, self.times
         if met and met[-1].terminal:

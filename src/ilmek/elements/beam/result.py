@@ -21,7 +21,7 @@ _SHEAR, _MOMENT, _SLOPE, _DEFLECTION = 3, 2, 1, 0
 
 
 @dataclass(frozen=True, slots=True)
-class Extreme:
+class BeamExtreme:
     """The largest value by its magnitude, and its place [m]; `value` has the planes' parts and signs."""
 
     at: float
@@ -34,7 +34,7 @@ class Extreme:
 
 
 @dataclass(frozen=True, slots=True)
-class Bent:
+class BeamResult:
     """The solved beam.
 
     breaks        ends of the pieces [m], one more than pieces
@@ -66,26 +66,26 @@ class Bent:
         return self._at(x, _DEFLECTION, 1 / rigidity)
 
     @property
-    def shear_max(self) -> Extreme:
+    def shear_max(self) -> BeamExtreme:
         """Largest shear force [N]."""
         return self._extreme(_SHEAR, -1.0)
 
     @property
-    def moment_max(self) -> Extreme:
+    def moment_max(self) -> BeamExtreme:
         """Largest bending moment [N m]."""
         return self._extreme(_MOMENT, -1.0)
 
-    def slope_max(self, rigidity: float) -> Extreme:
+    def slope_max(self, rigidity: float) -> BeamExtreme:
         """Largest slope [rad] anywhere."""
         return self._extreme(_SLOPE, 1 / rigidity)
 
-    def slope_at_supports(self, rigidity: float) -> Extreme:
+    def slope_at_supports(self, rigidity: float) -> BeamExtreme:
         """Largest slope [rad] in a support: what its bearing must bear."""
         slopes = self.slope(np.array(self.beam.supports), rigidity)
         worst = int(np.argmax(np.abs(slopes)))
-        return Extreme(self.beam.supports[worst], complex(slopes[worst]))
+        return BeamExtreme(self.beam.supports[worst], complex(slopes[worst]))
 
-    def deflection_max(self, rigidity: float) -> Extreme:
+    def deflection_max(self, rigidity: float) -> BeamExtreme:
         """Largest deflection [m]."""
         return self._extreme(_DEFLECTION, 1 / rigidity)
 
@@ -106,17 +106,17 @@ class Bent:
         powers = factor * derived(self.coefficients, order)[piece]
         return _horner(np.moveaxis(powers, -1, 0), np.asarray(x - self.breaks[piece]))
 
-    def _extreme(self, order: int, factor: float) -> Extreme:
+    def _extreme(self, order: int, factor: float) -> BeamExtreme:
         rows, widths = derived(self.coefficients, order), np.diff(self.breaks)
         scaled = rows * widths[:, None] ** np.arange(rows.shape[1])
-        found = Extreme(0.0, 0j)
+        found = BeamExtreme(0.0, 0j)
         for piece in _worth(scaled):
             places = np.concatenate(([0.0, 1.0], _turns(scaled[piece])))
             values = _horner(scaled[piece], places)
             worst = int(np.argmax(np.abs(values)))
             if abs(values[worst]) > found.size * (1 + 1e-12):
-                found = Extreme(float(self.breaks[piece] + widths[piece] * places[worst]), complex(values[worst]))
-        return Extreme(found.at, found.value * factor)
+                found = BeamExtreme(float(self.breaks[piece] + widths[piece] * places[worst]), complex(values[worst]))
+        return BeamExtreme(found.at, found.value * factor)
 
 
 def derived(coefficients: NumberArray, order: int) -> NumberArray:

@@ -16,13 +16,13 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.elements.beam.model import Beam, Couple, LineLoad, PointLoad
-from ilmek.elements.beam.result import DEGREE, Bent, derived
+from ilmek.elements.beam.result import DEGREE, BeamResult, derived
 
 _GAUSS = tuple((float(place), float(weight)) for place, weight in zip(*np.polynomial.legendre.leggauss(3), strict=True))
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class BeamSegment:
     """The beam between two neighbours of its ends and supports, with its loads clipped to it."""
 
     start: float
@@ -74,13 +74,13 @@ class Part:
         return left, right
 
 
-def parts_of(beam: Beam) -> list[Part]:
+def parts_of(beam: Beam) -> list[BeamSegment]:
     """Left overhang, spans, right overhang; overhangs may be of no length. A load over a support is right of it."""
     ends = list(pairwise((0.0, *beam.supports, beam.length)))
     return [_part(beam, start, end, last=number == len(ends) - 1) for number, (start, end) in enumerate(ends)]
 
 
-def _part(beam: Beam, start: float, end: float, *, last: bool) -> Part:
+def _part(beam: Beam, start: float, end: float, *, last: bool) -> BeamSegment:
     points: list[PointLoad] = []
     lines: list[LineLoad] = []
     couples: list[Couple] = []
@@ -91,10 +91,10 @@ def _part(beam: Beam, start: float, end: float, *, last: bool) -> Part:
         elif start <= load.at and (last or load.at < end):
             points += [load] if isinstance(load, PointLoad) else []
             couples += [load] if isinstance(load, Couple) else []
-    return Part(start, end, tuple(points), tuple(lines), tuple(couples))
+    return BeamSegment(start, end, tuple(points), tuple(lines), tuple(couples))
 
 
-def bend(beam: Beam) -> Bent:
+def bend(beam: Beam) -> BeamResult:
     """Reactions and the exact line of a beam under its loads.
 
     >>> from ilmek.elements.beam.model import LineLoad
@@ -111,10 +111,10 @@ def bend(beam: Beam) -> Bent:
     reactions = tuple(after - before for before, (_, after) in zip(leaving, starts[1:], strict=False))
     clamps = tuple(complex(-over[0] if at == 0 else over[-1] - parts[-1].balancing()) for at in beam.clamped)
     breaks = np.array([0.0, *(right for line in lines for right in line.rights)])
-    return Bent(beam, breaks, np.array([row for line in lines for row in line.rows]), reactions, clamps)
+    return BeamResult(beam, breaks, np.array([row for line in lines for row in line.rows]), reactions, clamps)
 
 
-def _moments(beam: Beam, parts: list[Part]) -> ComplexArray:
+def _moments(beam: Beam, parts: list[BeamSegment]) -> ComplexArray:
     """Moments over the supports, on the left of each and within the beam [N m]."""
     spans, count = parts[1:-1], len(beam.supports)
     matrix, known = np.eye(count), np.zeros(count, dtype=complex)
@@ -131,7 +131,9 @@ def _moments(beam: Beam, parts: list[Part]) -> ComplexArray:
     return np.asarray(np.linalg.solve(matrix, known))
 
 
-def _beside(row: int, spans: list[Part], slopes: list[tuple[complex, complex]]) -> Iterator[tuple[Part, int, complex]]:
+def _beside(
+    row: int, spans: list[BeamSegment], slopes: list[tuple[complex, complex]]
+) -> Iterator[tuple[BeamSegment, int, complex]]:
     """The spans left and right of a support, with the number of the support beyond and the slope here."""
     if row > 0:
         yield spans[row - 1], row - 1, slopes[row - 1][1]
@@ -139,7 +141,7 @@ def _beside(row: int, spans: list[Part], slopes: list[tuple[complex, complex]]) 
         yield spans[row], row + 1, slopes[row][0]
 
 
-def _starts(parts: list[Part], over: ComplexArray) -> list[tuple[complex, complex]]:
+def _starts(parts: list[BeamSegment], over: ComplexArray) -> list[tuple[complex, complex]]:
     """Moment and shear at the left end of each part, before the loads that stand there."""
     spans = zip(parts[1:-1], over[:-1], over[1:], strict=True)
     within = [(complex(first), complex(last - first - span.moment()) / span.length) for span, first, last in spans]
@@ -149,7 +151,7 @@ def _starts(parts: list[Part], over: ComplexArray) -> list[tuple[complex, comple
 class _Line:
     """The line of one part: right ends and coefficients of its pieces, at first with neither deflection nor slope."""
 
-    def __init__(self, part: Part, moment: complex, shear: complex) -> None:
+    def __init__(self, part: BeamSegment, moment: complex, shear: complex) -> None:
         places = {part.start, part.end} | {at for load in part.lines for at in (load.start, load.end)}
         places |= {load.at for load in part.points} | {couple.at for couple in part.couples}
         lefts = sorted(places)

@@ -17,14 +17,14 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.elements.beam.model import Beam, Couple, LineLoad, PointLoad
-from ilmek.elements.beam.result import Bent, Extreme
+from ilmek.elements.beam.result import BeamExtreme, BeamResult
 from ilmek.elements.beam.solve import bend
 
 __all__ = [
     "Beam",
-    "Bent",
+    "BeamExtreme",
+    "BeamResult",
     "Couple",
-    "Extreme",
     "LineLoad",
     "PointLoad",
     "bend",

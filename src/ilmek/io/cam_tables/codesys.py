@@ -6,7 +6,7 @@ the fifth degree through them, which swing where there are many. [CODESYS, SM3_B
 """
 
 from ilmek.io.cam_tables.format import Format, comment, identifier, number, remarks, rows
-from ilmek.io.cam_tables.sampling import Rule, Sampled
+from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.report import CamTable
 
 MOST = 128
@@ -22,7 +22,7 @@ END_VAR
 """
 
 
-def write(table: CamTable, sampled: Sampled) -> str:
+def write(table: CamTable, sampled: SampledTable) -> str:
     """The list of global variables: points, and the cam that MC_CamTableSelect takes."""
     points = rows(table, sampled)
     said = [
@@ -39,7 +39,7 @@ FORMAT = Format(
     "codesys",
     "st",
     "CODESYS SoftMotion: MC_CAM_REF of type XYVA",
-    Rule("quintic", most=MOST),
+    SamplingRule("quintic", most=MOST),
     write,
     "MC_CamIn with StartMode relative; periodic",
 )

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from ilmek.io.cam_tables.sampling import Rule, Sampled
+from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.report import CamTable
 from ilmek.units import deg, parse_unit, turn
 
 
 @dataclass(frozen=True, slots=True)
-class Rows:
+class TablePoints:
     """A table's points in the units of a controller: degrees of the master, the table's unit of the slave.
 
     x  master      y  slave      v, a  first and second derivative of y by x
@@ -25,7 +25,7 @@ class Rows:
     a: Float[np.ndarray, " nodes"]
 
 
-def no_more(table: CamTable, sampled: Sampled) -> dict[str, float]:  # noqa: ARG001 - one of many
+def no_more(table: CamTable, sampled: SampledTable) -> dict[str, float]:  # noqa: ARG001 - one of many
     """Nothing more to set: the `settings` of most formats."""
     return {}
 
@@ -42,18 +42,18 @@ class Format:
     name: str
     suffix: str
     title: str
-    rule: Rule
-    write: Callable[[CamTable, Sampled], str]
+    rule: SamplingRule
+    write: Callable[[CamTable, SampledTable], str]
     advice: str
-    settings: Callable[[CamTable, Sampled], dict[str, float]] = no_more
+    settings: Callable[[CamTable, SampledTable], dict[str, float]] = no_more
 
 
-def rows(table: CamTable, sampled: Sampled) -> Rows:
+def rows(table: CamTable, sampled: SampledTable) -> TablePoints:
     """The points in the units of a controller."""
     nodes, factor = sampled.nodes, parse_unit(table.unit).factor
     x = nodes.angle / deg
     x[-1] = turn / deg
-    return Rows(x, nodes.s / factor, nodes.ds * deg / factor, nodes.dds * deg**2 / factor)
+    return TablePoints(x, nodes.s / factor, nodes.ds * deg / factor, nodes.dds * deg**2 / factor)
 
 
 def number(value: float) -> str:
@@ -77,7 +77,7 @@ def identifier(name: str) -> str:
     return text if text[0].isalpha() else f"cam_{text}"
 
 
-def remarks(table: CamTable, sampled: Sampled) -> tuple[str, ...]:
+def remarks(table: CamTable, sampled: SampledTable) -> tuple[str, ...]:
     """What a person should know of a table, in lines for a comment."""
     factor = parse_unit(table.unit).factor
     gained = f"; it gains {number(table.revolves / factor)} {table.unit} a turn" if table.revolves else ""

@@ -5,7 +5,7 @@ turns of a master that runs on, and a slave that gains a stroke a turn gains it.
 """
 
 from ilmek.io.cam_tables.format import Format, comment, identifier, number, remarks, rows, wrapped
-from ilmek.io.cam_tables.sampling import Rule, Sampled
+from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.report import CamTable
 
 _BLOCK = """\
@@ -39,7 +39,7 @@ END_FUNCTION_BLOCK
 """
 
 
-def write(table: CamTable, sampled: Sampled) -> str:
+def write(table: CamTable, sampled: SampledTable) -> str:
     """The function block."""
     points = rows(table, sampled)
     block = _BLOCK.format(
@@ -56,7 +56,7 @@ FORMAT = Format(
     "iec",
     "st",
     "IEC 61131-3 structured text: array of positions in even steps",
-    Rule("linear", even=True, least=37),
+    SamplingRule("linear", even=True, least=37),
     write,
     "call the block each cycle and give its position to the axis",
 )

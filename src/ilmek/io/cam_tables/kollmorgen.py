@@ -6,19 +6,19 @@ position. A course that never is above 0 has no such value: it is written mirror
 """
 
 from ilmek.io.cam_tables.format import Format, number, rows
-from ilmek.io.cam_tables.sampling import Rule, Sampled
+from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.report import CamTable
 from ilmek.units import parse_unit
 
 
-def scales(table: CamTable, sampled: Sampled) -> dict[str, float]:
+def scales(table: CamTable, sampled: SampledTable) -> dict[str, float]:
     """The scales of input and output that make the import's course the table's, in degrees and the table's unit."""
     positions = sampled.nodes.s / parse_unit(table.unit).factor
     highest = float(positions.max())
     return {"master_scale": 360.0, "slave_scale": highest if highest > 0 else float(positions.min())}
 
 
-def write(table: CamTable, sampled: Sampled) -> str:
+def write(table: CamTable, sampled: SampledTable) -> str:
     """The rows X;Y;SPLINE between the marks of the table."""
     points = rows(table, sampled)
     sign = 1.0 if points.y.max() > 0 else -1.0
@@ -30,7 +30,7 @@ FORMAT = Format(
     "kollmorgen",
     "csv",
     "Kollmorgen KAS: cam profile to import",
-    Rule("spline", least=5),
+    SamplingRule("spline", least=5),
     write,
     "set the input's scale to master_scale and the output's to slave_scale, both offsets to 0",
     scales,

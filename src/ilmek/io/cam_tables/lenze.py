@@ -5,11 +5,11 @@ The optional third column, the motor's torque for acceleration, is left out: it 
 """
 
 from ilmek.io.cam_tables.format import Format, number, remarks, rows
-from ilmek.io.cam_tables.sampling import Rule, Sampled
+from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.report import CamTable
 
 
-def write(table: CamTable, sampled: Sampled) -> str:
+def write(table: CamTable, sampled: SampledTable) -> str:
     """Master and slave with a blank between, ascending; the first lines carry the remarks."""
     points = rows(table, sampled)
     said = [f" // {remark}" for remark in remarks(table, sampled)]
@@ -18,4 +18,6 @@ def write(table: CamTable, sampled: Sampled) -> str:
     return "".join(f"{number(x)} {number(y)}{remark}\n" for x, y, remark in lines)
 
 
-FORMAT = Format("lenze", "txt", "Lenze Cam Loader: motion profile", Rule("linear", least=6), write, "relative start")
+FORMAT = Format(
+    "lenze", "txt", "Lenze Cam Loader: motion profile", SamplingRule("linear", least=6), write, "relative start"
+)

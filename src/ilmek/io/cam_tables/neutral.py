@@ -1,12 +1,12 @@
 """The neutral table: CSV with a heading, for a spreadsheet or any controller that goes straight from point to point."""
 
 from ilmek.io.cam_tables.format import Format, rows
-from ilmek.io.cam_tables.sampling import Rule, Sampled
+from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.io.table_csv import csv_text
 from ilmek.report import CamTable
 
 
-def write(table: CamTable, sampled: Sampled) -> str:
+def write(table: CamTable, sampled: SampledTable) -> str:
     """Master angle, position, velocity and acceleration by the master angle, with their units in the heading."""
     unit, points = table.unit, rows(table, sampled)
     return csv_text(
@@ -23,7 +23,7 @@ FORMAT = Format(
     "neutral",
     "csv",
     "CSV: master angle, position, velocity, acceleration",
-    Rule("linear"),
+    SamplingRule("linear"),
     write,
     "interpolate linearly",
 )

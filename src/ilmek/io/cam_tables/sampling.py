@@ -33,7 +33,7 @@ _ROUNDS, _CUTS = 24, 16
 
 
 @dataclass(frozen=True, slots=True)
-class Rule:
+class SamplingRule:
     """What a controller asks of its table.
 
     interpolation  how it goes from point to point      even   points equally far apart
@@ -47,7 +47,7 @@ class Rule:
 
 
 @dataclass(frozen=True, slots=True)
-class Sampled:
+class SampledTable:
     """A table's points, and what a controller makes of them.
 
     nodes   from position 0       offset  position of the course at the master angle 0, which the nodes are less by [SI]
@@ -74,7 +74,7 @@ def stroke(table: CamTable) -> float:
     return max(float(np.ptp(table.course(angle)[0])), abs(table.revolves))
 
 
-def sample(table: CamTable, rule: Rule, tolerance: float) -> Sampled:
+def sample(table: CamTable, rule: SamplingRule, tolerance: float) -> SampledTable:
     """The points that keep the tolerance [SI], or come nearest to it with as many as the controller takes.
 
     Raises OutputError for a course that jumps from the end of the turn to its beginning.
@@ -86,7 +86,7 @@ def sample(table: CamTable, rule: Rule, tolerance: float) -> Sampled:
     angle = _between(nodes.angle, max(_LEAST_FINE, _FINE // len(nodes.angle)))
     wrong = _errors(table, nodes, interpolation, angle)
     worst = int(np.argmax(wrong))
-    return Sampled(
+    return SampledTable(
         nodes, interpolation.name, _position(table, 0.0), float(wrong.flat[worst]), float(angle.flat[worst]), tolerance
     )
 
@@ -119,7 +119,7 @@ def _settled(values: Float[np.ndarray, " nodes"]) -> Float[np.ndarray, " nodes"]
     return np.where(np.abs(values) > 1e-7 * np.abs(values).max(initial=0.0), values, 0.0)
 
 
-def _even(table: CamTable, rule: Rule, interpolation: Interpolation, tolerance: float) -> Nodes:
+def _even(table: CamTable, rule: SamplingRule, interpolation: Interpolation, tolerance: float) -> Nodes:
     """The fewest even points that keep the tolerance; the most there are where none does."""
     counts = [count for count in _EVEN if rule.least - 1 <= count < rule.most] or [_EVEN[0]]
     for count in counts:
@@ -133,7 +133,7 @@ _EVEN = (36, 72, 120, 180, 240, 360, 450, 720, 900, 1440, 1800, 2400, 3600, 7200
 """Numbers of even steps."""
 
 
-def _where_needed(table: CamTable, rule: Rule, interpolation: Interpolation, tolerance: float) -> Nodes:
+def _where_needed(table: CamTable, rule: SamplingRule, interpolation: Interpolation, tolerance: float) -> Nodes:
     """Points at all joints, and between them where the error asks for more."""
     nodes = _nodes(table, _first(table, rule))
     for _ in range(_ROUNDS):
@@ -149,7 +149,7 @@ def _where_needed(table: CamTable, rule: Rule, interpolation: Interpolation, tol
     return nodes
 
 
-def _first(table: CamTable, rule: Rule) -> Float[np.ndarray, " nodes"]:
+def _first(table: CamTable, rule: SamplingRule) -> Float[np.ndarray, " nodes"]:
     """The joints of the course and both ends of the turn; more where the controller wants more, even ones if fewer."""
     joints = np.unique(np.concatenate([[0.0], np.mod(table.knots, turn), [turn]]))
     joints = joints[np.append(True, np.diff(joints) > _LEAST_STEP)]

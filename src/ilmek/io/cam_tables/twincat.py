@@ -6,7 +6,7 @@ acceleration as derivatives by the master. [Beckhoff, TF5050: MC_CAM_REF, MC_Mot
 """
 
 from ilmek.io.cam_tables.format import Format, comment, identifier, number, remarks, rows, wrapped
-from ilmek.io.cam_tables.sampling import Rule, Sampled
+from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.report import CamTable
 
 _LIST = """\
@@ -19,7 +19,7 @@ END_VAR
 """
 
 
-def write_positions(table: CamTable, sampled: Sampled) -> str:
+def write_positions(table: CamTable, sampled: SampledTable) -> str:
     """The table of positions: master and slave, point after point."""
     points = rows(table, sampled)
     pairs = [f"{number(x)}, {number(y)}" for x, y in zip(points.x, points.y, strict=True)]
@@ -34,7 +34,7 @@ def write_positions(table: CamTable, sampled: Sampled) -> str:
     return comment(remarks(table, sampled)) + text
 
 
-def write_motion(table: CamTable, sampled: Sampled) -> str:
+def write_motion(table: CamTable, sampled: SampledTable) -> str:
     """The motion function: a point with its derivatives, and the polynomial to the next."""
     points = rows(table, sampled)
     said = [
@@ -58,7 +58,7 @@ POSITIONS = Format(
     "twincat-positions",
     "st",
     "TwinCAT: table of positions, uneven steps",
-    Rule("spline", least=5),
+    SamplingRule("spline", least=5),
     write_positions,
     "MC_CamIn with MC_INTERPOLATIONTYPE_SPLINE, cyclic, relative start",
 )
@@ -67,7 +67,7 @@ MOTION = Format(
     "twincat-motion",
     "st",
     "TwinCAT: motion function",
-    Rule("quintic"),
+    SamplingRule("quintic"),
     write_motion,
     "MC_CamIn, relative start",
 )

@@ -8,7 +8,7 @@ from reportlab.lib.utils import ImageReader, simpleSplit
 
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.grid import Inks
-from ilmek.io.chart.sheets import Cut
+from ilmek.io.chart.sheets import SheetLayout
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT
 from ilmek.units import format_number
 
@@ -20,7 +20,7 @@ _SMALL = 6.5
 """Size of a long name's letters [pt]."""
 
 
-def draw_overview(canvas: Any, chart: Chart, plan: Cut, name: str) -> None:
+def draw_overview(canvas: Any, chart: Chart, plan: SheetLayout, name: str) -> None:
     """The carpet in true proportion under the grid of sheets, each number a link to its sheet."""
     canvas.bookmarkPage("overview")
     canvas.addOutlineEntry("The whole carpet", "overview", 0)
@@ -41,7 +41,7 @@ def draw_overview(canvas: Any, chart: Chart, plan: Cut, name: str) -> None:
     canvas.showPage()
 
 
-def _facts(chart: Chart, plan: Cut) -> tuple[str, ...]:
+def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
     size, quality = chart.size, chart.quality
     lengths = f"{format_number(size.width * 100)} × {format_number(size.length * 100)} cm (width × length)"
     density = f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} knots per dm"
@@ -66,7 +66,7 @@ def _thumbnail(chart: Chart) -> Image.Image:
     return picture.reduce(max(1, -(-max(picture.size) // 1200)))
 
 
-def _sheet_grid(canvas: Any, plan: Cut, wide: float, high: float) -> None:
+def _sheet_grid(canvas: Any, plan: SheetLayout, wide: float, high: float) -> None:
     """Borders of the sheets, white under black so that they are seen on any colour, and their numbers."""
     boxes = [
         (s.left * wide, s.low * high, (s.right - s.left) * wide, (s.high - s.low) * high, s.number)

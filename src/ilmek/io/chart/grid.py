@@ -10,7 +10,7 @@ from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import LINEAR
 from ilmek.carpet.yarn import Yarn
-from ilmek.io.chart.sheets import Cut, Sheet
+from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
 
 _LEFT, _TOP = 54.0, 800.0
@@ -38,7 +38,7 @@ def _luminance(srgb: tuple[int, int, int]) -> float:
     return float(LINEAR[list(srgb)] @ np.array([0.2126, 0.7152, 0.0722]))
 
 
-def draw_sheet(canvas: Any, chart: Chart, plan: Cut, sheet: Sheet, inks: Inks) -> None:
+def draw_sheet(canvas: Any, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
     """Draw a sheet and end its page."""
     rows = slice(chart.rows - sheet.shown_high, chart.rows - sheet.low)
     cells = chart.knots[rows, sheet.left : sheet.shown_right][::-1]
@@ -77,7 +77,7 @@ def runs(cells: Indices) -> dict[int, list[tuple[int, int, int]]]:
     return by_yarn
 
 
-def _fill_cells(canvas: Any, cells: Indices, plan: Cut, inks: Inks) -> None:
+def _fill_cells(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -> None:
     """One filled path a yarn, one rectangle a run; the unit is a cell."""
     canvas.saveState()
     canvas.scale(plan.cell_width, plan.cell_height)
@@ -90,7 +90,7 @@ def _fill_cells(canvas: Any, cells: Indices, plan: Cut, inks: Inks) -> None:
     canvas.restoreState()
 
 
-def _write_symbols(canvas: Any, cells: Indices, plan: Cut, inks: Inks) -> None:
+def _write_symbols(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -> None:
     """Each row as two pieces of text, black and white, spaced so that every sign stands in its cell."""
     size = min(0.74 * plan.cell_height, 0.98 * plan.cell_width)
     indent = (plan.cell_width - ADVANCE * size) / 2
@@ -111,7 +111,7 @@ def _write_symbols(canvas: Any, cells: Indices, plan: Cut, inks: Inks) -> None:
     canvas.restoreState()
 
 
-def _shade_overlap(canvas: Any, plan: Cut, sheet: Sheet) -> None:
+def _shade_overlap(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
     """A pale veil on the knots that belong to the next sheets."""
     width, height = sheet.right - sheet.left, sheet.high - sheet.low
     canvas.saveState()
@@ -124,7 +124,7 @@ def _shade_overlap(canvas: Any, plan: Cut, sheet: Sheet) -> None:
     canvas.restoreState()
 
 
-def _draw_lines(canvas: Any, plan: Cut, sheet: Sheet) -> None:
+def _draw_lines(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
     """Hairlines round each cell, a bold line each 10 knots of the carpet, a dashed one where the overlap begins."""
     wide, high = plan.cell_width, plan.cell_height
     columns, rows = sheet.shown_right - sheet.left, sheet.shown_high - sheet.low
@@ -141,7 +141,7 @@ def _draw_lines(canvas: Any, plan: Cut, sheet: Sheet) -> None:
     canvas.rect(0, 0, columns * wide, rows * high, stroke=1, fill=0)
 
 
-def _write_numbers(canvas: Any, plan: Cut, sheet: Sheet) -> None:
+def _write_numbers(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
     """Every row's number at both sides, each fifth knot's above and below; tens in bold."""
     wide, high = plan.cell_width, plan.cell_height
     right, top = (sheet.shown_right - sheet.left) * wide, (sheet.shown_high - sheet.low) * high
@@ -165,7 +165,7 @@ def _ink(canvas: Any, number: int, size: float, own: bool) -> None:
     canvas.setFillColorRGB(*((0.1, 0.1, 0.1) if number % 10 == 0 and own else _GREY if own else _LIGHT))
 
 
-def _mark_middle(canvas: Any, plan: Cut, sheet: Sheet) -> None:
+def _mark_middle(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
     """Arrowheads on the edges at the carpet's middle column and middle row, where the sheet has them."""
     right, top = (sheet.shown_right - sheet.left) * plan.cell_width, (sheet.shown_high - sheet.low) * plan.cell_height
     x = (plan.columns / 2 - sheet.left) * plan.cell_width
@@ -188,7 +188,7 @@ def _triangle(path: Any, *corners: tuple[float, float]) -> None:
     path.close()
 
 
-def _write_title(canvas: Any, plan: Cut, sheet: Sheet) -> None:
+def _write_title(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
     """What the sheet shows, and where its neighbours are (each a link)."""
     canvas.setFillColorRGB(0.1, 0.1, 0.1)
     canvas.setFont(STRONG, 11)

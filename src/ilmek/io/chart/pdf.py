@@ -18,7 +18,7 @@ from reportlab.pdfgen.canvas import Canvas
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.front_pages import draw_legend, draw_overview
 from ilmek.io.chart.grid import Inks, draw_sheet
-from ilmek.io.chart.sheets import Cut, cut
+from ilmek.io.chart.sheets import SheetLayout, cut
 from ilmek.io.chart.symbols import register_fonts, symbols
 from ilmek.progress import SILENT, Progress
 
@@ -44,7 +44,7 @@ def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title
         canvas.save()
 
 
-def chart_cut(chart: Chart) -> Cut:
+def chart_cut(chart: Chart) -> SheetLayout:
     """How the chart is cut into sheets: `.count` tells how many there will be."""
     return cut(chart.rows, chart.columns, chart.quality.across / chart.quality.along)
 

@@ -17,7 +17,7 @@ _SMALLEST = 7.4
 
 
 @dataclass(frozen=True, slots=True)
-class Sheet:
+class ChartSheet:
     """One sheet: its number from 1, its own knots left..right-1 and rows low..high-1 (from 0, from the bottom), the
     knots and rows shown with the overlap, and its neighbours' numbers (0: none).
     """
@@ -38,7 +38,7 @@ class Sheet:
 
 
 @dataclass(frozen=True, slots=True)
-class Cut:
+class SheetLayout:
     """The cut of a chart: sheets across and up, knots and rows of one sheet, width and height of a knot's cell [pt]."""
 
     rows: int
@@ -55,12 +55,12 @@ class Cut:
         """How many sheets."""
         return self.across * self.up
 
-    def sheets(self) -> Iterator[Sheet]:
+    def sheets(self) -> Iterator[ChartSheet]:
         """The sheets in order."""
         for number in range(1, self.count + 1):
             yield self.sheet(number)
 
-    def sheet(self, number: int) -> Sheet:
+    def sheet(self, number: int) -> ChartSheet:
         """The sheet with this number."""
         up, across = divmod(number - 1, self.across)
         left, low = across * self.sheet_columns, up * self.sheet_rows
@@ -72,10 +72,10 @@ class Cut:
             "above": number + self.across if up + 1 < self.up else 0,
         }
         shown = min(right + OVERLAP, self.columns), min(high + OVERLAP, self.rows)
-        return Sheet(number, left, right, low, high, *shown, neighbours)
+        return ChartSheet(number, left, right, low, high, *shown, neighbours)
 
 
-def cut(rows: int, columns: int, proportion: float) -> Cut:
+def cut(rows: int, columns: int, proportion: float) -> SheetLayout:
     """The cut of a chart of rows x columns whose knots are `proportion` times as high as wide.
 
     A sheet holds a multiple of 10 knots and rows, as many as leave the cells readable; the cells then fill the sheet.
@@ -90,7 +90,7 @@ def cut(rows: int, columns: int, proportion: float) -> Cut:
     shown = min(columns, sheet_columns + OVERLAP), min(rows, sheet_rows + OVERLAP)
     width = min(_ROOM[0] / shown[0], _ROOM[1] / shown[1] / proportion, 24.0 / max(1.0, proportion))
     across, up = math.ceil(columns / sheet_columns), math.ceil(rows / sheet_rows)
-    return Cut(rows, columns, across, up, sheet_columns, sheet_rows, width, width * proportion)
+    return SheetLayout(rows, columns, across, up, sheet_columns, sheet_rows, width, width * proportion)
 
 
 def _tens(room: float, wanted: int) -> int:

@@ -7,13 +7,13 @@ from ilmek.arrays import RealField
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.groups.group import Columns, Group, Known
-from ilmek.linkage.groups.shift import Track, track
+from ilmek.linkage.groups.shift import SlideTrack, track
 from ilmek.linkage.groups.turn import hung
 from ilmek.linkage.model import Joint, Pin
 
 
 @dataclass(frozen=True, slots=True)
-class Hang:
+class Attachment:
     """A body on one joint.
 
     hinge  the pin in the frame of the body `on` [m]     at  the same in the body's own frame [m]
@@ -25,7 +25,7 @@ class Hang:
     joint: str
     hinge: complex = 0j
     at: complex = 0j
-    track: Track | None = None
+    track: SlideTrack | None = None
 
     def place(self, on: BodyMotion, columns: Columns) -> BodyMotion:
         """The body's motion; columns: direction, omega, alpha; on a slide s, s', s''."""
@@ -38,18 +38,18 @@ class Hang:
         return self.track.jerk(on, placed, columns, third)
 
 
-def hang(group: Group, joint: Joint, body: str) -> Hang:
+def hang(group: Group, joint: Joint, body: str) -> Attachment:
     """The body on its joint."""
     on = group.beyond(joint, body)
     if isinstance(joint, Pin):
         hinge, at = (group.mechanism.point(one, joint.name) for one in (on, body))
-        return Hang(body, on, joint.name, hinge, at)
-    return Hang(body, on, joint.name, track=track(group.mechanism, joint, body))
+        return Attachment(body, on, joint.name, hinge, at)
+    return Attachment(body, on, joint.name, track=track(group.mechanism, joint, body))
 
 
-def hangs(group: Group) -> tuple[Hang, ...] | None:
+def hangs(group: Group) -> tuple[Attachment, ...] | None:
     """The bodies of a group in the order in which they hang on one another, one joint each; None where they do not."""
-    found: list[Hang] = []
+    found: list[Attachment] = []
     done: set[str] = set()
     for _ in group.bodies:
         for joint in group.joints:
@@ -60,7 +60,7 @@ def hangs(group: Group) -> tuple[Hang, ...] | None:
     return tuple(found) if len(found) == len(group.bodies) == len(group.joints) else None
 
 
-def place_all(hung_on: tuple[Hang, ...], known: Known, columns: Mapping[str, Columns]) -> dict[str, BodyMotion]:
+def place_all(hung_on: tuple[Attachment, ...], known: Known, columns: Mapping[str, Columns]) -> dict[str, BodyMotion]:
     """The motions of bodies that hang on one another."""
     placed = dict(known)
     for one in hung_on:

@@ -15,21 +15,21 @@ from ilmek.arrays import RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.equations import angle_near
-from ilmek.linkage.groups.attachment import Hang, hangs
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
+from ilmek.linkage.groups.attachment import Attachment, hangs
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
 from ilmek.linkage.model import Coupling, Slide
 from ilmek.plane.vectors import unit
 
 
 @dataclass(frozen=True, slots=True)
-class Follower(Step):
+class CoupledFollower(Step):
     """A body on one joint that follows a source through a coupling.
 
     source  the body that drives it
     slide   where that is a rack: its point in its own frame; the slide's point and direction in the guide's
     """
 
-    hang: Hang
+    hang: Attachment
     carrier: str
     source: str
     slide: tuple[complex, complex, complex] | None
@@ -53,15 +53,15 @@ class Follower(Step):
         """What it is, for people."""
         return f"{self.hang.body} driven by {self.source} through {self.coupling}"
 
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - follows bodies only
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - follows bodies only
         """Direction, angular velocity and acceleration; on a slide way, speed and acceleration."""
         source, carrier = self._source(known), known[self.carrier]
         value = self.at + self.scale * (source.value - self.source_at)
         speed, acceleration = self.scale * source.speed, self.scale * source.acceleration
         if self.hang.track is not None:
-            return Solved({self.hang.body: (value, speed, acceleration)})
+            return GroupSolution({self.hang.body: (value, speed, acceleration)})
         direction = carrier.direction * unit(value)
-        return Solved({self.hang.body: (direction, carrier.omega + speed, carrier.alpha + acceleration)})
+        return GroupSolution({self.hang.body: (direction, carrier.omega + speed, carrier.alpha + acceleration)})
 
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The body on its joint."""
@@ -72,7 +72,7 @@ class Follower(Step):
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
     ) -> Mapping[str, BodyJerk]:
         """The driven body's: the source's jerk, scaled, upon the carrier's."""
         carrier, body = known[self.carrier], self.hang.body
@@ -91,25 +91,25 @@ class Follower(Step):
         jerk = source.carry(point) - carrier.carry(root) + back
         return np.real(jerk * np.conj(turns.direction * lead))
 
-    def _source(self, known: Known) -> Drive:
+    def _source(self, known: Known) -> InputMotion:
         """The source's angle against the carrier, or the displacement of its slide, with its rates."""
         source, carrier = known[self.source], known[self.carrier]
         if self.slide is None:
             angle = angle_near(source.direction, carrier.direction, self.source_at)
-            return Drive(angle, source.omega - carrier.omega, source.alpha - carrier.alpha)
+            return InputMotion(angle, source.omega - carrier.omega, source.alpha - carrier.alpha)
         point, root, lead = self.slide
         p, g, w = source.carry(point), carrier.carry(root), carrier.omega
         back = np.conj(carrier.direction * lead)
         way, gain = p.position - g.position, p.velocity - g.velocity
         spin = (1j * carrier.alpha + w * w) * way
-        return Drive(
+        return InputMotion(
             np.real(way * back),
             np.real((gain - 1j * w * way) * back),
             np.real((p.acceleration - g.acceleration - 2j * w * gain - spin) * back),
         )
 
 
-def recognise(group: Group) -> Follower | None:
+def recognise(group: Group) -> CoupledFollower | None:
     """The group as one body that follows another through a coupling, or None: a carrier that follows is not one."""
     hung = hangs(group) if len(group.couplings) == 1 and not group.inputs else None
     if hung is None or len(hung) != 1:
@@ -120,11 +120,11 @@ def recognise(group: Group) -> Follower | None:
         if (coupling.kind == "rack") != (one.track is not None):
             return None
         ends = coupling.first_at, coupling.second_at
-        return Follower(one, coupling.carrier, first, None, *ends, coupling.ratio, coupling.name)
+        return CoupledFollower(one, coupling.carrier, first, None, *ends, coupling.ratio, coupling.name)
     if one.body == first and one.track is None:
         ends = coupling.second_at, coupling.first_at
         line = _line(group, coupling)
-        return Follower(one, coupling.carrier, second, line, *ends, 1 / coupling.ratio, coupling.name)
+        return CoupledFollower(one, coupling.carrier, second, line, *ends, 1 / coupling.ratio, coupling.name)
     return None
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.groups.attachment import Hang, hangs, place_all
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
-from ilmek.linkage.groups.winding import Course, courses
+from ilmek.linkage.groups.attachment import Attachment, hangs, place_all
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
+from ilmek.linkage.groups.winding import LinearRelation, courses
 from ilmek.plane.vectors import unit
 
 
@@ -19,8 +19,8 @@ from ilmek.plane.vectors import unit
 class Geared(Step):
     """Bodies on one joint each, and their courses: angle in the world of one on a pin, way of one on a slide."""
 
-    hangs: tuple[Hang, ...]
-    courses: tuple[Course, ...]
+    hangs: tuple[Attachment, ...]
+    courses: tuple[LinearRelation, ...]
     through: tuple[str, ...]
     on: tuple[str, ...]
 
@@ -41,14 +41,14 @@ class Geared(Step):
         driven = f"driven by {' and '.join(sorted(inputs))}" if inputs else "held"
         return f"{' and '.join(self.bodies)} {driven} through {', '.join(self.through)}"
 
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - the inputs alone count
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - the inputs alone count
         """Direction, angular velocity and acceleration; on a slide way, speed and acceleration."""
         columns: dict[str, Columns] = {}
         for one, course in zip(self.hangs, self.courses, strict=True):
             drive = course.drive(drives)
             value = unit(drive.value) if one.track is None else drive.value
             columns[one.body] = (value, drive.speed, drive.acceleration)
-        return Solved(columns)
+        return GroupSolution(columns)
 
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The bodies on their joints."""
@@ -59,7 +59,7 @@ class Geared(Step):
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, Drive],
+        drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
         """The bodies': their courses' jerks."""
         found = dict(known)

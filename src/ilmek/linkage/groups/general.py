@@ -16,8 +16,8 @@ from ilmek.linkage import equations
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.equations import Equation
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
-from ilmek.linkage.groups.winding import Course, angles, first_angle
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
+from ilmek.linkage.groups.winding import LinearRelation, angles, first_angle
 from ilmek.linkage.model import Pin, Rotation, Slide
 from ilmek.num.linear import reciprocal_condition, solve_many
 from ilmek.num.newton import newton
@@ -27,7 +27,7 @@ TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Block(Step):
+class GeneralGroup(Step):
     """A group of any class, its loop equations solved together.
 
     scale    its size [m]
@@ -36,7 +36,7 @@ class Block(Step):
 
     group: Group
     scale: float
-    courses: Mapping[str, Course] = field(default_factory=dict)
+    courses: Mapping[str, LinearRelation] = field(default_factory=dict)
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -63,7 +63,7 @@ class Block(Step):
         """Unknown: the iteration does not say by how much it fails."""
         return np.nan
 
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:
         """Directions, rates and origins of all bodies, starting from their motions in `known`."""
         start = {body: _still(known[body]) for body in self.bodies}
         samples = np.broadcast_shapes(*(np.shape(drive.value) for drive in drives.values()))
@@ -86,7 +86,7 @@ class Block(Step):
         """The bodies, anchored at their origins."""
         return {body: BodyMotion(PointMotion(*columns[body][3:]), 0j, *columns[body][:3]) for body in self.bodies}
 
-    def equations(self, bodies: Known, drives: Mapping[str, Drive]) -> list[Equation]:
+    def equations(self, bodies: Known, drives: Mapping[str, InputMotion]) -> list[Equation]:
         """The group's loop equations in the poses and at the velocities of `bodies`, origin-anchored."""
         mechanism, held = self.group.mechanism, []
         for joint in self.group.joints:
@@ -105,7 +105,9 @@ class Block(Step):
             held.append(equations.coupling_equation(mechanism, coupling, near, bodies))
         return held
 
-    def _rates(self, known: Known, posed: Known, drives: Mapping[str, Drive], matrix: FloatArray) -> Solved:
+    def _rates(
+        self, known: Known, posed: Known, drives: Mapping[str, InputMotion], matrix: FloatArray
+    ) -> GroupSolution:
         """Velocities, then accelerations: the same matrix twice."""
         samples = matrix.shape[:-2]
         moving = dict(posed) | {body: _at_origin(known[body]) for body in self.parents}
@@ -119,14 +121,14 @@ class Block(Step):
         demand = [(one.second_rate - one.bias - _share(one, gains)) * self._unit(one) for one in held]
         a = solve_many(matrix, _stack(demand, samples))
         columns = {body: self._columns(moving[body], a, k) for k, body in enumerate(self.bodies)}
-        return Solved(columns, reciprocal_condition(matrix))
+        return GroupSolution(columns, reciprocal_condition(matrix))
 
     def jerk(
         self,
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
-        drives: Mapping[str, Drive],
+        drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
         """The bodies': the matrix of `solve` once more, with the third rates' right side."""
         moving = dict(placed) | {body: _at_origin(known[body].motion) for body in self.parents}
@@ -179,11 +181,11 @@ class Block(Step):
         return body.direction, body.omega, alpha, body.anchor.position, body.anchor.velocity, acceleration
 
 
-def from_group(group: Group) -> Block:
+def from_group(group: Group) -> GeneralGroup:
     """The group as a block for Newton's method."""
     points = [abs(point) for body in group.bodies for point in group.mechanism.body(body).points.values()]
     reach = max([*points, *(abs(p) for p in group.mechanism.body("ground").points.values())])
-    return Block(group, reach or 1.0, angles(group.mechanism) if group.couplings else {})
+    return GeneralGroup(group, reach or 1.0, angles(group.mechanism) if group.couplings else {})
 
 
 def _share(one: Equation, rates: Mapping[str, tuple[ComplexField, RealField]]) -> RealField:

@@ -28,7 +28,7 @@ KnownJerks: TypeAlias = Mapping[str, BodyJerk]
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class InputMotion:
     """An input's course: value [rad or m], speed, acceleration and jerk, a number or one a sample."""
 
     value: RealField
@@ -36,14 +36,14 @@ class Drive:
     acceleration: RealField
     jerk: RealField = 0.0
 
-    def part(self, chosen: Any) -> "Drive":
+    def part(self, chosen: Any) -> "InputMotion":
         """Some of its samples, as a slice or mask chooses them."""
         fields = (self.value, self.speed, self.acceleration, self.jerk)
-        return Drive(*(field[chosen] if isinstance(field, np.ndarray) else field for field in fields))
+        return InputMotion(*(field[chosen] if isinstance(field, np.ndarray) else field for field in fields))
 
 
 @dataclass(frozen=True, slots=True)
-class Solved:
+class GroupSolution:
     """A step's answer: the columns of each of its bodies, and how far from a dead centre it stands.
 
     margin  `best` at best, 0 at a dead centre, NaN where the step cannot be solved; either sign; None where it cannot
@@ -79,7 +79,7 @@ class Step(ABC):
         """What it is, for people."""
 
     @abstractmethod
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:
         """The bodies' columns at every sample."""
 
     @abstractmethod
@@ -92,7 +92,7 @@ class Step(ABC):
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, Drive],
+        drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
         """The bodies' jerks: the equations of `solve` differentiated once more, each with another right side.
 

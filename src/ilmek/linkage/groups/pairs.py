@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.group import Columns, Known, Step
-from ilmek.linkage.groups.shift import Track
+from ilmek.linkage.groups.shift import SlideTrack
 from ilmek.linkage.groups.turn import hung
 
 
@@ -56,7 +56,7 @@ class SliderPair(Step):
     on: tuple[str, str]
     hinge: complex
     at: complex
-    track: Track
+    track: SlideTrack
 
     @property
     def bodies(self) -> tuple[str, ...]:

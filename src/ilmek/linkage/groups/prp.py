@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
-from ilmek.linkage.groups.shift import Track, refuse_parallel, slid_acceleration, slid_velocity, track
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
+from ilmek.linkage.groups.shift import SlideTrack, refuse_parallel, slid_acceleration, slid_velocity, track
 from ilmek.linkage.model import Pin, Slide
 from ilmek.plane.vectors import cross, oblique
 
@@ -31,7 +31,7 @@ class CrossedSliders(Step):
     on: tuple[str, str]
     pin: str
     reach: tuple[complex, complex]
-    tracks: tuple[Track, Track]
+    tracks: tuple[SlideTrack, SlideTrack]
     scale: float
 
     @property
@@ -55,7 +55,7 @@ class CrossedSliders(Step):
         guide, line = known[self.on[which]], self.tracks[which]
         return guide, guide.carry(line.root + line.twist * self.reach[which]), guide.direction * line.lead
 
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - hangs on bodies only
         """Travel, speed and acceleration of both sliders."""
         (one, P, e), (two, Q, f) = self.line(known, 0), self.line(known, 1)
         w, v = one.omega, two.omega
@@ -66,7 +66,7 @@ class CrossedSliders(Step):
         r = Q.acceleration + slid_acceleration(f, v, two.alpha, z, dz, 0.0)
         r = r - P.acceleration - slid_acceleration(e, w, one.alpha, s, ds, 0.0)
         columns = {self.sliders[0]: (s, ds, oblique(r, e, f)), self.sliders[1]: (z, dz, -oblique(r, f, e))}
-        return Solved(columns, cross(e, f))
+        return GroupSolution(columns, cross(e, f))
 
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The sliders, anchored at their slides' points."""
@@ -80,7 +80,7 @@ class CrossedSliders(Step):
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
     ) -> Mapping[str, BodyJerk]:
         """The sliders': the third rates of s along e and z along f make good what the guides and other rates leave."""
         lines, ends = [], []

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import carried_acceleration, carried_velocity
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
 from ilmek.linkage.groups.pairs import SliderPair
 from ilmek.linkage.groups.shift import refuse_parallel, track
 from ilmek.linkage.model import Pin, Slide
@@ -65,7 +65,7 @@ class CrossSlide(SliderPair):
         """What it is, for people."""
         return f"{self.link} on slider {self.slider}, hung on {self.on[0]} and {self.on[1]}: RPP"
 
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - hangs on bodies only
         """Direction and rates of the link, those of the guide; travel, speed and acceleration of the slider."""
         A, guide = known[self.on[0]].carry(self.hinge), known[self.on[1]]
         Q, w, alpha = guide.carry(self.zero), guide.omega, guide.alpha
@@ -78,14 +78,14 @@ class CrossSlide(SliderPair):
             self.link: (guide.direction * (self.track.twist * self.twist), w, alpha),
             self.slider: (oblique(d, e, f), oblique(ds, e, f), oblique(dds, e, f)),
         }
-        return Solved(columns)
+        return GroupSolution(columns)
 
     def jerk(
         self,
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
     ) -> Mapping[str, BodyJerk]:
         """The slider's: its third rate along e makes good what the guide leaves; the link turns as the guide does."""
         guide, A = known[self.on[1]], known[self.on[0]].carry(self.hinge)

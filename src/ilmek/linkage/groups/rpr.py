@@ -18,9 +18,9 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
 from ilmek.linkage.groups.pairs import PinnedPair
-from ilmek.linkage.groups.shift import Track, track
+from ilmek.linkage.groups.shift import SlideTrack, track
 from ilmek.linkage.model import Pin, Slide
 from ilmek.plane.vectors import dot
 from ilmek.units import format_quantity
@@ -69,7 +69,9 @@ def parting(d2: ComplexField, d: ComplexField, e: ComplexField, w: RealField, dt
     return d2 + w * w * d - 2j * (w * dt) * e
 
 
-def offset(first: ComplexField, root: ComplexField, second: ComplexField, at: ComplexField, line: Track) -> RealField:
+def offset(
+    first: ComplexField, root: ComplexField, second: ComplexField, at: ComplexField, line: SlideTrack
+) -> RealField:
     """Offset o [m] of the second body's known pin from the line through the first's along the slide; the same always.
 
     first, root   the known pin and the slide's point of the guide, in its frame [m]
@@ -99,7 +101,7 @@ class SlidingDyad(PinnedPair):
 
     slide: str
     branch: int
-    track: Track
+    track: SlideTrack
     offset: float
     scale: float
 
@@ -109,7 +111,7 @@ class SlidingDyad(PinnedPair):
         (p, q), (on_p, on_q) = self.links, self.on
         return f"{p} and {q} joined by slide {self.slide} (branch {self.branch:+d}), hung on {on_p} and {on_q}: RPR"
 
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - hangs on bodies only
         """Directions of both bodies, their common angular velocity and acceleration."""
         A, B = self.pins(known)
         d = B.position - A.position
@@ -121,14 +123,14 @@ class SlidingDyad(PinnedPair):
         alpha = turn_rate(e, r, t)
         direction = e * self.track.lead.conjugate()
         columns = {self.links[0]: (direction, w, alpha), self.links[1]: (direction * self.track.twist, w, alpha)}
-        return Solved(columns, t, self.scale)
+        return GroupSolution(columns, t, self.scale)
 
     def jerk(
         self,
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
-        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
     ) -> Mapping[str, BodyJerk]:
         """Both bodies': i beta d and the third rate of t along e make good what the other rates leave."""
         (p, q), (one, two) = (known[on] for on in self.on), (placed[link] for link in self.links)

@@ -16,7 +16,7 @@ import numpy as np
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import BodyJerk, carried_jerk, slid_jerk
 from ilmek.linkage.body_motion import PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
 from ilmek.linkage.groups.pairs import SliderPair
 from ilmek.linkage.groups.shift import slid_acceleration, slid_velocity, track
 from ilmek.linkage.model import Pin, Slide
@@ -104,7 +104,7 @@ class SliderDyad(SliderPair):
         zero = guide.carry(self.track.root + self.track.twist * self.reach)
         return known[self.on[0]].carry(self.hinge), zero, guide.direction * self.track.lead
 
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - hangs on bodies only
         """Direction and rates of the link; travel, speed and acceleration of the slider."""
         A, Q, e = self.hung(known)
         w, alpha = known[self.on[1]].omega, known[self.on[1]].alpha
@@ -118,14 +118,14 @@ class SliderDyad(SliderPair):
             self.link: (u * (1 / self.arm), wa, link_rate(e, r, cosine)),
             self.slider: (s, ds, slider_rate(u, r, cosine)),
         }
-        return Solved(columns, cosine, self.a)
+        return GroupSolution(columns, cosine, self.a)
 
     def jerk(
         self,
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
     ) -> Mapping[str, BodyJerk]:
         """Link's and slider's: i beta_a u and the third rate of s along e make good what the other rates leave."""
         guide, link = known[self.on[1]], placed[self.link]

@@ -14,7 +14,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_jerk import BodyJerk, carried_jerk
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
 from ilmek.linkage.groups.pairs import PinnedPair
 from ilmek.linkage.model import Pin
 from ilmek.linkage.status import TOUCHING
@@ -82,7 +82,7 @@ def misfit(A: ComplexField, B: ComplexField, a: RealField, b: RealField) -> Real
 
 
 @dataclass(frozen=True, slots=True)
-class Dyad(PinnedPair):
+class RRRDyad(PinnedPair):
     """Two links, of lengths a and b [m], hung on known bodies and joined by the free pin.
 
     arms  known pin -> free pin in the links' frames [m]
@@ -101,7 +101,7 @@ class Dyad(PinnedPair):
         (p, q), (on_p, on_q) = self.links, self.on
         return f"{p} and {q} joined at {self.pin} (branch {self.branch:+d}), hung on {on_p} and {on_q}: RRR"
 
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - hangs on bodies only
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - hangs on bodies only
         """Directions, angular velocities and accelerations of the links."""
         A, B = self.pins(known)
         C = position(A.position, B.position, self.a, self.b, self.branch)
@@ -114,14 +114,14 @@ class Dyad(PinnedPair):
             self.links[0]: (u * (1 / self.arms[0]), wa, first_rate(v, r, sine)),
             self.links[1]: (v * (1 / self.arms[1]), wb, second_rate(u, r, sine)),
         }
-        return Solved(columns, sine, self.a * self.b)
+        return GroupSolution(columns, sine, self.a * self.b)
 
     def jerk(
         self,
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
-        drives: Mapping[str, Drive],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
     ) -> Mapping[str, BodyJerk]:
         """The links': i beta_a u - i beta_b v = what A, B and the other rates of u and v leave."""
         (one, two), (p, q) = (placed[link] for link in self.links), (known[on] for on in self.on)
@@ -164,7 +164,7 @@ class Dyad(PinnedPair):
         )
 
 
-def recognise(group: Group) -> Dyad | None:
+def recognise(group: Group) -> RRRDyad | None:
     """The group as an RRR dyad, or None. Raises MechanismError where its pin has no branch or a link no length."""
     if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
         return None
@@ -180,7 +180,7 @@ def recognise(group: Group) -> Dyad | None:
     at = [mechanism.point(link, joint.name) for joint, link in zip(outer, links, strict=True)]
     hinges = [mechanism.point(body, joint.name) for joint, body in zip(outer, on, strict=True)]
     arms = [group.arm(link, joint.name, pin.name) for joint, link in zip(outer, links, strict=True)]
-    return Dyad(
+    return RRRDyad(
         links=links,
         on=(on[0], on[1]),
         pin=pin.name,

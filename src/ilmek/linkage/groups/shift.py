@@ -10,7 +10,7 @@ from ilmek.arrays import ComplexField, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
 from ilmek.linkage.model import Displacement, Mechanism, Slide
 
 PARALLEL = 1e-12
@@ -38,7 +38,7 @@ def slid_acceleration(  # noqa: PLR0917 - a leaf takes its symbols in the equati
 
 
 @dataclass(frozen=True, slots=True)
-class Track:
+class SlideTrack:
     """A slide seen from its known body, whichever of the two that is.
 
     The unknown body's point of the slide, at `at` [m] of its frame, stands at `root` + s `lead` of the known body's
@@ -73,13 +73,13 @@ class Track:
         return BodyJerk(placed, anchor, on.beta)
 
 
-def track(mechanism: Mechanism, slide: Slide, body: str) -> Track:
+def track(mechanism: Mechanism, slide: Slide, body: str) -> SlideTrack:
     """The slide as the unknown `body` sees it."""
     along, turned = cmath.rect(1, slide.along), cmath.rect(1, slide.turned)
     on_line, guide = mechanism.point(slide.body, slide.name), mechanism.point(slide.guide, slide.name)
     if body == slide.body:
-        return Track(root=guide, lead=along, twist=turned, at=on_line)
-    return Track(root=on_line, lead=-along * turned.conjugate(), twist=turned.conjugate(), at=guide)
+        return SlideTrack(root=guide, lead=along, twist=turned, at=on_line)
+    return SlideTrack(root=on_line, lead=-along * turned.conjugate(), twist=turned.conjugate(), at=guide)
 
 
 def refuse_parallel(mechanism: Mechanism, slides: Sequence[Slide], sine: RealField) -> None:
@@ -94,13 +94,13 @@ def refuse_parallel(mechanism: Mechanism, slides: Sequence[Slide], sine: RealFie
 
 
 @dataclass(frozen=True, slots=True)
-class Shift(Step):
+class DrivenSlider(Step):
     """A driven slider: shifted along its track on the known body `on`."""
 
     body: str
     on: str
     entry: str
-    track: Track
+    track: SlideTrack
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -117,11 +117,11 @@ class Shift(Step):
         """What it is, for people."""
         return f"{self.body} shifted by the input on {self.on}"
 
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:  # noqa: ARG002 - the slide's s is the input
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - the slide's s is the input
         """Travel, speed and acceleration of the slide."""
         drive = drives[self.entry]
         columns: tuple[ComplexField, ...] = (drive.value, drive.speed, drive.acceleration)
-        return Solved({self.body: columns})
+        return GroupSolution({self.body: columns})
 
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The driven body, anchored at the slide's point."""
@@ -132,14 +132,14 @@ class Shift(Step):
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, Drive],
+        drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
         """The driven body's: the input's jerk along the track."""
         third = drives[self.entry].jerk
         return {self.body: self.track.jerk(known[self.on], placed[self.body], columns[self.body], third)}
 
 
-def recognise(group: Group) -> Shift | None:
+def recognise(group: Group) -> DrivenSlider | None:
     """The group as a driven slider, or None."""
     if len(group.bodies) != 1 or len(group.joints) != 1:
         return None
@@ -147,4 +147,4 @@ def recognise(group: Group) -> Shift | None:
     entry = next((entry for entry in group.inputs if entry.joint == joint.name), None)
     if not isinstance(joint, Slide) or not isinstance(entry, Displacement):
         return None
-    return Shift(body, group.beyond(joint, body), entry.name, track(group.mechanism, joint, body))
+    return DrivenSlider(body, group.beyond(joint, body), entry.name, track(group.mechanism, joint, body))

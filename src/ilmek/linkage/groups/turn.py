@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.groups.group import Columns, Drive, Group, Known, KnownJerks, Solved, Step
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
 from ilmek.linkage.model import GROUND, Pin, Rotation
 from ilmek.plane.vectors import unit
 
 
 @dataclass(frozen=True, slots=True)
-class Turn(Step):
+class DrivenCrank(Step):
     """A driven body, pinned at `hinge` of the carrier and `at` of its own frame [m]; `sign` -1 turns it backwards."""
 
     body: str
@@ -36,14 +36,14 @@ class Turn(Step):
         """What it is, for people."""
         return f"{self.body} turned by the input on {self.carrier}"
 
-    def solve(self, known: Known, drives: Mapping[str, Drive]) -> Solved:
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:
         """Direction, angular velocity and acceleration of the driven body."""
         carrier, drive = known[self.carrier], drives[self.entry]
         value, speed, acceleration = drive.value, drive.speed, drive.acceleration
         if self.sign < 0:
             value, speed, acceleration = -value, -speed, -acceleration
         direction = unit(value) if self.carrier == GROUND else carrier.direction * unit(value)
-        return Solved({self.body: (direction, carrier.omega + speed, carrier.alpha + acceleration)})
+        return GroupSolution({self.body: (direction, carrier.omega + speed, carrier.alpha + acceleration)})
 
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The driven body, anchored at its pin."""
@@ -54,7 +54,7 @@ class Turn(Step):
         known: KnownJerks,
         placed: Known,
         columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
-        drives: Mapping[str, Drive],
+        drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
         """The driven body's: the input's jerk upon the carrier's."""
         carrier, jerk = known[self.carrier], drives[self.entry].jerk
@@ -68,7 +68,7 @@ def hung(on: BodyMotion, hinge: complex, at: complex, columns: Columns) -> BodyM
     return BodyMotion(on.carry(hinge), at, direction, omega, alpha)
 
 
-def recognise(group: Group) -> Turn | None:
+def recognise(group: Group) -> DrivenCrank | None:
     """The group as a driven turning body, or None."""
     if len(group.bodies) != 1 or len(group.joints) != 1:
         return None
@@ -79,4 +79,4 @@ def recognise(group: Group) -> Turn | None:
     carrier = group.beyond(joint, body)
     sign = 1 if entry.body == body else -1
     hinge, at = mechanism.point(carrier, joint.name), mechanism.point(body, joint.name)
-    return Turn(body, carrier, entry.name, hinge, at, sign)
+    return DrivenCrank(body, carrier, entry.name, hinge, at, sign)

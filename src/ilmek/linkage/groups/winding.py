@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
-from ilmek.linkage.groups.group import Drive
+from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.model import GROUND, Coupling, Mechanism, Rotation, Slide
 
 FREE = 1e-9
@@ -28,13 +28,13 @@ ROUNDING = 2e-15
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class LinearRelation:
     """constant + sum of factor times input [rad or m]; shares: input -> factor."""
 
     constant: float
     shares: Mapping[str, float]
 
-    def drive(self, drives: Mapping[str, Drive]) -> Drive:
+    def drive(self, drives: Mapping[str, InputMotion]) -> InputMotion:
         """Value, speed, acceleration and jerk at the inputs' courses."""
         value: RealField = self.constant
         speed: RealField = 0.0
@@ -45,15 +45,15 @@ class Course:
             speed = speed + factor * drives[name].speed
             acceleration = acceleration + factor * drives[name].acceleration
             jerk = jerk + factor * drives[name].jerk
-        return Drive(value, speed, acceleration, jerk)
+        return InputMotion(value, speed, acceleration, jerk)
 
 
-def angles(mechanism: Mechanism) -> dict[str, Course]:
+def angles(mechanism: Mechanism) -> dict[str, LinearRelation]:
     """Body -> course of its angle [rad] in the world, for the bodies that have one."""
     return {name: course for (kind, name), course in courses(mechanism).items() if kind == "angle"}
 
 
-def courses(mechanism: Mechanism) -> dict[tuple[str, str], Course]:
+def courses(mechanism: Mechanism) -> dict[tuple[str, str], LinearRelation]:
     """("angle", body) or ("travel", slide) -> its course, for those that inputs and couplings determine."""
     unknown = [("angle", body) for body in mechanism.moving]
     unknown += [("travel", joint.name) for joint in mechanism.joints if isinstance(joint, Slide)]
@@ -68,11 +68,11 @@ def courses(mechanism: Mechanism) -> dict[tuple[str, str], Course]:
         right[k, 0] = constant
         if entry:
             right[k, 1 + names.index(entry)] = 1.0
-    found: dict[tuple[str, str], Course] = {("angle", GROUND): Course(0.0, {})}
+    found: dict[tuple[str, str], LinearRelation] = {("angle", GROUND): LinearRelation(0.0, {})}
     if rows:
         for one, (constant, *factors) in _determined(unknown, left, right):
             shares = {name: factor for name, factor in zip(names, factors, strict=True) if factor}
-            found[one] = Course(constant, shares)
+            found[one] = LinearRelation(constant, shares)
     return found
 
 
@@ -117,7 +117,9 @@ def _coupled(one: Coupling) -> tuple[tuple[tuple[str, str], float], ...]:
     return (("angle", one.second[0]), 1.0), first, (carrier, one.ratio - 1)
 
 
-def first_angle(coupling: Coupling, known: Mapping[str, Course], drives: Mapping[str, Drive]) -> RealField:
+def first_angle(
+    coupling: Coupling, known: Mapping[str, LinearRelation], drives: Mapping[str, InputMotion]
+) -> RealField:
     """Angle of a coupling's first body against the carrier [rad], to half a turn: of its course, else as assembled."""
     first, carrier = known.get(coupling.first[0]), known.get(coupling.carrier)
     if first is None or carrier is None:

@@ -32,7 +32,7 @@ class Beat:
     law: str
 
 
-class Left(NamedTuple):
+class BeatResult(NamedTuple):
     """What a beat leaves: force on each warp [N], distance of the rows [m]; and the force that the rows wanted ask."""
 
     force: float
@@ -71,11 +71,11 @@ def hammer_for(
     )
 
 
-def left_by(params: AutomatedLoomParams, warps: int, tension: float, force: float) -> Left:
+def left_by(params: AutomatedLoomParams, warps: int, tension: float, force: float) -> BeatResult:
     """Where a force for each warp [N] leaves the rows of a loom."""
     asked = _asked(params, warps, tension)
     fabric = fabric_of(asked)
-    return Left(force, float(fabric.spacing(force)), float(fabric.resistance(asked.rows)))
+    return BeatResult(force, float(fabric.spacing(force)), float(fabric.resistance(asked.rows)))
 
 
 def stiffness_of_warp(params: AutomatedLoomParams) -> float:

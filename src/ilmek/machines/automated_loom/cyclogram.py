@@ -23,7 +23,7 @@ from ilmek.machines.weaver.cyclogram import CENTRE_MOTION, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.cyclogram import relations as head_relations
 from ilmek.machines.weaver.moves import carriage
 from ilmek.report import CamTable
-from ilmek.timing.cyclogram import Cyclogram, Event, Exclusion, Moment, Relation, Segment, Track, Zone, riding
+from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, Track, TrackEvent, TrackSegment, Zone, riding
 from ilmek.timing.s_curve import s_curve
 from ilmek.timing.track import MotionLaw, shortest_period
 from ilmek.units import deg, turn
@@ -67,7 +67,7 @@ def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
     move = s_curve(limits.knot_pitch, carriage(limits))
     out = max(tied.track(name).segment(motion).end for name, motion in _OUT)
     law = law_of("s-curve", {"ramp": min(0.25, move.ramp / move.time), "cruise": move.cruise / move.time})
-    step = Segment("step", out, out + turn * move.time / period, 0.0, limits.knot_pitch, law)
+    step = TrackSegment("step", out, out + turn * move.time / period, 0.0, limits.knot_pitch, law)
     track = Track(CARRIAGE, "linear axis", (step,), (riding("at the next knot", step),), revolves=limits.knot_pitch)
     apart = tuple(
         Exclusion(Zone(CARRIAGE, 0.0, limits.knot_pitch, "between two knots"), Zone(name, 0.0, name=said), why=_CLEAR)
@@ -143,11 +143,11 @@ def _law(name: str) -> MotionLaw:
 def _warps(name: str, timing: RowTiming, shift: float) -> Track:
     law, quarter = _law(timing.law), turn / 4
     parts = (
-        Segment("lift", shift, shift + quarter, 0.0, timing.lift, law),
-        Segment("lower", shift + quarter, shift + _HALF, timing.lift, 0.0, law),
+        TrackSegment("lift", shift, shift + quarter, 0.0, timing.lift, law),
+        TrackSegment("lower", shift + quarter, shift + _HALF, timing.lift, 0.0, law),
     )
     first, last = timing.window
-    events = (Event("room for the shuttle", shift + first), Event("room ends", shift + last))
+    events = (TrackEvent("room for the shuttle", shift + first), TrackEvent("room ends", shift + last))
     return Track(name, "shedding cams", parts, events)
 
 
@@ -155,8 +155,8 @@ def _shuttle(timing: RowTiming) -> Track:
     first, last = timing.window
     law, stroke = _law("cycloidal"), timing.shuttle_stroke
     parts = (
-        Segment("pass", first, last, 0.0, stroke, law),
-        Segment("pass back", _HALF + first, _HALF + last, stroke, 0.0, law),
+        TrackSegment("pass", first, last, 0.0, stroke, law),
+        TrackSegment("pass back", _HALF + first, _HALF + last, stroke, 0.0, law),
     )
     events = (riding("straight weft laid", parts[0]), riding("sinuous weft laid", parts[1]))
     return Track(SHUTTLE, "linear axis", parts, events)
@@ -165,21 +165,21 @@ def _shuttle(timing: RowTiming) -> Track:
 def _beater(timing: RowTiming, period: float) -> Track:
     """Two beats, each forward, pressed where it is, and back."""
     beat, spent = timing.beat, turn * timing.beat.time / period
-    parts: list[Segment] = []
+    parts: list[TrackSegment] = []
     for number, end in ((1, timing.beat_end), (2, _HALF + timing.beat_end)):
         start = end - spent
         middle = start + beat.forward * spent
         parts += [
-            Segment(f"beat {number}", start, middle, 0.0, beat.stroke, _law(beat.law)),
-            Segment(f"back {number}", middle + beat.pressed * spent, end, beat.stroke, 0.0, _law(beat.law)),
+            TrackSegment(f"beat {number}", start, middle, 0.0, beat.stroke, _law(beat.law)),
+            TrackSegment(f"back {number}", middle + beat.pressed * spent, end, beat.stroke, 0.0, _law(beat.law)),
         ]
-    events = (Event("beat", parts[0].end), Event("beat", parts[2].end))
+    events = (TrackEvent("beat", parts[0].end), TrackEvent("beat", parts[2].end))
     return Track(BEATER, "vertical axes" if beat.pressed else "beat-up crank", tuple(parts), events)
 
 
 def _take_up(timing: RowTiming) -> Track:
     start = _HALF + timing.beat_end
-    part = Segment("take up", start, _HALF + timing.take_up_end, 0.0, timing.row_pitch, TAKE_UP_LAW)
+    part = TrackSegment("take up", start, _HALF + timing.take_up_end, 0.0, timing.row_pitch, TAKE_UP_LAW)
     return Track(TAKE_UP, "warp cylinder", (part,), revolves=timing.row_pitch)
 
 

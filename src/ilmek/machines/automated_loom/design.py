@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from ilmek.carpet.design import knot_grid
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.elements.tubes import find_tube
 from ilmek.errors import LoomError
 from ilmek.loom.programme import Times, least_time
@@ -12,7 +12,7 @@ from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import beat_up, hammer, shedding, warp_tension, weaver
 from ilmek.machines.automated_loom.beating import (
     Beat,
-    Left,
+    BeatResult,
     beat_of_comb,
     beat_of_linkage,
     hammer_for,
@@ -98,7 +98,7 @@ class LoomDesign:
         return self.warps * self.hammer.force if self.hammer is not None else 0.0
 
     @property
-    def left(self) -> Left:
+    def left(self) -> BeatResult:
         """Where the beat leaves the rows."""
         return left_by(self.params, self.warps, warp_tension_of(self.params), self.beat_force / self.warps)
 
@@ -131,7 +131,7 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     and beat; CarpetError for a carpet without knots; the errors of the machines where those cannot be.
     """
     quality = params.quality
-    rows, columns = knot_grid(Size(params.width, params.length), quality)
+    rows, columns = knot_grid(CarpetSize(params.width, params.length), quality)
     most = heads_that_fit(columns, 2 * params.pitch, params.head_width)
     heads = _heads(params, most)
     head = weaver.design(_weaver_params(params))

@@ -55,7 +55,7 @@ BOW_LIMIT = 1 * mm
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class HollowSquare:
     """A square hollow section with sharp corners: side and wall [m]."""
 
     side: float
@@ -113,14 +113,14 @@ class FrameTask:
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class LoomFrame:
     """The frame, designed: sections, stress [Pa] and bow [m] of a column, its factor against buckling, sag [m] of the
     rail, mass of all [kg].
     """
 
     task: FrameTask
-    column: Section
-    rail: Section
+    column: HollowSquare
+    rail: HollowSquare
     column_stress: float
     column_bow: float
     buckling_factor: float
@@ -128,9 +128,9 @@ class Frame:
     mass: float
 
 
-def frame_for(task: FrameTask) -> Frame:
+def frame_for(task: FrameTask) -> LoomFrame:
     """The frame of the lightest sections. Raises LoomError where none of the table is strong or stiff enough."""
-    sections = sorted((Section(*size) for size in SECTIONS), key=lambda section: section.area)
+    sections = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area)
     column = next((section for section in sections if _column_holds(task, section)), None)
     rail = next((section for section in sections if rail_sag(task, section) <= task.sag_limit), None)
     if column is None or rail is None:
@@ -146,10 +146,12 @@ def frame_for(task: FrameTask) -> Frame:
     upright = column.line_mass * task.height * (2 + 0.5 * (task.rail_spans - 1))  # posts reach to the rail, half-way up
     across = column.line_mass * 2 * (task.width + 2 * task.depth)
     mass = upright + across + rail.line_mass * task.width
-    return Frame(task, column, rail, stress, bow, euler(task.height, column) / task.force, rail_sag(task, rail), mass)
+    return LoomFrame(
+        task, column, rail, stress, bow, euler(task.height, column) / task.force, rail_sag(task, rail), mass
+    )
 
 
-def eccentric(force: float, lever: float, height: float, section: Section) -> tuple[float, float]:
+def eccentric(force: float, lever: float, height: float, section: HollowSquare) -> tuple[float, float]:
     """Greatest stress [Pa] and bow [m] of a column under a force [N] off its axis; inf from Euler's load on."""
     q = height / 2 * math.sqrt(force / (STEEL.modulus * section.inertia))
     if q >= math.pi / 2:
@@ -158,12 +160,12 @@ def eccentric(force: float, lever: float, height: float, section: Section) -> tu
     return force / section.area + bending, lever * (1 / math.cos(q) - 1)
 
 
-def euler(height: float, section: Section) -> float:
+def euler(height: float, section: HollowSquare) -> float:
     """Load at which a column pinned at both ends buckles [N]: pi^2 E I / h^2."""
     return math.pi**2 * STEEL.modulus * section.inertia / height**2
 
 
-def rail_sag(task: FrameTask, section: Section) -> float:
+def rail_sag(task: FrameTask, section: HollowSquare) -> float:
     """Deflection [m] in the middle of the rail under its own weight and the heads, spread over their width there.
 
     Of a load w over the middle b of a span l: w b (8 l^3 - 4 l b^2 + b^3) / (384 E I); for b = l the whole span's.
@@ -176,7 +178,7 @@ def rail_sag(task: FrameTask, section: Section) -> float:
     return float(np.add(own, force * (8 * span**3 - 4 * span * wide**2 + wide**3) / (384 * stiff)))
 
 
-def _column_holds(task: FrameTask, section: Section) -> bool:
+def _column_holds(task: FrameTask, section: HollowSquare) -> bool:
     stress, bow = eccentric(task.force, task.lever, task.height, section)
     strong = stress * STRESS_SAFETY <= STEEL.strength and bow <= BOW_LIMIT
     return strong and euler(task.height, section) >= BUCKLING_SAFETY * task.force

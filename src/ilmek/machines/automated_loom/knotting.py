@@ -30,29 +30,29 @@ SHOWN = ("knotting-dyad-head", "knotting-dyad-passing", "knotting-dyad-moving", 
 
 
 @dataclass(frozen=True, slots=True)
-class Arms:
+class KnottingArms:
     """The arms of a loom's heads: what their design says where they can tie its knots; else None, and why, in words."""
 
     report: Report | None
     cannot: str = ""
 
 
-def arms_of(params: AutomatedLoomParams) -> Arms:
+def arms_of(params: AutomatedLoomParams) -> KnottingArms:
     """The arms for a loom's pitch and knot; never raises for a pitch that they cannot tie at."""
     return _arms(params.pitch, params.knot)
 
 
 @lru_cache(maxsize=32)
-def _arms(pitch: float, knot: str) -> Arms:
+def _arms(pitch: float, knot: str) -> KnottingArms:
     shown = format_quantity(pitch, "mm", 3)
     try:
         arms = knotting_dyad.report(knotting_dyad.design(arms_params(pitch, knot)))
     except ParameterError as error:
-        return Arms(None, f"no arms of a knotting-dyad tie on warps {shown} apart: {error.given}")
+        return KnottingArms(None, f"no arms of a knotting-dyad tie on warps {shown} apart: {error.given}")
     if not arms.failed:
-        return Arms(replace(arms, figures=tuple(figure for figure in arms.figures if figure.name in SHOWN)))
+        return KnottingArms(replace(arms, figures=tuple(figure for figure in arms.figures if figure.name in SHOWN)))
     why = "; ".join(arms.warnings) or ", ".join(check.name for check in arms.failed)
-    return Arms(None, f"the arms of a knotting-dyad cannot tie on warps {shown} apart: {why}")
+    return KnottingArms(None, f"the arms of a knotting-dyad cannot tie on warps {shown} apart: {why}")
 
 
 def arms_params(pitch: float, knot: str) -> knotting_dyad.KnottingDyadParams:

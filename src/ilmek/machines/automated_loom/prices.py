@@ -20,7 +20,7 @@ _RATES = {"each": "each", "per kg": "per_kg", "per m": "per_m", "per W": "per_W"
 
 
 @dataclass(frozen=True, slots=True)
-class Rates:
+class PriceRates:
     """Rates of one kind of part: for each piece, and for its mass [1/kg], length [1/m] and power [1/W]."""
 
     each: float = 0.0
@@ -31,32 +31,32 @@ class Rates:
     def price(self, mass: float = 0.0, length: float = 0.0, power: float = 0.0) -> float:
         """Price of one piece of a mass [kg], length [m] and power [W].
 
-        >>> Rates(each=10.0, per_kg=2.0).price(mass=3.0)
+        >>> PriceRates(each=10.0, per_kg=2.0).price(mass=3.0)
         16.0
         """
         return self.each + self.per_kg * mass + self.per_m * length + self.per_W * power
 
 
-PRICES: Mapping[str, Rates] = {
-    "laser-cut part": Rates(each=0.5, per_kg=4.0),
-    "steel bar": Rates(each=20.0, per_kg=2.0),
-    "steel tube": Rates(each=60.0, per_kg=3.0),
-    "welded frame": Rates(per_kg=5.0),
-    "machined link": Rates(each=25.0, per_kg=15.0),
-    "head mechanism": Rates(each=600.0, per_kg=80.0),
-    "yarn tube": Rates(each=15.0),
-    "bearing": Rates(each=15.0),
-    "linear axis": Rates(each=150.0, per_m=300.0),
-    "stepper": Rates(each=90.0, per_W=0.5),
-    "servo": Rates(each=350.0, per_W=0.5),
-    "reducer": Rates(each=180.0, per_W=0.2),
-    "control": Rates(each=3000.0),
-    "axis of the control": Rates(each=120.0),
+PRICES: Mapping[str, PriceRates] = {
+    "laser-cut part": PriceRates(each=0.5, per_kg=4.0),
+    "steel bar": PriceRates(each=20.0, per_kg=2.0),
+    "steel tube": PriceRates(each=60.0, per_kg=3.0),
+    "welded frame": PriceRates(per_kg=5.0),
+    "machined link": PriceRates(each=25.0, per_kg=15.0),
+    "head mechanism": PriceRates(each=600.0, per_kg=80.0),
+    "yarn tube": PriceRates(each=15.0),
+    "bearing": PriceRates(each=15.0),
+    "linear axis": PriceRates(each=150.0, per_m=300.0),
+    "stepper": PriceRates(each=90.0, per_W=0.5),
+    "servo": PriceRates(each=350.0, per_W=0.5),
+    "reducer": PriceRates(each=180.0, per_W=0.2),
+    "control": PriceRates(each=3000.0),
+    "axis of the control": PriceRates(each=120.0),
 }
 """Rates by kind of part."""
 
 
-def read_prices(text: str | None) -> Mapping[str, Rates]:
+def read_prices(text: str | None) -> Mapping[str, PriceRates]:
     """The table of prices with the lines of a text in it, `KIND each|per kg|per m|per W = NUMBER`.
 
     Lines are parted by new lines or semicolons; what follows a # is a remark. Raises ParameterError for a line that
@@ -74,7 +74,7 @@ def read_prices(text: str | None) -> Mapping[str, Rates]:
     return prices
 
 
-def written(prices: Mapping[str, Rates] = PRICES) -> str:
+def written(prices: Mapping[str, PriceRates] = PRICES) -> str:
     """A table as a text that `read_prices` reads: to be edited.
 
     >>> read_prices(written()) == PRICES

@@ -14,7 +14,7 @@ import numpy as np
 from ilmek.arrays import FloatArray, Indices
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import Size
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import LoomError
 from ilmek.loom.programme import Programme, Times, heads_for, least_time, make_programme
 from ilmek.machines.automated_loom.design import LoomDesign, design, times_at
@@ -97,14 +97,14 @@ def estimated_times_at(loom: LoomDesign, pitch: float, heads: Sequence[int]) -> 
     """
     finer = loom.params.pitch / pitch
     quality = loom.params.quality
-    size = Size(loom.params.width, loom.params.length)
+    size = CarpetSize(loom.params.width, loom.params.length)
     rows, columns = knot_grid(size, Quality(quality.across * finer, quality.along * finer))
     times = _with_changes(loom, times_at(loom.weaver, 2 * pitch, loom.times.weft))
     return np.array([least_time(rows, columns, number, times) for number in heads])
 
 
 @dataclass(frozen=True, slots=True)
-class Shares:
+class TimeShares:
     """Where the estimated time goes: shares of tying, of colour changes, and of wefts with beats; together 1.
 
     utilisation  share of the time that a head ties or changes colour, as the mean of the heads
@@ -122,14 +122,14 @@ class Shares:
         return max(named, key=lambda name: named[name])
 
 
-def time_shares(loom: LoomDesign) -> Shares:
+def time_shares(loom: LoomDesign) -> TimeShares:
     """Where the estimated time of a loom goes."""
     times, changes, total = loom.times, loom.params.changes_per_knot, estimated_time(loom)
     wefts = loom.rows * times.weft / total
     change = changes * times.colour_change
     knotting = (1 - wefts) * times.knot / (times.knot + change)
     busy = loom.rows * loom.columns * (times.knot + change) / loom.heads
-    return Shares(knotting, 1 - wefts - knotting, wefts, busy / total)
+    return TimeShares(knotting, 1 - wefts - knotting, wefts, busy / total)
 
 
 def _with_changes(loom: LoomDesign, times: Times) -> Times:

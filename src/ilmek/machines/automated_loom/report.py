@@ -10,9 +10,9 @@ from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, SHUTTLE, T
 from ilmek.machines.automated_loom.design import LoomDesign, warp_tension_of
 from ilmek.machines.automated_loom.energy import axes, energy_of
 from ilmek.machines.automated_loom.figures import figures
-from ilmek.machines.automated_loom.frame import BOW_LIMIT, BUCKLING_SAFETY, STEEL, STRESS_SAFETY, Frame
+from ilmek.machines.automated_loom.frame import BOW_LIMIT, BUCKLING_SAFETY, STEEL, STRESS_SAFETY, LoomFrame
 from ilmek.machines.automated_loom.knotting import arms_of
-from ilmek.machines.automated_loom.parts import Part, PartsList, parts_of_loom
+from ilmek.machines.automated_loom.parts import LoomPart, PartsList, parts_of_loom
 from ilmek.machines.automated_loom.production_time import estimated_time, time_shares
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most, snap_to_limit
 from ilmek.timing.cyclogram import check_all, check_apart
@@ -193,7 +193,7 @@ def _checks(loom: LoomDesign) -> tuple[Check, ...]:
     )
 
 
-def _frame_checks(frame: Frame) -> tuple[Check, ...]:
+def _frame_checks(frame: LoomFrame) -> tuple[Check, ...]:
     stress = STEEL.strength / STRESS_SAFETY
     return (
         at_most("frame: stress of a column", frame.column_stress, stress, "MPa", "half of yield, S235"),
@@ -239,7 +239,7 @@ def _parts_table(listed: PartsList) -> Table:
     return Table("loom-parts", "Parts of the loom", columns, rows)
 
 
-def _weighed(part: Part) -> float:
+def _weighed(part: LoomPart) -> float:
     return part.number * part.mass
 
 

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.attached import Place, attached
+from ilmek.dynamics.attached import AttachedPoint, attached
 from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined, point_mass
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity
@@ -22,16 +22,16 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.beat_up.family import Weighed, chosen_ratio, is_chosen, weigh
+from ilmek.machines.beat_up.family import FamilyResult, chosen_ratio, is_chosen, weigh
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams, weight
-from ilmek.machines.beat_up.running import Running, run
+from ilmek.machines.beat_up.running import MotorRun, run
 from ilmek.machines.beat_up.shaking import Balance, balance
 from ilmek.num.piecewise import Extremum, around, suprema
 from ilmek.records import record
 from ilmek.report import Json, computed, group, result
 from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
-    Links,
+    LinkRatios,
     dead_centres,
     grashof_margin,
     links_of_ratio,
@@ -50,7 +50,7 @@ TOGGLE = 1e-9
 
 
 @record
-class State:
+class BeatUpState:
     """The mechanism at given crank angles, one value a sample.
 
     pins          pin -> size of the force in it [N]
@@ -64,7 +64,7 @@ class State:
     forces: Forces
     pins: Mapping[str, FloatArray]
     torque: FloatArray
-    beater: Place
+    beater: AttachedPoint
     beater_force: ComplexArray
 
 
@@ -79,13 +79,13 @@ class BeatUp:
     """
 
     params: BeatUpParams
-    links: Links
+    links: LinkRatios
     dead_centres: DeadCentres
     bodies: Mapping[str, Inertia]
     plan: Plan
-    state: State
+    state: BeatUpState
     peaks: Mapping[str, Extremum]
-    at: State | None
+    at: BeatUpState | None
     lengths: Mapping[str, float] = result("mm", "lengths of the links, and of the beater from the rocker's pivot")
     masses: Mapping[str, float] = result("kg", "masses of the bars; the rocker's reaches to the beater")
     inertias: Mapping[str, float] = result("kg*m^2", "moments of inertia of the bars about their centres")
@@ -163,11 +163,11 @@ class BeatUp:
         """Crank angle of the folded dead centre, the beater farthest from the fell [rad]."""
         return float(np.mod(self.dead_centres.beta + self.dead_centres.rotation, turn))
 
-    def family(self) -> Weighed:
+    def family(self) -> FamilyResult:
         """The family that it stands in, weighed."""
         return weigh(self.params, self.links, self.dead_centres)
 
-    def run(self) -> Running:
+    def run(self) -> MotorRun:
         """Its run by the motor, from rest and at speed, and what that asks of motor and flywheel."""
         return run(
             self.params,
@@ -193,7 +193,7 @@ def design(params: BeatUpParams) -> BeatUp:
     angle = np.arange(SAMPLES + 1) * (turn / SAMPLES)
     _require_swing(links, planned, angle)
 
-    def state(at: FloatArray) -> State:
+    def state(at: FloatArray) -> BeatUpState:
         return evaluate(params, planned, inertias, at)
 
     whole = state(angle)
@@ -234,13 +234,13 @@ def mechanism(lengths: Mapping[str, float]) -> Mechanism:
     )
 
 
-def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia], angle: FloatArray) -> State:
+def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia], angle: FloatArray) -> BeatUpState:
     """Motion and forces at the given crank angles [rad]."""
     motion = solve(planned, angle, params.speed).require()
     falling = weight(params)
     forces = inverse(motion, inertias, (Gravity(falling),))
     beater = attached(motion, "rocker", planned.mechanism.point("rocker", "E"))
-    return State(
+    return BeatUpState(
         angle=angle,
         motion=motion,
         forces=forces,
@@ -251,7 +251,7 @@ def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia
     )
 
 
-def sizes(state: State) -> dict[str, FloatArray]:
+def sizes(state: BeatUpState) -> dict[str, FloatArray]:
     """The curves whose greatest values are reported, by name; pins by their letters."""
     return {
         "beater_velocity": np.abs(state.beater.velocity),
@@ -262,15 +262,15 @@ def sizes(state: State) -> dict[str, FloatArray]:
     }
 
 
-def _links(params: BeatUpParams) -> Links:
+def _links(params: BeatUpParams) -> LinkRatios:
     if is_chosen(params):
         return links_of_ratio(params.swing, params.crank_rotation, chosen_ratio(params))
     if params.crank is None or params.coupler is None or params.rocker is None:
         return member(params.swing, params.crank_rotation, params.beta).links
-    return Links(params.crank / params.ground, params.coupler / params.ground, params.rocker / params.ground)
+    return LinkRatios(params.crank / params.ground, params.coupler / params.ground, params.rocker / params.ground)
 
 
-def _lengths(params: BeatUpParams, links: Links) -> dict[str, float]:
+def _lengths(params: BeatUpParams, links: LinkRatios) -> dict[str, float]:
     """Lengths [m]; those given outright stay as given, to the last bit."""
     ratios = {"ground": 1.0, "crank": links.crank, "coupler": links.coupler, "rocker": links.rocker}
     lengths = {name: float(getattr(params, name) or ratio * params.ground) for name, ratio in ratios.items()}
@@ -297,7 +297,7 @@ def _inertias(params: BeatUpParams, lengths: Mapping[str, float], bars: Mapping[
     return {**bars, "rocker": combined(bars["rocker"], point_mass(params.beater_mass, lengths["beater"]))}
 
 
-def _require_swing(links: Links, planned: Plan, angle: FloatArray) -> None:
+def _require_swing(links: LinkRatios, planned: Plan, angle: FloatArray) -> None:
     """Raise MechanismError unless the crank turns fully and the rocker swings, away from any toggle."""
     solve(planned, angle).require()
     shown = ", ".join(f"{name} {format_quantity(float(ratio), '1')}" for name, ratio in links._asdict().items())

@@ -17,7 +17,7 @@ from ilmek.num.periodic_maxima import summits
 from ilmek.synthesis.crank_rocker.choice import Limit, Objective, choose
 from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
-    Links,
+    LinkRatios,
     beta_of_ratio,
     grashof_margin,
     links_of_ratio,
@@ -54,7 +54,7 @@ QUANTITIES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Weighed:
+class FamilyResult:
     """A family weighed: members by ascending ratio, their quantities, and Pareto's front.
 
     own        the beat-up's own quantities             table  those of the members
@@ -77,14 +77,14 @@ class Weighed:
         return tuple({name: float(values[place]) for name, values in self.table.items()} for place in places)
 
 
-def weigh(params: BeatUpParams, links: Links, dead: DeadCentres) -> Weighed:
+def weigh(params: BeatUpParams, links: LinkRatios, dead: DeadCentres) -> FamilyResult:
     """The family of a beat-up with these links and dead centres."""
     objectives = {name: Objective(*OBJECTIVES[name]) for name in weighed_names(params.front)}
     members = family(float(dead.swing), float(dead.rotation), params.members)
     table = tabulate(params, members.links, members.beta)
-    own = tabulate(params, Links(*(np.array([float(link)]) for link in links)), np.array([float(dead.beta)]))
+    own = tabulate(params, LinkRatios(*(np.array([float(link)]) for link in links)), np.array([float(dead.beta)]))
     costs = np.stack([one.cost(table) for one in objectives.values()], axis=1)
-    return Weighed(
+    return FamilyResult(
         own={name: float(values[0]) for name, values in own.items()},
         table=table,
         weighed=tuple(objectives),
@@ -92,7 +92,7 @@ def weigh(params: BeatUpParams, links: Links, dead: DeadCentres) -> Weighed:
     )
 
 
-def tabulate(params: BeatUpParams, links: Links, beta: RealField) -> Table:
+def tabulate(params: BeatUpParams, links: LinkRatios, beta: RealField) -> Table:
     """The `QUANTITIES` of beat-ups with given links and crank angles of the beat [rad], arrays of one dimension."""
     made = bodies(params, links)
     beta = np.broadcast_to(beta, made.crank.shape)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray
-from ilmek.machines.beat_up.family import QUANTITIES, Weighed
+from ilmek.machines.beat_up.family import QUANTITIES, FamilyResult
 from ilmek.machines.beat_up.params import OBJECTIVES
 from ilmek.report import Axis, Mark, Plot, Series
 
@@ -26,7 +26,7 @@ WORTH = 4.0
 """A member is drawn while no value exceeds this many times the quantity's middle one: near toggles all grow no end."""
 
 
-def family_figures(weighed: Weighed) -> tuple[Plot, ...]:
+def family_figures(weighed: FamilyResult) -> tuple[Plot, ...]:
     """Curves over the ratio, then Pareto's front: the first thing weighed against each other one."""
     first, *others = weighed.weighed
     return (
@@ -35,7 +35,7 @@ def family_figures(weighed: Weighed) -> tuple[Plot, ...]:
     )
 
 
-def _curves(weighed: Weighed, name: str, title: str, quantities: tuple[str, ...]) -> Plot:
+def _curves(weighed: FamilyResult, name: str, title: str, quantities: tuple[str, ...]) -> Plot:
     ratio = weighed.table["crank_coupler_ratio"]
     labels, units = zip(*(QUANTITIES[quantity] for quantity in quantities), strict=True)
     ceiling = max(WORTH * float(np.nanmedian(weighed.table[quantity])) for quantity in quantities)
@@ -48,7 +48,7 @@ def _curves(weighed: Weighed, name: str, title: str, quantities: tuple[str, ...]
     return Plot(name, title, Axis("crank/coupler ratio r/l", "1"), axis, series, marks)
 
 
-def _front(weighed: Weighed, first: str, second: str) -> Plot:
+def _front(weighed: FamilyResult, first: str, second: str) -> Plot:
     """The family with its front, and a ring about the beat-up's own place."""
     (x, _), (y, _) = OBJECTIVES[first], OBJECTIVES[second]
     (x_label, x_unit), (y_label, y_unit) = QUANTITIES[x], QUANTITIES[y]

@@ -18,8 +18,8 @@ from ilmek.arrays import ComplexField, FloatArray, IntArray
 from ilmek.dynamics.inertia import bar_mass, bar_moment
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams, weight
 from ilmek.plane.vectors import cross
-from ilmek.synthesis.crank_rocker.dead_centres import Links
-from ilmek.synthesis.crank_rocker.motion import Moved, moved
+from ilmek.synthesis.crank_rocker.dead_centres import LinkRatios
+from ilmek.synthesis.crank_rocker.motion import CrankRockerMotion, moved
 
 
 class Bodies(NamedTuple):
@@ -46,12 +46,12 @@ class Bodies(NamedTuple):
         """Those of some of them."""
         return Bodies(*(column[row] for column in self))
 
-    def links(self, ground: float) -> Links:
+    def links(self, ground: float) -> LinkRatios:
         """Their links over the ground link [m]."""
-        return Links(self.crank / ground, self.coupler / ground, self.rocker / ground)
+        return LinkRatios(self.crank / ground, self.coupler / ground, self.rocker / ground)
 
 
-def bodies(params: BeatUpParams, links: Links) -> Bodies:
+def bodies(params: BeatUpParams, links: LinkRatios) -> Bodies:
     """The bars and the beater of beat-ups with given links, all else as the parameters say."""
     crank, coupler, rocker = (np.asarray(link, dtype=float) * params.ground for link in links)
     beater = np.broadcast_to(np.asarray(params.beater or BEATER_RATIO * rocker), rocker.shape)
@@ -96,7 +96,7 @@ def loaded(params: BeatUpParams, made: Bodies, angle: FloatArray) -> dict[str, F
 
 
 def _forces(
-    params: BeatUpParams, made: Bodies, at: Moved, turned: ComplexField
+    params: BeatUpParams, made: Bodies, at: CrankRockerMotion, turned: ComplexField
 ) -> tuple[FloatArray, tuple[ComplexField, ...]]:
     """Torque on the crank [N m] and forces in the pins A, B, C, D [N]; turned: acceleration of B, at unit speed.
 

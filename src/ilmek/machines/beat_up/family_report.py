@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.family import QUANTITIES, Weighed, limits
+from ilmek.machines.beat_up.family import QUANTITIES, FamilyResult, limits
 from ilmek.records import record
 from ilmek.report import Check, Column, Json, Table, at_least, at_most, columns, computed
 from ilmek.synthesis.crank_rocker.dead_centres import (
-    Limits,
+    OpenInterval,
     best_ratio,
     beta_limits,
     coupler_limits,
@@ -41,7 +41,7 @@ class FamilyResults:
     swing, rotation  of the family [rad]
     """
 
-    weighed: Weighed
+    weighed: FamilyResult
     swing: float
     rotation: float
 
@@ -71,11 +71,11 @@ class FamilyResults:
         return [dict(one) for one in self.weighed.some(REPORTED)]
 
 
-def _ends(limits_: Limits) -> list[float]:
+def _ends(limits_: OpenInterval) -> list[float]:
     return [end if abs(end) > ROUNDING else 0.0 for end in (float(limits_.low), float(limits_.high))]
 
 
-def limit_checks(design: BeatUp, weighed: Weighed) -> tuple[Check, ...]:
+def limit_checks(design: BeatUp, weighed: FamilyResult) -> tuple[Check, ...]:
     """The limits by which the beat-up was chosen."""
     return tuple(
         (at_least if limit.sign > 0 else at_most)(
@@ -89,7 +89,7 @@ def limit_checks(design: BeatUp, weighed: Weighed) -> tuple[Check, ...]:
     )
 
 
-def front_table(weighed: Weighed) -> Table:
+def front_table(weighed: FamilyResult) -> Table:
     """Some members of the front, and the beat-up itself."""
     heads = columns("member", *(Column(*QUANTITIES[name]) for name in COLUMNS))
     rows = (*(_row("front", one) for one in weighed.some(SHOWN)), _row("this", weighed.own))

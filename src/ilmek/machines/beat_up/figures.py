@@ -9,7 +9,7 @@ from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.machines.animation import animated, frames
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.running import Running
+from ilmek.machines.beat_up.running import MotorRun
 from ilmek.machines.beat_up.shaking import size
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
@@ -18,7 +18,7 @@ CARPET = 0.35
 """Length of carpet and of warp drawn, over the length of the beater."""
 
 
-def figures_of(design: BeatUp, running: Running) -> tuple[Figure, ...]:
+def figures_of(design: BeatUp, running: MotorRun) -> tuple[Figure, ...]:
     """The drawing, the same in motion, seven plots, and the start under the motor."""
     return (
         drawing(design),
@@ -148,7 +148,7 @@ def shaken(design: BeatUp) -> Plot:
     return _plot(design, "shaking-force", "Shaking force on the frame", Axis("force", "N"), curves)
 
 
-def started(running: Running) -> tuple[Plot, ...]:
+def started(running: MotorRun) -> tuple[Plot, ...]:
     """Speed of the crank from rest, under the motor; nothing where the motor is not run."""
     runs = [run for run in (running.start, running.steady) if run is not None]
     if not runs:

@@ -7,7 +7,7 @@ from ilmek.machines.beat_up.family_figures import family_figures
 from ilmek.machines.beat_up.family_report import FamilyResults, front_table, limit_checks
 from ilmek.machines.beat_up.figures import figures_of
 from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.machines.beat_up.running import REACHED, Running
+from ilmek.machines.beat_up.running import REACHED, MotorRun
 from ilmek.machines.plates import link_plates
 from ilmek.records import record
 from ilmek.report import Check, Figure, Plate, Table, at_least, at_most, columns, group
@@ -25,7 +25,7 @@ class BeatUpAnalysis:
     """A beat-up, its run by the motor, and the family of crank-rockers with the same dead centres."""
 
     design: BeatUp = group()
-    running: Running = group()
+    running: MotorRun = group()
     family: FamilyResults = group()
 
 
@@ -82,7 +82,7 @@ def _criteria(design: BeatUp) -> tuple[Check, ...]:
     )
 
 
-def _running_checks(params: BeatUpParams, running: Running) -> tuple[Check, ...]:
+def _running_checks(params: BeatUpParams, running: MotorRun) -> tuple[Check, ...]:
     """Whether the motor starts it, the flywheel is enough, and the runs keep their energy."""
     if running.start is None:
         return ()
@@ -115,7 +115,7 @@ def _force_warnings(design: BeatUp) -> tuple[str, ...]:
     return (f"the rocker pushes the beater with {reached}, {required} are required: turn the crank at {speed}",)
 
 
-def _running_warnings(running: Running) -> tuple[str, ...]:
+def _running_warnings(running: MotorRun) -> tuple[str, ...]:
     if running.start is None:
         return ("no run by the motor: the linkage is too near a toggle position, or needs no torque",)
     if running.started:

@@ -11,12 +11,12 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.flywheel import Duty, duty, flywheel
-from ilmek.dynamics.forward import Run, State, at_speed, forward
+from ilmek.dynamics.flywheel import CyclicTorque, duty, flywheel
+from ilmek.dynamics.forward import ForwardRun, ForwardState, at_speed, forward
 from ilmek.dynamics.fourier_terms import tabulate
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity
-from ilmek.dynamics.reduced import Reduced, reduce
+from ilmek.dynamics.reduced import ReducedMechanism, reduce
 from ilmek.linkage.structure import Plan
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.records import record
@@ -36,7 +36,7 @@ ROUNDING = 1e-10
 
 
 @record
-class Running:
+class MotorRun:
     """The beat-up under its motor.
 
     duty      of the torque at constant speed
@@ -45,12 +45,12 @@ class Running:
     Both are None where the linkage stands so near a toggle that its inertia has no usable Fourier series.
     """
 
-    duty: Duty
+    duty: CyclicTorque
     flywheel: float = result("kg*m^2", "flywheel and rotor on the crank, for the fluctuation", name="flywheel_inertia")
     torque: float = result("N*m", "greatest torque of the motor, on the crank", name="motor_torque")
-    start: Run | None
+    start: ForwardRun | None
     started: bool
-    steady: Run | None
+    steady: ForwardRun | None
 
     drive_torque_rms = computed("N*m", "root mean square of the torque", lambda it: it.duty.rms)
     work_excess = computed(
@@ -105,7 +105,7 @@ def run(
     *,
     torque: Callable[[FloatArray], FloatArray],
     back: float,
-) -> Running:
+) -> MotorRun:
     """The running of a beat-up: `torque` on the crank at constant speed, `back` the crank angle that it starts from."""
     asked = duty(lambda angle, _: torque(angle))
     wheel = params.flywheel
@@ -114,29 +114,37 @@ def run(
     most = params.motor_torque or asked.peak.value
     reduced = reduce(planned, inertias, (weight,), flywheel=wheel)
     if most == 0 or tabulate(reduced) is None:
-        return Running(asked, wheel, most, None, False, None)
+        return MotorRun(asked, wheel, most, None, False, None)
 
     def motor(_time: float, _position: float, speed: float) -> float:
         return most * math.tanh((params.speed - speed) / (params.slip * params.speed))
 
     start, started = _start(params, reduced, motor, most, back)
     last = start.end.state
-    steady = _steady(params, reduced, motor, State(last.position, last.speed)) if started else None
-    return Running(asked, wheel, most, start, started, steady)
+    steady = _steady(params, reduced, motor, ForwardState(last.position, last.speed)) if started else None
+    return MotorRun(asked, wheel, most, start, started, steady)
 
 
 def _start(
-    params: BeatUpParams, reduced: Reduced, motor: Callable[[float, float, float], float], most: float, back: float
-) -> tuple[Run, bool]:
+    params: BeatUpParams,
+    reduced: ReducedMechanism,
+    motor: Callable[[float, float, float], float],
+    most: float,
+    back: float,
+) -> tuple[ForwardRun, bool]:
     """The run from rest; whether it reached its speed in the time that twice the greatest inertia would take."""
     greatest = float(np.max(reduced.terms(np.linspace(0, turn, 181)).inertia))
     duration = min(4 * greatest * params.speed / most, MOST_TURNS * turn / params.speed)
     reached = at_speed(REACHED * params.speed)
-    found = forward(reduced, State(back), duration, drive=motor, events=(reached,), every=duration / 200, rtol=RTOL)
+    found = forward(
+        reduced, ForwardState(back), duration, drive=motor, events=(reached,), every=duration / 200, rtol=RTOL
+    )
     return found, found.end.words == reached.name
 
 
-def _steady(params: BeatUpParams, reduced: Reduced, motor: Callable[[float, float, float], float], start: State) -> Run:
+def _steady(
+    params: BeatUpParams, reduced: ReducedMechanism, motor: Callable[[float, float, float], float], start: ForwardState
+) -> ForwardRun:
     """The run from the start's last state."""
     period = turn / params.speed
     every = period / STEADY_SAMPLES

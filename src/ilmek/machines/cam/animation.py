@@ -4,7 +4,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.programme import TURN
-from ilmek.cams.trace import Trace
+from ilmek.cams.trace import CamTrace
 from ilmek.machines.animation import frames
 from ilmek.machines.cam import developed_cams
 from ilmek.machines.cam.design import CamDesign
@@ -95,7 +95,7 @@ def _reach(design: CamDesign) -> float:
     return 2.2 * design.params.lift + 0.6 * design.cam.prime_radius
 
 
-def _follower(design: CamDesign, trace: Trace, centre: ComplexArray) -> tuple[MovingStroke, ...]:
+def _follower(design: CamDesign, trace: CamTrace, centre: ComplexArray) -> tuple[MovingStroke, ...]:
     """What touches the cam, and what carries it."""
     radius, name = design.cam.roller_radius, design.params.follower
     carrier = _carrier(design, trace, centre)
@@ -110,7 +110,7 @@ def _follower(design: CamDesign, trace: Trace, centre: ComplexArray) -> tuple[Mo
     )
 
 
-def _carrier(design: CamDesign, trace: Trace, centre: ComplexArray) -> ComplexArray:
+def _carrier(design: CamDesign, trace: CamTrace, centre: ComplexArray) -> ComplexArray:
     """Stem, arm or face at every frame."""
     up = _up(design)
     if not design.cam.flat and _swings(design):

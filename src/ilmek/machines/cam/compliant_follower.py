@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.cams.follower_dynamics import Follower, Response, one_mass, residual_of, steady_response
+from ilmek.cams.follower_dynamics import FollowerModel, Response, one_mass, residual_of, steady_response
 from ilmek.cams.laws import LAWS, SMOOTH_LAWS, Law
 from ilmek.cams.vibration import least_ratio, residual
 from ilmek.errors import ParameterError
@@ -30,11 +30,11 @@ SOURCE = "Norton, Cam Design and Manufacturing, 10-12"
 
 
 @dataclass(frozen=True, slots=True)
-class Springy:
+class CompliantFollower:
     """The follower on its linkage, and what it does over a turn; `arc`: length of arc by its coordinate."""
 
     params: CamParams
-    follower: Follower
+    follower: FollowerModel
     response: Response
     arc: float
 
@@ -58,7 +58,7 @@ class Springy:
         return self.params.lift * rise, self.params.lift * fall
 
 
-def springy(design: CamDesign) -> Springy | None:
+def springy(design: CamDesign) -> CompliantFollower | None:
     """The follower on its linkage; None where it is rigid.
 
     Raises ParameterError for a follower without mass, or a cam that does not turn.
@@ -79,10 +79,10 @@ def springy(design: CamDesign) -> Springy | None:
             do="leave linkage_stiffness out: take it as rigid",
         )
     follower = one_mass(held.mass, stiffness, params.linkage_damping, held.rate, preload)
-    return Springy(params, follower, steady_response(follower, design.programme, params.speed), arc)
+    return CompliantFollower(params, follower, steady_response(follower, design.programme, params.speed), arc)
 
 
-def springy_results(made: Springy) -> tuple[Result, ...]:
+def springy_results(made: CompliantFollower) -> tuple[Result, ...]:
     """Frequency, time ratio, lag, what swings on, and the force on the cam."""
     after_rise, after_fall = made.residuals()
     lag = made.arc * float(np.max(np.abs(made.response.lag)))
@@ -96,14 +96,14 @@ def springy_results(made: Springy) -> tuple[Result, ...]:
     )
 
 
-def springy_checks(made: Springy) -> tuple[Check, ...]:
+def springy_checks(made: CompliantFollower) -> tuple[Check, ...]:
     """That the follower on its linkage stays on the cam; nothing of a cam that leads it both ways."""
     if made.params.led:
         return ()
     return (at_least("force on the cam of the follower that gives", _least_force(made), 0.0, "N", SOURCE),)
 
 
-def springy_table(made: Springy) -> Table:
+def springy_table(made: CompliantFollower) -> Table:
     """What swings on by each law at this lift, time and follower, and up to which speed it is little."""
     columns = (
         Column("law"),
@@ -121,7 +121,7 @@ def springy_table(made: Springy) -> Table:
     return Table("cam-vibration", "What swings on after the rise, by law", columns, tuple(rows))
 
 
-def springy_figures(made: Springy) -> tuple[Figure, ...]:
+def springy_figures(made: CompliantFollower) -> tuple[Figure, ...]:
     """Lag over the turn, and residual vibration over the speed."""
     response = made.response
     lag = Series("mass", response.at, made.arc * response.lag[0])
@@ -136,7 +136,7 @@ def springy_figures(made: Springy) -> tuple[Figure, ...]:
     return (over_turn,) if made.params.linkage_damping >= 1 else (over_turn, _over_speed(made))
 
 
-def _over_speed(made: Springy) -> Plot:
+def _over_speed(made: CompliantFollower) -> Plot:
     params = made.params
     own = params.laws()[0]
     speeds = params.speed * np.linspace(0.2, 1.5, 240)
@@ -152,5 +152,5 @@ def _over_speed(made: Springy) -> Plot:
     return Plot("cam-vibration", "What swings on after the rise, over the speed", x, y, series, marks, note)
 
 
-def _least_force(made: Springy) -> float:
+def _least_force(made: CompliantFollower) -> float:
     return float(np.min(made.response.contact)) / made.arc

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from ilmek.arrays import FloatArray
 from ilmek.cams import limits
 from ilmek.cams.barrel import Barrel, undercut_in_space
-from ilmek.cams.contact import Held
-from ilmek.cams.programme import Programme, jumps
+from ilmek.cams.contact import FollowerLoad
+from ilmek.cams.programme import CamProgramme, jumps
 from ilmek.cams.return_spring import LiftOff, lift_off
-from ilmek.cams.trace import Cam
+from ilmek.cams.trace import CamRole
 from ilmek.machines.cam.forces import (
-    Extremes,
-    State,
+    CamExtremes,
+    CamState,
     duty_of,
     extremes_of,
     held_by,
@@ -25,8 +25,8 @@ from ilmek.machines.cam.forces import (
 )
 from ilmek.machines.cam.hub import Hub, bore_for, hub_for
 from ilmek.machines.cam.params import CamParams
-from ilmek.machines.cam.rollers import ROLLERS, Duty, Roller, find_roller
-from ilmek.machines.cam.shape import Cams, Size, cam_of, cams_of, part_knots, programme_of, roller_width, size_of
+from ilmek.machines.cam.rollers import ROLLERS, Roller, RollerDuty, find_roller
+from ilmek.machines.cam.shape import CamShape, CamSize, cam_of, cams_of, part_knots, programme_of, roller_width, size_of
 
 ROOM = 0.8
 """Radius of a roller that is chosen, at most, over the least radius of the pitch curve and over the prime radius."""
@@ -37,21 +37,21 @@ class CamDesign:
     """A cam, designed. `held` is what the follower carries, with its spring, at the cam's speed."""
 
     params: CamParams
-    programme: Programme
-    size: Size
-    cams: Cams
-    held: Held
+    programme: CamProgramme
+    size: CamSize
+    cams: CamShape
+    held: FollowerLoad
     roller: Roller | None
-    duty: Duty | None
+    duty: RollerDuty | None
     hub: Hub
     lift_off: LiftOff
-    extremes: Extremes
+    extremes: CamExtremes
     area: float
     face_width: float
     pressure_limit: float
 
     @property
-    def cam(self) -> Cam:
+    def cam(self) -> CamRole:
         """The cam; of conjugate ones that which lifts."""
         return self.cams.cam
 
@@ -83,7 +83,7 @@ class CamDesign:
         round_ = isinstance(cam, Barrel) and undercut_in_space(cam, both_flanks=both) is not None
         return other or round_ or limits.undercut(cam, both_flanks=both)
 
-    def state(self, angle: FloatArray) -> State:
+    def state(self, angle: FloatArray) -> CamState:
         """Geometry and forces at cam angles [rad]."""
         return state_of(self.params, self.cams, self.held, angle)
 
@@ -119,13 +119,13 @@ def design(params: CamParams) -> CamDesign:
     )
 
 
-def _with_roller(params: CamParams, bare: Cam, size: Size, held: Held) -> tuple[Roller | None, Cams]:
+def _with_roller(params: CamParams, bare: CamRole, size: CamSize, held: FollowerLoad) -> tuple[Roller | None, CamShape]:
     """The roller, and the cam for what touches it: as given, from the table, or half of what there is room for.
 
     The table's smallest roller that lasts is taken; where none does, the largest for which there is room.
     """
 
-    def fitted(radius: float) -> Cams:
+    def fitted(radius: float) -> CamShape:
         return cams_of(params, bare.programme, size, radius)
 
     if params.roller is not None:
@@ -144,7 +144,7 @@ def _with_roller(params: CamParams, bare: Cam, size: Size, held: Held) -> tuple[
     return fitting[-1], fitted(fitting[-1].radius)
 
 
-def _room(params: CamParams, bare: Cam) -> float:
+def _room(params: CamParams, bare: CamRole) -> float:
     """Radius [m] below which a roller is undercut nowhere and leaves something of the prime circle."""
     room = min(limits.convex_radius_min(bare).value, bare.prime_radius)
     hollow = limits.concave_radius_min(bare) if params.kind in ("grooved", "barrel") else None

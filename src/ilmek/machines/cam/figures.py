@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.cams import figures as cam_figures
 from ilmek.cams.limits import convex_radius_min
 from ilmek.cams.programme import TURN, jumps
-from ilmek.cams.trace import Trace
+from ilmek.cams.trace import CamTrace
 from ilmek.machines.cam import developed_cams
 from ilmek.machines.cam.animation import moving
 from ilmek.machines.cam.design import CamDesign
@@ -64,7 +64,7 @@ def drawing(design: CamDesign) -> Drawing:
     return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "", "point"),), note=said)
 
 
-def _bodies(design: CamDesign, trace: Trace) -> tuple[Stroke, ...]:
+def _bodies(design: CamDesign, trace: CamTrace) -> tuple[Stroke, ...]:
     """Edges of what is solid: the cam, the disc with its groove, or both conjugate cams."""
     if design.params.kind == "grooved":
         outer = trace.parallel(design.cam.roller_radius)
@@ -81,7 +81,7 @@ def _bodies(design: CamDesign, trace: Trace) -> tuple[Stroke, ...]:
     return first, Stroke(surface, "outline", "second cam", closed=True)
 
 
-def _paths(design: CamDesign, trace: Trace) -> tuple[Stroke, ...]:
+def _paths(design: CamDesign, trace: CamTrace) -> tuple[Stroke, ...]:
     """Pitch curve, the path of a cutter that is not as the roller, and the roller where the rise begins."""
     cam, follower, paths = design.cam, design.params.follower, []
     cutter = design.params.cutter_radius

@@ -10,15 +10,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.contact import Held, Pressed, Touch, pressed
+from ilmek.cams.contact import ContactForce, FollowerLoad, Touch, pressed
 from ilmek.cams.hertz import LINE_YIELD, POINT_YIELD, contact_modulus, ellipse_contact, line_contact
-from ilmek.cams.programme import TURN, Programme
+from ilmek.cams.programme import TURN, CamProgramme
 from ilmek.cams.return_spring import doubling_spring, least_preload, least_rate, velocity_drop
-from ilmek.cams.trace import Trace
+from ilmek.cams.trace import CamTrace
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.params import CamParams
-from ilmek.machines.cam.rollers import POWER, Duty
-from ilmek.machines.cam.shape import Cams
+from ilmek.machines.cam.rollers import POWER, RollerDuty
+from ilmek.machines.cam.shape import CamShape
 from ilmek.num.piecewise import Curve, Extremum, infimum, integral, supremum
 from ilmek.plane.vectors import dot, unit
 
@@ -32,7 +32,7 @@ MARGIN = 1.2
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class CamState:
     """Cam and follower at cam angles.
 
     trace    geometry of the cam                    force   need along the motion [N; N m of an arm]
@@ -40,7 +40,7 @@ class State:
     torque   of the shaft [N m]                     bend    curvature of the surface that is pressed on [1/m]
     """
 
-    trace: Trace
+    trace: CamTrace
     force: FloatArray
     normal: FloatArray
     torque: FloatArray
@@ -48,7 +48,7 @@ class State:
 
 
 @dataclass(frozen=True, slots=True)
-class Extremes:
+class CamExtremes:
     """What is largest over the turn, and where; `pressure` is the Hertz pressure [Pa], None for a knife's edge."""
 
     normal: Extremum
@@ -58,14 +58,14 @@ class Extremes:
     pressure: Extremum | None
 
 
-def held_by(params: CamParams, programme: Programme) -> Held:
+def held_by(params: CamParams, programme: CamProgramme) -> FollowerLoad:
     """Mass, load and return spring; what is not given of the spring is the least that holds up to the hold speed."""
     if params.led:
-        return Held(params.speed, params.mass * params.per_unit**2, load=params.load * params.per_unit)
+        return FollowerLoad(params.speed, params.mass * params.per_unit**2, load=params.load * params.per_unit)
     hold = MARGIN * params.speed if params.hold_speed is None else params.hold_speed
     arc = params.per_unit
     rate, preload = (params.spring_rate or 0.0) * arc**2, (params.preload or 0.0) * arc
-    bare = Held(hold, params.mass * arc**2, rate, preload, params.load * arc)
+    bare = FollowerLoad(hold, params.mass * arc**2, rate, preload, params.load * arc)
     if velocity_drop(programme) is not None:
         return replace(bare, speed=params.speed)
     if params.spring_rate is None and params.preload is None:
@@ -77,7 +77,7 @@ def held_by(params: CamParams, programme: Programme) -> Held:
     return replace(bare, speed=params.speed)
 
 
-def duty_of(params: CamParams, cams: Cams, held: Held) -> Duty:
+def duty_of(params: CamParams, cams: CamShape, held: FollowerLoad) -> RollerDuty:
     """What a roller bears over the turn; it turns against its stud, which an arm carries with it."""
 
     def borne(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -93,10 +93,10 @@ def duty_of(params: CamParams, cams: Cams, held: Held) -> Duty:
     knots = cams.cam.knots
     turns = integral(lambda angle: borne(angle)[1], knots)
     mean = (integral(worn, knots) / turns) ** (1 / POWER)
-    return Duty(mean, supremum(lambda angle: borne(angle)[0], knots).value, turns / TURN, params.speed)
+    return RollerDuty(mean, supremum(lambda angle: borne(angle)[0], knots).value, turns / TURN, params.speed)
 
 
-def state_of(params: CamParams, cams: Cams, held: Held, angle: FloatArray) -> State:
+def state_of(params: CamParams, cams: CamShape, held: FollowerLoad, angle: FloatArray) -> CamState:
     """Geometry and forces at cam angles [rad]."""
     trace = cams.cam.trace(angle)
     force = held.force(trace.course.s, trace.course.dds)
@@ -107,13 +107,13 @@ def state_of(params: CamParams, cams: Cams, held: Held, angle: FloatArray) -> St
         second = _pressed(params, other, -force, cams.pair.second.prime_radius)
         bend = np.where(back, other.surface_curvature, bend)
         normal = np.where(back, -second.normal, found.normal)
-        return State(trace, force, normal, np.where(back, second.torque, found.torque), bend)
+        return CamState(trace, force, normal, np.where(back, second.torque, found.torque), bend)
     if params.led:
         bend = np.where(back, -trace.curvature_at(cams.cam.roller_radius), bend)
-    return State(trace, force, found.normal, found.torque, bend)
+    return CamState(trace, force, found.normal, found.torque, bend)
 
 
-def _pressed(params: CamParams, trace: Trace, force: FloatArray, radius: float) -> Pressed:
+def _pressed(params: CamParams, trace: CamTrace, force: FloatArray, radius: float) -> ContactForce:
     if params.laid_flat:
         return _pressed_flat(params, trace, force, radius)
     sliding = 0.0 if params.follower == "roller" else params.sliding_friction
@@ -121,17 +121,17 @@ def _pressed(params: CamParams, trace: Trace, force: FloatArray, radius: float) 
     return pressed(touch, trace.course.ds, force, sliding=sliding, guide=params.guide_friction)
 
 
-def _pressed_flat(params: CamParams, trace: Trace, force: FloatArray, radius: float) -> Pressed:
+def _pressed_flat(params: CamParams, trace: CamTrace, force: FloatArray, radius: float) -> ContactForce:
     """N = F / (cos mu - mu_g |sin mu| sign(s')), T = N rho sin mu: the cam runs square to the follower's way."""
     sense = np.where(force < 0, -1.0, 1.0) * np.sign(trace.course.ds)
     cosine, sine = np.cos(trace.pressure_angle), np.sin(trace.pressure_angle)
     along = cosine - params.guide_friction * np.abs(sine) * sense
     with np.errstate(divide="ignore", invalid="ignore"):
         normal = np.where(along > 0, force / along, np.nan)
-    return Pressed(np.asarray(normal), np.asarray(normal * radius * sine))
+    return ContactForce(np.asarray(normal), np.asarray(normal * radius * sine))
 
 
-def _way(params: CamParams, trace: Trace) -> ComplexArray:
+def _way(params: CamParams, trace: CamTrace) -> ComplexArray:
     """Velocity of the follower at the touched place by its coordinate, in the cam's frame."""
     way = trace.normal * np.exp(-1j * trace.pressure_angle)
     if params.motion == "translating":
@@ -141,7 +141,7 @@ def _way(params: CamParams, trace: Trace) -> ComplexArray:
     return np.asarray(turned * 1j * (trace.surface - pivot))
 
 
-def pressure_of(params: CamParams, state: State, width: float) -> FloatArray:
+def pressure_of(params: CamParams, state: CamState, width: float) -> FloatArray:
     """Hertz pressure [Pa] on a face of a width [m]; NaN where cam and follower cannot touch so."""
     first, second = MATERIALS[params.material], MATERIALS[params.follower_material]
     modulus = contact_modulus(first.modulus, POISSON, second.modulus, POISSON)
@@ -167,7 +167,7 @@ def pressure_limit(params: CamParams) -> float:
     return strength * (POINT_YIELD if point else LINE_YIELD)
 
 
-def extremes_of(params: CamParams, cams: Cams, held: Held, width: float) -> Extremes:
+def extremes_of(params: CamParams, cams: CamShape, held: FollowerLoad, width: float) -> CamExtremes:
     """What is largest over the turn, on a face of a width [m]."""
     knots = cams.cam.knots
 
@@ -180,7 +180,7 @@ def extremes_of(params: CamParams, cams: Cams, held: Held, width: float) -> Extr
     def hertz(angle: FloatArray) -> FloatArray:
         return pressure_of(params, state_of(params, cams, held, angle), width)
 
-    return Extremes(
+    return CamExtremes(
         normal=supremum(lambda angle: _size(params, of("normal")(angle)), knots),
         torque=supremum(of("torque"), knots),
         back_torque=infimum(of("torque"), knots),

@@ -7,7 +7,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams import limits
 from ilmek.cams.programme import TURN
-from ilmek.cams.trace import Cam
+from ilmek.cams.trace import CamRole
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam import developed_cams
 from ilmek.machines.cam.design import CamDesign
@@ -61,7 +61,7 @@ def mass_of(design: CamDesign) -> float:
     return density * width * (area_of(design) - hub + other)
 
 
-def outline_angles(cam: Cam) -> FloatArray:
+def outline_angles(cam: CamRole) -> FloatArray:
     """Cam angles of a contour [rad], downwards, so that its points run counter-clockwise; the last is not the first.
 
     Every knot is among them: the curvature jumps there.
@@ -72,7 +72,7 @@ def outline_angles(cam: Cam) -> FloatArray:
     return np.unique(np.concatenate([even[apart], knots]))[::-1]
 
 
-def _plate(design: CamDesign, cam: Cam, name: str, title: str) -> Plate:
+def _plate(design: CamDesign, cam: CamRole, name: str, title: str) -> Plate:
     trace, params = cam.trace(outline_angles(cam)), design.params
     cutter = params.cutter_radius or cam.roller_radius
     paths = {"pitch curve": trace.pitch} if cam.roller_radius > 0 else {}
@@ -115,7 +115,7 @@ def _grooved(design: CamDesign, title: str) -> Plate:
     )
 
 
-def cutouts(design: CamDesign, cam: Cam) -> tuple[Contour, ...]:
+def cutouts(design: CamDesign, cam: CamRole) -> tuple[Contour, ...]:
     """The bore, where it leaves something of the cam."""
     reach = infimum(lambda at: np.abs(cam.trace(at).surface), cam.knots).value
     return (design.hub.contour,) if reach > design.hub.reach else ()

@@ -63,7 +63,7 @@ def find_roller(name: str) -> Roller:
 
 
 @dataclass(frozen=True, slots=True)
-class Duty:
+class RollerDuty:
     """What a roller bears: equivalent and largest force [N], its turns by turn of the cam, the cam's speed [rad/s]."""
 
     equivalent: float

@@ -8,16 +8,16 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.barrel import BarrelCam
-from ilmek.cams.conjugate import Pair, conjugate, conjugate_arms, conjugate_faces
+from ilmek.cams.conjugate import ConjugatePair, conjugate, conjugate_arms, conjugate_faces
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.laws import Law
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
-from ilmek.cams.sizing import Limits, pressure_prime, smallest_prime
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
+from ilmek.cams.sizing import CamLimits, pressure_prime, smallest_prime
 from ilmek.cams.strip import WedgeCam
-from ilmek.cams.trace import Cam
+from ilmek.cams.trace import CamRole
 from ilmek.errors import ParameterError
 from ilmek.machines.cam.params import LIMIT, NO_DWELL, CamParams
 from ilmek.machines.cam.rollers import ROLLERS
@@ -27,7 +27,7 @@ from ilmek.units import format_quantity, mm
 _SIDES: dict[str, Literal[1, -1]] = {"trailing": 1, "leading": -1}
 
 
-def programme_of(params: CamParams, laws: tuple[Law, Law] | None = None) -> Programme:
+def programme_of(params: CamParams, laws: tuple[Law, Law] | None = None) -> CamProgramme:
     """Rise, dwell, fall and rest [m; rad of an arm]; the rise begins at the cam angle 0.
 
     laws  of rise and fall; None: those of the parameters
@@ -41,10 +41,10 @@ def programme_of(params: CamParams, laws: tuple[Law, Law] | None = None) -> Prog
         fall(params.fall_angle + (rest if rest <= NO_DWELL else 0.0), lift, falling),
         *([dwell(rest)] if rest > NO_DWELL else []),
     ]
-    return Programme(tuple(segments))
+    return CamProgramme(tuple(segments))
 
 
-def part_knots(programme: Programme, name: str) -> FloatArray:
+def part_knots(programme: CamProgramme, name: str) -> FloatArray:
     """Cam angles between which the rise, or the fall, is smooth."""
     place = next(i for i, segment in enumerate(programme.segments) if segment.name == name)
     begin, segment = float(programme.edges[place]), programme.segments[place]
@@ -52,23 +52,23 @@ def part_knots(programme: Programme, name: str) -> FloatArray:
 
 
 @dataclass(frozen=True, slots=True)
-class Size:
+class CamSize:
     """Prime radius [m] taken, the smallest that would do, and the cam angle that asks for it."""
 
     prime_radius: float
     smallest: Extremum
 
 
-def size_of(params: CamParams, programme: Programme) -> Size:
+def size_of(params: CamParams, programme: CamProgramme) -> CamSize:
     """The prime radius: the given one, or the smallest for the limit; the base circle's of a flat follower.
 
     Raises ParameterError where none is given and none does.
     """
     smallest = smallest_of(params, programme)
-    return Size(params.prime_radius or smallest.value, smallest)
+    return CamSize(params.prime_radius or smallest.value, smallest)
 
 
-def smallest_of(params: CamParams, programme: Programme) -> Extremum:
+def smallest_of(params: CamParams, programme: CamProgramme) -> Extremum:
     """The smallest prime radius for the limit; NaN where none does and one is given.
 
     Of a slide with a roller the limit of the pressure angle alone counts; of any other cam that a surface exists too.
@@ -87,31 +87,31 @@ def smallest_of(params: CamParams, programme: Programme) -> Extremum:
     return Extremum(size.at, size.prime_radius)
 
 
-def asked_of(params: CamParams) -> Limits:
+def asked_of(params: CamParams) -> CamLimits:
     """The limits that set the size: a cam that leads both ways pushes on the fall too."""
     if params.follower == "flat":
-        return Limits(convex=params.curvature_least)
+        return CamLimits(convex=params.curvature_least)
     limit = params.limit or LIMIT
-    return Limits(rise=limit, back=limit if params.led else None)
+    return CamLimits(rise=limit, back=limit if params.led else None)
 
 
-class Cams(NamedTuple):
+class CamShape(NamedTuple):
     """The cam, and with conjugate cams the pair of it and the other one."""
 
-    cam: Cam
-    pair: Pair | None = None
+    cam: CamRole
+    pair: ConjugatePair | None = None
 
 
-def cams_of(params: CamParams, programme: Programme, size: Size, roller_radius: float) -> Cams:
+def cams_of(params: CamParams, programme: CamProgramme, size: CamSize, roller_radius: float) -> CamShape:
     """The cam of a size and a roller, and what holds its follower from the other side.
 
     Raises ParameterError, naming the smallest size, where it cannot exist.
     """
     cam = cam_of(params, programme, size, roller_radius)
-    return Cams(cam, _pair(params, cam) if params.kind == "conjugate" else None)
+    return CamShape(cam, _pair(params, cam) if params.kind == "conjugate" else None)
 
 
-def _pair(params: CamParams, cam: Cam) -> Pair:
+def _pair(params: CamParams, cam: CamRole) -> ConjugatePair:
     """Both plates; where nothing is said the second has the prime circle of the first."""
     lift = params.lift / params.per_unit
     if isinstance(cam, OscillatingCam):
@@ -124,7 +124,7 @@ def _pair(params: CamParams, cam: Cam) -> Pair:
     return conjugate(cam, params.distance or 2 * own + lift)
 
 
-def cam_of(params: CamParams, programme: Programme, size: Size, roller_radius: float) -> Cam:
+def cam_of(params: CamParams, programme: CamProgramme, size: CamSize, roller_radius: float) -> CamRole:
     """The cam of a size and a roller. Raises ParameterError, naming the smallest size, where it cannot exist."""
     try:
         return _cam(params, programme, size.prime_radius, roller_radius)
@@ -134,7 +134,7 @@ def cam_of(params: CamParams, programme: Programme, size: Size, roller_radius: f
         raise ParameterError(error.given, allowed=error.allowed, do=do) from None
 
 
-def size_without_undercut(params: CamParams, programme: Programme, roller_radius: float) -> float:
+def size_without_undercut(params: CamParams, programme: CamProgramme, roller_radius: float) -> float:
     """The least prime radius [m] that keeps the limit and suits a roller; inf where none does."""
     try:
         return smallest_prime(_cam(params, programme, None, roller_radius), asked_of(params)).prime_radius
@@ -148,7 +148,7 @@ def roller_width(params: CamParams, roller_radius: float) -> float:
     return params.face_width or next(known, 10 * mm)
 
 
-def _cam(params: CamParams, programme: Programme, prime_radius: float | None, roller_radius: float) -> Cam:
+def _cam(params: CamParams, programme: CamProgramme, prime_radius: float | None, roller_radius: float) -> CamRole:
     """The cam of a prime radius [m]; of any that can be built where none is given."""
     if params.kind == "wedge":
         return WedgeCam(programme, (prime_radius or 1.0) * TURN, roller_radius, used=params.rise + params.dwell)

@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.cams.contact import Held
+from ilmek.cams.contact import FollowerLoad
 from ilmek.cams.laws import LAWS
-from ilmek.cams.programme import Programme, jumps
+from ilmek.cams.programme import CamProgramme, jumps
 from ilmek.errors import ParameterError
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.rollers import ROLLERS, Duty
+from ilmek.machines.cam.rollers import ROLLERS, RollerDuty
 from ilmek.machines.cam.shape import programme_of, smallest_of
 from ilmek.num.piecewise import supremum
 from ilmek.report import Column, Table
@@ -49,7 +49,7 @@ def _law_row(design: CamDesign, name: str) -> tuple[float | int | str, ...]:
     return name, size, *(params.lift * peak for peak in peaks), _torque(programme, design.held), len(jumps(programme))
 
 
-def _smallest(design: CamDesign, programme: Programme) -> float:
+def _smallest(design: CamDesign, programme: CamProgramme) -> float:
     """The smallest prime radius [m] by another law; NaN where there is none."""
     try:
         return smallest_of(design.params, programme).value
@@ -57,7 +57,7 @@ def _smallest(design: CamDesign, programme: Programme) -> float:
         return math.nan
 
 
-def _torque(programme: Programme, held: Held) -> float:
+def _torque(programme: CamProgramme, held: FollowerLoad) -> float:
     def torque(angle: np.ndarray) -> np.ndarray:
         at = programme.at(angle)
         return np.asarray(np.abs(held.force(at.s, at.dds) * at.ds))
@@ -65,7 +65,7 @@ def _torque(programme: Programme, held: Held) -> float:
     return supremum(torque, programme.knots).value
 
 
-def _roller_table(design: CamDesign, duty: Duty) -> Table:
+def _roller_table(design: CamDesign, duty: RollerDuty) -> Table:
     """How long each roller of the table would last under the force on this cam."""
     columns = (
         Column("roller"),

@@ -10,7 +10,7 @@ from ilmek.synthesis.filters import SAID, Filters, sift
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Option:
+class FourBarOption:
     """A judged four-bar.
 
     made  how it came about, in words      more  what its method says of it besides, by the names of the JSON, SI
@@ -22,7 +22,7 @@ class Option:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Choice:
+class FourBarSelection:
     """What became of all four-bars of a task.
 
     kept    without defects and within limits, the best first; `more` of them are not listed
@@ -31,14 +31,14 @@ class Choice:
     chosen  index of the one that is drawn, None where none is kept
     """
 
-    kept: tuple[Option, ...]
+    kept: tuple[FourBarOption, ...]
     more: int
-    removed: tuple[tuple[Option, Mapping[str, str]], ...]
+    removed: tuple[tuple[FourBarOption, Mapping[str, str]], ...]
     other: tuple[str, ...]
     chosen: int | None
 
     @property
-    def best(self) -> Option | None:
+    def best(self) -> FourBarOption | None:
         """The one that is drawn."""
         return None if self.chosen is None else self.kept[self.chosen]
 
@@ -59,14 +59,14 @@ class Choice:
 
 
 def choose(
-    options: Sequence[Option],
+    options: Sequence[FourBarOption],
     filters: Filters,
     *,
     number: int,
     count: int,
     other: Sequence[str] = (),
-    least: Callable[[Option], tuple[float, float]] | None = None,
-) -> Choice:
+    least: Callable[[FourBarOption], tuple[float, float]] | None = None,
+) -> FourBarSelection:
     """The options sieved and ranked.
 
     number  of the one to draw, from 1      count  that are listed at most
@@ -86,4 +86,4 @@ def choose(
             do="set count higher" if len(kept) >= number else "",
         )
     removed = tuple((of[id(one.candidate)], one.reasons) for one in sifted.removed)
-    return Choice(listed, len(kept) - len(listed), removed, tuple(other), number - 1 if listed else None)
+    return FourBarSelection(listed, len(kept) - len(listed), removed, tuple(other), number - 1 if listed else None)

@@ -8,7 +8,7 @@ from ilmek.units import deg
 
 
 @runtime_checkable
-class Wishes(Protocol):
+class FilterParams(Protocol):
     """Parameters of a machine that the sieve reads."""
 
     @property
@@ -40,7 +40,7 @@ class Wishes(Protocol):
         """Greatest extent [m]."""
 
 
-def filters(wishes: Wishes) -> Filters:
+def filters(wishes: FilterParams) -> Filters:
     """The sieve that the parameters ask for."""
     return Filters(
         one_circuit=wishes.one_circuit,

@@ -3,9 +3,9 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from ilmek.machines.four_bars.choice import Choice, Option
+from ilmek.machines.four_bars.choice import FourBarOption, FourBarSelection
 from ilmek.report import Check, Column, Json, Result, Table, at_least
-from ilmek.synthesis.candidate import Candidate, Met
+from ilmek.synthesis.candidate import Candidate, PositionResult
 from ilmek.synthesis.filters import SAID
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.units import deg, format_quantity
@@ -48,7 +48,7 @@ def built(four_bar: FourBar) -> dict[str, Json]:
     }
 
 
-def solution(option: Option) -> dict[str, Json]:
+def solution(option: FourBarOption) -> dict[str, Json]:
     """A solution, SI and radians: see NAMED."""
     one = option.candidate
     return {
@@ -70,7 +70,7 @@ def solution(option: Option) -> dict[str, Json]:
     }
 
 
-def results(choice: Choice, extra: str = "") -> tuple[Result, ...]:
+def results(choice: FourBarSelection, extra: str = "") -> tuple[Result, ...]:
     """Every solution, the one that is drawn, and what was removed.
 
     extra  what the method says of each solution besides, in words
@@ -91,7 +91,7 @@ def results(choice: Choice, extra: str = "") -> tuple[Result, ...]:
     )
 
 
-def _of_chosen(choice: Choice) -> tuple[Result, ...]:
+def _of_chosen(choice: FourBarSelection) -> tuple[Result, ...]:
     if choice.best is None:
         return ()
     one = choice.best.candidate
@@ -107,13 +107,13 @@ def _of_chosen(choice: Choice) -> tuple[Result, ...]:
     )
 
 
-def _removed(option: Option, reasons: Mapping[str, str]) -> dict[str, Json]:
+def _removed(option: FourBarOption, reasons: Mapping[str, str]) -> dict[str, Json]:
     four_bar = option.candidate.four_bar
     pins: dict[str, Json] = {name: place(getattr(four_bar, name)) for name in ("a0", "b0", "a", "b", "tracer")}
     return {**four_bar.lengths._asdict(), **pins, "made": option.made, "reasons": dict(reasons)}
 
 
-def tables(choice: Choice, name: str) -> tuple[Table, ...]:
+def tables(choice: FourBarSelection, name: str) -> tuple[Table, ...]:
     """Candidates, the positions of the one that is drawn, and what was removed."""
     found = [ranking(choice, name)]
     if choice.best is not None:
@@ -126,7 +126,7 @@ def tables(choice: Choice, name: str) -> tuple[Table, ...]:
 LINKS = (Column("ground", "mm"), Column("crank", "mm"), Column("coupler", "mm"), Column("rocker", "mm"))
 
 
-def ranking(choice: Choice, name: str) -> Table:
+def ranking(choice: FourBarSelection, name: str) -> Table:
     """The solutions, the best first."""
     columns = (
         Column("solution"),
@@ -179,11 +179,11 @@ def positions(one: Candidate, name: str) -> Table:
     return Table(f"{name}-positions", "Positions of the solution that is drawn, by moving it", columns, rows)
 
 
-def _known(met: Met, error: str) -> bool:
+def _known(met: PositionResult, error: str) -> bool:
     return not math.isnan(getattr(met, error))
 
 
-def _removed_table(choice: Choice, name: str) -> Table:
+def _removed_table(choice: FourBarSelection, name: str) -> Table:
     columns = (Column("made of"), *LINKS, Column("removed because"))
     rows = tuple(
         (one.made, *one.candidate.four_bar.lengths, "; ".join(reasons.values()))
@@ -195,7 +195,7 @@ def _removed_table(choice: Choice, name: str) -> Table:
     return Table(f"{name}-removed", title, columns, rows, brief=len(rows) <= BRIEF)
 
 
-def checks(choice: Choice) -> tuple[Check, ...]:
+def checks(choice: FourBarSelection) -> tuple[Check, ...]:
     """A solution is there, and its transmission angle is fit."""
     there = at_least("four-bars without defects", len(choice.kept) + choice.more, 1, "1", "the task")
     if choice.best is None:
@@ -204,7 +204,7 @@ def checks(choice: Choice) -> tuple[Check, ...]:
     return there, at_least("transmission angle", least, TRANSMISSION, "deg", RULE)
 
 
-def warnings(choice: Choice) -> tuple[str, ...]:
+def warnings(choice: FourBarSelection) -> tuple[str, ...]:
     """What a reader should not overlook."""
     if choice.best is None:
         if not choice.removed:

@@ -4,14 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.machines.four_bars.choice import Choice, Option, choose
+from ilmek.machines.four_bars.choice import FourBarOption, FourBarSelection, choose
 from ilmek.machines.four_bars.filter_params import filters
 from ilmek.machines.function_four_bar.params import CRITERIA, FunctionFourBarParams
 from ilmek.report import Json
 from ilmek.synthesis.approximation.function_generator import FunctionApproximation, function_approximations
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.function import Function
-from ilmek.synthesis.task import MET, Task
+from ilmek.synthesis.task import MET, PrecisionTask
 
 SAME = 1e-9
 """Distance of two places, in ranges of x, below which they are one."""
@@ -30,7 +30,7 @@ class FunctionFourBar:
 
     params: FunctionFourBarParams
     function: Function
-    choice: Choice
+    choice: FourBarSelection
     found: tuple[FunctionApproximation, ...]
 
     @property
@@ -56,7 +56,9 @@ def design(params: FunctionFourBarParams) -> FunctionFourBar:
         ground=params.ground,
     )
     ranks = {id(one.four_bar): float(at) for at, one in enumerate(answers.found)}
-    options = [Option(_judged(params, function, one), params.criterion, _said(function, one)) for one in answers.found]
+    options = [
+        FourBarOption(_judged(params, function, one), params.criterion, _said(function, one)) for one in answers.found
+    ]
     choice = choose(
         options,
         filters(params),
@@ -75,7 +77,9 @@ def _judged(params: FunctionFourBarParams, function: Function, found: FunctionAp
     apart = np.abs(asked - found.drawn_at) > SAME * abs(function.stop - function.start)
     x = np.concatenate([[found.drawn_at], asked[apart]])
     near = params.error_max or (MET if exact else found.greatest * (1 + ROUNDING) + MET)
-    return judge(found.four_bar, Task(crank=function.crank(x), rocker=function.rocker(x), angle_tolerance=near))
+    return judge(
+        found.four_bar, PrecisionTask(crank=function.crank(x), rocker=function.rocker(x), angle_tolerance=near)
+    )
 
 
 def _free(params: FunctionFourBarParams) -> int:

@@ -18,8 +18,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.laws import LAWS
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
-from ilmek.elements.duty import Cycle, Drive, size_motor
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
+from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import SERVO
 from ilmek.elements.screws import Screw
@@ -32,7 +32,7 @@ SAMPLES = 720
 
 
 @dataclass(frozen=True, slots=True)
-class Axis:
+class CombDrive:
     """The comb's vertical drive.
 
     programme  stroke over the cams' angle, downwards [m]      mass  that moves: cams and comb [kg]
@@ -45,7 +45,7 @@ class Axis:
     buckling   safety of a screw against it; inf for belts
     """
 
-    programme: Programme
+    programme: CamProgramme
     mass: float
     angle: FloatArray
     travel: FloatArray
@@ -55,8 +55,8 @@ class Axis:
     press: FloatArray
     inertia_force: float
     balance: float
-    cycle: Cycle
-    drive: Drive | None
+    cycle: LoadCycle
+    drive: ServoDrive | None
     power_max: float
     meets: float
     brake: float
@@ -64,7 +64,7 @@ class Axis:
     buckling: float
 
 
-def stroke_programme(params: HammerParams) -> Programme:
+def stroke_programme(params: HammerParams) -> CamProgramme:
     """Two strokes a turn: rest while the shed opens, then down, press and up within the step."""
     law = LAWS[params.law]
     press = params.press_share * params.step
@@ -76,10 +76,10 @@ def stroke_programme(params: HammerParams) -> Programme:
         *([dwell(press)] if press > 0 else []),
         fall(way, params.stroke, law),
     )
-    return Programme((*once, *once))
+    return CamProgramme((*once, *once))
 
 
-def axis_for(params: HammerParams, fabric: Fabric, force: float) -> Axis:
+def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
     """The drive that presses with a force [N] for each warp."""
     programme = stroke_programme(params)
     angle = np.arange(SAMPLES) * (TURN / SAMPLES)
@@ -94,7 +94,7 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> Axis:
     resisting = press - balance
     driven = resisting * speed >= 0
     lost = np.where(driven, 1 / params.axis_efficiency, params.axis_efficiency)
-    cycle = Cycle(
+    cycle = LoadCycle(
         speed=speed / arm,
         acceleration=acceleration / arm,
         torque=resisting * lost * arm / params.shared,
@@ -102,7 +102,7 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> Axis:
     )
     contact = (speed > 0) & (press > 0)
     screw, buckling = _screw(params, float(np.max(np.abs(total))) / params.shared)
-    return Axis(
+    return CombDrive(
         programme=programme,
         mass=mass,
         angle=angle,

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.machines.hammer.axis import Axis, axis_for
+from ilmek.machines.hammer.axis import CombDrive, axis_for
 from ilmek.machines.hammer.comb import Comb, comb_for, with_depth
 from ilmek.machines.hammer.linkage import Linkage, linkage_for
 from ilmek.machines.hammer.params import HammerParams
@@ -36,7 +36,7 @@ class Hammer:
     fell: float
     energy: float
     comb: Comb
-    axis: Axis | None
+    axis: CombDrive | None
     linkage: Linkage | None
 
     @property

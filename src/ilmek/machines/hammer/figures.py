@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.machines.hammer.axis import Axis as VerticalAxis
+from ilmek.machines.hammer.axis import CombDrive as VerticalAxis
 from ilmek.machines.hammer.design import Hammer
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.units import dm, format_quantity

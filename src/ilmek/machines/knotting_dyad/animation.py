@@ -4,9 +4,9 @@ import numpy as np
 from jaxtyping import Complex, Float
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.machines.knotting_dyad.clearance import Bars, arm_bars, mirrored_bars
+from ilmek.machines.knotting_dyad.clearance import RoundBars, arm_bars, mirrored_bars
 from ilmek.machines.knotting_dyad.head import Head
-from ilmek.machines.knotting_dyad.motion import Cycle, Part
+from ilmek.machines.knotting_dyad.motion import CyclePart, KnotCycle
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT, Phase
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import turn
@@ -16,7 +16,7 @@ ALONG, EACH = 80, 41
 """Places that the yarn is drawn through, and that an end's way of a phase is known at."""
 
 
-def moving(head: Head, cycle: Cycle) -> Animation:
+def moving(head: Head, cycle: KnotCycle) -> Animation:
     """A cycle, as quick as the drives allow."""
     section, time = head.section, np.arange(FRAMES) * (cycle.period / FRAMES)
     left, right, centre = _at(cycle, time)
@@ -42,20 +42,20 @@ def moving(head: Head, cycle: Cycle) -> Animation:
     return Animation(still, Axis("time", "ms"), time, strokes, elbows, period=cycle.period, readings=readings)
 
 
-def _at(cycle: Cycle, time: Float[np.ndarray, " n"]) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _at(cycle: KnotCycle, time: Float[np.ndarray, " n"]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Places of both arms, s, and the height of the centre gripper's tip at times."""
     courses = cycle.arms[LEFT].s, cycle.arms[RIGHT].s, cycle.centre[0]
     left, right, centre = (np.interp(time, cycle.time, one) for one in courses)
     return left, right, centre
 
 
-def _links(bars: Bars, name: str) -> tuple[MovingStroke, ...]:
+def _links(bars: RoundBars, name: str) -> tuple[MovingStroke, ...]:
     """First link, wide part of the second, needle."""
     wide = [MovingStroke(np.stack([bars.starts[:, k], bars.ends[:, k]], -1), "link", name) for k in (0, 1)]
     return (*wide, MovingStroke(np.stack([bars.starts[:, 2], bars.ends[:, 2]], -1), "outline"))
 
 
-def _led(head: Head, cycle: Cycle, end: int) -> tuple[FloatArray, ComplexArray]:
+def _led(head: Head, cycle: KnotCycle, end: int) -> tuple[FloatArray, ComplexArray]:
     """Times at which an end is led, and its places then."""
     parts = [part for part in cycle.parts if not part.grippers]
     led = [
@@ -67,7 +67,7 @@ def _led(head: Head, cycle: Cycle, end: int) -> tuple[FloatArray, ComplexArray]:
     return np.concatenate(times), np.concatenate(places)
 
 
-def _carried(head: Head, cycle: Cycle, part: Part, phase: Phase, end: int) -> tuple[FloatArray, ComplexArray]:
+def _carried(head: Head, cycle: KnotCycle, part: CyclePart, phase: Phase, end: int) -> tuple[FloatArray, ComplexArray]:
     time = np.linspace(part.start, part.end, EACH)
     left, right, centre = _at(cycle, time)
     carrier = phase.carries[end]

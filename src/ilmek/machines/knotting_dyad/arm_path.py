@@ -35,7 +35,7 @@ Jet: TypeAlias = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 
 
 @dataclass(frozen=True, slots=True)
-class ArmWay:
+class ArmPath:
     """Joint angles along an arm's way, and their derivatives by the way's parameter s.
 
     s      0: at rest in front of the warps, 1: at the hand-over behind them; the arm goes out and back the same way
@@ -118,10 +118,10 @@ class Arm:
         far = max(self.second - self.begin, self.end)
         return math.hypot(self.stroke, far * self.turn_bound)
 
-    def way(self, s: Float[np.ndarray, " n"]) -> ArmWay:
+    def way(self, s: Float[np.ndarray, " n"]) -> ArmPath:
         """Joint angles and their derivatives at values of s."""
         both = zip(self._first(s), self._second(s), strict=True)
-        return ArmWay(s, *(np.stack(np.broadcast_arrays(*pair), axis=-1) for pair in both))
+        return ArmPath(s, *(np.stack(np.broadcast_arrays(*pair), axis=-1) for pair in both))
 
     def _first(self, s: FloatArray) -> Jet:
         """th1 and its derivatives."""
@@ -142,14 +142,14 @@ class Arm:
         return _turned(_arccosine(cosine), float(np.angle(self.gap - self.pivot)), self.side)
 
 
-def mirrored_way(way: ArmWay) -> ArmWay:
+def mirrored_way(way: ArmPath) -> ArmPath:
     """The mirror image of a way about an upright line: theta becomes pi - theta.
 
     >>> zero = np.zeros((1, 2))
-    >>> mirrored_way(ArmWay(np.zeros(1), zero, zero + 1, zero, zero)).theta.round(3).tolist()
+    >>> mirrored_way(ArmPath(np.zeros(1), zero, zero + 1, zero, zero)).theta.round(3).tolist()
     [[3.142, 3.142]]
     """
-    return ArmWay(way.s, np.pi - way.theta, -way.first, -way.second, -way.third)
+    return ArmPath(way.s, np.pi - way.theta, -way.first, -way.second, -way.third)
 
 
 def _arccosine(cosine: Jet) -> Jet:

@@ -18,7 +18,7 @@ from jaxtyping import Complex, Float
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad.arm_path import Arm
-from ilmek.machines.knotting_dyad.section import Section
+from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.plane.outlines import between, to_segments
 
 TOLERANCE, RELATIVE = 1e-6, 5e-3
@@ -29,7 +29,7 @@ PIECES, MOST = 16, 60_000
 
 
 @dataclass(frozen=True, slots=True)
-class Least:
+class LeastDistance:
     """A least distance.
 
     name   of what, from what        value  [m], below 0 where they overlap
@@ -44,7 +44,7 @@ class Least:
 
 
 @dataclass(frozen=True, slots=True)
-class Bars:
+class RoundBars:
     """Bars with round ends: (places, bars) ends [m], and the radii of each [m]."""
 
     starts: Complex[np.ndarray, "n bars"]
@@ -52,37 +52,39 @@ class Bars:
     radii: Float[np.ndarray, " bars"]
 
 
-def arm_bars(section: Section, arm: Arm, s: Float[np.ndarray, " n"]) -> Bars:
+def arm_bars(section: WarpSection, arm: Arm, s: Float[np.ndarray, " n"]) -> RoundBars:
     """The left arm: first link, wide part of the second, needle."""
     elbow, tip = arm.elbow(s), arm.tip(s)
     wide = tip + section.needle_length * (elbow - tip) / arm.second
     pivot = np.full(len(s), arm.pivot)
     radii = np.array([section.width, section.width, section.needle]) / 2
-    return Bars(np.stack([pivot, elbow, wide], -1), np.stack([elbow, wide, tip], -1), radii)
+    return RoundBars(np.stack([pivot, elbow, wide], -1), np.stack([elbow, wide, tip], -1), radii)
 
 
-def centre_bars(section: Section, tip: Float[np.ndarray, " n"], top: float) -> Bars:
+def centre_bars(section: WarpSection, tip: Float[np.ndarray, " n"], top: float) -> RoundBars:
     """The centre gripper with its tip at these heights [m]: needle and wide part, up to a height."""
     low = section.middle + 1j * tip
     wide = low + 1j * section.needle_length
     high = np.full(len(tip), complex(section.middle, top))
-    return Bars(np.stack([low, wide], -1), np.stack([wide, high], -1), np.array([section.needle, section.width]) / 2)
+    return RoundBars(
+        np.stack([low, wide], -1), np.stack([wide, high], -1), np.array([section.needle, section.width]) / 2
+    )
 
 
-def mirrored_bars(section: Section, bars: Bars) -> Bars:
+def mirrored_bars(section: WarpSection, bars: RoundBars) -> RoundBars:
     """The same of the right arm."""
     twice = 2 * section.middle
-    return Bars(twice - np.conj(bars.starts), twice - np.conj(bars.ends), bars.radii)
+    return RoundBars(twice - np.conj(bars.starts), twice - np.conj(bars.ends), bars.radii)
 
 
-def to_warps(section: Section, bars: Bars) -> Float[np.ndarray, " n"]:
+def to_warps(section: WarpSection, bars: RoundBars) -> Float[np.ndarray, " n"]:
     """Least distance of the bars from any warp [m], at each place."""
     apart = to_segments(section.warps, bars.starts[..., None], bars.ends[..., None])
     least: Float[np.ndarray, " n"] = np.min(apart - bars.radii[:, None], axis=(-2, -1)) - section.warp / 2
     return least
 
 
-def apart(one: Bars, other: Bars, but: tuple[int, int] | None = None) -> Float[np.ndarray, " n"]:
+def apart(one: RoundBars, other: RoundBars, but: tuple[int, int] | None = None) -> Float[np.ndarray, " n"]:
     """Least distance of two sets of bars [m], at each place; `but` a pair of them that is meant to meet."""
     pairs = [
         between(np.stack([one.starts[:, i], one.ends[:, i]], -1), np.stack([other.starts[:, j], other.ends[:, j]], -1))
@@ -96,7 +98,7 @@ def apart(one: Bars, other: Bars, but: tuple[int, int] | None = None) -> Float[n
     return least
 
 
-def clearances(section: Section, arm: Arm) -> tuple[Least, ...]:
+def clearances(section: WarpSection, arm: Arm) -> tuple[LeastDistance, ...]:
     """All least distances of a cycle; the right arm's are the left arm's, mirrored with the warps."""
     speed = arm.speed_bound
 
@@ -113,13 +115,13 @@ def clearances(section: Section, arm: Arm) -> tuple[Least, ...]:
     centre = float(section.pitch / 2 - (section.warp + section.needle) / 2)
     return (
         found,
-        Least(both.name, both.value, (u * (1 - v / 2), u * v / 2), both.sure),
-        Least("centre gripper to warps", centre, (), 0.0),
+        LeastDistance(both.name, both.value, (u * (1 - v / 2), u * v / 2), both.sure),
+        LeastDistance("centre gripper to warps", centre, (), 0.0),
         *_centre(section, arm),
     )
 
 
-def _centre(section: Section, arm: Arm) -> tuple[Least, ...]:
+def _centre(section: WarpSection, arm: Arm) -> tuple[LeastDistance, ...]:
     """The centre gripper and an arm: at rest while the arm moves, moving while it is at the hand-over or at rest."""
     top = max(arm.pivot.imag, float(np.max(arm.elbow(np.linspace(0, 1, 33)).imag))) + 2 * arm.first
     high = max(top, section.front + 2 * section.needle_length)
@@ -144,7 +146,7 @@ def _centre(section: Section, arm: Arm) -> tuple[Least, ...]:
     )
 
 
-def least(name: str, f: Callable[[FloatArray], FloatArray], speeds: tuple[float, ...]) -> Least:
+def least(name: str, f: Callable[[FloatArray], FloatArray], speeds: tuple[float, ...]) -> LeastDistance:
     """The least value of f over the unit cube, whose points are its rows; f changes by speeds at most [m].
 
     >>> found = least("x", lambda at: np.abs(at[:, 0] - 0.3), (1.0,))
@@ -167,7 +169,7 @@ def least(name: str, f: Callable[[FloatArray], FloatArray], speeds: tuple[float,
         spent += len(middles)
         if not kept.any() or spent > MOST:
             sure = max(value - float(np.min(lows)), tolerance)
-            return Least(name, value, tuple(float(one) for one in at), sure)
+            return LeastDistance(name, value, tuple(float(one) for one in at), sure)
         half /= 2
         middles = (middles[kept][:, None, :] + half * (2 * corners - 1)).reshape(-1, size)
         values = f(middles)

@@ -11,9 +11,9 @@ from ilmek.machines.knotting_dyad.head import Head, head_of
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.search import best_arm
 from ilmek.machines.knotting_dyad.section import section_of
-from ilmek.machines.knotting_dyad.task import Task, bend, task_on
+from ilmek.machines.knotting_dyad.task import ArmTask, bend, task_on
 from ilmek.machines.text_lists import read_angles, read_points
-from ilmek.synthesis.dyad import Arms, Dyad, Found, arms_through_points, dyads_through_points
+from ilmek.synthesis.dyad import PointArms, RootKind, TwoLinkArm, arms_through_points, dyads_through_points
 
 LINE = 1e-9
 """Height of a triangle of points over the path's size, below which they lie on a line."""
@@ -32,27 +32,27 @@ class KnottingDyad:
     """
 
     params: KnottingDyadParams
-    task: Task
-    dyads: tuple[Dyad, ...]
-    roots: Arms
+    task: ArmTask
+    dyads: tuple[TwoLinkArm, ...]
+    roots: PointArms
     bends: FloatArray
     chosen: int | None
     head: Head | None = None
 
-    def second_angles(self, dyad: Dyad) -> FloatArray:
+    def second_angles(self, dyad: TwoLinkArm) -> FloatArray:
         """Angles of a dyad's second link at the four points [rad]."""
         return dyad.second_angles(self.task.points, self.task.angles)
 
-    def residuals(self, dyad: Dyad) -> FloatArray:
+    def residuals(self, dyad: TwoLinkArm) -> FloatArray:
         """By how much a dyad misses the four points [m]."""
         closed = dyad.place(self.task.angles, self.second_angles(dyad))
         return np.asarray(np.abs(closed - self.task.points))
 
-    def joints(self, dyad: Dyad) -> ComplexArray:
+    def joints(self, dyad: TwoLinkArm) -> ComplexArray:
         """A dyad's elbow at the four points [m]."""
         return np.asarray(dyad.pivot + dyad.first * np.exp(1j * self.task.angles))
 
-    def size(self, dyad: Dyad) -> float:
+    def size(self, dyad: TwoLinkArm) -> float:
         """The largest length of a dyad and its task [m], to which a residual is compared."""
         extent = float(np.max(np.abs(self.task.points - self.task.points[0])))
         return max(extent, abs(dyad.first), dyad.second)
@@ -66,7 +66,7 @@ def design(params: KnottingDyadParams) -> KnottingDyad:
     if params.points is None or params.angles is None:
         return _for_knot(params)
     points = read_points("points", params.points)
-    made = _arms(params, Task(points, read_angles("angles", params.angles), points))
+    made = _arms(params, ArmTask(points, read_angles("angles", params.angles), points))
     return replace(made, chosen=_best(params, made.dyads, made.bends))
 
 
@@ -79,23 +79,23 @@ def _for_knot(params: KnottingDyadParams) -> KnottingDyad:
     return replace(made, chosen=chosen, head=head_of(params, section, arm))
 
 
-def _built(dyad: Dyad, wanted: Arm) -> Arm:
+def _built(dyad: TwoLinkArm, wanted: Arm) -> Arm:
     """The arm of the synthesis on the way that was wanted."""
     return replace(wanted, pivot=dyad.pivot, first=abs(dyad.first), second=dyad.second)
 
 
-def _arms(params: KnottingDyadParams, task: Task) -> KnottingDyad:
+def _arms(params: KnottingDyadParams, task: ArmTask) -> KnottingDyad:
     """All arms of a task, none chosen."""
     dyads = dyads_through_points(task.points, task.angles)
     roots = arms_through_points(task.points, task.angles)
     if not dyads:
         raise _none(task, roots)
     bends = bend(roots, task.points, task.angles, task.course)
-    bends = bends[np.isin(roots.found, (Found.ARM, Found.STILL))]  # the dyads, in this order
+    bends = bends[np.isin(roots.found, (RootKind.ARM, RootKind.STILL))]  # the dyads, in this order
     return KnottingDyad(params, task, dyads, roots, bends, None)
 
 
-def _best(params: KnottingDyadParams, dyads: tuple[Dyad, ...], bends: FloatArray) -> int | None:
+def _best(params: KnottingDyadParams, dyads: tuple[TwoLinkArm, ...], bends: FloatArray) -> int | None:
     """The dyad within the longest link that stays best bent; where all are longer, the shortest."""
     built = [at for at, dyad in enumerate(dyads) if dyad.first]
     longest = [max(abs(dyad.first), dyad.second) for dyad in dyads]
@@ -105,8 +105,8 @@ def _best(params: KnottingDyadParams, dyads: tuple[Dyad, ...], bends: FloatArray
     return min(built, key=lambda at: longest[at], default=None)
 
 
-def _none(task: Task, roots: Arms) -> ParameterError:
-    said = "; ".join(dict.fromkeys(Found(int(one)).words for one in roots.found))
+def _none(task: ArmTask, roots: PointArms) -> ParameterError:
+    said = "; ".join(dict.fromkeys(RootKind(int(one)).words for one in roots.found))
     line = "the four points lie on a line: " if _on_a_line(task.points) else ""
     return ParameterError(
         f"{line}no arm of finite links goes through the four timed points ({said})", do="move a point or an angle"

@@ -24,7 +24,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.knotting_dyad.head import Head
-from ilmek.machines.knotting_dyad.motion import ArmCourse, Cycle, drive_angles
+from ilmek.machines.knotting_dyad.motion import ArmMotion, KnotCycle, drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 
 RATIOS = (1.0, 3.0, 4.0, 5.0, 7.0, 10.0, 16.0, 20.0, 25.0, 35.0, 50.0, 70.0, 100.0)
@@ -64,7 +64,7 @@ class JointDrive:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Drives:
+class ArmDrives:
     """Torques of both arms, by name, and the drive of each joint."""
 
     arms: Mapping[str, ArmForces]
@@ -95,7 +95,7 @@ def inertias(params: KnottingDyadParams, first: float, second: float) -> dict[st
     }
 
 
-def drives_of(params: KnottingDyadParams, head: Head, cycle: Cycle) -> Drives:
+def drives_of(params: KnottingDyadParams, head: Head, cycle: KnotCycle) -> ArmDrives:
     """Torques and drives of a head over its cycle."""
     links = abs(head.arm.first), head.arm.second
     arms = {name: _arm_forces(params, links, course) for name, course in cycle.arms.items()}
@@ -109,10 +109,10 @@ def drives_of(params: KnottingDyadParams, head: Head, cycle: Cycle) -> Drives:
         )
         for at in range(2)
     ]
-    return Drives(arms, (_drive(params, JOINTS[0], loads[0]), _drive(params, JOINTS[1], loads[1])))
+    return ArmDrives(arms, (_drive(params, JOINTS[0], loads[0]), _drive(params, JOINTS[1], loads[1])))
 
 
-def _arm_forces(params: KnottingDyadParams, links: tuple[float, float], course: ArmCourse) -> ArmForces:
+def _arm_forces(params: KnottingDyadParams, links: tuple[float, float], course: ArmMotion) -> ArmForces:
     mechanism = arm_mechanism(*links)
     angle, speed, acceleration = (
         {"link 1": one[:, 0], "link 2": one[:, 1] - one[:, 0]}
@@ -126,7 +126,7 @@ def _arm_forces(params: KnottingDyadParams, links: tuple[float, float], course: 
     return ArmForces(np.stack([base, in_elbow], axis=1), forces)
 
 
-def _pull(params: KnottingDyadParams, motion: Motion, course: ArmCourse) -> np.ndarray:
+def _pull(params: KnottingDyadParams, motion: Motion, course: ArmMotion) -> np.ndarray:
     """Force of the yarn on the tip [N], against its motion while it leads an end."""
     velocity = np.asarray(motion.point("link 2", "P").velocity)
     speed = np.abs(velocity)

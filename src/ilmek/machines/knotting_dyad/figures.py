@@ -4,21 +4,21 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.knotting_dyad.animation import moving
-from ilmek.machines.knotting_dyad.clearance import Bars, arm_bars, mirrored_bars, to_warps
+from ilmek.machines.knotting_dyad.clearance import RoundBars, arm_bars, mirrored_bars, to_warps
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.head import Head
-from ilmek.machines.knotting_dyad.motion import Cycle
-from ilmek.machines.knotting_dyad.section import Section
+from ilmek.machines.knotting_dyad.motion import KnotCycle
+from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.machines.knotting_dyad.task import SHARES
 from ilmek.machines.knotting_dyad.yarn import carried
 from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
-from ilmek.synthesis.dyad import Dyad
+from ilmek.synthesis.dyad import TwoLinkArm
 from ilmek.units import format_quantity, turn
 
 WAY = Axis("s, from rest to the hand-over")
 
 
-def figures(design: KnottingDyad, cycle: Cycle | None) -> tuple[Figure, ...]:
+def figures(design: KnottingDyad, cycle: KnotCycle | None) -> tuple[Figure, ...]:
     """The head and its motion, where a knot is tied; all arms in one drawing, and the arm to build in four poses."""
     arms = (drawing(design),) if design.chosen is None else (drawing(design), poses(design))
     if design.head is None or cycle is None:
@@ -113,7 +113,7 @@ def clear(head: Head) -> Plot:
     """Distance of needle and wide links from the nearest warp along the way."""
     bars = arm_bars(head.section, head.arm, head.way.s)
     near = [
-        to_warps(head.section, Bars(bars.starts[:, k], bars.ends[:, k], bars.radii[k]))
+        to_warps(head.section, RoundBars(bars.starts[:, k], bars.ends[:, k], bars.radii[k]))
         for k in (slice(2, 3), slice(0, 2))
     ]
     series = tuple(
@@ -143,11 +143,11 @@ def _knot(head: Head) -> ComplexArray:
     return np.concatenate([first[::-1], second])
 
 
-def _chain(bars: Bars, at: int, role: str) -> Stroke:
+def _chain(bars: RoundBars, at: int, role: str) -> Stroke:
     return Stroke(np.append(bars.starts[at, [0, 1]], bars.ends[at, -1]), role)
 
 
-def _strong(bars: Bars, at: int, label: str) -> tuple[Stroke, Stroke]:
+def _strong(bars: RoundBars, at: int, label: str) -> tuple[Stroke, Stroke]:
     """An arm: its wide parts, and the needle."""
     wide = Stroke(bars.starts[at], "link", label)
     return wide, Stroke(np.array([bars.starts[at, 2], bars.ends[at, 2]]), "outline")
@@ -160,7 +160,7 @@ def _bar(start: complex, end: complex, radius: float) -> ComplexArray:
     return np.concatenate([end + half, start - half])
 
 
-def warps(section: Section, neighbours: int = 6) -> tuple[Stroke, ...]:
+def warps(section: WarpSection, neighbours: int = 6) -> tuple[Stroke, ...]:
     """The pair and so many neighbours on each side, in section."""
     ring = section.warp / 2 * np.exp(1j * turn * np.arange(36) / 36)
     middle = len(section.warps) // 2
@@ -190,7 +190,7 @@ def poses(design: KnottingDyad) -> Drawing:
     return Drawing("knotting-dyad-poses", f"Arm {(design.chosen or 0) + 1}, the one to build", strokes, dots, note=note)
 
 
-def _arm(design: KnottingDyad, dyad: Dyad, at: int, said: str) -> tuple[Stroke, ...]:
+def _arm(design: KnottingDyad, dyad: TwoLinkArm, at: int, said: str) -> tuple[Stroke, ...]:
     elbow, point = complex(design.joints(dyad)[at]), complex(design.task.points[at])
     second = Stroke(np.array([elbow, point]), "link", f"{said}{format_quantity(dyad.second, 'mm')}")
     if not dyad.first:

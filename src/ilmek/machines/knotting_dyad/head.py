@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.machines.knotting_dyad.arm_path import Arm, ArmWay
-from ilmek.machines.knotting_dyad.clearance import Least, clearances
+from ilmek.machines.knotting_dyad.arm_path import Arm, ArmPath
+from ilmek.machines.knotting_dyad.clearance import LeastDistance, clearances
 from ilmek.machines.knotting_dyad.needle_bending import bent_aside
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.machines.knotting_dyad.section import Section, knot_of
+from ilmek.machines.knotting_dyad.section import WarpSection, knot_of
 from ilmek.machines.knotting_dyad.sequence import Phase, sequence
 from ilmek.machines.knotting_dyad.yarn import tied_by
 from ilmek.weaving.knots.proof import TiedKnot
@@ -28,12 +28,12 @@ class Head:
     way         of the left arm, tabulated         bent        the needle aside by the yarn, at the warps [m]
     """
 
-    section: Section
+    section: WarpSection
     knot: Knot
     arm: Arm
-    way: ArmWay
+    way: ArmPath
     phases: tuple[Phase, ...]
-    clearances: tuple[Least, ...]
+    clearances: tuple[LeastDistance, ...]
     tied: TiedKnot
     bent: float
 
@@ -58,7 +58,7 @@ class Head:
         return knot(self.knot.kind, opens=self.knot.opens or "left").name if self.knot_tied else self.tied.words
 
 
-def head_of(params: KnottingDyadParams, section: Section, arm: Arm) -> Head:
+def head_of(params: KnottingDyadParams, section: WarpSection, arm: Arm) -> Head:
     """The head of an arm."""
     wanted = knot_of(params)
     phases = sequence(wanted, section.front, -section.depth)

@@ -7,7 +7,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.machines.knotting_dyad.section import GREATEST_DEPTH, Section
+from ilmek.machines.knotting_dyad.section import GREATEST_DEPTH, WarpSection
 from ilmek.machines.knotting_dyad.yarn import MISSED
 from ilmek.num.brackets import bracketed_roots
 from ilmek.report import Check, Column, Json, Result, Table, at_least, at_most
@@ -93,7 +93,7 @@ def head_warnings(params: KnottingDyadParams, head: Head) -> tuple[str, ...]:
     return tuple(said)
 
 
-def _mend(params: KnottingDyadParams, section: Section) -> str:
+def _mend(params: KnottingDyadParams, section: WarpSection) -> str:
     """How the needle gets its room."""
     pair = section.pitch - section.warp - 2 * section.asked
     if pair < section.needle:
@@ -112,7 +112,7 @@ def _mend(params: KnottingDyadParams, section: Section) -> str:
     return f"try {' or '.join(ways)}{limit}"
 
 
-def _opening(section: Section) -> float | None:
+def _opening(section: WarpSection) -> float | None:
     """The least opening that gives the outer gaps the clearance at this depth [m], None if none."""
 
     def spare(opening: FloatArray) -> FloatArray:

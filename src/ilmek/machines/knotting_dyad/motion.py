@@ -12,11 +12,11 @@ import numpy as np
 from jaxtyping import Float
 
 from ilmek.arrays import FloatArray
-from ilmek.machines.knotting_dyad.arm_path import ArmWay
+from ilmek.machines.knotting_dyad.arm_path import ArmPath
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, OUT, RIGHT, Phase
-from ilmek.timing.path_speed.solve import AxesLimits, Course, JointPath, PathMotion, quickest_motion
+from ilmek.timing.path_speed.solve import AxesLimits, JointPath, PathMotion, Trajectory, quickest_motion
 from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
 
 SAMPLES, PAUSED, INTERVALS = 161, 21, 200
@@ -24,7 +24,7 @@ SAMPLES, PAUSED, INTERVALS = 161, 21, 200
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class CyclePart:
     """A part of the cycle [s]: a phase's motion, or a grip, `grasp` or `release`, by the grippers named."""
 
     name: str
@@ -34,7 +34,7 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ArmCourse:
+class ArmMotion:
     """An arm over the samples: s, and of both links the absolute angles [rad] and their rates by time.
 
     leads  whether it moves with an end of the yarn in its gripper
@@ -47,13 +47,13 @@ class ArmCourse:
     jerk: Float[np.ndarray, "samples 2"]
     leads: np.ndarray
 
-    def mirrored(self) -> "ArmCourse":
+    def mirrored(self) -> "ArmMotion":
         """The mirror image about an upright line."""
-        return ArmCourse(self.s, np.pi - self.angle, -self.speed, -self.acceleration, -self.jerk, self.leads)
+        return ArmMotion(self.s, np.pi - self.angle, -self.speed, -self.acceleration, -self.jerk, self.leads)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cycle:
+class KnotCycle:
     """A whole cycle.
 
     parts   in order, from 0 to the period         time    of the samples [s]; where parts meet it comes twice
@@ -62,9 +62,9 @@ class Cycle:
     usage   the greatest use of a limit, the centre gripper's among them: at most 1
     """
 
-    parts: tuple[Part, ...]
+    parts: tuple[CyclePart, ...]
     time: Float[np.ndarray, " samples"]
-    arms: Mapping[str, ArmCourse]
+    arms: Mapping[str, ArmMotion]
     centre: Float[np.ndarray, "4 samples"]
     used: Float[np.ndarray, "3 samples"]
     usage: float
@@ -79,30 +79,30 @@ class Cycle:
 class _Motions:
     """The motions that a cycle is made of: one arm in, one out while the other comes in, the centre gripper down."""
 
-    way: ArmWay
+    way: ArmPath
     single: PathMotion
     both: PathMotion
     centre: SCurve
     absolute: FloatArray  # of the drives' angles, the links' absolute ones
 
 
-def cycle_of(params: KnottingDyadParams, head: Head) -> Cycle:
+def cycle_of(params: KnottingDyadParams, head: Head) -> KnotCycle:
     """The cycle of a head."""
     motions = _motions(params, head)
     before = (*head.phases[-1:], *head.phases[:-1])
-    parts: list[Part] = []
-    pieces: list[tuple[FloatArray, ArmCourse, ArmCourse, FloatArray]] = []
+    parts: list[CyclePart] = []
+    pieces: list[tuple[FloatArray, ArmMotion, ArmMotion, FloatArray]] = []
     for last, phase in zip(before, head.phases, strict=True):
         for grip in _grips(params, last, phase, parts[-1].end if parts else 0.0):
             parts.append(grip)
             pieces.append(_still(motions, phase, np.linspace(grip.start, grip.end, PAUSED)))
         duration, piece = _moved(motions, phase, parts[-1].end if parts else 0.0)
-        parts.append(Part(phase.name, float(piece[0][0]), float(piece[0][0]) + duration))
+        parts.append(CyclePart(phase.name, float(piece[0][0]), float(piece[0][0]) + duration))
         pieces.append(piece)
     time, left, right, centre = zip(*pieces, strict=True)
     arms = {LEFT: _joined(left), RIGHT: _joined(right).mirrored()}
     most = max(float(motions.single.usage.max()), float(motions.both.usage.max()), _centre_use(params, motions.centre))
-    return Cycle(tuple(parts), np.concatenate(time), arms, np.concatenate(centre, axis=1), _use(params, arms), most)
+    return KnotCycle(tuple(parts), np.concatenate(time), arms, np.concatenate(centre, axis=1), _use(params, arms), most)
 
 
 def drive_angles(params: KnottingDyadParams) -> Float[np.ndarray, "2 2"]:
@@ -132,20 +132,20 @@ def _limits(params: KnottingDyadParams, axes: int) -> AxesLimits:
     return AxesLimits(*(np.full(axes, limit) for limit in each))
 
 
-def _grips(params: KnottingDyadParams, last: Phase, phase: Phase, now: float) -> Iterator[Part]:
+def _grips(params: KnottingDyadParams, last: Phase, phase: Phase, now: float) -> Iterator[CyclePart]:
     """The grips before a phase: those that take an end close, then those that had it open."""
     changes = [(old, new) for old, new in zip(last.carries, phase.carries, strict=True) if old != new]
     leavers = tuple(dict.fromkeys(old for old, _ in changes if old))
     takers = tuple(dict.fromkeys(new for _, new in changes if new))
     for name, grippers, takes in (("grasp", takers, params.grasp_time), ("release", leavers, params.release_time)):
         if grippers and takes:
-            yield Part(name, now, now + takes, grippers)
+            yield CyclePart(name, now, now + takes, grippers)
             now += takes
 
 
 def _moved(
     motions: _Motions, phase: Phase, now: float
-) -> tuple[float, tuple[FloatArray, ArmCourse, ArmCourse, FloatArray]]:
+) -> tuple[float, tuple[FloatArray, ArmMotion, ArmMotion, FloatArray]]:
     """A phase's motion from a time on, both arms as left ones."""
     moves = [name for name, span in ((LEFT, phase.left), (RIGHT, phase.right)) if span[0] != span[1]]
     if not moves:
@@ -166,22 +166,22 @@ def _moved(
     return motion.duration, (time, courses[0], courses[1], centre)
 
 
-def _arm(course: Course, motions: _Motions, axis: int, leads: np.ndarray) -> ArmCourse:
+def _arm(course: Trajectory, motions: _Motions, axis: int, leads: np.ndarray) -> ArmMotion:
     """The arm of the two axes from `axis` on, as a left one."""
     of = slice(axis, axis + 2)
     s = course.s if axis or course.position.shape[1] == 2 else 1 - course.s
     rates = course.position, course.speed, course.acceleration, course.jerk
     angle, speed, acceleration, jerk = (one[:, of] @ motions.absolute for one in rates)
-    return ArmCourse(s, angle, speed, acceleration, jerk, leads)
+    return ArmMotion(s, angle, speed, acceleration, jerk, leads)
 
 
-def _reversed(course: ArmCourse) -> ArmCourse:
+def _reversed(course: ArmMotion) -> ArmMotion:
     """The same motion backwards in time."""
     speed, jerk = -course.speed[::-1], -course.jerk[::-1]
-    return ArmCourse(course.s[::-1], course.angle[::-1], speed, course.acceleration[::-1], jerk, course.leads)
+    return ArmMotion(course.s[::-1], course.angle[::-1], speed, course.acceleration[::-1], jerk, course.leads)
 
 
-def _still(motions: _Motions, phase: Phase, time: FloatArray) -> tuple[FloatArray, ArmCourse, ArmCourse, FloatArray]:
+def _still(motions: _Motions, phase: Phase, time: FloatArray) -> tuple[FloatArray, ArmMotion, ArmMotion, FloatArray]:
     """Nothing moves: all stand where the phase begins."""
     left, right = (_standing(motions.way, span[0], len(time)) for span in (phase.left, phase.right))
     centre = np.zeros((4, len(time)))
@@ -189,10 +189,10 @@ def _still(motions: _Motions, phase: Phase, time: FloatArray) -> tuple[FloatArra
     return time, left, right, centre
 
 
-def _standing(way: ArmWay, s: float, samples: int) -> ArmCourse:
+def _standing(way: ArmPath, s: float, samples: int) -> ArmMotion:
     zero = np.zeros((samples, 2))
     angle = np.broadcast_to(way.theta[0 if s == OUT else -1], (samples, 2))
-    return ArmCourse(np.full(samples, s), angle + zero, zero, zero, zero, np.zeros(samples, bool))
+    return ArmMotion(np.full(samples, s), angle + zero, zero, zero, zero, np.zeros(samples, bool))
 
 
 def _centre(motions: _Motions, phase: Phase, time: FloatArray) -> FloatArray:
@@ -203,9 +203,9 @@ def _centre(motions: _Motions, phase: Phase, time: FloatArray) -> FloatArray:
     return np.asarray(moved)
 
 
-def _joined(courses: tuple[ArmCourse, ...]) -> ArmCourse:
+def _joined(courses: tuple[ArmMotion, ...]) -> ArmMotion:
     """One course after the other."""
-    return ArmCourse(
+    return ArmMotion(
         np.concatenate([one.s for one in courses]),
         np.concatenate([one.angle for one in courses]),
         np.concatenate([one.speed for one in courses]),
@@ -215,7 +215,7 @@ def _joined(courses: tuple[ArmCourse, ...]) -> ArmCourse:
     )
 
 
-def _use(params: KnottingDyadParams, arms: Mapping[str, ArmCourse]) -> FloatArray:
+def _use(params: KnottingDyadParams, arms: Mapping[str, ArmMotion]) -> FloatArray:
     """The greatest use of each of the joints' limits over the samples."""
     turned = drive_angles(params).T
     speed, acceleration, jerk = (
@@ -231,4 +231,4 @@ def _centre_use(params: KnottingDyadParams, centre: SCurve) -> float:
     return max(centre.speed / params.centre_speed, top / params.centre_acceleration, centre.jerk / params.centre_jerk)
 
 
-__all__ = ["CENTRE", "LEFT", "RIGHT", "ArmCourse", "Cycle", "Part", "cycle_of", "drive_angles"]
+__all__ = ["CENTRE", "LEFT", "RIGHT", "ArmMotion", "CyclePart", "KnotCycle", "cycle_of", "drive_angles"]

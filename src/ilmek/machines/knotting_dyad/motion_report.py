@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.machines.knotting_dyad.drives import Drives, JointDrive, drives_of
+from ilmek.machines.knotting_dyad.drives import ArmDrives, JointDrive, drives_of
 from ilmek.machines.knotting_dyad.head import Head
-from ilmek.machines.knotting_dyad.motion import CENTRE, LEFT, RIGHT, Cycle, cycle_of
+from ilmek.machines.knotting_dyad.motion import CENTRE, LEFT, RIGHT, KnotCycle, cycle_of
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.report import Axis, Check, Column, Figure, Json, Lane, Mark, Plot, Result, Series, Table, Timing, at_most
 from ilmek.timing.path_speed.solve import TOLERANCE
@@ -22,8 +22,8 @@ ARMS = {LEFT: "left arm", RIGHT: "right arm"}
 class HeadMotion:
     """The cycle of a head, and the drives that it needs."""
 
-    cycle: Cycle
-    drives: Drives
+    cycle: KnotCycle
+    drives: ArmDrives
 
     @property
     def torque_max(self) -> float:
@@ -94,7 +94,7 @@ def motion_figures(motion: HeadMotion) -> tuple[Figure, ...]:
     return (cyclogram(motion.cycle), *(plot(motion) for plot in (angles, speeds, limits, torques)))
 
 
-def cyclogram(cycle: Cycle) -> Timing:
+def cyclogram(cycle: KnotCycle) -> Timing:
     """The cycle's phases: arms, centre gripper, and which gripper closes or opens when."""
     time, first = np.unique(cycle.time, return_index=True)
     ways = {LEFT: cycle.arms[LEFT].s, RIGHT: cycle.arms[RIGHT].s, CENTRE: -cycle.centre[0]}

@@ -12,13 +12,13 @@ import numpy as np
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.machines.knotting_dyad.section import Section
+from ilmek.machines.knotting_dyad.section import WarpSection
 
 STEEL = MATERIALS["heat-treatable steel"]
 SAMPLES = 201
 
 
-def bent_aside(params: KnottingDyadParams, section: Section, arm: Arm) -> float:
+def bent_aside(params: KnottingDyadParams, section: WarpSection, arm: Arm) -> float:
     """The most that the needle is bent aside at the warps' axes on its way behind them [m]."""
     s = np.linspace(0.0, 1.0, SAMPLES)
     beyond, length = arm.beyond(s), section.needle_length

@@ -14,7 +14,7 @@ from ilmek.machines.knotting_dyad.motion_report import (
     motion_warnings,
 )
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
-from ilmek.synthesis.dyad import Dyad, Found
+from ilmek.synthesis.dyad import RootKind, TwoLinkArm
 from ilmek.units import format_quantity
 
 CLOSURE = 1e-9
@@ -74,7 +74,7 @@ def _task(design: KnottingDyad) -> tuple[Result, ...]:
 
 def _arms(design: KnottingDyad) -> tuple[Result, ...]:
     solutions: list[Json] = [_solution(design, at) for at in range(len(design.dyads))]
-    kinds: list[Json] = [Found(int(found)).words for found in design.roots.found]
+    kinds: list[Json] = [RootKind(int(found)).words for found in design.roots.found]
     chosen = None if design.chosen is None else design.chosen + 1
     return (
         Result("solutions", solutions, "", f"every real arm, SI and radians: {MEANING}"),
@@ -130,15 +130,15 @@ def _checks(design: KnottingDyad) -> tuple[Check, ...]:
     )
 
 
-def _longest(dyad: Dyad) -> float:
+def _longest(dyad: TwoLinkArm) -> float:
     return max(abs(dyad.first), dyad.second)
 
 
 def _warnings(design: KnottingDyad) -> tuple[str, ...]:
     if design.head is not None:  # the other arms are by the way
         return ()
-    kinds = dict.fromkeys(Found(int(found)) for found in design.roots.found)
-    odd = [kind.words for kind in kinds if kind not in (Found.ARM, Found.COMPLEX)]
+    kinds = dict.fromkeys(RootKind(int(found)) for found in design.roots.found)
+    odd = [kind.words for kind in kinds if kind not in (RootKind.ARM, RootKind.COMPLEX)]
     return (*(f"one root is no arm of two links: {words}" for words in odd), *_elbow(design))
 
 

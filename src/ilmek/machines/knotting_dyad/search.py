@@ -22,7 +22,7 @@ from ilmek.arrays import BoolArray, ComplexArray, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.machines.knotting_dyad.section import Section
+from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.plane.vectors import cross
 from ilmek.units import format_quantity
 
@@ -44,7 +44,7 @@ class _Tried:
     cost: FloatArray
 
 
-def best_arm(params: KnottingDyadParams, section: Section) -> Arm:
+def best_arm(params: KnottingDyadParams, section: WarpSection) -> Arm:
     """The left arm. Raises ParameterError where none fits."""
     least = section.needle_length + params.link_width
     limit = params.link_limit
@@ -67,7 +67,7 @@ def best_arm(params: KnottingDyadParams, section: Section) -> Arm:
 
 
 def _refined(
-    params: KnottingDyadParams, section: Section, centre: Float[np.ndarray, "3"], steps: FloatArray, sign: float
+    params: KnottingDyadParams, section: WarpSection, centre: Float[np.ndarray, "3"], steps: FloatArray, sign: float
 ) -> Arm:
     """The best of ever finer grids about a place that fits."""
     spread = np.linspace(-1.0, 1.0, ZOOM)
@@ -88,7 +88,7 @@ def _refined(
     )
 
 
-def _tried(params: KnottingDyadParams, section: Section, at: Float[np.ndarray, "n 3"], sign: FloatArray) -> _Tried:
+def _tried(params: KnottingDyadParams, section: WarpSection, at: Float[np.ndarray, "n 3"], sign: FloatArray) -> _Tried:
     second, tilt, offset = np.exp(at[:, 0]), at[:, 1], sign * np.exp(at[:, 2])
     gap, r0, r1 = section.gap, second + section.front, second - section.reach
     E0, E1 = gap + r0 * 1j * np.exp(1j * tilt), gap + r1 * 1j * np.exp(1j * section.tilt)
@@ -111,14 +111,14 @@ def _bent(base: FloatArray, first: FloatArray, r0: FloatArray, r1: FloatArray) -
     return np.asarray(np.sqrt(1 - cosine**2))
 
 
-def _pivot_clear(params: KnottingDyadParams, section: Section, pivot: ComplexArray) -> BoolArray:
+def _pivot_clear(params: KnottingDyadParams, section: WarpSection, pivot: ComplexArray) -> BoolArray:
     """The pivot is above warps and pile, and leaves room for the other arm's motor."""
     room = section.middle - pivot.real >= params.pivot_room / 2
     return np.asarray(room & (pivot.imag >= 2 * params.leg))
 
 
 def _own_side(
-    section: Section, pivot: ComplexArray, first: FloatArray, second: FloatArray, side: FloatArray
+    section: WarpSection, pivot: ComplexArray, first: FloatArray, second: FloatArray, side: FloatArray
 ) -> Bool[np.ndarray, " n"]:
     """The wide parts stay above the warps, and on their side of the centre gripper's; the tilt within its limit."""
     base = np.abs(pivot - section.gap)[:, None]

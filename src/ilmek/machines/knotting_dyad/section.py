@@ -35,7 +35,7 @@ SPARE = 1 * mm
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class WarpSection:
     """Lengths of the section [m]; x from the pair's left warp, y from the warps' axes, the pile upwards.
 
     pitch    p                   outer   g, width of the outer gaps between axes      front  height of the ends at rest
@@ -101,11 +101,11 @@ class Section:
         return np.concatenate([left, [0.0, self.pitch], self.pitch - left[::-1]]) + 0j
 
 
-def section_of(params: KnottingDyadParams) -> Section:
+def section_of(params: KnottingDyadParams) -> WarpSection:
     """The section that the parameters ask for; its depth chosen for the clearance where none is given."""
     outer = params.warp_pitch + params.opening
     depth = params.depth or _depth(params, outer)
-    return Section(
+    return WarpSection(
         params.warp_pitch,
         outer,
         params.warp_diameter,

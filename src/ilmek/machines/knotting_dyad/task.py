@@ -7,7 +7,7 @@ from jaxtyping import Complex, Float
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.knotting_dyad.arm_path import Arm
-from ilmek.synthesis.dyad import Arms, Found
+from ilmek.synthesis.dyad import PointArms, RootKind
 
 SHARES = (1 - np.cos((2 * np.arange(4) + 1) * np.pi / 8)) / 2
 """Where on the way the four points are: Chebyshev's nodes, values of its parameter s."""
@@ -17,7 +17,7 @@ SAMPLES = 181
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Task:
+class ArmTask:
     """What an arm is made for.
 
     points  four places [m]            angles  of the first link there [rad]
@@ -31,19 +31,19 @@ class Task:
     shares: Float[np.ndarray, "4"] | None = None
 
 
-def task_on(arm: Arm) -> Task:
+def task_on(arm: Arm) -> ArmTask:
     """Four points of an arm's way, and the angles that its first link has there."""
     course = arm.tip(np.linspace(0.0, 1.0, SAMPLES))
-    return Task(arm.tip(SHARES), np.ascontiguousarray(arm.way(SHARES).theta[:, 0]), course, SHARES)
+    return ArmTask(arm.tip(SHARES), np.ascontiguousarray(arm.way(SHARES).theta[:, 0]), course, SHARES)
 
 
-def bend(arms: Arms, points: ComplexArray, angles: FloatArray, course: ComplexArray) -> FloatArray:
+def bend(arms: PointArms, points: ComplexArray, angles: FloatArray, course: ComplexArray) -> FloatArray:
     """Least |sin| of the angle between the links over the course, of each arm of a batch.
 
     0 where the four points are not on one side of the elbow, -1 where a place of the course is out of reach, or where
     there is no arm: |cos| = |d² - a1² - a2²| / (2 |a1| a2) with the distance d from the pivot.
     """
-    there = arms.found == Found.ARM
+    there = arms.found == RootKind.ARM
     pivot, first, second = (np.where(there, one, 1.0)[..., None] for one in (arms.pivot, arms.first, arms.second))
     distance = np.abs(course - pivot)
     cosine = (distance**2 - first**2 - second**2) / (2 * np.abs(first) * second)

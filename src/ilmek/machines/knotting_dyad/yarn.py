@@ -13,7 +13,7 @@ from jaxtyping import Complex, Float
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import CarpetError
 from ilmek.machines.knotting_dyad.arm_path import Arm
-from ilmek.machines.knotting_dyad.section import Section
+from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, Phase
 from ilmek.units import format_quantity, um
 from ilmek.weaving.knots.led_yarn import SampledPath, end_path, knot_of_ends
@@ -24,7 +24,7 @@ MISSED = 1 * um
 
 
 def carried(
-    section: Section, arm: Arm, carrier: str, phase: Phase, shares: Float[np.ndarray, " n"]
+    section: WarpSection, arm: Arm, carrier: str, phase: Phase, shares: Float[np.ndarray, " n"]
 ) -> Complex[np.ndarray, " n"]:
     """Places of a carrier's tip at shares of a phase [m]."""
     if carrier == CENTRE:
@@ -35,7 +35,7 @@ def carried(
     return tip if carrier == LEFT else np.asarray(2 * section.middle - np.conj(tip))
 
 
-def tied_by(section: Section, arm: Arm, phases: Sequence[Phase]) -> TiedKnot:
+def tied_by(section: WarpSection, arm: Arm, phases: Sequence[Phase]) -> TiedKnot:
     """The knot that the phases tie with this arm and its mirror image; none where an end is led through a warp."""
 
     def ends(samples: int) -> tuple[SampledPath, SampledPath]:
@@ -44,7 +44,7 @@ def tied_by(section: Section, arm: Arm, phases: Sequence[Phase]) -> TiedKnot:
     return knot_of_ends(ends, section.warps, keep_out=section.warp / 2)
 
 
-def _end(section: Section, arm: Arm, phases: Sequence[Phase], end: int, samples: int) -> SampledPath:
+def _end(section: WarpSection, arm: Arm, phases: Sequence[Phase], end: int, samples: int) -> SampledPath:
     """Path of an end over the phases. Raises CarpetError where a hand-over misses it."""
     shares = np.linspace(0.0, 1.0, samples)
     motions: list[tuple[ComplexArray, FloatArray]] = []

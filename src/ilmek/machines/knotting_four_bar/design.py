@@ -14,12 +14,12 @@ from ilmek.errors import ParameterError
 from ilmek.linkage.quality import Grashof, grashof, input_range, transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.knotting_four_bar.drive import Drive, drive_for
-from ilmek.machines.knotting_four_bar.model import State, closing_ground, evaluate, inertias, mechanism, parts
+from ilmek.machines.knotting_four_bar.drive import GearedServo, drive_for
+from ilmek.machines.knotting_four_bar.model import KnottingState, closing_ground, evaluate, inertias, mechanism, parts
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, params_of
 from ilmek.machines.knotting_four_bar.poses import Synthesis, read_three_poses, synthesised
-from ilmek.machines.knotting_four_bar.replacement import Instead, instead
-from ilmek.machines.knotting_four_bar.sides import Sides, both_sides
+from ilmek.machines.knotting_four_bar.replacement import Replacement, instead
+from ilmek.machines.knotting_four_bar.sides import KnottingSides, both_sides
 from ilmek.units import deg, format_quantity, turn
 
 SAMPLES = 360
@@ -60,15 +60,15 @@ class KnottingFourBar:
     working: tuple[float, float] | None
     parts: Mapping[str, Inertia]
     inertias: Mapping[str, Inertia]
-    at: State
-    static: State
-    unit: State
-    course: State
-    standing: State
+    at: KnottingState
+    static: KnottingState
+    unit: KnottingState
+    course: KnottingState
+    standing: KnottingState
     synthesis: Synthesis | None
-    at_poses: State | None
-    instead: Instead | None
-    sides: Sides | None
+    at_poses: KnottingState | None
+    instead: Replacement | None
+    sides: KnottingSides | None
 
     @property
     def dead_point_distance(self) -> float:
@@ -97,7 +97,7 @@ class KnottingFourBar:
         return max(float(np.max(np.abs(state.torque))) for state in states)
 
     @property
-    def drive(self) -> Drive:
+    def drive(self) -> GearedServo:
         """The drive for that torque, or for that of both sides."""
         # Without poses the angle asked for may lie beyond the course, nearer to a dead point; both sides stand there.
         both = max(self.sides.torque, 2 * self.load_torque) if self.sides else self.load_torque

@@ -10,7 +10,7 @@ RATIOS = (1.0, 3.0, 4.0, 5.0, 7.0, 10.0, 16.0, 20.0, 25.0, 35.0, 50.0, 70.0, 100
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class GearedServo:
     """A servo behind gears: its torque [N m] and speed [rad/s], and its class; None where none is enough."""
 
     reducer: Reducer
@@ -19,10 +19,10 @@ class Drive:
     servo: Motor | None
 
 
-def drive_for(params: KnottingFourBarParams, torque: float) -> Drive:
+def drive_for(params: KnottingFourBarParams, torque: float) -> GearedServo:
     """The drive for a torque on the crank [N m], either way, at the crank's speed."""
     ratios = RATIOS if params.gear_ratio is None else (params.gear_ratio,)
     reducers = [Reducer(ratio, params.gear_efficiency) for ratio in ratios]
     load, speed = abs(torque), abs(params.speed)
     servo, reducer = geared_motor(load, speed, reducers, "servo") or (None, reducers[0])
-    return Drive(reducer, reducer.motor_torque(load), speed * reducer.ratio, servo)
+    return GearedServo(reducer, reducer.motor_torque(load), speed * reducer.ratio, servo)

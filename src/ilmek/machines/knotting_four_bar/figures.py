@@ -13,9 +13,9 @@ from ilmek.linkage.solve import solve
 from ilmek.machines.animation import animated, frames
 from ilmek.machines.knotting_four_bar import sides_figures
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.model import State, evaluate
+from ilmek.machines.knotting_four_bar.model import KnottingState, evaluate
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
-from ilmek.machines.knotting_four_bar.replacement import POINTS, Instead
+from ilmek.machines.knotting_four_bar.replacement import POINTS, Replacement
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
 
@@ -60,7 +60,7 @@ def _path(design: KnottingFourBar) -> ComplexArray:
     return closed
 
 
-def replacement(made: Instead) -> Drawing:
+def replacement(made: Replacement) -> Drawing:
     """The four-bar of both arms at its first pose, the others dashed, in the frame of the poses."""
     title = "Four-bar through the report's three poses, to scale"
     note = "Both arms of the three poses side by side; at the first pose, the others dashed."
@@ -104,7 +104,7 @@ def _numbered(points: ComplexArray) -> tuple[Dot, ...]:
     return tuple(Dot(complex(at), f"{place}", "point") for place, at in enumerate(points, 1))
 
 
-def moving_replacement(made: Instead) -> Animation:
+def moving_replacement(made: Replacement) -> Animation:
     """The four-bar of both arms from its first pose to its last, and the three places its hand goes through."""
     first, last = sorted(made.crank_angles[[0, -1]])
     state = evaluate(made.params, made.state.motion.plan, frames(first, last), made.params.speed)
@@ -117,7 +117,7 @@ def moving_replacement(made: Instead) -> Animation:
     return _moving(state, drawing, _said(made.params), float(made.crank_angles[0]))
 
 
-def _moving(state: State, drawing: Drawing, said: Mapping[str, str], start: float) -> Animation:
+def _moving(state: KnottingState, drawing: Drawing, said: Mapping[str, str], start: float) -> Animation:
     readings = (
         Reading("drive torque", state.torque, "N*m"),
         Reading("coupler", np.mod(state.motion.angle("coupler") + np.pi, turn) - np.pi, "deg"),

@@ -30,7 +30,7 @@ PINS = ("O1", "O2", "O2'", "O1'")
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class KnottingState:
     """The mechanism at given crank angles, one value a sample.
 
     pins    pin -> force [N], complex: O1 on the crank, O2 and O2' on the coupler, O1' on the rocker
@@ -122,13 +122,13 @@ def _block(params: KnottingFourBarParams, middle: float, length: float, width: f
 
 def evaluate(
     params: KnottingFourBarParams, planned: Plan, angle: FloatArray, speed: float, acceleration: float = 0.0
-) -> State:
+) -> KnottingState:
     """Motion and forces at the given crank angles [rad], speed [rad/s] and acceleration [rad/s²] of the crank."""
     motion = solve(planned, angle, speed, acceleration).require()
     pull = PointForce("coupler", "H", params.grip_force * unit(params.grip_angle))
     forces = inverse(motion, inertias(params), (Gravity(-1j * params.gravity), pull))
     on = {"O1": "crank", "O2": "coupler", "O2'": "coupler", "O1'": "rocker"}
-    return State(
+    return KnottingState(
         angle=angle,
         motion=motion,
         forces=forces,

@@ -17,10 +17,10 @@ from ilmek.machines.text_lists import read_poses
 from ilmek.plane.vectors import unit
 from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.synthesis.candidate import Candidate, judge
-from ilmek.synthesis.dyad import Dyad, Found, PoseArms, arms_through_poses, dyads_through_poses
+from ilmek.synthesis.dyad import PoseArms, RootKind, TwoLinkArm, arms_through_poses, dyads_through_poses
 from ilmek.synthesis.filters import Filters, defects
 from ilmek.synthesis.four_bar import FourBar
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg, format_quantity, turn
 
 DIRECTIONS = np.arange(360) * 0.5 * deg
@@ -40,7 +40,7 @@ OTHERS = {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Poses:
+class HandPoses:
     """Three poses of the hand: its places [m], the directions of the coupler there [rad], and as they were written."""
 
     points: Complex[np.ndarray, "3"]
@@ -49,7 +49,7 @@ class Poses:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Choice:
+class PoseFourBar:
     """A four-bar of two arms: their numbers from 0, the driven one first; what was found, and its defects in words."""
 
     crank: int
@@ -67,21 +67,21 @@ class Synthesis:
     choices       every four-bar                               best   the one to build
     """
 
-    poses: Poses
+    poses: HandPoses
     ground_angle: float
     tried: bool
     roots: PoseArms
-    dyads: tuple[Dyad, ...]
-    choices: tuple[Choice, ...]
-    best: Choice
+    dyads: tuple[TwoLinkArm, ...]
+    choices: tuple[PoseFourBar, ...]
+    best: PoseFourBar
 
     @property
-    def crank(self) -> Dyad:
+    def crank(self) -> TwoLinkArm:
         """The arm whose first link is driven."""
         return self.dyads[self.best.crank]
 
     @property
-    def rocker(self) -> Dyad:
+    def rocker(self) -> TwoLinkArm:
         """The other arm."""
         return self.dyads[self.best.rocker]
 
@@ -97,13 +97,13 @@ class Synthesis:
         """Of the driven link at the poses, as it turns through them one way [rad]; the last within the first turn."""
         return turned_through(self.best.candidate)
 
-    def residuals(self, dyad: Dyad) -> FloatArray:
+    def residuals(self, dyad: TwoLinkArm) -> FloatArray:
         """By how much an arm misses the poses [m]."""
         points, angles = self.poses.points, self.poses.angles
         return np.asarray(np.abs(dyad.place(dyad.first_angles(points, angles), angles) - points))
 
 
-def read_three_poses(text: str) -> Poses:
+def read_three_poses(text: str) -> HandPoses:
     """The three poses of a text. Raises ParameterError for anything else; other numbers are sent to who takes them."""
     points, angles = read_poses("poses", text)
     if len(points) in OTHERS:
@@ -114,10 +114,10 @@ def read_three_poses(text: str) -> Poses:
             f"{len(points)} poses", allowed="exactly 3", do="no four-bar takes more than 5 exactly: choose among them"
         )
     require_task("pose", points, angles, 3, "knotting-four-bar")
-    return Poses(points, angles, text)
+    return HandPoses(points, angles, text)
 
 
-def synthesised(poses: Poses, ground_angle: float | None) -> Synthesis:
+def synthesised(poses: HandPoses, ground_angle: float | None) -> Synthesis:
     """The four-bar through three poses, the best of both cranks; ground angle [rad], or None to try them.
 
     Raises ParameterError where there are not two real arms, or where neither four-bar goes through the poses without
@@ -144,7 +144,7 @@ def synthesised(poses: Poses, ground_angle: float | None) -> Synthesis:
     return Synthesis(poses, ground_angle, tried, roots, dyads, choices, best)
 
 
-def best_ray(poses: Poses) -> float | None:
+def best_ray(poses: HandPoses) -> float | None:
     """Of rays half a degree apart the one with the best transmission angle [rad]; None where none has a four-bar.
 
     The angles at the poses bound that of the whole motion: four-bars are judged from the highest bound downwards.
@@ -161,7 +161,7 @@ def best_ray(poses: Poses) -> float | None:
     return best
 
 
-def _bounds(poses: Poses) -> Float[np.ndarray, "rays 2"]:
+def _bounds(poses: HandPoses) -> Float[np.ndarray, "rays 2"]:
     """The most that the transmission angle can be [rad], for each ray and driven arm; -1 where there is no four-bar.
 
     Left out are those with the poses on two branches, and those whose crank does not turn fully and is at the poses out
@@ -170,7 +170,7 @@ def _bounds(poses: Poses) -> Float[np.ndarray, "rays 2"]:
     shape = (DIRECTIONS.size, 3)
     points, angles = (np.broadcast_to(one, shape) for one in (poses.points, poses.angles))
     arms = arms_through_poses(points, angles, DIRECTIONS)
-    there = np.all(arms.found == Found.ARM, axis=-1)[:, None]
+    there = np.all(arms.found == RootKind.ARM, axis=-1)[:, None]
     pivot, first, second = (np.where(there, one, 1.0) for one in (arms.pivot, arms.first, arms.second))
     turned = np.asarray(unit(angles))[:, None]
     links = points[:, None] - pivot[..., None] - second[..., None] * turned
@@ -200,24 +200,24 @@ def turned_through(candidate: Candidate) -> Float[np.ndarray, "3"]:
     return np.asarray(angles - turn * np.floor(angles[-1] / turn))
 
 
-def sines(poses: Poses, arm: Dyad) -> Float[np.ndarray, "3"]:
+def sines(poses: HandPoses, arm: TwoLinkArm) -> Float[np.ndarray, "3"]:
     """Sine of the coupler against an arm's first link, at the poses: what the other arm as crank works with."""
     return np.asarray(np.abs(np.sin(arm.first_angles(poses.points, poses.angles) - poses.angles)))
 
 
-def _choices(poses: Poses, dyads: tuple[Dyad, ...], filters: Filters | None = None) -> list[Choice]:
+def _choices(poses: HandPoses, dyads: tuple[TwoLinkArm, ...], filters: Filters | None = None) -> list[PoseFourBar]:
     """Every pair of arms as a four-bar, with either of them driven."""
-    task = Task(points=poses.points, coupler=poses.angles)
+    task = PrecisionTask(points=poses.points, coupler=poses.angles)
     found = []
     for crank, rocker in permutations(range(len(dyads)), 2):
         drawn = _joined(poses, dyads[crank], dyads[rocker])
         if drawn:
             candidate = judge(drawn, task)
-            found.append(Choice(crank, rocker, candidate, defects(candidate, filters)))
+            found.append(PoseFourBar(crank, rocker, candidate, defects(candidate, filters)))
     return found
 
 
-def _joined(poses: Poses, crank: Dyad, rocker: Dyad) -> FourBar | None:
+def _joined(poses: HandPoses, crank: TwoLinkArm, rocker: TwoLinkArm) -> FourBar | None:
     """Two arms as drawn at the first pose; None where two of their pins are one."""
     A, B = (poses.points[0] - arm.second * unit(poses.angles[0]) for arm in (crank, rocker))
     try:
@@ -226,9 +226,9 @@ def _joined(poses: Poses, crank: Dyad, rocker: Dyad) -> FourBar | None:
         return None
 
 
-def _too_few(poses: Poses, ground_angle: float, roots: PoseArms) -> ParameterError:
-    count = int(np.sum(roots.found == Found.ARM))
-    said = dict.fromkeys(Found(int(one)).words for one in roots.found if one != Found.ARM)
+def _too_few(poses: HandPoses, ground_angle: float, roots: PoseArms) -> ParameterError:
+    count = int(np.sum(roots.found == RootKind.ARM))
+    said = dict.fromkeys(RootKind(int(one)).words for one in roots.found if one != RootKind.ARM)
     arms = ("no real arm takes", "only one real arm takes")[count]
     return ParameterError(
         f"{arms} the three poses with its pivot on the ray at {format_quantity(ground_angle, 'deg')} "
@@ -238,11 +238,11 @@ def _too_few(poses: Poses, ground_angle: float, roots: PoseArms) -> ParameterErr
     )
 
 
-def _rays_with_two(poses: Poses) -> str:
+def _rays_with_two(poses: HandPoses) -> str:
     """The ground angles that have two real arms, in words."""
     shape = (DIRECTIONS.size, 3)
     points, angles = (np.broadcast_to(one, shape) for one in (poses.points, poses.angles))
-    there = np.all(arms_through_poses(points, angles, DIRECTIONS).found == Found.ARM, axis=-1)
+    there = np.all(arms_through_poses(points, angles, DIRECTIONS).found == RootKind.ARM, axis=-1)
     if not there.any():
         return "no ground angle has two: move or turn a pose"
     edges = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(int)))
@@ -253,7 +253,7 @@ def _rays_with_two(poses: Poses) -> str:
     return f"ground_angle {' or '.join(spans)}, or their opposites, has two; leave it out to have the best"
 
 
-def _none_will_do(poses: Poses, ground_angle: float, choices: tuple[Choice, ...]) -> ParameterError:
+def _none_will_do(poses: HandPoses, ground_angle: float, choices: tuple[PoseFourBar, ...]) -> ParameterError:
     said = "; ".join(f"driven at arm {one.crank + 1}: {' and '.join(one.defects.values())}" for one in choices)
     best = best_ray(poses)
     other = "move or turn a pose" if best is None else f"ground_angle={np.degrees(best):g}deg has one"

@@ -4,11 +4,11 @@ import numpy as np
 from jaxtyping import Float
 
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.model import State
-from ilmek.machines.knotting_four_bar.poses import Choice, Synthesis, sines
+from ilmek.machines.knotting_four_bar.model import KnottingState
+from ilmek.machines.knotting_four_bar.poses import PoseFourBar, Synthesis, sines
 from ilmek.plane.vectors import unit
 from ilmek.report import Check, Column, Json, Result, Table, at_most
-from ilmek.synthesis.dyad import Dyad, Found
+from ilmek.synthesis.dyad import RootKind, TwoLinkArm
 from ilmek.units import turn
 
 MET = 1e-9
@@ -22,7 +22,7 @@ def results(design: KnottingFourBar) -> tuple[Result, ...]:
         return ()
     solutions: list[Json] = [_solution(found, dyad) for dyad in found.dyads]
     four_bars: list[Json] = [_four_bar(found, one) for one in found.choices]
-    roots: list[Json] = [Found(int(one)).words for one in found.roots.found]
+    roots: list[Json] = [RootKind(int(one)).words for one in found.roots.found]
     pivots: list[Json] = [[arm.pivot.real, arm.pivot.imag] for arm in (found.crank, found.rocker)]
     ends: list[Json] = list(design.working or ())
     return (
@@ -47,7 +47,7 @@ FOUR_BAR = (
 POSE = "place, coupler's direction, crank angle; errors, number in the crank's order, branch, circuit, drive torque"
 
 
-def _solution(found: Synthesis, dyad: Dyad) -> dict[str, Json]:
+def _solution(found: Synthesis, dyad: TwoLinkArm) -> dict[str, Json]:
     poses = found.poses
     return {
         "a0": dyad.ground,
@@ -61,7 +61,7 @@ def _solution(found: Synthesis, dyad: Dyad) -> dict[str, Json]:
     }
 
 
-def _four_bar(found: Synthesis, one: Choice) -> dict[str, Json]:
+def _four_bar(found: Synthesis, one: PoseFourBar) -> dict[str, Json]:
     candidate = one.candidate
     drawn, along = candidate.four_bar, candidate.four_bar.tracer_on_coupler
     return {
@@ -86,7 +86,7 @@ def _four_bar(found: Synthesis, one: Choice) -> dict[str, Json]:
     }
 
 
-def _met(found: Synthesis, state: State) -> list[Json]:
+def _met(found: Synthesis, state: KnottingState) -> list[Json]:
     places, turned = errors(found, state)
     met, order = found.best.candidate.positions, found.best.candidate.order
     poses = zip(found.poses.points, found.poses.angles, strict=True)
@@ -107,7 +107,7 @@ def _met(found: Synthesis, state: State) -> list[Json]:
     ]
 
 
-def errors(found: Synthesis, state: State) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
+def errors(found: Synthesis, state: KnottingState) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
     """By how much hand [m] and coupler [rad] of the moved machine miss the poses."""
     poses = found.poses
     places = np.abs(state.motion.point("coupler", "H").position - poses.points)
@@ -176,7 +176,7 @@ def _four_bar_table(found: Synthesis) -> Table:
     return Table("knotting-four-bars", "The arms joined as one four-bar", columns, rows, brief=True)
 
 
-def _pose_table(found: Synthesis, state: State) -> Table:
+def _pose_table(found: Synthesis, state: KnottingState) -> Table:
     places, turned = errors(found, state)
     met = found.best.candidate.positions
     rows = tuple(

@@ -10,9 +10,9 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.linkage.structure import plan
-from ilmek.machines.knotting_four_bar.model import State, evaluate, mechanism
+from ilmek.machines.knotting_four_bar.model import KnottingState, evaluate, mechanism
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, params_of
-from ilmek.machines.knotting_four_bar.poses import Poses, synthesised
+from ilmek.machines.knotting_four_bar.poses import HandPoses, synthesised
 from ilmek.units import deg, mm
 
 POINTS: ComplexArray = np.array([0j, 25 + 15j, 30 + 1j]) * mm
@@ -23,7 +23,7 @@ GROUND_RAY = 275 * deg
 
 
 @dataclass(frozen=True, slots=True)
-class Instead:
+class Replacement:
     """A four-bar whose coupler takes the three poses.
 
     params        its parameters, all else as asked        crank_angles  at the poses [rad]
@@ -34,13 +34,13 @@ class Instead:
     params: KnottingFourBarParams
     crank_angles: FloatArray
     origin: complex
-    state: State
+    state: KnottingState
 
 
-def instead(params: KnottingFourBarParams) -> Instead:
+def instead(params: KnottingFourBarParams) -> Replacement:
     """The four-bar of both arms, driven at the one that leaves the other the better transmission angle."""
-    found = synthesised(Poses(POINTS, COUPLER_ANGLES), GROUND_RAY)
+    found = synthesised(HandPoses(POINTS, COUPLER_ANGLES), GROUND_RAY)
     made = params_of(params, found)
     planned = plan(mechanism(made, made.ground_angle or 0.0))
     state = evaluate(made, planned, found.crank_angles, params.speed, params.acceleration)
-    return Instead(made, found.crank_angles, found.crank.pivot, state)
+    return Replacement(made, found.crank_angles, found.crank.pivot, state)

@@ -5,10 +5,10 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_four_bar import poses_report
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.drive import Drive, drive_for
+from ilmek.machines.knotting_four_bar.drive import GearedServo, drive_for
 from ilmek.machines.knotting_four_bar.figures import figures
-from ilmek.machines.knotting_four_bar.model import State
-from ilmek.machines.knotting_four_bar.replacement import Instead
+from ilmek.machines.knotting_four_bar.model import KnottingState
+from ilmek.machines.knotting_four_bar.replacement import Replacement
 from ilmek.machines.knotting_four_bar.sides_report import said
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
 from ilmek.units import deg, format_quantity, turn
@@ -95,7 +95,7 @@ def _direction(values: FloatArray) -> float:
     return float(values[0]) % turn
 
 
-def _vectors(state: State) -> dict[str, Json]:
+def _vectors(state: KnottingState) -> dict[str, Json]:
     return {pin: [float(force[0].real), float(force[0].imag)] for pin, force in state.pins.items()}
 
 
@@ -124,7 +124,7 @@ def _drive(design: KnottingFourBar) -> tuple[Result, ...]:
     )
 
 
-def _servo(drive: Drive) -> str:
+def _servo(drive: GearedServo) -> str:
     return drive.servo.name if drive.servo else "none of the catalogue is enough"
 
 
@@ -163,12 +163,12 @@ def _instead(design: KnottingFourBar) -> tuple[Result, ...]:
     return (Result("instead", answer, "", meaning),)
 
 
-def _drive_instead(made: Instead) -> Drive:
+def _drive_instead(made: Replacement) -> GearedServo:
     """The drive for the greatest torque of the four-bar to use instead at the report's poses."""
     return drive_for(made.params, float(np.max(np.abs(made.state.torque))))
 
 
-def _least_transmission(made: Instead) -> float:
+def _least_transmission(made: Replacement) -> float:
     motion = made.state.motion
     return float(np.min(np.arcsin(np.abs(np.sin(motion.angle("coupler") - motion.angle("rocker"))))))
 

@@ -16,8 +16,8 @@ from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, PointForce
 from ilmek.elements.gears import EqualGears, equal_gears
 from ilmek.errors import IlmekError, ParameterError
-from ilmek.linkage.clearance import Clearance, Placed, clearance
-from ilmek.linkage.configuration_path import InputWay
+from ilmek.linkage.clearance import Clearance, OutlinedBody, clearance
+from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.model import GROUND, Body, Coupling, Mechanism, Pin, Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.one_input import one_input
@@ -60,7 +60,7 @@ class Coupled:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sides:
+class KnottingSides:
     """Both sides, designed.
 
     mirror    x of the mirror [m]         facing  +1: the mirror is right of the first side, -1: left
@@ -96,7 +96,7 @@ class Sides:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Run:
+class CrankMotion:
     """How the first crank is moved: angles [rad], speed [rad/s], acceleration [rad/s²]; the gear on it, if any."""
 
     angles: FloatArray
@@ -116,7 +116,7 @@ def hands(motion: Motion) -> tuple[ComplexArray, ComplexArray]:
     return np.asarray(first.position), np.asarray(second.position)
 
 
-def both_sides(params: KnottingFourBarParams, one: Plan, angles: FloatArray) -> Sides:
+def both_sides(params: KnottingFourBarParams, one: Plan, angles: FloatArray) -> KnottingSides:
     """The mirrored side beside the first over its crank angles [rad], and the gears between them.
 
     Raises ParameterError where the axes are too near for gears.
@@ -126,14 +126,14 @@ def both_sides(params: KnottingFourBarParams, one: Plan, angles: FloatArray) -> 
     reaches = {facing: _reach(params, motion, start, facing) for facing in (+1, -1)}
     facing = max((+1, -1), key=lambda way: _hand(motion, start, way))
     least = 2 * reaches[facing] + params.side_clearance
-    runs = Run(angles, params.speed, params.acceleration), Run(angles, 0.0, 0.0)
+    runs = CrankMotion(angles, params.speed, params.acceleration), CrankMotion(angles, 0.0, 0.0)
     gears = _gears(params, least, max(float(np.max(np.abs(_alone(params, one, run)))) for run in runs))
     mirror = start.real + facing * gears.distance / 2
     planned, image = plan(coupled(one.mechanism, mirror)), plan(mirrored(one.mechanism, mirror))
     geared = [dataclasses.replace(run, disc=wheel(params, gears)) for run in runs]
     course, standing = (_moved(params, (one, image), planned, run) for run in geared)
     hand = facing * motion.point("coupler", "H").position.real
-    return Sides(
+    return KnottingSides(
         mirror=mirror,
         facing=facing,
         gears=gears,
@@ -192,7 +192,7 @@ def wheel(params: KnottingFourBarParams, gears: EqualGears) -> Inertia:
     return Inertia(mass, 0j, mass * gears.pitch_radius**2 / 2)
 
 
-def outlines(params: KnottingFourBarParams, mechanism: Mechanism, body: str) -> Placed:
+def outlines(params: KnottingFourBarParams, mechanism: Mechanism, body: str) -> OutlinedBody:
     """A body of the first side as seen in the plane of motion: its bar, on the coupler holder and gripper too."""
     points = list(mechanism.body(body).points.values())
     shapes = [Outline(tuple(points), params.width / 2)]
@@ -206,7 +206,7 @@ def outlines(params: KnottingFourBarParams, mechanism: Mechanism, body: str) -> 
             far = end + outward * length
             shapes.append(Outline(tuple(complex(x, side * width / 2) for x in (end, far) for side in (+1, -1))))
             end = far
-    return Placed(body, tuple(shapes))
+    return OutlinedBody(body, tuple(shapes))
 
 
 def _hand(motion: Motion, start: complex, facing: int) -> float:
@@ -239,7 +239,7 @@ def _gears(params: KnottingFourBarParams, least: float, torque: float) -> EqualG
         raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
 
 
-def _alone(params: KnottingFourBarParams, one: Plan, run: Run) -> FloatArray:
+def _alone(params: KnottingFourBarParams, one: Plan, run: CrankMotion) -> FloatArray:
     """Torque on the crank of one side by itself [N m]; the second one's input turns the other way."""
     second = one.mechanism.inputs[0].name != "crank"
     name = other if second else str
@@ -258,7 +258,7 @@ def _loads(params: KnottingFourBarParams, *, second: bool) -> tuple[Gravity, Poi
     return weight, PointForce("coupler", "H", force)
 
 
-def _moved(params: KnottingFourBarParams, sides: tuple[Plan, Plan], planned: Plan, run: Run) -> Coupled:
+def _moved(params: KnottingFourBarParams, sides: tuple[Plan, Plan], planned: Plan, run: CrankMotion) -> Coupled:
     """Both sides coupled, and each alone."""
     had = run.inertias(params)
     motion = solve(planned, run.angles, run.speed, run.acceleration).require()
@@ -268,13 +268,13 @@ def _moved(params: KnottingFourBarParams, sides: tuple[Plan, Plan], planned: Pla
     return Coupled(run.angles, motion, forces, forces.effort("crank"), np.abs(forces.tooth(GEARS)), (first, second))
 
 
-def clearances(params: KnottingFourBarParams, sides: Sides) -> dict[str, Clearance]:
+def clearances(params: KnottingFourBarParams, sides: KnottingSides) -> dict[str, Clearance]:
     """The least clearance of each body, and of its mirror image, over the way [m].
 
     No other pair comes nearer: a body that stays the distance d from the mirror stays 2 d from its image, and d + d'
     from any other that stays d' from it. The coupler has holder and gripper.
     """
     angles = sides.course.angle
-    way = InputWay(one_input(sides.plan), float(np.min(angles)), float(np.max(angles)))
+    way = InputPath(one_input(sides.plan), float(np.min(angles)), float(np.max(angles)))
     placed = {body: outlines(params, sides.plan.mechanism, body) for body in BODIES}
-    return {body: clearance(way, one, Placed(other(body), one.outlines)) for body, one in placed.items()}
+    return {body: clearance(way, one, OutlinedBody(other(body), one.outlines)) for body, one in placed.items()}

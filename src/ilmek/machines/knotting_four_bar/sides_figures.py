@@ -9,7 +9,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.machines.animation import animated, frames
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.sides import BODIES, Sides, hands, other, outlines
+from ilmek.machines.knotting_four_bar.sides import BODIES, KnottingSides, hands, other, outlines
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
 
@@ -25,7 +25,7 @@ def figures(design: KnottingFourBar) -> tuple[Figure, ...]:
     return drawing(design, sides), moving(design, sides), torque(sides), distance(sides)
 
 
-def drawing(design: KnottingFourBar, sides: Sides) -> Drawing:
+def drawing(design: KnottingFourBar, sides: KnottingSides) -> Drawing:
     """Both sides to scale where the hands are nearest to one another, their gears and ways."""
     motion = solve(sides.plan, np.array([sides.knot])).require()
     first_way, second_way = hands(sides.course.motion)
@@ -47,7 +47,7 @@ def drawing(design: KnottingFourBar, sides: Sides) -> Drawing:
     return Drawing("knotting-sides", "Both sides to scale, the hands nearest to one another", strokes, dots, note=note)
 
 
-def moving(design: KnottingFourBar, sides: Sides) -> Animation:
+def moving(design: KnottingFourBar, sides: KnottingSides) -> Animation:
     """Both sides over the crank's way."""
     course = sides.course.angle
     at = frames(course[0], course[-1])
@@ -70,7 +70,7 @@ def _points(motion: Motion, named: Callable[[str], str]) -> dict[str, complex]:
     return {name: complex(np.ravel(motion.point(named(body), named(name)).position)[0]) for name, body in held.items()}
 
 
-def _grippers(design: KnottingFourBar, sides: Sides, motion: Motion) -> tuple[Stroke, ...]:
+def _grippers(design: KnottingFourBar, sides: KnottingSides, motion: Motion) -> tuple[Stroke, ...]:
     """Outlines of holders and grippers."""
     shapes = outlines(design.params, sides.plan.mechanism, "coupler").outlines[1:]
     found: list[Stroke] = []
@@ -80,7 +80,7 @@ def _grippers(design: KnottingFourBar, sides: Sides, motion: Motion) -> tuple[St
     return tuple(found)
 
 
-def torque(sides: Sides) -> Plot:
+def torque(sides: KnottingSides) -> Plot:
     """Torque of the motor for both sides, and of each alone."""
     course = sides.course
     series = (
@@ -92,14 +92,14 @@ def torque(sides: Sides) -> Plot:
     )
 
 
-def distance(sides: Sides) -> Plot:
+def distance(sides: KnottingSides) -> Plot:
     """Distance of the two hands."""
     series = (Series("from hand to hand", sides.course.angle, sides.gap),)
     axes = Axis("crank angle", "deg"), Axis("distance", "mm")
     return Plot("knotting-sides-distance", "Distance of the hands", *axes, series, (Mark(sides.knot, "nearest"),))
 
 
-def _gears(sides: Sides) -> tuple[Stroke, ...]:
+def _gears(sides: KnottingSides) -> tuple[Stroke, ...]:
     """Pitch circles and the mirror's line."""
     mechanism, radius = sides.plan.mechanism, sides.gears.pitch_radius
     centres = [mechanism.point(GROUND, name) for name in ("O1", other("O1"))]

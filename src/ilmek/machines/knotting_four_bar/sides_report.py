@@ -7,7 +7,7 @@ import numpy as np
 
 from ilmek.linkage.clearance import Clearance
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.sides import Sides, clearances, hands
+from ilmek.machines.knotting_four_bar.sides import KnottingSides, clearances, hands
 from ilmek.report import Check, Column, Json, Result, Table, at_least, at_most
 from ilmek.units import format_quantity
 from ilmek.weaving.knots.two_hands import TwoHandKnot, knot_of_hands, pitch_range
@@ -19,7 +19,7 @@ LEFT_OUT = (
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class SidesReport:
     """What is said of both sides; nothing of one."""
 
     results: tuple[Result, ...] = ()
@@ -28,18 +28,18 @@ class Said:
     warnings: tuple[str, ...] = ()
 
 
-def said(design: KnottingFourBar) -> Said:
+def said(design: KnottingFourBar) -> SidesReport:
     """Gears, torque, clearances, knot."""
     sides = design.sides
     if sides is None:
-        return Said()
+        return SidesReport()
     near = clearances(design.params, sides)
     tied = _tied(design, sides)
     results = (*_results(sides, near), *_knot(design, tied))
-    return Said(results, _checks(design, sides, near), (_table(sides),), _warnings(design, tied))
+    return SidesReport(results, _checks(design, sides, near), (_table(sides),), _warnings(design, tied))
 
 
-def _results(sides: Sides, near: Mapping[str, Clearance]) -> tuple[Result, ...]:
+def _results(sides: KnottingSides, near: Mapping[str, Clearance]) -> tuple[Result, ...]:
     least = min(near, key=lambda body: near[body].least)
     pins = "greatest force in each pin on the way, *: of the second side; SI"
     return (
@@ -55,7 +55,7 @@ def _results(sides: Sides, near: Mapping[str, Clearance]) -> tuple[Result, ...]:
     )
 
 
-def _gears(sides: Sides) -> Json:
+def _gears(sides: KnottingSides) -> Json:
     gears = sides.gears
     return {
         "module": gears.module,
@@ -70,14 +70,14 @@ def _gears(sides: Sides) -> Json:
     }
 
 
-def _pins(sides: Sides) -> Json:
+def _pins(sides: KnottingSides) -> Json:
     course = sides.course
     pins = (joint.name for joint in sides.plan.mechanism.joints)
     return {name.replace(" ", ""): float(np.max(np.abs(course.forces.pin(name)))) for name in pins}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Knot:
+class TiedPitches:
     """What the hands tie on warps at the pitch asked for, and the pitches at which they tie any."""
 
     proof: TwoHandKnot
@@ -85,14 +85,14 @@ class Knot:
     other: str
 
 
-def _tied(design: KnottingFourBar, sides: Sides) -> Knot:
+def _tied(design: KnottingFourBar, sides: KnottingSides) -> TiedPitches:
     first, second = (way[design.onward] for way in hands(sides.course.motion))
     wide = pitch_range(first, second)
     other = "" if wide is None else knot_of_hands(first, second, sum(wide) / 2).name
-    return Knot(knot_of_hands(first, second, design.params.warp_pitch), wide, other)
+    return TiedPitches(knot_of_hands(first, second, design.params.warp_pitch), wide, other)
 
 
-def _knot(design: KnottingFourBar, tied: Knot) -> tuple[Result, ...]:
+def _knot(design: KnottingFourBar, tied: TiedPitches) -> tuple[Result, ...]:
     ends: list[Json] | None = None if tied.pitches is None else list(tied.pitches)
     pitch = format_quantity(design.params.warp_pitch, "mm")
     meaning = f"with two warps {pitch} apart between the sides, by the crossings of the yarn"
@@ -103,7 +103,7 @@ def _knot(design: KnottingFourBar, tied: Knot) -> tuple[Result, ...]:
     )
 
 
-def _warnings(design: KnottingFourBar, tied: Knot) -> tuple[str, ...]:
+def _warnings(design: KnottingFourBar, tied: TiedPitches) -> tuple[str, ...]:
     """That no knot is tied, and on which warps one is."""
     if tied.proof.tied is not None:
         return ()
@@ -114,7 +114,7 @@ def _warnings(design: KnottingFourBar, tied: Knot) -> tuple[str, ...]:
     return (f"{none}; on warps opened to {least} to {most} they tie a {tied.other}",)
 
 
-def _table(sides: Sides) -> Table:
+def _table(sides: KnottingSides) -> Table:
     gears = sides.gears
     columns = (
         *(Column("distance of axes", "mm", 7), Column("module", "mm"), Column("teeth of each"), Column("width", "mm")),
@@ -128,7 +128,7 @@ def _table(sides: Sides) -> Table:
     return Table("knotting-gears", "Gears that couple both cranks", columns, (row,), brief=True)
 
 
-def _checks(design: KnottingFourBar, sides: Sides, near: Mapping[str, Clearance]) -> tuple[Check, ...]:
+def _checks(design: KnottingFourBar, sides: KnottingSides, near: Mapping[str, Clearance]) -> tuple[Check, ...]:
     params = design.params
     missed = max(sides.course.torque_error, sides.standing.torque_error)
     bending = sides.gears.bending(sides.tooth)

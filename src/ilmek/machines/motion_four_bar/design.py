@@ -7,15 +7,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.machines.four_bars.choice import Choice, Option, choose
+from ilmek.machines.four_bars.choice import FourBarOption, FourBarSelection, choose
 from ilmek.machines.four_bars.filter_params import filters
 from ilmek.machines.motion_four_bar.params import Bounds, MotionFourBarParams
-from ilmek.machines.text_lists import Poses
+from ilmek.machines.text_lists import BodyPoses
 from ilmek.synthesis.burmester.curve import BurmesterCurve, burmester_curve
-from ilmek.synthesis.burmester.links import Guide, Kind, arms_of_pins, arms_of_pivots, arms_through_five_poses, pair
+from ilmek.synthesis.burmester.links import (
+    Guide,
+    GuideKind,
+    arms_of_pins,
+    arms_of_pivots,
+    arms_through_five_poses,
+    pair,
+)
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.guide_pairs import promising
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 
 JUDGED = 24
 """Pairs of links that are judged where there are curves or a plane of them."""
@@ -34,10 +41,10 @@ class MotionFourBar:
     """
 
     params: MotionFourBarParams
-    poses: Poses
+    poses: BodyPoses
     curve: BurmesterCurve | None
     guides: tuple[Guide, ...]
-    choice: Choice
+    choice: FourBarSelection
     judged: tuple[int, int]
 
     @property
@@ -61,21 +68,23 @@ def design(params: MotionFourBarParams) -> MotionFourBar:
     if not few:
         ratio = params.link_ratio_max or np.inf
         pairs = list(promising(inside, *poses, most=JUDGED, link_ratio=ratio, full_turn=params.full_turn))
-    task = Task(points=poses.points, coupler=poses.angles)
+    task = PrecisionTask(points=poses.points, coupler=poses.angles)
     options, other = [], []
     for crank, rocker in pairs:
         joined = pair(crank, rocker, complex(poses.points[0]))
         if joined.four_bar is None:
             other.append(joined.said)
         else:
-            options.append(Option(judge(joined.four_bar, task), _made(guides, crank, rocker) if few else "curve"))
+            options.append(
+                FourBarOption(judge(joined.four_bar, task), _made(guides, crank, rocker) if few else "curve")
+            )
     other += _unused(guides, inside, few, bool(pairs))
     other = list(dict.fromkeys(other))
     choice = choose(options, filters(params), number=params.chosen, count=params.count, other=other)
     return MotionFourBar(params, poses, curve, guides if few else (), choice, (len(pairs), len(inside)))
 
 
-def _guides(params: MotionFourBarParams, poses: Poses) -> tuple[BurmesterCurve | None, tuple[Guide, ...], bool]:
+def _guides(params: MotionFourBarParams, poses: BodyPoses) -> tuple[BurmesterCurve | None, tuple[Guide, ...], bool]:
     """The curve of four poses, the links, and whether they are few: each with a number of its own."""
     if len(poses.points) == 5:
         return None, arms_through_five_poses(*poses), True
@@ -96,7 +105,7 @@ def _unused(guides: Sequence[Guide], inside: Sequence[Guide], few: bool, paired:
         yield f"links with a pivot outside pivot_x and pivot_y: {outside}"
     if few or paired:
         return
-    odd = Counter(one.kind for one in inside if one.kind is not Kind.CRANK)
+    odd = Counter(one.kind for one in inside if one.kind is not GuideKind.CRANK)
     for kind, count in odd.items():
         yield f"{count} of {len(inside)} links are no cranks: {kind.words}"
     cranks = len(inside) - odd.total()
@@ -125,6 +134,6 @@ def _made(guides: Sequence[Guide], crank: Guide, rocker: Guide) -> str:
     return "links {} (crank) and {}".format(*numbers)
 
 
-def spread(guide: Guide, poses: Poses) -> float:
+def spread(guide: Guide, poses: BodyPoses) -> float:
     """By how much what must be constant changes over the poses: of a crank its length [m]."""
-    return float(np.ptp(guide.reach(*poses))) if guide.kind is not Kind.FREE else float("nan")
+    return float(np.ptp(guide.reach(*poses))) if guide.kind is not GuideKind.FREE else float("nan")

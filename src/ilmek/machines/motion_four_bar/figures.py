@@ -7,8 +7,8 @@ import numpy as np
 from ilmek.machines.four_bars.figures import body, drawn, links, moving, pins
 from ilmek.machines.motion_four_bar.design import MotionFourBar
 from ilmek.report import Animation, Dot, Drawing, Figure, Stroke
-from ilmek.synthesis.burmester.curve import Branch
-from ilmek.synthesis.burmester.links import Kind
+from ilmek.synthesis.burmester.curve import CurveBranch
+from ilmek.synthesis.burmester.links import GuideKind
 
 WINDOW = 2.0
 """Radius of what is drawn of curves and links, in extents of the poses: they go on to infinity."""
@@ -48,7 +48,7 @@ def _chosen_from(design: MotionFourBar) -> tuple[Drawing, ...]:
         title, note = "Where pivots and pins may be", "Every pivot of the one curve has its pin on the other."
         strokes = (*_flags(design), *pivots, *ends, *solution)
         return (Drawing("motion-four-bar-curves", title, strokes, dots, note=note),)
-    guides = [(at, one) for at, one in enumerate(design.guides, 1) if one.kind is Kind.CRANK]
+    guides = [(at, one) for at, one in enumerate(design.guides, 1) if one.kind is GuideKind.CRANK]
     if not guides:
         return ()
     arms = [Stroke(np.array([one.pivot, one.pin]), "link", f"link {at}") for at, one in guides]
@@ -68,7 +68,7 @@ def _numbers(design: MotionFourBar) -> tuple[Dot, ...]:
     return tuple(Dot(complex(point), str(at), "point") for at, point in enumerate(design.poses.points, 1))
 
 
-def _within(design: MotionFourBar, branch: Branch, label: str) -> Iterator[Stroke]:
+def _within(design: MotionFourBar, branch: CurveBranch, label: str) -> Iterator[Stroke]:
     """The parts of a branch that lie in the window."""
     middle = complex(np.mean(design.poses.points))
     places = np.append(branch.places, branch.places[:1]) if branch.closed else branch.places

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from ilmek.arrays import ComplexArray
 from ilmek.errors import ParameterError
 from ilmek.machines.four_bars import filter_params
-from ilmek.machines.text_lists import Poses, read_bounds, read_points, read_poses
+from ilmek.machines.text_lists import BodyPoses, read_bounds, read_points, read_poses
 from ilmek.params import Params, param
 from ilmek.synthesis.burmester.constant_distance import require_task
 
@@ -55,7 +55,7 @@ class MotionFourBarParams(Params):
             self.given(given[0])
         self.room()
 
-    def task(self) -> Poses:
+    def task(self) -> BodyPoses:
         """The poses. Raises ParameterError where they are no task."""
         poses = read_poses("poses", self.poses)
         count = len(poses.points)

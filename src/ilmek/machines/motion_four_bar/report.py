@@ -7,8 +7,8 @@ from ilmek.machines.four_bars import report as told
 from ilmek.machines.motion_four_bar.design import MotionFourBar, spread
 from ilmek.machines.motion_four_bar.figures import figures
 from ilmek.report import Check, Column, Json, Report, Result, Table, at_most
-from ilmek.synthesis.burmester.curve import Branch
-from ilmek.synthesis.burmester.links import Guide, Kind
+from ilmek.synthesis.burmester.curve import CurveBranch
+from ilmek.synthesis.burmester.links import Guide, GuideKind
 
 MET = 1e-6
 """Error of a pose that counts as none, in extents of the poses, and of an angle [rad]."""
@@ -83,7 +83,7 @@ def _curves(design: MotionFourBar) -> tuple[Result, ...]:
     return (Result("curves", found, "", said, False),)
 
 
-def _branches(branches: Sequence[Branch]) -> list[Json]:
+def _branches(branches: Sequence[CurveBranch]) -> list[Json]:
     return [
         {"closed": branch.closed, "places": [[float(one.real), float(one.imag)] for one in branch.places]}
         for branch in branches
@@ -113,12 +113,12 @@ def _guide_table(design: MotionFourBar) -> tuple[Table, ...]:
 
 def _places(one: Guide) -> tuple[float, float, float, float]:
     """Pivot and pin [m]; NaN where they are infinitely far."""
-    pivot = one.pivot if one.kind in (Kind.CRANK, Kind.BLOCK) else complex(math.nan, math.nan)
-    pin = one.pin if one.kind in (Kind.CRANK, Kind.SLIDER) else complex(math.nan, math.nan)
+    pivot = one.pivot if one.kind in (GuideKind.CRANK, GuideKind.BLOCK) else complex(math.nan, math.nan)
+    pin = one.pin if one.kind in (GuideKind.CRANK, GuideKind.SLIDER) else complex(math.nan, math.nan)
     return pivot.real, pivot.imag, pin.real, pin.imag
 
 
 def _odd(design: MotionFourBar) -> tuple[str, ...]:
     """Links that are no cranks: worth knowing, as they may be built otherwise."""
-    odd = [(at, one) for at, one in enumerate(design.guides, 1) if one.kind is not Kind.CRANK]
+    odd = [(at, one) for at, one in enumerate(design.guides, 1) if one.kind is not GuideKind.CRANK]
     return tuple(f"link {at} is a {one.kind}: {one.kind.words}" for at, one in odd)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.machines.four_bars.choice import Choice, Option, choose
+from ilmek.machines.four_bars.choice import FourBarOption, FourBarSelection, choose
 from ilmek.machines.four_bars.filter_params import filters
 from ilmek.machines.path_four_bar.params import PathFourBarParams
 from ilmek.report import Json
@@ -17,7 +17,7 @@ from ilmek.synthesis.path.fit import PathFit, judged
 from ilmek.synthesis.path.points import timed_four_bars
 from ilmek.synthesis.path.search import path_four_bars
 from ilmek.synthesis.path.task import PathTask
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 
 CURVES = 12
 """Second links that are looked at on each closed part of the curves of four timed points."""
@@ -36,7 +36,7 @@ class PathFourBar:
 
     params: PathFourBarParams
     points: ComplexArray
-    choice: Choice
+    choice: FourBarSelection
     cognates: tuple[tuple[str, Candidate], ...]
 
 
@@ -56,13 +56,13 @@ def design(params: PathFourBarParams) -> PathFourBar:
     return PathFourBar(params, points, choice, siblings)
 
 
-def _nearest(one: Option) -> tuple[float, float]:
+def _nearest(one: FourBarOption) -> tuple[float, float]:
     """The nearest first; among those that meet every point, the best transmission angle."""
     greatest = one.candidate.point_error
     return (0.0 if greatest <= MET * one.candidate.size else greatest), -one.candidate.least_transmission
 
 
-def _searched(params: PathFourBarParams) -> tuple[Option, ...]:
+def _searched(params: PathFourBarParams) -> tuple[FourBarOption, ...]:
     """The nearest four-bars of each class that is searched."""
     return tuple(
         _option(params, task, fit)
@@ -71,7 +71,7 @@ def _searched(params: PathFourBarParams) -> tuple[Option, ...]:
     )
 
 
-def _option(params: PathFourBarParams, task: PathTask, fit: PathFit) -> Option:
+def _option(params: PathFourBarParams, task: PathTask, fit: PathFit) -> FourBarOption:
     candidate = judged(task, fit)
     if params.error_max is not None:
         asked = dataclasses.replace(candidate.task, point_tolerance=params.error_max)
@@ -81,20 +81,20 @@ def _option(params: PathFourBarParams, task: PathTask, fit: PathFit) -> Option:
         "starts_agreed": fit.search.agreed,
         "starts": fit.search.starts,
     }
-    return Option(candidate, "search", errors(candidate) | search)
+    return FourBarOption(candidate, "search", errors(candidate) | search)
 
 
-def _exact(params: PathFourBarParams, points: ComplexArray) -> tuple[tuple[Option, ...], tuple[str, ...]]:
+def _exact(params: PathFourBarParams, points: ComplexArray) -> tuple[tuple[FourBarOption, ...], tuple[str, ...]]:
     """All four-bars that meet the timed points, and in words what is none."""
     timing = params.angles()
     assert timing is not None
     found = timed_four_bars(points, timing, pivots=params.given_pivots(), samples=CURVES)
-    task = Task(points=points, crank=timing)
+    task = PrecisionTask(points=points, crank=timing)
     options = []
     for one in found:
         if one.four_bar is not None:
             candidate = judge(one.four_bar, task)
-            options.append(Option(candidate, "exact", errors(candidate)))
+            options.append(FourBarOption(candidate, "exact", errors(candidate)))
     return tuple(options), tuple(dict.fromkeys(one.said for one in found if one.four_bar is None))
 
 
@@ -103,8 +103,8 @@ def _siblings(original: Candidate) -> tuple[tuple[str, Candidate], ...]:
     found = cognates(original.four_bar)
     near, points = original.point_error * (1 + ROUNDING) + ROUNDING * original.size, original.task.points
     tasks = (
-        ("timed", found.timed, Task(points=points, crank=original.task.crank, point_tolerance=near)),
-        ("other", found.other, Task(points=points, point_tolerance=near)),
+        ("timed", found.timed, PrecisionTask(points=points, crank=original.task.crank, point_tolerance=near)),
+        ("other", found.other, PrecisionTask(points=points, point_tolerance=near)),
     )
     return tuple((name, judge(four_bar, task)) for name, four_bar, task in tasks if four_bar is not None)
 

@@ -9,7 +9,7 @@ from ilmek.weaving.draping import Bridges, DrapedWarp
 
 
 @dataclass(frozen=True, slots=True)
-class Study:
+class SheddingAlternatives:
     """A design, its cams all at once and as flat as may be, its warps as yarns on the cams."""
 
     design: SheddingDesign
@@ -19,8 +19,8 @@ class Study:
     bridged: Bridges | None
 
 
-def study(design: SheddingDesign) -> Study:
+def study(design: SheddingDesign) -> SheddingAlternatives:
     """The study of a design."""
     params, even = design.params, design.even
     flat = design.shed if params.phase == "flattest" else flattest(params, even)
-    return Study(design, shed_of(params, even), flat, draped(params, design.cam), bridged(design.cam))
+    return SheddingAlternatives(design, shed_of(params, even), flat, draped(params, design.cam), bridged(design.cam))

@@ -20,9 +20,9 @@ from ilmek.arrays import FloatArray
 from ilmek.cams import limits
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
-from ilmek.cams.programme import TURN, Programme, dwell, fall, rise
-from ilmek.cams.sizing import Limits, pressure_prime
-from ilmek.elements.duty import Cycle, Duty, duty
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
+from ilmek.cams.sizing import CamLimits, pressure_prime
+from ilmek.elements.duty import LoadCycle, MotorDuty, duty
 from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor
 from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
 from ilmek.machines.shedding.phases import Shed, chosen_shed
@@ -31,7 +31,7 @@ from ilmek.num.piecewise import Extremum, supremum
 
 
 @dataclass(frozen=True, slots=True)
-class Stack:
+class CamStack:
     """The cams on the shaft: thickness of cam and guide [m], guide radius [m], masses [kg], turning inertia [kg m^2].
 
     Cams and guide cams are weighed bored; the stack with the shaft in its bores.
@@ -47,7 +47,7 @@ class Stack:
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class SheddingDrive:
     """What turns the shaft: torque [N m] and its rms over the turn, motor torque needed [N m], motor and its limit.
 
     motor_limit  lasting torque of the motor; where none is strong enough, the most any gives at that speed
@@ -62,7 +62,7 @@ class Drive:
     motor_speed: float
     motor: Motor | None
     motor_limit: float
-    duty: Duty | None
+    duty: MotorDuty | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,13 +77,13 @@ class SheddingDesign:
     params: SheddingParams
     cam: PlateCam
     smallest_prime: Extremum
-    even: Programme
-    odd: Programme
+    even: CamProgramme
+    odd: CamProgramme
     shed: Shed
     across_max: Extremum
-    stack: Stack
+    stack: CamStack
     shaft: Shaft
-    drive: Drive
+    drive: SheddingDrive
     shuttle_window: tuple[float, float]
 
     def opening(self, angle: FloatArray) -> FloatArray:
@@ -95,7 +95,7 @@ class SheddingDesign:
         return self.shed.torque(angle)
 
 
-def lifting(params: SheddingParams, law: str | None = None) -> Programme:
+def lifting(params: SheddingParams, law: str | None = None) -> CamProgramme:
     """The programme of one cam, by the law of the parameters or another."""
     motion = LAWS[law or params.law]
     rest = TURN - params.lifted_angle
@@ -105,14 +105,14 @@ def lifting(params: SheddingParams, law: str | None = None) -> Programme:
         fall(params.fall_angle, params.lift, motion),
         *([dwell(rest)] if rest > NO_DWELL else []),
     ]
-    return Programme(tuple(segments))
+    return CamProgramme(tuple(segments))
 
 
 def design(params: SheddingParams) -> SheddingDesign:
     """Cams, stack, shaft and drive for the parameters. Raises ParameterError where the cam cannot exist."""
     even = lifting(params)
     odd = even.shifted(TURN / 2)
-    smallest = pressure_prime(even, Limits(params.pressure_angle_limit, params.pressure_angle_limit))
+    smallest = pressure_prime(even, CamLimits(params.pressure_angle_limit, params.pressure_angle_limit))
     cam = PlateCam(even, params.prime_radius or smallest.value, roller_radius=params.roller_radius)
     thickness = params.cam_thickness or params.warp_pitch / 2
     guide_radius = cam.prime_radius + params.lift - params.roller_radius + params.guide_height
@@ -138,7 +138,7 @@ def design(params: SheddingParams) -> SheddingDesign:
         odd=odd,
         shed=shed,
         across_max=across,
-        stack=Stack(*thicknesses, guide_radius, bored[0], bored[1], mass, inertia),
+        stack=CamStack(*thicknesses, guide_radius, bored[0], bored[1], mass, inertia),
         shaft=shaft,
         drive=drive,
         shuttle_window=shed.window(),
@@ -157,7 +157,7 @@ def polar_moment(cam: PlateCam) -> float:
 _POINTS = 1440
 
 
-def _drive(params: SheddingParams, shed: Shed, inertia: float) -> Drive:
+def _drive(params: SheddingParams, shed: Shed, inertia: float) -> SheddingDrive:
     """Torque over the turn, and the motor behind the reducer, which turns the stack's inertia [kg m^2] too."""
     most, least = shed.peaks()
     rms = shed.rms()
@@ -169,7 +169,7 @@ def _drive(params: SheddingParams, shed: Shed, inertia: float) -> Drive:
     motor = smallest_motor(needed, speed) if params.motor_torque is None else None
     limit = params.motor_torque or (motor.torque if motor else most_torque(speed))
     if motor is None:
-        return Drive(most, least, rms, reducer, needed, speed, None, limit, None)
+        return SheddingDrive(most, least, rms, reducer, needed, speed, None, limit, None)
     angle = np.arange(_POINTS) * (TURN / _POINTS)
-    cycle = Cycle(np.full_like(angle, params.speed), np.zeros_like(angle), shed.torque(angle), inertia)
-    return Drive(most, least, rms, reducer, needed, speed, motor, limit, duty(cycle, motor, reducer))
+    cycle = LoadCycle(np.full_like(angle, params.speed), np.zeros_like(angle), shed.torque(angle), inertia)
+    return SheddingDrive(most, least, rms, reducer, needed, speed, motor, limit, duty(cycle, motor, reducer))

@@ -9,7 +9,7 @@ from ilmek.cams.limits import convex_radius_min, pressure_angle_max
 from ilmek.cams.programme import TURN, jumps
 from ilmek.elements.beam import uniform
 from ilmek.elements.figures import deflection_plot
-from ilmek.machines.shedding.alternatives import Study
+from ilmek.machines.shedding.alternatives import SheddingAlternatives
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.draped import stack_torque
 from ilmek.machines.shedding.warp import shed_warp
@@ -17,7 +17,7 @@ from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series
 from ilmek.units import format_quantity
 
 
-def figures(studied: Study) -> tuple[Figure, ...]:
+def figures(studied: SheddingAlternatives) -> tuple[Figure, ...]:
     """The cam to scale and the plots, in the order of the report."""
     design = studied.design
     cam, shaft = design.cam, design.shaft
@@ -56,7 +56,7 @@ def torque_plot(design: SheddingDesign) -> Plot:
     return Plot("torque", title, Axis("cam angle", "deg"), Axis("torque", "Nm"), series, (mark,), note)
 
 
-def stagger_plot(studied: Study) -> Plot:
+def stagger_plot(studied: SheddingAlternatives) -> Plot:
     """Torque of cams all at once beside that of the flattest phases, or of those taken."""
     design = studied.design
     other = design.shed if design.params.phase == "staggered" else studied.flattest
@@ -73,7 +73,7 @@ def stagger_plot(studied: Study) -> Plot:
     return Plot("stagger", title, Axis("cam angle", "deg"), Axis("torque", "Nm"), series, note=note)
 
 
-def tension_plots(studied: Study) -> tuple[Plot, ...]:
+def tension_plots(studied: SheddingAlternatives) -> tuple[Plot, ...]:
     """Tension of a warp over the turn, and the torque of warps draped over the cams; nothing without a tension."""
     design, yarn = studied.design, studied.yarn
     warp = shed_warp(design.params)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.limits import area
-from ilmek.cams.programme import TURN, Programme
+from ilmek.cams.programme import TURN, CamProgramme
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.phases import turn_knots
 from ilmek.report import CamTable, Plate
@@ -82,7 +82,7 @@ def cam_tables(design: SheddingDesign) -> tuple[CamTable, ...]:
     )
 
 
-def _motion(design: SheddingDesign, name: str, programme: Programme) -> CamTable:
+def _motion(design: SheddingDesign, name: str, programme: CamProgramme) -> CamTable:
     def course(angle: FloatArray) -> FloatArray:
         at = programme.at(angle)
         return np.stack([at.s, at.ds, at.dds])

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.programme import TURN, Course, Programme
+from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.warp import LIFTED, warp_force
 from ilmek.num.brackets import bracketed_roots
@@ -31,10 +31,10 @@ GRID = 2049
 class Parity:
     """The cams of a parity: the programme of each group, and its number of cams."""
 
-    programmes: tuple[Programme, ...]
+    programmes: tuple[CamProgramme, ...]
     numbers: tuple[int, ...]
 
-    def courses(self, angle: FloatArray) -> tuple[Course, ...]:
+    def courses(self, angle: FloatArray) -> tuple[FollowerMotion, ...]:
         """Motions of the groups."""
         return tuple(programme.at(angle) for programme in self.programmes)
 
@@ -130,13 +130,13 @@ def offsets(spread: float, groups: int) -> FloatArray:
     return np.linspace(-spread / 2, spread / 2, groups) if groups > 1 else np.zeros(1)
 
 
-def turn_knots(*programmes: Programme) -> FloatArray:
+def turn_knots(*programmes: CamProgramme) -> FloatArray:
     """Shaft angles of one turn [rad] between which all programmes move smoothly."""
     inner = np.mod(np.concatenate([programme.knots for programme in programmes]), TURN)
     return np.unique(np.concatenate([inner, [0.0, TURN]]))
 
 
-def shed_of(params: SheddingParams, even: Programme, spread: float = 0.0, groups: int = 1) -> Shed:
+def shed_of(params: SheddingParams, even: CamProgramme, spread: float = 0.0, groups: int = 1) -> Shed:
     """The shed of cams by the programme `even`, odd ones half a turn later, in groups over a spread [rad]."""
     if spread == 0:
         groups = 1
@@ -151,7 +151,7 @@ def shed_of(params: SheddingParams, even: Programme, spread: float = 0.0, groups
     return Shed(params, even_cams, odd_cams, spread)
 
 
-def chosen_shed(params: SheddingParams, even: Programme) -> Shed:
+def chosen_shed(params: SheddingParams, even: CamProgramme) -> Shed:
     """The shed as the phase asks."""
     if params.phase == "together":
         return shed_of(params, even)
@@ -165,7 +165,7 @@ def window_asked(params: SheddingParams, together: float) -> float:
     return together / 2 if params.shuttle_angle is None else params.shuttle_angle
 
 
-def flattest(params: SheddingParams, even: Programme) -> Shed:
+def flattest(params: SheddingParams, even: CamProgramme) -> Shed:
     """The groups and the spread of least |torque| that leave the shuttle its window; all at once where none does."""
     first, last = shed_of(params, even).window()
     widest = _widest(params, even, last - first, window_asked(params, last - first))
@@ -175,7 +175,7 @@ def flattest(params: SheddingParams, even: Programme) -> Shed:
     return shed_of(params, even, best[1], best[2])
 
 
-def _widest(params: SheddingParams, even: Programme, together: float, window: float) -> float:
+def _widest(params: SheddingParams, even: CamProgramme, together: float, window: float) -> float:
     """The largest spread [rad] that leaves a window [rad] of what there is `together`.
 
     The window shrinks by the spread, and more quickly where the other parity limits it.
@@ -194,7 +194,9 @@ def _widest(params: SheddingParams, even: Programme, together: float, window: fl
     return found * (1 - _SPARE) if np.isfinite(found) else 0.0
 
 
-def _flattest_spread(params: SheddingParams, even: Programme, groups: int, widest: float) -> tuple[float, float, int]:
+def _flattest_spread(
+    params: SheddingParams, even: CamProgramme, groups: int, widest: float
+) -> tuple[float, float, int]:
     """Greatest |torque| [N m] and spread [rad] of the flattest of so many groups, by grids that close in on it."""
     angle = np.arange(_TABLE) * (TURN / _TABLE)
     together = shed_of(params, even).torque(angle)

@@ -10,7 +10,7 @@ from ilmek.cams.limits import area, concave_radius_min, convex_radius_min, press
 from ilmek.cams.programme import TURN, jumps
 from ilmek.elements.motors import MOTORS
 from ilmek.elements.shafts import STOCK_SIDES
-from ilmek.machines.shedding.alternatives import Study, study
+from ilmek.machines.shedding.alternatives import SheddingAlternatives, study
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.figures import figures
 from ilmek.machines.shedding.parts import cam_tables, plates
@@ -198,7 +198,7 @@ def _bearing_checks(design: SheddingDesign) -> tuple[Check, ...]:
     )
 
 
-def _window_checks(studied: Study) -> tuple[Check, ...]:
+def _window_checks(studied: SheddingAlternatives) -> tuple[Check, ...]:
     """The shuttle's window against what is asked for, if anything is."""
     design, whole = studied.design, studied.together.window()
     first, last = design.shuttle_window
@@ -208,7 +208,7 @@ def _window_checks(studied: Study) -> tuple[Check, ...]:
     return () if asked is None else (at_least("window of the shuttle", last - first, asked, "deg", "shuttle_angle"),)
 
 
-def _checks(studied: Study) -> tuple[Check, ...]:
+def _checks(studied: SheddingAlternatives) -> tuple[Check, ...]:
     design = studied.design
     params, cam, shaft, drive = design.params, design.cam, design.shaft, design.drive
     pressure = snap_to_limit(pressure_angle_max(cam).value, params.pressure_angle_limit)

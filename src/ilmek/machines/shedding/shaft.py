@@ -25,7 +25,7 @@ from ilmek.units import turn
 
 
 @dataclass(frozen=True, slots=True)
-class Directions:
+class ShaftLoads:
     """What weight and warps do to the shaft, each in its own direction, with the safety.
 
     weight, pull  loads [N/m]; the shaft's slope [rad] and deflection [m] are split as they are
@@ -48,7 +48,7 @@ class Directions:
 
 
 @dataclass(frozen=True, slots=True)
-class Seat:
+class ShaftBearings:
     """The bearings of the shaft.
 
     reaction     on the most loaded one [N]      journal  least diameter of the turned journal [m]
@@ -89,8 +89,8 @@ class Shaft:
     stress: float
     endurance: float
     critical: float
-    directions: Directions | None
-    seat: Seat
+    directions: ShaftLoads | None
+    seat: ShaftBearings
 
     @property
     def side(self) -> float:
@@ -108,7 +108,7 @@ def shaft_for(params: SheddingParams, mass: float, across: float, torque: float)
     load, safety, directions = params.shaft_load, params.safety or 1.0, None
     if load is None:
         safety = params.safety or 2.0
-        directions = Directions(safety * mass * GRAVITY / length, safety * across / length, params.pull_angle)
+        directions = ShaftLoads(safety * mass * GRAVITY / length, safety * across / length, params.pull_angle)
         load = abs(directions.resultant) / safety
     load, span = load * safety, length / params.spans
     moment = float(uniform.moment_max(load, span))
@@ -149,7 +149,7 @@ def _endurance(params: SheddingParams, moment: float, torque: float, bar: float)
     return goodman(Loading(moment, 0.0, torque_amplitude=torque), section, endurance=limit, tensile=params.tensile)
 
 
-def seat_for(params: SheddingParams, span_load: float, torque: float, bar: float) -> Seat:
+def seat_for(params: SheddingParams, span_load: float, torque: float, bar: float) -> ShaftBearings:
     """Bearings for the load of a span [N], on journals turned from the bar [m] that bear the torque [N m].
 
     A journal in torsion alone: d = (16 sqrt(3) T / (pi sigma))^(1/3), von Mises. With supports between the ends one of
@@ -164,9 +164,9 @@ def seat_for(params: SheddingParams, span_load: float, torque: float, bar: float
     else:
         bearing = bearings.find_bearing(params.bearing)
     if bearing is None:
-        return Seat(reaction, journal, None, 0.0)
+        return ShaftBearings(reaction, journal, None, 0.0)
     lives = bearings.life(bearing.dynamic, bearings.equivalent_load(bearing, reaction), bearing.kind)
-    return Seat(reaction, journal, bearing, lives * turn / params.speed)
+    return ShaftBearings(reaction, journal, bearing, lives * turn / params.speed)
 
 
 _STEP = 1e-3

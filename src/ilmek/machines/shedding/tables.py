@@ -4,10 +4,10 @@ import numpy as np
 
 from ilmek.cams.laws import LAWS, SMOOTH_LAWS
 from ilmek.cams.limits import PlateCam, convex_radius_min
-from ilmek.cams.programme import Programme, jumps
-from ilmek.cams.sizing import Limits, pressure_prime
+from ilmek.cams.programme import CamProgramme, jumps
+from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.elements import shafts
-from ilmek.machines.shedding.alternatives import Study
+from ilmek.machines.shedding.alternatives import SheddingAlternatives
 from ilmek.machines.shedding.design import SheddingDesign, lifting
 from ilmek.machines.shedding.phases import Shed, shed_of
 from ilmek.report import Column, Table
@@ -17,7 +17,7 @@ SPREADS = tuple(spread * deg for spread in (15, 30))
 """Spreads of two groups that the table of phases compares [rad]."""
 
 
-def tables(studied: Study) -> tuple[Table, ...]:
+def tables(studied: SheddingAlternatives) -> tuple[Table, ...]:
     """All tables, in the order of the report."""
     design = studied.design
     return (
@@ -48,7 +48,7 @@ def phase_table(design: SheddingDesign) -> Table:
     return Table("shedding-phases", "The cycle on the shaft's angle", columns, rows)
 
 
-def stagger_table(studied: Study) -> Table:
+def stagger_table(studied: SheddingAlternatives) -> Table:
     """Torque and shed of cams all at once, in two halves one after the other, and as flat as the shuttle allows."""
     design, params = studied.design, studied.design.params
     sheds = [("all at once", studied.together)]
@@ -101,8 +101,8 @@ def law_table(design: SheddingDesign) -> Table:
 def _law_row(design: SheddingDesign, name: str) -> tuple[float | int | str, ...]:
     limit = design.params.pressure_angle_limit
     params, law, shortest = design.params, LAWS[name], min(design.params.rise, design.params.fall_angle)
-    programme: Programme = lifting(params, name)
-    prime = pressure_prime(programme, Limits(limit, limit)).value
+    programme: CamProgramme = lifting(params, name)
+    prime = pressure_prime(programme, CamLimits(limit, limit)).value
     # The roller may be larger than this law's prime circle; the pitch curve does not ask for it.
     radius = convex_radius_min(PlateCam(programme, prime)).value
     rate = params.speed / shortest

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from ilmek.cams.limits import concave_radius_min
-from ilmek.machines.shedding.alternatives import Study
+from ilmek.machines.shedding.alternatives import SheddingAlternatives
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.draped import nose_radius, stack_torque
 from ilmek.machines.shedding.warp import shed_warp
@@ -15,7 +15,7 @@ from ilmek.weaving.shed import ShedWarp
 from ilmek.weaving.tension import capstan
 
 
-def warp_results(studied: Study) -> tuple[Result, ...]:
+def warp_results(studied: SheddingAlternatives) -> tuple[Result, ...]:
     """Tension and strain over the turn, bridging, and the yarn draped over the cam; null where there is no tension."""
     design, params = studied.design, studied.design.params
     warp = shed_warp(params)
@@ -41,7 +41,7 @@ def warp_checks(design: SheddingDesign) -> tuple[Check, ...]:
     return (at_most("strain of a lifted warp", strain, design.params.strain_limit, "%", "strain_limit"),)
 
 
-def warp_warnings(studied: Study) -> tuple[str, ...]:
+def warp_warnings(studied: SheddingAlternatives) -> tuple[str, ...]:
     """That a yarn does not follow a hollow cam; that the holds stand in the way of the nose."""
     design, found = studied.design, studied.bridged
     hollow, params = concave_radius_min(design.cam), design.params
@@ -68,14 +68,14 @@ def _strain(design: SheddingDesign, warp: ShedWarp | None) -> float | None:
     return (1 - params.compensation) * longer / (params.warp_length or warp.front + warp.back)
 
 
-def _bridged(studied: Study) -> Json:
+def _bridged(studied: SheddingAlternatives) -> Json:
     found = studied.bridged
     if found is None:
         return None
     return {"arcs": [list(arc) for arc in found.arcs], "excess": found.excess, "at": found.at}
 
 
-def _draped(studied: Study) -> Json:
+def _draped(studied: SheddingAlternatives) -> Json:
     design, yarn = studied.design, studied.yarn
     if yarn is None:
         return None

@@ -12,12 +12,12 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.attached import attached
-from ilmek.dynamics.friction import Window
+from ilmek.dynamics.friction import AngleRange
 from ilmek.errors import MechanismError
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.tufting.bars import all_breaks, together
-from ilmek.machines.tufting.model import PINS, State, evaluate, mechanism, move
+from ilmek.machines.tufting.model import PINS, TuftingState, evaluate, mechanism, move
 from ilmek.machines.tufting.params import TuftingParams
 from ilmek.num.piecewise import Extremum, around, integrals, roots_of_turn, suprema
 from ilmek.units import turn
@@ -54,18 +54,18 @@ class Tufting:
     highest: float
     stroke: float
     breaks: tuple[float, ...]
-    state: State
+    state: TuftingState
     peaks: Mapping[str, Extremum]
     extremes: Mapping[str, tuple[float, float]]
     work: Mapping[str, float]
     pressure_angle: float
     transmission: float
-    at: State | None
+    at: TuftingState | None
 
     @property
     def lowest_within(self) -> bool:
         """Whether the needle is lowest between entry and exit."""
-        return bool(Window(self.params.entry, self.params.exit).holds(self.lowest))
+        return bool(AngleRange(self.params.entry, self.params.exit).holds(self.lowest))
 
     def height(self, angle: float) -> float:
         """Needle's point against its lowest place [m] at a crank angle [rad]."""
@@ -185,7 +185,7 @@ def _curves(params: TuftingParams, planned: Plan, angle: FloatArray, side: Float
     return {**ends, **{name: np.abs(force) for name, force in _pin_forces(state).items()}}
 
 
-def _pin_forces(state: State) -> dict[str, ComplexArray]:
+def _pin_forces(state: TuftingState) -> dict[str, ComplexArray]:
     """Joints as reported; what the driven shaft gives to rocker and arm each is told apart from their sum C."""
     joints = state.joints
     return {

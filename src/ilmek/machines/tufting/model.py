@@ -14,7 +14,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.dynamics.attached import attached
-from ilmek.dynamics.friction import Friction, Window
+from ilmek.dynamics.friction import AngleRange, Friction
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity
@@ -30,7 +30,7 @@ DOWN = -90 * deg
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class TuftingState:
     """The mechanism at given crank angles, one value a sample.
 
     joints         joint -> force in it [N], complex: O to E and guide; C is all that the driven shaft's bearing gives
@@ -100,13 +100,13 @@ def move(params: TuftingParams, planned: Plan, angle: FloatArray) -> Motion:
     return solve(planned, courses, {"crank": params.speed}).require()
 
 
-def evaluate(params: TuftingParams, planned: Plan, angle: FloatArray, side: RealField = 1.0) -> State:
+def evaluate(params: TuftingParams, planned: Plan, angle: FloatArray, side: RealField = 1.0) -> TuftingState:
     """Motion and forces at the given crank angles [rad]; side: which limit where the friction jumps, see `Friction`."""
     motion = move(params, planned, angle)
     rubbing = friction(params, side)
     forces = inverse(motion, inertias(params), (Gravity(-1j * params.gravity), rubbing))
     point = attached(motion, "needle", motion.plan.mechanism.point("needle", "F"))
-    return State(
+    return TuftingState(
         angle=angle,
         motion=motion,
         forces=forces,
@@ -122,5 +122,5 @@ def evaluate(params: TuftingParams, planned: Plan, angle: FloatArray, side: Real
 
 def friction(params: TuftingParams, side: RealField) -> Friction:
     """The backing's friction on the needle, as the paper's words are read."""
-    window = Window(params.entry, params.exit) if params.friction == "window" else None
+    window = AngleRange(params.entry, params.exit) if params.friction == "window" else None
     return Friction("needle", "F", params.friction_force, "crank", window, side)

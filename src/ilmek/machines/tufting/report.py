@@ -7,7 +7,7 @@ import numpy as np
 from ilmek.machines.plates import link_plates
 from ilmek.machines.tufting.design import Tufting
 from ilmek.machines.tufting.figures import figures
-from ilmek.machines.tufting.model import PINS, State, inertias
+from ilmek.machines.tufting.model import PINS, TuftingState, inertias
 from ilmek.num.piecewise import Extremum
 from ilmek.report import Check, Column, Json, Plate, Report, Result, Table, at_least, at_most, snap_to_limit
 from ilmek.units import deg, format_quantity, mm, turn
@@ -132,7 +132,7 @@ def _at(design: Tufting) -> tuple[Result, ...]:
     return (Result("at", _instant(design.at), "", meaning),)
 
 
-def _instant(state: State) -> dict[str, Json]:
+def _instant(state: TuftingState) -> dict[str, Json]:
     return {
         "main_shaft_torque": float(state.main_torque[0]),
         "driven_shaft_torque": float(state.driven_torque[0]),

@@ -23,8 +23,8 @@ from ilmek.cams.figures import sample_angles
 from ilmek.cams.hertz import contact_modulus, line_contact
 from ilmek.cams.laws import LAWS
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, Course, Programme, Segment, dwell
-from ilmek.cams.trace import Trace
+from ilmek.cams.programme import TURN, CamProgramme, CamSegment, FollowerMotion, dwell
+from ilmek.cams.trace import CamTrace
 from ilmek.elements.materials import MATERIALS, hertz_limit
 from ilmek.machines.weaver.cyclogram import HANDLER
 from ilmek.machines.weaver.params import WeaverParams
@@ -64,12 +64,12 @@ class HeadCam:
     name: str
     actuator: str
     ratio: float
-    programme: Programme
+    programme: CamProgramme
     cam: PlateCam
     lift: float
     angle: FloatArray
-    course: Course
-    trace: Trace
+    course: FollowerMotion
+    trace: CamTrace
     mass_moved: tuple[float, float]
     rate: float
     preload: float
@@ -124,28 +124,28 @@ def cams_for(params: WeaverParams, cyclogram: Cyclogram, handler_radius: float) 
     return tuple(_cam_for(params, track, cyclogram.speed, handler_radius) for track in cyclogram.tracks)
 
 
-def programme_of(track: Track, ratio: float) -> Programme:
+def programme_of(track: Track, ratio: float) -> CamProgramme:
     """The follower's programme over the turn, from its lowest place on; a tool that turns on has its rack go back.
 
     ratio  the tool's motion over the follower's
     """
-    parts: list[Segment] = []
+    parts: list[CamSegment] = []
     at = 0.0
     for part in track.segments:
         parts += _still(part.start - at)
         change = (part.finish - part.begin) / ratio
-        parts.append(Segment(part.name, part.end - part.start, change, LAWS[part.law.name]))
+        parts.append(CamSegment(part.name, part.end - part.start, change, LAWS[part.law.name]))
         at = part.end
     left = sum(part.change for part in parts)
     if abs(left) > _FIT:
         gap = _REST * (turn - at)
-        parts += [*_still(gap), Segment("back", turn - at - 2 * gap, -left, LAWS[track.segments[0].law.name])]
+        parts += [*_still(gap), CamSegment("back", turn - at - 2 * gap, -left, LAWS[track.segments[0].law.name])]
         at = turn - gap
     parts += _still(turn - at)
     bases = np.cumsum([0.0, *(part.change for part in parts[:-1])])
     first = int(np.argmin(np.round(bases / _FIT)))
     start = sum(part.span for part in parts[:first])
-    return Programme((*parts[first:], *parts[:first]), float(start))
+    return CamProgramme((*parts[first:], *parts[:first]), float(start))
 
 
 _FIT = 1e-9
@@ -153,7 +153,7 @@ _REST = 0.03
 """Share of the rest of the turn for which the rack stands before and after it goes back."""
 
 
-def _still(span: float) -> list[Segment]:
+def _still(span: float) -> list[CamSegment]:
     return [dwell(span)] if span > _FIT else []
 
 
@@ -201,7 +201,9 @@ def _cam_for(params: WeaverParams, track: Track, speed: float, handler_radius: f
     )
 
 
-def _sized(params: WeaverParams, programme: Programme, angle: FloatArray, course: Course) -> tuple[PlateCam, Trace]:
+def _sized(
+    params: WeaverParams, programme: CamProgramme, angle: FloatArray, course: FollowerMotion
+) -> tuple[PlateCam, CamTrace]:
     """The cam on the least whole millimetre of prime radius that keeps pressure angle, bore and roller."""
     slope = math.tan(params.pressure_angle_limit)
     hub = 0.7 * params.shaft + WALL + params.roller_radius
@@ -214,7 +216,7 @@ def _sized(params: WeaverParams, programme: Programme, angle: FloatArray, course
     return cam, trace
 
 
-def _convex_radius(trace: Trace) -> float:
+def _convex_radius(trace: CamTrace) -> float:
     sharpest = float(np.max(trace.curvature))
     return 1 / sharpest if sharpest > 0 else math.inf
 
@@ -232,7 +234,7 @@ def _lift_off(params: WeaverParams, need: FloatArray, held: FloatArray) -> float
     return 1 / math.sqrt(asked) if asked > 0 else math.inf
 
 
-def _sections(trace: Trace) -> tuple[float, float]:
+def _sections(trace: CamTrace) -> tuple[float, float]:
     """Area [m²] inside the surface, and its polar moment about the axis [m⁴], of the triangles under its polygon."""
     one = trace.surface[::-1]
     then = np.roll(one, -1)

@@ -18,7 +18,7 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import LAWS
-from ilmek.timing.cyclogram import Cyclogram, Event, Moment, Relation, Segment, Track, riding
+from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Track, TrackEvent, TrackSegment, riding
 from ilmek.timing.track import MotionLaw
 from ilmek.units import deg
 
@@ -47,7 +47,7 @@ class Strokes:
 
 
 @dataclass(frozen=True, slots=True)
-class Steps:
+class CycleSteps:
     """Master angles at which the four steps of the turn end [rad]; the rest of the turn is a dwell of all."""
 
     prepare: float
@@ -60,12 +60,14 @@ class Steps:
         ends = (0.0, self.prepare, self.open, self.knot, self.press)
         return ends[step - 1] + share * (ends[step] - ends[step - 1])
 
-    def motion(self, name: str, step: int, shares: tuple[float, float], path: tuple[float, float], law: str) -> Segment:
+    def motion(
+        self, name: str, step: int, shares: tuple[float, float], path: tuple[float, float], law: str
+    ) -> TrackSegment:
         """A motion between two shares of a step, from path[0] to path[1]."""
-        return Segment(name, self.angle(step, shares[0]), self.angle(step, shares[1]), *path, _law(law))
+        return TrackSegment(name, self.angle(step, shares[0]), self.angle(step, shares[1]), *path, _law(law))
 
 
-def cyclogram(steps: Steps, strokes: Strokes, period: float) -> Cyclogram:
+def cyclogram(steps: CycleSteps, strokes: Strokes, period: float) -> Cyclogram:
     """The head's cyclogram at a period of the cam shaft [s]; positions [m], of the handler [rad].
 
     Raises ParameterError where a step is left no angle.
@@ -110,7 +112,7 @@ def _law(name: str) -> MotionLaw:
     return LAWS[name]
 
 
-def _side_grasp(steps: Steps, by: Strokes) -> Track:
+def _side_grasp(steps: CycleSteps, by: Strokes) -> Track:
     parts = (
         steps.motion("close", 1, (0.905, 1.0), (0.0, by.jaw), by.law),
         steps.motion("open", 3, (0.85, 0.985), (by.jaw, 0.0), by.law),
@@ -119,7 +121,7 @@ def _side_grasp(steps: Steps, by: Strokes) -> Track:
     return Track(SIDE_GRASP, "cam 1", parts, events)
 
 
-def _side_motion(steps: Steps, by: Strokes) -> Track:
+def _side_motion(steps: CycleSteps, by: Strokes) -> Track:
     """With the warp opener on it, and from the opened warps on the screw that turns the grippers."""
     far = by.opening + by.crossing
     parts = (
@@ -132,7 +134,7 @@ def _side_motion(steps: Steps, by: Strokes) -> Track:
     return Track(SIDE_MOTION, "cam 2", parts, (riding("warps open", parts[1]), riding("pile crossed", parts[2])))
 
 
-def _centre_grasp(steps: Steps, by: Strokes) -> Track:
+def _centre_grasp(steps: CycleSteps, by: Strokes) -> Track:
     parts = (
         steps.motion("close", 3, (0.695, 0.83), (0.0, by.jaw), by.law),
         steps.motion("open", 4, (0.685, 0.80), (by.jaw, 0.0), by.law),
@@ -141,7 +143,7 @@ def _centre_grasp(steps: Steps, by: Strokes) -> Track:
     return Track(CENTRE_GRASP, "cam 3", parts, events)
 
 
-def _centre_motion(steps: Steps, by: Strokes) -> Track:
+def _centre_motion(steps: CycleSteps, by: Strokes) -> Track:
     parts = (
         steps.motion("forward", 3, (0.275, 0.68), (0.0, by.centre), by.law),
         steps.motion("return", 4, (0.015, 0.335), (by.centre, 0.0), by.law),
@@ -149,7 +151,7 @@ def _centre_motion(steps: Steps, by: Strokes) -> Track:
     return Track(CENTRE_MOTION, "cam 4", parts, (riding("ends drawn out", parts[1]),))
 
 
-def _handler(steps: Steps, by: Strokes) -> Track:
+def _handler(steps: CycleSteps, by: Strokes) -> Track:
     drawn, shown = TUBE_TURN + DRAW_TURN, TUBE_TURN + DRAW_TURN + PRESENT_TURN
     parts = (
         steps.motion("to tube", 1, (0.0, 0.27), (0.0, TUBE_TURN), by.law),
@@ -157,11 +159,11 @@ def _handler(steps: Steps, by: Strokes) -> Track:
         steps.motion("present", 1, (0.65, 0.89), (drawn, shown), by.law),
         steps.motion("home", 2, (0.23, 0.605), (shown, 2 * math.pi), by.law),
     )
-    events = (Event("grasp", steps.angle(1, 0.285)), Event("cut", steps.angle(1, 0.62)))
+    events = (TrackEvent("grasp", steps.angle(1, 0.285)), TrackEvent("cut", steps.angle(1, 0.62)))
     return Track(HANDLER, "cam 5", parts, events, unit="deg", revolves=2 * math.pi)
 
 
-def _sley(steps: Steps, by: Strokes) -> Track:
+def _sley(steps: CycleSteps, by: Strokes) -> Track:
     parts = (
         steps.motion("down", 4, (0.35, 0.67), (0.0, by.sley), by.law),
         steps.motion("up", 4, (0.685, 1.0), (by.sley, 0.0), by.law),

@@ -11,17 +11,17 @@ from ilmek.machines.weaver.cyclogram import (
     HANDLER,
     SIDE_MOTION,
     SLEY,
-    Steps,
+    CycleSteps,
     Strokes,
 )
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
-from ilmek.machines.weaver.drive import Drive, drive_for
+from ilmek.machines.weaver.drive import CamShaftDrive, drive_for
 from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
 from ilmek.machines.weaver.knot import on_the_pair, tied_by
 from ilmek.machines.weaver.optimised import optimised
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram
-from ilmek.timing.track import Limits, Track, peak_acceleration, peak_speed, shortest_period
+from ilmek.timing.track import ActuatorLimits, Track, peak_acceleration, peak_speed, shortest_period
 from ilmek.units import turn
 from ilmek.weaving.knots.proof import TiedKnot
 
@@ -67,7 +67,7 @@ class Weaver:
     travel: float
     colour_change: float
     cams: tuple[HeadCam, ...]
-    drive: Drive
+    drive: CamShaftDrive
 
     @property
     def colour_change_longest(self) -> float:
@@ -108,7 +108,7 @@ class Weaver:
 
 def design(params: WeaverParams) -> Weaver:
     """The head that ties a knot in the time asked for, or in the shortest that speeds and accelerations allow."""
-    steps = Steps(params.prepare_end, params.open_end, params.knot_end, params.press_end)
+    steps = CycleSteps(params.prepare_end, params.open_end, params.knot_end, params.press_end)
     drawn = max(params.billed, yarn_needed(params))
     radius, grippers = drawn / DRAW_TURN, grippers_for(params, drawn)
     strokes = Strokes(
@@ -146,7 +146,7 @@ def _kept(params: WeaverParams, asked: Cyclogram, radius: float) -> Cyclogram:
     if params.optimise:
         speed, pull = params.speed_limit, params.acceleration_limit
         arms = {track.name: radius if track.name == HANDLER else 1.0 for track in asked.tracks}
-        limits = {name: Limits(speed / arm, pull / arm) for name, arm in arms.items()}
+        limits = {name: ActuatorLimits(speed / arm, pull / arm) for name, arm in arms.items()}
         return optimised(asked, limits, params.relation_gap, params.cutting_time)
     shortest = max(_peaks(track, asked.period, radius, params).shortest for track in asked.tracks)
     return replace(asked, period=max(asked.period, shortest))

@@ -21,7 +21,7 @@ SAMPLES = 2880
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class CamShaftDrive:
     """The cam shaft's drive.
 
     torque_max, torque_rms  greatest torque either way and its root mean square [N m]
@@ -36,17 +36,17 @@ class Drive:
     inertia: float
     motor: Motor | None
     reducer: Reducer | None
-    duty: duties.Duty | None
+    duty: duties.MotorDuty | None
 
 
-def drive_for(cams: Sequence[HeadCam], speed: float) -> Drive:
+def drive_for(cams: Sequence[HeadCam], speed: float) -> CamShaftDrive:
     """The drive of a cam shaft with these cams at a speed [rad/s]."""
     angle = np.arange(SAMPLES) * (turn / SAMPLES)
     torque = torque_at(cams, angle)
     most, inertia = float(np.max(np.abs(torque))), sum(cam.inertia for cam in cams)
     even = np.full(SAMPLES, speed)
-    found = _smallest(duties.Cycle(even, np.zeros(SAMPLES), torque, inertia))
-    return Drive(
+    found = _smallest(duties.LoadCycle(even, np.zeros(SAMPLES), torque, inertia))
+    return CamShaftDrive(
         most,
         math.sqrt(float(np.mean(torque**2))),
         most * speed,
@@ -58,7 +58,7 @@ def drive_for(cams: Sequence[HeadCam], speed: float) -> Drive:
     )
 
 
-def _smallest(cycle: duties.Cycle) -> duties.Drive | None:
+def _smallest(cycle: duties.LoadCycle) -> duties.ServoDrive | None:
     """The motor of least power, with the least ratio at which it bears the cycle."""
     ratios = sorted((DIRECT, *PLANETARY), key=lambda reducer: reducer.ratio)
     found = [duties.size_motor(cycle, (reducer,)) for reducer in ratios]

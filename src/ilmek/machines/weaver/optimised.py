@@ -11,13 +11,13 @@ from dataclasses import replace
 from ilmek.machines.weaver.cyclogram import relations
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.solver import least_acceleration, least_period
-from ilmek.timing.track import Limits
+from ilmek.timing.track import ActuatorLimits
 from ilmek.units import turn
 
 _TURNS, _SAME = 20, 1e-9
 
 
-def optimised(cyclogram: Cyclogram, limits: Mapping[str, Limits], gap: float, cutting: float) -> Cyclogram:
+def optimised(cyclogram: Cyclogram, limits: Mapping[str, ActuatorLimits], gap: float, cutting: float) -> Cyclogram:
     """The cyclogram with the same motions at better cam angles, at its period, or at the shortest that is possible.
 
     limits  of each track      gap  of motions in sequence [rad]      cutting  time that the cutter needs [s]

@@ -29,7 +29,7 @@ from ilmek.synthesis.approximation.polynomial import (
     minimax,
     of_table,
 )
-from ilmek.synthesis.dyad import Dyad
+from ilmek.synthesis.dyad import TwoLinkArm
 from ilmek.synthesis.task import require_angles
 
 CRITERIA = ("interpolation", "least squares", "minimax")
@@ -55,7 +55,7 @@ class DyadApproximation(NamedTuple):
     gap     what is not proven, as in `approximation.Approximation`
     """
 
-    dyad: Dyad
+    dyad: TwoLinkArm
     errors: Float[np.ndarray, " points"]
     worst: float
     rms: float
@@ -171,13 +171,13 @@ def _descent(p: ComplexArray, u: ComplexArray, criterion: str, start: FloatArray
     return best.parameters, best.level, best.gap if best.worst > NOTHING else 0.0
 
 
-def _dyad(arm: FloatArray, centre: complex, size: float) -> Dyad:
+def _dyad(arm: FloatArray, centre: complex, size: float) -> TwoLinkArm:
     pivot = centre + size * complex(arm[0], arm[1])
     sign = -1.0 if arm[3] < 0 else 1.0
-    return Dyad(pivot, abs(pivot), size * float(arm[2]), sign * size * float(arm[3]))
+    return TwoLinkArm(pivot, abs(pivot), size * float(arm[2]), sign * size * float(arm[3]))
 
 
-def _apart(one: Dyad, other: Dyad) -> float:
+def _apart(one: TwoLinkArm, other: TwoLinkArm) -> float:
     return max(abs(one.pivot - other.pivot), abs(one.first - other.first), abs(one.second - other.second))
 
 

@@ -41,7 +41,7 @@ PROVEN = 1e-7
 """Part of the greatest error by which the bound may miss it for a minimax that counts as proven."""
 
 
-class Level(NamedTuple):
+class MinimaxLevel(NamedTuple):
     """The minimax of linear errors e - T d.
 
     change  d      level  h, below which no d brings the greatest error      worst  greatest error at d
@@ -71,7 +71,7 @@ class Descent(NamedTuple):
         return max(0.0, 1.0 - self.level / self.worst) if self.worst > 0 else 0.0
 
 
-def linear_minimax(slopes: Float[np.ndarray, "m n"], errors: Float[np.ndarray, " m"]) -> Level:
+def linear_minimax(slopes: Float[np.ndarray, "m n"], errors: Float[np.ndarray, " m"]) -> MinimaxLevel:
     """The change d for which the greatest of |errors - slopes d| is least; of several the shortest, nearly.
 
     Columns that say the same are told apart by their singular values and share the change.
@@ -105,7 +105,7 @@ def linear_minimax(slopes: Float[np.ndarray, "m n"], errors: Float[np.ndarray, "
         rows[leaves], signs[leaves] = enters, sign
     worst = float(np.max(np.abs(errors - left[:, :rank] @ change)))
     bound = float(multipliers @ errors[rows]) if len(rows) > rank else 0.0
-    return Level(right[:rank].T @ (change / sizes[:rank]), max(0.0, min(bound, worst)), worst, rows, multipliers)
+    return MinimaxLevel(right[:rank].T @ (change / sizes[:rank]), max(0.0, min(bound, worst)), worst, rows, multipliers)
 
 
 def _first_reference(
@@ -158,7 +158,7 @@ def minimax_descent(errors: Errors, start: Parameters, x: FloatArray, *, least: 
     return Descent(parameters, linear_minimax(-slopes, found).level, worst)
 
 
-def _held_step(errors: Float[np.ndarray, " m"], slopes: Float[np.ndarray, "m n"], reach: float) -> Level:
+def _held_step(errors: Float[np.ndarray, " m"], slopes: Float[np.ndarray, "m n"], reach: float) -> MinimaxLevel:
     """The minimax of the tangents, held within reach."""
     if np.isinf(reach):
         return linear_minimax(-slopes, errors)
@@ -167,7 +167,7 @@ def _held_step(errors: Float[np.ndarray, " m"], slopes: Float[np.ndarray, "m n"]
 
 
 def _curved_step(
-    errors: Errors, parameters: Parameters, x: FloatArray, here: tuple[FloatArray, FloatArray], step: Level
+    errors: Errors, parameters: Parameters, x: FloatArray, here: tuple[FloatArray, FloatArray], step: MinimaxLevel
 ) -> Parameters:
     """Newton's step for parameters, level and multipliers on the rows that the held minimax levels; 0 if it fails.
 
@@ -194,7 +194,7 @@ def _curved_step(
         return np.zeros(count)
 
 
-def _levelled(errors: Errors, parameters: Parameters, x: FloatArray, step: Level) -> Parameters:
+def _levelled(errors: Errors, parameters: Parameters, x: FloatArray, step: MinimaxLevel) -> Parameters:
     """Parameters nearby, nearly the nearest, for which the errors of a step's reference are level again."""
     held = (step.rows < len(x)) & (np.abs(step.multipliers) > RANK)
     rows, signs = step.rows[held], np.sign(step.multipliers[held])

@@ -32,17 +32,17 @@ from ilmek.synthesis.approximation.polynomial import (
 from ilmek.synthesis.function import Function
 
 
-class Design(NamedTuple):
+class GeneratorDesign(NamedTuple):
     """A generator and what is said of its design error."""
 
     generator: Generator
     error: Approximation
 
 
-class Designs(NamedTuple):
+class GeneratorDesigns(NamedTuple):
     """Generators, the best by the criterion first, and in words what came out that is none."""
 
-    found: tuple[Design, ...]
+    found: tuple[GeneratorDesign, ...]
     left_out: tuple[str, ...]
 
 
@@ -100,7 +100,7 @@ def design_generators(
     crank_start: float | None = None,
     rocker_start: float | None = None,
     weight: Weight | None = None,
-) -> Designs:
+) -> GeneratorDesigns:
     """All generators that are best by a criterion for the design error, one start angle at least being said.
 
     criterion  "interpolation" at Chebyshev's places, "least squares" (every stationary answer) or "minimax"
@@ -118,8 +118,8 @@ def design_generators(
         raise ParameterError(
             f"criterion {criterion!r} of a design error", allowed="interpolation, least squares, minimax"
         )
-    found = [Design(_generator(one.parameters, crank_start, rocker_start), one) for one in answers]
-    return Designs(tuple(found), words)
+    found = [GeneratorDesign(_generator(one.parameters, crank_start, rocker_start), one) for one in answers]
+    return GeneratorDesigns(tuple(found), words)
 
 
 def _generator(parameters: FloatArray, crank_start: float | None, rocker_start: float | None) -> Generator:

@@ -29,7 +29,7 @@ Weight: TypeAlias = Callable[[FloatArray], FloatArray]
 """Weight of the error at each x, above 0."""
 
 
-class Links(NamedTuple):
+class GeneratorLinks(NamedTuple):
     """Crank, coupler and rocker in ground links; crank and rocker below 0 where they point away from their angles."""
 
     crank: float
@@ -56,13 +56,13 @@ class Generator(NamedTuple):
         return np.array(self, dtype=float)
 
     @property
-    def links(self) -> Links:
+    def links(self) -> GeneratorLinks:
         """The links of one generator; infinite where a ratio is 0."""
         r1, r2, r3 = (float(ratio) for ratio in self[:3])
         if r1 == 0 or r2 == 0:
-            return Links(math.inf, math.inf, math.inf)
+            return GeneratorLinks(math.inf, math.inf, math.inf)
         a, c = 1 / r1, 1 / r2
-        return Links(a, math.sqrt(max(0.0, 1 + a * a + c * c - 2 * a * c * r3)), c)
+        return GeneratorLinks(a, math.sqrt(max(0.0, 1 + a * a + c * c - 2 * a * c * r3)), c)
 
     def drawn(self, function: Function, x: float, sense: int, ground: float) -> FourBar:
         """The four-bar as it shows x, with its ground along the x axis from the origin."""

@@ -26,7 +26,14 @@ from ilmek.errors import ParameterError
 from ilmek.num.brackets import bracketed_roots
 from ilmek.synthesis.approximation.exchange import PROVEN, extremes
 from ilmek.synthesis.approximation.function_error import Weight, structural_error
-from ilmek.synthesis.approximation.search import PLACES, End, Starts, gauss_places, generator_search, range_places
+from ilmek.synthesis.approximation.search import (
+    PLACES,
+    DescentEnd,
+    Starts,
+    gauss_places,
+    generator_search,
+    range_places,
+)
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.function import ErrorCurve, Function, error_curve
 from ilmek.units import deg
@@ -113,7 +120,7 @@ def function_approximations(
 
 
 def _measured(
-    function: Function, criterion: str, end: End, ground: float, weight: Weight | None
+    function: Function, criterion: str, end: DescentEnd, ground: float, weight: Weight | None
 ) -> FunctionApproximation:
     """What there is to be said of a generator."""
     error = partial(structural_error, function, end.generator, end.sense)

@@ -36,8 +36,8 @@ from ilmek.synthesis.approximation.exchange import (
 )
 from ilmek.synthesis.approximation.least_squares import cosine
 from ilmek.synthesis.approximation.products import (
+    EquationRows,
     Products,
-    Rows,
     errors_of,
     gradient,
     hub_of,
@@ -92,11 +92,11 @@ class SynthesisPolynomial:
         if bool(self.products) != (self.product_terms is not None):
             raise ParameterError("products of a synthesis polynomial without their terms", do="give both, or neither")
 
-    def rows(self, x: FloatArray) -> Rows:
+    def rows(self, x: FloatArray) -> EquationRows:
         """The weighted equations at places x. Raises ParameterError where they are not finite."""
         weight = np.ones(len(x)) if self.weight is None else np.asarray(self.weight(x), dtype=float)
         products = np.zeros((len(x), 0)) if self.product_terms is None else self.product_terms(x)
-        found = Rows(weight[:, None] * self.terms(x), weight[:, None] * products, weight * self.wanted(x))
+        found = EquationRows(weight[:, None] * self.terms(x), weight[:, None] * products, weight * self.wanted(x))
         if not all(np.isfinite(part).all() for part in found):
             raise ParameterError("the synthesis polynomial is not finite everywhere", do="choose another range of x")
         if not np.min(weight) > 0:
@@ -206,7 +206,7 @@ def least_squares(polynomial: SynthesisPolynomial, places: FloatArray) -> Approx
     make up one another.
     """
     x, root = _quadrature(polynomial, places)
-    rows = Rows(*((root if part.ndim == 1 else root[:, None]) * part for part in polynomial.rows(x)))
+    rows = EquationRows(*((root if part.ndim == 1 else root[:, None]) * part for part in polynomial.rows(x)))
     solved = stationary(rows, polynomial.products)
     sizes = scales(rows, polynomial.products)
     found = []
@@ -262,7 +262,9 @@ def _even_errors(polynomial: SynthesisPolynomial, sizes: FloatArray) -> Errors:
     return errors
 
 
-def _starts(polynomial: SynthesisPolynomial, places: FloatArray, rows: Rows, sizes: FloatArray) -> Iterator[FloatArray]:
+def _starts(
+    polynomial: SynthesisPolynomial, places: FloatArray, rows: EquationRows, sizes: FloatArray
+) -> Iterator[FloatArray]:
     """Even parameters from which a minimax is sought."""
     products, count = polynomial.products, rows.terms.shape[1]
     if not products:
@@ -277,19 +279,19 @@ def _starts(polynomial: SynthesisPolynomial, places: FloatArray, rows: Rows, siz
         yield from _along_factor(even, products, hub)
 
 
-def _levelled(rows: Rows, products: Products) -> Iterator[FloatArray]:
+def _levelled(rows: EquationRows, products: Products) -> Iterator[FloatArray]:
     """All P and levels E with errors of E and -E in turns at n + 1 places: one parameter more than interpolation."""
     count = rows.terms.shape[1]
     at = np.round((len(rows.wanted) - 1) * np.arange(count + 1) / count).astype(int)
     turns = np.where(np.arange(count + 1) % 2, -1.0, 1.0)
-    table = Rows(np.column_stack([rows.terms[at], turns]), rows.products[at], rows.wanted[at])
+    table = EquationRows(np.column_stack([rows.terms[at], turns]), rows.products[at], rows.wanted[at])
     try:
         yield from solve_products(table, products).parameters
     except ParameterError:  # a family on these places says nothing of others
         return
 
 
-def _along_factor(rows: Rows, products: Products, hub: int) -> Iterator[FloatArray]:
+def _along_factor(rows: EquationRows, products: Products, hub: int) -> Iterator[FloatArray]:
     """The low places of the minimax along the factor that is in every product: with it said, all is linear."""
     partners = [b if a == hub else a for a, b in products]
     factors = np.tan(np.pi * (np.arange(TURNS) + 0.5) / TURNS - np.pi / 2)

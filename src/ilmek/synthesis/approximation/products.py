@@ -41,7 +41,7 @@ STARTS = 14
 """Directions tried of each of two factors without a common one."""
 
 
-class Rows(NamedTuple):
+class EquationRows(NamedTuple):
     """Columns of equations: `terms` f (rows, n), `products` g (rows, p), `wanted` F (rows)."""
 
     terms: Float[np.ndarray, "rows n"]
@@ -56,7 +56,7 @@ class Solutions(NamedTuple):
     left_out: tuple[str, ...]
 
 
-def scales(rows: Rows, products: Products) -> Float[np.ndarray, " n"]:
+def scales(rows: EquationRows, products: Products) -> Float[np.ndarray, " n"]:
     """Sizes of the parameters that make their columns even; a parameter that is only in products is sized by those."""
     sizes = np.linalg.norm(rows.terms, axis=0)
     known = np.where(sizes > 0, sizes, 1.0)
@@ -70,10 +70,10 @@ def scales(rows: Rows, products: Products) -> Float[np.ndarray, " n"]:
     return np.asarray(1 / known)
 
 
-def scaled(rows: Rows, products: Products, sizes: Float[np.ndarray, " n"]) -> Rows:
+def scaled(rows: EquationRows, products: Products, sizes: Float[np.ndarray, " n"]) -> EquationRows:
     """The equations for parameters in units of `sizes`."""
     both = np.array([sizes[a] * sizes[b] for a, b in products])
-    return Rows(rows.terms * sizes, rows.products * both, rows.wanted)
+    return EquationRows(rows.terms * sizes, rows.products * both, rows.wanted)
 
 
 def binary_roots(form: Callable[[float, float], float], degree: int) -> FloatArray:
@@ -94,7 +94,7 @@ def binary_roots(form: Callable[[float, float], float], degree: int) -> FloatArr
     return np.sort(np.mod(np.angle(on_circle) / 2, np.pi))
 
 
-def solve_products(rows: Rows, products: Products) -> Solutions:
+def solve_products(rows: EquationRows, products: Products) -> Solutions:
     """All real P that solve as many equations as there are parameters.
 
     Raises ParameterError where the equations leave a whole family.
@@ -154,7 +154,7 @@ def _common_roots(forms: list[FloatArray], many: int) -> tuple[list[FloatArray],
     return [point.real for point, real in zip(met.points, met.real, strict=True) if real], complex_ones
 
 
-def _polished(rows: Rows, products: Products, parameters: FloatArray) -> FloatArray:
+def _polished(rows: EquationRows, products: Products, parameters: FloatArray) -> FloatArray:
     """Newton's method on the equations themselves; steps that come no nearer are not taken."""
     found, slopes = errors_of(rows, products, parameters)
     for _ in range(4):
@@ -166,7 +166,7 @@ def _polished(rows: Rows, products: Products, parameters: FloatArray) -> FloatAr
     return parameters
 
 
-def errors_of(rows: Rows, products: Products, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+def errors_of(rows: EquationRows, products: Products, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
     """What the equations miss, F - sum P f - sum lam g, and its slopes by the parameters; any batch of parameters."""
     found = rows.wanted - parameters @ rows.terms.T
     slopes = np.broadcast_to(-rows.terms, (*parameters.shape[:-1], *rows.terms.shape)).copy()
@@ -185,7 +185,7 @@ def hub_of(products: Products) -> int | None:
     return min(common, default=None)
 
 
-def stationary(rows: Rows, products: Products) -> Solutions:
+def stationary(rows: EquationRows, products: Products) -> Solutions:
     """All real P at which the sum of squares of more equations than parameters is stationary, the least sum first.
 
     Raises ParameterError where columns say the same.
@@ -213,7 +213,7 @@ def stationary(rows: Rows, products: Products) -> Solutions:
     return Solutions(tuple(sizes * one for one in found), tuple(words))
 
 
-def gradient(rows: Rows, products: Products, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+def gradient(rows: EquationRows, products: Products, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Gradient and curvature of half the sum of squares; any batch of parameters."""
     found, slopes = errors_of(rows, products, parameters)
     curvature = np.swapaxes(slopes, -1, -2) @ slopes
@@ -224,14 +224,14 @@ def gradient(rows: Rows, products: Products, parameters: FloatArray) -> tuple[Fl
     return (found[..., None, :] @ slopes)[..., 0, :], curvature
 
 
-def _shortened(rows: Rows) -> Rows:
+def _shortened(rows: EquationRows) -> EquationRows:
     """As many equations as columns, with the same squares."""
     count, many = rows.terms.shape[1], rows.products.shape[1]
     table = np.linalg.qr(np.column_stack([rows.terms, rows.products, rows.wanted])).R
-    return Rows(table[:, :count], table[:, count : count + many], table[:, -1])
+    return EquationRows(table[:, :count], table[:, count : count + many], table[:, -1])
 
 
-def _by_form(rows: Rows, products: Products, hub: int) -> tuple[FloatArray, list[str]]:
+def _by_form(rows: EquationRows, products: Products, hub: int) -> tuple[FloatArray, list[str]]:
     """Stationary parameters from the roots of the form dS/dt = 0."""
     partners = [b if a == hub else a for a, b in products]
     others = [k for k in range(rows.terms.shape[1]) if k != hub and k not in partners]
@@ -263,7 +263,7 @@ def _by_form(rows: Rows, products: Products, hub: int) -> tuple[FloatArray, list
     return np.array(starts).reshape(-1, rows.terms.shape[1]), words
 
 
-def _by_grid(rows: Rows, products: Products) -> FloatArray:
+def _by_grid(rows: EquationRows, products: Products) -> FloatArray:
     """Starts: the least squares with one factor of each product said, in all directions."""
     firsts = [a for a, _ in products]
     turns = np.tan(np.pi * (np.arange(STARTS) + 0.5) / STARTS - np.pi / 2)

@@ -72,7 +72,7 @@ UNPROVEN = {
 """What is said of an end that is not proven: of interpolation, and of other criteria."""
 
 
-class End(NamedTuple):
+class DescentEnd(NamedTuple):
     """Where a descent stands: a generator with its sense, what is not proven, and a minimax's bound [rad]."""
 
     sense: int
@@ -96,14 +96,14 @@ def gauss_places(function: Function, weight: Weight | None) -> tuple[FloatArray,
 
 def generator_search(
     function: Function, criterion: str, starts: Starts, weight: Weight | None
-) -> tuple[list[End], tuple[str, ...]]:
+) -> tuple[list[DescentEnd], tuple[str, ...]]:
     """Generators that are best nearby by a criterion, each once, and in words what came out that is none.
 
     What is not proven is among them only where nothing else is. Raises ParameterError where a whole family of
     four-bars goes through Chebyshev's places.
     """
     left_out: list[str] = []
-    ends = [End(*start, 0.0, math.nan) for start in _starts(function, starts, weight, left_out, criterion)]
+    ends = [DescentEnd(*start, 0.0, math.nan) for start in _starts(function, starts, weight, left_out, criterion)]
     if not ends:
         left_out.append(NONE[criterion == "interpolation"])
     free = np.array([True, True, True, *(start is None for start in starts)])
@@ -170,7 +170,7 @@ def _grid(function: Function, starts: Starts, weight: Weight | None) -> Iterator
             yield (+1 if squares[0, i, j] <= squares[1, i, j] else -1), one
 
 
-def _least_squares(function: Function, end: End, free: Free, weight: Weight | None) -> End:
+def _least_squares(function: Function, end: DescentEnd, free: Free, weight: Weight | None) -> DescentEnd:
     """The nearest least mean square of the structural error."""
     errors = StructuralErrors(function, end.sense, end.generator.numbers, free)
     x, shares = gauss_places(function, weight)
@@ -182,22 +182,22 @@ def _least_squares(function: Function, end: End, free: Free, weight: Weight | No
 
     best = squares_descent(shared, errors.known[free], x)
     gap = best.slope if best.squares > NOTHING**2 else 0.0
-    return End(end.sense, errors.generator(best.parameters), gap, math.nan)
+    return DescentEnd(end.sense, errors.generator(best.parameters), gap, math.nan)
 
 
-def _minimax(function: Function, end: End, free: Free, weight: Weight | None) -> End:
+def _minimax(function: Function, end: DescentEnd, free: Free, weight: Weight | None) -> DescentEnd:
     """The nearest least greatest structural error, and the bound that proves it."""
     errors = StructuralErrors(function, end.sense, end.generator.numbers, free, weight)
     best = minimax_over_range(errors, errors.known[free], range_places(function, PLACES), least=NOTHING)
     gap = best.gap if best.worst > NOTHING else 0.0
-    return End(end.sense, errors.generator(best.parameters), gap, best.level)
+    return DescentEnd(end.sense, errors.generator(best.parameters), gap, best.level)
 
 
-def _interpolated(function: Function, end: End, free: Free, _: Weight | None) -> End:
+def _interpolated(function: Function, end: DescentEnd, free: Free, _: Weight | None) -> DescentEnd:
     """The same, with the error at Chebyshev's places: a four-bar may show some of them on its other branch."""
     nodes = function.nodes(int(np.sum(free)))
     missed = float(np.max(np.abs(structural_error(function, end.generator, end.sense, nodes))))
-    return End(end.sense, end.generator, missed, math.nan)
+    return DescentEnd(end.sense, end.generator, missed, math.nan)
 
 
 DESCENTS = {
@@ -208,9 +208,9 @@ DESCENTS = {
 """What follows the starts, for each criterion."""
 
 
-def _different(function: Function, ends: list[End], left_out: list[str], criterion: str) -> list[End]:
+def _different(function: Function, ends: list[DescentEnd], left_out: list[str], criterion: str) -> list[DescentEnd]:
     """Ends that are four-bars, each once, the proven ones if there are any; what goes is said."""
-    kept: list[End] = []
+    kept: list[DescentEnd] = []
     places: list[ComplexArray] = []
     for end in ends:
         words = _defect(function, end)
@@ -228,7 +228,7 @@ def _different(function: Function, ends: list[End], left_out: list[str], criteri
     return proven if criterion == "interpolation" else proven or kept
 
 
-def _defect(function: Function, end: End) -> str:
+def _defect(function: Function, end: DescentEnd) -> str:
     """Why a generator is none; empty where it is one."""
     links = np.abs([1.0, *end.generator.links])
     if not np.max(links) <= UNEVEN * np.min(links):

@@ -57,7 +57,7 @@ METHODS = {
 }
 
 
-class Frame(NamedTuple):
+class TaskFrame(NamedTuple):
     """Origin [m] and size [m] of a task: in this frame its numbers are near 1."""
 
     origin: complex
@@ -95,12 +95,12 @@ def forms(
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
-def pose_forms(points: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> tuple[FloatArray, Frame]:
+def pose_forms(points: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> tuple[FloatArray, TaskFrame]:
     """G of poses 2 to n from pose 1, in the frame whose origin is the body's point at pose 1.
 
     points [m]  places of one point of the body      angles [rad]  of one line of the body
     """
-    frame = Frame(complex(points[0]), float(np.max(np.abs(points - points[0]))) or 1.0)
+    frame = TaskFrame(complex(points[0]), float(np.max(np.abs(points - points[0]))) or 1.0)
     return forms(angles[1:] - angles[0], frame.into(points[1:])), frame
 
 

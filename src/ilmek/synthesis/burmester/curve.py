@@ -28,7 +28,7 @@ from ilmek.plane.vectors import unit
 from ilmek.synthesis.burmester.constant_distance import (
     ANGLES,
     FAR,
-    Frame,
+    TaskFrame,
     family,
     homogeneous,
     pose_forms,
@@ -67,7 +67,7 @@ class Asymptote(NamedTuple):
     angle: float
 
 
-class Branch(NamedTuple):
+class CurveBranch(NamedTuple):
     """A stretch of a curve that can be drawn: places [m] in order; if `closed`, the last joins the first.
 
     An open one comes from infinity and goes there, along the asymptote.
@@ -77,7 +77,7 @@ class Branch(NamedTuple):
     closed: bool
 
 
-class Loop(NamedTuple):
+class CurveLoop(NamedTuple):
     """A closed part of both curves in the projective plane, in the task's frame: pivots and pins, row by row."""
 
     centres: Float[np.ndarray, "n 3"]
@@ -93,19 +93,19 @@ class BurmesterCurve:
     centre_asymptote, circle_asymptote  None where the curve falls apart into a circle and the line at infinity
     """
 
-    loops: tuple[Loop, ...]
-    centre_frame: Frame
-    circle_frame: Frame
+    loops: tuple[CurveLoop, ...]
+    centre_frame: TaskFrame
+    circle_frame: TaskFrame
     centre_asymptote: Asymptote | None
     circle_asymptote: Asymptote | None
 
     @property
-    def centre_branches(self) -> tuple[Branch, ...]:
+    def centre_branches(self) -> tuple[CurveBranch, ...]:
         """The pivots [m] as drawn."""
         return tuple(branch for loop in self.loops for branch in _branches(loop.centres, self.centre_frame))
 
     @property
-    def circle_branches(self) -> tuple[Branch, ...]:
+    def circle_branches(self) -> tuple[CurveBranch, ...]:
         """The pins at the first pose [m] as drawn."""
         return tuple(branch for loop in self.loops for branch in _branches(loop.circles, self.circle_frame))
 
@@ -131,7 +131,7 @@ def burmester_curve(points: ComplexArray, angles: FloatArray, samples: int = SAM
 
 
 def curve(
-    G: Float[np.ndarray, "3 3 3"], frames: tuple[Frame, Frame], poles: Sequence[complex], samples: int
+    G: Float[np.ndarray, "3 3 3"], frames: tuple[TaskFrame, TaskFrame], poles: Sequence[complex], samples: int
 ) -> BurmesterCurve | None:
     """The curves of three forms, by poles of the centre-point cubic (in its frame); None where all is pivot."""
     if samples < 8:
@@ -158,7 +158,7 @@ def _value(G: FloatArray, m: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.asarray(determinant(rows)), gradient
 
 
-class Ways(NamedTuple):
+class CurveFromPole(NamedTuple):
     """Closed parts of a cubic as seen from a pole: those that a turning line draws, and lines through the pole.
 
     With a line there the parts may jump at it: another pole serves better.
@@ -168,7 +168,7 @@ class Ways(NamedTuple):
     lines: tuple[Way, ...]
 
 
-def _ways(G: FloatArray, start: FloatArray) -> Ways | None:
+def _ways(G: FloatArray, start: FloatArray) -> CurveFromPole | None:
     """The closed parts of the centre-point curve; None where the cubic is zero all over."""
     fixed = np.einsum("a,iab->ib", start, G)
 
@@ -205,10 +205,10 @@ def _ways(G: FloatArray, start: FloatArray) -> Ways | None:
     ends = _touching(discriminant)
     if not len(ends):
         signs = (1.0, -1.0) if discriminant(np.zeros(1))[0] > 0 else ()
-        return Ways(tuple(partial(sheet, sign) for sign in signs), ())
+        return CurveFromPole(tuple(partial(sheet, sign) for sign in signs), ())
     on = ends[np.max(np.abs(quadratic(ends)), axis=0) < LINE * sizes]
     spans = _positive(discriminant, ends, narrowest=LINE if len(on) else ANGLES)
-    return Ways(tuple(partial(stretch, *span) for span in spans), tuple(partial(line, phi) for phi in on[:1]))
+    return CurveFromPole(tuple(partial(stretch, *span) for span in spans), tuple(partial(line, phi) for phi in on[:1]))
 
 
 def _positive(
@@ -236,7 +236,7 @@ def _touching(discriminant: Callable[[FloatArray], FloatArray]) -> FloatArray:
     return np.sort(np.mod(np.angle(roots[on]) / 2, math.pi))
 
 
-def _loop(G: FloatArray, way: FloatArray) -> Loop:
+def _loop(G: FloatArray, way: FloatArray) -> CurveLoop:
     """Points of the centre-point curve to the last digit, and their pins."""
     m = way / np.linalg.norm(way, axis=-1, keepdims=True)
     for _ in range(POLISHED):
@@ -247,17 +247,17 @@ def _loop(G: FloatArray, way: FloatArray) -> Loop:
         m /= np.linalg.norm(m, axis=-1, keepdims=True)
     rows = np.einsum("na,iab->nib", m, G)
     alone = np.max(np.abs(adjugate(rows)), axis=(-2, -1)) > FAMILY * np.max(np.abs(G)) ** 2
-    return Loop(_followed(m), _followed(np.where(alone[:, None], null_vector(rows), 0.0)))
+    return CurveLoop(_followed(m), _followed(np.where(alone[:, None], null_vector(rows), 0.0)))
 
 
-def _even(G: FloatArray, way: Way, samples: int) -> Loop:
+def _even(G: FloatArray, way: Way, samples: int) -> CurveLoop:
     """A closed part with its samples about as far apart for the pivots and the pins together."""
     tau = 2 * math.pi * np.arange(samples) / samples
     loop = _loop(G, way(tau))
     for _ in range(ROUNDS):
         gaps = _gaps(loop.centres) + _gaps(loop.circles)
         if np.sum(gaps) < LINE:
-            return Loop(loop.centres[:1], loop.circles[:1])
+            return CurveLoop(loop.centres[:1], loop.circles[:1])
         along = np.cumsum(np.append(0.0, gaps + SLOWEST * np.mean(gaps)))
         tau = np.interp(np.arange(samples) * along[-1] / samples, along, np.append(tau, 2 * math.pi))
         loop = _loop(G, way(tau))
@@ -278,7 +278,7 @@ def _followed(vectors: FloatArray) -> FloatArray:
     return np.asarray(vectors * np.cumprod(np.append(1.0, np.where(turned == 0, 1.0, turned)))[:, None])
 
 
-def _branches(loop: FloatArray, frame: Frame) -> list[Branch]:
+def _branches(loop: FloatArray, frame: TaskFrame) -> list[CurveBranch]:
     """A closed part of the projective plane, cut where it goes through infinity."""
     far = np.abs(loop[:, 2]) * FAR <= np.hypot(loop[:, 0], loop[:, 1])
     count, side = len(loop), np.where(far, 0.0, np.sign(loop[:, 2]))
@@ -287,17 +287,17 @@ def _branches(loop: FloatArray, frame: Frame) -> list[Branch]:
     finite = side != 0
     places = frame.out((loop[:, 0] + 1j * loop[:, 1]) / np.where(finite, loop[:, 2], 1.0))
     if not cuts:
-        return [Branch(places, closed=True)]
+        return [CurveBranch(places, closed=True)]
     found = []
     for low, high in zip(cuts, [*cuts[1:], cuts[0] + count], strict=True):
         index = np.arange(low, high) % count
         index = index[finite[index]]
         if len(index):
-            found.append(Branch(places[index], closed=False))
+            found.append(CurveBranch(places[index], closed=False))
     return found
 
 
-def _asymptote(G: FloatArray, frame: Frame) -> Asymptote | None:
+def _asymptote(G: FloatArray, frame: TaskFrame) -> Asymptote | None:
     """The tangent of the cubic at its real point at infinity: (x² + y²)(l x + m y) leads, so that lies at (m, -l)."""
     (across, along), _ = _value(G, np.eye(3)[:2])
     size, turned, shifted = math.hypot(across, along), np.max(np.abs(G[:, :2, :2])), np.max(np.abs(G[:, :2, 2]))

@@ -22,7 +22,15 @@ from ilmek.errors import MechanismError
 from ilmek.num.conics import meet
 from ilmek.num.pencil3 import product
 from ilmek.plane.vectors import dot, unit
-from ilmek.synthesis.burmester.constant_distance import FAR, Frame, family, homogeneous, place, pose_forms, require_task
+from ilmek.synthesis.burmester.constant_distance import (
+    FAR,
+    TaskFrame,
+    family,
+    homogeneous,
+    place,
+    pose_forms,
+    require_task,
+)
 from ilmek.synthesis.four_bar import FourBar
 
 FAMILY = 1e-12
@@ -33,7 +41,7 @@ TOUCHING = 1e-6
 """Accuracy of a double root."""
 
 
-class Kind(StrEnum):
+class GuideKind(StrEnum):
     """What guides the body."""
 
     CRANK = "crank"
@@ -49,15 +57,20 @@ class Kind(StrEnum):
 
 
 WORDS = {
-    Kind.CRANK: "a link with two pins",
-    Kind.SLIDER: "the pivot is infinitely far: the pin goes on a straight line, at right angles to its direction",
-    Kind.BLOCK: "the pin is infinitely far: a straight line of the body goes through the pivot, in a turning block",
-    Kind.ANGLE: "pivot and pin are infinitely far: the body has no more than two angles",
-    Kind.FREE: "this point is a pole of the poses: any point of a line will do at the other end",
+    GuideKind.CRANK: "a link with two pins",
+    GuideKind.SLIDER: "the pivot is infinitely far: the pin goes on a straight line, at right angles to its direction",
+    GuideKind.BLOCK: "the pin is infinitely far: a line of the body goes through the pivot, in a turning block",
+    GuideKind.ANGLE: "pivot and pin are infinitely far: the body has no more than two angles",
+    GuideKind.FREE: "this point is a pole of the poses: any point of a line will do at the other end",
 }
 
 
-ENDS = {(True, True): Kind.CRANK, (True, False): Kind.BLOCK, (False, True): Kind.SLIDER, (False, False): Kind.ANGLE}
+ENDS = {
+    (True, True): GuideKind.CRANK,
+    (True, False): GuideKind.BLOCK,
+    (False, True): GuideKind.SLIDER,
+    (False, False): GuideKind.ANGLE,
+}
 """What a guide is, by whether its pivot and its pin are finite."""
 
 
@@ -69,25 +82,25 @@ class Guide:
     pin    w [m] at the first pose, complex; of a turning block the unit vector at right angles to the body's line
     """
 
-    kind: Kind
+    kind: GuideKind
     pivot: complex
     pin: complex
 
     @property
     def length(self) -> float:
         """From pivot to pin [m]; infinite where one of them is."""
-        return abs(self.pin - self.pivot) if self.kind is Kind.CRANK else float("inf")
+        return abs(self.pin - self.pivot) if self.kind is GuideKind.CRANK else float("inf")
 
     @property
     def line(self) -> float:
         """Angle [rad] of the slider's line, or at the first pose of the body's line in the block; NaN without one."""
-        normal = {Kind.SLIDER: self.pivot, Kind.BLOCK: self.pin}.get(self.kind)
+        normal = {GuideKind.SLIDER: self.pivot, GuideKind.BLOCK: self.pin}.get(self.kind)
         return float("nan") if normal is None else float(np.angle(1j * normal))
 
     def pins(self, points: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> Complex[np.ndarray, " n"]:
         """The pin at each pose [m]; of a block its direction."""
         turned = unit(angles - angles[0])
-        if self.kind in (Kind.BLOCK, Kind.ANGLE):
+        if self.kind in (GuideKind.BLOCK, GuideKind.ANGLE):
             return np.asarray(self.pin * turned)
         return np.asarray(points + (self.pin - points[0]) * turned)
 
@@ -98,15 +111,15 @@ class Guide:
         from the body's line, measured from the body's point; of a fixed angle the cosine of it.
         """
         pins = self.pins(points, angles)
-        if self.kind is Kind.BLOCK:
+        if self.kind is GuideKind.BLOCK:
             return np.asarray(dot(pins, self.pivot - points))
-        if self.kind in (Kind.SLIDER, Kind.ANGLE):
+        if self.kind in (GuideKind.SLIDER, GuideKind.ANGLE):
             return np.asarray(dot(self.pivot, pins))
         return np.asarray(np.abs(pins - self.pivot))
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class GuidePair:
     """Two guides of one body: the four-bar, or None and in `said` what they are instead."""
 
     one: Guide
@@ -180,12 +193,12 @@ def other_ends(ends: Float[np.ndarray, "n 3"], G: Float[np.ndarray, "2 3 3"]) ->
     return np.asarray(np.where(size > FAMILY, found / np.where(size > FAMILY, size, 1.0), 0.0))
 
 
-def guides(centres: Float[np.ndarray, "n 3"], circles: Float[np.ndarray, "n 3"], frame: Frame) -> tuple[Guide, ...]:
+def guides(centres: Float[np.ndarray, "n 3"], circles: Float[np.ndarray, "n 3"], frame: TaskFrame) -> tuple[Guide, ...]:
     """Guides in the world from pivots and pins, homogeneous in the task's frame."""
     return tuple(_guide(m, w, frame) for m, w in zip(centres, circles, strict=True))
 
 
-def four_bars(found: Sequence[Guide], tracer: complex | None = None) -> tuple[Pair, ...]:
+def four_bars(found: Sequence[Guide], tracer: complex | None = None) -> tuple[GuidePair, ...]:
     """Every two guides of one body as a four-bar: the first is its crank (`FourBar.reversed` makes it the rocker).
 
     tracer  a point of the body at its first pose [m]
@@ -194,19 +207,19 @@ def four_bars(found: Sequence[Guide], tracer: complex | None = None) -> tuple[Pa
     return tuple(pair(one, other, tracer) for i, one in enumerate(found) for other in found[i + 1 :])
 
 
-def pair(one: Guide, other: Guide, tracer: complex | None = None) -> Pair:
+def pair(one: Guide, other: Guide, tracer: complex | None = None) -> GuidePair:
     """Two guides of one body."""
-    if one.kind is not Kind.CRANK or other.kind is not Kind.CRANK:
-        return Pair(one, other, None, f"{one.kind} and {other.kind}: no four-bar; {_odd(one, other).kind.words}")
+    if one.kind is not GuideKind.CRANK or other.kind is not GuideKind.CRANK:
+        return GuidePair(one, other, None, f"{one.kind} and {other.kind}: no four-bar; {_odd(one, other).kind.words}")
     try:
-        return Pair(one, other, FourBar(one.pivot, other.pivot, one.pin, other.pin, tracer), "a four-bar")
+        return GuidePair(one, other, FourBar(one.pivot, other.pivot, one.pin, other.pin, tracer), "a four-bar")
     except MechanismError as error:
-        return Pair(one, other, None, f"two cranks, but no four-bar: {error.given}")
+        return GuidePair(one, other, None, f"two cranks, but no four-bar: {error.given}")
 
 
 def _odd(one: Guide, other: Guide) -> Guide:
     """The guide that is no crank."""
-    return other if one.kind is Kind.CRANK else one
+    return other if one.kind is GuideKind.CRANK else one
 
 
 def _quadric(pairs: Sequence[tuple[int, int, float]]) -> FloatArray:
@@ -260,8 +273,8 @@ def _larger(a: ComplexArray, k: NumberArray, b: ComplexArray, j: NumberArray) ->
     return np.asarray(both[chosen, index] / np.maximum(sizes[chosen, index], 1e-300)[:, None])
 
 
-def _guide(m: NumberArray, w: NumberArray, frame: Frame) -> Guide:
+def _guide(m: NumberArray, w: NumberArray, frame: TaskFrame) -> Guide:
     if not (np.any(m) and np.any(w)):
-        return Guide(Kind.FREE, *(frame.spot(place(v)[0]) if np.any(v) else complex("nan") for v in (m, w)))
+        return Guide(GuideKind.FREE, *(frame.spot(place(v)[0]) if np.any(v) else complex("nan") for v in (m, w)))
     (pivot, near), (pin, close) = place(m), place(w)
     return Guide(ENDS[near, close], frame.spot(pivot) if near else pivot, frame.spot(pin) if close else pin)

@@ -20,14 +20,14 @@ import numpy as np
 from ilmek.arrays import BoolArray, ComplexField, RealField
 
 
-class DeadCentre(NamedTuple):
+class ExtendedPose(NamedTuple):
     """Crank D -> C and rocker A -> B at the extended dead centre, in ground links, complex."""
 
     crank: ComplexField
     rocker: ComplexField
 
 
-def extended(swing: RealField, rotation: RealField, ratio: RealField) -> DeadCentre:
+def extended(swing: RealField, rotation: RealField, ratio: RealField) -> ExtendedPose:
     """Crank and rocker at the extended dead centre, whatever they are good for, for any ratio a / b above 0.
 
     Infinite or NaN where the two equations have no one solution.      [the two equations, by Cramer's rule]
@@ -40,7 +40,7 @@ def extended(swing: RealField, rotation: RealField, ratio: RealField) -> DeadCen
     turned, swung = np.exp(1j * np.asarray(rotation)), np.exp(1j * np.asarray(swing))
     with np.errstate(divide="ignore", invalid="ignore"):
         det = (1 - stretch) * turned - (1 + stretch) * swung
-        return DeadCentre((1 - swung) / det, ((1 + stretch) - (1 - stretch) * turned) / det)
+        return ExtendedPose((1 - swung) / det, ((1 + stretch) - (1 - stretch) * turned) / det)
 
 
 def on_one_circuit(swing: RealField, rocker: ComplexField) -> BoolArray:

@@ -27,7 +27,7 @@ from ilmek.arrays import ComplexField, RealField
 from ilmek.units import turn
 
 
-class Links(NamedTuple):
+class LinkRatios(NamedTuple):
     """Link lengths of a four-bar in units of its ground link."""
 
     crank: RealField
@@ -35,7 +35,7 @@ class Links(NamedTuple):
     rocker: RealField
 
 
-class Limits(NamedTuple):
+class OpenInterval(NamedTuple):
     """Ends of an open interval."""
 
     low: RealField
@@ -50,7 +50,7 @@ class DeadCentres(NamedTuple):
     beta: RealField
 
 
-def links_of_beta(swing: RealField, rotation: RealField, beta: RealField) -> Links:
+def links_of_beta(swing: RealField, rotation: RealField, beta: RealField) -> LinkRatios:
     """Links from the crank angle of the extended dead centre.
 
         a = -sin(psi/2) cos(phi/2 + beta) / sin((phi-psi)/2)      b = sin(psi/2) sin(phi/2 + beta) / cos((phi-psi)/2)
@@ -64,10 +64,10 @@ def links_of_beta(swing: RealField, rotation: RealField, beta: RealField) -> Lin
     half, toggle = swing / 2, rotation / 2 + beta
     crank = -np.sin(half) * np.cos(toggle) / np.sin(rotation / 2 - half)
     coupler = np.sin(half) * np.sin(toggle) / np.cos(rotation / 2 - half)
-    return Links(crank, coupler, _rocker(crank, coupler, beta))
+    return LinkRatios(crank, coupler, _rocker(crank, coupler, beta))
 
 
-def links_of_ratio(swing: RealField, rotation: RealField, ratio: RealField) -> Links:
+def links_of_ratio(swing: RealField, rotation: RealField, ratio: RealField) -> LinkRatios:
     """Links from the ratio crank / coupler, for every phi.
 
         b = sin(psi/2) / sqrt(ratio^2 sin^2((phi-psi)/2) + cos^2((phi-psi)/2)),     a = ratio b
@@ -77,10 +77,10 @@ def links_of_ratio(swing: RealField, rotation: RealField, ratio: RealField) -> L
     half = swing / 2
     coupler = np.sin(half) / np.hypot(ratio * np.sin(rotation / 2 - half), np.cos(rotation / 2 - half))
     crank = ratio * coupler
-    return Links(crank, coupler, _rocker(crank, coupler, beta_of_ratio(swing, rotation, ratio)))
+    return LinkRatios(crank, coupler, _rocker(crank, coupler, beta_of_ratio(swing, rotation, ratio)))
 
 
-def links_of_coupler(swing: RealField, rotation: RealField, coupler: RealField) -> Links:
+def links_of_coupler(swing: RealField, rotation: RealField, coupler: RealField) -> LinkRatios:
     """Links from the length of the coupler, for every phi.
 
         a = sqrt(sin^2(psi/2) - b^2 cos^2((phi-psi)/2)) / sin((phi-psi)/2)
@@ -89,7 +89,7 @@ def links_of_coupler(swing: RealField, rotation: RealField, coupler: RealField) 
     """
     half = swing / 2
     crank = np.sqrt(np.sin(half) ** 2 - (coupler * np.cos(rotation / 2 - half)) ** 2) / np.sin(rotation / 2 - half)
-    return Links(crank, coupler, _rocker(crank, coupler, beta_of_ratio(swing, rotation, crank / coupler)))
+    return LinkRatios(crank, coupler, _rocker(crank, coupler, beta_of_ratio(swing, rotation, crank / coupler)))
 
 
 def beta_of_ratio(swing: RealField, rotation: RealField, ratio: RealField) -> RealField:
@@ -107,15 +107,15 @@ def _rocker(crank: RealField, coupler: RealField, beta: RealField) -> RealField:
     return np.hypot(crank + coupler - np.cos(beta), np.sin(beta))
 
 
-def rotation_limits(swing: RealField) -> Limits:
+def rotation_limits(swing: RealField) -> OpenInterval:
     """Turns of the crank between dead centres that crank-rockers of this swing can have [rad], ends excluded.
 
     pi/2 + psi/2 < phi < 3 pi/2 + psi/2     [derived: there `coupler_limits` opens]
     """
-    return Limits(np.pi / 2 + swing / 2, 3 * np.pi / 2 + swing / 2)
+    return OpenInterval(np.pi / 2 + swing / 2, 3 * np.pi / 2 + swing / 2)
 
 
-def beta_limits(swing: RealField, rotation: RealField) -> Limits:
+def beta_limits(swing: RealField, rotation: RealField) -> OpenInterval:
     """Crank angles of the extended dead centre that give crank-rockers [rad], ends (change points) excluded.
 
     phi <= pi              pi - phi .. pi/2 - psi/2       [paper, Eq 8]
@@ -127,10 +127,10 @@ def beta_limits(swing: RealField, rotation: RealField) -> Limits:
     toggle = np.where(
         rotation <= np.pi, np.pi - rotation, np.where(rotation < np.pi + swing, 0.0, 2 * np.pi - rotation)
     )
-    return Limits(np.minimum(mirror, toggle)[()], np.maximum(mirror, toggle)[()])
+    return OpenInterval(np.minimum(mirror, toggle)[()], np.maximum(mirror, toggle)[()])
 
 
-def coupler_limits(swing: RealField, rotation: RealField) -> Limits:
+def coupler_limits(swing: RealField, rotation: RealField) -> OpenInterval:
     """Couplers that give crank-rockers, in ground links, ends excluded; one rule for every phi.
 
     sin(psi/2) < b < sin(psi/2) sin(phi/2) / |cos((phi-psi)/2)|
@@ -138,19 +138,19 @@ def coupler_limits(swing: RealField, rotation: RealField) -> Limits:
     The upper end is far away at phi = pi + psi, where the coupler is free. [derived from `beta_limits`]
     """
     low = np.sin(swing / 2)
-    return Limits(low, low * np.sin(rotation / 2) / np.abs(np.cos(rotation / 2 - swing / 2)))
+    return OpenInterval(low, low * np.sin(rotation / 2) / np.abs(np.cos(rotation / 2 - swing / 2)))
 
 
-def ratio_limits(swing: RealField, rotation: RealField) -> Limits:
+def ratio_limits(swing: RealField, rotation: RealField) -> OpenInterval:
     """Ratios crank / coupler that crank-rockers can have, ends excluded: |cot(phi/2) cot((phi-psi)/2)| < a/b < 1.
 
     [derived from `coupler_limits`; the ratio falls as the coupler grows]
     """
     low = np.abs(np.cos(rotation / 2) * np.cos(rotation / 2 - swing / 2))
-    return Limits(low / np.abs(np.sin(rotation / 2) * np.sin(rotation / 2 - swing / 2)), np.ones_like(low)[()])
+    return OpenInterval(low / np.abs(np.sin(rotation / 2) * np.sin(rotation / 2 - swing / 2)), np.ones_like(low)[()])
 
 
-def transmission_angles(links: Links) -> tuple[RealField, RealField]:
+def transmission_angles(links: LinkRatios) -> tuple[RealField, RealField]:
     """Angle between coupler and rocker [rad] with the crank on the ground line: at crank angle 0, at crank angle pi.
 
         tan^2(mu/2) = (x^2 - (b-c)^2) / ((b+c)^2 - x^2),    x = 1 -+ a
@@ -167,7 +167,7 @@ def transmission_angles(links: Links) -> tuple[RealField, RealField]:
     return angle(1 - crank), angle(1 + crank)
 
 
-def transmission_angle_min(links: Links) -> RealField:
+def transmission_angle_min(links: LinkRatios) -> RealField:
     """Least acute angle between coupler and rocker over the turn [rad]; NaN where the crank cannot turn.
 
         mu_min = min(mu(crank at 0), pi - mu(crank at pi))
@@ -201,7 +201,7 @@ def best_ratio(swing: RealField, rotation: RealField) -> RealField:
     return ratio
 
 
-def grashof_margin(links: Links) -> RealField:
+def grashof_margin(links: LinkRatios) -> RealField:
     """Sum of the two middle links minus the shortest and the longest, in ground links; positive: Grashof, strictly.
 
     [paper, criterion iii]
@@ -212,7 +212,7 @@ def grashof_margin(links: Links) -> RealField:
     return margin
 
 
-def dead_centres(links: Links) -> DeadCentres:
+def dead_centres(links: LinkRatios) -> DeadCentres:
     """Swing, turn of the crank and beta of given links [rad]: the way back. NaN where a dead centre does not close.
 
     B stands at distance a + b from D in the extended dead centre and at |b - a| in the folded one, above the ground
@@ -225,7 +225,7 @@ def dead_centres(links: Links) -> DeadCentres:
     return DeadCentres(np.angle((folded - 1) / (extended - 1)), rotation, beta)
 
 
-def _above(links: Links, distance: RealField) -> ComplexField:
+def _above(links: LinkRatios, distance: RealField) -> ComplexField:
     """The point above the ground line at the given distance from D and on the rocker's circle about A."""
     along = 0.5 * (distance**2 + 1 - links.rocker**2)
     return along + 1j * np.sqrt(distance**2 - along**2)

@@ -11,8 +11,8 @@ from jaxtyping import Float
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.synthesis.crank_rocker.dead_centres import (
-    Limits,
-    Links,
+    LinkRatios,
+    OpenInterval,
     beta_of_ratio,
     grashof_margin,
     links_of_ratio,
@@ -27,7 +27,7 @@ COUNT = 1000
 
 
 @dataclass(frozen=True, slots=True)
-class Family:
+class CrankRockerFamily:
     """Crank-rockers with one swing and one turn of the crank [rad], by ascending ratio crank / coupler."""
 
     swing: float
@@ -38,7 +38,7 @@ class Family:
         return self.ratio.size
 
     @property
-    def links(self) -> Links:
+    def links(self) -> LinkRatios:
         """Their links, in ground links."""
         return links_of_ratio(self.swing, self.rotation, self.ratio)
 
@@ -74,7 +74,9 @@ class Family:
         }
 
 
-def family(swing: float, rotation: float, count: int = COUNT, *, within: Limits | None = None) -> Family:
+def family(
+    swing: float, rotation: float, count: int = COUNT, *, within: OpenInterval | None = None
+) -> CrankRockerFamily:
     """Members over the whole family, or over the part of it with ratios crank / coupler `within`, ends included.
 
     Raises ParameterError where no crank-rocker has this swing and turn of the crank.
@@ -85,14 +87,14 @@ def family(swing: float, rotation: float, count: int = COUNT, *, within: Limits 
     require_rotation(swing, rotation)
     low, high = ratio_limits(swing, rotation)
     if within is None:
-        return Family(swing, rotation, low + (high - low) * (np.arange(count) + 0.5) / count)
-    return Family(swing, rotation, np.linspace(within.low, within.high, count))
+        return CrankRockerFamily(swing, rotation, low + (high - low) * (np.arange(count) + 0.5) / count)
+    return CrankRockerFamily(swing, rotation, np.linspace(within.low, within.high, count))
 
 
-def link_ratio(links: Links) -> RealField:
+def link_ratio(links: LinkRatios) -> RealField:
     """Longest link by the shortest, the ground among them.
 
-    >>> float(link_ratio(Links(0.25, 0.5, 0.75)))
+    >>> float(link_ratio(LinkRatios(0.25, 0.5, 0.75)))
     4.0
     """
     crank, coupler, rocker = links
@@ -100,7 +102,7 @@ def link_ratio(links: Links) -> RealField:
     return longest
 
 
-def size(links: Links, beta: RealField, reach: RealField | None = None) -> RealField:
+def size(links: LinkRatios, beta: RealField, reach: RealField | None = None) -> RealField:
     """Greatest distance of places that its points get to, in ground links.
 
         max(1 + a,  2 a + b,  a + |1 + r e^{i angle(AB at the beat)}|,  c,  r)
@@ -108,7 +110,7 @@ def size(links: Links, beta: RealField, reach: RealField | None = None) -> RealF
     reach  r: of the rocker's far end E from A, on the line A-B; unsaid: B
     From the crank's circle to A, to B and to E where they are farthest from D; from A to B and to E.      [derived]
 
-    >>> float(size(Links(0.25, 0.5, 0.75), 0.7))
+    >>> float(size(LinkRatios(0.25, 0.5, 0.75), 0.7))
     1.25
     """
     crank, coupler, rocker = links

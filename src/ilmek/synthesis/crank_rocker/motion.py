@@ -12,13 +12,13 @@ import numpy as np
 from ilmek.arrays import ComplexField, FloatArray, IntArray, RealField
 from ilmek.linkage.groups import rrr
 from ilmek.num.periodic_maxima import summits
-from ilmek.synthesis.crank_rocker.dead_centres import Links, dead_centres
+from ilmek.synthesis.crank_rocker.dead_centres import LinkRatios, dead_centres
 
 PIVOT = 1 + 0j
 """The rocker's pivot A; the crank's is the origin, and their distance the unit of length."""
 
 
-class Moved(NamedTuple):
+class CrankRockerMotion(NamedTuple):
     """A crank-rocker at crank angles, at unit speed of the crank.
 
     pin              the crank pin C                             lean   coupler x rocker: b c sin(transmission angle)
@@ -34,20 +34,20 @@ class Moved(NamedTuple):
     alpha: tuple[RealField, RealField]
 
 
-class Extremes(NamedTuple):
+class RockerExtremes(NamedTuple):
     """Greatest sizes over a turn of the rocker's angular velocity [omega] and acceleration [omega^2]."""
 
     speed: FloatArray
     acceleration: FloatArray
 
 
-def moved(links: Links, angle: RealField) -> Moved:
+def moved(links: LinkRatios, angle: RealField) -> CrankRockerMotion:
     """Crank-rockers at crank angles [rad]; links and angles of any shapes that broadcast.
 
     [position, speed and acceleration of the RRR dyad hung on the crank pin and on A]
 
-    >>> at = moved(Links(0.25, 0.7, 0.75), 0.3)
-    >>> ahead, behind = (np.angle(moved(Links(0.25, 0.7, 0.75), 0.3 + h).rocker) for h in (1e-6, -1e-6))
+    >>> at = moved(LinkRatios(0.25, 0.7, 0.75), 0.3)
+    >>> ahead, behind = (np.angle(moved(LinkRatios(0.25, 0.7, 0.75), 0.3 + h).rocker) for h in (1e-6, -1e-6))
     >>> bool(abs((ahead - behind) / 2e-6 - at.omega[1]) < 1e-9)
     True
     """
@@ -59,10 +59,10 @@ def moved(links: Links, angle: RealField) -> Moved:
     slip = -1j * pin
     omega = rrr.first_rate(v, slip, lean), rrr.second_rate(u, slip, lean)
     pull = rrr.parting(-pin, 0j, u, v, *omega)
-    return Moved(pin, u, v, lean, omega, (rrr.first_rate(v, pull, lean), rrr.second_rate(u, pull, lean)))
+    return CrankRockerMotion(pin, u, v, lean, omega, (rrr.first_rate(v, pull, lean), rrr.second_rate(u, pull, lean)))
 
 
-def sharp_angles(links: Links) -> FloatArray:
+def sharp_angles(links: LinkRatios) -> FloatArray:
     """Crank angles near which motion and forces may be narrow peaks [rad], (..., 4).
 
     The crank on the ground line, at 0 and at pi, where the transmission angle is least or greatest; and the dead
@@ -74,24 +74,24 @@ def sharp_angles(links: Links) -> FloatArray:
     return found
 
 
-def rocker_extremes(links: Links) -> Extremes:
+def rocker_extremes(links: LinkRatios) -> RockerExtremes:
     """Greatest angular speed and acceleration of the rocker, (members) as the links, at unit speed of the crank.
 
     Suprema to about 1e-9 of themselves, see `num.periodic_maxima`; the crank must turn fully.
 
-    >>> float(rocker_extremes(Links(*np.array([[0.2], [0.66], [0.77]]))).speed[0].round(4))
+    >>> float(rocker_extremes(LinkRatios(*np.array([[0.2], [0.66], [0.77]]))).speed[0].round(4))
     0.2778
     """
     columns = [np.asarray(link, dtype=float) for link in links]
 
     def curves(row: IntArray, angle: FloatArray) -> dict[str, FloatArray]:
-        at = moved(Links(*(column[row] for column in columns)), angle)
+        at = moved(LinkRatios(*(column[row] for column in columns)), angle)
         return {"speed": np.abs(at.omega[1]), "acceleration": np.abs(at.alpha[1])}
 
-    return Extremes(**summits(curves, sharp_angles(Links(*columns))))
+    return RockerExtremes(**summits(curves, sharp_angles(LinkRatios(*columns))))
 
 
-def beat_acceleration(links: Links) -> RealField:
+def beat_acceleration(links: LinkRatios) -> RealField:
     """Angular acceleration of the rocker at the extended dead centre [omega^2].
 
         alpha = a (a + b) / (b c sin mu) > 0: away from the beat,   mu the angle between coupler and rocker there

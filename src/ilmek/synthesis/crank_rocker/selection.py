@@ -19,7 +19,7 @@ from scipy.optimize import brentq
 from ilmek.arrays import RealField
 from ilmek.errors import ParameterError
 from ilmek.synthesis.crank_rocker.dead_centres import (
-    Links,
+    LinkRatios,
     best_ratio,
     beta_limits,
     beta_of_ratio,
@@ -57,9 +57,9 @@ class Member:
     beta: float
 
     @property
-    def links(self) -> Links:
+    def links(self) -> LinkRatios:
         """The ratios alone."""
-        return Links(self.crank, self.coupler, self.rocker)
+        return LinkRatios(self.crank, self.coupler, self.rocker)
 
 
 def member(swing: float, rotation: float = CENTRIC, beta: float | None = None) -> Member:

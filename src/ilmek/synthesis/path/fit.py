@@ -14,7 +14,7 @@ from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.path.limits import excess
 from ilmek.synthesis.path.model import NAMES, SIZE, TURN, coupler_point
 from ilmek.synthesis.path.task import PathTask
-from ilmek.synthesis.task import Task
+from ilmek.synthesis.task import PrecisionTask
 
 ONCE = 2 * math.pi
 
@@ -68,7 +68,7 @@ class PathFit:
         return float(np.max(np.abs(self.errors)))
 
 
-class Pose(NamedTuple):
+class SearchEnd(NamedTuple):
     """Where a search ended: the ten numbers [m, rad], the crank's angles against the ground link [rad], the branch, and
     the block of each point, whose points are met at one angle.
     """
@@ -79,7 +79,7 @@ class Pose(NamedTuple):
     blocks: Int[np.ndarray, " points"]
 
 
-def path_fit(task: PathTask, pose: Pose, search: Search) -> PathFit:
+def path_fit(task: PathTask, pose: SearchEnd, search: Search) -> PathFit:
     """The answer from where a search ended."""
     design, angles, branch, blocks = pose
     drawn = _drawn(design, float(angles[0]), branch)
@@ -104,7 +104,7 @@ def judged(task: PathTask, fit: PathFit) -> Candidate:
     """
     crank = fit.crank_angles[0] + np.clip(fit.crank_angles - fit.crank_angles[0], -ONCE, ONCE)
     near = fit.greatest_error * (1 + 1e-6) + AT * task.size
-    return judge(fit.four_bar, Task(points=task.points, crank=crank, point_tolerance=near))
+    return judge(fit.four_bar, PrecisionTask(points=task.points, crank=crank, point_tolerance=near))
 
 
 def least_transmission(design: Float[np.ndarray, "10"]) -> float:

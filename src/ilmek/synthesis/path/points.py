@@ -20,7 +20,7 @@ from ilmek.arrays import ComplexArray, FloatArray, NumberArray
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import unit
 from ilmek.synthesis.burmester.constant_distance import (
-    Frame,
+    TaskFrame,
     family,
     homogeneous,
     place,
@@ -31,14 +31,14 @@ from ilmek.synthesis.burmester.constant_distance import (
 from ilmek.synthesis.burmester.curve import SAMPLES, BurmesterCurve, burmester_curve, curve
 from ilmek.synthesis.burmester.links import (
     Guide,
-    Kind,
+    GuideKind,
     arms_of_pivots,
     arms_through_five_poses,
     common_solutions,
     other_ends,
     pair,
 )
-from ilmek.synthesis.dyad import STILL, Found, arms_through_points
+from ilmek.synthesis.dyad import STILL, RootKind, arms_through_points
 from ilmek.synthesis.four_bar import FourBar
 
 
@@ -68,12 +68,12 @@ CRANK_WORDS = {
 }
 
 KIND_OF_ARM = {
-    Found.ARM: CrankKind.CRANK,
-    Found.STILL: CrankKind.STILL,
-    Found.FAR_PIVOT: CrankKind.FAR_PIVOT,
-    Found.LINE: CrankKind.LINE,
-    Found.LONG: CrankKind.FAR_PIN,
-    Found.FAMILY: CrankKind.FREE,
+    RootKind.ARM: CrankKind.CRANK,
+    RootKind.STILL: CrankKind.STILL,
+    RootKind.FAR_PIVOT: CrankKind.FAR_PIVOT,
+    RootKind.LINE: CrankKind.LINE,
+    RootKind.LONG: CrankKind.FAR_PIN,
+    RootKind.FAMILY: CrankKind.FREE,
 }
 
 
@@ -217,20 +217,22 @@ def timed_four_bars(
     )
 
 
-def _frames(points: NumberArray) -> tuple[Frame, Frame]:
+def _frames(points: NumberArray) -> tuple[TaskFrame, TaskFrame]:
     """The frames of the pivots, which is turned round because the forms hold -m, and of the crank as a vector."""
     origin = complex(points[0])
     size = float(np.max(np.abs(points - origin))) or 1.0
-    return Frame(origin, -size), Frame(0j, size)
+    return TaskFrame(origin, -size), TaskFrame(0j, size)
 
 
-def _task(points: NumberArray, crank_angles: FloatArray, wanted: int, name: str) -> tuple[FloatArray, Frame, Frame]:
+def _task(
+    points: NumberArray, crank_angles: FloatArray, wanted: int, name: str
+) -> tuple[FloatArray, TaskFrame, TaskFrame]:
     require_task("timed point", points, crank_angles, wanted, name)
     centre_frame, circle_frame = _frames(points)
     return timed_forms(points, crank_angles, np.asarray(circle_frame.size)), centre_frame, circle_frame
 
 
-def _crank(m: NumberArray, w: NumberArray, centre_frame: Frame, circle_frame: Frame) -> TimedCrank:
+def _crank(m: NumberArray, w: NumberArray, centre_frame: TaskFrame, circle_frame: TaskFrame) -> TimedCrank:
     (pivot, near), (arm, close) = place(m), place(w)
     still = close and abs(arm) <= STILL
     if not close:
@@ -251,9 +253,9 @@ def _cranks_of_four(points: NumberArray, crank_angles: FloatArray) -> tuple[Time
     arms = arms_through_points(np.asarray(points, dtype=complex), crank_angles)
     start = complex(unit(crank_angles[0]))
     return tuple(
-        TimedCrank(KIND_OF_ARM[Found(told)], complex(pivot), complex(start if np.isinf(first) else first * start))
+        TimedCrank(KIND_OF_ARM[RootKind(told)], complex(pivot), complex(start if np.isinf(first) else first * start))
         for pivot, first, told in zip(arms.pivot, arms.first, arms.found, strict=True)
-        if told != Found.COMPLEX
+        if told != RootKind.COMPLEX
     )
 
 
@@ -261,7 +263,7 @@ def _others(crank: TimedCrank, points: NumberArray, angles: FloatArray) -> tuple
     """The guides of five poses of a coupler, less its crank."""
     found = arms_through_five_poses(np.asarray(points, dtype=complex), angles)
     itself = min(
-        (one for one in found if one.kind is Kind.CRANK),
+        (one for one in found if one.kind is GuideKind.CRANK),
         key=lambda one: abs(one.pivot - crank.pivot) + abs(one.pin - crank.pin),
         default=None,
     )
@@ -292,7 +294,7 @@ def _of_crank(
     except ParameterError as error:
         yield TimedFourBar(crank, None, None, f"the poses of this crank's coupler: {error.given}")
         return
-    link = Guide(Kind.CRANK, crank.pivot, crank.pin)
+    link = Guide(GuideKind.CRANK, crank.pivot, crank.pin)
     for second in found:
         joined = pair(link, second, complex(points[0]))
         yield TimedFourBar(crank, second, joined.four_bar, joined.said)

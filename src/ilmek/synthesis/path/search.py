@@ -18,7 +18,7 @@ from jaxtyping import Bool, Complex, Float, Int
 
 from ilmek.errors import ParameterError
 from ilmek.synthesis.path.descent import EXACT, descend_all
-from ilmek.synthesis.path.fit import PathFit, Pose, Search, least_transmission, path_fit
+from ilmek.synthesis.path.fit import PathFit, Search, SearchEnd, least_transmission, path_fit
 from ilmek.synthesis.path.links import random_links
 from ilmek.synthesis.path.model import SIZE, squared_error
 from ilmek.synthesis.path.order import in_order, pooled
@@ -56,7 +56,7 @@ ALIKE = 1e-3
 """Difference, in sizes of the path, below which two four-bars are one."""
 
 
-class Found(NamedTuple):
+class SearchEnds(NamedTuple):
     """Ends of starts, in sizes of the path about its middle."""
 
     designs: Float[np.ndarray, "some 10"]
@@ -65,9 +65,9 @@ class Found(NamedTuple):
     blocks: Int[np.ndarray, "some points"]
     states: Float[np.ndarray, "some 5"]
 
-    def only(self, which: slice | Bool[np.ndarray, " some"] | Int[np.ndarray, " part"]) -> "Found":
+    def only(self, which: slice | Bool[np.ndarray, " some"] | Int[np.ndarray, " part"]) -> "SearchEnds":
         """Those chosen, copied."""
-        return Found(*(part[which] for part in self))
+        return SearchEnds(*(part[which] for part in self))
 
     @property
     def errors(self) -> Float[np.ndarray, " some"]:
@@ -87,7 +87,7 @@ class Scaled:
     low: Float[np.ndarray, "10"]
     high: Float[np.ndarray, "10"]
 
-    def descend(self, found: Found, points: Complex[np.ndarray, " part"], rounds: int) -> int:
+    def descend(self, found: SearchEnds, points: Complex[np.ndarray, " part"], rounds: int) -> int:
         """Each start goes on downhill, in place; the evaluations that took."""
         before = found.states[:, 4].sum()
         kind, kappa = self.task.sign, self.task.kappa
@@ -146,7 +146,7 @@ def _scaled(task: PathTask) -> Scaled:
     return Scaled(task, middle, size, points, along, low, high)
 
 
-def _batch(scaled: Scaled, seed: int, number: int) -> tuple[Found, int]:
+def _batch(scaled: Scaled, seed: int, number: int) -> tuple[SearchEnds, int]:
     """The ends of one batch of starts, and the evaluations they took."""
     part = np.unique(np.linspace(0, len(scaled.points) - 1, COARSE).round().astype(int))
     if len(scaled.points) <= COARSE:
@@ -165,7 +165,7 @@ def _batch(scaled: Scaled, seed: int, number: int) -> tuple[Found, int]:
     return found, spent
 
 
-def _begin(scaled: Scaled, part: Int[np.ndarray, " part"], seed: int, number: int) -> Found:
+def _begin(scaled: Scaled, part: Int[np.ndarray, " part"], seed: int, number: int) -> SearchEnds:
     """Random starts through a part of the points; those that keep the limits."""
     task, rng = scaled.task, np.random.default_rng([seed, number])
     bounds = scaled.low[:4], scaled.high[:4]
@@ -181,10 +181,10 @@ def _begin(scaled: Scaled, part: Int[np.ndarray, " part"], seed: int, number: in
     start_all(dice, links, scaled.along[part], timed, task.closed, points, *limits, designs, angles, branches, errors)
     states[:, 0] = errors
     blocks = np.tile(np.full(len(part), -1) if timed else np.arange(len(part)), (count, 1))
-    return Found(designs, angles, branches, blocks, states).only(np.isfinite(errors))
+    return SearchEnds(designs, angles, branches, blocks, states).only(np.isfinite(errors))
 
 
-def _refined(scaled: Scaled, found: Found, part: Int[np.ndarray, " part"]) -> Found:
+def _refined(scaled: Scaled, found: SearchEnds, part: Int[np.ndarray, " part"]) -> SearchEnds:
     """The same four-bars at all points, their crank angles between those at a part of them."""
     every = np.arange(len(scaled.points))
     angles = np.array([np.interp(every, part, row) for row in found.angles]).reshape(-1, len(every))
@@ -192,10 +192,10 @@ def _refined(scaled: Scaled, found: Found, part: Int[np.ndarray, " part"]) -> Fo
     if timing is not None:
         angles = found.angles[:, :1] + (timing - timing[0])
     blocks = np.tile(np.full(len(every), -1) if timing is not None else every, (len(angles), 1))
-    return _restarted(scaled, Found(found.designs, angles, found.branches, blocks, found.states))
+    return _restarted(scaled, SearchEnds(found.designs, angles, found.branches, blocks, found.states))
 
 
-def _restarted(scaled: Scaled, found: Found) -> Found:
+def _restarted(scaled: Scaled, found: SearchEnds) -> SearchEnds:
     """As new starts: squared errors at the angles that are, damping as at the beginning."""
     rows = zip(found.designs, found.angles, found.branches, strict=True)
     states = np.zeros((len(found.branches), 5))
@@ -204,7 +204,7 @@ def _restarted(scaled: Scaled, found: Found) -> Found:
     return found._replace(states=states)
 
 
-def _in_order(scaled: Scaled, found: Found) -> tuple[Found, int]:
+def _in_order(scaled: Scaled, found: SearchEnds) -> tuple[SearchEnds, int]:
     """Those that meet the points in order, and the best of the others once points out of order share a crank angle.
 
     With the evaluations that took.
@@ -229,9 +229,9 @@ def _in_order(scaled: Scaled, found: Found) -> tuple[Found, int]:
     return done, spent
 
 
-def _joined(parts: list[Found]) -> Found:
+def _joined(parts: list[SearchEnds]) -> SearchEnds:
     """All of them, one after the other."""
-    return Found(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+    return SearchEnds(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
 
 
 def _agreed(errors: Float[np.ndarray, " some"], best: float, points: int) -> int:
@@ -239,7 +239,7 @@ def _agreed(errors: Float[np.ndarray, " some"], best: float, points: int) -> int
     return int(np.sum(errors <= best * (1 + SAME) + NOTHING**2 * points))
 
 
-def _answers(scaled: Scaled, found: Found, count: int, search: Search) -> tuple[PathFit, ...]:
+def _answers(scaled: Scaled, found: SearchEnds, count: int, search: Search) -> tuple[PathFit, ...]:
     """The best different four-bars, in metres."""
     exact = 1e6 * EXACT * len(scaled.points)
     transmission = [least_transmission(design) for design in found.designs]
@@ -256,7 +256,7 @@ def _answers(scaled: Scaled, found: Found, count: int, search: Search) -> tuple[
     return tuple(
         path_fit(
             scaled.task,
-            Pose(found.designs[k] * scale + shift, found.angles[k], int(found.branches[k]), found.blocks[k]),
+            SearchEnd(found.designs[k] * scale + shift, found.angles[k], int(found.branches[k]), found.blocks[k]),
             dataclasses.replace(search, agreed=number),
         )
         for k, number in zip(chosen, agreed, strict=True)

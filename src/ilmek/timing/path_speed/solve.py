@@ -23,7 +23,7 @@ from ilmek.errors import ParameterError
 from ilmek.timing.path_speed.barrier import SpeedTask, clamped, local_basis, quickest
 from ilmek.timing.path_speed.path import AxesLimits, JointPath, Three, rates, rise
 
-__all__ = ["AxesLimits", "Course", "JointPath", "PathMotion", "quickest_motion"]
+__all__ = ["AxesLimits", "JointPath", "PathMotion", "Trajectory", "quickest_motion"]
 
 INTERVALS, COARSE = 300, 80
 """Intervals of the spline, and of the first one, which tells where they are needed."""
@@ -38,7 +38,7 @@ _GAUSS, _WEIGHT = np.polynomial.legendre.leggauss(5)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class Trajectory:
     """A motion at times [s]: the path's parameter and its rates by time, (times); those of the axes, (times, axes)."""
 
     time: FloatArray
@@ -72,11 +72,11 @@ class PathMotion:
         """Time from rest to rest [s]."""
         return float(self.times[-1])
 
-    def even(self, count: int) -> Course:
+    def even(self, count: int) -> Trajectory:
         """The motion at `count` times evenly apart, both ends among them."""
         return self.at(np.linspace(0.0, self.duration, count))
 
-    def at(self, time: FloatArray) -> Course:
+    def at(self, time: FloatArray) -> Trajectory:
         """The motion at times [s]; before and after it is at rest."""
         u = self._parameter(np.clip(time, 0.0, self.duration))
         g, *slopes = (self.path.length * one for one in rise(u))
@@ -86,7 +86,7 @@ class PathMotion:
         s1, s2, s3 = (np.where(moves, one, 0.0) for one in rates((slopes[0], slopes[1], slopes[2]), square))
         every = rates(self.path.led(u), (square[0][:, None], square[1][:, None], square[2][:, None]))
         speed, acceleration, jerk = (np.where(moves[:, None], one, 0.0) for one in every)
-        return Course(time, s, s1, s2, s3, self.path.at(s), speed, acceleration, jerk)
+        return Trajectory(time, s, s1, s2, s3, self.path.at(s), speed, acceleration, jerk)
 
     def _parameter(self, time: FloatArray) -> FloatArray:
         """U at times, by Newton's method on t(u) = ∫ du / sqrt(w) from the knot before."""
