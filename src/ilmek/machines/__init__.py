@@ -1,18 +1,68 @@
-"""Concrete machines. A new machine is a package here and a line below; `ilmek.machines.catalogue` finds it."""
+"""Concrete machines. A new machine is a package here and an entry below; `ilmek.machines.catalogue` finds it."""
 
-SUMMARIES = {
-    "automated-loom": "the loom for one carpet: heads, shedding, beat-up, warp tension, timed together",
-    "weaver": "knotting head: five cams on one shaft, one knot a turn (thesis, 2.2.3)",
-    "beat-up": "crank-rocker that beats weft and knots to the fell: links, motion, forces",
-    "cam": "a cam and its follower: profile, pressure angle, curvature, forces, spring, roller",
-    "shedding": "cams that open the shed: profile, pressure angle, curvature, torque, square shaft",
-    "hammer": "comb that beats the rows: force per warp, rows it leaves, uniformity, stroke or crank-rockers",
-    "warp-tension": "cylinder that tensions the warps: slope, deflection, torque, reducer and motor, take-up",
-    "tufting": "needle six-bar of a tufting machine: motion, torques of both shafts, forces, friction of the backing",
-    "knotting-four-bar": "four-bar with a gripper on its coupler, from links or three poses, one side or two on gears",
-    "knotting-dyad": "two-link arms that tie a proved knot clear of the warps, or every arm through four timed points",
-    "path-four-bar": "four-bars whose coupler point passes given points, the nearest within limits or all exact ones",
-    "motion-four-bar": "four-bars whose coupler takes three, four or five given poses, those without defects ranked",
-    "function-four-bar": "four-bars whose rocker generates a function of the crank angle, exact or best over the range",
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A machine of the catalogue.
+
+    part      whether every automated loom has one      beat  the name by which a loom's beat is chosen, if it can beat
+    knotting  whether it can tie the knots in a loom's heads, beside the weaver
+    """
+
+    summary: str
+    part: bool = False
+    beat: str = ""
+    knotting: bool = False
+
+    @property
+    def in_a_loom(self) -> bool:
+        """Whether an automated loom can have one."""
+        return self.part or self.knotting or bool(self.beat)
+
+
+ENTRIES = {
+    "automated-loom": Entry("the loom for one carpet: heads, shedding, beat-up, warp tension, timed together"),
+    "weaver": Entry("knotting head: five cams on one shaft, one knot a turn (thesis, 2.2.3)", part=True),
+    "beat-up": Entry("crank-rocker that beats weft and knots to the fell: links, motion, forces", beat="linkage"),
+    "cam": Entry("a cam and its follower: profile, pressure angle, curvature, forces, spring, roller"),
+    "shedding": Entry("cams that open the shed: profile, pressure angle, curvature, torque, square shaft", part=True),
+    "hammer": Entry(
+        "comb that beats the rows: force per warp, rows it leaves, uniformity, stroke or crank-rockers", beat="comb"
+    ),
+    "warp-tension": Entry(
+        "cylinder that tensions the warps: slope, deflection, torque, reducer and motor, take-up", part=True
+    ),
+    "tufting": Entry(
+        "needle six-bar of a tufting machine: motion, torques of both shafts, forces, friction of the backing"
+    ),
+    "knotting-four-bar": Entry(
+        "four-bar with a gripper on its coupler, from links or three poses, one side or two on gears"
+    ),
+    "knotting-dyad": Entry(
+        "two-link arms that tie a proved knot clear of the warps, or every arm through four timed points", knotting=True
+    ),
+    "path-four-bar": Entry(
+        "four-bars whose coupler point passes given points, the nearest within limits or all exact ones"
+    ),
+    "motion-four-bar": Entry(
+        "four-bars whose coupler takes three, four or five given poses, those without defects ranked"
+    ),
+    "function-four-bar": Entry(
+        "four-bars whose rocker generates a function of the crank angle, exact or best over the range"
+    ),
 }
-"""What each machine is, by its name, in the order of the catalogue; its package has the name with _ for -."""
+"""Each machine by its name, in the order of the catalogue; its package has the name with _ for -."""
+
+SUMMARIES = {name: entry.summary for name, entry in ENTRIES.items()}
+"""What each machine is, by its name."""
+
+PARTS = tuple(name for name, entry in ENTRIES.items() if entry.part)
+"""Machines that every automated loom has, in the order in which they are designed."""
+
+BEATS = {entry.beat: name for name, entry in ENTRIES.items() if entry.beat}
+"""Machines that can beat in a loom, by the name of the choice."""
+
+IN_A_LOOM = tuple(name for name, entry in ENTRIES.items() if entry.in_a_loom)
+"""Machines that an automated loom can have."""

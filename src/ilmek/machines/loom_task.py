@@ -1,12 +1,15 @@
 """What a loom requires of a machine in it: the carpet, the warps, and the machines designed before."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from ilmek.params import Params
 from ilmek.records import record
 
 if TYPE_CHECKING:
     from ilmek.machines.automated_loom.params import AutomatedLoomParams
+
+P = TypeVar("P", bound=Params)
 
 
 @record
@@ -49,3 +52,10 @@ class LoomTask:
     def row_pitch(self) -> float:
         """Distance of two rows [m]."""
         return 1 / self.params.quality.along
+
+    def parameters(self, name: str, derived: P) -> P:
+        """The parameters of one of its machines: those derived for it, with those that the user set in their place.
+
+        Raises ParameterError where they contradict each other.
+        """
+        return self.params.machines.over(name, derived)

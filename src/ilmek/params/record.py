@@ -139,6 +139,7 @@ def _sorted_settings(
     below: dict[str, dict[str, Setting]] = {}
     for given, setting in settings.items():
         head, dot, rest = given.partition(".")
+        head = head if head in groups else head.replace("_", "-")
         if dot and head in groups:
             below.setdefault(head, {})[rest] = setting
             continue

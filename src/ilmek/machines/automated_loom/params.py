@@ -7,7 +7,9 @@ from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
-from ilmek.params import Params, param
+from ilmek.machines import BEATS, IN_A_LOOM
+from ilmek.machines.catalogue import MACHINES
+from ilmek.params import Overrides, Params, overrides, param
 from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
 
 QUALITY = 25 / dm
@@ -78,7 +80,7 @@ class AutomatedLoomParams(Params):
         20.0, unit="m/s^2", at_least=0.01, at_most=1e5, doc="allowed acceleration of the shuttle"
     )
     hammer: str = param(
-        "linkage", choices=("linkage", "comb"), doc="crank-rockers beat the rows, or the comb on the guide cams"
+        "linkage", choices=tuple(BEATS), doc="crank-rockers beat the rows, or the comb on the guide cams"
     )
     comb_stroke: float = param(100 * mm, unit="mm", at_least=1 * mm, at_most=1.0, doc="vertical stroke of the comb")
     comb_acceleration: float = param(
@@ -114,6 +116,11 @@ class AutomatedLoomParams(Params):
     standby_power: float = param(10.0, unit="W", at_least=0.0, at_most=1e4, doc="power of an axis that stands still")
     prices: str | None = param(
         None, doc="prices other than those of the table: `bearing each = 9; servo per W = 1`, or @FILE with such lines"
+    )
+
+    machines: Overrides = overrides(
+        lambda: {name: MACHINES[name].params for name in IN_A_LOOM},
+        doc="parameters of the machines in the loom, shedding.law, in place of those that the loom derives",
     )
 
     @property
