@@ -209,7 +209,7 @@ def sheet(wide: int = 420, high: int = 300, columns: int = 2) -> str:
     for i, kind in enumerate(KINDS):
         x, y, drawing = i % columns * wide, i // columns * (high + 20), kind()
         placed = f'<svg x="{x}" y="{y + 20}" width="{wide}" height="{high}" '
-        inner += svg(drawing, drawing.name).replace("<svg ", placed, 1)
+        inner += svg(drawing).replace("<svg ", placed, 1)
         inner += f'<text x="{x + 26}" y="{y + 14}" font-family="sans-serif" font-size="11">{drawing.title}</text>'
     size = f"0 0 {columns * wide} {-(-len(KINDS) // columns) * (high + 20)}"
     head = f'<svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox="{size}" aria-label="Kinds of cams">'

@@ -19,5 +19,5 @@ def pair() -> GearPair:
 
 
 if __name__ == "__main__":
-    (OUT / "gear-pair.svg").write_text(svg(gear_drawing(pair()), "gears-") + "\n", encoding="utf-8")
+    (OUT / "gear-pair.svg").write_text(svg(gear_drawing(pair())) + "\n", encoding="utf-8")
     print(f"contact ratio {pair().contact_ratio:.4f}")

@@ -40,7 +40,7 @@ def sheet(plots: tuple[Plot, ...]) -> str:
     """Four plots on one sheet, two in a row."""
     places = ((0, 0), (1, 0), (0, 1), (1, 1))
     inner = "".join(
-        svg(plot, f"law-{i}").replace(
+        svg(plot).replace(
             "<svg ", f'<svg x="{x * (WIDE + GAP)}" y="{y * (HIGH + GAP)}" width="{WIDE}" height="{HIGH}" ', 1
         )
         for i, (plot, (x, y)) in enumerate(zip(plots, places, strict=True))

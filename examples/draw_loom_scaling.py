@@ -16,7 +16,7 @@ OUT = Path(__file__).parents[1] / "docs" / "_static"
 
 def drawn() -> str:
     """The figure of the default loom."""
-    return svg(time_against_pitch(design(AutomatedLoomParams())), "loom-") + "\n"
+    return svg(time_against_pitch(design(AutomatedLoomParams()))) + "\n"
 
 
 if __name__ == "__main__":

@@ -65,7 +65,7 @@ def picture(x: float, y: float, width: float, height: float, address: str) -> st
 def figure(drawn: Figure, x: float, y: float, width: float, height: float) -> str:
     """A figure of the report in its place, its proportions kept."""
     place = f'<svg x="{x}" y="{y}" width="{width}" height="{height}" '
-    return svg(drawn, drawn.name).replace("<svg ", place, 1)
+    return svg(drawn).replace("<svg ", place, 1)
 
 
 def arrow(x: float, y: float) -> str:

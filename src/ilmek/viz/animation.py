@@ -15,12 +15,13 @@ from ilmek.arrays import ComplexArray
 from ilmek.report import Animation, Stroke
 from ilmek.units import parse_unit
 from ilmek.viz.drawing import FOOT, WIDTH, colours, dotted, draw_still, extent, names, obstacles, pen_for
+from ilmek.viz.font import text_width
 from ilmek.viz.labels import LabelRequest
 from ilmek.viz.moving_names import named
 from ilmek.viz.moving_parts import PointTracks, block, dot, line, name
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import Pen
-from ilmek.viz.style import INK, STRONG, TEXT, colour, shown_unit, text_width, tint
+from ilmek.viz.style import INK, STRONG, TEXT, colour, shown_unit, tint
 
 SECONDS = 5.0
 """Time of a run on the page [s]."""

@@ -107,7 +107,7 @@ def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT)
     for dot in drawing.dots:
         if dot.label:
             wanted.append(LabelRequest(pen(np.array([dot.at])), dot.label, STRONG, 5.5, pull=3.0))
-            looks.append({"color": INK, "weight": "bold", "fontsize": STRONG})
+            looks.append({"color": INK, "bold": True, "fontsize": STRONG})
     seen: set[str] = set()
     for number, stroke in enumerate(drawing.strokes):
         if stroke.label and stroke.label not in seen and stroke.role != "dimension" and len(stroke.points) > 1:

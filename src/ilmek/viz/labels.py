@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.viz.style import text_width
+from ilmek.viz.font import text_width
 
 _AROUND = np.exp(1j * np.radians([45, 135, -45, -135, 90, -90, 0, 180, 22, 158, -22, -158, 68, 112, -68, -112]))
 _REACHES = (1.0, 1.8, 2.8)

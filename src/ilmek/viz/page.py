@@ -121,10 +121,7 @@ def machine_page(report: Report) -> str:
 
 
 def _section(place: int, report: Report) -> _Section:
-    drawn = tuple(
-        _Drawn(figure, Markup(svg(figure, f"m{place}-{order}")), _kind(figure))
-        for order, figure in enumerate(report.figures, 1)
-    )
+    drawn = tuple(_Drawn(figure, Markup(svg(figure)), _kind(figure)) for figure in report.figures)
     return _Section(f"m{place}", report, drawn)
 
 

@@ -8,10 +8,11 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.report import Mark, Plot, Series
 from ilmek.units import parse_unit
+from ilmek.viz.font import text_width
 from ilmek.viz.frame import Box, grid, left_axis, lower_axis, paper
 from ilmek.viz.scale import span, tick_labels, ticks
 from ilmek.viz.sheet import Sheet
-from ilmek.viz.style import AXIS, DASHES, INK, MUTED, PALETTE, SMALL, TEXT, colour, in_unit, text_width, with_unit
+from ilmek.viz.style import AXIS, DASHES, INK, MUTED, PALETTE, SMALL, TEXT, colour, in_unit, with_unit
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 WIDTH, HEIGHT = 420.0, 168.0
@@ -90,8 +91,8 @@ def _padded(low: float, high: float) -> tuple[float, float]:
 def _line(series: Series, number: int) -> dict[str, Any]:
     """How a curve is drawn; beyond the palette the line is broken too."""
     rounds = number // len(PALETTE)
-    style = DASHES[0] if series.dashed else DASHES[(rounds - 1) % len(DASHES)] if rounds else "-"
-    return {"color": colour(number), "linewidth": 1.5, "linestyle": style}
+    dashes = DASHES[0] if series.dashed else DASHES[(rounds - 1) % len(DASHES)] if rounds else ()
+    return {"color": colour(number), "linewidth": 1.5, "dashes": dashes}
 
 
 def _legend(plot: Plot, left: float) -> list[_Entry]:
@@ -136,6 +137,6 @@ def _draw_marks(sheet: Sheet, box: Box, scales: _Scales, plot: Plot, tiers: list
         if not box.left - 1e-6 <= x <= box.right + 1e-6:
             continue
         line = x + 1j * np.array([box.low, box.top])
-        sheet.line(line, color=INK, linewidth=0.7, linestyle=(0, (2, 2)), zorder=2)
+        sheet.line(line, color=INK, linewidth=0.7, dashes=(2, 2), zorder=2)
         above = x + 1j * (box.top + 3.0 + _TIER * tier)
         sheet.text(above, mark.label, ha="center", va="bottom", fontsize=SMALL, color=MUTED)

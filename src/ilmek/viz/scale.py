@@ -3,7 +3,6 @@
 import itertools
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator
 
 from ilmek.arrays import FloatArray
 
@@ -38,8 +37,18 @@ def ticks(low: float, high: float, unit: str = "", wanted: int = 6) -> list[floa
         step = next((step for step in (5, 10, 15, 30, 45, 60, 90) if (high - low) / step <= wanted), 180)
         first, last = np.ceil((low - slack) / step), np.floor((high + slack) / step)
         return [float(step * number) + 0.0 for number in np.arange(first, last + 1)]
-    places = MaxNLocator(nbins=wanted, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
-    return [float(place) for place in places if low - slack <= place <= high + slack]
+    step = _round_step((high - low) / wanted)
+    return [float(step * number) for number in np.arange(np.ceil((low - slack) / step), (high + slack) // step + 1)]
+
+
+def _round_step(least: float) -> float:
+    """The least of 1, 2, 2.5, 5, 10 ... times a power of ten that is not below `least`.
+
+    >>> _round_step(0.21), _round_step(51.0)
+    (0.25, 100.0)
+    """
+    decade = 10.0 ** np.floor(np.log10(least))
+    return float(next(decade * step for step in (1.0, 2.0, 2.5, 5.0, 10.0) if decade * step >= least * (1 - 1e-9)))
 
 
 def tick_labels(places: list[float]) -> list[str]:

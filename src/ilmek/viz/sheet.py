@@ -1,23 +1,25 @@
-"""Paper to draw a figure on, measured in points.
+"""Paper to draw a figure on, measured in points, and its text as SVG.
 
-Lines, areas and texts are laid on the figure itself, without matplotlib's axes: every place is known here to the
-point, and axes that draw their own ticks would take most of the time.
+Lines, areas and texts are laid at known places; an SVG file counts downward, a sheet upward. Lengths are rounded to a
+hundredth of a point. Marks are drawn in the order of their level, those of one level in the order they were made.
 """
 
+import re
 from collections.abc import Sequence
-from typing import Any
+from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
-from matplotlib.backends.backend_svg import FigureCanvasSVG
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Polygon
-from matplotlib.transforms import IdentityTransform
 
 from ilmek.arrays import ComplexArray
+from ilmek.viz.font import ASCENT, DESCENT, text_width
+from ilmek.viz.style import INK, PAPER, TEXT
 
-_POINTS = 72.0
-"""Points per inch; at this resolution matplotlib's pixels are points."""
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # no XML may hold these
+_ANCHORS = {"left": "", "center": ' text-anchor="middle"', "right": ' text-anchor="end"'}
+_DROPS = {"baseline": 0.0, "center_baseline": ASCENT / 2, "top": ASCENT, "bottom": -DESCENT}
+"""How far the baseline lies below the place of a text, as a share of its size."""
+_PAD = 1.0
+"""Paper left free around a text on a line [pt]."""
 
 
 class Sheet:
@@ -25,26 +27,115 @@ class Sheet:
 
     def __init__(self, width: float, height: float) -> None:
         self.width, self.height = float(width), float(height)
-        self.figure = Figure(figsize=(self.width / _POINTS, self.height / _POINTS), dpi=_POINTS, facecolor="none")
-        FigureCanvasSVG(self.figure)
+        self._marks: list[tuple[float, str]] = []
 
-    def line(self, points: ComplexArray, **look: Any) -> None:
-        """A line through points; NaN makes a gap."""
-        self.figure.add_artist(Line2D(points.real, points.imag, transform=IdentityTransform(), **look))
+    def line(
+        self,
+        points: ComplexArray,
+        *,
+        color: str = INK,
+        linewidth: float = 1.0,
+        dashes: Sequence[float] = (),
+        zorder: float = 2.0,
+    ) -> None:
+        """A line through points; NaN makes a gap.
 
-    def lines(self, starts: ComplexArray, ends: ComplexArray, **look: Any) -> None:
+        dashes  lengths of dash, gap, dash ... in line widths; default: a full line
+        """
+        through = self._through(points)
+        if not through:
+            return
+        broken = ""
+        if dashes:
+            lengths = " ".join(f"{linewidth * length:.4g}" for length in dashes)
+            broken = f' stroke-dasharray="{lengths}" stroke-linecap="butt"'
+        self._put(zorder, f'<path d="{through}" stroke="{color}" stroke-width="{linewidth:g}"{broken}/>')
+
+    def lines(self, starts: ComplexArray, ends: ComplexArray, *, color: str, linewidth: float, zorder: float) -> None:
         """Straight lines from each start to its end, drawn as one."""
         gaps = np.full(len(starts), complex(np.nan, np.nan))
-        self.line(np.column_stack((starts, ends, gaps)).ravel(), **look)
+        points = np.column_stack((starts, ends, gaps)).ravel()
+        self.line(points, color=color, linewidth=linewidth, zorder=zorder)
 
-    def area(self, points: ComplexArray, **look: Any) -> None:
-        """A filled polygon."""
-        corners = np.column_stack((points.real, points.imag))
-        self.figure.add_artist(Polygon(corners, closed=True, transform=IdentityTransform(), **look))
+    def area(
+        self,
+        points: ComplexArray,
+        *,
+        facecolor: str,
+        edgecolor: str = "",
+        linewidth: float = 0.0,
+        zorder: float = 1.0,
+    ) -> None:
+        """A filled polygon, its edge drawn where it has a colour."""
+        through = self._through(points)
+        edge = f' stroke="{edgecolor}" stroke-width="{linewidth:g}"' if edgecolor else ""
+        if through:
+            self._put(zorder, f'<path d="{through}Z" fill="{facecolor}"{edge}/>')
 
-    def text(self, at: complex, words: str, **look: Any) -> None:
-        """A text; `ha` and `va` say which of its points lies at the place, a rotation is about that point."""
-        self.figure.text(at.real, at.imag, words, transform=IdentityTransform(), rotation_mode="anchor", **look)
+    def text(
+        self,
+        at: complex,
+        words: str,
+        *,
+        fontsize: float = TEXT,
+        color: str = INK,
+        ha: str = "left",
+        va: str = "baseline",
+        bold: bool = False,
+        rotation: float = 0.0,
+        clear: bool = False,
+        zorder: float = 3.0,
+    ) -> None:
+        """A text.
+
+        ha, va    which of its points lies at the place: left, center, right; top, center_baseline, baseline, bottom
+        rotation  about that point, anticlockwise [deg]      clear  lay paper under a centred text
+        """
+        x, y = at.real, self.height - at.imag
+        turn = f' transform="rotate({-rotation:.4g} {x:.6g} {y:.6g})"' if abs(rotation) > 1e-6 else ""
+        base = y + _DROPS[va] * fontsize
+        if clear:
+            width, top = text_width(words, fontsize, bold) + 2 * _PAD, base - ASCENT * fontsize - _PAD
+            size = f'width="{width:.4g}" height="{(ASCENT + DESCENT) * fontsize + 2 * _PAD:.4g}"'
+            self._put(zorder, f'<rect x="{x - width / 2:.6g}" y="{top:.6g}" {size} fill="{PAPER}"{turn}/>')
+        weight = ' font-weight="bold"' if bold else ""
+        look = f'font-size="{fontsize:g}" fill="{color}"{weight}{_ANCHORS[ha]}{turn}'
+        self._put(zorder, f'<text x="{_short(x)}" y="{_short(base)}" {look}>{escape(words)}</text>')
+
+    def svg(self, title: str, fonts: str, over: str = "") -> str:
+        """The sheet as an `<svg>` element with a title and no fixed size: its view box keeps the proportions.
+
+        over  SVG that is laid over the sheet
+
+        >>> text = Sheet(72, 36).svg("a < b", "sans-serif")
+        >>> text.startswith("<svg") and "a &lt; b" in text
+        True
+        """
+        marks = "\n".join(mark for _, mark in sorted(self._marks, key=lambda one: one[0]))
+        text = (
+            f'<svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox="0 0 {self.width:.6g} {self.height:.6g}" '
+            f'style="stroke-linejoin:round;font-family:{fonts}" aria-label={quoteattr(title)}>\n'
+            f'<title>{escape(title)}</title>\n<g fill="none" stroke-linecap="round">\n{marks}\n</g>\n{over}</svg>'
+        )
+        return _CONTROL.sub("", text)
+
+    def _put(self, level: float, mark: str) -> None:
+        self._marks.append((level, mark))
+
+    def _through(self, points: ComplexArray) -> str:
+        """The path through points, in pieces where there are gaps; a piece of one point is left out."""
+        places = np.round(np.column_stack((points.real, self.height - points.imag)), 2)
+        whole = np.isfinite(places).all(axis=1)
+        pieces = np.split(places, np.flatnonzero(np.diff(whole)) + 1)
+        return "".join(
+            "M" + "L".join(f"{x:g} {y:g}" for x, y in piece.tolist())
+            for piece in pieces
+            if len(piece) > 1 and np.isfinite(piece[0]).all()
+        )
+
+
+def _short(value: float) -> str:
+    return f"{round(value, 2):g}"
 
 
 def circle(centre: complex, radius: float) -> ComplexArray:

@@ -8,8 +8,9 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.report import Stroke
+from ilmek.viz.font import text_width
 from ilmek.viz.sheet import Sheet, circle
-from ilmek.viz.style import INK, MUTED, PAPER, SMALL, STEEL, YARN, colour, text_width, tint
+from ilmek.viz.style import INK, MUTED, PAPER, SMALL, STEEL, YARN, colour, tint
 from ilmek.viz.thinning import thinned_line
 
 BLOCK = 10 + 6.5j
@@ -56,9 +57,8 @@ def _link(pen: Pen, stroke: Stroke, number: int) -> None:
     shade = colour(pen.numbers[number])
     if stroke.filled:
         _fill(pen, stroke, tint(shade, 0.3), 3.8)
-    round_ends = {"solid_capstyle": "round", "solid_joinstyle": "round"}
-    _line(pen, stroke, color=shade, linewidth=7.0, zorder=4, **round_ends)
-    _line(pen, stroke, color=tint(shade, 0.45), linewidth=4.8, zorder=4.1, **round_ends)
+    _line(pen, stroke, color=shade, linewidth=7.0, zorder=4)
+    _line(pen, stroke, color=tint(shade, 0.45), linewidth=4.8, zorder=4.1)
 
 
 def _ground(pen: Pen, stroke: Stroke, _: int) -> None:
@@ -96,7 +96,7 @@ def _path(pen: Pen, stroke: Stroke, number: int) -> None:
 
 
 def _construction(pen: Pen, stroke: Stroke, _: int) -> None:
-    _line(pen, stroke, color=STEEL, linewidth=0.7, linestyle=(0, (4, 2.5)), zorder=2)
+    _line(pen, stroke, color=STEEL, linewidth=0.7, dashes=(4, 2.5), zorder=2)
 
 
 def _yarn(pen: Pen, stroke: Stroke, _: int) -> None:
@@ -127,7 +127,7 @@ def _dimension(pen: Pen, stroke: Stroke, _: int) -> None:
         ha="center",
         va="center_baseline",
         rotation=float(np.degrees(np.angle(_upright(way)))),
-        bbox={"facecolor": PAPER, "linewidth": 0, "pad": 1.0},
+        clear=True,
         zorder=6,
     )
 

@@ -4,12 +4,7 @@ The curve colours are those of M. Okabe and K. Ito, "Color Universal Design" (20
 orange darkened for white paper: they stay apart under every common colour blindness.
 """
 
-from functools import lru_cache
-from typing import Any
-
 import numpy as np
-from matplotlib.colors import to_hex, to_rgb
-from matplotlib.font_manager import FontProperties, findfont, get_font
 
 from ilmek.arrays import FloatArray
 from ilmek.units import parse_unit, printed_unit
@@ -22,28 +17,14 @@ STEEL = "#7b8794"
 YARN = "#9b2d30"
 PAPER = "#ffffff"
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#b4558f", "#c98a00", "#3f9fd8", "#5b4b8a", "#4a4a4a")
-DASHES: tuple[tuple[float, tuple[float, ...]], ...] = ((0, (4.5, 2.0)), (0, (1.2, 1.6)), (0, (6, 1.8, 1.2, 1.8)))
+DASHES = ((4.5, 2.0), (1.2, 1.6), (6.0, 1.8, 1.2, 1.8))
+"""Dash, gap, dash ... in line widths: of a dashed curve, and of curves beyond the palette."""
 
 SMALL, TEXT, STRONG = 7.8, 8.7, 9.2
 """Sizes of letters [pt]: ticks and marks, labels, names."""
 
-RC: dict[Any, Any] = {
-    "svg.fonttype": "none",
-    "text.parse_math": False,
-    "svg.hashsalt": "ilmek",
-    "font.family": "DejaVu Sans",
-    "font.size": TEXT,
-    "text.color": INK,
-    "axes.edgecolor": AXIS,
-    "axes.labelcolor": INK,
-    "axes.linewidth": 0.7,
-    "xtick.color": AXIS,
-    "ytick.color": AXIS,
-    "lines.solid_capstyle": "round",
-    "lines.solid_joinstyle": "round",
-    "path.simplify_threshold": 0.08,
-}
-"""Settings of matplotlib for every figure; names of fonts are put in afterwards, see `ink.FONTS`."""
+FONTS = "'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
+"""Fonts of every figure, the first that the reader has."""
 
 
 def shown_unit(unit: str) -> str:
@@ -84,19 +65,5 @@ def tint(colour_text: str, share: float) -> str:
     >>> tint("#000000", 0.2)
     '#cccccc'
     """
-    red, green, blue = (1 - share * (1 - channel) for channel in to_rgb(colour_text))
-    return to_hex((red, green, blue))
-
-
-@lru_cache(maxsize=4096)
-def text_width(text: str, size: float, bold: bool = False) -> float:
-    """Width of a line of text [pt] in the widest font it may be shown in, at `size` [pt]."""
-    font = get_font(_font_file(bold))
-    font.set_size(size, 72.0)
-    font.set_text(text, 0.0)
-    return float(font.get_width_height()[0]) / 64.0
-
-
-@lru_cache(maxsize=2)
-def _font_file(bold: bool) -> str:
-    return findfont(FontProperties(family="DejaVu Sans", weight="bold" if bold else "normal"))
+    channels = (int(colour_text[at : at + 2], 16) for at in (1, 3, 5))
+    return "#" + "".join(f"{round(255 - share * (255 - channel)):02x}" for channel in channels)

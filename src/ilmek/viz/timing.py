@@ -15,10 +15,11 @@ import numpy as np
 from ilmek.report import Lane, Move, Shade, Timing
 from ilmek.units import deg, format_number, format_quantity, parse_unit
 from ilmek.viz.flags import Flag, flags
+from ilmek.viz.font import text_width
 from ilmek.viz.frame import Box, grid, lower_axis, paper, upper_axis
 from ilmek.viz.scale import ticks
 from ilmek.viz.sheet import Sheet, circle
-from ilmek.viz.style import AXIS, INK, MUTED, SMALL, STRONG, colour, shown_unit, text_width, tint
+from ilmek.viz.style import AXIS, INK, MUTED, SMALL, STRONG, colour, shown_unit, tint
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 WIDTH = 600.0
@@ -147,7 +148,7 @@ def _links(sheet: Sheet, timing: Timing, floors: list[complex], width: float) ->
         if abs(end - start) < 4.0:
             continue
         shade, ahead = (MUTED if link.ok else _BAD), (end - start) / abs(end - start)
-        sheet.line(np.array([start, end - 3.0 * ahead]), color=shade, linewidth=0.8, linestyle=(0, (3, 2)), zorder=3.2)
+        sheet.line(np.array([start, end - 3.0 * ahead]), color=shade, linewidth=0.8, dashes=(3, 2), zorder=3.2)
         head = end + ahead * np.array([0, -4.6 + 1.9j, -4.6 - 1.9j])
         sheet.area(head, facecolor=shade, linewidth=0, zorder=3.3)
 
@@ -167,7 +168,7 @@ def _name(sheet: Sheet, lane: Lane, middle: complex) -> None:
     """Name of the track, of its actuator, and of the law that all its motions share, left of the axis."""
     right = {"ha": "right", "va": "center_baseline"}
     shift = 5.2j if lane.actuator else 0j
-    sheet.text(middle - 8.0 + shift, lane.name, fontsize=STRONG, weight="bold", **right)
+    sheet.text(middle - 8.0 + shift, lane.name, fontsize=STRONG, bold=True, **right)
     if lane.actuator:
         sheet.text(middle - 8.0 - 5.6j, lane.actuator, fontsize=SMALL, color=MUTED, **right)
     if _shared_law(lane):

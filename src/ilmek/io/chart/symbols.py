@@ -1,11 +1,10 @@
 """Symbols for the yarns of a chart: one sign a yarn, the same for the same place in the list everywhere.
 
-The signs come from DejaVu Sans Mono, a free font that may be embedded and that comes with matplotlib; all are equally
+The signs come from DejaVu Sans Mono, a free font that may be embedded and that comes with the package; all are equally
 wide, so that a row of them is one piece of text. Letters and digits come first, without those taken for one another
 (I O Q 0 1 l); then shapes, Greek, arrows, signs and Cyrillic.
 """
 
-import importlib.util
 from functools import lru_cache
 from pathlib import Path
 
@@ -25,6 +24,7 @@ SIGNS, TEXT, STRONG = "ilmek-signs", "ilmek-text", "ilmek-strong"
 ADVANCE = 0.60205
 """Width of every sign, as a share of the size."""
 
+_FONTS = Path(__file__).parents[2] / "fonts"
 _FILES = {SIGNS: "DejaVuSansMono.ttf", TEXT: "DejaVuSans.ttf", STRONG: "DejaVuSans-Bold.ttf"}
 
 
@@ -41,12 +41,4 @@ def symbols(yarns: int) -> str:
 def register_fonts() -> None:
     """Make the three fonts known to reportlab."""
     for name, file in _FILES.items():
-        pdfmetrics.registerFont(TTFont(name, str(_font_folder() / file)))
-
-
-def _font_folder() -> Path:
-    """Where matplotlib keeps its fonts, found without the time of importing it."""
-    package = importlib.util.find_spec("matplotlib")
-    if package is None or not package.submodule_search_locations:
-        raise ModuleNotFoundError("matplotlib, whose fonts the chart is printed in, is not installed")
-    return Path(package.submodule_search_locations[0]) / "mpl-data" / "fonts" / "ttf"
+        pdfmetrics.registerFont(TTFont(name, str(_FONTS / file)))
