@@ -12,7 +12,7 @@ WEAVE = ["weave", "examples/medallion.png", "--size", "seccade", "--quality", "2
 
 
 def seconds(arguments: list[str], cache: str | None = None, module: str = "ilmek") -> float:
-    """Wall time of one run of a module; `cache` is the folder for compiled kernels and the list of fonts."""
+    """Wall time of one run of a module; `cache` is the folder for compiled kernels."""
     environment = dict(os.environ, **({"XDG_CACHE_HOME": cache} if cache else {}))
     begin = time.perf_counter()
     subprocess.run(

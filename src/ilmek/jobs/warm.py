@@ -1,8 +1,8 @@
 """Make ready for the first job: `python -m ilmek.jobs.warm`, once after installing.
 
-A kernel is compiled when it is first called and kept in the user's cache folder (`ilmek.num.compiled`); the drawing
-library makes its list of fonts on its first drawing. This weaves a carpet of a few knots into a folder that is thrown
-away, and searches a four-bar for a path, so that the first real job does not wait for either.
+A kernel is compiled when it is first called and kept in the user's cache folder (`ilmek.num.machine_code`). This weaves
+a carpet of a few knots into a folder that is thrown away, and searches a four-bar for a path, so that the first real
+job does not wait.
 """
 
 import tempfile

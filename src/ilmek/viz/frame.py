@@ -47,11 +47,9 @@ def paper(sheet: Sheet, box: Box) -> None:
 def grid(sheet: Sheet, box: Box, x: Sequence[float] = (), y: Sequence[float] = ()) -> None:
     """Grid lines at these places [pt]."""
     upright, level = places(x), 1j * places(y)
-    look = {"color": GRID, "linewidth": 0.6, "zorder": 1.0}
-    if len(upright):
-        sheet.lines(upright + 1j * box.low, upright + 1j * box.top, **look)
-    if len(level):
-        sheet.lines(level + box.left, level + box.right, **look)
+    starts = np.concatenate([upright + 1j * box.low, level + box.left])
+    ends = np.concatenate([upright + 1j * box.top, level + box.right])
+    sheet.lines(starts, ends, color=GRID, linewidth=0.6, zorder=1.0)
 
 
 def lower_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], name: str) -> None:
@@ -85,5 +83,4 @@ def left_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], 
 def _edge(sheet: Sheet, edge: ComplexArray, ticks: ComplexArray, outward: complex) -> None:
     """The line of an axis with its ticks."""
     sheet.line(edge, color=AXIS, linewidth=0.7, zorder=2.5)
-    if len(ticks):
-        sheet.lines(ticks, ticks + _TICK * outward, color=AXIS, linewidth=0.6, zorder=2.5)
+    sheet.lines(ticks, ticks + _TICK * outward, color=AXIS, linewidth=0.6, zorder=2.5)

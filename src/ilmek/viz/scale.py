@@ -37,8 +37,8 @@ def ticks(low: float, high: float, unit: str = "", wanted: int = 6) -> list[floa
         step = next((step for step in (5, 10, 15, 30, 45, 60, 90) if (high - low) / step <= wanted), 180)
         first, last = np.ceil((low - slack) / step), np.floor((high + slack) / step)
         return [float(step * number) + 0.0 for number in np.arange(first, last + 1)]
-    step = _round_step((high - low) / wanted)
-    return [float(step * number) for number in np.arange(np.ceil((low - slack) / step), (high + slack) // step + 1)]
+    apart = _round_step((high - low) / wanted)
+    return [float(apart * number) for number in np.arange(np.ceil((low - slack) / apart), (high + slack) // apart + 1)]
 
 
 def _round_step(least: float) -> float:

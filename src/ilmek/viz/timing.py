@@ -8,6 +8,7 @@ the time. Where the laws of the motions are known, their curves are laid over th
 """
 
 import json
+from typing import Any
 from xml.sax.saxutils import escape
 
 import numpy as np
@@ -166,7 +167,7 @@ def _events(sheet: Sheet, lane: Lane, lane_flags: list[Flag], floor: complex) ->
 
 def _name(sheet: Sheet, lane: Lane, middle: complex) -> None:
     """Name of the track, of its actuator, and of the law that all its motions share, left of the axis."""
-    right = {"ha": "right", "va": "center_baseline"}
+    right: dict[str, Any] = {"ha": "right", "va": "center_baseline"}
     shift = 5.2j if lane.actuator else 0j
     sheet.text(middle - 8.0 + shift, lane.name, fontsize=STRONG, bold=True, **right)
     if lane.actuator:
