@@ -20,7 +20,8 @@ from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.isolated_knots import count_lone
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.carpet.yarn import Yarn, yarn_labs, yarns_from_records
+from ilmek.carpet.yarn import Yarn, yarn_labs
+from ilmek.io.yarn_file import yarns_from_records
 
 WIDTH, HEIGHT = 2400, 3600
 SIZE, QUALITY = CarpetSize(2.4, 3.6), Quality(1000.0, 1000.0)

@@ -13,6 +13,9 @@
 A message says what was given, what is allowed and what to do, in that order.
 """
 
+import difflib
+from collections.abc import Iterable
+
 
 class IlmekError(Exception):
     """A mistake that the user can mend.
@@ -67,3 +70,13 @@ class LoomError(IlmekError):
 
 class OutputError(IlmekError):
     """A file or folder that cannot be written whole."""
+
+
+def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str:
+    """The hint that names the known name nearest to a misspelt one; `otherwise` where none is near.
+
+    >>> did_you_mean("lenght", ["length", "width"])
+    "did you mean 'length'?"
+    """
+    near = difflib.get_close_matches(name, list(known), n=1)
+    return f"did you mean {near[0]!r}?" if near else otherwise

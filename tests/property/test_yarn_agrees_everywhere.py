@@ -18,10 +18,11 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.carpet.yarn import Yarn, yarns_from_records
+from ilmek.carpet.yarn import Yarn
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.io.chart.symbols import symbols
 from ilmek.io.yarn_csv import write_yarn_csv
+from ilmek.io.yarn_file import yarns_from_records
 from ilmek.jobs.chart import ChartResult, chart_results
 from ilmek.jobs.order import CarpetOrder
 from ilmek.viz.page_parts import yarn_lines

@@ -9,9 +9,10 @@ from ilmek.carpet.ground import GroundParams, sinuous_length
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.carpet.yarn import Yarn, yarns_from_records
+from ilmek.carpet.yarn import Yarn
 from ilmek.elements.knot_kinds import asymmetric_wrap, parse_knot, symmetric_wrap
 from ilmek.errors import CarpetError, PictureError, YarnError
+from ilmek.io.yarn_file import yarns_from_records
 from ilmek.progress import Progress
 
 SIZE, QUALITY = CarpetSize(0.6, 0.9), Quality(1000.0, 1000.0)

@@ -9,8 +9,9 @@ import pytest
 import ilmek
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
-from ilmek.carpet.yarn import yarn_labs, yarns_from_records
+from ilmek.carpet.yarn import yarn_labs
 from ilmek.errors import YarnError
+from ilmek.io.yarn_file import yarns_from_records
 
 RED = {"name": "madder", "srgb": "#9e2b25", "nm": 2.5, "ply": 2, "price": 24}
 BLUE = {"name": "indigo", "srgb": "1b2442", "nm": "5", "ply": "", "price": None}
@@ -54,7 +55,7 @@ def test_lab_is_kept_and_shown(lab: object) -> None:
         ({"ply": 2.5}, "ply 2.5 is not a whole number"),
         ({"ply": 0}, "ply 0 cannot be used"),
         ({"price": -1}, "price -1 cannot be used"),
-        ({"sgrb": "#000000"}, "did you mean srgb?"),
+        ({"sgrb": "#000000"}, "did you mean 'srgb'?"),
         ({"name": "Indigo "}, "yarns 1 and 2 are both named 'indigo'"),
     ],
 )

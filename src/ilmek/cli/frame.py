@@ -9,7 +9,6 @@ Errors of ours (IlmekError) and click's are shown alike; a defect of the program
 """
 
 import contextlib
-import difflib
 import importlib
 import math
 import os
@@ -23,7 +22,7 @@ from typing import Any, NoReturn, cast
 
 import click
 
-from ilmek.errors import IlmekError
+from ilmek.errors import IlmekError, did_you_mean
 
 
 class LazyGroup(click.Group):
@@ -53,8 +52,7 @@ class LazyGroup(click.Group):
         name = args[0]
         command = self.get_command(ctx, name)
         if command is None:
-            near = difflib.get_close_matches(name, self.modules, n=1)
-            hint = f"did you mean {near[0]!r}?" if near else f"commands: {', '.join(self.modules)}"
+            hint = did_you_mean(name, self.modules, otherwise=f"commands: {', '.join(self.modules)}")
             raise click.UsageError(f"no such command {name!r}; {hint}", ctx)
         return name, command, args[1:]
 

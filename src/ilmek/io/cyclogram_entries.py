@@ -1,7 +1,5 @@
 """Entries of a file of tables, asked for one by one; what does not fit is named by its line and its key."""
 
-import difflib
-import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -9,10 +7,9 @@ from typing import Any, NoReturn
 
 from ilmek.cams.laws import law_of
 from ilmek.cams.laws.law import Law
-from ilmek.errors import IlmekError, MechanismError, ParameterError, UnitError
+from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.io.line_numbers import Path
-from ilmek.io.schema import SourceText
-from ilmek.units import parse_quantity
+from ilmek.io.schema import SourceText, key_faults, read_quantity, shown
 
 _MISSING = object()
 
@@ -27,7 +24,7 @@ class FileEntry:
 
     def __post_init__(self) -> None:
         if not isinstance(self.data, Mapping):
-            self.refuse(ParameterError(f"{_shown(self.data)} is not a table"))
+            self.refuse(ParameterError(f"{shown(self.data)} is not a table"))
 
     def refuse(self, error: IlmekError, key: str = "") -> NoReturn:
         """Raise the error once more, with the line and the key."""
@@ -45,14 +42,9 @@ class FileEntry:
 
     def keys(self, *known: str, needs: tuple[str, ...] = ()) -> None:
         """Refuse a key that is unknown, naming the nearest, or missing."""
-        for key in needs:
-            if key not in self.data:
-                self.refuse(ParameterError(f"has no {key!r}", allowed=f"it needs {', '.join(needs)}"))
-        for key in self.data:
-            if key not in (*known, "$schema"):
-                near = difflib.get_close_matches(key, known, n=1)
-                hint = f"did you mean {near[0]!r}?" if near else ""
-                self.refuse(ParameterError(f"unknown key {key!r}", allowed=f"keys: {', '.join(known)}", do=hint), key)
+        table = {key: value for key, value in self.data.items() if key != "$schema"}
+        for key, error in key_faults(table, known, needs=needs):
+            self.refuse(error, key)
 
     def has(self, key: str) -> bool:
         """Whether the key is there."""
@@ -71,28 +63,28 @@ class FileEntry:
         """A list of tables in it; empty where it is not there."""
         rows = self.data.get(key, [])
         if not isinstance(rows, list):
-            self.refuse(ParameterError(f"{_shown(rows)} is not a list of tables", do=f"write [[{key}]]"), key)
+            self.refuse(ParameterError(f"{shown(rows)} is not a list of tables", do=f"write [[{key}]]"), key)
         return [FileEntry(row, (*self.path, key, place), self.sheet) for place, row in enumerate(rows)]
 
     def text(self, key: str, default: str | None = None) -> str:
         """A text."""
         value = self.data.get(key, default)
         if not isinstance(value, str):
-            self.refuse(ParameterError(f"{_shown(value)} is not text in quotes"), key)
+            self.refuse(ParameterError(f"{shown(value)} is not text in quotes"), key)
         return value
 
     def flag(self, key: str) -> bool:
         """True or false; false where it is not there."""
         value = self.data.get(key, False)
         if not isinstance(value, bool):
-            self.refuse(ParameterError(f"{_shown(value)} is neither true nor false"), key)
+            self.refuse(ParameterError(f"{shown(value)} is neither true nor false"), key)
         return value
 
     def whole(self, key: str) -> int:
         """A whole number; 0 where it is not there."""
         value = self.data.get(key, 0)
         if isinstance(value, bool) or not isinstance(value, int) or abs(value) > 1000:
-            self.refuse(ParameterError(f"{_shown(value)} is not a small whole number"), key)
+            self.refuse(ParameterError(f"{shown(value)} is not a small whole number"), key)
         return value
 
     def quantity(self, key: str, unit: str, default: object = _MISSING) -> float:
@@ -108,7 +100,7 @@ class FileEntry:
         """A list of pairs of quantities."""
         rows = self.data[key]
         if not isinstance(rows, list) or any(not isinstance(row, list) or len(row) != 2 for row in rows):
-            self.refuse(ParameterError(f"{_shown(rows)} is not a list of pairs", allowed="[[start, end], ...]"), key)
+            self.refuse(ParameterError(f"{shown(rows)} is not a list of pairs", allowed="[[start, end], ...]"), key)
         return [(self._number(row[0], unit, key), self._number(row[1], unit, key)) for row in rows]
 
     def law(self, key: str) -> Law:
@@ -121,21 +113,7 @@ class FileEntry:
             return law_of(name, {given: number for given, number in inner.data.items() if given != "name"})
 
     def _number(self, value: Any, unit: str, key: str) -> float:
-        if isinstance(value, str):
-            try:
-                return parse_quantity(value, unit)
-            except UnitError as error:
-                self.refuse(error, key)
-        if isinstance(value, bool) or not isinstance(value, int | float) or not _finite(value):
-            said = f"a number in {unit}, or text with its unit" if unit not in ("", "1") else "a plain number"
-            self.refuse(ParameterError(f"{_shown(value)} is not a quantity", allowed=said), key)
-        return float(value)
-
-
-def _finite(value: float) -> bool:
-    return (isinstance(value, int) and abs(value) < 10**300) or (isinstance(value, float) and math.isfinite(value))
-
-
-def _shown(value: object) -> str:
-    said = {True: "true", False: "false"}[value] if isinstance(value, bool) else repr(value)
-    return said if len(said) <= 40 else f"{said[:37]}..."
+        try:
+            return read_quantity(value, unit)
+        except IlmekError as error:
+            self.refuse(error, key)

@@ -5,13 +5,12 @@ items, minItems, maxItems, enum, oneOf (told apart by their first required key),
 ours, and other readers pass it over: `unit`, for a quantity, which may be a number in SI or a text with its unit.
 """
 
-import difflib
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NoReturn, TypeAlias
 
-from ilmek.errors import IlmekError, MechanismError, UnitError
+from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean
 from ilmek.io.line_numbers import Path, Places
 from ilmek.units import parse_quantity
 
@@ -56,7 +55,7 @@ class Reader:
         kind: str = schema["type"]
         wanted: Any = {"object": dict, "array": list, "string": str}[kind]
         if not isinstance(value, wanted):
-            self._refuse(path, f"{_shown(value)} is not {_NAMES[kind]}", schema.get("description", ""))
+            self._refuse(path, f"{shown(value)} is not {_NAMES[kind]}", schema.get("description", ""))
         if kind == "object":
             return self._table(value, schema, path)
         return self._list(value, schema, path) if kind == "array" else value
@@ -71,7 +70,7 @@ class Reader:
         if "oneOf" in schema:
             choices = {one["required"][0]: one for one in schema["oneOf"]}
             if not isinstance(value, dict):
-                self._refuse(path, f"{_shown(value)} is not a table")
+                self._refuse(path, f"{shown(value)} is not a table")
             picked = next((one for key, one in choices.items() if key in value), None)
             if picked is None:
                 self._refuse(path, f"says none of {', '.join(choices)}", "one of them tells what it is")
@@ -80,14 +79,9 @@ class Reader:
 
     def _table(self, table: Mapping[str, Any], schema: Schema, path: Path) -> dict[str, Any]:
         known, others = schema.get("properties", {}), schema.get("additionalProperties", False)
-        for key in schema.get("required", ()):
-            if key not in table:
-                self._refuse(path, f"has no {key!r}", f"it needs {', '.join(schema['required'])}")
-        for key in table:
-            if key not in known and others is False:
-                near = difflib.get_close_matches(key, known, n=1)
-                hint = f"did you mean {near[0]!r}?" if near else ""
-                self._refuse((*path, key), f"unknown key {key!r}", f"keys: {', '.join(known)}", hint)
+        allowed = known if others is False else table
+        for key, error in key_faults(table, allowed, needs=schema.get("required", ())):
+            self.sheet.refuse((*path, key) if key else path, error)
         return {key: self._value(value, known.get(key, others), (*path, key)) for key, value in table.items()}
 
     def _list(self, entries: list[Any], schema: Schema, path: Path) -> list[Any]:
@@ -98,26 +92,71 @@ class Reader:
 
     def _one_of(self, value: Any, choices: Iterable[Any], path: Path) -> Any:
         if isinstance(value, bool) or value not in choices or not isinstance(value, int):
-            self._refuse(path, f"is {_shown(value)}", f"allowed: {', '.join(str(choice) for choice in choices)}")
+            self._refuse(path, f"is {shown(value)}", f"allowed: {', '.join(str(choice) for choice in choices)}")
         return value
 
     def _quantity(self, value: Any, unit: str, path: Path) -> float:
-        if isinstance(value, str):
-            try:
-                return parse_quantity(value, unit)
-            except UnitError as error:
-                self.sheet.refuse(path, error)
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            self._refuse(path, f"{_shown(value)} is not a quantity", f"a number in {unit}, or text with its unit")
-        if (isinstance(value, int) and abs(value) > 10**300) or not math.isfinite(value):
-            self._refuse(path, f"{_shown(value)} is not a finite number", f"a number in {unit}")
-        return float(value)
+        try:
+            return read_quantity(value, unit)
+        except IlmekError as error:
+            self.sheet.refuse(path, error)
 
     def _refuse(self, path: Path, given: str, allowed: str = "", do: str = "") -> NoReturn:
         self.sheet.refuse(path, MechanismError(given, allowed=allowed, do=do))
 
 
-def _shown(value: Any) -> str:
+def key_faults(
+    table: Mapping[str, Any], known: Iterable[str], *, needs: Iterable[str] = (), noun: str = "key"
+) -> Iterator[tuple[str, IlmekError]]:
+    """What is wrong with the keys of a table: those that are missing, with "", and those that are unknown.
+
+    known  the keys allowed, in the order in which a message names them      noun  what a message calls a key
+    """
+    known, needs = tuple(known), tuple(needs)
+    for key in needs:
+        if key not in table:
+            yield "", ParameterError(f"has no {key!r}", allowed=f"it needs {', '.join(needs)}")
+    for key in table:
+        if key not in known:
+            allowed = f"{noun}s: {', '.join(known)}"
+            yield key, ParameterError(f"unknown {noun} {key!r}", allowed=allowed, do=did_you_mean(str(key), known))
+
+
+def read_quantity(value: Any, unit: str) -> float:
+    """A number in SI, or a text with its unit, as a number in SI.
+
+    unit  a unit of the quantity's kind; "" or "1" for a plain number
+    Raises UnitError for a text that is no such quantity, ParameterError for any other value that is no finite number.
+    """
+    if isinstance(value, str):
+        return parse_quantity(value, unit)
+    plain = unit in ("", "1")
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        allowed = "a plain number" if plain else f"a number in {unit}, or text with its unit"
+        raise ParameterError(f"{shown(value)} is not a quantity", allowed=allowed)
+    number = finite_number(value)
+    if number is None:
+        allowed = "a plain number" if plain else f"a number in {unit}"
+        raise ParameterError(f"{shown(value)} is not a finite number", allowed=allowed)
+    return number
+
+
+def finite_number(value: Any) -> float | None:
+    """A number, or a text that is one, as a finite float; None for everything else.
+
+    >>> finite_number(2), finite_number(" 2.5"), finite_number("two"), finite_number(True), finite_number(1e999)
+    (2.0, 2.5, None, None, None)
+    """
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        return None
+    try:
+        number = float(value)
+    except (ValueError, OverflowError):
+        return None
+    return number if math.isfinite(number) else None
+
+
+def shown(value: Any) -> str:
     """The value, shortened for a message."""
     said = (
         {True: "true", False: "false", None: "null"}.get(value, "") if isinstance(value, bool | None) else repr(value)

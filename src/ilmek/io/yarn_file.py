@@ -9,10 +9,11 @@
 
 A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price; commas, semicolons or tabs between them.
 Empty lines, and lines that begin with #, are left out.
-Here only the file is read; `ilmek.carpet.yarn` judges the values.
+
+A record is one yarn as read: a mapping with the fields `name`, `srgb` ("#8b1a1a") or `lab` ([L, a, b]), `nm`, `ply` and
+`price`, numbers or texts.
 """
 
-import difflib
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -20,15 +21,21 @@ from importlib import resources
 from pathlib import Path
 from typing import TypeAlias
 
-from ilmek.carpet.yarn import FIELDS, Yarn, yarns_from_records
-from ilmek.errors import YarnError
+import numpy as np
+
+from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
+from ilmek.carpet.yarn import MOST_YARNS, Yarn
+from ilmek.errors import YarnError, did_you_mean
 from ilmek.io.csv_lines import csv_lines, decimal_points
+from ilmek.io.schema import finite_number, key_faults
 from ilmek.io.text_file import read_text
 
 LARGEST = 1_000_000
 """Most bytes of a yarn list; 255 yarns need far less."""
 
 Record: TypeAlias = Mapping[str, object]
+
+FIELDS = ("name", "srgb", "lab", "nm", "ply", "price")
 
 _MISSING = "check the path, or leave --yarns out for the wool list that is built in"
 
@@ -71,8 +78,7 @@ def _toml_records(text: str) -> Sequence[Record]:
 def _check_columns(names: Sequence[str], line: int) -> None:
     for place, name in enumerate(names):
         if name not in FIELDS:
-            near = difflib.get_close_matches(name, FIELDS, n=1)
-            hint = f"did you mean {near[0]!r}?" if near else "the first line names the columns"
+            hint = did_you_mean(name, FIELDS, otherwise="the first line names the columns")
             raise YarnError(f"line {line}: unknown column {name!r}", allowed=f"columns: {', '.join(FIELDS)}", do=hint)
         if name in names[:place]:
             raise YarnError(f"line {line}: the column {name!r} comes twice", do="give each column once")
@@ -105,3 +111,97 @@ def _csv_value(name: str, cell: str, line: int, delimiter: str) -> object:
     if len(values) != 1:
         raise YarnError(f"line {line}: {name} {cell!r} is not one number", do="mend that cell")
     return int(values[0]) if name == "ply" and values[0].is_integer() else values[0]
+
+
+def yarns_from_records(records: Sequence[Record]) -> tuple[Yarn, ...]:
+    """The yarns of a list, checked. Raises YarnError, naming the yarn and the field."""
+    if not 2 <= len(records) <= MOST_YARNS:
+        count = "no yarn" if not records else "one yarn only" if len(records) == 1 else f"{len(records)} yarns"
+        raise YarnError(
+            f"the yarn list has {count}", allowed=f"2 to {MOST_YARNS} yarns", do="a design needs two colours"
+        )
+    yarns = tuple(_yarn(record, place) for place, record in enumerate(records, start=1))
+    seen: dict[str, int] = {}
+    for place, yarn in enumerate(yarns, start=1):
+        first = seen.setdefault(yarn.name.casefold(), place)
+        if first != place:
+            raise YarnError(
+                f"yarns {first} and {place} are both named {yarn.name!r}", do="give each yarn a name of its own"
+            )
+    return yarns
+
+
+def _yarn(record: Record, place: int) -> Yarn:
+    """The yarn of one record; `place` counts from 1."""
+    name = str(record.get("name") or "").strip()
+    called = f"yarn {place} ({name})" if name else f"yarn {place}"
+    for _, error in key_faults(record, FIELDS, noun="field"):
+        raise YarnError(f"{called}: {error.given}", allowed=error.allowed, do=error.do)
+    if not name:
+        raise YarnError(f"{called} has no name", do='give it one, like name = "madder red"')
+    if not name.isprintable():
+        raise YarnError(f"yarn {place} has the name {name!r}", allowed="letters, digits and signs on one line")
+    srgb, lab = _colour(record, called)
+    count = _number(record, "nm", called)
+    if count is None:
+        raise YarnError(f"{called} has no nm", allowed="the metric count, m/g of one strand", do="like nm = 2.5")
+    ply = _number(record, "ply", called)
+    if ply is not None and ply != round(ply):
+        raise YarnError(f"{called}: ply {ply:g} is not a whole number", allowed="strands twisted together: 1 to 64")
+    return Yarn(name, srgb, lab, count, 1 if ply is None else round(ply), _number(record, "price", called))
+
+
+_BOUNDS = {"nm": (0.05, 500.0), "ply": (1.0, 64.0), "price": (0.0, 1e6)}
+
+
+def _number(record: Record, field: str, called: str) -> float | None:
+    """A number of the record within its bounds; None where it is missing or empty."""
+    given = record.get(field)
+    if given is None or (isinstance(given, str) and not given.strip()):
+        return None
+    low, high = _BOUNDS[field]
+    value = finite_number(given)
+    if value is None or not low <= value <= high:
+        raise YarnError(f"{called}: {field} {given!r} cannot be used", allowed=f"a number, {low:g} to {high:g}")
+    return value
+
+
+_Srgb = tuple[int, int, int]
+_Lab = tuple[float, float, float]
+
+
+def _colour(record: Record, called: str) -> tuple[_Srgb, _Lab]:
+    """The colour of a record as sRGB codes and as CIELAB, whichever of the two it gives."""
+    coded, measured = record.get("srgb") or None, record.get("lab") or None
+    if (coded is None) == (measured is None):
+        said = "no colour" if coded is None else "both srgb and lab"
+        raise YarnError(f"{called} has {said}", allowed="one of srgb and lab", do='like srgb = "#8b1a1a"')
+    if coded is not None:
+        srgb = _srgb(coded, called)
+        lightness, a, b = srgb_to_lab(np.array(srgb, dtype=np.uint8)).tolist()
+        return srgb, (lightness, a, b)
+    lab = _lab(measured, called)
+    red, green, blue = lab_to_srgb(np.array(lab)).tolist()
+    return (red, green, blue), lab
+
+
+def _srgb(given: object, called: str) -> _Srgb:
+    """`#8b1a1a`, also without its #, or short, `#811`: each digit twice."""
+    written = re.sub(r"^#(.)(.)(.)$", r"#\1\1\2\2\3\3", str(given).strip())
+    matched = re.fullmatch(r"#?([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})", written)
+    if matched is None:
+        raise YarnError(f"{called}: srgb {given!r} is no colour", allowed="six hexadecimal digits", do='like "#8b1a1a"')
+    return int(matched[1], 16), int(matched[2], 16), int(matched[3], 16)
+
+
+def _lab(given: object, called: str) -> _Lab:
+    parts = re.split(r"[\s,;]+", given.strip(" ()[]")) if isinstance(given, str) else given
+    read = [finite_number(part) for part in parts] if isinstance(parts, list | tuple) else []
+    numbers = [number for number in read if number is not None]
+    if len(read) == len(numbers) == 3:
+        lightness, a, b = numbers
+        if 0 <= lightness <= 100 and max(abs(a), abs(b)) <= 160:
+            return lightness, a, b
+    raise YarnError(
+        f"{called}: lab {given!r} is no colour", allowed="L 0 to 100, a and b -160 to 160", do="like lab = [35, 50, 30]"
+    )

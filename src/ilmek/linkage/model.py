@@ -11,7 +11,6 @@ A mechanism is data. `structure.plan` finds the order in which it can be solved,
 """
 
 import cmath
-import difflib
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
@@ -19,7 +18,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TypeAlias, TypeVar
 
-from ilmek.errors import MechanismError
+from ilmek.errors import MechanismError, did_you_mean
 
 GROUND = "ground"
 """The body that stands still; its local frame is the world."""
@@ -227,9 +226,8 @@ def _find(name: str, among: Iterable[Named], kind: str, of: str) -> Named:
     known = {one.name: one for one in among}
     if name in known:
         return known[name]
-    near = difflib.get_close_matches(name, known, n=1)
-    hint = f"did you mean {near[0]!r}?" if near else ""
-    raise MechanismError(f"{of} has no {kind} {name!r}", allowed=f"it has {', '.join(known) or 'none'}", do=hint)
+    allowed = f"it has {', '.join(known) or 'none'}"
+    raise MechanismError(f"{of} has no {kind} {name!r}", allowed=allowed, do=did_you_mean(name, known))
 
 
 def _check(mechanism: Mechanism) -> None:
