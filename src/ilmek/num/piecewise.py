@@ -78,7 +78,7 @@ class Pieces:
     @property
     def widths(self) -> FloatArray:
         """Length of each piece."""
-        return self.ends - self.starts
+        return np.asarray(self.ends - self.starts)
 
     def sides(self, x: FloatArray, piece: IntArray) -> FloatArray:
         """The side of each argument that looks into its piece; `piece` broadcasts against x."""
