@@ -8,6 +8,7 @@ from ilmek.carpet.design import distortion, knot_grid, resampled
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError
+from ilmek.progress import Progress
 
 
 def coverage(pixels: int, knots: int) -> np.ndarray:
@@ -51,7 +52,7 @@ def test_mean_light_is_kept() -> None:
 def test_bands_do_not_show_and_progress_ends_at_one() -> None:
     rgb = np.random.default_rng(4).integers(0, 256, (500, 4, 3), dtype=np.uint8)
     shares: list[float] = []
-    tall = resampled(rgb, 300, 4, shares.append)
+    tall = resampled(rgb, 300, 4, Progress(lambda _, share: shares.append(share)))
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
     assert np.array_equal(tall[:150], resampled(rgb[:250], 150, 4))

@@ -11,6 +11,7 @@ from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.palette import best_yarns, distinct_colours, nearest_yarns, paint
 from ilmek.errors import YarnError
+from ilmek.progress import Progress
 
 
 def picture(seed: int, levels: int = 5) -> np.ndarray:
@@ -34,7 +35,7 @@ def test_painted_with_the_nearest_yarn() -> None:
     yarns = srgb_to_lab(np.random.default_rng(3).integers(0, 256, (9, 3), dtype=np.uint8))
     colours = distinct_colours(rgb)
     shares: list[float] = []
-    knots = paint(rgb, colours, nearest_yarns(colours, yarns, shares.append)[0])
+    knots = paint(rgb, colours, nearest_yarns(colours, yarns, Progress(lambda _, share: shares.append(share)))[0])
     assert np.array_equal(knots, delta_e_2000(srgb_to_lab(rgb)[..., None, :], yarns).argmin(axis=-1))
     assert shares == [1.0]
 

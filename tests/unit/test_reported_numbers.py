@@ -12,7 +12,7 @@ import pytest
 
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
-from ilmek.cams.programme import Programme, fall, rise
+from ilmek.cams.programme import CamProgramme, fall, rise
 from ilmek.elements.bearings import equivalent_load, find_bearing
 from ilmek.elements.screws import trapezoidal
 from ilmek.errors import ParameterError
@@ -156,7 +156,7 @@ def test_an_axial_load_never_makes_the_equivalent_load_less_than_the_radial_load
 
 
 def test_a_bored_plate_without_holes_has_a_cross_at_its_centre(tmp_path: Path) -> None:
-    cam = PlateCam(Programme((rise(3.0, 0.02, LAWS["cycloidal"]), fall(turn - 3.0, 0.02, LAWS["cycloidal"]))), 0.05)
+    cam = PlateCam(CamProgramme((rise(3.0, 0.02, LAWS["cycloidal"]), fall(turn - 3.0, 0.02, LAWS["cycloidal"]))), 0.05)
     outline = cam.surface(-np.arange(720) * turn / 720)
     write_dxf(tmp_path / "cam.dxf", Plate("cam", "Plate cam", outline, 0.01, "steel", cutouts=(circle(0j, 0.01),)))
     lines = list(ezdxf.readfile(tmp_path / "cam.dxf").modelspace().query('LINE[layer=="CENTRE"]'))
