@@ -5,7 +5,7 @@ A kind fixes the dimension and the unit that a value is shown in; `unit` chooses
 
 from collections.abc import Callable
 from dataclasses import field
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from ilmek.params.parameter import Value
 from ilmek.units import parse_unit
@@ -48,6 +48,7 @@ def param(
     )
 
 
+@runtime_checkable
 class Kind(Protocol):
     """Declares a parameter of one dimension; arguments as of `param`."""
 
