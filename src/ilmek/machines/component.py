@@ -95,7 +95,7 @@ class Component:
             plates=self.plates(design),
             cam_tables=self.cam_tables(design),
             parts=self.parts(design),
-            children=tuple(child.component.report(child.design, in_a_loom=True) for child in self.children(design)),
+            children=tuple(child.report for child in self.children(design)),
         )
 
     def report_for(self, settings: Mapping[str, Setting]) -> Report:
@@ -105,13 +105,33 @@ class Component:
 
 @record
 class Child:
-    """A machine in another: its component, its design, and the number of them."""
+    """A machine in another: its component, its design, and the number of them.
+
+    number  0: an alternative that is reported, but is not in the parts list
+    made    its report, where it was made already
+    """
 
     component: Component
     design: Any
     number: int = 1
+    made: Report | None = None
 
     @property
     def name(self) -> str:
         """The component's name."""
         return self.component.name
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """Lines of the parts list of one of them."""
+        return self.component.parts(self.design)
+
+    @property
+    def work(self) -> tuple[Work, ...]:
+        """Work of its acts."""
+        return self.component.work(self.design)
+
+    @property
+    def report(self) -> Report:
+        """Its report, as a machine in a loom."""
+        return self.made or self.component.report(self.design, in_a_loom=True)

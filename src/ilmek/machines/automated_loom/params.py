@@ -1,4 +1,4 @@
-"""What is asked of an automated loom for one carpet. Everything else is derived from it."""
+"""Parameters of an automated loom for one carpet. Everything else is derived from them."""
 
 from dataclasses import dataclass
 
@@ -9,11 +9,11 @@ from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.machines import BEATS, IN_A_LOOM
 from ilmek.machines.catalogue import MACHINES
-from ilmek.params import Overrides, Params, overrides, param
+from ilmek.params import Overrides, Params, kind, overrides, param
 from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
 
 QUALITY = 25 / dm
-"""Knots per metre where neither density nor pitch is said: the thesis' loom."""
+"""Knots per metre where neither density nor pitch is given: the thesis' loom."""
 
 
 WIDEST = 12.0
@@ -24,96 +24,101 @@ WIDEST = 12.0
 class AutomatedLoomParams(Params):
     """The carpet, the heads, and the limits of what moves; the defaults are the thesis' loom with four heads."""
 
-    width: float = param(1.2, unit="m", at_least=SMALLEST, at_most=WIDEST, doc="width of the carpet")
-    length: float = param(1.8, unit="m", at_least=SMALLEST, at_most=LARGEST, doc="length of the carpet")
-    knots_across: float | None = param(
-        None, unit="1/dm", at_least=COARSEST, at_most=FINEST, doc="knots along a row; none: what the warp pitch gives"
+    width: float = kind.length(1.2, unit="m", at_least=SMALLEST, at_most=WIDEST, doc="width of the carpet")
+    length: float = kind.length(1.8, unit="m", at_least=SMALLEST, at_most=LARGEST, doc="length of the carpet")
+    knots_across: float | None = kind.knot_density(
+        None, at_least=COARSEST, at_most=FINEST, doc="knots along a row; default: what the warp pitch gives"
     )
-    knots_along: float | None = param(
-        None, unit="1/dm", at_least=COARSEST, at_most=FINEST, doc="rows along the carpet; none: as across"
+    knots_along: float | None = kind.knot_density(
+        None, at_least=COARSEST, at_most=FINEST, doc="rows along the carpet; default: as across"
     )
-    warp_pitch: float | None = param(
-        None, unit="mm", above=0.0, at_most=0.05, doc="distance of two warps; none: two warps a knot"
+    warp_pitch: float | None = kind.length(
+        None, above=0.0, at_most=0.05, doc="distance of two warps; default: two warps a knot"
     )
     knot: str = param("symmetric", choices=tuple(WRAPS), doc="kind of knot")
     heads: int | None = param(
-        None, at_least=1, at_most=1000, doc="knotting heads that share a row; none: four, or as many as fit"
+        None, at_least=1, at_most=1000, doc="knotting heads that share a row; default: four, or as many as fit"
     )
-    head_width: float = param(80 * mm, unit="mm", above=0.0, at_most=1.0, doc="least distance of two heads")
+    head_width: float = kind.length(80 * mm, above=0.0, at_most=1.0, doc="least distance of two heads")
     colours: int = param(16, at_least=1, at_most=255, doc="yarns, a tube for each in every head")
-    knot_cycle: float = param(2.0, unit="s", at_least=1e-3, at_most=3600.0, doc="time of a knot that is asked for")
-    knot_yarn: float | None = param(
-        None, unit="mm", above=0.0, at_most=0.3, doc="pile yarn of a knot by its bill; none: of the head's usual pile"
+    knot_cycle: float = kind.time(2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot")
+    knot_yarn: float | None = kind.length(
+        None, above=0.0, at_most=0.3, doc="pile yarn of a knot, from the yarn bill; default: of the head's usual pile"
     )
     knot_law: str = param("modified-sine", choices=SMOOTH_LAWS, doc="law of the heads' cams")
-    head_acceleration: float = param(
-        20.0, unit="m/s^2", at_least=1e-3, at_most=1e5, doc="allowed acceleration of a head's tools"
+    head_acceleration: float = kind.acceleration(
+        20.0, at_least=1e-3, at_most=1e5, doc="allowed acceleration of a head's tools"
     )
-    carriage_speed: float = param(0.25, unit="m/s", at_least=1e-3, at_most=100.0, doc="speed of a head along the row")
+    carriage_speed: float = kind.speed(0.25, at_least=1e-3, at_most=100.0, doc="speed of a head along the row")
     changes_per_knot: float = param(
         0.06, at_least=0.0, at_most=1.0, doc="colour changes a knot, to estimate the time before there is a chart"
     )
-    tension: float | None = param(
+    tension: float | None = kind.force(
         None,
-        unit="N",
         at_least=1e-3,
         at_most=1e3,
-        doc="tension of a warp; none: 15 N at 2 mm, as its mass",
+        doc="tension of a warp; default: 15 N at a pitch of 2 mm, proportional to the warp's mass",
     )
-    warp_stiffness: float | None = param(
-        None, unit="N", at_least=1.0, at_most=1e7, doc="force over strain of a warp; none: cotton of its mass"
+    warp_stiffness: float | None = kind.force(
+        None, at_least=1.0, at_most=1e7, doc="force over strain of a warp; default: cotton of its mass"
     )
-    warp_length: float = param(1.5, unit="m", at_least=0.35, at_most=100.0, doc="warp from the fell to its cylinder")
-    margin: float = param(50 * mm, unit="mm", at_least=0.0, at_most=1.0, doc="from the carpet's edge to a bearing")
-    lift: float = param(60 * mm, unit="mm", at_least=1 * mm, at_most=0.5, doc="lift of the warps for the shed")
-    half_span: float = param(
-        170 * mm, unit="mm", at_least=1 * mm, at_most=2.0, doc="shedding cams to the next hold of the warps"
+    warp_length: float = kind.length(
+        1.5, unit="m", at_least=0.35, at_most=100.0, doc="warp from the fell to its cylinder"
     )
-    shed_speed: float = param(5 * rpm, unit="rpm", at_least=0.01 * rpm, at_most=60 * rpm, doc="speed of the cams")
-    shaft_span: float = param(
+    margin: float = kind.length(50 * mm, at_least=0.0, at_most=1.0, doc="from the carpet's edge to a bearing")
+    lift: float = kind.length(60 * mm, at_least=1 * mm, at_most=0.5, doc="lift of the warps for the shed")
+    half_span: float = kind.length(
+        170 * mm, at_least=1 * mm, at_most=2.0, doc="shedding cams to the next hold of the warps"
+    )
+    shed_speed: float = kind.angular_speed(5 * rpm, at_least=0.01 * rpm, at_most=60 * rpm, doc="speed of the cams")
+    shaft_span: float = kind.length(
         1.5, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the cam shaft between its supports"
     )
-    shuttle_height: float = param(40 * mm, unit="mm", at_least=1 * mm, at_most=0.3, doc="shed that the shuttle needs")
-    shuttle_run: float = param(150 * mm, unit="mm", above=0.0, at_most=1.0, doc="run of the shuttle beyond each edge")
-    shuttle_speed: float = param(3.0, unit="m/s", at_least=0.01, at_most=100.0, doc="allowed speed of the shuttle")
-    shuttle_acceleration: float = param(
-        20.0, unit="m/s^2", at_least=0.01, at_most=1e5, doc="allowed acceleration of the shuttle"
+    shuttle_height: float = kind.length(
+        40 * mm, at_least=1 * mm, at_most=0.3, doc="height of the shed that the shuttle needs"
+    )
+    shuttle_run: float = kind.length(150 * mm, above=0.0, at_most=1.0, doc="run of the shuttle beyond each edge")
+    shuttle_speed: float = kind.speed(3.0, at_least=0.01, at_most=100.0, doc="allowed speed of the shuttle")
+    shuttle_acceleration: float = kind.acceleration(
+        20.0, at_least=0.01, at_most=1e5, doc="allowed acceleration of the shuttle"
     )
     hammer: str = param(
         "linkage", choices=tuple(BEATS), doc="crank-rockers beat the rows, or the comb on the guide cams"
     )
-    comb_stroke: float = param(100 * mm, unit="mm", at_least=1 * mm, at_most=1.0, doc="vertical stroke of the comb")
-    comb_acceleration: float = param(
-        3.0, unit="m/s^2", at_least=1e-3, at_most=1e3, doc="allowed acceleration of the comb, cams and all"
+    comb_stroke: float = kind.length(100 * mm, at_least=1 * mm, at_most=1.0, doc="vertical stroke of the comb")
+    comb_acceleration: float = kind.acceleration(
+        3.0, at_least=1e-3, at_most=1e3, doc="allowed acceleration of the comb, cams and all"
     )
-    beat_speed: float = param(15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the beat-up's crank")
-    beater_density: float = param(
+    beat_speed: float = kind.angular_speed(
+        15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the beat-up's crank"
+    )
+    beater_density: float = kind.line_density(
         2.5 / 1.2, unit="kg/m", at_least=0.0, at_most=1e3, doc="mass of the beater over the width"
     )
-    beater_width: float = param(
+    beater_width: float = kind.length(
         1.5, unit="m", at_least=0.1, at_most=20.0, doc="most width of the beater for each of its crank-rockers"
     )
-    beat_force: float = param(
-        50.0, unit="N/m", at_least=0.0, at_most=1e5, doc="force on the beater over the width that is wanted"
+    beat_force: float = kind.line_load(
+        50.0, at_least=0.0, at_most=1e5, doc="required force on the beater over the width"
     )
-    beat_end: float = param(
-        158 * deg, unit="deg", above=0.0, below=turn / 2, doc="cam angle at which the beater is back"
+    beat_end: float = kind.angle(158 * deg, above=0.0, below=turn / 2, doc="cam angle at which the beater is back")
+    take_up_end: float = kind.angle(
+        178 * deg, above=0.0, at_most=turn / 2, doc="cam angle, after half a turn, at which the take-up ends"
     )
-    take_up_end: float = param(178 * deg, unit="deg", above=0.0, at_most=turn / 2, doc="cam angle, of the second half")
-    head_mass: float | None = param(
-        None, unit="kg", at_least=0.1, at_most=500.0, doc="mass of a head on its carriage; none: as designed"
+    head_mass: float | None = kind.mass(
+        None, at_least=0.1, at_most=500.0, doc="mass of a head on its carriage; default: as designed"
     )
-    tube_mass: float = param(
-        0.02, unit="kg", at_least=0.0, at_most=10.0, doc="mass of a yarn tube with its share of the slide"
+    tube_mass: float = kind.mass(
+        0.02, at_least=0.0, at_most=10.0, doc="mass of a yarn tube with its share of the slide"
     )
-    shuttle_mass: float = param(0.5, unit="kg", at_least=0.0, at_most=50.0, doc="mass of the shuttle with its weft")
-    frame_height: float = param(2.0, unit="m", at_least=0.3, at_most=10.0, doc="height of the frame's columns")
-    rail_span: float = param(
+    shuttle_mass: float = kind.mass(0.5, at_least=0.0, at_most=50.0, doc="mass of the shuttle with its weft")
+    frame_height: float = kind.length(2.0, unit="m", at_least=0.3, at_most=10.0, doc="height of the frame's columns")
+    rail_span: float = kind.length(
         2.0, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the heads' rail between columns and posts"
     )
-    rail_sag: float = param(0.2 * mm, unit="mm", at_least=1e-6, at_most=0.05, doc="allowed sag of the heads' rail")
+    rail_sag: float = kind.length(0.2 * mm, at_least=1e-6, at_most=0.05, doc="allowed sag of the heads' rail")
     drive_efficiency: float = param(0.7, at_least=0.01, at_most=1.0, doc="efficiency from the mains to a shaft")
-    standby_power: float = param(10.0, unit="W", at_least=0.0, at_most=1e4, doc="power of an axis that stands still")
+    standby_power: float = kind.power(10.0, at_least=0.0, at_most=1e4, doc="power of an axis that stands still")
     prices: str | None = param(
         None, doc="prices other than those of the table: `bearing each = 9; servo per W = 1`, or @FILE with such lines"
     )
@@ -130,7 +135,7 @@ class AutomatedLoomParams(Params):
 
     @property
     def quality(self) -> Quality:
-        """The carpet's quality; what is not said follows the warp pitch, and rows follow knots across."""
+        """The carpet's quality; by default knots across follow the warp pitch, and rows follow knots across."""
         across = self.knots_across or 0.5 / self.pitch
         return Quality(across, self.knots_along or across)
 
