@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from ilmek.machines.beat import PlannedBeat
 from ilmek.machines.loom_task import LoomTask
 from ilmek.params import Params, Setting
 from ilmek.records import record
@@ -44,6 +45,7 @@ class Component:
     children    design -> the machines in it
     parameters  design -> the parameters in force, where the design chose some that were left open
     fit         loom's task -> parameters, for a machine that can be in a loom
+    beat        loom's task -> its planned beat, for a machine that can beat the rows (`ilmek.machines.beat`)
     own_figures beginnings of the names of figures that only its own page shows, not a loom's
     """
 
@@ -68,6 +70,7 @@ class Component:
     children: Callable[[Any], "tuple[Child, ...]"] = _nothing
     parameters: Callable[[Any], Params] = field(default=lambda design: design.params)
     fit: Callable[[LoomTask], Any] | None = None
+    beat: Callable[[LoomTask], PlannedBeat] | None = None
     own_figures: tuple[str, ...] = ()
     reporter: Callable[[Any], Report] | None = None
 

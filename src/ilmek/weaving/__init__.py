@@ -5,7 +5,7 @@ The materials of yarns are in `ilmek.elements.yarns`, the kinds of knots in `ilm
 
 from ilmek.weaving.comb_on_fell import FellPressure, fell_pressure
 from ilmek.weaving.draping import Bridges, DrapedWarp, bridges, draped_warp
-from ilmek.weaving.fell import Fabric
+from ilmek.weaving.fell import Fabric, assumed_fabric
 from ilmek.weaving.shed import ShedWarp, shed_lengthening
 from ilmek.weaving.tension import TakeUpTension, capstan, take_up_tension, tension_history, usual_tension
 
@@ -16,6 +16,7 @@ __all__ = [
     "FellPressure",
     "ShedWarp",
     "TakeUpTension",
+    "assumed_fabric",
     "bridges",
     "capstan",
     "draped_warp",

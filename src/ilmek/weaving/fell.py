@@ -104,3 +104,29 @@ class Fabric:
             return np.array([self.energy(one) - energy for one in force.tolist()])
 
         return float(bracketed_roots(excess, np.zeros(1), np.array([high]))[0])
+
+
+LAID, JAMMED, PACKING = 1.5, 0.75, 0.25
+"""A row before the beat, a jammed row, and the packing length K, over the required row pitch: assumed by this project.
+A row then needs 10 N on 15 N of tension; how hard a fabric packs is to be measured."""
+
+CLOTH_LENGTH = 0.5
+"""Cloth from the fell to its beam [m]: assumed by this project."""
+
+
+def assumed_fabric(row_pitch: float, tension: float, stiffness: float, warp_length: float) -> Fabric:
+    """The fabric at the fell, of which only the required row pitch is known.
+
+    row_pitch  required [m]   tension, stiffness  of a warp [N], force over strain [N]   warp_length  to its beam [m]
+
+    >>> round(float(assumed_fabric(4e-3, 15.0, 1800.0, 1.5).resistance(4e-3)), 9)
+    10.0
+    """
+    return Fabric(
+        tension=tension,
+        laid=LAID * row_pitch,
+        jammed=JAMMED * row_pitch,
+        packing=PACKING * row_pitch,
+        warp_rate=stiffness / warp_length,
+        cloth_rate=stiffness / CLOTH_LENGTH,
+    )

@@ -10,6 +10,7 @@ its bolts. It is greatest near the extended dead centre, where the beater turns 
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.beat_up.design import BeatUp, design
+from ilmek.machines.beat_up.in_loom import fit, parts, planned_beat, work
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.report import BeatUpAnalysis, analyse, checks, figures, plates, tables, warnings
 from ilmek.machines.component import Component
@@ -29,5 +30,9 @@ MACHINE = Component(
     figures=figures,
     warnings=warnings,
     plates=plates,
+    parts=parts,
+    work=work,
+    fit=fit,
+    beat=planned_beat,
     own_figures=("family",),
 )

@@ -7,6 +7,7 @@ Either leaves on the guide cams, which a vertical axis pulls down with the whole
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.hammer.design import Hammer, design
+from ilmek.machines.hammer.in_loom import fit, parts, planned_beat, work
 from ilmek.machines.hammer.params import HammerParams
 from ilmek.machines.hammer.report import report
 
@@ -19,4 +20,8 @@ MACHINE = Component(
     params=HammerParams,
     design=design,
     reporter=report,
+    parts=parts,
+    work=work,
+    fit=fit,
+    beat=planned_beat,
 )
