@@ -13,7 +13,7 @@ from ilmek.arrays import FloatArray
 from ilmek.synthesis.approximation.dyad import dyads_along
 from ilmek.synthesis.approximation.exchange import linear_minimax
 from ilmek.synthesis.approximation.function_generator import CRITERIA, function_approximations
-from ilmek.synthesis.approximation.polynomial import SynthesisPolynomial, even_places, least_squares, minimax, of_table
+from ilmek.synthesis.approximation.polynomial import SynthesisPolynomial, least_squares, minimax, of_table, range_nodes
 from ilmek.synthesis.dyad import dyads_through_points
 from ilmek.synthesis.function import Function
 from ilmek.synthesis.superposition import superposed_through_points
@@ -42,7 +42,7 @@ def timed(job: Callable[[], Answer], repeats: int) -> tuple[float, Answer]:
 
 
 def exchange() -> None:
-    x = even_places(-1.0, 1.0, 301)
+    x = range_nodes(-1.0, 1.0, 301)
     table = np.stack([x**k for k in range(6)], axis=-1)
     ours, best = timed(lambda: linear_minimax(table, np.exp(x)), 20)
     level = -np.ones((len(x), 1))
@@ -98,8 +98,8 @@ def products() -> None:
         PRODUCTS,
         lambda x: np.stack([np.sin(3 * x), np.cos(4 * x)], axis=-1),
     )
-    taken, answers = timed(lambda: minimax(bent, even_places(-1.0, 1.0)).found, 3)
-    x, random = even_places(-1.0, 1.0, 301), np.random.default_rng(2)
+    taken, answers = timed(lambda: minimax(bent, range_nodes(-1.0, 1.0)).found, 3)
+    x, random = range_nodes(-1.0, 1.0, 301), np.random.default_rng(2)
     sides = [{"type": "ineq", "fun": lambda q, s=side: q[4] - s * bent.errors(q[:4], x)} for side in (1, -1)]
     begin = time.process_time()
     ends = [

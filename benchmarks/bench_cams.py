@@ -21,7 +21,7 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
 from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime
-from ilmek.cams.sweep import sweep, wanted
+from ilmek.cams.sweep import requirements, sweep
 from ilmek.machines.cam import CamParams, design, report
 from ilmek.num.piecewise import supremum
 from ilmek.units import deg, mm
@@ -71,7 +71,9 @@ def many_cams() -> None:
     laws = list(LAWS.values())
     lift, span, limit = rng.uniform(0.01, 0.08, COUNT), rng.uniform(0.9, 3.0, COUNT), rng.uniform(0.35, 0.8, COUNT)
     which = np.arange(COUNT) % len(laws)
-    asked = wanted(COUNT, law=which, lift=lift, rise=span, limit=limit, roller_radius=1 * mm, mass=1.0, speed=10.0)
+    asked = requirements(
+        COUNT, law=which, lift=lift, rise=span, limit=limit, roller_radius=1 * mm, mass=1.0, speed=10.0
+    )
 
     def alone(i: int) -> None:
         law = laws[which[i]]

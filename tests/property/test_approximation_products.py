@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from ilmek.errors import ParameterError
 from ilmek.num.newton import newton
-from ilmek.synthesis.approximation.polynomial import SynthesisPolynomial, even_places, interpolation, minimax, of_table
+from ilmek.synthesis.approximation.polynomial import SynthesisPolynomial, interpolation, minimax, of_table, range_nodes
 from ilmek.synthesis.approximation.products import EquationRows, errors_of, gradient, solve_products, stationary
 
 PRODUCTS = [(), ((0, 1),), ((0, 1), (0, 2)), ((0, 1), (2, 3))]
@@ -54,7 +54,7 @@ def test_no_neighbour_of_a_minimax_with_products_has_a_smaller_greatest_error(pr
     )
     random = np.random.default_rng(2)
     x = np.linspace(-1, 1, 801)
-    for best in minimax(bent, even_places(-1.0, 1.0)).found:
+    for best in minimax(bent, range_nodes(-1.0, 1.0)).found:
         assert best.proven
         assert best.bound <= best.worst
         for size in (1e-2, 1e-4):

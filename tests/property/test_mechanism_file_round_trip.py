@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.dynamics.inertia import Inertia
-from ilmek.io.line_numbers import json_places, toml_places
+from ilmek.io.line_numbers import json_lines, toml_lines
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, parse_mechanism
 from ilmek.io.toml_text import toml_text
 from ilmek.linkage.model import GROUND, Body, Coupling, Displacement, Mechanism, Pin, Rotation, Slide
@@ -89,7 +89,7 @@ TREE = st.recursive(
 def test_json_keys_are_found_in_their_lines(names):
     data = {names[0]: {name: [0, {"x": "]}"}] for name in names[1:]}}
     text = json.dumps(data, indent=1)
-    found = json_places(text)
+    found = json_lines(text)
     lines = text.split("\n")
     for place, name in enumerate(names[1:]):
         line = found[(names[0], name)]
@@ -102,7 +102,7 @@ def test_json_keys_are_found_in_their_lines(names):
 @given(st.dictionaries(NAME, TREE, max_size=4))
 def test_every_key_of_a_toml_text_has_a_place(data):
     text = toml_text(data)
-    found, count = toml_places(text), len(text.split("\n"))
+    found, count = toml_lines(text), len(text.split("\n"))
 
     def look(value, path):
         assert 1 <= found[path] <= count

@@ -12,11 +12,11 @@ from ilmek.synthesis.approximation.polynomial import (
     SynthesisPolynomial,
     Terms,
     chebyshev_nodes,
-    even_places,
     interpolation,
     least_squares,
     minimax,
     of_table,
+    range_nodes,
 )
 
 
@@ -49,7 +49,7 @@ def line_error(f: Terms, slope: float, touches: float) -> float:
 def test_the_greatest_error_is_that_of_the_closed_form(
     f: Terms, start: float, stop: float, count: int, error: float
 ) -> None:
-    best = minimax(SynthesisPolynomial(powers(count), f), even_places(start, stop)).found[0]
+    best = minimax(SynthesisPolynomial(powers(count), f), range_nodes(start, stop)).found[0]
     assert best.worst == pytest.approx(error, rel=1e-12)
     assert best.bound == pytest.approx(error, rel=1e-12)
     touching = best.errors[np.abs(best.errors) > best.worst * (1 - 1e-9)]
@@ -60,13 +60,13 @@ def test_the_greatest_error_is_that_of_the_closed_form(
 @pytest.mark.parametrize(("degree", "error"), [(1, 0.278802), (2, 0.045017), (3, 0.0055284), (4, 0.00054667)])
 def test_the_exponential_function_has_the_errors_of_the_literature(degree: int, error: float) -> None:
     """Meinardus, Approximation of functions, 1967, 6.2: e^x on [-1, 1]."""
-    best = minimax(SynthesisPolynomial(powers(degree + 1), np.exp), even_places(-1.0, 1.0)).found[0]
+    best = minimax(SynthesisPolynomial(powers(degree + 1), np.exp), range_nodes(-1.0, 1.0)).found[0]
     assert best.worst == pytest.approx(error, rel=3e-5)
 
 
 @pytest.mark.parametrize("degree", [2, 5, 9])
 def test_a_power_less_its_best_polynomial_is_chebyshevs(degree: int) -> None:
-    best = minimax(SynthesisPolynomial(powers(degree), lambda x: x**degree), even_places(-1.0, 1.0)).found[0]
+    best = minimax(SynthesisPolynomial(powers(degree), lambda x: x**degree), range_nodes(-1.0, 1.0)).found[0]
     assert best.worst == pytest.approx(2.0 ** (1 - degree), rel=1e-11)
     np.testing.assert_allclose(np.sort(best.at), np.cos(np.pi * np.arange(degree, -1, -1) / degree), atol=1e-6)
     np.testing.assert_allclose(np.abs(best.errors), best.worst, rtol=1e-9)
@@ -106,7 +106,7 @@ def test_squares_with_products_lose_none_that_a_peer_finds(products: tuple[tuple
 
 def test_nodes_of_chebyshev_keep_the_error_near_the_least() -> None:
     root = SynthesisPolynomial(powers(4), lambda x: np.sqrt(1 + x))
-    places = even_places(0.0, 1.0)
+    places = range_nodes(0.0, 1.0)
     through = interpolation(root, chebyshev_nodes(0.0, 1.0, 4), places).found[0]
     best = minimax(root, places).found[0]
     assert best.worst < through.worst < 1.4 * best.worst
@@ -116,15 +116,15 @@ def test_nodes_of_chebyshev_keep_the_error_near_the_least() -> None:
 @pytest.mark.parametrize(
     ("ask", "words"),
     [
-        (lambda p: interpolation(p, np.array([0.0, 1.0]), even_places(0.0, 1.0)), "2 different nodes for 3 parameters"),
-        (lambda p: interpolation(p, np.array([0.0, 1.0, 1.0]), even_places(0.0, 1.0)), "2 different nodes"),
+        (lambda p: interpolation(p, np.array([0.0, 1.0]), range_nodes(0.0, 1.0)), "2 different nodes for 3 parameters"),
+        (lambda p: interpolation(p, np.array([0.0, 1.0, 1.0]), range_nodes(0.0, 1.0)), "2 different nodes"),
         (lambda p: minimax(p, np.array([0.0, 1.0, 2.0])), "3 places for 3 parameters"),
-        (lambda p: minimax(p, even_places(1.0, 0.0)), "x from 1 to 0"),
+        (lambda p: minimax(p, range_nodes(1.0, 0.0)), "x from 1 to 0"),
         (lambda p: SynthesisPolynomial(p.terms, p.wanted, ((0, 1),)), "without their terms"),
         (lambda p: SynthesisPolynomial(p.terms, p.wanted, ((0, 1), (1, 0)), p.terms), "two at most"),
-        (lambda p: minimax(SynthesisPolynomial(p.terms, np.log), even_places(0.0, 1.0)), "not finite"),
+        (lambda p: minimax(SynthesisPolynomial(p.terms, np.log), range_nodes(0.0, 1.0)), "not finite"),
         (
-            lambda p: least_squares(SynthesisPolynomial(lambda x: np.ones((len(x), 2)), p.wanted), even_places(0, 1)),
+            lambda p: least_squares(SynthesisPolynomial(lambda x: np.ones((len(x), 2)), p.wanted), range_nodes(0, 1)),
             "same",
         ),
     ],

@@ -11,7 +11,7 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
 from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime
-from ilmek.cams.sweep import sweep, wanted
+from ilmek.cams.sweep import requirements, sweep
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import supremum
 from ilmek.units import deg
@@ -23,7 +23,7 @@ NAMES = list(LAWS)
 def designs():
     rng = np.random.default_rng(7)
     count = 3 * len(NAMES)
-    return wanted(
+    return requirements(
         count,
         law=np.arange(count) % len(NAMES),
         lift=rng.uniform(0.005, 0.08, count),
@@ -72,7 +72,7 @@ def test_sweep_equals_each_design_alone(designs) -> None:
 def test_shedding_cam_among_ten_thousand() -> None:
     lifts = np.linspace(0.02, 0.1, 10_000)
     lifts[5000] = 0.06
-    found = sweep([LAWS["harmonic"]], wanted(10_000, law=0, lift=lifts, rise=math.pi / 2, limit=30 * deg))
+    found = sweep([LAWS["harmonic"]], requirements(10_000, law=0, lift=lifts, rise=math.pi / 2, limit=30 * deg))
     assert found.prime_radius[5000] == pytest.approx(0.03 * (math.sqrt(13) - 1), rel=1e-9)
     assert found.curvature_radius_min[5000] == pytest.approx(0.07394448725, rel=1e-8)
     # All cams of one law, angle and limit are similar.
@@ -80,7 +80,7 @@ def test_shedding_cam_among_ten_thousand() -> None:
 
 
 def test_roller_that_fills_the_prime_circle_is_undercut() -> None:
-    found = sweep([LAWS["cycloidal"]], wanted(1, law=0, lift=0.01, rise=1.5, limit=0.5, roller_radius=0.05))
+    found = sweep([LAWS["cycloidal"]], requirements(1, law=0, lift=0.01, rise=1.5, limit=0.5, roller_radius=0.05))
     assert found.undercut.all()
     assert np.isnan(found.area).all()
 
@@ -88,4 +88,4 @@ def test_roller_that_fills_the_prime_circle_is_undercut() -> None:
 @pytest.mark.parametrize("bad", [dict(rise=4.0, fall=3.0), dict(rise=1.0, limit=2.0)])
 def test_designs_that_cannot_be_are_refused(bad) -> None:
     with pytest.raises(ParameterError):
-        wanted(3, **({"law": 0, "lift": 0.01, "limit": 0.5} | bad))
+        requirements(3, **({"law": 0, "lift": 0.01, "limit": 0.5} | bad))

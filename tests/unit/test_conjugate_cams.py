@@ -10,7 +10,7 @@ from ilmek.cams.conjugate import (
     conjugate_arms,
     conjugate_faces,
     conjugate_swinging_faces,
-    rest_of_the_way,
+    remaining_rise,
     smallest_conjugate,
 )
 from ilmek.cams.flat import FlatCam
@@ -41,7 +41,7 @@ def gaps(centres, surface) -> np.ndarray:
 
 def test_the_rest_of_the_way_adds_up_to_the_lift() -> None:
     programme = motion(25 * mm)
-    rest = rest_of_the_way(programme)
+    rest = remaining_rise(programme)
     at, left = programme.at(ANGLE), rest.at(ANGLE)
     np.testing.assert_allclose(at.s + left.s, 25 * mm, rtol=1e-12)
     np.testing.assert_allclose(at.dds, -left.dds, atol=1e-12)

@@ -8,7 +8,17 @@ from mechanisms import two_motors
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
-from ilmek.linkage.model import GROUND, Body, Coupling, Displacement, Mechanism, Pin, Rotation, Slide, freedom
+from ilmek.linkage.model import (
+    GROUND,
+    Body,
+    Coupling,
+    Displacement,
+    Mechanism,
+    Pin,
+    Rotation,
+    Slide,
+    degrees_of_freedom,
+)
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.num.periodic import periodic_derivative
@@ -60,7 +70,7 @@ def by_newton(mechanism: Mechanism, *, at: float = 0.0) -> Mechanism:
 
 def test_two_sided_mechanism_is_one_model_with_one_input():
     mechanism = geared_five_bar()
-    assert freedom(mechanism) == 1
+    assert degrees_of_freedom(mechanism) == 1
     planned = plan(mechanism)
     assert [step.words for step in planned.steps] == [
         "left turned by the input on ground",

@@ -10,7 +10,7 @@ from ilmek.elements.gears import LEAST_TEETH, MODULES, PRESSURE_ANGLE, EqualGear
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.linkage.clearance import OutlinedBody, distances
 from ilmek.linkage.configuration_path import InputPath
-from ilmek.linkage.model import freedom
+from ilmek.linkage.model import degrees_of_freedom
 from ilmek.linkage.one_input import one_input
 from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design, report
 from ilmek.machines.knotting_four_bar.sides import KnottingSides, clearances, hands, other, outlines
@@ -39,7 +39,7 @@ def quick() -> KnottingFourBar:
 
 def test_both_sides_are_one_mechanism_of_one_freedom_and_mirror_images(quick) -> None:
     sides = sides_of(quick)
-    assert freedom(sides.plan.mechanism) == 1
+    assert degrees_of_freedom(sides.plan.mechanism) == 1
     assert [one.name for one in sides.plan.mechanism.inputs] == ["crank"]
     motion = sides.course.motion
     for body, point in (("crank", "O2"), ("coupler", "O2'"), ("coupler", "H"), ("rocker", "O2'")):

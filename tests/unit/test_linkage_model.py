@@ -4,7 +4,7 @@ import pytest
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
-from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide, freedom
+from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide, degrees_of_freedom
 from ilmek.linkage.structure import plan
 
 BODIES = (
@@ -99,7 +99,7 @@ def test_part_held_too_often_while_another_is_loose_is_named():
 
 
 def test_freedom_is_counted_before_inputs():
-    assert freedom(four_bar(0.3, 0.06, 0.2, 0.23, branch=1)) == 1
+    assert degrees_of_freedom(four_bar(0.3, 0.06, 0.2, 0.23, branch=1)) == 1
 
 
 def test_zero_link_of_a_dyad_is_refused_though_the_body_has_other_pins():

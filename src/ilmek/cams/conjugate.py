@@ -49,7 +49,7 @@ class ConjugatePair:
         return np.asarray(second.pitch - first.pitch)
 
 
-def rest_of_the_way(programme: CamProgramme) -> CamProgramme:
+def remaining_rise(programme: CamProgramme) -> CamProgramme:
     """The programme top - s, begun where s is highest between two parts, so that it starts from 0 again."""
     bases = programme.bases
     highest = max(range(len(bases)), key=lambda place: bases[place])
@@ -73,7 +73,7 @@ def conjugate(cam: PlateCam, distance: float, roller_radius: float | None = None
     if reach <= math.sqrt(least**2 - cam.offset**2):
         _refuse(distance, own + top + math.sqrt(least**2 - cam.offset**2))
     second = PlateCam(
-        programme=rest_of_the_way(cam.programme).shifted(math.pi),
+        programme=remaining_rise(cam.programme).shifted(math.pi),
         prime_radius=math.hypot(reach, cam.offset),
         offset=-cam.offset,
         roller_radius=cam.roller_radius if roller_radius is None else roller_radius,
@@ -88,7 +88,7 @@ def smallest_conjugate(cam: PlateCam, limits: CamLimits) -> ConjugatePair:
     Raises ParameterError where a plate cannot keep the limits.
     """
     first = cam.resized(smallest_prime(cam, limits).prime_radius)
-    rest = replace(cam, programme=rest_of_the_way(cam.programme), offset=-cam.offset)
+    rest = replace(cam, programme=remaining_rise(cam.programme), offset=-cam.offset)
     second = smallest_prime(rest, limits).prime_radius
     reaches = [math.sqrt(radius**2 - cam.offset**2) for radius in (first.prime_radius, second)]
     return conjugate(first, sum(reaches) + _top(cam.programme))
@@ -103,7 +103,7 @@ def conjugate_faces(cam: FlatCam, distance: float) -> ConjugatePair:
     radius = distance - cam.prime_radius - _top(cam.programme)
     if radius <= 0:
         _refuse(distance, cam.prime_radius + _top(cam.programme))
-    rest = rest_of_the_way(cam.programme).shifted(math.pi)
+    rest = remaining_rise(cam.programme).shifted(math.pi)
     return ConjugatePair(cam, FlatCam(rest, radius, -cam.offset), math.pi)
 
 
@@ -126,7 +126,7 @@ def conjugate_arms(
             allowed=f"above {format_quantity(least, 'deg')}, below {format_quantity(least + math.pi, 'deg')}",
         )
     prime = math.sqrt(cam.pivot**2 + length**2 - 2 * cam.pivot * length * math.cos(start))
-    rest = rest_of_the_way(cam.programme)
+    rest = remaining_rise(cam.programme)
     side: Literal[1, -1] = -1 if cam.side == 1 else 1
     return ConjugatePair(cam, OscillatingCam(rest, prime, cam.pivot, length, side, radius), 0.0)
 
@@ -150,7 +150,7 @@ def conjugate_swinging_faces(cam: OscillatingFlatCam, between: float, face_offse
             f"{format_quantity(between, 'deg')} between the faces",
             allowed=f"above {format_quantity(least, 'deg')}, below {format_quantity(most, 'deg')}",
         )
-    rest = rest_of_the_way(cam.programme)
+    rest = remaining_rise(cam.programme)
     side: Literal[1, -1] = -1 if cam.side == 1 else 1
     return ConjugatePair(cam, OscillatingFlatCam(rest, prime, cam.pivot, face_offset, side), 0.0)
 

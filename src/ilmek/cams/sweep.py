@@ -82,10 +82,10 @@ class CamSweep:
     torque_max: PerDesign
 
 
-def wanted(count: int, **given: object) -> CamRequirements:
+def requirements(count: int, **given: object) -> CamRequirements:
     """Designs from numbers and arrays; what is not given is 0, the fall as the rise or the rest of the turn.
 
-    >>> wanted(2, law=0, lift=0.02, rise=np.array([1.5, 4.0]), limit=0.5).fall.round(4).tolist()
+    >>> requirements(2, law=0, lift=0.02, rise=np.array([1.5, 4.0]), limit=0.5).fall.round(4).tolist()
     [1.5, 2.2832]
     """
     fields = dict.fromkeys(CamRequirements.__slots__, 0.0) | given

@@ -39,7 +39,7 @@ from typing import Any
 from ilmek.cams.laws import LAWS
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.io.cyclogram_entries import FileEntry
-from ilmek.io.line_numbers import Places, json_places, toml_places
+from ilmek.io.line_numbers import KeyLines, json_lines, toml_lines
 from ilmek.io.output import write_whole
 from ilmek.io.schema import SourceText
 from ilmek.io.text_file import read_text
@@ -120,10 +120,10 @@ def cyclogram_json(cyclogram: Cyclogram) -> str:
     return json.dumps(cyclogram_data(cyclogram), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _data(text: str, name: str, toml: bool) -> tuple[Any, Places]:
+def _data(text: str, name: str, toml: bool) -> tuple[Any, KeyLines]:
     """The data and the line of each key. Raises ParameterError, naming the line, for a text that is none."""
     try:
-        return (tomllib.loads(text), toml_places(text)) if toml else (json.loads(text), json_places(text))
+        return (tomllib.loads(text), toml_lines(text)) if toml else (json.loads(text), json_lines(text))
     except tomllib.TOMLDecodeError as error:
         said, _, place = str(error).removesuffix(")").rpartition(" (at ")
         raise ParameterError(f"{name}, {place or 'end'}: {said[:1].lower()}{said[1:]}", do="mend that line") from None

@@ -3,9 +3,9 @@ r"""Where each key of a TOML or JSON text stands: its line.
 The readers of the standard library give values without places; this one gives places without values, for texts that
 those readers accept. A value's path is the keys that lead to it, a list's entries counted from 0:
 
->>> toml_places('name = "arm"\n[bodies.ground.points]\nA = [0,\n 1]')[("bodies", "ground", "points", "A", 1)]
+>>> toml_lines('name = "arm"\n[bodies.ground.points]\nA = [0,\n 1]')[("bodies", "ground", "points", "A", 1)]
 4
->>> json_places('{"bodies":\n {"ground": {}}}')[("bodies", "ground")]
+>>> json_lines('{"bodies":\n {"ground": {}}}')[("bodies", "ground")]
 2
 """
 
@@ -20,7 +20,7 @@ from typing import TypeAlias
 from ilmek.errors import IlmekError
 
 Path: TypeAlias = tuple[str | int, ...]
-Places: TypeAlias = dict[Path, int]
+KeyLines: TypeAlias = dict[Path, int]
 """Path of a key or a list's entry -> line, counted from 1; the whole, (), stands in line 1."""
 
 _TOKEN = re.compile(
@@ -30,7 +30,7 @@ _TOKEN = re.compile(
 )
 
 
-def toml_places(text: str) -> Places:
+def toml_lines(text: str) -> KeyLines:
     """The line of every key of a TOML text that `tomllib` accepts."""
     scan = _Scan(_tokens(text), lambda word: str(tomllib.loads(f"key = {word}")["key"]))
     prefix: Path = ()
@@ -49,7 +49,7 @@ def toml_places(text: str) -> Places:
     return scan.places
 
 
-def json_places(text: str) -> Places:
+def json_lines(text: str) -> KeyLines:
     """The line of every key of a JSON text that `json` accepts. Raises IlmekError for a key that comes twice."""
     scan = _Scan(_tokens(text), json.loads, once=True)
     scan.value(())
@@ -78,7 +78,7 @@ class _Scan:
     left: deque[tuple[str, str, int]]
     decode: Callable[[str], str]
     once: bool = False
-    places: Places = field(default_factory=lambda: {(): 1})
+    places: KeyLines = field(default_factory=lambda: {(): 1})
     arrays: dict[Path, int] = field(default_factory=dict)
 
     @property

@@ -35,7 +35,7 @@ from typing import Any
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import IlmekError, MechanismError
-from ilmek.io.line_numbers import Places, json_places, toml_places
+from ilmek.io.line_numbers import KeyLines, json_lines, toml_lines
 from ilmek.io.output import write_whole
 from ilmek.io.schema import Reader, Schema, SourceText
 from ilmek.io.text_file import read_text
@@ -124,9 +124,9 @@ def schema() -> Schema:
     return found
 
 
-def _toml(text: str, name: str) -> tuple[Any, Places]:
+def _toml(text: str, name: str) -> tuple[Any, KeyLines]:
     try:
-        return tomllib.loads(text), toml_places(text)
+        return tomllib.loads(text), toml_lines(text)
     except tomllib.TOMLDecodeError as error:
         said, _, place = str(error).removesuffix(")").rpartition(" (at ")
         raise MechanismError(f"{name}, {place or 'end'}: {said[:1].lower()}{said[1:]}", do="mend that line") from None
@@ -134,9 +134,9 @@ def _toml(text: str, name: str) -> tuple[Any, Places]:
         raise MechanismError(f"{name} is no mechanism, though it may be TOML") from None
 
 
-def _json(text: str, name: str) -> tuple[Any, Places]:
+def _json(text: str, name: str) -> tuple[Any, KeyLines]:
     try:
-        return json.loads(text), json_places(text)
+        return json.loads(text), json_lines(text)
     except json.JSONDecodeError as error:
         said = f"{error.msg[:1].lower()}{error.msg[1:]}"
         raise MechanismError(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, NoReturn, TypeAlias
 
 from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean
-from ilmek.io.line_numbers import Path, Places
+from ilmek.io.line_numbers import KeyLines, Path
 from ilmek.units import parse_quantity
 
 Schema: TypeAlias = Mapping[str, Any]
@@ -24,7 +24,7 @@ class SourceText:
     """Where data come from: what a person calls them, and the line of each key."""
 
     name: str
-    places: Places
+    places: KeyLines
 
     def refuse(self, path: Path, error: IlmekError) -> NoReturn:
         """Raise the error once more, with the line and the key before its words; the nearest key that has a line."""

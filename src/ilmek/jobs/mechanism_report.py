@@ -9,7 +9,7 @@ from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism import MechanismRun
 from ilmek.linkage.body_motion import PointMotion
 from ilmek.linkage.mobility import mobility
-from ilmek.linkage.model import GROUND, Pin, Rotation, freedom
+from ilmek.linkage.model import GROUND, Pin, Rotation, degrees_of_freedom
 from ilmek.linkage.motion import Status
 from ilmek.linkage.solve import solve
 from ilmek.machines.animation import FRAMES, animated
@@ -20,7 +20,7 @@ CURVES = 4
 """Curves of a plot, at most, that a person can tell apart."""
 
 
-def places(run: MechanismRun) -> tuple[tuple[str, str], ...]:
+def moving_points(run: MechanismRun) -> tuple[tuple[str, str], ...]:
     """The named points that move, each once: body and point; a joint's by the first body that carries it."""
     mechanism = run.plan.mechanism
     pins = {joint.name for joint in mechanism.joints if isinstance(joint, Pin)}
@@ -38,7 +38,7 @@ def report(run: MechanismRun) -> Report:
     """What the mechanism is and how it moves; lengths in mm, angles in degrees where shown."""
     mechanism = run.plan.mechanism
     results = (
-        Result("freedoms", freedom(mechanism), "1", "freedoms by count, the inputs left free"),
+        Result("freedoms", degrees_of_freedom(mechanism), "1", "freedoms by count, the inputs left free"),
         Result(
             "mobility",
             _mobility(run),
@@ -84,7 +84,7 @@ def _points_table(run: MechanismRun) -> Table:
         *(Column("point"), Column("x from", "mm"), Column("x to", "mm"), Column("y from", "mm"), Column("y to", "mm")),
         *(Column("speed up to", "m/s"), Column("acceleration up to", "m/s^2")),
     )
-    return Table("points", "Points that move", columns, tuple(_point_row(run, *one) for one in places(run)))
+    return Table("points", "Points that move", columns, tuple(_point_row(run, *one) for one in moving_points(run)))
 
 
 def _point_row(run: MechanismRun, body: str, point: str) -> tuple[float | int | str, ...]:
@@ -135,7 +135,7 @@ def _moving(run: MechanismRun, drive: Axis) -> Iterator[Figure]:
     moved = solve(run.plan, run.at(at), {run.running.name: run.speed} if run.running else {})
     if moved.ok:
         joints = {joint.name for joint in run.plan.mechanism.joints}
-        traces = [one for one in places(run) if one[1] not in joints]
+        traces = [one for one in moving_points(run) if one[1] not in joints]
         period = way / abs(run.speed) if run.speed else None
         drawn = Drawing("mechanism", f"{run.name} in motion", ())
         yield animated(moved, at, drawn, traces=traces, period=period, drive=drive)
@@ -177,7 +177,7 @@ def as_json(run: MechanismRun) -> dict[str, object]:
         for body in run.plan.mechanism.moving
     }
     points: dict[str, dict[str, object]] = {}
-    for body, point in places(run):
+    for body, point in moving_points(run):
         moved = motion.point(body, point)
         rates = {"position": moved.position, "velocity": moved.velocity, "acceleration": moved.acceleration}
         points.setdefault(body, {})[point] = rates
@@ -193,7 +193,7 @@ def columns(run: MechanismRun) -> dict[str, FloatArray]:
         found[f"{body} angle [rad]"] = _angle(run, body)
         found[f"{body} omega [rad/s]"] = run.motion.omega(body)
         found[f"{body} alpha [rad/s^2]"] = run.motion.alpha(body)
-    for body, point in places(run):
+    for body, point in moving_points(run):
         moved = run.motion.point(body, point)
         for what, vector, per in _vectors(moved):
             for axis, part in (("x", np.real(vector)), ("y", np.imag(vector))):

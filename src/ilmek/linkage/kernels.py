@@ -32,8 +32,8 @@ first_rate, second_rate = compiled(rrr_group.first_rate), compiled(rrr_group.sec
 rrp_position, rrp_turning = compiled(rrp_group.position), compiled(rrp_group.turning)
 rrp_parting = compiled(rrp_group.parting)
 link_rate, slider_rate = compiled(rrp_group.link_rate), compiled(rrp_group.slider_rate)
-way, heading = compiled(rpr_group.way), compiled(rpr_group.heading)
-turn_rate, way_rate = compiled(rpr_group.turn_rate), compiled(rpr_group.way_rate)
+way, heading = compiled(rpr_group.sliding_distance), compiled(rpr_group.heading)
+turn_rate, way_rate = compiled(rpr_group.turn_rate), compiled(rpr_group.sliding_speed)
 rpr_parting = compiled(rpr_group.parting)
 gain = compiled(rpp_group.gain)
 

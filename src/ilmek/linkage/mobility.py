@@ -29,7 +29,7 @@ from ilmek.linkage.equations import Equation
 from ilmek.linkage.groups.group import Known
 from ilmek.linkage.initial_pose import drawn
 from ilmek.linkage.loops import Loops, loops
-from ilmek.linkage.model import Mechanism, freedom
+from ilmek.linkage.model import Mechanism, degrees_of_freedom
 
 FLAT = 1e-8
 """A singular value this small against the largest is zero: poses are assembled to rounding, far below."""
@@ -91,7 +91,9 @@ def mobility(mechanism: Mechanism, pose: Mapping[str, tuple[complex, float]] | N
     shares = np.linalg.norm(left[:, rank:], axis=1)
     redundant = dict.fromkeys(name for name, share in zip(held.joints, shares, strict=True) if share > PART)
     size, equations = right.shape[0], left.shape[0]
-    return Mobility(freedom(free), size - rank, _beside(held, bodies, right[rank:]), tuple(redundant), equations - rank)
+    return Mobility(
+        degrees_of_freedom(free), size - rank, _beside(held, bodies, right[rank:]), tuple(redundant), equations - rank
+    )
 
 
 def _beside(held: Loops, bodies: Known, ways: FloatArray) -> int:

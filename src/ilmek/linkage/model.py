@@ -6,7 +6,7 @@ A mechanism is data. `structure.plan` finds the order in which it can be solved,
 >>> mechanism = four_bar(0.300, 0.060, 0.200, 0.230, branch=+1)
 >>> [body.name for body in mechanism.bodies]
 ['ground', 'crank', 'coupler', 'rocker']
->>> freedom(mechanism)
+>>> degrees_of_freedom(mechanism)
 1
 """
 
@@ -217,7 +217,7 @@ class Mechanism:
         return tuple(body.name for body in self.bodies if body.name != GROUND)
 
 
-def freedom(mechanism: Mechanism) -> int:
+def degrees_of_freedom(mechanism: Mechanism) -> int:
     """Freedoms by count, the inputs left free: 3 a moving body less 2 a joint, 1 a coupling [Gruebler's count]."""
     return 3 * len(mechanism.moving) - 2 * len(mechanism.joints) - len(mechanism.couplings)
 

@@ -19,7 +19,7 @@ from itertools import combinations
 from ilmek.errors import MechanismError
 from ilmek.linkage.groups import follower, geared, general, prp, rpp, rpr, rrp, rrr, shift, turn
 from ilmek.linkage.groups.group import Group, Step
-from ilmek.linkage.model import GROUND, Mechanism, freedom
+from ilmek.linkage.model import GROUND, Mechanism, degrees_of_freedom
 
 CLOSED_FORMS: tuple[Callable[[Group], Step | None], ...] = (
     turn.recognise,
@@ -93,7 +93,7 @@ def _group(mechanism: Mechanism, bodies: Iterable[str], known: set[str]) -> Grou
 def _over_constrained(group: Group) -> MechanismError:
     """A group that is held too often: by more inputs than the whole has freedoms, or by joints."""
     whole = group.mechanism
-    free, driven = freedom(whole), [entry.name for entry in whole.inputs]
+    free, driven = degrees_of_freedom(whole), [entry.name for entry in whole.inputs]
     held = f"{_holding(group)} hold it {_times(-group.freedom)} too often"
     if 1 <= free < len(driven):
         held += f": the inputs {', '.join(driven)} drive {free} {'freedom' if free == 1 else 'freedoms'}"

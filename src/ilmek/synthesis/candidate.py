@@ -19,7 +19,7 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.synthesis.circuit_loops import CircuitLoop, circuit_loops
 from ilmek.synthesis.four_bar import TRACER, FourBar
-from ilmek.synthesis.precision import PositionMatch, order, places
+from ilmek.synthesis.precision import PositionMatch, order, position_matches
 from ilmek.synthesis.task import PrecisionTask
 
 SWEEP = 72
@@ -156,7 +156,7 @@ def judge(four_bar: FourBar, task: PrecisionTask) -> Candidate:
     if task.points is not None and four_bar.tracer is None:
         raise ParameterError("the task asks for points, the four-bar has no tracer", do="say which point draws them")
     loops = circuit_loops(four_bar)
-    chosen = places(four_bar, task, loops)
+    chosen = position_matches(four_bar, task, loops)
     reached = [one for one in chosen if one is not None]
     met_in = order(reached, loops) if len(reached) == len(chosen) else None
     stretches = _stretches(reached, loops)

@@ -87,10 +87,10 @@ class FilterResult:
         """How many were kept and removed, and for what: a line each."""
         total = len(self.kept) + len(self.removed)
         first = f"{total} four-bar{'' if total == 1 else 's'}: {len(self.kept)} kept, {len(self.removed)} removed"
-        return "\n".join([first, *(f"{SAID[name]}: {count}" for name, count in self.counts.items())])
+        return "\n".join([first, *(f"{REASONS[name]}: {count}" for name, count in self.counts.items())])
 
 
-SAID = {
+REASONS = {
     "closes": "does not close at a position",
     "met": "misses a position",
     "one_circuit": "positions on two circuits",

@@ -56,7 +56,9 @@ class PositionMatch:
     miss: float
 
 
-def places(four_bar: FourBar, task: PrecisionTask, loops: Sequence[CircuitLoop]) -> tuple[PositionMatch | None, ...]:
+def position_matches(
+    four_bar: FourBar, task: PrecisionTask, loops: Sequence[CircuitLoop]
+) -> tuple[PositionMatch | None, ...]:
     """For each precision position the configuration that is taken for it; None where the linkage does not get there."""
     if not loops:
         return (None,) * task.count

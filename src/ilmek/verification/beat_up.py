@@ -109,7 +109,7 @@ def _beat() -> tuple[Claim, ...]:
             "crank angle of the greatest speed, 'at about beating point'",
             "48",
             "deg",
-            lambda: _as_printed().peaks["beater_velocity"].angle / deg,
+            lambda: _as_printed().peaks["beater_velocity"].at / deg,
             "3, Fig 6 (b)",
             "the beat is the extended dead centre, where the beater stands still; it is fastest 69° before",
         ),

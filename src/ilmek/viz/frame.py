@@ -7,7 +7,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.viz.scale import tick_labels
-from ilmek.viz.sheet import Sheet, places
+from ilmek.viz.sheet import Sheet, axis_points
 from ilmek.viz.style import AXIS, GRID, MUTED, PAPER, SMALL, TEXT
 
 _TICK = 3.0
@@ -46,7 +46,7 @@ def paper(sheet: Sheet, box: Box) -> None:
 
 def grid(sheet: Sheet, box: Box, x: Sequence[float] = (), y: Sequence[float] = ()) -> None:
     """Grid lines at these places [pt]."""
-    upright, level = places(x), 1j * places(y)
+    upright, level = axis_points(x), 1j * axis_points(y)
     starts = np.concatenate([upright + 1j * box.low, level + box.left])
     ends = np.concatenate([upright + 1j * box.top, level + box.right])
     sheet.lines(starts, ends, color=GRID, linewidth=0.6, zorder=1.0)
@@ -54,7 +54,7 @@ def grid(sheet: Sheet, box: Box, x: Sequence[float] = (), y: Sequence[float] = (
 
 def lower_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], name: str) -> None:
     """The axis along the lower edge: ticks at places [pt] with their values, and its name."""
-    _edge(sheet, 1j * box.low + places([box.left, box.right]), 1j * box.low + places(at), -1j)
+    _edge(sheet, 1j * box.low + axis_points([box.left, box.right]), 1j * box.low + axis_points(at), -1j)
     for x, words in zip(at, tick_labels(values), strict=True):
         sheet.text(x + 1j * (box.low - _TICK - 2.5), words, ha="center", va="top", fontsize=SMALL, color=MUTED)
     middle = (box.left + box.right) / 2
@@ -63,7 +63,7 @@ def lower_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float],
 
 def upper_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], name: str) -> None:
     """The axis along the upper edge."""
-    _edge(sheet, 1j * box.top + places([box.left, box.right]), 1j * box.top + places(at), 1j)
+    _edge(sheet, 1j * box.top + axis_points([box.left, box.right]), 1j * box.top + axis_points(at), 1j)
     for x, words in zip(at, tick_labels(values), strict=True):
         sheet.text(x + 1j * (box.top + _TICK + 2.0), words, ha="center", va="bottom", fontsize=SMALL, color=MUTED)
     middle = (box.left + box.right) / 2
@@ -72,7 +72,7 @@ def upper_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float],
 
 def left_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], name: str) -> None:
     """The axis along the left edge; its name stands at the sheet's edge and is read from the right."""
-    _edge(sheet, box.left + 1j * places([box.low, box.top]), box.left + 1j * places(at), -1)
+    _edge(sheet, box.left + 1j * axis_points([box.low, box.top]), box.left + 1j * axis_points(at), -1)
     for y, words in zip(at, tick_labels(values), strict=True):
         place = complex(box.left - _TICK - 2.5, y)
         sheet.text(place, words, ha="right", va="center_baseline", fontsize=SMALL, color=MUTED)

@@ -12,14 +12,14 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray, IntArray
 from ilmek.viz.labels import LabelRequest, covered
 
-PLACES = 16
+NAME_POSITIONS = 16
 _TOUCHED = 30.0
 """What it costs to touch another name, or to leave the sheet."""
 
 
-def places_around(one: LabelRequest) -> ComplexArray:
+def positions_around(one: LabelRequest) -> ComplexArray:
     """Where the middle of the name may stand, from its point [pt]: its box clears the distance in every direction."""
-    angle = 2 * np.pi * np.arange(PLACES) / PLACES + np.pi / 4
+    angle = 2 * np.pi * np.arange(NAME_POSITIONS) / NAME_POSITIONS + np.pi / 4
     aside = (
         np.clip(1.5 * np.cos(angle), -1, 1) * one.half.real + 1j * np.clip(1.5 * np.sin(angle), -1, 1) * one.half.imag
     )
@@ -36,7 +36,7 @@ def named(
     """
     found: list[ComplexArray] = []
     for one in wanted:
-        around = places_around(one)
+        around = positions_around(one)
         centres = one.anchors[:, np.newaxis] + around
         cost = np.array([covered(at, one.half, met) for at, met in zip(centres, obstacles, strict=True)])
         least, most = lower + one.half, upper - one.half

@@ -143,6 +143,6 @@ def circle(centre: complex, radius: float) -> ComplexArray:
     return np.asarray(centre + radius * np.exp(2j * np.pi * np.arange(24) / 24))
 
 
-def places(values: Sequence[float]) -> ComplexArray:
+def axis_points(values: Sequence[float]) -> ComplexArray:
     """Numbers along an axis as places on the real line."""
     return np.array(values, dtype=complex)

@@ -268,7 +268,7 @@ def _round(
 
 
 @compiled
-def held(
+def constrained(
     model: Model,
     rows: np.ndarray,
     grip: np.ndarray,

@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.dynamics.multibody.contact import contacts, settle, stride, until_touch
-from ilmek.dynamics.multibody.kernel import Model, along, applied, factor, grips, held, joints
+from ilmek.dynamics.multibody.kernel import Model, along, applied, constrained, factor, grips, joints
 from ilmek.num.compiled import compiled
 
 DONE, TOO_SMALL, TOO_MANY, STEPPED = 0, 1, 2, 3
@@ -43,7 +43,7 @@ def rates(model: Model, y: np.ndarray, out: np.ndarray, reaction: np.ndarray) ->
     factor(model, rows, grip, root)
     for k in range(count):
         bias[k] = -bias[k]
-    held(model, rows, grip, root, force, bias, out[size : 2 * size], reaction[:count])
+    constrained(model, rows, grip, root, force, bias, out[size : 2 * size], reaction[:count])
     for i in range(size):
         out[i] = v[i]
 
@@ -68,13 +68,13 @@ def project(model: Model, y: np.ndarray) -> float:
         if open_by <= 1e-15 * model.length or open_by > 0.5 * before:
             break
         before = open_by
-        held(model, rows, grip, root, none, gap, move, reaction)
+        constrained(model, rows, grip, root, none, gap, move, reaction)
         for i in range(size):
             q[i] += move[i]
     for _ in range(2):
         for k in range(count):
             bias[k] = -along(model, rows[k], k, v)
-        held(model, rows, grip, root, none, bias, move, reaction)
+        constrained(model, rows, grip, root, none, bias, move, reaction)
         for i in range(size):
             v[i] += move[i]
     return open_by

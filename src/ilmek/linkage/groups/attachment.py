@@ -8,7 +8,7 @@ from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.groups.group import Columns, Group, Known
 from ilmek.linkage.groups.shift import SlideTrack, track
-from ilmek.linkage.groups.turn import hung
+from ilmek.linkage.groups.turn import pinned
 from ilmek.linkage.model import Joint, Pin
 
 
@@ -29,7 +29,7 @@ class Attachment:
 
     def place(self, on: BodyMotion, columns: Columns) -> BodyMotion:
         """The body's motion; columns: direction, omega, alpha; on a slide s, s', s''."""
-        return hung(on, self.hinge, self.at, columns) if self.track is None else self.track.place(on, columns)
+        return pinned(on, self.hinge, self.at, columns) if self.track is None else self.track.place(on, columns)
 
     def jerk(self, on: BodyJerk, placed: BodyMotion, columns: Columns, third: RealField) -> BodyJerk:
         """The body's jerk; third: beta in the world, on a slide the third rate of s."""
@@ -38,7 +38,7 @@ class Attachment:
         return self.track.jerk(on, placed, columns, third)
 
 
-def hang(group: Group, joint: Joint, body: str) -> Attachment:
+def attach(group: Group, joint: Joint, body: str) -> Attachment:
     """The body on its joint."""
     on = group.beyond(joint, body)
     if isinstance(joint, Pin):
@@ -55,12 +55,12 @@ def hangs(group: Group) -> tuple[Attachment, ...] | None:
         for joint in group.joints:
             ends = [body for body in joint.bodies if body in group.bodies and body not in done]
             if len(ends) == 1 and joint.name not in {one.joint for one in found}:
-                found.append(hang(group, joint, ends[0]))
+                found.append(attach(group, joint, ends[0]))
                 done.add(ends[0])
     return tuple(found) if len(found) == len(group.bodies) == len(group.joints) else None
 
 
-def place_all(hung_on: tuple[Attachment, ...], known: Known, columns: Mapping[str, Columns]) -> dict[str, BodyMotion]:
+def locate_all(hung_on: tuple[Attachment, ...], known: Known, columns: Mapping[str, Columns]) -> dict[str, BodyMotion]:
     """The motions of bodies that hang on one another."""
     placed = dict(known)
     for one in hung_on:

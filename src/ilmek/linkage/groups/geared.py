@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.groups.attachment import Attachment, hangs, place_all
+from ilmek.linkage.groups.attachment import Attachment, hangs, locate_all
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
 from ilmek.linkage.groups.winding import LinearRelation, courses
 from ilmek.plane.vectors import unit
@@ -52,7 +52,7 @@ class Geared(Step):
 
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The bodies on their joints."""
-        return place_all(self.hangs, known, columns)
+        return locate_all(self.hangs, known, columns)
 
     def jerk(
         self,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.group import Columns, Known, Step
 from ilmek.linkage.groups.shift import SlideTrack
-from ilmek.linkage.groups.turn import hung
+from ilmek.linkage.groups.turn import pinned
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class PinnedPair(Step):
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The bodies, anchored at the known pins."""
         return {
-            link: hung(known[on], hinge, at, columns[link])
+            link: pinned(known[on], hinge, at, columns[link])
             for link, on, hinge, at in zip(self.links, self.on, self.hinges, self.at, strict=True)
         }
 
@@ -71,6 +71,6 @@ class SliderPair(Step):
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The link, anchored at the known pin, and the slider, anchored at its point on the guide."""
         return {
-            self.link: hung(known[self.on[0]], self.hinge, self.at, columns[self.link]),
+            self.link: pinned(known[self.on[0]], self.hinge, self.at, columns[self.link]),
             self.slider: self.track.place(known[self.on[1]], columns[self.slider]),
         }

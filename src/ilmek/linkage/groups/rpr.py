@@ -26,11 +26,11 @@ from ilmek.plane.vectors import dot
 from ilmek.units import format_quantity
 
 
-def way(d: ComplexField, o: RealField, branch: RealField) -> RealField:
+def sliding_distance(d: ComplexField, o: RealField, branch: RealField) -> RealField:
     """Way t [m] along the slide from A to the foot of B, d = B - A; NaN where the pins are nearer than the offset.
 
     branch  +1: B ahead of A in the slide's direction, -1: behind
-    >>> float(way(3 + 4j, 3.0, branch=-1))
+    >>> float(sliding_distance(3 + 4j, 3.0, branch=-1))
     -4.0
     """
     return branch * np.sqrt(d.real * d.real + d.imag * d.imag - o * o)
@@ -49,13 +49,13 @@ def turn_rate(e: ComplexField, r: ComplexField, t: RealField) -> RealField:
     """Angular velocity w [rad/s] of both bodies, from i w d + t' e = r.
 
     For velocities r = d'; for accelerations r is what `parting` gives and the answer is alpha.
-    >>> float(turn_rate(0.96 + 0.28j, 2j, 4.0)), float(way_rate(0.96 + 0.28j, 2j, 0.48, 3.0))
+    >>> float(turn_rate(0.96 + 0.28j, 2j, 4.0)), float(sliding_speed(0.96 + 0.28j, 2j, 0.48, 3.0))
     (0.48, 2.0)
     """
     return (e.real * r.imag - e.imag * r.real) / t
 
 
-def way_rate(e: ComplexField, r: ComplexField, w: RealField, o: RealField) -> RealField:
+def sliding_speed(e: ComplexField, r: ComplexField, w: RealField, o: RealField) -> RealField:
     """Sliding speed t' [m/s], from i w d + t' e = r; see `turn_rate`, of which w is the answer."""
     return e.real * r.real + e.imag * r.imag + w * o
 
@@ -115,11 +115,11 @@ class SlidingDyad(PinnedPair):
         """Directions of both bodies, their common angular velocity and acceleration."""
         A, B = self.pins(known)
         d = B.position - A.position
-        t = way(d, self.offset, self.branch)
+        t = sliding_distance(d, self.offset, self.branch)
         e = heading(d, self.offset, t)
         r = B.velocity - A.velocity
         w = turn_rate(e, r, t)
-        r = parting(B.acceleration - A.acceleration, d, e, w, way_rate(e, r, w, self.offset))
+        r = parting(B.acceleration - A.acceleration, d, e, w, sliding_speed(e, r, w, self.offset))
         alpha = turn_rate(e, r, t)
         direction = e * self.track.lead.conjugate()
         columns = {self.links[0]: (direction, w, alpha), self.links[1]: (direction * self.track.twist, w, alpha)}
@@ -138,8 +138,8 @@ class SlidingDyad(PinnedPair):
         A, B, o = one.anchor, two.anchor, self.offset
         e, w, alpha = one.direction * self.track.lead, one.omega, one.alpha
         d, gain = B.position - A.position, B.acceleration - A.acceleration
-        t, dt = dot(e, d), way_rate(e, B.velocity - A.velocity, w, o)
-        ddt = way_rate(e, parting(gain, d, e, w, dt), alpha, o)
+        t, dt = dot(e, d), sliding_speed(e, B.velocity - A.velocity, w, o)
+        ddt = sliding_speed(e, parting(gain, d, e, w, dt), alpha, o)
         r = jerks[1] - jerks[0] - slid_jerk(e, w, alpha, 0.0, t + 1j * o, dt, ddt, 0.0)
         beta = turn_rate(e, r, t)
         return {self.links[0]: BodyJerk(one, jerks[0], beta), self.links[1]: BodyJerk(two, jerks[1], beta)}

@@ -47,7 +47,7 @@ class DrivenCrank(Step):
 
     def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The driven body, anchored at its pin."""
-        return {self.body: hung(known[self.carrier], self.hinge, self.at, columns[self.body])}
+        return {self.body: pinned(known[self.carrier], self.hinge, self.at, columns[self.body])}
 
     def jerk(
         self,
@@ -62,7 +62,7 @@ class DrivenCrank(Step):
         return {self.body: BodyJerk(placed[self.body], carrier.carry(self.hinge), beta)}
 
 
-def hung(on: BodyMotion, hinge: complex, at: complex, columns: Columns) -> BodyMotion:
+def pinned(on: BodyMotion, hinge: complex, at: complex, columns: Columns) -> BodyMotion:
     """A body pinned at `at` [m] of its frame to `hinge` [m] of a known body; columns: direction, omega, alpha."""
     direction, omega, alpha = columns
     return BodyMotion(on.carry(hinge), at, direction, omega, alpha)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from ilmek.errors import ParameterError
 from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate
-from ilmek.synthesis.filters import SAID, Filters, sift
+from ilmek.synthesis.filters import REASONS, Filters, sift
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,7 +53,7 @@ class FourBarSelection:
         """How many there were, and for what they went."""
         kept = len(self.kept) + self.more
         total = kept + len(self.removed)
-        said = ", ".join(f"{SAID[name]} {count}" for name, count in self.counts.items())
+        said = ", ".join(f"{REASONS[name]} {count}" for name, count in self.counts.items())
         first = f"{total} four-bar{'' if total == 1 else 's'}: {kept} kept, {len(self.removed)} removed"
         return f"{first} ({said})" if said else first
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from ilmek.machines.four_bars.choice import FourBarOption, FourBarSelection
 from ilmek.report import Check, Column, Json, Result, Table, at_least
 from ilmek.synthesis.candidate import Candidate, PositionResult
-from ilmek.synthesis.filters import SAID
+from ilmek.synthesis.filters import REASONS
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.units import deg, format_quantity
 
@@ -190,7 +190,7 @@ def _removed_table(choice: FourBarSelection, name: str) -> Table:
         for one, reasons in choice.removed[:LISTED]
     )
     left = len(choice.removed) - len(rows)
-    counted = ", ".join(f"{SAID[kind]} {count}" for kind, count in choice.counts.items())
+    counted = ", ".join(f"{REASONS[kind]} {count}" for kind, count in choice.counts.items())
     title = f"Removed: {counted}" + (f" ({left} more are in the JSON)" if left else "")
     return Table(f"{name}-removed", title, columns, rows, brief=len(rows) <= BRIEF)
 

@@ -24,10 +24,10 @@ from ilmek.synthesis.approximation.polynomial import (
     Approximation,
     SynthesisPolynomial,
     chebyshev_nodes,
-    even_places,
     interpolation,
     least_squares,
     minimax,
+    range_nodes,
 )
 from ilmek.synthesis.function import Function
 
@@ -108,7 +108,7 @@ def design_generators(
     """
     polynomial = design_polynomial(function, crank_start=crank_start, rocker_start=rocker_start, weight=weight)
     low, high = sorted((function.start, function.stop))
-    places = even_places(low, high)
+    places = range_nodes(low, high)
     if criterion == "interpolation":
         count = 4 if polynomial.products else 3
         answers, words = interpolation(polynomial, chebyshev_nodes(low, high, count), places)

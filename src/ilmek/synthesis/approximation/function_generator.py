@@ -30,9 +30,9 @@ from ilmek.synthesis.approximation.search import (
     PLACES,
     DescentEnd,
     Starts,
-    gauss_places,
+    gauss_nodes,
     generator_search,
-    range_places,
+    range_samples,
 )
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.function import ErrorCurve, Function, error_curve
@@ -126,13 +126,13 @@ def _measured(
     error = partial(structural_error, function, end.generator, end.sense)
     drawn_at = _vanishing(function, error)
     four_bar = end.generator.drawn(function, drawn_at, end.sense, ground)
-    x, shares = gauss_places(function, None)
+    x, shares = gauss_nodes(function, None)
 
     def weighted(x: FloatArray) -> FloatArray:
         return np.asarray(error(x) * (1.0 if weight is None else weight(x)))
 
-    at = extremes(weighted, range_places(function, PLACES))
-    peaks = at if weight is None else extremes(error, range_places(function, PLACES))
+    at = extremes(weighted, range_samples(function, PLACES))
+    peaks = at if weight is None else extremes(error, range_samples(function, PLACES))
     return FunctionApproximation(
         four_bar,
         drawn_at,
@@ -150,7 +150,7 @@ def _measured(
 
 def _vanishing(function: Function, error: partial[FloatArray]) -> float:
     """The first place at which the error vanishes; where it is least if it never does."""
-    x = range_places(function, 4 * PLACES)
+    x = range_samples(function, 4 * PLACES)
     seen = error(x)
     changes = np.flatnonzero(np.sign(seen[1:]) != np.sign(seen[:-1]))
     if not len(changes):
@@ -166,7 +166,7 @@ def _check(
     ground: float,
     weight: Weight | None,
 ) -> None:
-    x = range_places(function, PLACES)
+    x = range_samples(function, PLACES)
     if criterion not in CRITERIA:
         raise ParameterError(f"criterion {criterion!r} of a function's approximation", allowed=", ".join(CRITERIA))
     if not (math.isfinite(ground) and ground > 0):

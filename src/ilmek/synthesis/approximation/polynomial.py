@@ -10,7 +10,7 @@ that is in every product; from there it goes on by exchange (`approximation.exch
 [thesis 2.4-2.10, where 2.7 repeats the integrals for the sums, and 2.10 has "if" for "only if"; Alizade; Todorov]
 
 >>> line = SynthesisPolynomial(lambda x: np.stack([np.ones_like(x), x], axis=-1), np.sqrt)
->>> best = minimax(line, even_places(0.0, 1.0)).found[0]
+>>> best = minimax(line, range_nodes(0.0, 1.0)).found[0]
 >>> best.parameters.round(12), round(best.worst, 12), best.proven
 (array([0.125, 1.   ]), 0.125, True)
 """
@@ -161,7 +161,7 @@ class Approximations(NamedTuple):
     left_out: tuple[str, ...]
 
 
-def even_places(start: float, stop: float, count: int = 129) -> Float[np.ndarray, " count"]:
+def range_nodes(start: float, stop: float, count: int = 129) -> Float[np.ndarray, " count"]:
     """Places over a range, both ends among them, denser towards the ends: the extremes of Chebyshev's polynomial."""
     _check_range(start, stop)
     return np.asarray(0.5 * (start + stop) - 0.5 * (stop - start) * np.cos(np.linspace(0, np.pi, count)))

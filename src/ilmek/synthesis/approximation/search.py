@@ -81,13 +81,13 @@ class DescentEnd(NamedTuple):
     bound: float
 
 
-def range_places(function: Function, count: int) -> FloatArray:
+def range_samples(function: Function, count: int) -> FloatArray:
     """Places over the range, denser towards its ends."""
     middle, half = 0.5 * (function.start + function.stop), 0.5 * abs(function.stop - function.start)
     return np.asarray(middle - half * np.cos(np.linspace(0, np.pi, count)))
 
 
-def gauss_places(function: Function, weight: Weight | None) -> tuple[FloatArray, FloatArray]:
+def gauss_nodes(function: Function, weight: Weight | None) -> tuple[FloatArray, FloatArray]:
     """Gauss's nodes over the range and the weights with which squares there add up to their mean over it."""
     nodes, shares = np.polynomial.legendre.leggauss(NODES)
     x = 0.5 * (function.start + function.stop) + 0.5 * (function.stop - function.start) * nodes
@@ -141,7 +141,7 @@ def _starts(
 
 def _better_sense(function: Function, one: Generator) -> int:
     """The sense with the smaller structural error."""
-    x = range_places(function, PLACES)
+    x = range_samples(function, PLACES)
     worst = [float(np.max(np.abs(structural_error(function, one, sense, x)))) for sense in (+1, -1)]
     return +1 if worst[0] <= worst[1] else -1
 
@@ -151,7 +151,7 @@ def _grid(function: Function, starts: Starts, weight: Weight | None) -> Iterator
     directions = np.linspace(0, np.pi, GRID[sum(start is None for start in starts)], endpoint=False)
     axes = [directions if start is None else np.array([start]) for start in starts]
     alpha, beta = np.meshgrid(*axes, indexing="ij")
-    x, shares = gauss_places(function, weight)
+    x, shares = gauss_nodes(function, weight)
     fitted = design_fit(function, (alpha, beta), x, shares)
     squares = np.stack(
         [np.sum(shares * structural_error(function, fitted, sign, x) ** 2, axis=-1) for sign in (+1, -1)]
@@ -173,7 +173,7 @@ def _grid(function: Function, starts: Starts, weight: Weight | None) -> Iterator
 def _least_squares(function: Function, end: DescentEnd, free: Free, weight: Weight | None) -> DescentEnd:
     """The nearest least mean square of the structural error."""
     errors = StructuralErrors(function, end.sense, end.generator.numbers, free)
-    x, shares = gauss_places(function, weight)
+    x, shares = gauss_nodes(function, weight)
     root = np.sqrt(shares)
 
     def shared(parameters: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -188,7 +188,7 @@ def _least_squares(function: Function, end: DescentEnd, free: Free, weight: Weig
 def _minimax(function: Function, end: DescentEnd, free: Free, weight: Weight | None) -> DescentEnd:
     """The nearest least greatest structural error, and the bound that proves it."""
     errors = StructuralErrors(function, end.sense, end.generator.numbers, free, weight)
-    best = minimax_over_range(errors, errors.known[free], range_places(function, PLACES), least=NOTHING)
+    best = minimax_over_range(errors, errors.known[free], range_samples(function, PLACES), least=NOTHING)
     gap = best.gap if best.worst > NOTHING else 0.0
     return DescentEnd(end.sense, errors.generator(best.parameters), gap, best.level)
 

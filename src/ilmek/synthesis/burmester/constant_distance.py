@@ -117,7 +117,7 @@ def homogeneous(places: ComplexArray) -> Float[np.ndarray, "... 3"]:
     return np.stack([places.real, places.imag, np.ones(places.shape)], axis=-1)
 
 
-def place(vector: Num[np.ndarray, "3"]) -> tuple[complex, bool]:
+def affine_point(vector: Num[np.ndarray, "3"]) -> tuple[complex, bool]:
     """The place of (x, y, k), and whether it is finite; of one infinitely far it is the direction, a unit vector."""
     x, y, k = (float(one) for one in vector)
     reach = math.hypot(x, y)

@@ -56,7 +56,7 @@ ROUNDS = 6
 SLOWEST = 0.3
 """Share of the mean gap that every gap counts more, lest the samples crowd."""
 
-Way: TypeAlias = Callable[[FloatArray], FloatArray]
+CurveArc: TypeAlias = Callable[[FloatArray], FloatArray]
 """A closed part of the centre-point curve: a parameter from 0 to 2 pi -> homogeneous points."""
 
 
@@ -164,8 +164,8 @@ class CurveFromPole(NamedTuple):
     With a line there the parts may jump at it: another pole serves better.
     """
 
-    parts: tuple[Way, ...]
-    lines: tuple[Way, ...]
+    parts: tuple[CurveArc, ...]
+    lines: tuple[CurveArc, ...]
 
 
 def _ways(G: FloatArray, start: FloatArray) -> CurveFromPole | None:
@@ -250,7 +250,7 @@ def _loop(G: FloatArray, way: FloatArray) -> CurveLoop:
     return CurveLoop(_followed(m), _followed(np.where(alone[:, None], null_vector(rows), 0.0)))
 
 
-def _even(G: FloatArray, way: Way, samples: int) -> CurveLoop:
+def _even(G: FloatArray, way: CurveArc, samples: int) -> CurveLoop:
     """A closed part with its samples about as far apart for the pivots and the pins together."""
     tau = 2 * math.pi * np.arange(samples) / samples
     loop = _loop(G, way(tau))

@@ -25,9 +25,9 @@ from ilmek.plane.vectors import dot, unit
 from ilmek.synthesis.burmester.constant_distance import (
     FAR,
     TaskFrame,
+    affine_point,
     family,
     homogeneous,
-    place,
     pose_forms,
     require_task,
 )
@@ -275,6 +275,6 @@ def _larger(a: ComplexArray, k: NumberArray, b: ComplexArray, j: NumberArray) ->
 
 def _guide(m: NumberArray, w: NumberArray, frame: TaskFrame) -> Guide:
     if not (np.any(m) and np.any(w)):
-        return Guide(GuideKind.FREE, *(frame.spot(place(v)[0]) if np.any(v) else complex("nan") for v in (m, w)))
-    (pivot, near), (pin, close) = place(m), place(w)
+        return Guide(GuideKind.FREE, *(frame.spot(affine_point(v)[0]) if np.any(v) else complex("nan") for v in (m, w)))
+    (pivot, near), (pin, close) = affine_point(m), affine_point(w)
     return Guide(ENDS[near, close], frame.spot(pivot) if near else pivot, frame.spot(pin) if close else pin)

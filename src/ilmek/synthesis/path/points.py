@@ -21,9 +21,9 @@ from ilmek.errors import ParameterError
 from ilmek.plane.vectors import unit
 from ilmek.synthesis.burmester.constant_distance import (
     TaskFrame,
+    affine_point,
     family,
     homogeneous,
-    place,
     require_task,
     still_points,
     timed_forms,
@@ -233,7 +233,7 @@ def _task(
 
 
 def _crank(m: NumberArray, w: NumberArray, centre_frame: TaskFrame, circle_frame: TaskFrame) -> TimedCrank:
-    (pivot, near), (arm, close) = place(m), place(w)
+    (pivot, near), (arm, close) = affine_point(m), affine_point(w)
     still = close and abs(arm) <= STILL
     if not close:
         kind = CrankKind.FAR_PIN
