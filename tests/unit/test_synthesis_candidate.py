@@ -166,7 +166,7 @@ def test_a_curve_that_crosses_itself_is_passed_in_the_order_of_the_task() -> Non
 def test_limits_are_sieved_only_where_they_are_asked() -> None:
     found = planted(ROCKER, [0.0, 0.2, 0.5], [1] * 3)
     assert defects(found) == {}
-    asked = Filters(full_turn=True, transmission=80 * deg, link_ratio=1.2, size=0.5)
+    asked = Filters(full_turn=True, transmission_min=80 * deg, link_ratio_max=1.2, size_max=0.5)
     said = defects(found, asked)
     assert list(said) == ["full_turn", "transmission", "link_ratio", "size"]
     assert said["full_turn"] == "the crank does not turn fully: triple-rocker"
@@ -191,7 +191,7 @@ def test_what_is_removed_is_counted_and_explained() -> None:
     assert found.kept == (sound,)
     assert found.counts == {"one_circuit": 2, "in_order": 1}
     assert found.words == "4 four-bars: 1 kept, 3 removed\npositions on two circuits: 2\npositions out of order: 1"
-    everything = Filters(closes=False, met=False, one_circuit=False, one_branch=False, in_order=False)
+    everything = Filters(one_circuit=False, one_branch=False, in_order=False)
     assert len(sift([two, sound, wrong], everything).kept) == 3
 
 
@@ -252,9 +252,9 @@ def _dead_centres(swing: float, rotation: float) -> tuple[np.ndarray, np.ndarray
         (lambda: PrecisionTask(rocker=np.array([0.0, 30.0, 60.0])), "60 deg would be 1.0472"),
         (lambda: PrecisionTask(rocker=np.array([0.0, np.inf])), "not finite"),
         (lambda: PrecisionTask(points=np.array([0, 1]), point_tolerance=-1.0), "point_tolerance"),
-        (lambda: Filters(transmission=40.0), "40 deg is 0.698132 rad"),
-        (lambda: Filters(link_ratio=0.5), "all links equal"),
-        (lambda: Filters(size=0.0), "size 0 m"),
+        (lambda: Filters(transmission_min=40.0), "did you mean 40deg"),
+        (lambda: Filters(link_ratio_max=0.5), "link_ratio_max=0.5 is out of bounds; allowed: at least 1"),
+        (lambda: Filters(size_max=0.0), "size_max=0 mm"),
         (lambda: judge(FourBar(0j, 1 + 0j, 1j, 1 + 1j), PrecisionTask(points=np.array([0, 1]))), "has no tracer"),
     ],
 )

@@ -12,7 +12,6 @@ sight, with all its reasons in words, and counted.
 misses a position: 1
 """
 
-import math
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -20,46 +19,33 @@ from itertools import pairwise
 
 import numpy as np
 
-from ilmek.errors import ParameterError
+from ilmek.params import Params, kind
 from ilmek.synthesis.candidate import Candidate
 from ilmek.units import deg, format_quantity
 
 
 @dataclass(frozen=True, slots=True)
-class Filters:
-    """What a candidate must have.
-
-    closes       the linkage closes at every position        met   every position within the task's tolerances
-    one_circuit  without being taken apart                   one_branch  without passing a dead centre of the crank
-    in_order     the crank meets the positions in order      full_turn   the crank turns fully
-    transmission least acute transmission angle [rad]        link_ratio  greatest longest link by shortest
-    size         greatest extent [m]
+class Filters(Params):
+    """What a candidate must have besides doing its task: it closes at every position and is within the tolerances.
 
     Raises ParameterError for a limit that no four-bar can keep.
     """
 
-    closes: bool = True
-    met: bool = True
-    one_circuit: bool = True
-    one_branch: bool = True
-    in_order: bool = True
-    full_turn: bool = False
-    transmission: float | None = None
-    link_ratio: float | None = None
-    size: float | None = None
-
-    def __post_init__(self) -> None:
-        if self.transmission is not None and not 0 <= self.transmission < math.pi / 2:
-            guess = self.transmission * deg
-            raise ParameterError(
-                f"least transmission angle {self.transmission:g} rad",
-                allowed="0 to below 1.5708 rad, 90 deg",
-                do=f"{self.transmission:g} deg is {guess:.6g} rad" if 0 < guess < math.pi / 2 else "",
-            )
-        if self.link_ratio is not None and not self.link_ratio >= 1:
-            raise ParameterError(f"greatest link ratio {self.link_ratio:g}", allowed="1 (all links equal) or more")
-        if self.size is not None and not self.size > 0:
-            raise ParameterError(f"greatest size {self.size:g} m", allowed="above 0")
+    one_circuit: bool = kind.flag(True, doc="leave out four-bars that must be taken apart between two positions")
+    one_branch: bool = kind.flag(
+        True, doc="leave out four-bars that pass a dead centre of the crank between two positions"
+    )
+    in_order: bool = kind.flag(True, doc="leave out four-bars whose crank meets the positions in another order")
+    full_turn: bool = kind.flag(False, doc="leave out four-bars whose crank does not turn fully")
+    transmission_min: float = kind.angle(
+        0.0, at_least=0.0, below=90 * deg, doc="least angle between coupler and rocker over the motion"
+    )
+    link_ratio_max: float | None = kind.ratio(
+        None, at_least=1.0, at_most=1e6, doc="longest link over the shortest, at most"
+    )
+    size_max: float | None = kind.length(
+        None, above=0.0, at_most=1e3, doc="greatest extent of the moving four-bar, at most"
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +111,7 @@ def defects(one: Candidate, filters: Filters | None = None) -> dict[str, str]:
     """The filters that a candidate fails, and why, in words; empty where it passes."""
     filters = filters or Filters()
     found = _of_positions(one) | _of_motion(one, filters)
-    return {name: words for name, words in found.items() if getattr(filters, name)}
+    return {name: words for name, words in found.items() if getattr(filters, name, True)}
 
 
 def _of_positions(one: Candidate) -> dict[str, str]:
@@ -152,15 +138,16 @@ def _of_motion(one: Candidate, filters: Filters) -> dict[str, str]:
     found = {}
     if not one.crank_turns:
         found["full_turn"] = f"the crank does not turn fully: {one.grashof.kind}"
-    if filters.transmission is not None and not one.least_transmission >= filters.transmission:
-        least, limit = (format_quantity(angle, "deg") for angle in (one.least_transmission, filters.transmission))
+    if filters.transmission_min and not one.least_transmission >= filters.transmission_min:
+        least, limit = (format_quantity(angle, "deg") for angle in (one.least_transmission, filters.transmission_min))
         found["transmission"] = f"transmission angle {least}, asked at least {limit}"
-    if filters.link_ratio is not None and not one.link_ratio <= filters.link_ratio:
+    if filters.link_ratio_max is not None and not one.link_ratio <= filters.link_ratio_max:
         found["link_ratio"] = (
-            f"longest link {one.link_ratio:.4g} times the shortest, asked at most {filters.link_ratio:g}"
+            f"longest link {one.link_ratio:.4g} times the shortest, asked at most {filters.link_ratio_max:g}"
         )
-    if filters.size is not None and not one.size <= filters.size:
-        found["size"] = f"size {format_quantity(one.size, 'mm')}, asked at most {format_quantity(filters.size, 'mm')}"
+    if filters.size_max is not None and not one.size <= filters.size_max:
+        size, limit = (format_quantity(length, "mm") for length in (one.size, filters.size_max))
+        found["size"] = f"size {size}, asked at most {limit}"
     return found
 
 

@@ -1,93 +1,56 @@
-"""What every four-bar that answers a task may be asked for besides: the parameters of the sieve, declared once."""
+"""What every four-bar that does a task may be required to have besides: the engine's `Filters` as parameters."""
 
-from typing import Any, Protocol, runtime_checkable
+from dataclasses import field
+from typing import Any
 
-from ilmek.params import param
+from ilmek.params import Params, Value, declared, param
 from ilmek.synthesis.filters import Filters
-from ilmek.units import deg
 
 
-@runtime_checkable
-class FilterParams(Protocol):
-    """Parameters of a machine that the sieve reads."""
-
-    @property
-    def one_circuit(self) -> bool:
-        """Whether a four-bar that must be taken apart goes."""
-
-    @property
-    def one_branch(self) -> bool:
-        """Whether one that passes a dead centre of its crank goes."""
-
-    @property
-    def in_order(self) -> bool:
-        """Whether one that meets the positions out of order goes."""
-
-    @property
-    def full_turn(self) -> bool:
-        """Whether one whose crank does not turn fully goes."""
-
-    @property
-    def transmission_min(self) -> float:
-        """Least transmission angle [rad]."""
-
-    @property
-    def link_ratio_max(self) -> float | None:
-        """Longest link over the shortest."""
-
-    @property
-    def size_max(self) -> float | None:
-        """Greatest extent [m]."""
+def filters(params: Params) -> Filters:
+    """The filters that the parameters of a machine require."""
+    return Filters(**{one.name: getattr(params, one.name) for one in declared(Filters)})
 
 
-def filters(wishes: FilterParams) -> Filters:
-    """The sieve that the parameters ask for."""
-    return Filters(
-        one_circuit=wishes.one_circuit,
-        one_branch=wishes.one_branch,
-        in_order=wishes.in_order,
-        full_turn=wishes.full_turn,
-        transmission=wishes.transmission_min or None,
-        link_ratio=wishes.link_ratio_max,
-        size=wishes.size_max,
-    )
+def _shared(name: str, default: Value = None) -> Any:
+    """A parameter as `Filters` declares it, with another default where one is given."""
+    of = Filters.__dataclass_fields__[name]
+    return field(default=of.default if default is None else default, metadata=of.metadata)
 
 
 def one_circuit() -> Any:
     """Circuit defects."""
-    return param(True, doc="leave out four-bars that must be taken apart between two positions")
+    return _shared("one_circuit")
 
 
 def one_branch() -> Any:
     """Branch defects."""
-    return param(True, doc="leave out four-bars that pass a dead centre of the crank between two positions")
+    return _shared("one_branch")
 
 
 def in_order() -> Any:
     """Order defects."""
-    return param(True, doc="leave out four-bars whose crank meets the positions in another order")
+    return _shared("in_order")
 
 
 def full_turn(default: bool = False) -> Any:
     """Cranks that turn."""
-    return param(default, doc="leave out four-bars whose crank does not turn fully")
+    return _shared("full_turn", default)
 
 
 def transmission_min() -> Any:
     """Least transmission angle."""
-    return param(
-        0.0, unit="deg", at_least=0.0, below=90 * deg, doc="least angle between coupler and rocker over the motion"
-    )
+    return _shared("transmission_min")
 
 
 def link_ratio_max(default: float | None = None) -> Any:
     """Unequal links."""
-    return param(default, at_least=1.0, at_most=1e6, doc="longest link over the shortest, at most")
+    return _shared("link_ratio_max", default)
 
 
 def size_max() -> Any:
     """Extent."""
-    return param(None, unit="mm", above=0.0, at_most=1e3, doc="greatest extent of the moving four-bar, at most")
+    return _shared("size_max")
 
 
 def chosen() -> Any:

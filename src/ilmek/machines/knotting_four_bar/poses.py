@@ -155,7 +155,7 @@ def best_ray(poses: HandPoses) -> float | None:
         if np.max(bounds[at]) <= most:
             break
         dyads = dyads_through_poses(poses.points, poses.angles, float(DIRECTIONS[at]))
-        for one in _choices(poses, dyads, Filters(link_ratio=LINK_RATIO)):
+        for one in _choices(poses, dyads, Filters(link_ratio_max=LINK_RATIO)):
             if not one.defects and one.candidate.least_transmission > most:
                 best, most = float(DIRECTIONS[at]), one.candidate.least_transmission
     return best

@@ -49,7 +49,7 @@ def design(params: PathFourBarParams) -> PathFourBar:
     options, other = _exact(params, points) if params.exact else (_searched(params), ())
     sieve, rank = filters(params), None
     if not params.exact:  # the search keeps both, and ends at them: a sieve would see them broken by rounding
-        sieve, rank = dataclasses.replace(sieve, transmission=None, full_turn=False), _nearest
+        sieve, rank = dataclasses.replace(sieve, transmission_min=0.0, full_turn=False), _nearest
     choice = choose(options, sieve, number=params.chosen, count=params.count, other=other, least=rank)
     best = choice.best
     siblings = _siblings(best.candidate) if best is not None and params.cognates else ()
