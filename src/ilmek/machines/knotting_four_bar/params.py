@@ -125,9 +125,9 @@ class KnottingFourBarParams(Params):
             read_three_poses(self.poses)
 
     @classmethod
-    def read(cls, settings: Mapping[str, Setting]) -> "KnottingFourBarParams":
+    def read(cls, settings: Mapping[str, Setting], *, prefix: str = "") -> "KnottingFourBarParams":
         """Parameters from settings by name or alias, texts with units allowed; see `Params.read`."""
-        read = super(KnottingFourBarParams, cls).read(settings)
+        read = super(KnottingFourBarParams, cls).read(settings, prefix=prefix)
         if read.poses is not None:
             said = {given.casefold() for given in settings}
             known = (one for one in declared(cls) if one.name in SYNTHESISED)
