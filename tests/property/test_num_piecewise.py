@@ -9,7 +9,7 @@ from ilmek.arrays import FloatArray
 from ilmek.num.piecewise import around, crossings, infimum, integral, integrals, roots, suprema, supremum
 from ilmek.units import turn
 
-coefficient = st.floats(-3.0, 3.0)
+coefficient = st.integers(-3000, 3000).map(lambda number: number / 1000)
 cubic = st.lists(coefficient, min_size=4, max_size=4)
 widths = st.lists(st.floats(0.1, 2.0), min_size=1, max_size=5)
 

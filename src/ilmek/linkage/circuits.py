@@ -24,7 +24,7 @@ from ilmek.linkage.one_input import OneInput
 from ilmek.linkage.outputs import Output, followed_bodies
 from ilmek.linkage.structure import plan
 from ilmek.linkage.tracing import ConfigurationCurve, trace
-from ilmek.num.brackets import bracketed_roots
+from ilmek.num.piecewise import roots
 
 SEEDS = 180
 """Values of the input, over a turn or the mechanism's reach, at which assemblies are looked for."""
@@ -104,12 +104,9 @@ class Circuit:
         def rate(lengths: FloatArray) -> FloatArray:
             return followed_bodies(self.mechanism, self.bodies(lengths), output).rate
 
-        lengths = self.trace.lengths
-        value = rate(lengths)
-        (changed,) = np.nonzero(np.sign(value[:-1]) * np.sign(value[1:]) < 0)
-        if not len(changed):
+        at = roots(rate, self.trace.lengths)
+        if not len(at):
             return ()
-        at = bracketed_roots(rate, lengths[changed], lengths[changed + 1])
         reached = followed_bodies(self.mechanism, self.bodies(at), output).value
         return tuple(zip(self.inputs(at).tolist(), reached.tolist(), strict=True))
 
