@@ -38,14 +38,14 @@ RIVAL, MARGIN = 0.01, 3.0
 """A local maximum of the samples is refined where it lies within RIVAL of the curve's range below the largest sample,
 or within MARGIN times its own rise over the neighbouring samples."""
 
-FINEST, FINE = 5e-10, 4e-7
+FINEST, FINE = 4e-9, 4e-7
 """Parts of the domain at which the search of one curve and of several curves ends. A smooth maximum is flat: the error
-of its value is of the second order, 1e-18 and 1e-12, and no finer argument can be found from values."""
+of its value is of the second order, 1e-17 and 1e-12, and no finer argument can be found from values."""
 
 EQUAL = 1e-12
 """Maxima that differ by less than this part of the largest are equal: the first of them counts."""
 
-_ZOOM = np.linspace(-1.0, 1.0, 17)
+_ZOOM = np.linspace(-1.0, 1.0, 33)
 
 WHOLE_NODES, PART_NODES = 40, 24
 """Nodes of Gauss' rule on a piece: for pieces integrated as a whole, and for pieces that are cut into parts."""
@@ -292,5 +292,5 @@ def _refined(  # noqa: PLR0917
         values = np.array([stacked[name][k] for k, name in enumerate(owners)])
         best = np.argmax(values, axis=1)
         at, top = tried[row, best], values[row, best]
-        step, width = step / 8, width / 8
+        step, width = step / 16, width / 16
     return at, top
