@@ -99,7 +99,7 @@ def test_shuttle_and_beater_are_never_in_the_shed_together() -> None:
     assert moving.any()
     assert beating.any()
     assert not (moving & beating).any()
-    opening = np.abs(loom.shedding.opening(angle[moving]))
+    opening = np.abs(loom.shedding.shed.opening(angle[moving]))
     assert opening.min() >= loom.params.shuttle_height - 1e-9
 
 

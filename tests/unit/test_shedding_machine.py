@@ -59,7 +59,7 @@ def test_overlapping_sheds_load_the_shaft_with_all_warps_and_fail() -> None:
 def test_half_turn_rises_balance_each_other() -> None:
     """While one parity rises the other comes down: the torques cancel, and there is no work left for the motor."""
     design = made(rise="180deg")
-    assert np.max(np.abs(design.torque(np.linspace(0, 7, 200)))) < 1e-11
+    assert np.max(np.abs(design.shed.torque(np.linspace(0, 7, 200)))) < 1e-11
     assert design.drive.torque_rms < 1e-11
 
 
@@ -94,16 +94,16 @@ def test_work_of_the_torque_is_the_work_on_the_warps(law, lift, rise, tension) -
     """Virtual power: the torque over the rise does what stretches the warps; over the turn nothing is left."""
     design = MACHINE.design(SheddingParams(lift=lift, rise=rise, law=law, tension=tension, half_span=0.2))
     angle = np.linspace(0, rise, 4001)
-    work = np.trapezoid(design.torque(angle), angle)
+    work = np.trapezoid(design.shed.torque(angle), angle)
     assert work == pytest.approx(300 * 2 * tension * (math.hypot(lift, 0.2) - 0.2), rel=1e-5)
     whole = np.linspace(0, 2 * math.pi, 20_001)
-    assert abs(np.trapezoid(design.torque(whole), whole)) < 1e-3 * work
+    assert abs(np.trapezoid(design.shed.torque(whole), whole)) < 1e-3 * work
 
 
 def test_opposed_cams_are_half_a_turn_apart() -> None:
     design = made(law="3-4-5")
     angle = np.linspace(0, 6, 50)
-    np.testing.assert_allclose(design.opening(angle), -design.opening(angle + math.pi), atol=1e-14)
+    np.testing.assert_allclose(design.shed.opening(angle), -design.shed.opening(angle + math.pi), atol=1e-14)
 
 
 def test_fine_pitch_takes_thin_cams() -> None:
@@ -189,12 +189,12 @@ def test_the_window_is_found_where_the_other_parity_is_still_coming_down_at_the_
     """Up from 60 to 210 deg while the odd warps come down until 90 deg and go up from 180 deg on."""
     design = made(rise="60deg", dwell="150deg", shuttle_height="40mm")
     first, last = design.shuttle_window
-    room = design.opening(np.array([first, last]))
+    room = design.shed.opening(np.array([first, last]))
     assert room == pytest.approx([40 * mm, 40 * mm])
     assert 60 * deg < first < 90 * deg
     assert 180 * deg < last < 210 * deg
     between = np.linspace(first, last, 1001)[1:-1]
-    assert design.opening(between).min() > 40 * mm
+    assert design.shed.opening(between).min() > 40 * mm
 
 
 def test_a_motor_that_no_one_makes_is_judged_against_the_largest() -> None:

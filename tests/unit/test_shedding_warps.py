@@ -8,8 +8,7 @@ import pytest
 
 from ilmek.errors import ParameterError
 from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams
-from ilmek.machines.shedding.draped import bridged, draped, nose_radius
-from ilmek.machines.shedding.warp import lifting_work, shed_warp, warp_force
+from ilmek.machines.shedding.warp import bridged, draped, lifting_work, nose_radius, shed_warp, warp_force
 from ilmek.plane.curves import hull_indices
 from ilmek.report import Report
 from ilmek.units import deg, mm

@@ -180,4 +180,4 @@ def _shedding() -> SheddingDesign:
 
 
 def _opening() -> float:
-    return float(_shedding().opening(np.array([90 * deg]))[0]) / mm
+    return float(_shedding().shed.opening(np.array([90 * deg]))[0]) / mm

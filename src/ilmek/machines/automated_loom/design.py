@@ -21,7 +21,6 @@ from ilmek.machines.automated_loom.beating import (
 )
 from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, knot_cyclogram, shortest_row, take_up_time
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
-from ilmek.machines.shedding.report import prime_radius_for_bore
 from ilmek.machines.warp_tension.design import WarpTensionDesign, keeps_limits
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.units import format_quantity, mm, turn
@@ -223,7 +222,7 @@ def _shedding(params: AutomatedLoomParams, warps: int) -> shedding.SheddingDesig
     )
     made = shedding.design(asked)
     for _ in range(_TURNS):
-        least = prime_radius_for_bore(made)
+        least = made.prime_radius_for_bore
         if made.cam.prime_radius >= least or least > _LARGEST_PRIME:
             break
         made = shedding.design(replace(asked, prime_radius=math.ceil(least / mm) * mm))

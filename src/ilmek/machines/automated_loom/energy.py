@@ -94,7 +94,7 @@ def selector_work(loom: LoomDesign) -> float:
 
 def shed_work(loom: LoomDesign) -> float:
     """Work of the shedding cams for a row [J]: a turn."""
-    return positive_work(loom.shedding.torque)
+    return positive_work(loom.shedding.shed.torque)
 
 
 def shuttle_work(loom: LoomDesign) -> float:

@@ -62,7 +62,7 @@ def parts_of(loom: LoomDesign) -> tuple[Report, ...]:
         *(() if arms is None else (arms,)),
         *(() if loom.beat_up is None else (beat_up.MACHINE.report(loom.beat_up, in_a_loom=True),)),
         *(() if loom.hammer is None else (hammer.report(loom.hammer),)),
-        _without(shedding.report(loom.shedding), "shedding-stagger"),
+        shedding.MACHINE.report(loom.shedding, in_a_loom=True),
         warp_tension.report(loom.warp_tension),
     )
 
@@ -208,7 +208,7 @@ def _frame_checks(frame: LoomFrame) -> tuple[Check, ...]:
 def _least_room(loom: LoomDesign) -> float:
     """The least opening of the shed while the shuttle is in it [m]; it is least when it enters and when it leaves."""
     passing = loom.row_cyclogram.track(SHUTTLE).segment("pass")
-    rooms = loom.shedding.opening(np.array([passing.start, passing.end]))
+    rooms = loom.shedding.shed.opening(np.array([passing.start, passing.end]))
     return snap_to_limit(float(rooms.min()), loom.shedding.params.shuttle_height)
 
 

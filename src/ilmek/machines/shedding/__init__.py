@@ -10,11 +10,15 @@ time, so that 600 x 10 N never act together.
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
+from ilmek.machines.shedding.analysis import SheddingAnalysis, analyse
 from ilmek.machines.shedding.design import SheddingDesign, design
+from ilmek.machines.shedding.figures import figures
+from ilmek.machines.shedding.in_loom import fit, parts, work
 from ilmek.machines.shedding.params import SheddingParams
-from ilmek.machines.shedding.report import report
+from ilmek.machines.shedding.report import checks, tables, warnings
+from ilmek.machines.shedding.workshop import cam_tables, plates
 
-__all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design", "report"]
+__all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design"]
 
 MACHINE = Component(
     name="shedding",
@@ -22,5 +26,16 @@ MACHINE = Component(
     summary=SUMMARIES["shedding"],
     params=SheddingParams,
     design=design,
-    reporter=report,
+    analysis=analyse,
+    reported=(SheddingAnalysis,),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
+    plates=plates,
+    cam_tables=cam_tables,
+    parts=parts,
+    work=work,
+    fit=fit,
+    own_figures=("shedding-stagger",),
 )

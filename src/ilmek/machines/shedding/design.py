@@ -7,70 +7,84 @@ T over the half span H, F = 2 T s / sqrt(s^2 + H^2). The speed is low: the torqu
 
     M(theta) = n_even F(s_even) s'_even + n_odd F(s_odd) s'_odd
 
-so that with the usual opposed cams only half of the warps ever load the shaft (the thesis takes all 600). How cams of
-a parity may stand one after another instead of all at once: `phases`; tension and force from the warp's way: `warp`.
+so that with the usual opposed cams only half of the warps ever load the shaft (the thesis takes all 600). Cams of a
+parity that are staggered: `phases`; tension and force of a warp: `warp`.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams import limits
 from ilmek.cams.laws import LAWS
-from ilmek.cams.limits import PlateCam
-from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
+from ilmek.cams.plate import PlateCam
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, jumps, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.elements.duty import LoadCycle, MotorDuty, duty
 from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor
 from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
 from ilmek.machines.shedding.phases import Shed, chosen_shed
 from ilmek.machines.shedding.shaft import Shaft, shaft_for
+from ilmek.machines.shedding.warp import lifting_work
 from ilmek.num.piecewise import Extremum, supremum
+from ilmek.records import computed, group, record, result
+from ilmek.report import Json
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CamStack:
-    """The cams on the shaft: thickness of cam and guide [m], guide radius [m], masses [kg], turning inertia [kg m^2].
+    """The cams on the shaft; cams and guide cams are weighed bored, the stack with the shaft in its bores."""
 
-    Cams and guide cams are weighed bored; the stack with the shaft in its bores.
-    """
-
-    thickness: float
-    guide_thickness: float
-    guide_radius: float
-    cam_mass: float
-    guide_mass: float
-    mass: float
-    inertia: float
+    thickness: float = result("mm", "thickness of a cam", name="cam_thickness")
+    guide_thickness: float = result("mm", "thickness of a guide cam: the rest of the pitch")
+    guide_radius: float = result("mm", "radius of a guide cam")
+    cam_mass: float = result("kg", "mass of a cam, bored")
+    guide_mass: float = result("kg", "mass of a guide cam, bored")
+    mass: float = result("kg", "mass of all cams, guide cams and the shaft between them")
+    inertia: float = result("kg*m^2", "moment of inertia of all these about the shaft")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SheddingDrive:
-    """What turns the shaft: torque [N m] and its rms over the turn, motor torque needed [N m], motor and its limit.
+    """The drive of the shaft: its torque over the turn, its reducer and its motor.
 
-    motor_limit  lasting torque of the motor; where none is strong enough, the most any gives at that speed
-    duty         of the motor over a turn, the stack's inertia with it; None without one of the table
+    motor_limit  continuous torque of the motor; where none is strong enough, the most that any gives at that speed
+    duty         of the motor over a turn, the stack's inertia included; None without a motor of the table
     """
 
     torque_max: Extremum
     torque_min: Extremum
-    torque_rms: float
+    torque_rms: float = result("Nm", "root mean square of the shaft's torque over the turn")
     reducer: Reducer
-    motor_torque: float
-    motor_speed: float
+    motor_torque: float = result("Nm", "required torque of the motor")
+    motor_speed: float = result("rpm", "speed of the motor")
     motor: Motor | None
     motor_limit: float
     duty: MotorDuty | None
 
+    shaft_torque_max = computed("Nm", "largest torque that lifts the warps", lambda it: it.torque_max.value)
+    shaft_torque_min = computed("Nm", "largest torque of the warps on the return", lambda it: it.torque_min.value)
+    motor_power = computed("W", "largest power of the motor", lambda it: it.motor_torque * it.motor_speed)
+    name = computed("", "class of motor chosen", lambda it: it.motor.name if it.motor else None, name="motor")
+    motor_torque_rms = computed(
+        "Nm", "root mean square of the motor's torque over the turn", lambda it: it.duty.rms if it.duty else None
+    )
+    motor_power_mean = computed(
+        "W", "mean power into the reducer, with its losses", lambda it: it.duty.power_mean if it.duty else None
+    )
+    inertia_ratio = computed(
+        "1", "cams over rotor, on the motor's shaft", lambda it: it.duty.inertia_ratio if it.duty else None
+    )
 
-@dataclass(frozen=True, slots=True)
+
+@record
 class SheddingDesign:
-    """Shedding cams, designed.
+    """The design of shedding cams.
 
-    even, odd   programmes of the two parities on the shaft's angle; of staggered cams those of the middle
-    shed        all groups of cams, as they stand on the shaft
+    even, odd   programmes of the two parities over the shaft's angle; of staggered cams those of the middle
+    shed        all groups of cams, as they are fixed on the shaft
     across_max  largest force of the lifted warps across the shaft [N]
     """
 
@@ -81,18 +95,94 @@ class SheddingDesign:
     odd: CamProgramme
     shed: Shed
     across_max: Extremum
-    stack: CamStack
-    shaft: Shaft
-    drive: SheddingDrive
+    stack: CamStack = group()
+    shaft: Shaft = group()
+    drive: SheddingDrive = group()
     shuttle_window: tuple[float, float]
 
-    def opening(self, angle: FloatArray) -> FloatArray:
-        """Distance [m] of the even warps over the odd ones; negative where the odd ones are lifted."""
-        return self.shed.opening(angle)
+    prime_radius = computed("mm", "prime radius of the cam, Rp", lambda it: it.cam.prime_radius)
+    prime_radius_min = computed("mm", "smallest for the pressure angle", lambda it: it.smallest_prime.value)
+    prime_radius_for_bore = computed(
+        "mm",
+        "smallest that leaves the wall outside the corners of the square bore",
+        lambda it: it.shaft.bar / math.sqrt(2) + it.params.bore_wall + it.cam.roller_radius,
+    )
+    pressure_angle_max = computed(
+        "deg", "largest pressure angle over the turn", lambda it: limits.pressure_angle_max(it.cam).value
+    )
+    pressure_angle_at = computed(
+        "deg", "cam angle of the largest pressure angle", lambda it: limits.pressure_angle_max(it.cam).at
+    )
+    curvature_radius_min = computed(
+        "mm", "least radius of the pitch curve, convex", lambda it: limits.convex_radius_min(it.cam).value
+    )
 
-    def torque(self, angle: FloatArray) -> FloatArray:
-        """Torque of the warps on the shaft [N m]."""
-        return self.shed.torque(angle)
+    @computed("mm", "least radius of the pitch curve, concave")
+    def concave_radius_min(self) -> float | None:
+        hollow = limits.concave_radius_min(self.cam)
+        return hollow.value if hollow else None
+
+    cam_area = computed("cm^2", "area inside the cam's surface, bore included", lambda it: limits.area(it.cam))
+
+    shed_opening = computed("mm", "largest distance of even and odd warps", lambda it: it.peak(it.shed.opening))
+    shuttle_start = computed("deg", "shaft angle at which the even shed opens", lambda it: it.shuttle_window[0])
+    shuttle_end = computed(
+        "deg", "shaft angle at which it closes; the odd shed follows half a turn later", lambda it: it.shuttle_window[1]
+    )
+    shuttle_window_angle = computed(
+        "deg",
+        "shaft angle for which a shed is open for the shuttle",
+        lambda it: it.shuttle_window[1] - it.shuttle_window[0],
+        name="shuttle_window",
+    )
+    shuttle_time = computed(
+        "s", "time for which each shed is open for it", lambda it: it.shuttle_window_angle / it.params.speed
+    )
+    turn_time = computed("s", "time of a turn: two sheds", lambda it: TURN / it.params.speed)
+    phase_groups = computed("1", "groups of each parity's cams, staggered", lambda it: it.shed.groups)
+    phase_spread = computed("deg", "angle from the first group to the last", lambda it: it.shed.spread)
+    shed_overlap = computed(
+        "deg",
+        "angle for which one parity falls while the other rises, at each change of the shed",
+        lambda it: max(0.0, it.params.lifted_angle + it.shed.spread - TURN / 2),
+    )
+    velocity_max = computed(
+        "mm/s", "largest warp velocity", lambda it: it.params.speed * it.peak(lambda q: it.even.at(q).ds)
+    )
+    acceleration_max = computed(
+        "mm/s^2", "largest warp acceleration", lambda it: it.params.speed**2 * it.peak(lambda q: it.even.at(q).dds)
+    )
+    acceleration_jumps = computed(
+        "",
+        "jumps of the acceleration of the even warps, shaft angle [rad]",
+        lambda it: [{"angle": jump.angle, "place": jump.place} for jump in jumps(it.even)],
+    )
+    shaft_supports = computed("1", "supports of the shaft, both ends included", lambda it: it.params.spans + 1)
+    warps_across = computed("N", "largest force of the lifted warps across the shaft", lambda it: it.across_max.value)
+    power_max = computed("W", "largest power of the shaft", lambda it: it.drive.shaft_torque_max * it.params.speed)
+    shed_work = computed(
+        "J",
+        "work of lifting the even warps once, returned when they fall",
+        lambda it: float(it.params.warps // 2 * lifting_work(it.params)),
+    )
+
+    @computed("", "the cycle of even and odd warps, shaft angles [rad]")
+    def phases(self) -> Json:
+        names = ("warps", "phase", "start", "end")
+        return [dict(zip(names, phase, strict=True)) for phase in self.cycle_phases]
+
+    @property
+    def cycle_phases(self) -> tuple[tuple[str, str, float, float], ...]:
+        """Parity, phase, first and last shaft angle [rad] of each part of the turn; odd ones may exceed a turn."""
+        return tuple(
+            (parity, segment.name, float(programme.start + begin), float(programme.start + begin + segment.span))
+            for parity, programme in (("even", self.even), ("odd", self.odd))
+            for begin, segment in zip(programme.edges, programme.segments, strict=False)
+        )
+
+    def peak(self, function: Callable[[FloatArray], FloatArray]) -> float:
+        """Largest magnitude over the turn of a function of the shaft's angle."""
+        return supremum(lambda angle: np.abs(function(angle)), self.shed.knots).value
 
 
 def lifting(params: SheddingParams, law: str | None = None) -> CamProgramme:
@@ -146,7 +236,7 @@ def design(params: SheddingParams) -> SheddingDesign:
 
 
 def polar_moment(cam: PlateCam) -> float:
-    """Second moment of the cam's face about its axis, bore not taken off [m^4]: integral of r^4 / 4 over the angle."""
+    """Second moment of the cam's face about its axis, bore included [m^4]: integral of r^4 / 4 over the angle."""
     surface = cam.surface(np.arange(_POINTS) * (TURN / _POINTS))
     after = np.roll(surface, -1)
     across = np.abs((np.conj(surface) * after).imag)
@@ -158,11 +248,11 @@ _POINTS = 1440
 
 
 def _drive(params: SheddingParams, shed: Shed, inertia: float) -> SheddingDrive:
-    """Torque over the turn, and the motor behind the reducer, which turns the stack's inertia [kg m^2] too."""
+    """Torque over the turn, and the motor with its reducer, the inertia of the stack [kg m^2] included."""
     most, least = shed.peaks()
     rms = shed.rms()
     reducer = Reducer(params.ratio, params.efficiency)
-    # Going down the warps drive the cams: the motor holds back what the reducer's friction leaves.
+    # Falling warps drive the cams: the motor brakes what the reducer's friction leaves.
     braking = -least.value * max(reducer.back_driving_efficiency, 0.0) / params.ratio
     needed = max(reducer.motor_torque(most.value), braking, 0.0)
     speed = params.speed * params.ratio

@@ -5,78 +5,68 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.cams import figures as cam_figures
-from ilmek.cams.limits import convex_radius_min, pressure_angle_max
+from ilmek.cams.limits import convex_radius_min
 from ilmek.cams.programme import TURN, jumps
 from ilmek.elements.beam import uniform
 from ilmek.elements.figures import deflection_plot
-from ilmek.machines.shedding.alternatives import SheddingAlternatives
+from ilmek.machines.shedding.analysis import SheddingAnalysis
 from ilmek.machines.shedding.design import SheddingDesign
-from ilmek.machines.shedding.draped import stack_torque
-from ilmek.machines.shedding.warp import shed_warp
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series
 from ilmek.units import format_quantity
 
+ANGLE, TORQUE = Axis("cam angle", "deg"), Axis("torque", "Nm")
 
-def figures(studied: SheddingAlternatives) -> tuple[Figure, ...]:
+
+def figures(found: SheddingAnalysis) -> tuple[Figure, ...]:
     """The cam to scale and the plots, in the order of the report."""
-    design = studied.design
-    cam, shaft = design.cam, design.shaft
+    design = found.design
+    cam, shaft, params = design.cam, design.shaft, design.params
+    programmes = {"even": design.even, "odd": design.odd}
+    inertia = float(uniform.square_inertia(shaft.bar))
     drawn: tuple[Drawing | Plot, ...] = (
         cam_figures.cam_drawing(cam, shaft.bar, design.stack.guide_radius),
-        *cam_figures.motion_plots(
-            {"even": design.even, "odd": design.odd}, design.params.speed, shuttle_marks(design), jump_note(design)
-        ),
-        cam_figures.pressure_plot(cam, design.params.pressure_angle_limit, pressure_angle_max(cam).at),
+        *cam_figures.motion_plots(programmes, params.speed, _shuttle_marks(design), _jump_note(design)),
+        cam_figures.pressure_plot(cam, params.pressure_angle_limit, design.pressure_angle_at),
         cam_figures.curvature_plot(cam, convex_radius_min(cam).at),
-        torque_plot(design),
-        stagger_plot(studied),
-        *tension_plots(studied),
-        deflection_plot(
-            shaft.load,
-            shaft.span,
-            design.params.modulus,
-            float(uniform.square_inertia(shaft.bar)),
-            design.params.deflection_limit,
-        ),
+        _torque_plot(design),
+        _stagger_plot(found),
+        *_tension_plots(found),
+        deflection_plot(shaft.load, shaft.span, params.modulus, inertia, params.deflection_limit),
     )
     return tuple(replace(figure, name=f"shedding-{figure.name}") for figure in drawn)
 
 
-def torque_plot(design: SheddingDesign) -> Plot:
+def _torque_plot(design: SheddingDesign) -> Plot:
     """Torque of the warps on the shaft over the turn, and its rms."""
-    angle = cam_figures.sample_angles(design.even, design.odd)
-    rms = design.drive.torque_rms
+    angle, drive = cam_figures.sample_angles(design.even, design.odd), design.drive
     series = (
-        Series("torque", angle, design.torque(angle)),
-        Series("root mean square", np.array([0.0, TURN]), np.full(2, rms), dashed=True),
+        Series("torque", angle, design.shed.torque(angle)),
+        Series("root mean square", np.array([0.0, TURN]), np.full(2, drive.torque_rms), dashed=True),
     )
-    mark = Mark(design.drive.torque_max.at, format_quantity(design.drive.torque_max.value, "Nm"))
-    note = "positive: the shaft lifts the warps; negative: the warps press the shaft on"
-    title = "Torque of the warps on the shaft"
-    return Plot("torque", title, Axis("cam angle", "deg"), Axis("torque", "Nm"), series, (mark,), note)
+    mark = Mark(drive.torque_max.at, format_quantity(drive.torque_max.value, "Nm"))
+    note = "positive: the shaft lifts the warps; negative: the warps drive the shaft"
+    return Plot("torque", "Torque of the warps on the shaft", ANGLE, TORQUE, series, (mark,), note)
 
 
-def stagger_plot(studied: SheddingAlternatives) -> Plot:
-    """Torque of cams all at once beside that of the flattest phases, or of those taken."""
-    design = studied.design
-    other = design.shed if design.params.phase == "staggered" else studied.flattest
+def _stagger_plot(found: SheddingAnalysis) -> Plot:
+    """Torque of cams all at once beside that of the flattest phases, or of those chosen."""
+    design = found.design
+    other = design.shed if design.params.phase == "staggered" else found.flattest
     angle = cam_figures.sample_angles(*other.even.programmes, *other.odd.programmes, design.even)
     spread = format_quantity(other.spread, "deg")
     name = f"{other.groups} groups over {spread}" if other.groups > 1 else "nothing is flatter"
     series = (
-        Series("all at once", angle, studied.together.torque(angle)),
+        Series("all at once", angle, found.together.torque(angle)),
         Series(name, angle, other.torque(angle), dashed=True),
     )
     first, last = other.window()
-    note = f"the shed is open enough for {format_quantity(last - first, 'deg')} with {name}"
-    title = "Torque of cams all at once and one after another"
-    return Plot("stagger", title, Axis("cam angle", "deg"), Axis("torque", "Nm"), series, note=note)
+    note = f"the shed is open for the shuttle for {format_quantity(last - first, 'deg')} with {name}"
+    return Plot("stagger", "Torque of cams all at once and one after another", ANGLE, TORQUE, series, note=note)
 
 
-def tension_plots(studied: SheddingAlternatives) -> tuple[Plot, ...]:
+def _tension_plots(found: SheddingAnalysis) -> tuple[Plot, ...]:
     """Tension of a warp over the turn, and the torque of warps draped over the cams; nothing without a tension."""
-    design, yarn = studied.design, studied.yarn
-    warp = shed_warp(design.params)
+    design, yarn, warp = found.design, found.yarn, found.warp
     if warp is None:
         return ()
     angle = cam_figures.sample_angles(design.even, design.odd)
@@ -84,26 +74,25 @@ def tension_plots(studied: SheddingAlternatives) -> tuple[Plot, ...]:
         Series("even", angle, warp.tension_at(design.even.at(angle).s)),
         Series("odd", angle, warp.tension_at(design.odd.at(angle).s), dashed=True),
     )
-    tension = Plot("tension", "Tension of a warp", Axis("cam angle", "deg"), Axis("tension", "N"), knife)
+    tension = Plot("tension", "Tension of a warp", ANGLE, Axis("tension", "N"), knife)
     if yarn is None:
         return (tension,)
     torques = (
-        Series("knife edge", angle, design.torque(angle)),
-        Series("draped over the cam", yarn.angle, stack_torque(design.shed, yarn), dashed=True),
+        Series("knife edge", angle, design.shed.torque(angle)),
+        Series("draped over the cam", yarn.angle, design.shed.draped_torque(yarn), dashed=True),
     )
-    note = "a warp lies on the whole nose, and is lifted where it stands beside the follower's line too"
+    note = "a warp lies on the whole nose, which also lifts it in front of and behind the follower's line"
     title = "Torque by a knife edge on the cam and by the yarn draped over it"
-    return tension, Plot("draped", title, Axis("cam angle", "deg"), Axis("torque", "Nm"), torques, note=note)
+    return tension, Plot("draped", title, ANGLE, TORQUE, torques, note=note)
 
 
-def shuttle_marks(design: SheddingDesign) -> tuple[Mark, ...]:
+def _shuttle_marks(design: SheddingDesign) -> tuple[Mark, ...]:
     """When the shuttle may enter and must have left the even shed; none where the shed is too low for it."""
     first, last = design.shuttle_window
     return (Mark(first, "shuttle in"), Mark(last, "shuttle out")) if last > first else ()
 
 
-def jump_note(design: SheddingDesign) -> str:
-    """Where the acceleration of the even warps jumps, in words."""
-    found = jumps(design.even)
-    said = ", ".join(f"{jump.place} at {format_quantity(jump.angle, 'deg')}" for jump in found)
-    return f"even warps: the acceleration jumps {said}" if said else "the acceleration has no jump"
+def _jump_note(design: SheddingDesign) -> str:
+    """The jumps of the acceleration of the even warps, as a phrase."""
+    found = ", ".join(f"{jump.place} at {format_quantity(jump.angle, 'deg')}" for jump in jumps(design.even))
+    return f"even warps: the acceleration jumps {found}" if found else "the acceleration has no jump"

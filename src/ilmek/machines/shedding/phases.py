@@ -1,6 +1,6 @@
-"""How the cams of a parity stand on the shaft: all at once, in groups one after another, or as flat as may be.
+"""Phases of the cams of a parity on the shaft: all at once, in staggered groups, or for the least torque.
 
-The cams of a parity form g groups, taken in turn along the shaft; group k is later by delta_k, evenly from -a/2 to a/2.
+The cams of a parity form g groups, taken in turn along the shaft; group k lags by delta_k, evenly from -a/2 to a/2.
 
     M(theta) = sum over groups of n_k F(s_k) s'_k,   s_k = s(theta - delta_k)
     opening  = least lifted warp of one parity - most lifted of the other
@@ -8,11 +8,11 @@ The cams of a parity form g groups, taken in turn along the shaft; group k is la
 The opening depends on the first and the last group alone. Where one warp's torque is m sin(2 theta), g groups give
 m |sum n_k e^(2 i delta_k)|: for a given spread nothing is flatter than two groups at its ends, cos(a) of the torque
 (each term has the least real part there, and the ends are alike), while g even ones give sin(g a / (g - 1)) /
-(g sin(a / (g - 1))). Other laws and tensions have more harmonics, so that `flattest` looks at every number of groups
-and every spread that leaves the shuttle its window, and takes the least of the greatest |M|.
+(g sin(a / (g - 1))). Other laws and tensions have more harmonics, so that `flattest` searches every number of groups
+and every spread that leaves the shuttle its window for the least of the greatest |M|.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -22,12 +22,14 @@ from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.warp import LIFTED, warp_force
 from ilmek.num.brackets import bracketed_roots
 from ilmek.num.piecewise import Curve, Extremum, infimum, integral, supremum
+from ilmek.records import record
+from ilmek.weaving.draping import DrapedWarp
 
 GRID = 2049
-"""Angles at which the shed is looked at, besides the ends of the motions; its edges are then found to rounding."""
+"""Angles at which the shed is sampled, besides the ends of the motions; its edges are then found to rounding."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Parity:
     """The cams of a parity: the programme of each group, and its number of cams."""
 
@@ -39,7 +41,7 @@ class Parity:
         return tuple(programme.at(angle) for programme in self.programmes)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Shed:
     """Both parities: `spread` [rad] is the angle between the first and the last group of each."""
 
@@ -55,7 +57,7 @@ class Shed:
 
     @property
     def offsets(self) -> FloatArray:
-        """What each group is later by than the middle [rad]."""
+        """Angle by which each group lags behind the middle [rad]."""
         return offsets(self.spread, self.groups)
 
     @property
@@ -63,21 +65,29 @@ class Shed:
         """Shaft angles of one turn [rad] between which all groups move smoothly."""
         return turn_knots(*self.even.programmes, *self.odd.programmes)
 
+    def _moving(self, angle: FloatArray) -> Iterator[tuple[int, FollowerMotion]]:
+        """Number of cams and motion of each group of both parities."""
+        for parity in (self.even, self.odd):
+            yield from zip(parity.numbers, parity.courses(angle), strict=True)
+
     def torque(self, angle: FloatArray) -> FloatArray:
         """Torque of the warps on the shaft [N m], quasi-static."""
-        total = np.zeros_like(angle)
-        for parity in (self.even, self.odd):
-            for number, at in zip(parity.numbers, parity.courses(angle), strict=True):
-                total += number * warp_force(self.params, at.s) * at.ds
+        moving = self._moving(angle)
+        return sum((number * warp_force(self.params, at.s) * at.ds for number, at in moving), np.zeros_like(angle))
+
+    def draped_torque(self, one: DrapedWarp) -> FloatArray:
+        """Torque of all warps [N m], each like one that is draped over its cam, at `one.angle`."""
+        total = np.zeros_like(one.angle)
+        for parity, lag in ((self.even, 0.0), (self.odd, TURN / 2)):
+            for number, offset in zip(parity.numbers, self.offsets, strict=True):
+                total += number * np.interp(one.angle - lag - offset, one.angle, one.torque, period=TURN)
         return total
 
     def across(self, angle: FloatArray) -> FloatArray:
         """Force of all lifted warps across the shaft [N]."""
         total = np.zeros_like(angle)
-        for parity in (self.even, self.odd):
-            for number, at in zip(parity.numbers, parity.courses(angle), strict=True):
-                lifted = at.s > LIFTED * self.params.lift
-                total += number * np.where(lifted, warp_force(self.params, at.s), 0.0)
+        for number, at in self._moving(angle):
+            total += number * np.where(at.s > LIFTED * self.params.lift, warp_force(self.params, at.s), 0.0)
         return total
 
     def opening(self, angle: FloatArray) -> FloatArray:
@@ -88,7 +98,7 @@ class Shed:
         return np.asarray(np.where(up >= down, np.maximum(up, 0.0), -np.maximum(down, 0.0)))
 
     def room(self, angle: FloatArray) -> FloatArray:
-        """What the even shed is higher than the shuttle [m]; negative where that does not fit."""
+        """Height of the even shed above the shuttle [m]; negative where the shuttle does not fit."""
         lowest = np.min([at.s for at in self.even.courses(angle)], axis=0)
         highest = np.max([at.s for at in self.odd.courses(angle)], axis=0)
         return np.asarray(lowest - highest - self.params.shuttle_height)
@@ -126,7 +136,7 @@ def _edge(room: Curve, outside: float, inside: float) -> float:
 
 
 def offsets(spread: float, groups: int) -> FloatArray:
-    """What each group is later by [rad]: evenly from -spread/2 to spread/2; one group stands in the middle."""
+    """Lag of each group [rad]: evenly from -spread/2 to spread/2; one group stands in the middle."""
     return np.linspace(-spread / 2, spread / 2, groups) if groups > 1 else np.zeros(1)
 
 
@@ -143,16 +153,16 @@ def shed_of(params: SheddingParams, even: CamProgramme, spread: float = 0.0, gro
     evens = params.warps // 2
     even_cams, odd_cams = (
         Parity(
-            tuple(even.shifted(later + float(offset)) for offset in offsets(spread, groups)),
-            tuple(number // groups + (place < number % groups) for place in range(groups)),
+            tuple(even.shifted(lag + float(offset)) for offset in offsets(spread, groups)),
+            tuple(number // groups + (index < number % groups) for index in range(groups)),
         )
-        for later, number in ((0.0, evens), (TURN / 2, params.warps - evens))
+        for lag, number in ((0.0, evens), (TURN / 2, params.warps - evens))
     )
     return Shed(params, even_cams, odd_cams, spread)
 
 
 def chosen_shed(params: SheddingParams, even: CamProgramme) -> Shed:
-    """The shed as the phase asks."""
+    """The shed of the phase required."""
     if params.phase == "together":
         return shed_of(params, even)
     if params.phase == "staggered":
@@ -160,23 +170,23 @@ def chosen_shed(params: SheddingParams, even: CamProgramme) -> Shed:
     return flattest(params, even)
 
 
-def window_asked(params: SheddingParams, together: float) -> float:
-    """Cam angle for which the shed must stay open enough [rad]: as asked for, or half of that of cams `together`."""
+def required_window(params: SheddingParams, together: float) -> float:
+    """Required window of the shuttle [rad]: as given, or half of the window of cams `together` [rad]."""
     return together / 2 if params.shuttle_angle is None else params.shuttle_angle
 
 
 def flattest(params: SheddingParams, even: CamProgramme) -> Shed:
     """The groups and the spread of least |torque| that leave the shuttle its window; all at once where none does."""
     first, last = shed_of(params, even).window()
-    widest = _widest(params, even, last - first, window_asked(params, last - first))
-    most = max(min(params.stagger_groups, params.warps // 2), 1)
+    widest = _widest(params, even, last - first, required_window(params, last - first))
+    most = min(params.stagger_groups, params.warps // 2)
     found = [_flattest_spread(params, even, groups, widest) for groups in range(2, most + 1)]
     best = min(found, default=(np.inf, 0.0, 1))
     return shed_of(params, even, best[1], best[2])
 
 
 def _widest(params: SheddingParams, even: CamProgramme, together: float, window: float) -> float:
-    """The largest spread [rad] that leaves a window [rad] of what there is `together`.
+    """The largest spread [rad] that leaves a window [rad], `together` that of cams without spread.
 
     The window shrinks by the spread, and more quickly where the other parity limits it.
     """

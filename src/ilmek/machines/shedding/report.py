@@ -1,280 +1,222 @@
-"""What a design of shedding cams says: results, checks against the thesis' limits, tables and figures."""
-
-import math
-from collections.abc import Callable
+"""The report of shedding cams: checks against the thesis' limits, warnings, tables."""
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
-from ilmek.cams.limits import area, concave_radius_min, convex_radius_min, pressure_angle_max
+from ilmek.cams.laws import LAWS, SMOOTH_LAWS
+from ilmek.cams.limits import concave_radius_min, convex_radius_min
+from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, jumps
+from ilmek.cams.sizing import CamLimits, pressure_prime
+from ilmek.elements import shafts
 from ilmek.elements.motors import MOTORS
-from ilmek.elements.shafts import STOCK_SIDES
-from ilmek.machines.shedding.alternatives import SheddingAlternatives, study
-from ilmek.machines.shedding.design import SheddingDesign
-from ilmek.machines.shedding.figures import figures
-from ilmek.machines.shedding.parts import cam_tables, plates
-from ilmek.machines.shedding.phases import window_asked
-from ilmek.machines.shedding.tables import cycle_phases, tables
-from ilmek.machines.shedding.warp import lifting_work
-from ilmek.machines.shedding.warp_report import warp_checks, warp_results, warp_warnings
-from ilmek.num.piecewise import supremum
-from ilmek.report import Check, Json, Report, Result, at_least, at_most, snap_to_limit
-from ilmek.units import format_quantity, mm, rpm
+from ilmek.machines.shedding.analysis import SheddingAnalysis
+from ilmek.machines.shedding.design import SheddingDesign, lifting
+from ilmek.machines.shedding.phases import Shed, required_window, shed_of
+from ilmek.report import Check, Table, at_least, at_most, columns
+from ilmek.units import deg, format_quantity, mm, rpm
 
 THESIS = "thesis, 3.2"
 FOIL = 0.4 * mm
-"""Thickness below which no sheet of a hand's radius stands upright [m]; a judgement of ours."""
+"""Thickness below which a sheet of a hand's radius does not stand upright [m]; assumed by this project."""
 
 SPEED_LIMIT = 5 * rpm
-"""What the thesis allows the cam shaft, so that no warp breaks."""
+"""Speed of the cam shaft that the thesis allows, so that no warp breaks."""
+
+SPREADS = tuple(spread * deg for spread in (15, 30))
+"""Spreads of two groups in the table of phases [rad]."""
 
 
-def report(design: SheddingDesign) -> Report:
-    """Everything that the design says."""
-    studied = study(design)
-    return Report(
-        machine="shedding",
-        title="Shedding cams",
-        parameters=design.params.as_dict(),
-        results=(
-            *_cam_results(design),
-            *_motion_results(design),
-            *warp_results(studied),
-            *_shaft_results(design),
-            *_drive_results(design),
-        ),
-        checks=(*_checks(studied), *warp_checks(design)),
-        tables=tables(studied),
-        figures=figures(studied),
-        warnings=(*_warnings(design), *warp_warnings(studied)),
-        plates=plates(design),
-        cam_tables=cam_tables(design),
-    )
-
-
-def prime_radius_for_bore(design: SheddingDesign) -> float:
-    """Smallest prime radius [m] that leaves the wall outside the corners of the square bore."""
-    return design.shaft.bar / math.sqrt(2) + design.params.bore_wall + design.cam.roller_radius
-
-
-def _cam_results(design: SheddingDesign) -> tuple[Result, ...]:
-    cam, stack = design.cam, design.stack
-    hollow = concave_radius_min(cam)
-    return (
-        Result("prime_radius", cam.prime_radius, "mm", "prime radius of the cam, Rp"),
-        Result("prime_radius_min", design.smallest_prime.value, "mm", "smallest for the pressure angle"),
-        Result("prime_radius_for_bore", prime_radius_for_bore(design), "mm", "smallest for the bore and its wall"),
-        Result("pressure_angle_max", pressure_angle_max(cam).value, "deg", "largest pressure angle over the turn"),
-        Result("pressure_angle_at", pressure_angle_max(cam).at, "deg", "cam angle of the largest pressure angle"),
-        Result("curvature_radius_min", convex_radius_min(cam).value, "mm", "least radius of the pitch curve, convex"),
-        Result(
-            "concave_radius_min", hollow.value if hollow else None, "mm", "least radius of the pitch curve, concave"
-        ),
-        Result("cam_area", area(cam), "cm^2", "area inside the cam's surface, bore not taken off"),
-        Result("cam_thickness", stack.thickness, "mm", "thickness of a cam"),
-        Result("guide_thickness", stack.guide_thickness, "mm", "thickness of a guide cam: the rest of the pitch"),
-        Result("guide_radius", stack.guide_radius, "mm", "radius of a guide cam"),
-        Result("cam_mass", stack.cam_mass, "kg", "mass of a cam, bored"),
-        Result("guide_mass", stack.guide_mass, "kg", "mass of a guide cam, bored"),
-        Result("mass", stack.mass, "kg", "mass of all cams, guide cams and the shaft between them"),
-        Result("inertia", stack.inertia, "kg*m^2", "moment of inertia of all that about the shaft"),
-    )
-
-
-def _motion_results(design: SheddingDesign) -> tuple[Result, ...]:
-    speed = design.params.speed
-    first, last = design.shuttle_window
-    found: Json = [{"angle": jump.angle, "place": jump.place} for jump in jumps(design.even)]
-    phases: Json = [
-        {"warps": parity, "phase": name, "start": start, "end": end}
-        for parity, name, start, end in cycle_phases(design)
-    ]
-    return (
-        Result("shed_opening", _peak(design.opening, design), "mm", "largest distance between even and odd warps"),
-        Result("shuttle_start", first, "deg", "shaft angle from which the even shed is open enough for the shuttle"),
-        Result("shuttle_end", last, "deg", "shaft angle to which it is; the odd shed follows half a turn later"),
-        Result("shuttle_window", last - first, "deg", "for what angle it is"),
-        Result("phase_groups", design.shed.groups, "1", "groups of each parity's cams that move one after another"),
-        Result("phase_spread", design.shed.spread, "deg", "angle from the first group to the last"),
-        Result("shed_overlap", _overlap(design), "deg", "of one parity coming down while the other goes up, each time"),
-        Result("shuttle_time", (last - first) / speed, "s", "time that each shed is open enough for the shuttle"),
-        Result("turn_time", TURN / speed, "s", "time of a turn: two sheds"),
-        Result("velocity_max", speed * _peak(lambda q: design.even.at(q).ds, design), "mm/s", "largest warp velocity"),
-        Result(
-            "acceleration_max",
-            speed**2 * _peak(lambda q: design.even.at(q).dds, design),
-            "mm/s^2",
-            "largest warp acceleration",
-        ),
-        Result("acceleration_jumps", found, "", "where the acceleration of the even warps jumps, shaft angle [rad]"),
-        Result("phases", phases, "", "the cycle of even and odd warps, shaft angles [rad]"),
-    )
-
-
-def _directions(design: SheddingDesign) -> Json:
-    """Load, slope and deflection of the weight alone and of the warps alone; None where the load is given."""
-    shaft = design.shaft
-    if shaft.directions is None:
-        return None
-    shares = dict(zip(("weight", "pull"), shaft.directions.shares(), strict=True))
-    loads = {"weight": shaft.directions.weight, "pull": shaft.directions.pull}
-    return {
-        "angle": float(np.angle(shaft.directions.resultant)),
-        **{
-            name: {"load": loads[name], "slope": share * shaft.slope, "deflection": share * shaft.deflection}
-            for name, share in shares.items()
-        },
-    }
-
-
-def _shaft_results(design: SheddingDesign) -> tuple[Result, ...]:
-    shaft, seat = design.shaft, design.shaft.seat
-    return (
-        Result("shaft_load", shaft.load, "kN/m", "load of the shaft, with its safety"),
-        Result("shaft_length", shaft.length, "m", "length of the shaft between its first and last support"),
-        Result("shaft_supports", design.params.spans + 1, "1", "supports of the shaft, both ends counted"),
-        Result("shaft_span", shaft.span, "m", "from one support to the next"),
-        Result("shaft_side_slope", shaft.side_slope, "mm", "least side of the square shaft for the slope"),
-        Result(
-            "shaft_side_deflection", shaft.side_deflection, "mm", "least side of the square shaft for the deflection"
-        ),
-        Result("shaft_side", shaft.side, "mm", "least side of the square shaft for slope and deflection"),
-        Result("shaft_side_twist", shaft.side_twist, "mm", "least side of the square shaft for the twist"),
-        Result("shaft_side_strength", shaft.side_strength, "mm", "least side of the square shaft for its strength"),
-        Result("shaft_bar", shaft.bar, "mm", "side of the bar taken: as given, or from stock"),
-        Result("shaft_slope", shaft.slope, "rad", "its slope at the supports"),
-        Result("shaft_deflection", shaft.deflection, "mm", "its deflection between them"),
-        Result("shaft_twist", shaft.twist, "deg", "its twist from end to end under the largest torque"),
-        Result("shaft_stress", shaft.stress, "MPa", "its equivalent stress in bending and torsion, with the safety"),
-        Result("shaft_endurance", shaft.endurance, "1", "safety against fatigue without end, beside that of the load"),
-        Result("shaft_critical_speed", shaft.critical, "rpm", "lowest critical speed, cams and all"),
-        Result("warps_across", design.across_max.value, "N", "largest force of the lifted warps across the shaft"),
-        Result("shaft_directions", _directions(design), "", "weight and warps apart, with the safety [N/m, m, rad]"),
-        Result("bearing", seat.bearing.name if seat.bearing else None, "", "bearing of the shaft"),
-        Result("bearing_load", seat.reaction, "N", "on the most loaded bearing, without the safety"),
-        Result("bearing_life", seat.life if seat.bearing else None, "h", "nine of ten live so long"),
-        Result("journal", seat.journal, "mm", "least diameter of the journal, in torsion"),
-    )
-
-
-def _drive_results(design: SheddingDesign) -> tuple[Result, ...]:
-    drive, speed, duty = design.drive, design.params.speed, design.drive.duty
-    work = float(design.params.warps // 2 * lifting_work(design.params))
-    return (
-        Result("shaft_torque_max", drive.torque_max.value, "Nm", "largest torque that lifts the warps"),
-        Result("shaft_torque_min", drive.torque_min.value, "Nm", "largest torque of the warps on the way back"),
-        Result("torque_rms", drive.torque_rms, "Nm", "root mean square of the shaft's torque over the turn"),
-        Result("power_max", drive.torque_max.value * speed, "W", "largest power at the shaft"),
-        Result("shed_work", work, "J", "work of lifting the even warps once; it comes back on the return"),
-        Result("motor_torque", drive.motor_torque, "Nm", "torque that the motor must give"),
-        Result("motor_speed", drive.motor_speed, "rpm", "speed of the motor"),
-        Result("motor_power", drive.motor_torque * drive.motor_speed, "W", "largest power of the motor"),
-        Result("motor", drive.motor.name if drive.motor else None, "", "class of motor chosen"),
-        Result("motor_torque_rms", duty.rms if duty else None, "Nm", "root mean square of its torque over the turn"),
-        Result("motor_power_mean", duty.power_mean if duty else None, "W", "what goes in, the reducer's losses in it"),
-        Result("inertia_ratio", duty.inertia_ratio if duty else None, "1", "cams over rotor, on the motor's shaft"),
-    )
-
-
-def _overlap(design: SheddingDesign) -> float:
-    """Angle for which warps of both parities are off their lines [rad], at each change of the shed."""
-    return max(0.0, design.params.lifted_angle + design.shed.spread - TURN / 2)
-
-
-def _peak(function: Callable[[FloatArray], FloatArray], design: SheddingDesign) -> float:
-    return supremum(lambda angle: np.abs(function(angle)), design.shed.knots).value
-
-
-def _bearing_checks(design: SheddingDesign) -> tuple[Check, ...]:
-    seat, params = design.shaft.seat, design.params
-    life = at_least("life of the bearings", seat.life, params.bearing_life, "h", "ISO 281, bearing_life")
-    if seat.bearing is None:
-        return (life,)
-    return (
-        life,
-        at_least("bore of the bearing for the torque", seat.bearing.bore, seat.journal, "mm", "torsion, von Mises"),
-        at_most("bore of the bearing in the bar", seat.bearing.bore, design.shaft.bar, "mm", "journal of the bar"),
-    )
-
-
-def _window_checks(studied: SheddingAlternatives) -> tuple[Check, ...]:
-    """The shuttle's window against what is asked for, if anything is."""
-    design, whole = studied.design, studied.together.window()
-    first, last = design.shuttle_window
-    asked = design.params.shuttle_angle
-    if asked is None and design.params.phase == "flattest":
-        asked = window_asked(design.params, whole[1] - whole[0])
-    return () if asked is None else (at_least("window of the shuttle", last - first, asked, "deg", "shuttle_angle"),)
-
-
-def _checks(studied: SheddingAlternatives) -> tuple[Check, ...]:
-    design = studied.design
+def checks(found: SheddingAnalysis) -> tuple[Check, ...]:
+    """Cam, shed, shaft, bearings, motor and strain of the warps."""
+    design, strain = found.design, found.warp_strain
     params, cam, shaft, drive = design.params, design.cam, design.shaft, design.drive
-    pressure = snap_to_limit(pressure_angle_max(cam).value, params.pressure_angle_limit)
-    lifted, width = (
-        snap_to_limit(params.lifted_angle, TURN / 2),
-        snap_to_limit(params.warps * params.warp_pitch, shaft.length),
-    )
-    opening = snap_to_limit(_peak(design.opening, design), params.shuttle_height)
+    mu, width = params.pressure_angle_limit, params.warps * params.warp_pitch
+    buckling = f"{THESIS}: a thin cam must not buckle"
+    norton = "Norton, Cam Design and Manufacturing, 7: rho > roller radius"
+    rho, bore = design.curvature_radius_min, design.prime_radius_for_bore
+    deflection = f"{THESIS} and eq. 3.4, 1 mm"
     return (
-        at_most(
-            "pressure angle", pressure, params.pressure_angle_limit, "deg", f"{THESIS}: a thin cam must not buckle"
-        ),
-        at_least(
-            "convex radius of the pitch curve (no undercut)",
-            convex_radius_min(cam).value,
-            cam.roller_radius,
-            "mm",
-            "Norton, Cam Design and Manufacturing, 7: rho > roller radius",
-        ),
-        at_least("prime radius round the bore", cam.prime_radius, prime_radius_for_bore(design), "mm", "bore_wall"),
-        at_least("shed for the shuttle", opening, params.shuttle_height, "mm", "shuttle_height"),
-        *_window_checks(studied),
-        at_most("one parity down while the other is up", lifted, TURN / 2, "deg", f"{THESIS}, Fig. 3.19"),
+        at_most("pressure angle", design.pressure_angle_max, mu, "deg", buckling),
+        at_least("convex radius of the pitch curve (no undercut)", rho, cam.roller_radius, "mm", norton),
+        at_least("prime radius round the bore", cam.prime_radius, bore, "mm", "bore_wall"),
+        at_least("shed for the shuttle", design.shed_opening, params.shuttle_height, "mm", "shuttle_height"),
+        *_window_checks(found),
+        at_most("one parity down while the other is up", params.lifted_angle, TURN / 2, "deg", f"{THESIS}, Fig. 3.19"),
         at_most("width of the cams on the shaft", width, shaft.length, "mm", "shaft_length"),
         at_most("slope of the shaft", shaft.slope, params.slope_limit, "rad", f"{THESIS} and eq. 3.5"),
-        at_most(
-            "deflection of the shaft", shaft.deflection, params.deflection_limit, "mm", f"{THESIS} and eq. 3.4, 1 mm"
-        ),
-        at_most("twist of the shaft", shaft.twist, params.twist_limit, "deg", "twist_limit: the far cams lag by it"),
+        at_most("deflection of the shaft", shaft.deflection, params.deflection_limit, "mm", deflection),
+        at_most("twist of the shaft", shaft.twist, params.twist_limit, "deg", "twist_limit: lag of the far cams"),
         at_most("stress of the shaft", shaft.stress, params.strength, "MPa", "yield strength, von Mises"),
         at_least("fatigue of the shaft", shaft.endurance, 1.0, "1", "Goodman, hot rolled, 99 %"),
         at_most("speed of the shaft", params.speed, shaft.critical / 2, "rpm", "half of its critical speed"),
         *_bearing_checks(design),
-        at_most(
-            "motor torque",
-            snap_to_limit(drive.motor_torque, drive.motor_limit),
-            drive.motor_limit,
-            "Nm",
-            "lasting torque of the motor",
+        at_most("motor torque", drive.motor_torque, drive.motor_limit, "Nm", "continuous torque of the motor"),
+        *(
+            ()
+            if strain is None
+            else (at_most("strain of a lifted warp", strain, params.strain_limit, "%", "strain_limit"),)
         ),
     )
 
 
-def _warnings(design: SheddingDesign) -> tuple[str, ...]:
-    params = design.params
-    said = []
-    if design.params.speed > SPEED_LIMIT * (1 + 1e-9):
+def _window_checks(found: SheddingAnalysis) -> tuple[Check, ...]:
+    """The shuttle's window against the required one, if any."""
+    design, required = found.design, found.design.params.shuttle_angle
+    if required is None and design.params.phase == "flattest":
+        first, last = found.together.window()
+        required = required_window(design.params, last - first)
+    if required is None:
+        return ()
+    return (at_least("window of the shuttle", design.shuttle_window_angle, required, "deg", "shuttle_angle"),)
+
+
+def _bearing_checks(design: SheddingDesign) -> tuple[Check, ...]:
+    seat, bar = design.shaft.seat, design.shaft.bar
+    life = at_least("life of the bearings", seat.life, design.params.bearing_life, "h", "ISO 281, bearing_life")
+    if seat.bearing is None:
+        return (life,)
+    bore = seat.bearing.bore
+    return (
+        life,
+        at_least("bore of the bearing for the torque", bore, seat.journal, "mm", "torsion, von Mises"),
+        at_most("bore of the bearing in the bar", bore, bar, "mm", "journal of the bar"),
+    )
+
+
+def warnings(found: SheddingAnalysis) -> tuple[str, ...]:
+    """Reasons why the design should not be made as it is, and remedies."""
+    return (*_design_warnings(found.design), *_warp_warnings(found))
+
+
+def _design_warnings(design: SheddingDesign) -> tuple[str, ...]:
+    params, shaft, drive, made = design.params, design.shaft, design.drive, []
+    if params.speed > SPEED_LIMIT * (1 + 1e-9):
         shown = format_quantity(params.speed, "rpm")
-        said.append(f"the cam shaft turns at {shown}; the thesis allows {format_quantity(SPEED_LIMIT, 'rpm')}")
+        made.append(f"the cam shaft turns at {shown}; the thesis allows {format_quantity(SPEED_LIMIT, 'rpm')}")
     if design.stack.thickness < FOIL:
         thin, foil = (format_quantity(value, "mm") for value in (design.stack.thickness, FOIL))
-        said.append(f"cams {thin} thick are foil and buckle: below {foil} spread the warps over several cam shafts")
-    if design.cam.prime_radius < prime_radius_for_bore(design):
-        shown = format_quantity(prime_radius_for_bore(design), "mm")
-        said.append(f"the square bore does not fit into the cam: set prime_radius={shown.replace(' ', '')} or more")
-    if params.shaft_bar is None and design.shaft.bar > STOCK_SIDES[-1]:
-        bar, largest = (format_quantity(side, "mm") for side in (design.shaft.bar, STOCK_SIDES[-1]))
-        said.append(f"the shaft needs a bar of {bar}, beyond the {largest} of stock: set more spans")
-    if params.bearing is None and design.shaft.seat.bearing is None:
-        load, asked = format_quantity(design.shaft.seat.reaction, "N"), format_quantity(params.bearing_life, "h")
-        said.append(f"no insert bearing on the bar lives {asked} under {load}: set more spans, or name a bearing")
-    if params.motor_torque is None and design.drive.motor is None:
+        made.append(f"cams {thin} thick are foil and buckle: below {foil} spread the warps over several cam shafts")
+    if design.cam.prime_radius < design.prime_radius_for_bore:
+        shown = format_quantity(design.prime_radius_for_bore, "mm")
+        made.append(f"the square bore does not fit into the cam: set prime_radius={shown.replace(' ', '')} or more")
+    if params.shaft_bar is None and shaft.bar > shafts.STOCK_SIDES[-1]:
+        bar, largest = (format_quantity(side, "mm") for side in (shaft.bar, shafts.STOCK_SIDES[-1]))
+        made.append(f"the shaft needs a bar of {bar}, beyond the {largest} of stock: set more spans")
+    if params.bearing is None and shaft.seat.bearing is None:
+        load, life = format_quantity(shaft.seat.reaction, "N"), format_quantity(params.bearing_life, "h")
+        made.append(f"no insert bearing on the bar lives {life} under {load}: set more spans, or name a bearing")
+    if params.motor_torque is None and drive.motor is None:
         largest = max(MOTORS, key=lambda motor: motor.torque).name
-        needed, speed = (
-            format_quantity(value, unit)
-            for value, unit in ((design.drive.motor_torque, "Nm"), (design.drive.motor_speed, "rpm"))
+        needed, speed = format_quantity(drive.motor_torque, "Nm"), format_quantity(drive.motor_speed, "rpm")
+        made.append(f"no motor gives {needed} at {speed}; the largest is {largest}: set another ratio")
+    return tuple(made)
+
+
+def _warp_warnings(found: SheddingAnalysis) -> tuple[str, ...]:
+    """Hollows that a yarn does not follow; holds that are in the way of the nose."""
+    design, made = found.design, []
+    hollow = concave_radius_min(design.cam)
+    if hollow is not None and design.params.roller_radius == 0:
+        shown, where = format_quantity(hollow.value, "mm"), format_quantity(hollow.at, "deg")
+        by = f", by {format_quantity(found.bridges.excess, 'mm')} at most" if found.bridges else ""
+        made.append(
+            f"the cam is hollow (radius {shown} at {where}): a taut warp bridges the hollow and is lifted a little "
+            f"earlier and let down a little later than by the law{by}"
         )
-        said.append(f"no motor gives {needed} at {speed}; the largest is {largest}: set another ratio")
-    return tuple(said)
+    if found.warp is not None and found.yarn is None:
+        reach = format_quantity(design.cam.prime_radius + design.params.lift, "mm")
+        made.append(f"a hold of the warps stands within the {reach} that the cams reach: set longer spans")
+    return tuple(made)
+
+
+def tables(found: SheddingAnalysis) -> tuple[Table, ...]:
+    """The cycle, phases compared, motion laws, sides of the shaft, points of the cam."""
+    design = found.design
+    return (_phase_table(design), _stagger_table(found), _law_table(design), _side_table(design), _point_table(design))
+
+
+def _phase_table(design: SheddingDesign) -> Table:
+    heads = columns("warps", "phase", "from [deg]", "to [deg]", "time [s]")
+    rows = tuple(
+        (parity, name, start, end, (end - start) / design.params.speed)
+        for parity, name, start, end in design.cycle_phases
+    )
+    return Table("shedding-phases", "The cycle over the shaft's angle", heads, rows)
+
+
+def _stagger_table(found: SheddingAnalysis) -> Table:
+    """Torque and shed of cams all at once, in two halves, and in the phases of least torque."""
+    design, params = found.design, found.design.params
+    sheds = [("all at once", found.together)]
+    if params.warps >= 4:
+        sheds += [("two halves", shed_of(params, design.even, spread, 2)) for spread in SPREADS]
+    sheds += [("flattest", found.flattest)]
+    if params.phase == "staggered":
+        sheds += [("chosen", design.shed)]
+    heads = columns(
+        "cams of a parity",
+        "groups",
+        "spread [deg]",
+        "torque [Nm]",
+        "root mean square [Nm]",
+        "shed for the shuttle [deg]",
+        "time [s]",
+    )
+    rows = tuple(_stagger_row(name, shed) for name, shed in sheds)
+    return Table("shedding-stagger", "Cams all at once and one after another", heads, rows)
+
+
+def _stagger_row(name: str, shed: Shed) -> tuple[float | int | str, ...]:
+    most, least = (peak.value for peak in shed.peaks())
+    first, last = shed.window()
+    window, speed = last - first, shed.params.speed
+    return name, shed.groups, shed.spread, max(most, -least), shed.rms(), window, window / speed
+
+
+def _law_table(design: SheddingDesign) -> Table:
+    """Each motion law with the same lift, angles and pressure angle."""
+    heads = columns(
+        "law",
+        "prime radius [mm]",
+        "convex radius [mm]",
+        "velocity [mm/s]",
+        "acceleration [mm/s^2]",
+        "acceleration jumps",
+    )
+    rows = tuple(_law_row(design, name) for name in SMOOTH_LAWS)
+    return Table("shedding-laws", "Motion laws compared at equal lift, angles and pressure angle", heads, rows)
+
+
+def _law_row(design: SheddingDesign, name: str) -> tuple[float | int | str, ...]:
+    params, law, programme = design.params, LAWS[name], lifting(design.params, name)
+    prime = pressure_prime(programme, CamLimits(params.pressure_angle_limit, params.pressure_angle_limit)).value
+    # The roller may be larger than this law's prime circle; the pitch curve does not depend on it.
+    radius = convex_radius_min(PlateCam(programme, prime)).value
+    rate = params.speed / min(params.rise, params.fall_angle)
+    velocity, acceleration = params.lift * rate * law.velocity_peak, params.lift * rate**2 * law.acceleration_peak
+    return name, prime, radius, velocity, acceleration, len(jumps(programme))
+
+
+def _side_table(design: SheddingDesign) -> Table:
+    """The shaft for other safeties on the same load: the thesis' Table 3.2, its columns in the right order."""
+    shaft, params = design.shaft, design.params
+
+    def row(factor: float) -> tuple[float, float, float]:
+        load, span, modulus = factor * shaft.load, shaft.span, params.modulus
+        slope = shafts.inertia_for_slope(load, span, modulus, params.slope_limit)
+        deflection = shafts.inertia_for_deflection(load, span, modulus, params.deflection_limit)
+        return factor, shafts.square_side(slope), shafts.square_side(deflection)
+
+    heads = columns("factor on the load", "side for the slope [mm]", "side for the deflection [mm]")
+    rows = tuple(row(factor) for factor in (0.5, 0.75, 1.0, 1.5, 2.0))
+    return Table("shedding-shaft", "Square shaft by load", heads, rows)
+
+
+def _point_table(design: SheddingDesign) -> Table:
+    """The cam in steps of 5 degrees, to be drawn or cut."""
+    angle, cam = np.arange(0, 360, 5) * deg, design.cam
+    surface = cam.surface(angle)
+    lift, mu, bend = cam.programme.at(angle).s, cam.pressure_angle(angle), cam.curvature(angle)
+    values = np.stack([angle, lift, surface.real, surface.imag, mu, bend], axis=1)
+    heads = columns("cam angle [deg]", "lift [mm]", "x [mm]", "y [mm]", "pressure angle [deg]", "curvature [1/m]")
+    return Table("shedding-cam-points", "Points of the cam's surface", heads, tuple(map(tuple, values.tolist())))

@@ -1,17 +1,16 @@
-"""The square shaft of the shedding cams: its load, its least sides, the bar taken, its bearings.
+"""The square shaft of the shedding cams: its load, its least sides, the bar chosen, its bearings.
 
     w = safety |weight + warps e^(i angle)| / l,   span = l / spans
 
 Weight and the pull of the warps act in their own directions; a square bar is as stiff in all directions, so that slope
 and deflection of each add as vectors, and turning with the shaft changes nothing. Supports between the ends are
-bearings, or steadies: rollers under the round guide cams on the side away from the warps, which take no warp's place.
-Each span is reckoned as simply supported, which is on the safe side of a shaft that runs on over its supports; the
-bearings bear w span, at the ends half of it, without the safety.                    [thesis 3.2, eq. 3.4, 3.5; ISO 281]
+bearings, or steadies: rollers under the round guide cams on the side away from the warps, between the warps.
+Each span is taken as simply supported, which is on the safe side for a shaft that is continuous over its supports; a
+bearing carries w span, at the ends half of that, without the safety.                [thesis 3.2, eq. 3.4, 3.5; ISO 281]
 """
 
 import cmath
 import math
-from dataclasses import dataclass
 
 from ilmek.elements import bearings, shafts
 from ilmek.elements.beam import uniform
@@ -21,15 +20,17 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.elements.sections import square_section
 from ilmek.elements.whirl import uniform_speed
 from ilmek.machines.shedding.params import SheddingParams
+from ilmek.records import computed, group, record, result
+from ilmek.report import Json
 from ilmek.units import turn
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ShaftLoads:
-    """What weight and warps do to the shaft, each in its own direction, with the safety.
+    """Loads of the shaft by weight and by warps, each in its own direction, with the safety.
 
-    weight, pull  loads [N/m]; the shaft's slope [rad] and deflection [m] are split as they are
-    angle         of the resultant from the weight, towards the pull [rad]
+    weight, pull  loads [N/m]; the shaft's slope [rad] and deflection [m] are split in their ratio
+    angle         of the pull from the weight [rad]
     """
 
     weight: float
@@ -37,7 +38,7 @@ class ShaftLoads:
     angle: float
 
     def shares(self) -> tuple[float, float]:
-        """Of the resultant's slope and deflection, what the weight alone and the warps alone would give."""
+        """Weight and pull over their resultant; 0 without load."""
         whole = abs(self.resultant)
         return (self.weight / whole, self.pull / whole) if whole > 0 else (0.0, 0.0)
 
@@ -47,55 +48,70 @@ class ShaftLoads:
         return self.weight + self.pull * cmath.exp(1j * self.angle)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ShaftBearings:
     """The bearings of the shaft.
 
-    reaction     on the most loaded one [N]      journal  least diameter of the turned journal [m]
-    bearing      the one taken; None: none lives that long      life  of it [s], 90 % of them reach it
+    bearing  the one chosen; None: none has the required life      life  of it [s], 90 % of them reach it
     """
 
-    reaction: float
-    journal: float
+    reaction: float = result("N", "load of the most loaded bearing, without the safety", name="bearing_load")
+    journal: float = result("mm", "least diameter of the journal, in torsion")
     bearing: RollingBearing | None
     life: float
 
+    name = computed("", "bearing of the shaft", lambda it: it.bearing.name if it.bearing else None, name="bearing")
+    life_of_bearing = computed(
+        "h", "life that 90 % of them reach", lambda it: it.life if it.bearing else None, name="bearing_life"
+    )
 
-@dataclass(frozen=True, slots=True)
+
+@record
 class Shaft:
-    """The square shaft.
+    """The square shaft; `torque`: the largest of the warps, with the safety [N m]; `loads`: None for a given load."""
 
-    load     along it, with its safety [N/m]        length  of all its cams, from first to last support [m]
-    span     from support to support [m]            torque  largest of the warps, with the safety [N m]
-    side_*   least side for a limit [m]             bar     side of the bar taken [m]
-    slope, deflection, stress   of that bar         twist   of that bar from end to end, without the safety [rad]
-    endurance   safety against fatigue without end, the load's own safety in it [Goodman]
-    critical    lowest critical speed of a span with its cams [rad/s]
-    directions  weight and warps apart; None where the load is given      seat  its bearings
-    """
-
-    load: float
-    length: float
-    span: float
+    load: float = result("kN/m", "load of the shaft, with its safety", name="shaft_load")
+    length: float = result("m", "length of the shaft between its first and last support", name="shaft_length")
+    span: float = result("m", "distance of two supports", name="shaft_span")
     torque: float
-    side_slope: float
-    side_deflection: float
-    side_twist: float
-    side_strength: float
-    bar: float
-    slope: float
-    deflection: float
-    twist: float
-    stress: float
-    endurance: float
-    critical: float
+    side_slope: float = result("mm", "least side of the square shaft for the slope", name="shaft_side_slope")
+    side_deflection: float = result(
+        "mm", "least side of the square shaft for the deflection", name="shaft_side_deflection"
+    )
+    side_twist: float = result("mm", "least side of the square shaft for the twist", name="shaft_side_twist")
+    side_strength: float = result("mm", "least side of the square shaft for its strength", name="shaft_side_strength")
+    bar: float = result("mm", "side of the bar chosen: as given, or from stock", name="shaft_bar")
+    slope: float = result("rad", "slope of the shaft at the supports", name="shaft_slope")
+    deflection: float = result("mm", "deflection of the shaft between the supports", name="shaft_deflection")
+    twist: float = result("deg", "twist from end to end by the largest torque, without the safety", name="shaft_twist")
+    stress: float = result(
+        "MPa", "equivalent stress in bending and torsion [von Mises], with the safety", name="shaft_stress"
+    )
+    endurance: float = result("1", "safety against fatigue [Goodman], besides that of the load", name="shaft_endurance")
+    critical: float = result("rpm", "lowest critical speed of a span with its cams", name="shaft_critical_speed")
     directions: ShaftLoads | None
-    seat: ShaftBearings
+    seat: ShaftBearings = group()
 
-    @property
-    def side(self) -> float:
-        """Least side [m] for slope and deflection."""
-        return max(self.side_slope, self.side_deflection)
+    side = computed(
+        "mm",
+        "least side of the square shaft for slope and deflection",
+        lambda it: max(it.side_slope, it.side_deflection),
+        name="shaft_side",
+    )
+
+    @computed("", "weight and warps apart, with the safety [N/m, m, rad]; null where the load is given")
+    def shaft_directions(self) -> Json:
+        if self.directions is None:
+            return None
+        weight, pull = self.directions.shares()
+        shares = {"weight": (weight, self.directions.weight), "pull": (pull, self.directions.pull)}
+        return {
+            "angle": cmath.phase(self.directions.resultant),
+            **{
+                name: {"load": load, "slope": share * self.slope, "deflection": share * self.deflection}
+                for name, (share, load) in shares.items()
+            },
+        }
 
 
 def shaft_for(params: SheddingParams, mass: float, across: float, torque: float) -> Shaft:
@@ -143,7 +159,7 @@ def shaft_for(params: SheddingParams, mass: float, across: float, torque: float)
 
 
 def _endurance(params: SheddingParams, moment: float, torque: float, bar: float) -> float:
-    """Safety of the hot rolled bar against fatigue: the load stands, the bar turns; the torque goes to and fro."""
+    """Safety of the hot rolled bar against fatigue: the load is fixed, the bar rotates; the torque alternates."""
     section = square_section(bar)
     limit = endurance_limit(params.tensile, section.size, "hot-rolled")
     return goodman(Loading(moment, 0.0, torque_amplitude=torque), section, endurance=limit, tensile=params.tensile)
@@ -152,8 +168,8 @@ def _endurance(params: SheddingParams, moment: float, torque: float, bar: float)
 def seat_for(params: SheddingParams, span_load: float, torque: float, bar: float) -> ShaftBearings:
     """Bearings for the load of a span [N], on journals turned from the bar [m] that bear the torque [N m].
 
-    A journal in torsion alone: d = (16 sqrt(3) T / (pi sigma))^(1/3), von Mises. With supports between the ends one of
-    those bears a whole span, an end half of one; a steady's bearing is no larger than the ends' here.
+    A journal in torsion alone: d = (16 sqrt(3) T / (pi sigma))^(1/3), von Mises. A support between the ends carries a
+    whole span, an end half of one; the bearings of the steadies are taken no larger than those of the ends.
     """
     reaction = span_load if params.spans > 1 else span_load / 2
     journal = float((16 * math.sqrt(3) * torque / (math.pi * params.strength)) ** (1 / 3))
@@ -170,9 +186,9 @@ def seat_for(params: SheddingParams, span_load: float, torque: float, bar: float
 
 
 _STEP = 1e-3
-"""Less than from one stock bar to the next [m]."""
+"""Smaller than the step between two stock bars [m]."""
 
 
 def _bar(least: float) -> float:
-    """The smallest stock bar; beyond the dealers' largest one made to measure, in whole centimetres [m]."""
+    """The smallest stock bar; beyond the largest of stock one made to measure, in whole centimetres [m]."""
     return shafts.stock_side(least) or math.ceil(least * 100) / 100

@@ -1,7 +1,7 @@
 """The shedding cams' parts for the workshop, and the warps' motions for a controller.
 
 Even and odd cams are one plate: half a turn of the square bore is the square again. Of staggered cams each group has a
-plate of its own, its bore turned by what the group is later.
+plate of its own, its bore turned by the lag of the group.
 """
 
 import math
@@ -20,7 +20,7 @@ POINTS = 1440
 
 
 def plates(design: SheddingDesign) -> tuple[Plate, ...]:
-    """Cam and guide cam; nothing where the bore does not fit into the cam."""
+    """Cam and guide cam; none where the bore does not fit into the cam."""
     bar, cam = design.shaft.bar, design.cam
     if bar / math.sqrt(2) >= cam.prime_radius - cam.roller_radius:
         return ()
@@ -36,18 +36,18 @@ def _cams(design: SheddingDesign) -> tuple[Plate, ...]:
     offsets = design.shed.offsets.tolist()
     return tuple(
         Plate(
-            name="shedding-cam" if len(numbers) == 1 else f"shedding-cam-{place + 1}",
-            title="Shedding cam" if len(numbers) == 1 else f"Shedding cam, group {place + 1}",
+            name="shedding-cam" if len(numbers) == 1 else f"shedding-cam-{index + 1}",
+            title="Shedding cam" if len(numbers) == 1 else f"Shedding cam, group {index + 1}",
             outline=outline,
             thickness=stack.thickness,
             material=STEEL,
-            cutouts=(square(bar, later),),
+            cutouts=(_square(bar, lag),),
             paths={"pitch curve": cam.pitch(angle)} if cam.roller_radius > 0 else {},
             marks={"zero": mark},
             area=area(cam),
             number=number,
         )
-        for place, (number, later) in enumerate(zip(numbers, offsets, strict=True))
+        for index, (number, lag) in enumerate(zip(numbers, offsets, strict=True))
     )
 
 
@@ -60,14 +60,14 @@ def _guide(design: SheddingDesign) -> Plate:
         outline=circle,
         thickness=stack.guide_thickness,
         material=STEEL,
-        cutouts=(square(bar, 0.0),),
+        cutouts=(_square(bar, 0.0),),
         marks={"zero": np.array([bar / 2 + 0j, stack.guide_radius + 0j])},
         area=math.pi * stack.guide_radius**2,
         number=design.params.warps,
     )
 
 
-def square(side: float, turned: float) -> ComplexArray:
+def _square(side: float, turned: float) -> ComplexArray:
     """Corners of a square bore, counter-clockwise, turned by an angle [rad]."""
     return np.asarray(side / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]) * np.exp(1j * turned))
 
@@ -76,16 +76,15 @@ def cam_tables(design: SheddingDesign) -> tuple[CamTable, ...]:
     """The motions of even and odd warps, of each group."""
     shed = design.shed
     return tuple(
-        _motion(design, f"{parity}-warps" + (f"-{place + 1}" if shed.groups > 1 else ""), programme)
+        _motion(design, f"{parity}-warps" + (f"-{index + 1}" if shed.groups > 1 else ""), programme)
         for parity, cams in (("even", shed.even), ("odd", shed.odd))
-        for place, programme in enumerate(cams.programmes)
+        for index, programme in enumerate(cams.programmes)
     )
 
 
 def _motion(design: SheddingDesign, name: str, programme: CamProgramme) -> CamTable:
-    def course(angle: FloatArray) -> FloatArray:
-        at = programme.at(angle)
-        return np.stack([at.s, at.ds, at.dds])
+    def motion(angle: FloatArray) -> FloatArray:
+        return np.stack(programme.at(angle)[:3])
 
     title = f"Lift of the {name.replace('-', ' ')} over the cam shaft's angle"
-    return CamTable(name, title, course, turn_knots(programme), "mm", TURN / design.params.speed)
+    return CamTable(name, title, motion, turn_knots(programme), "mm", TURN / design.params.speed)

@@ -1,0 +1,81 @@
+"""What only the report of shedding cams needs: other phases of the cams, and the warps as yarns draped over them."""
+
+import math
+
+import numpy as np
+
+from ilmek.machines.shedding.design import SheddingDesign
+from ilmek.machines.shedding.phases import Shed, flattest, shed_of
+from ilmek.machines.shedding.warp import bridged, draped, nose_radius, shed_warp, warp_force
+from ilmek.records import computed, group, record
+from ilmek.report import Json
+from ilmek.weaving.draping import Bridges, DrapedWarp
+from ilmek.weaving.shed import ShedWarp
+from ilmek.weaving.tension import capstan
+
+
+@record
+class SheddingAnalysis:
+    """A design, other phases of its cams, and its warps.
+
+    together, flattest  the cams all at once, and in the phases of least torque
+    warp                that the cams lift; None where only its force is given
+    yarn                the warp draped over the cam; None without `warp`, or where a hold is too near
+    bridges             hollows of the cam that a taut yarn bridges; None where there is none
+    """
+
+    design: SheddingDesign = group()
+    together: Shed
+    flattest: Shed
+    warp: ShedWarp | None
+    yarn: DrapedWarp | None
+    bridges: Bridges | None
+
+    @computed("mm", "elongation of a lifted warp; null where no tension is given")
+    def warp_lengthening(self) -> float | None:
+        return float(self.warp.lengthening(self.design.params.lift)) if self.warp else None
+
+    @computed("%", "strain of a lifted warp, without the share that its cylinder takes up")
+    def warp_strain(self) -> float | None:
+        params, longer = self.design.params, self.warp_lengthening
+        if self.warp is None or longer is None or params.warp_stiffness is None:
+            return None
+        return (1 - params.compensation) * longer / (params.warp_length or self.warp.front + self.warp.back)
+
+    @computed("N", "tension of a lifted warp")
+    def warp_tension_max(self) -> float | None:
+        return float(self.warp.tension_at(self.design.params.lift)) if self.warp else None
+
+    @computed("N", "force of a lifted warp across the shaft")
+    def warp_force_max(self) -> float:
+        return float(warp_force(self.design.params, np.array(self.design.params.lift)))
+
+    @computed("", "hollows of the cam that a taut yarn bridges [rad, m]")
+    def bridged(self) -> Json:
+        found = self.bridges
+        if found is None:
+            return None
+        return {"arcs": [list(arc) for arc in found.arcs], "excess": found.excess, "at": found.at}
+
+    @computed("", "the warp as a yarn draped over the cam [N m, m, rad, N/m]")
+    def draped(self) -> Json:
+        yarn, shed = self.yarn, self.design.shed
+        if yarn is None:
+            return None
+        wrap, radius, tension = float(np.max(yarn.wrap)), nose_radius(self.design.cam), float(np.max(yarn.tension))
+        return {
+            "torque_max": float(np.max(np.abs(shed.draped_torque(yarn)))),
+            "lengthening_max": float(np.max(yarn.lengthening)),
+            "tension_max": tension,
+            "lifted_angle": yarn.lifted,
+            "wrap_max": wrap,
+            "pressure_max": tension / radius if radius > 0 else math.inf,
+            "capstan_ratio": capstan(self.design.params.friction, wrap),
+        }
+
+
+def analyse(design: SheddingDesign) -> SheddingAnalysis:
+    """The analysis of a design."""
+    params, even, cam = design.params, design.even, design.cam
+    flat = design.shed if params.phase == "flattest" else flattest(params, even)
+    return SheddingAnalysis(design, shed_of(params, even), flat, shed_warp(params), draped(params, cam), bridged(cam))
