@@ -217,13 +217,13 @@ def test_force_of_the_linkage_goes_with_the_square_of_its_speed() -> None:
     assert quick.spacing < slow.spacing
     needed = result(answer(drive="linkage"), "speed_needed")
     reached = made(drive="linkage", beat_speed=needed)
-    assert reached.spacing == pytest.approx(reached.params.rows)
+    assert reached.spacing == pytest.approx(reached.params.required_pitch)
 
 
 def test_a_slow_linkage_leaves_the_rows_loose_and_says_so() -> None:
     report = answer(drive="linkage")
     assert "distance of the rows" in [check.name for check in report.failed]
-    assert any("rows a decimetre where 25 are wanted" in said for said in report.warnings)
+    assert any("rows a decimetre where 25 are required" in said for said in report.warnings)
 
 
 def test_the_stroke_for_the_controller_comes_back_twice_a_turn() -> None:
@@ -236,7 +236,7 @@ def test_the_stroke_for_the_controller_comes_back_twice_a_turn() -> None:
 
 def test_wide_carpets_hold_the_comb_more_often() -> None:
     wide = made(warps=4000, warp_pitch=1 * mm)
-    assert (wide.params.places, wide.params.shared) == (4, 4)
+    assert (wide.params.support_count, wide.params.shared) == (4, 4)
     assert wide.comb.line.uniformity >= 0.9
 
 

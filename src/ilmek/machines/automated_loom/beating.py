@@ -14,7 +14,6 @@ from ilmek.cams.laws import LAWS
 from ilmek.elements.yarns import warp_stiffness
 from ilmek.machines import beat_up, hammer
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
-from ilmek.machines.hammer.design import fabric_of
 from ilmek.units import turn
 
 USUAL = hammer.HammerParams()
@@ -74,8 +73,8 @@ def hammer_for(
 def left_by(params: AutomatedLoomParams, warps: int, tension: float, force: float) -> BeatResult:
     """Where a force for each warp [N] leaves the rows of a loom."""
     asked = _asked(params, warps, tension)
-    fabric = fabric_of(asked)
-    return BeatResult(force, float(fabric.spacing(force)), float(fabric.resistance(asked.rows)))
+    fabric = asked.fabric
+    return BeatResult(force, float(fabric.spacing(force)), float(fabric.resistance(asked.required_pitch)))
 
 
 def stiffness_of_warp(params: AutomatedLoomParams) -> float:

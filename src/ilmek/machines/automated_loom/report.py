@@ -61,7 +61,7 @@ def parts_of(loom: LoomDesign) -> tuple[Report, ...]:
         _without(weaver.report(loom.weaver), "knot", "weaver-moving", "acceleration"),
         *(() if arms is None else (arms,)),
         *(() if loom.beat_up is None else (beat_up.MACHINE.report(loom.beat_up, in_a_loom=True),)),
-        *(() if loom.hammer is None else (hammer.report(loom.hammer),)),
+        *(() if loom.hammer is None else (hammer.MACHINE.report(loom.hammer),)),
         shedding.MACHINE.report(loom.shedding, in_a_loom=True),
         warp_tension.report(loom.warp_tension),
     )

@@ -1,17 +1,20 @@
 """The hammer: the comb that beats knots and wefts to the fell, all across the carpet at once.       [thesis 3.3]
 
 Either leaves on the guide cams, which a vertical axis pulls down with the whole cam system, or a comb on crank-rockers
-(`beat_up`). The fabric's resistance tells where the row ends up, the comb as a beam on the fell how evenly.
+(`beat_up`). The fabric's resistance states where the row ends up, the comb as a beam on the fell how evenly.
 """
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
-from ilmek.machines.hammer.design import Hammer, design
+from ilmek.machines.hammer.axis import CombDrive
+from ilmek.machines.hammer.comb import Comb
+from ilmek.machines.hammer.design import CombLinkage, Hammer, design
+from ilmek.machines.hammer.figures import figures
 from ilmek.machines.hammer.in_loom import fit, parts, planned_beat, work
 from ilmek.machines.hammer.params import HammerParams
-from ilmek.machines.hammer.report import report
+from ilmek.machines.hammer.report import cam_tables, checks, tables, warnings
 
-__all__ = ["MACHINE", "Hammer", "HammerParams", "design", "report"]
+__all__ = ["MACHINE", "Hammer", "HammerParams", "design"]
 
 MACHINE = Component(
     name="hammer",
@@ -19,7 +22,13 @@ MACHINE = Component(
     summary=SUMMARIES["hammer"],
     params=HammerParams,
     design=design,
-    reporter=report,
+    results=lambda hammer: (hammer, hammer.comb, hammer.axis, hammer.linkage),
+    reported=(Hammer, Comb, CombDrive, CombLinkage),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
+    cam_tables=cam_tables,
     parts=parts,
     work=work,
     fit=fit,

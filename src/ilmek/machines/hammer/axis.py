@@ -4,15 +4,13 @@ The whole cam system goes down by the stroke, presses, and comes up again within
 
     F(t) = m x'' - (1 - c) m g + P(x),      x downwards, c the share of the weight that is balanced
 
-P the fell's force: it rises as the fabric has it while the comb goes its last way, stands while the comb presses, and
-falls by what the fell gives back on the way up. A screw of the lead p turns F into F p / (2 pi eta), a belt on a pulley
-of radius r into F r / eta; against the way it goes, times eta instead. The axes share the force evenly. Neither locks
-itself: a brake holds what hangs on an axis, (1 - c) m g p / (2 pi), or r in place of p / (2 pi).
+P the fell's force: it follows the fabric from the contact to the end of the stroke, is constant while the comb presses,
+and falls on the way up as the fell returns. Against the motion a screw of the lead p needs the torque F p / (2 pi eta),
+a belt on a pulley of radius r needs F r / eta; along the motion they give eta F p / (2 pi) and eta F r. The axes share
+the force evenly. Neither locks itself: a brake holds (1 - c) m g p / (2 pi) or (1 - c) m g r on each axis' share.
 
-A screw is as long as the stroke and its ends, and must not buckle under three times its force (Euler, one end clamped).
+A screw is as long as the stroke and its ends and must not buckle under three times its force (Euler, one end clamped).
 """
-
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,56 +23,97 @@ from ilmek.elements.motors import SERVO
 from ilmek.elements.screws import Screw
 from ilmek.machines.hammer.comb import comb_mass
 from ilmek.machines.hammer.params import STACK, STEEL, HammerParams
+from ilmek.records import computed, record, result
+from ilmek.report import Json
 from ilmek.units import mm
 from ilmek.weaving.fell import Fabric
 
 SAMPLES = 720
 
+BALL_SCREWS = tuple(diameter * mm for diameter in (12, 16, 20, 25, 32, 40, 50, 63, 80, 100))
+"""Nominal diameters of ball screws [m] [ISO 3408-2]."""
 
-@dataclass(frozen=True, slots=True)
+CORE, BALL_FRICTION = 0.85, 0.005
+"""Core diameter of a ball screw over the nominal one, and its friction."""
+
+SCREW_ENDS = 0.2
+"""Length of a screw beyond its stroke [m]: nut and bearings."""
+
+BUCKLING = 3.0
+"""Required safety of a screw against buckling."""
+
+_TABLE, _STILL = 200, 1e-12
+
+
+@record
 class CombDrive:
     """The comb's vertical drive.
 
-    programme  stroke over the cams' angle, downwards [m]      mass  that moves: cams and comb [kg]
-    angle      of the samples over a turn [rad]                travel, speed, acceleration of them [m, s]
-    force      of all axes, downwards [N]                      press  what the comb presses with [N]
-    inertia_force  largest m x'' [N]                            balance  what holds the weight [N], (1 - c) m g
-    cycle      of one axis' motor shaft without reducer        drive  servo of one axis; None: no one bears it
-    power_max  of all axes [W]                                 meets  speed of the comb where it meets the row [m/s]
-    brake      torque that holds an axis at rest [N m]         screw  diameter [m], None: belts
-    buckling   safety of a screw against it; inf for belts
+    programme  stroke over the cams' angle, downwards [m]
+    angle      of the samples over a turn [rad]          travel, speed, acceleration  of them [m, s]
+    force      of all axes, downwards [N]                press  of the comb on the fell [N]
+    cycle      of one axis' motor shaft, no reducer      drive  servo of one axis; None: none of the table is enough
     """
 
     programme: CamProgramme
-    mass: float
     angle: FloatArray
     travel: FloatArray
     speed: FloatArray
     acceleration: FloatArray
     force: FloatArray
     press: FloatArray
-    inertia_force: float
-    balance: float
     cycle: LoadCycle
     drive: ServoDrive | None
-    power_max: float
-    meets: float
-    brake: float
-    screw: float | None
-    buckling: float
+    mass: float = result("kg", "mass of cams and comb, which go down together", name="moving_mass")
+    stroke_needed: float = result("mm", "least stroke in which the comb meets the row, packs it and presses the fell")
+    balance: float = result("N", "weight that the axes hold, the balanced part taken off", name="weight_carried")
+    contact_speed: float = result("mm/s", "speed of the comb where it meets the row: it presses, it does not strike")
+    axes: int = result("1", "vertical axes: ball screws or toothed belts")
+    brake: float = result(
+        "Nm", "torque that holds a screw or pulley at rest: neither locks itself", name="brake_torque"
+    )
+    screw: float | None = result("mm", "diameter of a ball screw; none for belts", name="screw_diameter")
+    buckling: float | None = result("1", "safety of a screw against buckling, Euler", name="buckling_safety")
+
+    speed_max = computed("mm/s", "largest speed of the comb", lambda it: _most(it.speed))
+    acceleration_max = computed("m/s^2", "largest acceleration of the comb", lambda it: _most(it.acceleration))
+    inertia_force = computed("N", "force that accelerates cams and comb", lambda it: it.mass * _most(it.acceleration))
+    axes_force_down = computed("N", "largest force of all axes, downwards", lambda it: float(np.max(it.force)))
+    axes_force_up = computed("N", "largest force of all axes, upwards", lambda it: -float(np.min(it.force)))
+    power_max = computed("W", "largest power of all axes", lambda it: _most(it.force * it.speed))
+    axis_speed = computed("rpm", "largest speed of a screw or pulley", lambda it: _most(it.cycle.speed))
+    axis_torque = computed("Nm", "largest torque at a screw or pulley", lambda it: _most(it.cycle.effort))
+
+    @computed("", "servo of each axis; none where none of the table is enough")
+    def servo(self) -> Json:
+        if self.drive is None:
+            return None
+        duty = self.drive.duty
+        return {
+            "motor": self.drive.motor.name,
+            "ratio": self.drive.reducer.ratio,
+            "torque_rms": duty.rms,
+            "torque_peak": duty.peak,
+            "speed_max": duty.speed_max,
+            "inertia_ratio": duty.inertia_ratio,
+        }
+
+
+def _most(values: FloatArray) -> float:
+    return float(np.max(np.abs(values)))
 
 
 def stroke_programme(params: HammerParams) -> CamProgramme:
     """Two strokes a turn: rest while the shed opens, then down, press and up within the step."""
     law = LAWS[params.law]
     press = params.press_share * params.step
-    way = (params.step - press) / 2
+    span = (params.step - press) / 2
     rest = TURN / 2 - params.step
     once = (
         *([dwell(rest)] if rest > 0 else []),
-        rise(way, params.stroke, law),
+        rise(span, params.stroke, law),
         *([dwell(press)] if press > 0 else []),
-        fall(way, params.stroke, law),
+        fall(span, params.stroke, law),
     )
     return CamProgramme((*once, *once))
 
@@ -92,8 +131,7 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
     total = mass * acceleration - balance + press
     arm = params.lead / TURN if params.axis == "screw" else params.pulley_radius
     resisting = press - balance
-    driven = resisting * speed >= 0
-    lost = np.where(driven, 1 / params.axis_efficiency, params.axis_efficiency)
+    lost = np.where(resisting * speed >= 0, 1 / params.axis_efficiency, params.axis_efficiency)
     cycle = LoadCycle(
         speed=speed / arm,
         acceleration=acceleration / arm,
@@ -101,32 +139,32 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
         inertia=mass * arm**2 / params.shared,
     )
     contact = (speed > 0) & (press > 0)
-    screw, buckling = _screw(params, float(np.max(np.abs(total))) / params.shared)
+    screw, buckling = _screw(params, _most(total) / params.shared)
     return CombDrive(
         programme=programme,
-        mass=mass,
         angle=angle,
         travel=at.s,
         speed=speed,
         acceleration=acceleration,
         force=total,
         press=press,
-        inertia_force=mass * float(np.max(np.abs(acceleration))),
-        balance=balance,
         cycle=cycle,
         drive=size_motor(cycle, kind=SERVO),
-        power_max=float(np.max(np.abs(total * speed))),
-        meets=float(speed[contact].max()) if contact.any() else 0.0,
+        mass=mass,
+        stroke_needed=float(fabric.travel(force)),
+        balance=balance,
+        contact_speed=float(speed[contact].max()) if contact.any() else 0.0,
+        axes=params.shared,
         brake=balance * arm / params.shared,
         screw=screw,
         buckling=buckling,
     )
 
 
-def _screw(params: HammerParams, force: float) -> tuple[float | None, float]:
-    """Diameter [m] of a ball screw under a force [N], and its safety against buckling; None and inf for belts."""
+def _screw(params: HammerParams, force: float) -> tuple[float | None, float | None]:
+    """Diameter [m] of a ball screw under a force [N], and its safety against buckling; None for belts."""
     if params.axis == "belt":
-        return None, float("inf")
+        return None, None
     length = params.stroke + SCREW_ENDS
 
     def safety(diameter: float) -> float:
@@ -138,17 +176,6 @@ def _screw(params: HammerParams, force: float) -> tuple[float | None, float]:
     return taken, safety(taken)
 
 
-BALL_SCREWS = tuple(diameter * mm for diameter in (12, 16, 20, 25, 32, 40, 50, 63, 80, 100))
-"""Nominal diameters of ball screws [m] [ISO 3408-2]."""
-
-CORE, BALL_FRICTION = 0.85, 0.005
-SCREW_ENDS = 0.2
-"""Length of a screw beyond its stroke [m]: nut and bearings."""
-
-BUCKLING = 3.0
-"""Safety against buckling that is asked of a screw."""
-
-
 def _fell_force(
     params: HammerParams, fabric: Fabric, force: float, travel: FloatArray, speed: FloatArray
 ) -> FloatArray:
@@ -158,11 +185,3 @@ def _fell_force(
     going = np.interp(float(fabric.travel(force)) - left, np.asarray(fabric.travel(forces)), forces, left=0.0)
     back = np.interp(float(fabric.fell(force)) - left, np.asarray(fabric.fell(forces)), forces, left=0.0)
     return np.asarray(np.where(speed >= -_STILL, going, back))
-
-
-_TABLE, _STILL = 200, 1e-12
-
-
-def stroke_needed(fabric: Fabric, force: float) -> float:
-    """Least stroke [m] in which the comb meets the row, packs it and presses the fell back."""
-    return float(fabric.travel(force))

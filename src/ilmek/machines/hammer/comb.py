@@ -4,32 +4,35 @@ A bar of h x b across the width (h along the beat) with a leaf in each gap of th
 cantilever with the force of one warp at its end: stress 6 F a / (t h^2), sag 4 F a^3 / (E t h^3).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ilmek.machines.hammer.params import DEPTHS, HammerParams
+from ilmek.records import computed, record, result
 from ilmek.weaving.comb_on_fell import FellPressure, fell_pressure
 from ilmek.weaving.fell import Fabric
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Comb:
-    """The comb under the beat.
+    """The comb under the beat; line: its pressure across the width."""
 
-    mass        bar and leaves [kg]           rigidity  E I of the bar [N m^2]
-    foundation  stiffness of the fell over the width [N/m^2]
-    line        its pressure across the width             stress      largest of the bar [Pa]
-    leaf_stress, leaf_sag  of a leaf [Pa, m]
-    """
-
-    mass: float
-    rigidity: float
-    foundation: float
     line: FellPressure
-    stress: float
-    leaf_stress: float
-    leaf_sag: float
+    depth: float = result("mm", "height of the comb's bar: as given, or chosen", name="comb_depth")
+    mass: float = result("kg", "mass of bar and leaves", name="comb_mass")
+    rigidity: float = result("N*m^2", "E I of the comb's bar", name="comb_rigidity")
+    foundation: float = result("Pa", "stiffness of the fell: force over width and displacement", name="fell_stiffness")
+    stress: float = result("MPa", "largest stress of the bar", name="comb_stress")
+    leaf_stress: float = result("MPa", "stress of a leaf")
+    leaf_sag: float = result("mm", "sag of a leaf at the fell")
+
+    uniformity = computed("1", "least force over the largest, across the width", lambda it: it.line.uniformity)
+    share_min = computed("1", "least force over the mean", lambda it: it.line.least)
+    share_max = computed("1", "largest force over the mean", lambda it: it.line.most)
+    beam_number = computed(
+        "1", "width over the length in which the comb bends on the fell, l W", lambda it: it.line.number
+    )
 
 
 def comb_mass(params: HammerParams) -> float:
@@ -43,15 +46,17 @@ def comb_for(params: HammerParams, fabric: Fabric, force: float) -> Comb:
     """The comb pressing with a force [N] for each warp; the fell as stiff as it is at that force."""
     rigidity = params.modulus * params.comb_thickness * params.depth**3 / 12
     foundation = fabric.rate(float(fabric.spacing(force))) / params.warp_pitch
-    ends = (params.inset, params.width - params.inset) if params.places > 1 else (params.width / 2,) * 2
-    line = fell_pressure(params.width, np.unique(np.linspace(*ends, params.places)), rigidity, foundation)
+    ends = (params.inset, params.width - params.inset) if params.support_count > 1 else (params.width / 2,) * 2
+    supports = np.unique(np.linspace(*ends, params.support_count))
+    line = fell_pressure(params.width, supports, rigidity, foundation)
     curvature = float(np.max(np.abs(line.curvature))) * force / params.warp_pitch
     leaf = params.leaf * params.leaf_height**2
     return Comb(
+        line=line,
+        depth=params.depth,
         mass=comb_mass(params),
         rigidity=rigidity,
         foundation=foundation,
-        line=line,
         stress=params.modulus * curvature * params.depth / 2,
         leaf_stress=6 * force * line.most * params.leaf_reach / leaf,
         leaf_sag=4 * force * line.most * params.leaf_reach**3 / (params.modulus * leaf * params.leaf_height),
@@ -66,5 +71,5 @@ def with_depth(params: HammerParams, fabric: Fabric, force: float) -> HammerPara
     while low < high:
         middle = (low + high) // 2
         tried = comb_for(replace(params, comb_depth=DEPTHS[middle]), fabric, force)
-        low, high = (low, middle) if tried.line.uniformity >= params.uniformity_limit else (middle + 1, high)
+        low, high = (low, middle) if tried.uniformity >= params.uniformity_limit else (middle + 1, high)
     return replace(params, comb_depth=DEPTHS[low])

@@ -1,55 +1,109 @@
 """The hammer's design: fabric, force of the beat, where the row ends up, comb, and what drives it.
 
-The comb is pressed: what the drive gives for each warp, F, is what the fell resists with, R(p) = F, so that the row's
-distance p, and with it the knots along the length, are an outcome. Comb: the axes are sized for the force that the
-wanted rows ask, or for the one given. Linkage: the force is what the crank-rockers' motion gives at the beat.
+The comb is pressed: the force of the drive for each warp, F, equals the resistance of the fell, R(p) = F, so that the
+distance p of the row, and with it the knots along the length, are an outcome. Comb: the axes are sized for the force
+that the required rows need, or for the given one. Linkage: the force is what the crank-rockers' motion gives at the
+beat. There each rocker turns its share of the comb back with m a: the fell can take so much force before the load of
+the pins changes sign, and so much is counted on. It grows with the square of the speed.
 """
 
-from dataclasses import dataclass
+import math
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.machines import beat_up
+from ilmek.machines.beat_up.design import evaluate
 from ilmek.machines.hammer.axis import CombDrive, axis_for
-from ilmek.machines.hammer.comb import Comb, comb_for, with_depth
-from ilmek.machines.hammer.linkage import Linkage, linkage_for
+from ilmek.machines.hammer.comb import Comb, comb_for, comb_mass, with_depth
 from ilmek.machines.hammer.params import HammerParams
+from ilmek.records import computed, record, result
 from ilmek.weaving.fell import Fabric
 
 
-@dataclass(frozen=True, slots=True)
+@record
+class CombLinkage:
+    """Crank-rockers that share the comb, all alike: `one` of them."""
+
+    one: beat_up.BeatUp
+    number: int = result("1", "crank-rockers that share the comb", name="beaters")
+    force: float = result("N", "force of all at the beat, by the comb's inertia", name="linkage_force")
+    torque: float = result("Nm", "largest torque on their crank shaft", name="linkage_torque")
+    energy: float = result("J", "kinetic energy of the comb at its largest speed", name="swing_energy")
+    speed_needed: float | None = result("rad/s", "speed of the crank that the required rows need")
+
+    transmission_angle_min = computed(
+        "deg", "least transmission angle of the crank-rockers", lambda it: it.one.transmission_angle_min
+    )
+
+
+@record
 class Hammer:
     """A hammer, designed.
 
     params  those in force, with the depth of the comb
-    force   for each warp [N]                      needed  the force that the wanted rows ask of each warp [N]
-    spacing distance of the rows it leaves [m]     fell    how far the fell gives way [m]
-    energy  of a beat, for each warp [J]
     axis    of the comb drive, linkage of the other; None for the drive that is not taken
     """
 
     params: HammerParams
     fabric: Fabric
-    force: float
-    needed: float
-    spacing: float
-    fell: float
-    energy: float
     comb: Comb
     axis: CombDrive | None
-    linkage: Linkage | None
+    linkage: CombLinkage | None
+    spacing: float = result("mm", "distance of the rows that the beat leaves: the outcome", name="row_pitch")
+    force: float = result("N", "mean force on the fell for each warp", name="force_warp")
+    needed: float = result("N", "force for each warp that the required rows need", name="force_needed")
 
-    @property
-    def rows_along(self) -> float:
-        """Rows of knots over the length [1/m], the outcome."""
-        return 1 / self.spacing
+    rows_along = computed("1/dm", "rows of knots along the carpet", lambda it: 1 / it.spacing, name="knots_along")
+    row_pitch_range = computed(
+        "mm", "least and largest distance of the rows over the width", lambda it: _ends(it.spacing_across())
+    )
+    force_warp_min = computed("N", "least force of a warp across the width", lambda it: float(it.force_across().min()))
+    force_warp_max = computed(
+        "N", "largest force of a warp across the width", lambda it: float(it.force_across().max())
+    )
+    whole_force = computed("N", "force on the whole fell", lambda it: it.force * it.params.warps, name="force")
+    tension = computed("N", "tension of a warp before the beat", lambda it: it.fabric.tension)
+    fell = computed(
+        "mm",
+        "displacement of the fell, which returns",
+        lambda it: float(it.fabric.fell(it.force)),
+        name="fell_movement",
+    )
+    comb_travel = computed(
+        "mm",
+        "travel of the comb from the laid row to its end",
+        lambda it: float(it.fabric.travel(it.force)),
+        name="comb_way",
+    )
+    bump_force = computed("N", "force of a warp from which the cloth is slack", lambda it: it.fabric.bump)
+    beat_energy = computed("J", "work of a beat on rows, warps and cloth", lambda it: it.energy * it.params.warps)
+    packing_energy = computed(
+        "J",
+        "part of it that packs the row and is not returned",
+        lambda it: it.fabric.packing_work(it.spacing) * it.params.warps,
+    )
+    beat_power = computed(
+        "W", "mean power, two beats a turn of the cams", lambda it: 2 * it.beat_energy / it.params.turn_time
+    )
 
-    @property
+    @computed("kg", "mass of all that moves: cams and comb, or the comb alone and its crank-rockers")
     def mass(self) -> float:
-        """What moves [kg]: cams and comb, or the comb alone and its crank-rockers."""
         if self.axis is not None:
             return self.axis.mass
         return self.comb.mass + (self.linkage.number * sum(self.linkage.one.masses.values()) if self.linkage else 0.0)
+
+    @property
+    def energy(self) -> float:
+        """Work of a beat, for each warp [J]."""
+        return self.fabric.energy(self.force)
+
+    @property
+    def speed_max(self) -> float:
+        """Largest speed of the comb [m/s]."""
+        if self.axis is not None:
+            return self.axis.speed_max
+        return self.linkage.one.beater_velocity_max if self.linkage else 0.0
 
     def force_across(self) -> FloatArray:
         """Force of a warp [N] at `comb.line.x`."""
@@ -60,35 +114,39 @@ class Hammer:
         return np.asarray(self.fabric.spacing(np.maximum(self.force_across(), 0.0)))
 
 
-def fabric_of(params: HammerParams) -> Fabric:
-    """The fell of the parameters, for one warp."""
-    return Fabric(
-        tension=params.warp_tension,
-        laid=params.laid,
-        jammed=params.jammed,
-        packing=params.packing or params.rows / 4,
-        warp_rate=params.stiffness / params.warp_length,
-        cloth_rate=params.stiffness / params.cloth_length,
-    )
+def _ends(values: FloatArray) -> list[float]:
+    return [float(values.min()), float(values.max())]
 
 
 def design(params: HammerParams) -> Hammer:
     """The hammer for the parameters. Raises MechanismError where its crank-rockers do not move."""
-    fabric = fabric_of(params)
-    needed = float(fabric.resistance(params.rows))
+    fabric = params.fabric
+    needed = float(fabric.resistance(params.required_pitch))
     params = with_depth(params, fabric, params.force or needed)
-    linkage = linkage_for(params) if params.drive == "linkage" else None
+    linkage = linkage_for(params, needed) if params.drive == "linkage" else None
     force = params.force or (linkage.force / params.warps if linkage else needed)
-    spacing = float(fabric.spacing(force))
     return Hammer(
         params=params,
         fabric=fabric,
-        force=force,
-        needed=needed,
-        spacing=spacing,
-        fell=float(fabric.fell(force)),
-        energy=fabric.energy(force),
         comb=comb_for(params, fabric, force),
         axis=None if linkage else axis_for(params, fabric, force),
         linkage=linkage,
+        spacing=float(fabric.spacing(force)),
+        force=force,
+        needed=needed,
     )
+
+
+def linkage_for(params: HammerParams, needed: float) -> CombLinkage:
+    """The crank-rockers of the comb; needed: force for each warp that the required rows need [N]."""
+    number = params.rockers
+    share = comb_mass(params) / number
+    one = beat_up.design(
+        beat_up.BeatUpParams(ground=params.ground, speed=params.beat_speed, beater_mass=share, beat_force=0.0)
+    )
+    beat = evaluate(one.params, one.plan, one.bodies, np.array([one.beta]))
+    force = number * float(np.abs(beat.beater_force[0]))
+    # Without weight every force grows with the square of the speed.
+    speed = params.beat_speed * math.sqrt(needed * params.warps / force) if force else None
+    energy = 0.5 * number * share * one.beater_velocity_max**2
+    return CombLinkage(one, number, force, number * one.drive_torque_max, energy, speed)

@@ -5,10 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.machines.hammer.axis import CombDrive as VerticalAxis
+from ilmek.machines.hammer.axis import CombDrive
 from ilmek.machines.hammer.design import Hammer
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.units import dm, format_quantity
+
+SHOWN, ROWS = 7, 5
+"""Warps and rows drawn."""
 
 
 def figures(design: Hammer) -> tuple[Figure, ...]:
@@ -28,98 +31,70 @@ def packing_plot(design: Hammer) -> Plot:
     )
     marks = (Mark(design.force, format_quantity(design.spacing, "mm")),)
     note = f"jammed at {format_quantity(fabric.jammed, 'mm')}, laid at {format_quantity(fabric.laid, 'mm')}"
-    title = "Rows by the force of the beat"
-    across, up = Axis("force of a warp", "N"), Axis("distance of rows", "mm")
-    return Plot("hammer-packing", title, across, up, series, marks, note)
+    axes = Axis("force of a warp", "N"), Axis("distance of rows", "mm")
+    return Plot("hammer-packing", "Rows by the force of the beat", *axes, series, marks, note)
 
 
 def fell_plot(design: Hammer) -> Plot:
-    """Force of the fell along the comb's last way: up while it packs, down by what the fell gives back."""
+    """Force of the fell along the comb's travel in it: up while it packs, down as the fell returns."""
     fabric = design.fabric
     force = np.linspace(0.0, design.force, 201)
-    end = float(fabric.travel(design.force))
+    back = design.comb_travel - fabric.fell(design.force) + fabric.fell(force)
     series = (
         Series("comb going", np.asarray(fabric.travel(force)), force),
-        Series("comb coming back", end - fabric.fell(design.force) + fabric.fell(force), force, dashed=True),
+        Series("comb coming back", back, force, dashed=True),
     )
-    note = "the area between the curves is the work that packs the row, the rest is given back"
-    title = "Force of a warp along the comb's way in the fell"
-    return Plot("hammer-fell", title, Axis("way", "mm"), Axis("force of a warp", "N"), series, note=note)
+    note = "the area between the curves is the work that packs the row, the rest is returned"
+    axes = Axis("travel", "mm"), Axis("force of a warp", "N")
+    return Plot("hammer-fell", "Force of a warp along the comb's travel in the fell", *axes, series, note=note)
 
 
 def across_plots(design: Hammer) -> tuple[Plot, Plot]:
     """Force of a warp, and rows per length, across the width."""
-    x = design.comb.line.x
-    ends = np.array([0.0, design.params.width])
-    force = Plot(
-        "hammer-across",
-        "Force of a warp across the width",
-        Axis("across", "mm"),
-        Axis("force of a warp", "N"),
-        (Series("comb", x, design.force_across()), Series("mean", ends, np.full(2, design.force), dashed=True)),
+    x, across = design.comb.line.x, Axis("across", "mm")
+    ends, required = np.array([0.0, design.params.width]), 1 / design.params.required_pitch
+    force = (Series("comb", x, design.force_across()), Series("mean", ends, np.full(2, design.force), dashed=True))
+    rows = (Series("comb", x, 1 / design.spacing_across()), Series("required", ends, np.full(2, required), dashed=True))
+    return (
+        Plot("hammer-across", "Force of a warp across the width", across, Axis("force of a warp", "N"), force),
+        Plot("hammer-rows-across", "Rows along the carpet, across its width", across, Axis("rows", "1/dm"), rows),
     )
-    rows = Plot(
-        "hammer-rows-across",
-        "Rows along the carpet, across its width",
-        Axis("across", "mm"),
-        Axis("rows", "1/dm"),
-        (
-            Series("comb", x, 1 / design.spacing_across()),
-            Series("wanted", ends, np.full(2, 1 / design.params.rows), dashed=True),
-        ),
-    )
-    return force, rows
 
 
-def axis_plots(axis: VerticalAxis) -> tuple[Plot, Plot]:
+def axis_plots(axis: CombDrive) -> tuple[Plot, Plot]:
     """The stroke, and the force of the axes, over a turn of the cams."""
     over = Axis("cam angle", "deg")
-    stroke = Plot(
-        "hammer-stroke",
-        "Stroke of the comb, downwards",
-        over,
-        Axis("stroke", "mm"),
-        (Series("comb", axis.angle, axis.travel),),
+    stroke = (Series("comb", axis.angle, axis.travel),)
+    force = (
+        Series("all", axis.angle, axis.force),
+        Series("the fell's", axis.angle, axis.press, dashed=True),
+        Series("inertia", axis.angle, axis.mass * axis.acceleration, dashed=True),
     )
-    inertia = axis.mass * axis.acceleration
-    force = Plot(
-        "hammer-force",
-        "Force of the vertical axes, downwards",
-        over,
-        Axis("force", "kN"),
-        (
-            Series("all", axis.angle, axis.force),
-            Series("the fell's", axis.angle, axis.press, dashed=True),
-            Series("inertia", axis.angle, inertia, dashed=True),
-        ),
-        note="negative: the axes hold the weight of cams and comb",
+    note = "negative: the axes hold the weight of cams and comb"
+    return (
+        Plot("hammer-stroke", "Stroke of the comb, downwards", over, Axis("stroke", "mm"), stroke),
+        Plot("hammer-force", "Force of the vertical axes, downwards", over, Axis("force", "kN"), force, note=note),
     )
-    return stroke, force
-
-
-SHOWN, ROWS = 7, 5
-"""Warps and rows drawn."""
 
 
 def drawing(design: Hammer) -> Drawing:
     """The comb at the beat, between some warps: its leaves over the last row, the rows below; to scale."""
     params = design.params
     pitch, top, half = params.warp_pitch, params.leaf_height, SHOWN * params.warp_pitch / 2
-    places = np.arange(SHOWN + 1) * pitch - half
-    leaves = tuple(Stroke(_box(x - params.leaf / 2, 0.0, params.leaf, top), "outline", "", True, True) for x in places)
+    gaps = np.arange(SHOWN + 1) * pitch - half
+    leaves = tuple(Stroke(_box(x - params.leaf / 2, 0.0, params.leaf, top), "outline", "", True, True) for x in gaps)
     low = -(ROWS + 0.5) * design.spacing
-    warps = tuple(Stroke(np.array([x + 1j * low, x + 1.4j * top]), "yarn") for x in places[:-1] + pitch / 2)
+    warps = tuple(Stroke(np.array([x + 1j * low, x + 1.4j * top]), "yarn") for x in gaps[:-1] + pitch / 2)
     rows = tuple(
         Stroke(np.array([-half - pitch, half + pitch]) - 1j * n * design.spacing, "path", "" if n else "last row")
         for n in range(ROWS + 1)
     )
-    bar = _box(-half - pitch, top, 2 * half + 2 * pitch, 0.3 * top)
-    said = Stroke(half + 1.8 * pitch - 1j * np.array([1, 2]) * design.spacing, "dimension", "rows")
-    strokes = (*warps, *rows, *leaves, Stroke(bar, "outline", "comb, cut off above", True), said)
+    bar = Stroke(_box(-half - pitch, top, 2 * half + 2 * pitch, 0.3 * top), "outline", "comb, cut off above", True)
+    distance = Stroke(half + 1.8 * pitch - 1j * np.array([1, 2]) * design.spacing, "dimension", "rows")
     note = (
         f"Front view at the beat: rows {format_quantity(design.spacing, 'mm')} apart, {design.rows_along * dm:.4g}/dm."
     )
-    return Drawing("hammer-comb", "Comb between the warps", strokes, note=note)
+    return Drawing("hammer-comb", "Comb between the warps", (*warps, *rows, *leaves, bar, distance), note=note)
 
 
 def _box(x: float, y: float, width: float, height: float) -> ComplexArray:

@@ -1,4 +1,4 @@
-"""What may be asked of the hammer."""
+"""Parameters of the hammer."""
 
 import math
 from dataclasses import dataclass
@@ -7,8 +7,9 @@ from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.yarns import warp_stiffness
 from ilmek.errors import ParameterError
-from ilmek.params import Params, param
+from ilmek.params import Params, kind
 from ilmek.units import MPa, deg, format_quantity, mm, rpm, turn
+from ilmek.weaving.fell import CLOTH_LENGTH, JAMMED, LAID, PACKING, Fabric
 from ilmek.weaving.tension import usual_tension
 
 DRIVES = ("comb", "linkage")
@@ -19,146 +20,132 @@ STACK = 550.0 / 1.2
 
 STEEL = MATERIALS["structural steel"]
 
+DEPTHS = tuple(depth * 10 * mm for depth in range(2, 51))
+"""Heights of a comb's bar to choose from [m]."""
+
+BEATER_WIDTH = 1.5
+"""Width of the comb for each crank-rocker, and for each vertical axis beyond the first [m]."""
+
 
 @dataclass(frozen=True, slots=True)
-class FabricParams(Params):
-    """What is woven: warps, rows, and how they pack."""
+class HammerParams(Params):
+    """Fabric, comb and drive of the hammer; the defaults are the thesis' loom."""
 
-    warps: int = param(600, at_least=2, at_most=100_000, doc="warps across")
-    warp_pitch: float = param(2 * mm, unit="mm", at_least=0.01 * mm, at_most=50 * mm, doc="distance of two warps")
-    row_pitch: float | None = param(
-        None, unit="mm", at_least=0.01 * mm, at_most=0.2, doc="distance of two rows wanted; none: of two knots across"
+    warps: int = kind.count(600, at_least=2, at_most=100_000, doc="warps across")
+    warp_pitch: float = kind.length(2 * mm, at_least=0.01 * mm, at_most=50 * mm, doc="distance of two warps")
+    row_pitch: float | None = kind.length(
+        None, at_least=0.01 * mm, at_most=0.2, doc="required distance of two rows; default: of two knots across"
     )
-    tension: float | None = param(
-        None, unit="N", at_least=1e-3, at_most=1e3, doc="of a warp; none: 15 N at 2 mm, as its mass", symbol="T"
-    )
-    laid_pitch: float | None = param(
-        None, unit="mm", at_least=0.01 * mm, at_most=0.5, doc="of a row before the beat; none: 1.5 times the one wanted"
-    )
-    jammed_pitch: float | None = param(
+    tension: float | None = kind.force(
         None,
-        unit="mm",
-        at_least=1e-3 * mm,
-        at_most=0.2,
-        doc="of a jammed row; none: 0.75 of the one wanted",
-        symbol="D",
+        at_least=1e-3,
+        at_most=1e3,
+        doc="tension of a warp; default: 15 N at a pitch of 2 mm, proportional to the pitch",
+        symbol="T",
     )
-    packing: float | None = param(
+    laid_pitch: float | None = kind.length(
         None,
-        unit="mm",
+        at_least=0.01 * mm,
+        at_most=0.5,
+        doc="distance of a row from the fell before the beat; default: 1.5 times row_pitch",
+    )
+    jammed_pitch: float | None = kind.length(
+        None, at_least=1e-3 * mm, at_most=0.2, doc="distance of jammed rows; default: 0.75 times row_pitch", symbol="D"
+    )
+    packing: float | None = kind.length(
+        None,
         at_least=1e-6 * mm,
         at_most=1.0,
-        doc="how hard rows pack, to be measured; none: a quarter of row_pitch, 10 N on 15 N of tension",
+        doc="packing length, how hard rows pack: to be measured; default: 1/4 of row_pitch, 10 N on 15 N of tension",
         symbol="K",
     )
-    warp_stiffness: float | None = param(
-        None,
-        unit="N",
-        at_least=1.0,
-        at_most=1e7,
-        doc="force over strain of a warp; none: cotton of its mass",
-        symbol="EA",
+    warp_stiffness: float | None = kind.force(
+        None, at_least=1.0, at_most=1e7, doc="force over strain of a warp; default: cotton of its mass", symbol="EA"
     )
-    warp_length: float = param(1.5, unit="m", at_least=0.01, at_most=100.0, doc="warp from the fell to its beam")
-    cloth_length: float = param(0.5, unit="m", at_least=0.01, at_most=100.0, doc="cloth from the fell to its beam")
-
-    @property
-    def rows(self) -> float:
-        """Distance of two rows wanted [m]."""
-        return self.row_pitch or 2 * self.warp_pitch
-
-    @property
-    def width(self) -> float:
-        """Width of the warps [m]."""
-        return self.warps * self.warp_pitch
-
-    @property
-    def warp_tension(self) -> float:
-        """Tension of a warp [N]."""
-        return self.tension or usual_tension(self.warp_pitch)
-
-    @property
-    def stiffness(self) -> float:
-        """Force over strain of a warp [N]."""
-        return self.warp_stiffness or warp_stiffness(self.warp_pitch)
-
-
-@dataclass(frozen=True, slots=True)
-class HammerParams(FabricParams):
-    """What is asked of the hammer; the defaults are the thesis' loom."""
-
-    drive: str = param("comb", choices=DRIVES, doc="comb on the guide cams with its vertical stroke, or crank-rockers")
-    force: float | None = param(
+    warp_length: float = kind.length(1.5, unit="m", at_least=0.01, at_most=100.0, doc="warp from the fell to its beam")
+    cloth_length: float = kind.length(
+        CLOTH_LENGTH, unit="m", at_least=0.01, at_most=100.0, doc="cloth from the fell to its beam"
+    )
+    drive: str = kind.choice("comb", DRIVES, doc="comb on the guide cams with its vertical stroke, or crank-rockers")
+    force: float | None = kind.force(
         None,
-        unit="N",
         at_least=1e-6,
         at_most=1e4,
-        doc="on the fell for each warp; none: what row_pitch or linkage give",
+        doc="force on the fell for each warp; default: what row_pitch needs, or what the linkage gives",
     )
-    comb_depth: float | None = param(
+    comb_depth: float | None = kind.length(
         None,
-        unit="mm",
         at_least=1 * mm,
         at_most=1.0,
-        doc="height of the comb's bar, along the beat; none: the least whole centimetre that is even enough",
+        doc="height of the comb's bar, along the beat; default: the least whole centimetre that is even enough",
     )
-    comb_thickness: float = param(20 * mm, unit="mm", at_least=0.5 * mm, at_most=1.0, doc="thickness of the comb's bar")
-    supports: int | None = param(
+    comb_thickness: float = kind.length(20 * mm, at_least=0.5 * mm, at_most=1.0, doc="thickness of the comb's bar")
+    supports: int | None = kind.count(
         None,
         at_least=1,
         at_most=200,
-        doc="places where the comb is held; none: both ends and every 1.5 m, or the crank-rockers",
+        doc="points that hold the comb; default: both ends and every 1.5 m, or the crank-rockers",
     )
-    support_inset: float | None = param(
-        None, unit="mm", at_least=0.0, at_most=6.0, doc="from the comb's ends to the first; none: 0, or half a share"
+    support_inset: float | None = kind.length(
+        None,
+        at_least=0.0,
+        at_most=6.0,
+        doc="from the comb's ends to the first support; default: 0, or half of a crank-rocker's share",
     )
-    modulus: float = param(STEEL.modulus, unit="GPa", at_least=1 * MPa, at_most=2e12, doc="Young's modulus of the comb")
-    density: float = param(STEEL.density, unit="kg/m^3", at_least=1.0, at_most=25e3, doc="density of the comb")
-    strength: float = param(235 * MPa, unit="MPa", at_least=1 * MPa, at_most=1e10, doc="yield strength of the comb")
-    leaf_reach: float = param(80 * mm, unit="mm", at_least=1 * mm, at_most=1.0, doc="leaf from its root to the fell")
-    leaf_height: float = param(
-        20 * mm, unit="mm", at_least=0.5 * mm, at_most=0.5, doc="height of a leaf, along the beat"
+    modulus: float = kind.pressure(
+        STEEL.modulus, unit="GPa", at_least=1 * MPa, at_most=2e12, doc="Young's modulus of the comb"
     )
-    leaf_thickness: float | None = param(
-        None, unit="mm", at_least=1e-3 * mm, at_most=50 * mm, doc="of a leaf; none: 0.4 of the warp pitch"
+    density: float = kind.density(STEEL.density, at_least=1.0, at_most=25e3, doc="density of the comb")
+    strength: float = kind.pressure(235 * MPa, at_least=1 * MPa, at_most=1e10, doc="yield strength of the comb")
+    leaf_reach: float = kind.length(80 * mm, at_least=1 * mm, at_most=1.0, doc="leaf from its root to the fell")
+    leaf_height: float = kind.length(20 * mm, at_least=0.5 * mm, at_most=0.5, doc="height of a leaf, along the beat")
+    leaf_thickness: float | None = kind.length(
+        None, at_least=1e-3 * mm, at_most=50 * mm, doc="thickness of a leaf; default: 0.4 of the warp pitch"
     )
-    uniformity_limit: float = param(0.9, at_least=0.0, below=1.0, doc="least force over the largest, across the width")
-    stroke: float = param(100 * mm, unit="mm", at_least=1 * mm, at_most=2.0, doc="vertical stroke of the comb")
-    law: str = param("modified-sine", choices=SMOOTH_LAWS, doc="motion law of the stroke")
-    shed_speed: float = param(
-        5 * rpm, unit="rpm", at_least=0.01 * rpm, at_most=120 * rpm, doc="speed of the shed's cams"
+    uniformity_limit: float = kind.ratio(
+        0.9, at_least=0.0, below=1.0, doc="allowed ratio of the least to the largest force across the width"
     )
-    step: float = param(
-        90 * deg, unit="deg", at_least=1 * deg, at_most=180 * deg, doc="cam angle for a beat, down, press and up"
+    stroke: float = kind.length(100 * mm, at_least=1 * mm, at_most=2.0, doc="vertical stroke of the comb")
+    law: str = kind.choice("modified-sine", SMOOTH_LAWS, doc="motion law of the stroke")
+    shed_speed: float = kind.angular_speed(
+        5 * rpm, at_least=0.01 * rpm, at_most=120 * rpm, doc="speed of the shed's cams"
     )
-    press_share: float = param(0.15, at_least=0.0, at_most=0.9, doc="share of it for which the comb presses")
-    stack_mass: float | None = param(
-        None, unit="kg", at_least=0.0, at_most=1e5, doc="cams that go down with the comb; none: 550 kg on 1.2 m"
+    step: float = kind.angle(
+        90 * deg, at_least=1 * deg, at_most=180 * deg, doc="cam angle for a beat, down, press and up"
     )
-    counterbalance: float = param(0.0, at_least=0.0, at_most=1.0, doc="share of the weight that is balanced")
-    axes: int | None = param(
-        None, at_least=1, at_most=200, doc="vertical axes that share the comb; none: one where it is held"
+    press_share: float = kind.ratio(0.15, at_least=0.0, at_most=0.9, doc="share of it for which the comb presses")
+    stack_mass: float | None = kind.mass(
+        None, at_least=0.0, at_most=1e5, doc="cams that go down with the comb; default: 550 kg on 1.2 m"
     )
-    axis: str = param("screw", choices=AXES, doc="ball screws or toothed belts")
-    lead: float = param(10 * mm, unit="mm", at_least=0.5 * mm, at_most=0.2, doc="lead of the screws")
-    screw_diameter: float | None = param(
-        None, unit="mm", at_least=5 * mm, at_most=0.5, doc="of a screw; none: the least of stock that does not buckle"
+    counterbalance: float = kind.ratio(0.0, at_least=0.0, at_most=1.0, doc="share of the weight that is balanced")
+    axes: int | None = kind.count(
+        None, at_least=1, at_most=200, doc="vertical axes that share the comb; default: one for each support"
     )
-    pulley_radius: float = param(
-        25 * mm, unit="mm", at_least=5 * mm, at_most=0.5, doc="pitch radius of the belts' pulleys"
+    axis: str = kind.choice("screw", AXES, doc="ball screws or toothed belts")
+    lead: float = kind.length(10 * mm, at_least=0.5 * mm, at_most=0.2, doc="lead of the screws")
+    screw_diameter: float | None = kind.length(
+        None,
+        at_least=5 * mm,
+        at_most=0.5,
+        doc="diameter of a screw; default: the least of stock that does not buckle",
     )
-    axis_efficiency: float = param(0.9, at_least=0.05, at_most=1.0, doc="efficiency of screw or belt")
-    beat_speed: float = param(15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the linkage's crank")
-    beaters: int | None = param(None, at_least=1, at_most=100, doc="crank-rockers; none: one for 1.5 m of width")
-    ground: float = param(0.3, unit="mm", at_least=1 * mm, at_most=10.0, doc="pivots of crank and rocker apart")
+    pulley_radius: float = kind.length(25 * mm, at_least=5 * mm, at_most=0.5, doc="pitch radius of the belts' pulleys")
+    axis_efficiency: float = kind.ratio(0.9, at_least=0.05, at_most=1.0, doc="efficiency of screw or belt")
+    beat_speed: float = kind.angular_speed(
+        15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the linkage's crank"
+    )
+    beaters: int | None = kind.count(
+        None, at_least=1, at_most=100, doc="crank-rockers; default: one for 1.5 m of width"
+    )
+    ground: float = kind.length(0.3, at_least=1 * mm, at_most=10.0, doc="distance of the pivots of crank and rocker")
 
     def check_together(self) -> None:
         """Raise ParameterError where rows, leaves or supports do not fit."""
-        laid, jammed = self.laid, self.jammed
-        if not jammed < self.rows < laid:
-            asked, least, most = (format_quantity(value, "mm") for value in (self.rows, jammed, laid))
+        fabric, rows = self.fabric, self.required_pitch
+        if not fabric.jammed < rows < fabric.laid:
+            given, least, most = (format_quantity(value, "mm") for value in (rows, fabric.jammed, fabric.laid))
             raise ParameterError(
-                f"rows {asked} apart",
+                f"rows {given} apart",
                 allowed=f"between jammed_pitch={least} and laid_pitch={most}",
                 do="set jammed_pitch below and laid_pitch above row_pitch",
             )
@@ -177,14 +164,27 @@ class HammerParams(FabricParams):
             )
 
     @property
-    def laid(self) -> float:
-        """Distance of a row that is laid from the fell [m]."""
-        return self.laid_pitch or 1.5 * self.rows
+    def required_pitch(self) -> float:
+        """Required distance of two rows [m]."""
+        return self.row_pitch or 2 * self.warp_pitch
 
     @property
-    def jammed(self) -> float:
-        """Distance of jammed rows [m]."""
-        return self.jammed_pitch or 0.75 * self.rows
+    def width(self) -> float:
+        """Width of the warps [m]."""
+        return self.warps * self.warp_pitch
+
+    @property
+    def fabric(self) -> Fabric:
+        """The fabric at the fell, for one warp."""
+        pitch, stiffness = self.required_pitch, self.warp_stiffness or warp_stiffness(self.warp_pitch)
+        return Fabric(
+            tension=self.tension or usual_tension(self.warp_pitch),
+            laid=self.laid_pitch or LAID * pitch,
+            jammed=self.jammed_pitch or JAMMED * pitch,
+            packing=self.packing or PACKING * pitch,
+            warp_rate=stiffness / self.warp_length,
+            cloth_rate=stiffness / self.cloth_length,
+        )
 
     @property
     def leaf(self) -> float:
@@ -197,35 +197,28 @@ class HammerParams(FabricParams):
         return self.beaters or math.ceil(self.width / BEATER_WIDTH - 1e-9)
 
     @property
-    def places(self) -> int:
-        """Places where the comb is held."""
+    def support_count(self) -> int:
+        """Points that hold the comb."""
         return self.supports or (self.rockers + 1 if self.drive == "comb" else self.rockers)
 
     @property
     def shared(self) -> int:
         """Vertical axes that share the comb."""
-        return self.axes or self.places
+        return self.axes or self.support_count
 
     @property
     def depth(self) -> float:
-        """Height of the comb's bar [m]; where none is set, the least that there is."""
+        """Height of the comb's bar [m]; where none is set, the least of `DEPTHS`."""
         return self.comb_depth or DEPTHS[0]
 
     @property
     def inset(self) -> float:
-        """From the comb's ends to the first place where it is held [m]: 0, or half of a crank-rocker's share."""
+        """From the comb's ends to the first support [m]: 0, or half of a crank-rocker's share."""
         if self.support_inset is not None:
             return self.support_inset
-        return 0.0 if self.drive == "comb" and self.places > 1 else self.width / self.places / 2
+        return 0.0 if self.drive == "comb" and self.support_count > 1 else self.width / self.support_count / 2
 
     @property
     def turn_time(self) -> float:
         """Time of a turn of the shed's cams [s]: two beats."""
         return turn / self.shed_speed
-
-
-DEPTHS = tuple(depth * 10 * mm for depth in range(2, 51))
-"""Heights of a comb's bar to choose from [m]."""
-
-BEATER_WIDTH = 1.5
-"""Width of the comb for each crank-rocker [m]."""
