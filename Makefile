@@ -8,12 +8,13 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help weave test lint types layers unit shapes bench docs venv lock clean
+.PHONY: help weave test lint types layers unit shapes mutants bench docs venv lock clean
 
 help:
 	@echo "make weave   weave the shipped example and print where its report lies"
 	@echo "make test    every check and every test"
 	@echo "make shapes  the engine's tests with the shapes of all arrays checked (slower)"
+	@echo "make mutants small wrong changes of the sources, and which of them no test notices (about an hour)"
 	@echo "make bench   the benchmarks, side by side with their peers"
 	@echo "make docs    the documentation, in docs/_build/html"
 	@echo "make venv    .venv with everything for development"
@@ -56,6 +57,10 @@ unit: venv
 
 shapes: venv
 	$(BIN)/pytest -n 2 --dist worksteal --jaxtyping-packages=ilmek,typecheck.checker $$($(BIN)/python tests/support/engine_paths.py)
+
+# Options as of `python -m mutants --help`: make mutants MUTANTS="--number 50 'ilmek.linkage.*'"
+mutants: venv
+	PYTHONPATH=src:tests/support $(BIN)/python -m mutants $(MUTANTS)
 
 bench: venv
 	$(BIN)/python -m benchmarks

@@ -1,0 +1,118 @@
+"""`make mutants`: sample mutants, show each to the tests that concern it, write those that survive."""
+
+import argparse
+import fnmatch
+import os
+import random
+import sys
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+
+from mutants.operators import Mutant, mutants_of, mutated
+from mutants.table import TestFile, concerned, table
+from mutants.worker import SURVIVED, Task, load_libraries, outcomes
+
+ROOT = Path(__file__).parents[3]
+SOURCES = ROOT / "src"
+ACCEPTED = Path(__file__).with_name("accepted.txt")
+LEFT_OUT = ("*.figures", "*.animation", "*.cli.*", "*.viz.*", "*.verification.*", "*.data.*", "*.__main__", "*.jobs.*")
+"""Modules whose output is looked at and not computed with, and those that only pass on."""
+
+GOAL = 0.92
+
+
+def main() -> int:
+    """Run, print a line for each survivor, and end with 1 where fewer than the goal are caught."""
+    given = _arguments()
+    accepted = read_accepted(ACCEPTED.read_text(encoding="utf-8"))
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    sys.dont_write_bytecode = True
+    with tempfile.TemporaryDirectory() as cache:
+        os.environ["XDG_CACHE_HOME"] = cache  # machine code of mutants is not for keeping
+        load_libraries()
+        files = table(ROOT, "ilmek", given.output / "table.json", jobs=given.jobs, show=_show, stale=given.stale)
+        sample = sampled(all_mutants(given.modules), given.number, given.seed)
+        begin = time.monotonic()
+        survivors, verdicts = [], Counter[str]()
+        tasks = ((mutant, _task(mutant, concerned(files, mutant, given.seconds))) for mutant in sample)
+        for mutant, outcome in outcomes(ROOT, tasks, given.jobs):
+            known = outcome.verdict == SURVIVED and mutant.key in accepted
+            verdicts["accepted" if known else outcome.verdict] += 1
+            if outcome.verdict == SURVIVED:
+                survivors.append((mutant, accepted.get(mutant.key, "")))
+            done = f"{sum(verdicts.values())}/{len(sample)} {outcome.verdict}"
+            _show(f"{done}: {mutant.key} (line {mutant.line}) {outcome.test}")
+    caught = 1 - len(survivors) / max(len(sample), 1)
+    text = report(survivors, dict(verdicts), caught, given.seed, time.monotonic() - begin)
+    (given.output / "survivors.md").write_text(text, encoding="utf-8")
+    _show(text)
+    return int(caught < GOAL)
+
+
+def all_mutants(patterns: list[str]) -> list[Mutant]:
+    """All mutants of the modules that a pattern names and that are not left out."""
+    found = []
+    for path in sorted((SOURCES / "ilmek").rglob("*.py")):
+        module = ".".join(path.relative_to(SOURCES).with_suffix("").parts).removesuffix(".__init__")
+        wanted = any(fnmatch.fnmatch(module, pattern) for pattern in patterns)
+        if wanted and not any(fnmatch.fnmatch(module, pattern) for pattern in LEFT_OUT):
+            found += mutants_of(module, path.read_text(encoding="utf-8"))
+    return found
+
+
+def sampled(found: list[Mutant], number: int, seed: int) -> list[Mutant]:
+    """So many of them, the same for the same seed."""
+    return random.Random(seed).sample(found, min(number, len(found)))
+
+
+def read_accepted(text: str) -> dict[str, str]:
+    """Accepted survivors with their reasons: a line `mutant # reason` each."""
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    return {key.strip(): reason.strip() for key, _, reason in (line.partition(" # ") for line in lines)}
+
+
+def report(
+    survivors: list[tuple[Mutant, str]], verdicts: dict[str, int], caught: float, seed: int, seconds: float
+) -> str:
+    """The survivors, and how many mutants met which end."""
+    rows = [
+        f"| `{mutant.key}` | {mutant.line} | {reason} |"
+        for mutant, reason in sorted(survivors, key=lambda one: one[0].key)
+    ]
+    counts = ", ".join(f"{number} {name}" for name, number in sorted(verdicts.items()))
+    head = f"Seed {seed}: {counts}; {100 * caught:.1f} % caught in {seconds:.0f} s."
+    return "\n".join([head, "", "| survivor | line | accepted because |", "| --- | --- | --- |", *rows, ""])
+
+
+def _task(mutant: Mutant, files: list[TestFile]) -> Task:
+    path = SOURCES / Path(*mutant.module.split("."))
+    source = path.with_suffix(".py") if path.with_suffix(".py").exists() else path / "__init__.py"
+    text = source.read_text(encoding="utf-8")
+    doctests = [str(source.relative_to(ROOT))] if ">>>" in text else []
+    seconds = sum(file.seconds for file in files)
+    return Task(
+        (*doctests, *(file.path for file in files)), (mutant.module, mutated(text, mutant)), timeout=60 + 5 * seconds
+    )
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="mutants", description=__doc__)
+    parser.add_argument("modules", nargs="*", default=["ilmek.*"], help="patterns of modules, like 'ilmek.linkage.*'")
+    parser.add_argument("--number", type=int, default=320, help="mutants sampled")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=2, help="processes at a time")
+    parser.add_argument("--seconds", type=float, default=40.0, help="tests of a mutant, by the time that they take")
+    parser.add_argument("--stale", action="store_true", help="use the table of tests of an earlier state")
+    parser.add_argument("--output", type=Path, default=ROOT / "out" / "mutants", help="folder of table and survivors")
+    return parser.parse_args()
+
+
+def _show(line: str) -> None:
+    sys.stdout.write(line + "\n")
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,214 @@
+"""The changes that can be made of a source file, one at a time."""
+
+import ast
+import copy
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
+    ast.Lt: ast.GtE,
+    ast.LtE: ast.Gt,
+    ast.Gt: ast.LtE,
+    ast.GtE: ast.Lt,
+    ast.Eq: ast.NotEq,
+    ast.NotEq: ast.Eq,
+    ast.Is: ast.IsNot,
+    ast.IsNot: ast.Is,
+}
+BOUNDARIES: dict[type[ast.cmpop], type[ast.cmpop]] = {
+    ast.Lt: ast.LtE,
+    ast.LtE: ast.Lt,
+    ast.Gt: ast.GtE,
+    ast.GtE: ast.Gt,
+}
+ARITHMETIC: dict[type[ast.operator], type[ast.operator]] = {
+    ast.Add: ast.Sub,
+    ast.Sub: ast.Add,
+    ast.Mult: ast.Div,
+    ast.Div: ast.Mult,
+    ast.FloorDiv: ast.Mult,
+    ast.Mod: ast.FloorDiv,
+}
+NAMES = {
+    **{
+        one: other
+        for pair in (("max", "min"), ("any", "all"), ("maximum", "minimum"))
+        for one, other in (pair, pair[::-1])
+    },
+    **{
+        one: other
+        for pair in (("sin", "cos"), ("real", "imag"), ("argmax", "argmin"))
+        for one, other in (pair, pair[::-1])
+    },
+}
+TOLERANCE = 1e-4
+"""Literals below it are tolerances of the numerics: a change of one is no change of what is computed."""
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change of a module: which variant of which node of its syntax tree, and what it says before and after."""
+
+    module: str
+    function: str
+    line: int
+    before: str
+    after: str
+    node: int
+    variant: int
+
+    @property
+    def key(self) -> str:
+        """What it is, whatever its line."""
+        return f"{self.module} {self.function}: {self.before} -> {self.after}"
+
+
+def mutants_of(module: str, source: str) -> list[Mutant]:
+    """All changes of a module's source."""
+    tree = ast.parse(source)
+    functions = dict(_functions(tree, ""))
+    left_out = _left_out(tree)
+    return [
+        Mutant(module, functions.get(index, ""), node.lineno, ast.unparse(node), ast.unparse(changed), index, variant)
+        for index, node in enumerate(ast.walk(tree))
+        if isinstance(node, ast.expr) and node not in left_out
+        for variant, changed in enumerate(_variants(node))
+    ]
+
+
+def mutated(source: str, mutant: Mutant) -> ast.Module:
+    """The syntax tree of the source with the change made."""
+    tree = ast.parse(source)
+    target = list(ast.walk(tree))[mutant.node]
+    assert isinstance(target, ast.expr)
+    _Replacement(target, list(_variants(target))[mutant.variant]).visit(tree)
+    return ast.fix_missing_locations(tree)
+
+
+class _Replacement(ast.NodeTransformer):
+    def __init__(self, target: ast.expr, replacement: ast.expr) -> None:
+        self.target, self.replacement = target, ast.copy_location(replacement, target)
+
+    def visit(self, node: ast.AST) -> ast.AST:
+        return self.replacement if node is self.target else self.generic_visit(node)
+
+
+def _functions(node: ast.AST, inside: str) -> Iterator[tuple[int, str]]:
+    """Index in the order of `ast.walk` and qualified name of the function of every node within one."""
+    names: dict[ast.AST, str] = {}
+
+    def name(node: ast.AST, inside: str) -> None:
+        for child in ast.iter_child_nodes(node):
+            own = inside
+            if isinstance(child, ast.FunctionDef | ast.ClassDef):
+                own = f"{inside}.{child.name}" if inside else child.name
+            names[child] = own
+            name(child, own)
+
+    name(node, inside)
+    yield from ((index, names.get(one, "")) for index, one in enumerate(ast.walk(node)))
+
+
+def _left_out(tree: ast.Module) -> set[ast.AST]:
+    """Nodes that are no computation: annotations, messages, decorators, declarations of parameters, main blocks."""
+    roots: list[ast.AST | None] = []
+    for node in ast.walk(tree):
+        match node:
+            case ast.FunctionDef():
+                arguments = [*node.args.args, *node.args.kwonlyargs, *node.args.posonlyargs]
+                roots += [node.returns, *node.decorator_list, *(one.annotation for one in arguments)]
+            case ast.AnnAssign():
+                roots.append(node.annotation)
+                if ast.unparse(node.annotation).endswith("TypeAlias") or _is_declaration(node.value):
+                    roots.append(node.value)
+            case ast.ClassDef():
+                roots += [*node.decorator_list, *node.bases]
+            case ast.Raise() | ast.JoinedStr() | ast.Assert() | ast.Import() | ast.ImportFrom():
+                roots.append(node)
+            case ast.If() if "__name__" in ast.unparse(node.test):
+                roots.append(node)
+            case ast.Assign() if isinstance(node.value, ast.Subscript | ast.BinOp) and _is_alias(node.value):
+                roots.append(node.value)
+    return {inner for root in roots if root is not None for inner in ast.walk(root)}
+
+
+def _is_declaration(value: ast.expr | None) -> bool:
+    """Whether it declares a parameter or a result: a call with a documentation."""
+    return isinstance(value, ast.Call) and any(keyword.arg == "doc" for keyword in value.keywords)
+
+
+def _is_alias(value: ast.expr) -> bool:
+    """Whether it is a name for a type, like `Float[np.ndarray, "n"]` or `int | None`."""
+    return "ndarray" in ast.unparse(value) or "None" in ast.unparse(value)
+
+
+def _variants(node: ast.expr) -> Iterator[ast.expr]:
+    """What an expression may be changed into."""
+    yield from _of_operators(node)
+    yield from _of_values(node)
+
+
+def _of_operators(node: ast.expr) -> Iterator[ast.expr]:
+    match node:
+        case ast.Compare(ops=[operator], comparators=[right]):
+            yield from _compared(node, operator, right)
+        case ast.BoolOp():
+            yield _with(node, op=ast.Or() if isinstance(node.op, ast.And) else ast.And())
+        case ast.UnaryOp(op=ast.USub() | ast.Not()):
+            yield node.operand
+        case ast.BinOp() if not any(
+            isinstance(inner, ast.Constant) and isinstance(inner.value, str) for inner in ast.walk(node)
+        ):
+            yield from _computed(node)
+        case ast.IfExp():
+            yield _with(node, body=node.orelse, orelse=node.body)
+
+
+def _of_values(node: ast.expr) -> Iterator[ast.expr]:
+    match node:
+        case ast.Constant(value=int() as value) if not isinstance(value, bool):
+            yield _with(node, value=value + 1)
+        case ast.Constant(value=float() as value) if abs(value) >= TOLERANCE:
+            yield _with(node, value=value * 1.1)
+        case ast.Call(func=ast.Name(id="abs"), args=[inner]):
+            yield inner
+        case ast.Call(func=ast.Name(id=name)) if name in NAMES:
+            yield _with(node, func=ast.Name(NAMES[name], ast.Load()))
+        case ast.Call(func=ast.Attribute(attr=name) as function) if name in NAMES:
+            yield _with(node, func=_with(function, attr=NAMES[name]))
+        case ast.Attribute(attr="real" | "imag" as name, ctx=ast.Load()):
+            yield _with(node, attr=NAMES[name])
+
+
+def _compared(node: ast.Compare, operator: ast.cmpop, right: ast.expr) -> Iterator[ast.expr]:
+    """The opposite; and the other boundary of whole numbers, where being equal is a case of its own."""
+    if type(operator) in COMPARISONS:
+        yield _with(node, ops=[COMPARISONS[type(operator)]()])
+    if type(operator) in BOUNDARIES and any(_is_whole(side) for side in (node.left, right)):
+        yield _with(node, ops=[BOUNDARIES[type(operator)]()])
+
+
+def _is_whole(side: ast.expr) -> bool:
+    match side:
+        case ast.Constant(value=int() as value):
+            return value > 0
+        case ast.Call(func=ast.Name(id="len")) | ast.Attribute(attr="size" | "ndim"):
+            return True
+    return False
+
+
+def _computed(node: ast.BinOp) -> Iterator[ast.expr]:
+    """The opposite operation, and products and quotients without one factor."""
+    if type(node.op) in ARITHMETIC:
+        yield _with(node, op=ARITHMETIC[type(node.op)]())
+    if isinstance(node.op, ast.Mult | ast.Div | ast.Pow):
+        yield node.left
+    if isinstance(node.op, ast.Mult):
+        yield node.right
+
+
+def _with(node: ast.expr, **changes: object) -> ast.expr:
+    changed = copy.copy(node)
+    for name, value in changes.items():
+        setattr(changed, name, value)
+    return changed
