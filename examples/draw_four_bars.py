@@ -5,12 +5,8 @@ Run it as `python examples/draw_four_bars.py`; it ends with the greatest error o
 
 from pathlib import Path
 
-from ilmek.machines.function_four_bar import FunctionFourBarParams
-from ilmek.machines.function_four_bar import design as design_function
-from ilmek.machines.function_four_bar import report as report_function
-from ilmek.machines.motion_four_bar import MotionFourBarParams
-from ilmek.machines.motion_four_bar import design as design_motion
-from ilmek.machines.motion_four_bar import report as report_motion
+from ilmek.machines.function_four_bar import MACHINE as FUNCTION_FOUR_BAR
+from ilmek.machines.motion_four_bar import MACHINE as MOTION_FOUR_BAR
 from ilmek.report import Figure, Report
 from ilmek.units import deg
 from ilmek.viz.svg import svg
@@ -30,12 +26,12 @@ POWER = {
 
 def motion() -> Report:
     """A flap that goes through four poses."""
-    return report_motion(design_motion(MotionFourBarParams.read(FLAP)))
+    return MOTION_FOUR_BAR.report_for(FLAP)
 
 
 def function() -> Report:
     """x^1.5 from 1 to 4, crank and rocker turning by 90 deg."""
-    return report_function(design_function(FunctionFourBarParams.read(POWER)))
+    return FUNCTION_FOUR_BAR.report_for(POWER)
 
 
 def figure(report: Report, name: str) -> Figure:

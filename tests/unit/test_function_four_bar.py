@@ -10,7 +10,7 @@ from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.catalogue import MACHINES
-from ilmek.machines.function_four_bar import MACHINE, FunctionFourBarParams, design, report
+from ilmek.machines.function_four_bar import MACHINE
 from ilmek.machines.function_four_bar.functions import NAMED, named
 from ilmek.report import Animation, Plot, Report
 from ilmek.synthesis.four_bar import FourBar
@@ -21,7 +21,7 @@ STARTS = {"crank_start": "40deg", "rocker_start": "70deg"}
 
 
 def answer(**settings: str) -> Report:
-    return report(design(FunctionFourBarParams.read(settings)))
+    return MACHINE.report_for(settings)
 
 
 def errors(found: dict[str, float], f: np.ufunc, ends: tuple[float, float], swings: tuple[float, float]) -> np.ndarray:
@@ -107,7 +107,7 @@ def test_named_functions_take_arrays_and_say_where_they_end(name: str) -> None:
         ({"points": "5", **STARTS}, "leave points out: 3 fit"),
         ({"points": "6"}, "criterion=least-squares or minimax fits all over the range"),
         ({"points": "2"}, "points=2; 3 with both start angles given"),
-        ({"points": "5", "criterion": "minimax"}, "places are chosen for interpolation alone"),
+        ({"points": "5", "criterion": "minimax"}, "points are chosen for interpolation alone"),
         ({"criterion": "least squares"}, "did you mean least-squares"),
         ({"samples": "(1,0) (2,0.3) (2,0.4)"}, "samples are not in order; finite values, x rising"),
         ({"samples": "(1,0)"}, "two or more pairs"),

@@ -10,7 +10,7 @@ from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.catalogue import MACHINES
-from ilmek.machines.motion_four_bar import MACHINE, MotionFourBarParams, design, report
+from ilmek.machines.motion_four_bar import MACHINE
 from ilmek.machines.text_lists import read_poses
 from ilmek.plane.vectors import cross
 from ilmek.report import Animation, Report
@@ -28,7 +28,7 @@ LINKS = ("ground", "crank", "coupler", "rocker")
 
 
 def answer(**settings: str) -> Report:
-    return report(design(MotionFourBarParams.read(settings)))
+    return MACHINE.report_for(settings)
 
 
 def four_bar(found: dict[str, list[float]]) -> FourBar:

@@ -7,7 +7,7 @@ import pytest
 
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
-from ilmek.machines.path_four_bar import MACHINE, PathFourBarParams, design, report
+from ilmek.machines.path_four_bar import MACHINE
 from ilmek.report import Animation, Report
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.four_bar import FourBar
@@ -20,7 +20,7 @@ THREE, TURNS = "(20mm,20mm) (22mm,30mm) (15mm,38mm)", "0deg 30deg 80deg"
 
 
 def answer(**settings: str) -> Report:
-    return report(design(PathFourBarParams.read(settings)))
+    return MACHINE.report_for(settings)
 
 
 def four_bar(found: dict[str, list[float]]) -> FourBar:

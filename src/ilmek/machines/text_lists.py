@@ -3,8 +3,9 @@
 Every number takes its unit, 0 alone needs none: a list of bare ones is as likely in millimetres and degrees as in SI.
 """
 
+import math
 import re
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from jaxtyping import Complex, Float
@@ -23,8 +24,12 @@ POSES, PAIRS = "poses are written (0mm,0mm,10deg) (25mm,15mm,3deg)", "pairs are 
 BOUNDS = "bounds are written 10mm..60mm, ..60mm, 10mm.. or 60mm alone"
 
 
+Bounds: TypeAlias = tuple[float, float]
+"""Least and most."""
+
+
 class BodyPoses(NamedTuple):
-    """Poses of a body in a list: places of one of its points [m] and its angles [rad]."""
+    """Poses of a body in a list: positions of one of its points [m] and its angles [rad]."""
 
     points: Complex[np.ndarray, " poses"]
     angles: Float[np.ndarray, " poses"]
@@ -70,25 +75,37 @@ def read_angles(name: str, text: str) -> FloatArray:
     return np.array([_quantity(name, one, "deg") for one in found])
 
 
-def read_bounds(name: str, text: str, unit: str = "mm") -> tuple[float | None, float | None]:
-    """Least and most of a text like `10mm..60mm` [SI], one of them None where it is left out: `..60mm`.
+def read_two_points(name: str, text: str) -> ComplexArray:
+    """Two points that differ, one for each link [m]. Raises ParameterError where the text holds anything else."""
+    found = read_points(name, text)
+    if len(found) != 2:
+        raise ParameterError(f"{name} holds {len(found)} points", allowed="two, one for each link")
+    if found[0] == found[1]:
+        raise ParameterError(f"both {name} are one point", do="give two that differ")
+    return found
+
+
+def read_bounds(name: str, text: str, unit: str = "mm", *, least: float = -math.inf) -> Bounds:
+    """Least and most of a text like `10mm..60mm` [SI]; where one is left out, `..60mm`, it is `least` or infinite.
 
     A quantity alone is both.
 
     Raises ParameterError where it holds anything else, or the least is above the most.
 
     >>> read_bounds("crank", "0..60mm"), read_bounds("crank", "1cm.."), read_bounds("crank", "2cm")
-    ((0.0, 0.06), (0.01, None), (0.02, 0.02))
+    ((0.0, 0.06), (0.01, inf), (0.02, 0.02))
     """
     ends = [part.strip() for part in text.split("..")]
     if len(ends) == 1:
         ends *= 2
     if len(ends) != 2 or not any(ends):
         raise ParameterError(f"{name}={text!r} is no pair of bounds", do=BOUNDS)
-    least, most = (_quantity(name, end, unit) if end else None for end in ends)
-    if least is not None and most is not None and least > most:
+    low, high = (
+        _quantity(name, end, unit) if end else default for end, default in zip(ends, (least, math.inf), strict=True)
+    )
+    if low > high and all(ends):
         raise ParameterError(f"{name}={text}: the least is above the most", do=f"did you mean {ends[1]}..{ends[0]}?")
-    return least, most
+    return low, high
 
 
 def _rows(name: str, text: str, units: tuple[str, ...], what: str, written: str) -> list[list[float]]:

@@ -8,6 +8,7 @@
 """
 
 import difflib
+import inspect
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping
@@ -105,9 +106,10 @@ class Params:
         return replace(self, **changes) if changes else self
 
     def as_dict(self) -> dict[str, Value]:
-        """Name to SI value in order of declaration, nested ones by dotted name; of overrides those that are set."""
+        """Name to SI value in the order of `declared`, nested ones by dotted name; of overrides those that are set."""
         values: dict[str, Value] = {}
-        for one in fields(self):
+        known: Any = type(self)
+        for one in _ordered(known):
             value = getattr(self, one.name)
             if isinstance(value, Params):
                 values |= {f"{one.name}.{name}": item for name, item in value.as_dict().items()}
@@ -177,7 +179,7 @@ def _read_overrides(
 
 
 def declared(cls: type[Params]) -> tuple[Parameter, ...]:
-    """The parameters declared by a class itself, in order; not those of records nested in it."""
+    """The parameters of a class in order, its own before those that it inherits; not those of nested records."""
     known: Any = cls  # a checker takes a class of dataclasses for one of its objects, which cannot be hashed
     return _declared(known)
 
@@ -203,7 +205,15 @@ def _reachable(cls: type[Params]) -> Iterator[tuple[str, Parameter]]:
 def _declared(cls: Any) -> tuple[Parameter, ...]:
     """The same, looked up once: every set of parameters that is made needs them."""
     hints = typing.get_type_hints(cls)
-    return tuple(_parameter(f, hints[f.name]) for f in fields(cls) if not {"nested", "overrides"} & set(f.metadata))
+    return tuple(_parameter(f, hints[f.name]) for f in _ordered(cls) if not {"nested", "overrides"} & set(f.metadata))
+
+
+@cache
+def _ordered(cls: Any) -> "tuple[Field[Any], ...]":
+    """The fields of a class, its own before those that it inherits."""
+    known = {one.name: one for one in fields(cls)}
+    names = dict.fromkeys(name for base in cls.__mro__ for name in inspect.get_annotations(base))
+    return tuple(known[name] for name in names if name in known)
 
 
 def _parameter(declared_field: "Field[Any]", hint: Any) -> Parameter:

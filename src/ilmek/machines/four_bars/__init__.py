@@ -1,1 +1,1 @@
-"""What all machines share that answer a task with four-bars: what they sieve by, their choice, tables and figures."""
+"""What all machines share that synthesise four-bars for a task: parameters, selection, results, tables and figures."""

@@ -1,89 +1,210 @@
-"""Four-bars that answer a task: those kept, the best first, those removed and why, and the one that is drawn."""
+"""Four-bars that do a task: which are kept, in which order, why others are removed, and which one is drawn."""
 
+import math
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from ilmek.errors import ParameterError
+from ilmek.params import declared, kind
+from ilmek.records import computed, record
 from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate
-from ilmek.synthesis.filters import REASONS, Filters, sift
+from ilmek.synthesis.filters import REASONS, Filters, defects
+from ilmek.synthesis.four_bar import FourBar
+
+PINS = ("a0", "b0", "a", "b", "tracer")
+
+NAMED = (
+    "the best first, SI and radians: ground, crank, coupler, rocker; pins a0, b0, a, b and tracer as drawn at the "
+    "first position, tracer_on_coupler (x from A to B); branch; grashof, crank_turns; of each position crank_angles, "
+    "circuits, branches and errors; order; transmission [least, greatest], transmission_min; link_ratio; size"
+)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+def ratio_limit(default: float | None) -> Any:
+    """Declare the filter `link_ratio_max` with another default."""
+    return field(default=default, metadata=Filters.__dataclass_fields__["link_ratio_max"].metadata)
+
+
+@dataclass(frozen=True, slots=True)
+class FourBarTaskParams(Filters):
+    """Parameters of every machine that synthesises four-bars: its filters, and which solutions are listed and drawn."""
+
+    link_ratio_max: float | None = ratio_limit(10.0)
+    count: int = kind.count(5, at_least=1, at_most=100, doc="solutions that are listed at most")
+    chosen: int = kind.count(
+        1, at_least=1, at_most=1000, doc="number of the solution that is drawn and moved, from 1, the best"
+    )
+
+    def filters(self) -> Filters:
+        """The filters alone."""
+        return Filters(**{one.name: getattr(self, one.name) for one in declared(Filters)})
+
+
+@record
 class FourBarOption:
     """A judged four-bar.
 
-    made  how it came about, in words      more  what its method says of it besides, by the names of the JSON, SI
+    made     how it was found      details  what its method reports of it, by the names of the JSON [SI]
     """
 
     candidate: Candidate
     made: str
-    more: Mapping[str, Json] = field(default_factory=dict)
+    details: Mapping[str, Json] = field(default_factory=dict)
+
+    def as_json(self) -> dict[str, Json]:
+        """The solution, SI and radians: see NAMED."""
+        one, positions = self.candidate, self.candidate.positions
+        return {
+            **dimensions(one.four_bar),
+            "crank_turns": one.crank_turns,
+            "crank_angles": [position.crank_angle for position in positions],
+            "circuits": [position.circuit for position in positions],
+            "branches": [position.branch for position in positions],
+            "point_errors": [position.point_error for position in positions],
+            "coupler_errors": [position.coupler_error for position in positions],
+            "rocker_errors": [position.rocker_error for position in positions],
+            "order": one.order,
+            "transmission": one.transmission,
+            "transmission_min": one.least_transmission,
+            "link_ratio": one.link_ratio,
+            "size": one.size,
+            "made": self.made,
+            **self.details,
+        }
+
+    def removed_as_json(self, reasons: Mapping[str, str]) -> dict[str, Json]:
+        """A removed four-bar: links, pins, how it was found, reasons by filter."""
+        four_bar = self.candidate.four_bar
+        pins = {name: getattr(four_bar, name) for name in PINS}
+        return {**four_bar.lengths._asdict(), **pins, "made": self.made, "reasons": reasons}
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+def dimensions(four_bar: FourBar) -> dict[str, Json]:
+    """Links [m], pins and tracer as drawn [m], branch and class of a four-bar, by the names of the JSON."""
+    pins = {name: getattr(four_bar, name) for name in (*PINS, "tracer_on_coupler")}
+    return {**four_bar.lengths._asdict(), **pins, "branch": four_bar.branch, "grashof": four_bar.grashof.kind}
+
+
+def of_best(unit: str, doc: str, value: Callable[[FourBarOption], Any]) -> Any:
+    """Declare a result of the solution that is drawn, of a record with `best`; left out where there is none."""
+    return computed(unit, doc, lambda it: None if it.best is None else value(it.best), optional=True)
+
+
+def detail_of_best(unit: str, doc: str, name: str) -> Any:
+    """Declare a result that the method of synthesis reports of the solution that is drawn, by its name in `details`."""
+    return of_best(unit, doc, lambda best: best.details.get(name))
+
+
+def solutions(extra: str = "") -> Any:
+    """Declare the list of all solutions of a `FourBarDesign`; extra: names of what its method reports besides."""
+    doc = f"{NAMED}; {extra}" if extra else NAMED
+    return computed("", doc, lambda it: [one.as_json() for one in it.choice.kept], shown=False)
+
+
+@record
 class FourBarSelection:
-    """What became of all four-bars of a task.
+    """The four-bars found for a task, filtered and ranked.
 
-    kept    without defects and within limits, the best first; `more` of them are not listed
-    removed with the reason for each filter that it failed, in words
-    other   what is no four-bar at all, in words
-    chosen  index of the one that is drawn, None where none is kept
+    kept    without defects and within the limits, the best first; `more` others are not listed
+    removed with the reason for each filter that it failed
+    other   descriptions of what was found and is no four-bar
+    number  of the one that is drawn, from 1; None where none is kept
     """
 
     kept: tuple[FourBarOption, ...]
     more: int
     removed: tuple[tuple[FourBarOption, Mapping[str, str]], ...]
     other: tuple[str, ...]
-    chosen: int | None
+    number: int | None
 
     @property
     def best(self) -> FourBarOption | None:
         """The one that is drawn."""
-        return None if self.chosen is None else self.kept[self.chosen]
+        return None if self.number is None else self.kept[self.number - 1]
 
-    @property
-    def counts(self) -> dict[str, int]:
-        """How many failed each filter; one may fail several."""
-        failed = [name for _, reasons in self.removed for name in reasons]
-        return {name: failed.count(name) for name in dict.fromkeys(failed)}
-
-    @property
-    def words(self) -> str:
-        """How many there were, and for what they went."""
+    @computed("", "how many four-bars were found, kept and removed")
+    def sieve(self) -> str:
         kept = len(self.kept) + self.more
         total = kept + len(self.removed)
-        said = ", ".join(f"{REASONS[name]} {count}" for name, count in self.counts.items())
         first = f"{total} four-bar{'' if total == 1 else 's'}: {kept} kept, {len(self.removed)} removed"
-        return f"{first} ({said})" if said else first
+        return f"{first} ({self.reasons})" if self.removed else first
+
+    @property
+    def reasons(self) -> str:
+        """The filters that four-bars failed, with the number of each."""
+        return ", ".join(f"{REASONS[name]} {count}" for name, count in self.counts.items())
+
+    ground = of_best("mm", "of the solution that is drawn: A0 to B0", lambda one: one.candidate.four_bar.lengths.ground)
+    crank = of_best("mm", "A0 to A, driven", lambda one: one.candidate.four_bar.lengths.crank)
+    coupler = of_best("mm", "A to B", lambda one: one.candidate.four_bar.lengths.coupler)
+    rocker = of_best("mm", "B0 to B", lambda one: one.candidate.four_bar.lengths.rocker)
+    grashof = of_best("", "class of the four-bar", lambda one: one.candidate.grashof.kind)
+    transmission_min = of_best(
+        "deg", "least angle between coupler and rocker", lambda one: one.candidate.least_transmission
+    )
+    size = of_best("mm", "greatest extent over its motion", lambda one: one.candidate.size)
+    chosen = computed("", "number of the solution that is drawn, from 1", lambda it: it.number)
+    removed_four_bars = computed(
+        "",
+        "four-bars that were removed: links, how they were found, reasons by filter",
+        lambda it: [one.removed_as_json(reasons) for one, reasons in it.removed],
+        name="removed",
+        shown=False,
+    )
+    counts = computed(
+        "",
+        "how many failed each filter; one may fail several",
+        lambda it: Counter(name for _, reasons in it.removed for name in reasons),
+        name="removed_counts",
+        shown=False,
+    )
+    no_four_bar = computed("", "what was found and is no four-bar", lambda it: it.other)
+
+
+@record
+class FourBarDesign:
+    """Base of the designs of machines that synthesise four-bars."""
+
+    choice: FourBarSelection
+
+    @property
+    def best(self) -> FourBarOption | None:
+        """The solution that is drawn."""
+        return self.choice.best
 
 
 def choose(
     options: Sequence[FourBarOption],
-    filters: Filters,
+    other: Sequence[str],
+    params: FourBarTaskParams,
     *,
-    number: int,
-    count: int,
-    other: Sequence[str] = (),
-    least: Callable[[FourBarOption], tuple[float, float]] | None = None,
+    filters: Filters | None = None,
+    rank: Callable[[FourBarOption], Any] = lambda one: -one.candidate.least_transmission,
 ) -> FourBarSelection:
-    """The options sieved and ranked.
+    """The options filtered and ranked.
 
-    number  of the one to draw, from 1      count  that are listed at most
-    least  what ranks them, ascending; unsaid: the best transmission angle first
-    Raises ParameterError where there are solutions, but fewer than `number`.
+    other    descriptions of what was found and is no four-bar      filters  default: those of the parameters
+    rank     sort key, ascending; default: the greatest of the least transmission angles first
+    Raises ParameterError where there are solutions, but fewer than `params.chosen`.
     """
-    of = {id(one.candidate): one for one in options}
-    sifted = sift([one.candidate for one in options], filters)
-    kept = [of[id(candidate)] for candidate in sifted.kept]
-    if least is not None:
-        kept.sort(key=least)
-    listed = tuple(kept[:count])
-    if listed and number > len(listed):
+    required = filters or params.filters()
+    judged = [(one, defects(one.candidate, required)) for one in options]
+    kept = sorted((one for one, reasons in judged if not reasons), key=rank)
+    listed = tuple(kept[: params.count])
+    if listed and params.chosen > len(listed):
         raise ParameterError(
-            f"chosen={number}, and there are {len(listed)} solutions",
+            f"chosen={params.chosen}, and there are {len(listed)} solutions",
             allowed=f"1 to {len(listed)}",
-            do="set count higher" if len(kept) >= number else "",
+            do="set count higher" if len(kept) >= params.chosen else "",
         )
-    removed = tuple((of[id(one.candidate)], one.reasons) for one in sifted.removed)
-    return FourBarSelection(listed, len(kept) - len(listed), removed, tuple(other), number - 1 if listed else None)
+    removed = tuple((one, reasons) for one, reasons in judged if reasons)
+    number = params.chosen if listed else None
+    return FourBarSelection(listed, len(kept) - len(listed), removed, tuple(other), number)
+
+
+def finite(value: Json) -> float:
+    """A number of `details` for a table; NaN for anything else."""
+    return value if isinstance(value, float) else math.nan

@@ -1,16 +1,18 @@
 """A four-bar for a function: its rocker shows y = f(x) where its crank shows x.
 
-Exact at three to five places (interpolation), or best over the whole range by least squares or by the greatest error,
+Exact at three to five points (interpolation), or best over the whole range by least squares or by the greatest error,
 with the alternation that proves it.
 """
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
+from ilmek.machines.four_bars.choice import FourBarSelection
+from ilmek.machines.four_bars.report import warnings
 from ilmek.machines.function_four_bar.design import FunctionFourBar, design
 from ilmek.machines.function_four_bar.params import FunctionFourBarParams
-from ilmek.machines.function_four_bar.report import report
+from ilmek.machines.function_four_bar.report import checks, figures, tables
 
-__all__ = ["MACHINE", "FunctionFourBar", "FunctionFourBarParams", "design", "report"]
+__all__ = ["MACHINE", "FunctionFourBar", "FunctionFourBarParams", "design"]
 
 MACHINE = Component(
     name="function-four-bar",
@@ -18,5 +20,10 @@ MACHINE = Component(
     summary=SUMMARIES["function-four-bar"],
     params=FunctionFourBarParams,
     design=design,
-    reporter=report,
+    results=lambda made: (made, made.choice),
+    reported=(FunctionFourBar, FourBarSelection),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
 )

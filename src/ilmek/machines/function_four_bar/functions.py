@@ -1,4 +1,4 @@
-"""The functions that can be asked for by name, and through samples."""
+"""The functions that are known by name."""
 
 import difflib
 import re
@@ -54,6 +54,6 @@ def _power(exponent: float, x: FloatArray) -> FloatArray:
 
 
 def _quietly(f: F, x: FloatArray) -> FloatArray:
-    """Outside of its range a function is NaN or infinite, and said to be so."""
+    """Values without warnings: outside of its range a function is NaN or infinite."""
     with np.errstate(all="ignore"):
         return np.asarray(f(x))

@@ -1,87 +1,121 @@
-"""What a four-bar for a function says: results, checks, tables and figures."""
+"""Checks, tables and figures of a four-bar for a function."""
 
-import math
-from collections.abc import Mapping
+import dataclasses
 
-from ilmek.machines.four_bars import report as told
+import numpy as np
+
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import plan
+from ilmek.machines.animation import animated, frames
+from ilmek.machines.four_bars import report as shared
+from ilmek.machines.four_bars.choice import FourBarOption, finite
+from ilmek.machines.four_bars.figures import drawn
 from ilmek.machines.function_four_bar.design import FunctionFourBar
-from ilmek.machines.function_four_bar.figures import figures
-from ilmek.report import Check, Column, Json, Report, Result, Table, at_most
-from ilmek.synthesis.approximation.exchange import PROVEN
-from ilmek.units import format_quantity
-
-EXTRA = (
-    "x_drawn; crank_start, rocker_start from the ground link; error_max, error_rms of the rocker, y_error_max; "
-    "extremes [{x, error}]; bound, gap, proven"
+from ilmek.report import (
+    Animation,
+    Axis,
+    Check,
+    Drawing,
+    Figure,
+    Mark,
+    Plot,
+    Reading,
+    Series,
+    Table,
+    at_most,
+    columns,
 )
+from ilmek.synthesis.approximation.exchange import PROVEN
+from ilmek.synthesis.approximation.function_generator import FunctionApproximation
+from ilmek.units import format_number, format_quantity
 
 
-def report(design: FunctionFourBar) -> Report:
-    """Everything that the design says."""
-    return Report(
-        machine="function-four-bar",
-        title="Four-bar for a function",
-        parameters=design.params.as_dict(),
-        results=(*_error(design), *told.results(design.choice, EXTRA)),
-        checks=(*told.checks(design.choice), *_proof(design)),
-        tables=(*_error_table(design), *told.tables(design.choice, "function-four-bar"), *_extreme_table(design)),
-        figures=figures(design),
-        warnings=told.warnings(design.choice),
-    )
+def checks(design: FunctionFourBar) -> tuple[Check, ...]:
+    """Those of all four-bars; and a minimax reaches its bound, a least squares is stationary."""
+    found, criterion = design.approximation, design.params.criterion
+    if found is None or criterion == "interpolation":
+        return shared.checks(design)
+    name = "error above the bound of its alternation" if criterion == "minimax" else "slope of its error"
+    return (*shared.checks(design), at_most(name, found.gap, PROVEN, "1", "the criterion"))
 
 
-def _error(design: FunctionFourBar) -> tuple[Result, ...]:
-    option = design.choice.best
-    if option is None:
-        return ()
-    said = option.more
+def tables(design: FunctionFourBar) -> tuple[Table, ...]:
+    """Errors of the solutions, the solutions, and the extremes of the error of the one that is drawn."""
+    found = design.approximation
     return (
-        Result("error_max", said["error_max"], "deg", "greatest error of the rocker over the range"),
-        Result("error_rms", said["error_rms"], "deg", "root of the mean square error over the range"),
-        Result("y_error_max", said["y_error_max"], "", "the greatest error as one of y"),
-        Result("crank_start", said["crank_start"], "deg", "angle of the crank at the start, from the ground link"),
-        Result("rocker_start", said["rocker_start"], "deg", "angle of the rocker at the start"),
+        *((_error_table(design),) if design.choice.kept else ()),
+        *shared.tables(design.choice, "function-four-bar"),
+        *(() if found is None else (_extreme_table(found),)),
     )
 
 
-def _proof(design: FunctionFourBar) -> tuple[Check, ...]:
-    """A minimax reaches its bound, a least squares is stationary."""
-    best = design.best
-    if best is None or design.params.criterion == "interpolation":
-        return ()
-    words = "error above the bound of its alternation" if design.params.criterion == "minimax" else "slope of its error"
-    return (at_most(words, best.gap, PROVEN, "1", "the criterion"),)
-
-
-def _error_table(design: FunctionFourBar) -> tuple[Table, ...]:
-    if not design.choice.kept:
-        return ()
-    columns = (
-        Column("solution"),
-        Column("greatest error", "deg"),
-        Column("root mean square", "deg"),
-        Column("greatest error of y"),
-        Column("crank at the start", "deg"),
-        Column("rocker at the start", "deg"),
-        Column("proven"),
+def _error_table(design: FunctionFourBar) -> Table:
+    heads = columns(
+        *("solution", "greatest error [deg]", "root mean square [deg]", "greatest error of y"),
+        *("crank at the start [deg]", "rocker at the start [deg]", "proven"),
     )
-    rows = tuple((at, *_row(one.more)) for at, one in enumerate(design.choice.kept, 1))
-    return (Table("function-four-bar-errors", "How near the solutions come", columns, rows, brief=True),)
+    rows = tuple((at, *_errors(one)) for at, one in enumerate(design.choice.kept, 1))
+    return Table("function-four-bar-errors", "Errors of the solutions", heads, rows, brief=True)
 
 
-def _row(said: Mapping[str, Json]) -> tuple[float | str, ...]:
+def _errors(one: FourBarOption) -> tuple[float | str, ...]:
     names = ("error_max", "error_rms", "y_error_max", "crank_start", "rocker_start")
-    values = (said[name] for name in names)
-    return *(one if isinstance(one, float) else math.nan for one in values), "yes" if said["proven"] else "no"
+    return *(finite(one.details[name]) for name in names), "yes" if one.details["proven"] else "no"
 
 
-def _extreme_table(design: FunctionFourBar) -> tuple[Table, ...]:
-    best = design.best
-    if best is None:
-        return ()
-    columns = (Column("extreme"), Column("x"), Column("error of the rocker", "deg"))
+def _extreme_table(found: FunctionApproximation) -> Table:
+    heads = columns("extreme", "x", "error of the rocker [deg]")
     rows = tuple(
-        (at, float(x), float(error)) for at, (x, error) in enumerate(zip(best.at, best.errors, strict=True), 1)
+        (at, float(x), float(error)) for at, (x, error) in enumerate(zip(found.at, found.errors, strict=True), 1)
     )
-    most = format_quantity(best.greatest, "deg")
-    return (Table("function-four-bar-extremes", f"Extremes of the error: at most {most}", columns, rows, brief=True),)
+    title = f"Extremes of the error: at most {format_quantity(found.greatest, 'deg')}"
+    return Table("function-four-bar-extremes", title, heads, rows, brief=True)
+
+
+def figures(design: FunctionFourBar) -> tuple[Figure, ...]:
+    """The solution as drawn and in motion, its error and its function; the required one alone where there is none."""
+    best, found = design.best, design.approximation
+    if best is None or found is None:
+        return (_required(design),)
+    title = f"Solution {design.choice.number} where it shows x = {format_number(found.drawn_at)}"
+    still = Drawing("function-four-bar", title, (), note="Its error vanishes there.")
+    return (drawn(best.candidate, still), _moving(design, found), _error(found), _generated(found))
+
+
+def _error(found: FunctionApproximation) -> Plot:
+    """Structural error over the range, its extremes marked."""
+    marks = tuple(Mark(float(x), "") for x in found.at)
+    series = (Series("error of the rocker", found.curve.x, found.curve.error),)
+    note = f"At most {format_quantity(found.greatest, 'deg')}; lines: its extremes, {len(found.at)} of them."
+    return Plot("function-four-bar-error", "Structural error", Axis("x"), Axis("error", "deg"), series, marks, note)
+
+
+def _generated(found: FunctionApproximation) -> Plot:
+    """Rotation of the rocker, required and generated."""
+    x, curve = found.curve.x, found.curve
+    series = (Series("generated", x, curve.generated), Series("required", x, curve.wanted, dashed=True))
+    axes = Axis("x"), Axis("rotation of the rocker", "deg")
+    return Plot("function-four-bar-shown", "Generated function", *axes, series)
+
+
+def _required(design: FunctionFourBar) -> Plot:
+    function = design.function
+    x = np.linspace(function.start, function.stop, 181)
+    axes = Axis("x"), Axis("rotation of the rocker", "deg")
+    return Plot("function-four-bar-wanted", "Required function", *axes, (Series("required", x, function.rocker(x)),))
+
+
+def _moving(design: FunctionFourBar, found: FunctionApproximation) -> Animation:
+    """The four-bar over the range, with the x and the y that it shows."""
+    function, four_bar = design.function, found.four_bar
+    start = four_bar.crank_angle - float(function.crank(np.array([found.drawn_at]))[0])
+    angles = frames(*sorted((start, start + function.crank_swing)))
+    motion = solve(plan(four_bar.mechanism()), angles).require()
+    x = function.start + (angles - start) / function.crank_swing * (function.stop - function.start)
+    rising = np.argsort(found.curve.x)
+    turned = np.interp(x, found.curve.x[rising], found.curve.generated[rising])
+    first, last = function.range
+    y = first + turned / function.rocker_swing * (last - first)
+    drawing = Drawing("function-four-bar-moving", "Over the range", ())
+    moved = animated(motion, angles, drawing, start=four_bar.crank_angle if function.crank_swing > 0 else None)
+    return dataclasses.replace(moved, readings=(Reading("x", x), Reading("y", y)))

@@ -6,11 +6,12 @@ five a few links. All pairs are judged, and those without defects ranked.
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
+from ilmek.machines.four_bars.choice import FourBarSelection
 from ilmek.machines.motion_four_bar.design import MotionFourBar, design
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
-from ilmek.machines.motion_four_bar.report import report
+from ilmek.machines.motion_four_bar.report import checks, figures, tables, warnings
 
-__all__ = ["MACHINE", "MotionFourBar", "MotionFourBarParams", "design", "report"]
+__all__ = ["MACHINE", "MotionFourBar", "MotionFourBarParams", "design"]
 
 MACHINE = Component(
     name="motion-four-bar",
@@ -18,5 +19,10 @@ MACHINE = Component(
     summary=SUMMARIES["motion-four-bar"],
     params=MotionFourBarParams,
     design=design,
-    reporter=report,
+    results=lambda made: (made, made.choice),
+    reported=(MotionFourBar, FourBarSelection),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
 )

@@ -1,17 +1,17 @@
-"""A four-bar for a motion: the links that guide the body, and the four-bars made of two of them, judged and sieved."""
+"""A four-bar for a motion: the links that guide the body, and the four-bars of two of them, judged and filtered."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.machines.four_bars.choice import FourBarOption, FourBarSelection, choose
-from ilmek.machines.four_bars.filter_params import filters
-from ilmek.machines.motion_four_bar.params import Bounds, MotionFourBarParams
-from ilmek.machines.text_lists import BodyPoses
-from ilmek.synthesis.burmester.curve import BurmesterCurve, burmester_curve
+from ilmek.machines.four_bars.choice import FourBarDesign, FourBarOption, choose, of_best, solutions
+from ilmek.machines.motion_four_bar.params import MotionFourBarParams
+from ilmek.machines.text_lists import BodyPoses, Bounds
+from ilmek.records import computed, record, result
+from ilmek.report import Json
+from ilmek.synthesis.burmester.curve import BurmesterCurve, CurveBranch, burmester_curve
 from ilmek.synthesis.burmester.links import (
     Guide,
     GuideKind,
@@ -31,29 +31,59 @@ GRID, WIDE = 15, 1.5
 """Pivots of a grid along x and along y, and how far it reaches beyond the poses, in their greatest extent."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class MotionFourBar:
+@record
+class MotionFourBar(FourBarDesign):
     """Four-bars for a motion.
 
-    poses   what the body takes            curve   pivots and pins of four poses
-    guides  the links that guide the body where they are few: of five poses, or those given      choice  the four-bars
-    judged  how many pairs were judged, of how many links
+    poses   of the body            curve   pivots and pins of four poses
+    guides  the links that guide the body where they are few: of five poses, or those given
     """
 
     params: MotionFourBarParams
     poses: BodyPoses
     curve: BurmesterCurve | None
     guides: tuple[Guide, ...]
-    choice: FourBarSelection
-    judged: tuple[int, int]
+    judged: int = result("", "pairs of links that were judged; where the links are a family the most promising")
+    judged_links: int = result("", "links that these pairs were chosen from")
+
+    point_error = of_best(
+        "mm", "greatest distance from a pose's point, from the solution's motion", lambda one: one.candidate.point_error
+    )
+    angle_error = of_best("deg", "greatest difference from a pose's angle", lambda one: one.candidate.angle_error)
+    solutions = solutions()
+    links = computed(
+        "",
+        "links that guide the body: kind; pivot and pin at the first pose (of sliders and blocks a direction), length",
+        lambda it: [_link(one) for one in it.guides] or None,
+        shown=False,
+        optional=True,
+    )
+
+    @computed(
+        "",
+        "centre-point and circle-point curve, in segments of points in order; closed: the last joins the first",
+        shown=False,
+        optional=True,
+    )
+    def curves(self) -> Json:
+        if self.curve is None:
+            return None
+        return {"pivots": _branches(self.curve.centre_branches), "pins": _branches(self.curve.circle_branches)}
 
     @property
     def extent(self) -> float:
-        """Greatest distance of two poses' points [m]; of a body that only turns, of its pins."""
+        """Greatest distance of two poses' points [m]; of a body that only turns, the size of the four-bar."""
         points = self.poses.points
         most = float(np.max(np.abs(points[:, None] - points)))
-        best = self.choice.best
-        return most or (best.candidate.size if best else 0.0) or 1.0
+        return most or (self.best.candidate.size if self.best else 0.0) or 1.0
+
+
+def _link(one: Guide) -> Json:
+    return {"kind": str(one.kind), "pivot": one.pivot, "pin": one.pin, "length": one.length}
+
+
+def _branches(branches: Sequence[CurveBranch]) -> Json:
+    return [{"closed": branch.closed, "places": branch.places} for branch in branches]
 
 
 def design(params: MotionFourBarParams) -> MotionFourBar:
@@ -61,9 +91,9 @@ def design(params: MotionFourBarParams) -> MotionFourBar:
 
     Raises ParameterError where a whole family of links takes the poses.
     """
-    poses = params.task()
+    poses, ranges = params.task(), params.pivot_ranges()
     curve, guides, few = _guides(params, poses)
-    inside = [one for one in guides if _inside(one.pivot, params.room())]
+    inside = [one for one in guides if _inside(one.pivot, ranges)]
     pairs = [(one, other) for one in inside for other in inside if one is not other]
     if not few:
         ratio = params.link_ratio_max or np.inf
@@ -75,31 +105,36 @@ def design(params: MotionFourBarParams) -> MotionFourBar:
         if joined.four_bar is None:
             other.append(joined.said)
         else:
-            options.append(
-                FourBarOption(judge(joined.four_bar, task), _made(guides, crank, rocker) if few else "curve")
-            )
+            made = _numbers(guides, crank, rocker) if few else "curve"
+            options.append(FourBarOption(judge(joined.four_bar, task), made))
     other += _unused(guides, inside, few, bool(pairs))
-    other = list(dict.fromkeys(other))
-    choice = choose(options, filters(params), number=params.chosen, count=params.count, other=other)
-    return MotionFourBar(params, poses, curve, guides if few else (), choice, (len(pairs), len(inside)))
+    return MotionFourBar(
+        choice=choose(options, tuple(dict.fromkeys(other)), params),
+        params=params,
+        poses=poses,
+        curve=curve,
+        guides=guides if few else (),
+        judged=len(pairs),
+        judged_links=len(inside),
+    )
 
 
 def _guides(params: MotionFourBarParams, poses: BodyPoses) -> tuple[BurmesterCurve | None, tuple[Guide, ...], bool]:
-    """The curve of four poses, the links, and whether they are few: each with a number of its own."""
+    """The curve of four poses, the links, and whether they are few: then each has a number."""
     if len(poses.points) == 5:
         return None, arms_through_five_poses(*poses), True
     if len(poses.points) == 4:
         return burmester_curve(*poses), burmester_curve(*poses, params.samples).guides(), False
-    pivots, pins = params.given("pivots"), params.given("pins")
+    pivots, pins = params.both("pivots"), params.both("pins")
     if pivots is not None:
         return None, arms_of_pivots(*poses, pivots), True
     if pins is not None:
         return None, arms_of_pins(*poses, pins), True
-    return None, arms_of_pivots(*poses, _grid(poses.points, params.room())), False
+    return None, arms_of_pivots(*poses, _grid(poses.points, params.pivot_ranges())), False
 
 
 def _unused(guides: Sequence[Guide], inside: Sequence[Guide], few: bool, paired: bool) -> Iterator[str]:
-    """Why links are in no four-bar, in words."""
+    """Why links are in no four-bar."""
     outside = len(guides) - len(inside)
     if outside and few:
         yield f"links with a pivot outside pivot_x and pivot_y: {outside}"
@@ -113,27 +148,22 @@ def _unused(guides: Sequence[Guide], inside: Sequence[Guide], few: bool, paired:
         yield f"of {cranks} cranks no two keep one branch, the order of the poses and link_ratio_max"
 
 
-def _grid(points: ComplexArray, room: tuple[Bounds, Bounds]) -> ComplexArray:
-    """Pivots around the poses, within the room that is given."""
+def _grid(points: ComplexArray, ranges: tuple[Bounds, Bounds]) -> ComplexArray:
+    """Pivots around the poses, within the given bounds."""
     reach = WIDE * (float(np.ptp(points.real)) + float(np.ptp(points.imag)) or 1.0)
     sides = [
         np.linspace(max(least, min(most, values.min() - reach)), min(most, max(least, values.max() + reach)), GRID)
-        for values, (least, most) in zip((points.real, points.imag), room, strict=True)
+        for values, (least, most) in zip((points.real, points.imag), ranges, strict=True)
     ]
     return np.unique(np.add.outer(sides[0], 1j * sides[1]))
 
 
-def _inside(pivot: complex, room: tuple[Bounds, Bounds]) -> bool:
-    (left, right), (low, high) = room
+def _inside(pivot: complex, ranges: tuple[Bounds, Bounds]) -> bool:
+    (left, right), (low, high) = ranges
     return left <= pivot.real <= right and low <= pivot.imag <= high
 
 
-def _made(guides: Sequence[Guide], crank: Guide, rocker: Guide) -> str:
-    """Which links, by their numbers."""
+def _numbers(guides: Sequence[Guide], crank: Guide, rocker: Guide) -> str:
+    """The links of a four-bar by their numbers."""
     numbers = [next(at for at, one in enumerate(guides, 1) if one is wanted) for wanted in (crank, rocker)]
     return "links {} (crank) and {}".format(*numbers)
-
-
-def spread(guide: Guide, poses: BodyPoses) -> float:
-    """By how much what must be constant changes over the poses: of a crank its length [m]."""
-    return float(np.ptp(guide.reach(*poses))) if guide.kind is not GuideKind.FREE else float("nan")

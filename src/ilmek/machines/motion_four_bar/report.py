@@ -1,124 +1,119 @@
-"""What a four-bar for a motion says: results, checks, tables and figures."""
+"""Checks, tables, figures and warnings of a four-bar for a motion."""
 
+import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator
 
-from ilmek.machines.four_bars import report as told
-from ilmek.machines.motion_four_bar.design import MotionFourBar, spread
-from ilmek.machines.motion_four_bar.figures import figures
-from ilmek.report import Check, Column, Json, Report, Result, Table, at_most
+import numpy as np
+
+from ilmek.machines.four_bars import report as shared
+from ilmek.machines.four_bars.figures import drawn_and_moving, links, numbered, pins
+from ilmek.machines.motion_four_bar.design import MotionFourBar
+from ilmek.report import Check, Dot, Drawing, Figure, Stroke, Table, at_most, columns
 from ilmek.synthesis.burmester.curve import CurveBranch
 from ilmek.synthesis.burmester.links import Guide, GuideKind
 
 MET = 1e-6
-"""Error of a pose that counts as none, in extents of the poses, and of an angle [rad]."""
+"""Error of a pose that counts as none, in extents of the poses."""
+
+WINDOW = 2.0
+"""Radius of what is drawn of curves and links, in extents of the poses: they are infinite."""
+
+FLAG = 0.25
+"""Length of the mark of a pose, in extents of the poses."""
 
 
-def report(design: MotionFourBar) -> Report:
-    """Everything that the design says."""
-    return Report(
-        machine="motion-four-bar",
-        title="Four-bar for a motion",
-        parameters=design.params.as_dict(),
-        results=(
-            *_exactness(design),
-            _judged(design),
-            *told.results(design.choice),
-            *_guides(design),
-            *_curves(design),
-        ),
-        checks=(*told.checks(design.choice), *_checks(design)),
-        tables=(*told.tables(design.choice, "motion-four-bar"), *_guide_table(design)),
-        figures=figures(design),
-        warnings=(*told.warnings(design.choice), *_odd(design)),
-    )
+def checks(design: MotionFourBar) -> tuple[Check, ...]:
+    """Whether there is a solution, its transmission angle, and whether it takes the poses."""
+    if design.best is None:
+        return shared.checks(design)
+    missed, most = design.best.candidate.point_error, MET * design.extent
+    return (*shared.checks(design), at_most("distance from the poses", missed, most, "mm", "from its motion"))
 
 
-def _exactness(design: MotionFourBar) -> tuple[Result, ...]:
-    best = design.choice.best
-    if best is None:
-        return ()
-    one = best.candidate
-    return (
-        Result("point_error", one.point_error, "mm", "greatest distance from a pose's point, by moving the solution"),
-        Result("angle_error", one.angle_error, "deg", "greatest difference from a pose's angle"),
-    )
+def warnings(design: MotionFourBar) -> tuple[str, ...]:
+    """Those of all four-bars, and links that are no cranks: they may be built otherwise."""
+    odd = [(at, one) for at, one in enumerate(design.guides, 1) if one.kind is not GuideKind.CRANK]
+    return (*shared.warnings(design), *(f"link {at} is a {one.kind}: {one.kind.words}" for at, one in odd))
 
 
-def _judged(design: MotionFourBar) -> Result:
-    pairs, found = design.judged
-    said = "pairs of links that were judged" + ("" if design.guides else f": the most promising of {found} links")
-    return Result("judged", pairs, "", said)
+def tables(design: MotionFourBar) -> tuple[Table, ...]:
+    """The solutions, and the links that guide the body where they are few."""
+    found = shared.tables(design.choice, "motion-four-bar")
+    return (*found, _guide_table(design)) if design.guides else found
 
 
-def _checks(design: MotionFourBar) -> tuple[Check, ...]:
-    best = design.choice.best
-    if best is None:
-        return ()
-    most = MET * design.extent
-    return (at_most("distance from the poses", best.candidate.point_error, most, "mm", "by moving it"),)
-
-
-def _guides(design: MotionFourBar) -> tuple[Result, ...]:
-    if not design.guides:
-        return ()
-    found: list[Json] = [_guide(one) for one in design.guides]
-    said = "every link that guides the body: kind; pivot and pin at the first pose (of sliders and blocks a direction)"
-    return (Result("links", found, "", said, False),)
-
-
-def _guide(one: Guide) -> dict[str, Json]:
-    length = one.length if math.isfinite(one.length) else None
-    return {"kind": str(one.kind), "pivot": told.place(one.pivot), "pin": told.place(one.pin), "length": length}
-
-
-def _curves(design: MotionFourBar) -> tuple[Result, ...]:
-    if design.curve is None:
-        return ()
-    found: dict[str, Json] = {
-        "pivots": _branches(design.curve.centre_branches),
-        "pins": _branches(design.curve.circle_branches),
-    }
-    said = "centre-point and circle-point curve, in stretches of places in order; closed: the last joins the first"
-    return (Result("curves", found, "", said, False),)
-
-
-def _branches(branches: Sequence[CurveBranch]) -> list[Json]:
-    return [
-        {"closed": branch.closed, "places": [[float(one.real), float(one.imag)] for one in branch.places]}
-        for branch in branches
-    ]
-
-
-def _guide_table(design: MotionFourBar) -> tuple[Table, ...]:
-    if not design.guides:
-        return ()
-    columns = (
-        Column("link"),
-        Column("kind"),
-        Column("pivot x", "mm"),
-        Column("pivot y", "mm"),
-        Column("pin x", "mm"),
-        Column("pin y", "mm"),
-        Column("length", "mm"),
-        Column("changes by", "mm"),
+def _guide_table(design: MotionFourBar) -> Table:
+    heads = columns(
+        *("link", "kind", "pivot x [mm]", "pivot y [mm]", "pin x [mm]", "pin y [mm]", "length [mm]"),
+        "change over the poses [mm]",
     )
     rows = tuple(
-        (at, str(one.kind), *_places(one), one.length, spread(one, design.poses))
-        for at, one in enumerate(design.guides, 1)
+        (at, str(one.kind), *_joints(one), one.length, _change(one, design)) for at, one in enumerate(design.guides, 1)
     )
     title = "Links that guide the body, pins at the first pose"
-    return (Table("motion-four-bar-links", title, columns, rows, brief=True),)
+    return Table("motion-four-bar-links", title, heads, rows, brief=True)
 
 
-def _places(one: Guide) -> tuple[float, float, float, float]:
+def _joints(one: Guide) -> tuple[float, float, float, float]:
     """Pivot and pin [m]; NaN where they are infinitely far."""
     pivot = one.pivot if one.kind in (GuideKind.CRANK, GuideKind.BLOCK) else complex(math.nan, math.nan)
     pin = one.pin if one.kind in (GuideKind.CRANK, GuideKind.SLIDER) else complex(math.nan, math.nan)
     return pivot.real, pivot.imag, pin.real, pin.imag
 
 
-def _odd(design: MotionFourBar) -> tuple[str, ...]:
-    """Links that are no cranks: worth knowing, as they may be built otherwise."""
-    odd = [(at, one) for at, one in enumerate(design.guides, 1) if one.kind is not GuideKind.CRANK]
-    return tuple(f"link {at} is a {one.kind}: {one.kind.words}" for at, one in odd)
+def _change(guide: Guide, design: MotionFourBar) -> float:
+    """Change over the poses of what must be constant [m]: of a crank its length."""
+    return float(np.ptp(guide.reach(*design.poses))) if guide.kind is not GuideKind.FREE else math.nan
+
+
+def figures(design: MotionFourBar) -> tuple[Figure, ...]:
+    """The solution at its first pose and in motion, and the curves or links that it was chosen from."""
+    best, found = design.best, _chosen_from(design)
+    still = Drawing("motion-four-bar", "The poses", _flags(design), numbered(design.poses.points))
+    if best is None:
+        return found or (still,)
+    title = f"Solution {design.choice.number} at its first pose"
+    still = Drawing(still.name, title, still.strokes, still.dots)
+    moving = "In motion" if best.candidate.crank_turns else "In motion, from the first pose to the last"
+    return (*drawn_and_moving(best.candidate, still, moving), *found)
+
+
+def _chosen_from(design: MotionFourBar) -> tuple[Drawing, ...]:
+    """Both curves of four poses, or the links of five, with those of the solution."""
+    best, flags, poses = design.best, _flags(design), numbered(design.poses.points)
+    if design.curve is not None:
+        pivots = [stroke for branch in design.curve.centre_branches for stroke in _within(design, branch, "pivots")]
+        ends = [stroke for branch in design.curve.circle_branches for stroke in _within(design, branch, "pins")]
+        title, note = "Possible pivots and pins", "Every pivot of the one curve has its pin on the other."
+        solution = () if best is None else links(best.candidate.four_bar)[1:]
+        dots = (*poses, *(() if best is None else pins(best.candidate.four_bar)[:4]))
+        strokes = (*flags, *pivots, *ends, *solution)
+        return (Drawing("motion-four-bar-curves", title, strokes, dots, note=note),)
+    guides = [(at, one) for at, one in enumerate(design.guides, 1) if one.kind is GuideKind.CRANK]
+    if not guides:
+        return ()
+    arms = [Stroke(np.array([one.pivot, one.pin]), "link", f"link {at}") for at, one in guides]
+    joints = [dot for _, one in guides for dot in (Dot(one.pivot, "", "pivot"), Dot(one.pin, ""))]
+    title = "Every link that guides the body through the poses"
+    return (Drawing("motion-four-bar-links", title, (*flags, *arms), (*joints, *poses)),)
+
+
+def _flags(design: MotionFourBar) -> tuple[Stroke, ...]:
+    """Marks of the poses: an arm from the body's point along its line, with a short one across."""
+    along = [FLAG * design.extent * cmath.exp(1j * float(angle)) for angle in design.poses.angles]
+    return tuple(
+        Stroke(np.array([point + 0.35j * arm, point, point + arm]), "outline")
+        for point, arm in zip(design.poses.points, along, strict=True)
+    )
+
+
+def _within(design: MotionFourBar, branch: CurveBranch, label: str) -> Iterator[Stroke]:
+    """The parts of a branch that lie in the window."""
+    middle = complex(np.mean(design.poses.points))
+    places = np.append(branch.places, branch.places[:1]) if branch.closed else branch.places
+    inside = np.abs(places - middle) < WINDOW * design.extent
+    cuts = np.flatnonzero(np.diff(inside.astype(int))) + 1
+    for part, kept in zip(np.split(places, cuts), np.split(inside, cuts), strict=True):
+        if len(part) > 1 and kept[0]:
+            yield Stroke(part, "path", label)

@@ -1,4 +1,4 @@
-"""A four-bar for a path: its tracer goes through points, as near as can be, or exactly at given crank angles.
+"""A four-bar for a path: its tracer passes given points, as near as possible, or exactly at given crank angles.
 
 Any 4 to 200 points are searched for the nearest four-bars within limits; 3 to 5 points at given crank angles are also
 met exactly, by all four-bars that do.
@@ -6,11 +6,13 @@ met exactly, by all four-bars that do.
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
+from ilmek.machines.four_bars.choice import FourBarSelection
+from ilmek.machines.four_bars.report import checks, warnings
 from ilmek.machines.path_four_bar.design import PathFourBar, design
 from ilmek.machines.path_four_bar.params import PathFourBarParams
-from ilmek.machines.path_four_bar.report import report
+from ilmek.machines.path_four_bar.report import figures, tables
 
-__all__ = ["MACHINE", "PathFourBar", "PathFourBarParams", "design", "report"]
+__all__ = ["MACHINE", "PathFourBar", "PathFourBarParams", "design"]
 
 MACHINE = Component(
     name="path-four-bar",
@@ -18,5 +20,10 @@ MACHINE = Component(
     summary=SUMMARIES["path-four-bar"],
     params=PathFourBarParams,
     design=design,
-    reporter=report,
+    results=lambda made: (made, made.choice),
+    reported=(PathFourBar, FourBarSelection),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
 )

@@ -1,15 +1,14 @@
-"""A four-bar for a path: found, judged, sieved."""
+"""A four-bar for a path: found by a search or by the exact methods, judged, filtered."""
 
 import dataclasses
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.machines.four_bars.choice import FourBarOption, FourBarSelection, choose
-from ilmek.machines.four_bars.filter_params import filters
+from ilmek.machines.four_bars.choice import FourBarDesign, FourBarOption, choose, detail_of_best, dimensions, solutions
 from ilmek.machines.path_four_bar.params import PathFourBarParams
+from ilmek.records import computed, record
 from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.cognates import cognates
@@ -20,40 +19,62 @@ from ilmek.synthesis.path.task import PathTask
 from ilmek.synthesis.task import PrecisionTask
 
 CURVES = 12
-"""Second links that are looked at on each closed part of the curves of four timed points."""
+"""Second links that are tried on each closed part of the curves of four timed points."""
 
 MET, ROUNDING = 1e-9, 1e-6
-"""Shares of a four-bar's size: an error that is none, and of an error, that may be rounding."""
+"""Shares of a four-bar's size: an error that counts as none, and the part of an error that may be rounding."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class PathFourBar:
+@record
+class PathFourBar(FourBarDesign):
     """Four-bars for a path.
 
-    points    [m]      choice  those kept and removed
-    cognates  of the one that is drawn, judged as it is; () where they are not asked for
+    points    [m]      cognates  of the one that is drawn, judged, by their names; () where they are not required
     """
 
     params: PathFourBarParams
     points: ComplexArray
-    choice: FourBarSelection
     cognates: tuple[tuple[str, Candidate], ...]
+
+    error_max = detail_of_best("mm", "greatest distance from a point, of the solution that is drawn", "error_max")
+    error_rms = detail_of_best("mm", "root mean square of the distances", "error_rms")
+    error_squares = detail_of_best("mm^2", "sum of the squared distances", "error_squares")
+    active = detail_of_best("", "active limits: without them it would come nearer", "active")
+    starts_agreed = detail_of_best("", "starts of the search that ended at this error", "starts_agreed")
+    starts = detail_of_best("", "starts of the search", "starts")
+    solutions = solutions(
+        "error_max, error_rms and error_squares (sum of squares) of the points; of a search active, starts_agreed, "
+        "starts"
+    )
+
+    @computed(
+        "",
+        "the other four-bars that trace the same curve: keeps the timing (timed), turns with the coupler (other)",
+        name="cognates",
+        shown=False,
+        optional=True,
+    )
+    def other_four_bars(self) -> Json:
+        return [
+            {"name": name, **dimensions(one.four_bar), "crank_turns": one.crank_turns, **errors(one)}
+            for name, one in self.cognates
+        ] or None
 
 
 def design(params: PathFourBarParams) -> PathFourBar:
     """All four-bars for the path.
 
-    Raises ParameterError where the task is none, or no start of the search can be brought within the limits.
+    Raises ParameterError where the task cannot be read, or no start of the search can be brought within the limits.
     """
-    points = params.places()
-    options, other = _exact(params, points) if params.exact else (_searched(params), ())
-    sieve, rank = filters(params), None
-    if not params.exact:  # the search keeps both, and ends at them: a sieve would see them broken by rounding
-        sieve, rank = dataclasses.replace(sieve, transmission_min=0.0, full_turn=False), _nearest
-    choice = choose(options, sieve, number=params.chosen, count=params.count, other=other, least=rank)
-    best = choice.best
-    siblings = _siblings(best.candidate) if best is not None and params.cognates else ()
-    return PathFourBar(params, points, choice, siblings)
+    points = params.positions()
+    if params.exact:
+        choice = choose(*_exact(params, points), params)
+    else:
+        # The search keeps both limits, and ends at them: a filter would find them exceeded by rounding.
+        filters = dataclasses.replace(params.filters(), transmission_min=0.0, full_turn=False)
+        choice = choose(_searched(params), (), params, filters=filters, rank=_nearest)
+    siblings = _siblings(choice.best.candidate) if choice.best is not None and params.cognates else ()
+    return PathFourBar(choice=choice, params=params, points=points, cognates=siblings)
 
 
 def _nearest(one: FourBarOption) -> tuple[float, float]:
@@ -74,8 +95,7 @@ def _searched(params: PathFourBarParams) -> tuple[FourBarOption, ...]:
 def _option(params: PathFourBarParams, task: PathTask, fit: PathFit) -> FourBarOption:
     candidate = judged(task, fit)
     if params.error_max is not None:
-        asked = dataclasses.replace(candidate.task, point_tolerance=params.error_max)
-        candidate = judge(fit.four_bar, asked)
+        candidate = judge(fit.four_bar, dataclasses.replace(candidate.task, point_tolerance=params.error_max))
     search: dict[str, Json] = {
         "active": list(fit.active),
         "starts_agreed": fit.search.agreed,
@@ -85,21 +105,18 @@ def _option(params: PathFourBarParams, task: PathTask, fit: PathFit) -> FourBarO
 
 
 def _exact(params: PathFourBarParams, points: ComplexArray) -> tuple[tuple[FourBarOption, ...], tuple[str, ...]]:
-    """All four-bars that meet the timed points, and in words what is none."""
+    """All four-bars that meet the timed points, and descriptions of what is none."""
     timing = params.angles()
     assert timing is not None
-    found = timed_four_bars(points, timing, pivots=params.given_pivots(), samples=CURVES)
+    found = timed_four_bars(points, timing, pivots=params.both_pivots(), samples=CURVES)
     task = PrecisionTask(points=points, crank=timing)
-    options = []
-    for one in found:
-        if one.four_bar is not None:
-            candidate = judge(one.four_bar, task)
-            options.append(FourBarOption(candidate, "exact", errors(candidate)))
-    return tuple(options), tuple(dict.fromkeys(one.said for one in found if one.four_bar is None))
+    candidates = [judge(one.four_bar, task) for one in found if one.four_bar is not None]
+    other = dict.fromkeys(one.said for one in found if one.four_bar is None)
+    return tuple(FourBarOption(one, "exact", errors(one)) for one in candidates), tuple(other)
 
 
 def _siblings(original: Candidate) -> tuple[tuple[str, Candidate], ...]:
-    """The cognates, judged at the same points: one keeps the crank's timing, of the other the crank finds its own."""
+    """The cognates, judged at the same points: one keeps the crank's timing, the crank of the other has its own."""
     found = cognates(original.four_bar)
     near, points = original.point_error * (1 + ROUNDING) + ROUNDING * original.size, original.task.points
     tasks = (
@@ -110,7 +127,7 @@ def _siblings(original: Candidate) -> tuple[tuple[str, Candidate], ...]:
 
 
 def errors(candidate: Candidate) -> dict[str, Json]:
-    """Greatest, root mean square and sum of squares of the distances from the points."""
+    """Greatest, root mean square and sum of squares of the distances from the points [m, m, m²]."""
     gaps = np.array([met.point_error for met in candidate.positions])
     if not np.isfinite(gaps).all():
         return {"error_max": None, "error_rms": None, "error_squares": None}

@@ -1,4 +1,4 @@
-"""What may be asked of a four-bar for a path."""
+"""Parameters of a four-bar for a path."""
 
 import math
 from dataclasses import dataclass
@@ -6,9 +6,9 @@ from typing import Any
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
-from ilmek.machines.four_bars import filter_params
-from ilmek.machines.text_lists import read_angles, read_bounds, read_points
-from ilmek.params import Params, param
+from ilmek.machines.four_bars.choice import FourBarTaskParams, ratio_limit
+from ilmek.machines.text_lists import Bounds, read_angles, read_bounds, read_points, read_two_points
+from ilmek.params.kind import choice, count, flag, length, text
 from ilmek.synthesis.path.task import FEWEST, KINDS, MOST, PathTask
 
 LINE = "(20mm,20mm) (20mm,25mm) (20mm,30mm) (20mm,35mm) (20mm,40mm) (20mm,45mm)"
@@ -38,23 +38,25 @@ EXACT = (3, 4, 5)
 
 
 def _bounds(of: str, how: str = "like 10mm..60mm, ..60mm, or 60mm alone") -> Any:
-    return param(None, doc=f"bounds on {of}, {how}")
+    return text(None, doc=f"bounds on {of}, {how}")
 
 
 @dataclass(frozen=True, slots=True)
-class PathFourBarParams(Params):
-    """What may be asked of a four-bar for a path: points, and within which limits."""
+class PathFourBarParams(FourBarTaskParams):
+    """Task of a four-bar for a path: points, and limits."""
 
-    points: str = param(LINE, doc="points in the order in which they are met: 4 to 200, or 3 to 5 where exact")
-    timing: str | None = param(None, doc="crank angles at the points, like 30deg 45deg …; their differences count")
-    closed: bool = param(False, doc="the path goes on from the last point to the first, once a turn of the crank")
-    ordered: bool = param(True, doc="the crank meets the points in their order, within one turn")
-    exact: bool = param(False, doc="all four-bars that meet 3 to 5 timed points exactly, in place of the nearest")
-    pivots: str | None = param(
+    points: str = text(LINE, doc="points in the order in which they are met: 4 to 200, or 3 to 5 where exact")
+    timing: str | None = text(
+        None, doc="crank angles at the points, like 30deg 45deg …; their differences count; default: free"
+    )
+    closed: bool = flag(False, doc="the path goes on from the last point to the first, once a turn of the crank")
+    ordered: bool = flag(True, doc="the crank meets the points in their order, within one turn")
+    exact: bool = flag(False, doc="all four-bars that meet 3 to 5 timed points exactly, instead of the nearest")
+    pivots: str | None = text(
         None, doc="pivots of crank and rocker where 3 timed points are met exactly: (0,0) (9mm,0)"
     )
-    kind: str = param(
-        "crank-rocker", choices=(*KINDS, EITHER), doc="class that is searched, its crank turns; exact takes every class"
+    kind: str = choice(
+        "crank-rocker", (*KINDS, EITHER), doc="class that is searched, its crank turns; exact takes every class"
     )
     ground: str | None = _bounds("the ground link")
     crank: str | None = _bounds("the crank")
@@ -66,28 +68,20 @@ class PathFourBarParams(Params):
     pivot_y: str | None = _bounds("y of the crank's pivot")
     turn: str | None = _bounds("the direction of the ground link", "like -20deg..20deg")
     start: str | None = _bounds("what is added to the timing to give crank angles against the ground link", "like 0")
-    transmission_min: float = filter_params.transmission_min()
-    error_max: float | None = param(None, unit="mm", above=0.0, at_most=1e3, doc="greatest distance from a point")
-    one_circuit: bool = filter_params.one_circuit()
-    one_branch: bool = filter_params.one_branch()
-    in_order: bool = filter_params.in_order()
-    full_turn: bool = filter_params.full_turn()
-    link_ratio_max: float | None = filter_params.link_ratio_max()
-    size_max: float | None = filter_params.size_max()
-    count: int = filter_params.count()
-    chosen: int = filter_params.chosen()
-    cognates: bool = param(False, doc="also the two other four-bars that draw the same curve as the chosen one")
-    starts: int = param(960, at_least=1, at_most=10000, doc="random starts after which the search ends at the latest")
-    seed: int = param(0, at_least=0, at_most=10**9, doc="seed of the random starts: the same seed, the same answers")
+    error_max: float | None = length(None, above=0.0, at_most=1e3, doc="greatest distance from a point")
+    link_ratio_max: float | None = ratio_limit(None)
+    cognates: bool = flag(False, doc="also the two other four-bars that trace the same curve as the chosen one")
+    starts: int = count(960, at_least=1, at_most=10000, doc="random starts after which the search ends at the latest")
+    seed: int = count(0, at_least=0, at_most=10**9, doc="seed of the random starts: the same seed, the same answers")
 
     def check_together(self) -> None:
-        """The task can be read, and one method takes it."""
+        """Raise ParameterError where the task cannot be read, or its method does not take it."""
         if self.exact:
             _check_exact(self)
         else:
             self.tasks()
 
-    def places(self) -> ComplexArray:
+    def positions(self) -> ComplexArray:
         """The points [m]."""
         return read_points("points", self.points)
 
@@ -95,18 +89,16 @@ class PathFourBarParams(Params):
         """The timing [rad]."""
         return None if self.timing is None else read_angles("timing", self.timing)
 
-    def given_pivots(self) -> tuple[complex, complex] | None:
-        """Pivots of crank and rocker [m]."""
+    def both_pivots(self) -> tuple[complex, complex] | None:
+        """Pivots of crank and rocker [m], where they are given."""
         if self.pivots is None:
             return None
-        found = read_points("pivots", self.pivots)
-        if len(found) != 2:
-            raise ParameterError(f"pivots holds {len(found)} points", allowed="two: of the crank and of the rocker")
-        return complex(found[0]), complex(found[1])
+        crank, rocker = read_two_points("pivots", self.pivots)
+        return complex(crank), complex(rocker)
 
     def tasks(self) -> tuple[PathTask, ...]:
-        """The tasks of the search, one for each class. Raises ParameterError where they are none."""
-        points = self.places()
+        """The tasks of the search, one for each class. Raises ParameterError where the search does not take them."""
+        points = self.positions()
         if not FEWEST <= len(points) <= MOST:
             raise ParameterError(
                 f"a path of {len(points)} points", allowed=f"{FEWEST} to {MOST} are searched", do=_instead(len(points))
@@ -123,30 +115,32 @@ class PathFourBarParams(Params):
             PathTask(points, timing, self.closed, self.ordered, limits, kind, self.transmission_min) for kind in kinds
         )
 
-    def limits(self) -> dict[str, tuple[float, float]]:
+    def limits(self) -> dict[str, Bounds]:
         """Bounds that are set, by the names of `PathTask.bounds` [m, rad]."""
-        found = {}
-        for parameter, name in NAMED.items():
-            text = getattr(self, parameter)
-            if text is not None:
-                low, high = read_bounds(parameter, text, "deg" if parameter in ANGLES else "mm")
-                least = 0.0 if parameter in LENGTHS else -math.inf
-                found[name] = (least if low is None else low, math.inf if high is None else high)
-        return found
+        return {
+            name: read_bounds(
+                parameter,
+                text,
+                "deg" if parameter in ANGLES else "mm",
+                least=0.0 if parameter in LENGTHS else -math.inf,
+            )
+            for parameter, name in NAMED.items()
+            if (text := getattr(self, parameter)) is not None
+        }
 
 
 def _instead(count: int) -> str:
-    """What takes so many points."""
+    """What to do with so many points."""
     if count > MOST:
         return "leave points out: a hand-drawn curve needs no more than 60"
     if count == 3:
         return "3 timed points are met exactly: set timing, pivots and exact=yes"
-    return "give more points; a body that is to take two or three poses: motion-four-bar"
+    return "give more points; a body that takes two or three poses: motion-four-bar"
 
 
 def _check_exact(params: PathFourBarParams) -> None:
     """Raise ParameterError where the exact methods do not take the task."""
-    points, timing = params.places(), params.angles()
+    points, timing = params.positions(), params.angles()
     if timing is None:
         raise ParameterError("exact=yes without a timing", do="set timing: a crank angle for each point, 30deg 45deg …")
     if len(points) not in EXACT:
@@ -158,11 +152,11 @@ def _check_exact(params: PathFourBarParams) -> None:
         )
     if len(timing) != len(points):
         raise ParameterError(f"{len(points)} points and {len(timing)} angles", allowed="one angle for each point")
-    if (params.given_pivots() is None) == (len(points) == 3):
+    if (params.both_pivots() is None) == (len(points) == 3):
         what = "need both pivots" if len(points) == 3 else "leave no pivot free to give"
         do = "set pivots=(0,0) (9mm,0)" if len(points) == 3 else "leave pivots out"
         raise ParameterError(f"{len(points)} timed points {what}", do=do)
     searched = [name for name in NAMED if getattr(params, name) is not None]
     if searched:
-        given = f"{searched[0]} and exact=yes: bounds are the search's, and exact four-bars leave nothing to bound"
+        given = f"{searched[0]} and exact=yes: bounds are for the search, exact four-bars leave nothing free"
         raise ParameterError(given, do=f"leave {' and '.join(searched)} out, or exact")

@@ -1,99 +1,79 @@
-"""What a four-bar for a path says: results, checks, tables and figures."""
+"""Tables and figures of a four-bar for a path."""
 
-import math
-from collections.abc import Mapping
+from ilmek.machines.four_bars.choice import FourBarOption, finite
+from ilmek.machines.four_bars.figures import curve, drawn_and_moving, links, numbered, pins
+from ilmek.machines.four_bars.report import LINKS
+from ilmek.machines.four_bars.report import tables as shared_tables
+from ilmek.machines.path_four_bar.design import PathFourBar
+from ilmek.report import Dot, Drawing, Figure, Stroke, Table, columns
+from ilmek.units import format_quantity
 
-from ilmek.machines.four_bars import report as told
-from ilmek.machines.path_four_bar.design import PathFourBar, errors
-from ilmek.machines.path_four_bar.figures import figures
-from ilmek.report import Column, Json, Report, Result, Table
-from ilmek.synthesis.candidate import Candidate
+NUMBERED = 12
+"""Points that are shown with their numbers; of more, the first alone."""
 
-EXTRA = (
-    "error_max, error_rms and error_squares (sum of squares) of the points; of a search active, starts_agreed, starts"
-)
-
-
-def report(design: PathFourBar) -> Report:
-    """Everything that the design says."""
-    return Report(
-        machine="path-four-bar",
-        title="Four-bar for a path",
-        parameters=design.params.as_dict(),
-        results=(*_nearness(design), *told.results(design.choice, EXTRA), *_cognates(design)),
-        checks=told.checks(design.choice),
-        tables=(*_search_table(design), *told.tables(design.choice, "path-four-bar"), *_cognate_table(design)),
-        figures=figures(design),
-        warnings=told.warnings(design.choice),
-    )
-
-
-def _nearness(design: PathFourBar) -> tuple[Result, ...]:
-    best = design.choice.best
-    if best is None:
-        return ()
-    found = best.more
-    said = [
-        Result("error_max", found["error_max"], "mm", "greatest distance from a point, of the solution that is drawn"),
-        Result("error_rms", found["error_rms"], "mm", "root mean square of the distances"),
-        Result("error_squares", found["error_squares"], "mm^2", "sum of the squared distances"),
-    ]
-    if "active" in found:
-        said += [
-            Result("active", found["active"], "", "limits that hold it: without them it would come nearer"),
-            Result("starts_agreed", found["starts_agreed"], "", "starts of the search that ended at this error"),
-            Result("starts", found["starts"], "", "starts of the search"),
-        ]
-    return tuple(said)
-
-
-def _cognates(design: PathFourBar) -> tuple[Result, ...]:
-    if not design.cognates:
-        return ()
-    found: list[Json] = [_cognate(name, one) for name, one in design.cognates]
-    meaning = "the other four-bars that draw the same curve: keeps the timing (timed), turns with the coupler (other)"
-    return (Result("cognates", found, "", meaning, False),)
-
-
-def _cognate(name: str, one: Candidate) -> dict[str, Json]:
-    return {"name": name, **told.built(one.four_bar), "crank_turns": one.crank_turns, **errors(one)}
-
-
-def _search_table(design: PathFourBar) -> tuple[Table, ...]:
-    """How near each solution of a search comes, how many starts agreed, and what holds it."""
-    if design.params.exact or design.choice.best is None:
-        return ()
-    columns = (
-        Column("solution"),
-        Column("greatest error", "mm"),
-        Column("root mean square", "mm"),
-        Column("sum of squares", "mm^2"),
-        Column("starts that agree"),
-        Column("held by"),
-    )
-    rows = tuple((at, *_search_row(one.more)) for at, one in enumerate(design.choice.kept, 1))
-    return (Table("path-four-bar-search", "How near the solutions come", columns, rows, brief=True),)
-
-
-def _search_row(found: Mapping[str, Json]) -> tuple[float | int | str, ...]:
-    numbers = (found[name] for name in ("error_max", "error_rms", "error_squares"))
-    held, agreed = found["active"], found["starts_agreed"]
-    return (
-        *(one if isinstance(one, float) else math.nan for one in numbers),
-        agreed if isinstance(agreed, int) else 0,
-        "; ".join(str(one) for one in held) if isinstance(held, list) else "",
-    )
-
-
-SAID = {"timed": "turns with the crank of the solution", "other": "turns with the coupler of the solution"}
+CRANKS = {"timed": "turns with the crank of the solution", "other": "turns with the coupler of the solution"}
 """The crank of each cognate."""
 
 
-def _cognate_table(design: PathFourBar) -> tuple[Table, ...]:
-    if not design.cognates:
-        return ()
-    columns = (Column("its crank"), *told.LINKS, Column("class"), Column("greatest error", "mm"))
-    rows = tuple(
-        (SAID[name], *one.four_bar.lengths, one.grashof.kind, one.point_error) for name, one in design.cognates
+def tables(design: PathFourBar) -> tuple[Table, ...]:
+    """Errors of a search's solutions, the solutions, and the cognates of the one that is drawn."""
+    searched = not design.params.exact and design.best is not None
+    return (
+        *((_search_table(design),) if searched else ()),
+        *shared_tables(design.choice, "path-four-bar"),
+        *((_cognate_table(design),) if design.cognates else ()),
     )
-    return (Table("path-four-bar-cognates", "The cognates: the same curve", columns, rows, brief=True),)
+
+
+def _search_table(design: PathFourBar) -> Table:
+    heads = columns(
+        *("solution", "greatest error [mm]", "root mean square [mm]", "sum of squares [mm^2]"),
+        *("starts that agree", "active limits"),
+    )
+    rows = tuple((at, *_search_row(one)) for at, one in enumerate(design.choice.kept, 1))
+    return Table("path-four-bar-search", "Errors of the solutions", heads, rows, brief=True)
+
+
+def _search_row(one: FourBarOption) -> tuple[float | int | str, ...]:
+    agreed, active = one.details["starts_agreed"], one.details["active"]
+    return (
+        *(finite(one.details[name]) for name in ("error_max", "error_rms", "error_squares")),
+        agreed if isinstance(agreed, int) else 0,
+        "; ".join(str(limit) for limit in active) if isinstance(active, list) else "",
+    )
+
+
+def _cognate_table(design: PathFourBar) -> Table:
+    heads = columns("its crank", *LINKS, "class", "greatest error [mm]")
+    rows = tuple(
+        (CRANKS[name], *one.four_bar.lengths, one.grashof.kind, one.point_error) for name, one in design.cognates
+    )
+    return Table("path-four-bar-cognates", "The cognates: the same curve", heads, rows, brief=True)
+
+
+def figures(design: PathFourBar) -> tuple[Figure, ...]:
+    """The solution at its first point and in motion, and its cognates where they are required."""
+    best, points = design.best, numbered(design.points)
+    if len(points) > NUMBERED:
+        points = (points[0], *(Dot(dot.at, "", "point") for dot in points[1:]))
+    if best is None:
+        return (Drawing("path-four-bar", "The points of the path", (), points),)
+    title = f"Solution {design.choice.number} at its first point"
+    note = f"Its greatest error is {format_quantity(best.candidate.point_error, 'mm')}."
+    still = Drawing("path-four-bar", title, (), points, note=note)
+    return (*drawn_and_moving(best.candidate, still, "The same in motion"), *_cognates(design))
+
+
+def _cognates(design: PathFourBar) -> tuple[Drawing, ...]:
+    """All three four-bars that trace the curve, where the tracer is at its first point."""
+    if design.best is None or not design.cognates:
+        return ()
+    original = design.best.candidate
+    others = [one.four_bar for _, one in design.cognates]
+    outlines = (Stroke(one.points, "construction", closed=one.closed) for four_bar in others for one in links(four_bar))
+    pivot = Dot(others[0].a0 if design.cognates[0][0] == "timed" else others[0].b0, "C0", "pivot")
+    joints = (Dot(at, "") for four_bar in others for at in (four_bar.a, four_bar.b))
+    note = "Dashed: on C0 and B0 the one that turns with the crank, on A0 and C0 the one that turns with the coupler."
+    strokes = (*curve(original), *links(original.four_bar), *outlines)
+    dots = (*joints, pivot, *pins(original.four_bar))
+    return (Drawing("path-four-bar-cognates", "Three four-bars that trace one curve", strokes, dots, note=note),)
