@@ -69,6 +69,7 @@ def covered(centres: ComplexArray, half: complex, obstacles: ComplexArray) -> Fl
     """How many obstacle points each box covers, up to 12."""
     if not len(obstacles):
         return np.zeros(len(centres))
-    away = obstacles[np.newaxis, :] - centres[:, np.newaxis]
-    inside = (np.abs(away.real) < half.real + 1.0) & (np.abs(away.imag) < half.imag + 1.0)
+    x, y = obstacles.real.copy(), obstacles.imag.copy()
+    across = np.abs(x - centres.real[:, np.newaxis]) < half.real + 1.0
+    inside = across & (np.abs(y - centres.imag[:, np.newaxis]) < half.imag + 1.0)
     return np.asarray(np.minimum(inside.sum(axis=1), 12).astype(float))

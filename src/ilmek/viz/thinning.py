@@ -1,7 +1,5 @@
 """Curves with no more points than a figure can show."""
 
-import itertools
-
 import numpy as np
 from jaxtyping import Bool
 
@@ -25,16 +23,12 @@ def thinned_curve(x: FloatArray, y: FloatArray, limit: int = LIMIT) -> tuple[Flo
     count = len(x)
     if count <= limit:
         return x, y
-    edges = np.linspace(0, count, limit // 4, dtype=np.intp)
-    kept = {0, count - 1}
-    for start, stop in itertools.pairwise(edges):
-        group = y[start:stop]
-        gaps = np.flatnonzero(~np.isfinite(group))
-        kept.add(int(start))
-        kept.update(int(start + gap) for gap in gaps[:1])
-        if len(gaps) < len(group):
-            kept.update((int(start + np.nanargmin(group)), int(start + np.nanargmax(group))))
-    order = np.array(sorted(kept))
+    starts = np.linspace(0, count, limit // 4, dtype=np.intp)[:-1]
+    group = np.repeat(np.arange(len(starts)), np.diff(np.append(starts, count)))
+    # Sorted group by group the first of each is its lowest, or its highest, or its first gap; those without a gap have
+    # any other point there.
+    firsts = [np.lexsort((key, group))[starts] for key in (y, -y, np.isfinite(y))]
+    order = np.unique(np.concatenate([[count - 1], starts, *firsts]))
     return x[order], y[order]
 
 

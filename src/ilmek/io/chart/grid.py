@@ -83,10 +83,8 @@ def _fill_cells(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -> N
     canvas.scale(plan.cell_width, plan.cell_height)
     for yarn, pieces in sorted(runs(cells).items()):
         canvas.setFillColorRGB(*inks.fills[yarn])
-        path = canvas.beginPath()
-        for row, first, count in pieces:
-            path.rect(first, row, count, 1)
-        canvas.drawPath(path, stroke=0, fill=1)
+        # Operators of PDF (ISO 32000-1, 8.5): reportlab writes a rectangle 15 times slower, and there are thousands.
+        canvas._code.append(" ".join([f"{first} {row} {count} 1 re" for row, first, count in pieces]) + " f")
     canvas.restoreState()
 
 
