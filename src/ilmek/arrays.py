@@ -1,13 +1,53 @@
 """Array types, named once.
 
 A *field* is a value or an array of values of any batch shape; the leaf formulas take and return fields, so that one
-formula serves a single pose and a million. Shapes are checked under pytest only (jaxtyping and beartype).
+formula serves a single pose and a million.
+
+Shapes and kinds of arrays are declared by `Float[np.ndarray, "rows columns"]` and its like. They are those of jaxtyping
+for a type checker, and where jaxtyping is loaded before this module: in the tests that check shapes (jaxtyping and
+beartype). Everywhere else nothing reads them, and loading jaxtyping would take half the time of loading numpy.
 """
 
+import sys
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
-from jaxtyping import Bool, Complex, Float, Int, Num, UInt8
+
+__all__ = [
+    "Bool",
+    "BoolArray",
+    "Complex",
+    "ComplexArray",
+    "ComplexField",
+    "Float",
+    "Float32",
+    "FloatArray",
+    "Indices",
+    "Inexact",
+    "Int",
+    "Int8",
+    "Int32",
+    "Int64",
+    "IntArray",
+    "Num",
+    "NumberArray",
+    "RealField",
+    "Rgb",
+    "UInt8",
+]
+
+if TYPE_CHECKING or "jaxtyping" in sys.modules:
+    from jaxtyping import Bool, Complex, Float, Float32, Inexact, Int, Int8, Int32, Int64, Num, UInt8
+else:
+
+    class Unchecked:
+        """An array type whose kind and shape nothing reads: `Unchecked[np.ndarray, "n 2"]` is `np.ndarray`."""
+
+        def __class_getitem__(cls, array_and_shape: tuple[type, str]) -> type:
+            """The type of the array alone."""
+            return array_and_shape[0]
+
+    Bool = Complex = Float = Float32 = Inexact = Int = Int8 = Int32 = Int64 = Num = UInt8 = Unchecked
 
 FloatArray: TypeAlias = Float[np.ndarray, "..."]
 ComplexArray: TypeAlias = Complex[np.ndarray, "..."]

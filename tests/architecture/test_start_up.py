@@ -1,20 +1,40 @@
-"""What must stay light: `import ilmek` and `ilmek --help` load no numerics."""
+"""What must stay light: a command imports what it uses."""
 
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
-HEAVY = ("numpy", "scipy", "numba", "matplotlib", "PIL", "reportlab", "jinja2", "ezdxf", "OCP")
+ROOT = Path(__file__).parents[2]
+FIGURES = ("matplotlib", "PIL", "reportlab", "jinja2", "ezdxf", "OCP", "ilmek.viz")
+HEAVY = ("numpy", "scipy", "numba", "jaxtyping", *FIGURES)
+NO_TABLES = ("scipy", "numba", "jaxtyping", "rich", *FIGURES)
+COMMANDS = {
+    "--help": HEAVY,
+    "machines": (*HEAVY, "ilmek.report", "ilmek.machines.catalogue"),
+    "machines --json -": (*NO_TABLES, "ilmek.machines.catalogue"),
+    "design warp-tension --json -": (*NO_TABLES, "ilmek.machines.beat_up", "ilmek.carpet"),
+    "design warp-tension": ("scipy", "numba", "jaxtyping", *FIGURES),
+    "knot examples/gripper_path.csv --json -": (*NO_TABLES, "ilmek.machines.catalogue", "ilmek.linkage"),
+}
+"""Commands, and what they must not import."""
 
 
-@pytest.mark.parametrize(
-    "statement",
-    ["import ilmek", "from ilmek.cli import main; main(['--help'], standalone_mode=False)"],
-    ids=["import", "help"],
-)
-def test_loads_no_numerics(statement: str) -> None:
-    script = f"import sys, json\n{statement}\nprint(json.dumps([m for m in {HEAVY!r} if m in sys.modules]))"
-    shown = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert json.loads(shown.stdout.splitlines()[-1]) == []
+def imported(statement: str, names: tuple[str, ...]) -> list[str]:
+    """Those of the modules that a statement imports."""
+    script = f"import sys, json\n{statement}\nprint('\\n' + json.dumps([m for m in {names!r} if m in sys.modules]))"
+    shown = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    found: list[str] = json.loads(shown.stdout.splitlines()[-1])
+    return found
+
+
+def test_the_package_itself_imports_nothing() -> None:
+    assert imported("import ilmek", HEAVY) == []
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_command_imports_what_it_uses(command: str) -> None:
+    statement = f"from ilmek.cli import main; main({command.split()!r}, standalone_mode=False)"
+    assert imported(statement, COMMANDS[command]) == []

@@ -23,9 +23,8 @@ from functools import partial
 from typing import ClassVar, Literal
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import ComplexField, FloatArray
+from ilmek.arrays import ComplexField, Float, FloatArray
 from ilmek.cams.programme import CamProgramme, FollowerMotion
 from ilmek.cams.strip import trace_of_strip
 from ilmek.cams.trace import CamCurves, CamTrace

@@ -11,9 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Bool, Float, FloatArray, Int
 from ilmek.cams.laws import Law
 from ilmek.cams.programme import TURN
 from ilmek.errors import ParameterError

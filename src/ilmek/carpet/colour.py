@@ -11,9 +11,8 @@ Sources: IEC 61966-2-1 (sRGB: transfer curve, primaries and white); CIE 15 (CIEL
 """
 
 import numpy as np
-from jaxtyping import Float, UInt8
 
-from ilmek.arrays import FloatArray, RealField
+from ilmek.arrays import Float, FloatArray, RealField, UInt8
 
 Components = Float[np.ndarray, "*batch 3"]
 

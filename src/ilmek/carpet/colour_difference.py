@@ -20,9 +20,8 @@ data, and mathematical observations, Color Research and Application 30 (2005) 21
 import math
 
 import numpy as np
-from jaxtyping import Float, UInt8
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray, UInt8
 from ilmek.num.compiled import compiled
 
 _25_TO_7 = 25.0**7

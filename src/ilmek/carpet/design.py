@@ -8,9 +8,8 @@ Knots are not square when the quality differs across and along; the grid takes c
 """
 
 import numpy as np
-from jaxtyping import UInt8
 
-from ilmek.arrays import Rgb
+from ilmek.arrays import Rgb, UInt8
 from ilmek.carpet.colour import LINEAR, decode
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize

@@ -10,9 +10,8 @@ left. (A chart of one knot has no neighbours and no lone knot.)
 """
 
 import numpy as np
-from jaxtyping import UInt8
 
-from ilmek.arrays import FloatArray, Indices, IntArray, Rgb
+from ilmek.arrays import FloatArray, Indices, IntArray, Rgb, UInt8
 from ilmek.carpet.colour_difference import ciede2000
 from ilmek.carpet.palette import Colours
 from ilmek.num.compiled import compiled

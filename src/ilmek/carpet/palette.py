@@ -9,9 +9,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int, Int32, Int64, UInt8
 
-from ilmek.arrays import FloatArray, Indices, IntArray, Rgb
+from ilmek.arrays import Float, FloatArray, Indices, Int, Int32, Int64, IntArray, Rgb, UInt8
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000, nearest
 from ilmek.errors import YarnError

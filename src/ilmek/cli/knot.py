@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from ilmek.cli.design import show_report
 from ilmek.cli.options import json_option
+from ilmek.cli.report import show_report
 from ilmek.cli.terminal import check_json, console, give_json
 from ilmek.errors import CarpetError
 from ilmek.io.output import check_file

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from jaxtyping import Float
 from scipy.integrate import DOP853
 
+from ilmek.arrays import Float
 from ilmek.dynamics.events import Event, EventRecord, located, until_terminal
 from ilmek.dynamics.forward_run import Drive, EndKind, ForwardRun, ForwardState, RunEnd, energies
 from ilmek.dynamics.fourier_terms import FourierTerms, tabulate

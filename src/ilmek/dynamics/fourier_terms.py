@@ -12,8 +12,8 @@ the leading term, is greatest), is `ACCURACY` of the function or no longer falls
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float
 
+from ilmek.arrays import Complex, Float
 from ilmek.dynamics.reduced import ReducedMechanism
 from ilmek.linkage.model import Rotation
 from ilmek.num.compiled import compiled

@@ -10,9 +10,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Int8
 
-from ilmek.arrays import BoolArray, ComplexArray, FloatArray, RealField
+from ilmek.arrays import BoolArray, ComplexArray, FloatArray, Int8, RealField
 from ilmek.dynamics.equations import Needs, joint_pulls, needs
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import JointFriction, check_joints, frictions, loaded

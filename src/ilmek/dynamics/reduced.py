@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from jaxtyping import Float, Int8
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray, Int8
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity, Load, PointForce, Torque

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Complex
 
-from ilmek.arrays import ComplexArray
+from ilmek.arrays import Complex, ComplexArray
 from ilmek.errors import CarpetError
 from ilmek.io.path_file import read_path
 from ilmek.report import Dot, Drawing, Json, Report, Result, Stroke

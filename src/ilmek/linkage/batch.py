@@ -21,9 +21,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float, Int8
 
-from ilmek.arrays import ComplexArray, FloatArray, RealField
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray, Int8, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import PointMotion
 from ilmek.linkage.executor import run

@@ -14,9 +14,8 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.configuration import Configurations, FreeInput, freed
 from ilmek.linkage.model import Mechanism

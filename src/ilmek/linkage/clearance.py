@@ -8,9 +8,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.configuration_path import ConfigurationPath, spaced

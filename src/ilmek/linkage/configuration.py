@@ -10,9 +10,8 @@ and 8].
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.displacements import moving
 from ilmek.linkage.equations import Equation

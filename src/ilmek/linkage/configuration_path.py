@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.model import Mechanism

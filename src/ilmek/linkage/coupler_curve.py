@@ -11,9 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Complex, Float
 
-from ilmek.arrays import FloatArray, RealField
+from ilmek.arrays import Bool, Complex, Float, FloatArray, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import PointMotion
 from ilmek.linkage.configuration_path import ConfigurationPath, spaced

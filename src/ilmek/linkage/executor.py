@@ -5,9 +5,8 @@ import math
 from typing import TypeAlias
 
 import numpy as np
-from jaxtyping import Int8
 
-from ilmek.arrays import ComplexArray, FloatArray, IntArray
+from ilmek.arrays import ComplexArray, FloatArray, Int8, IntArray
 from ilmek.linkage.groups import rpr as rpr_group
 from ilmek.linkage.groups import rrp as rrp_group
 from ilmek.linkage.groups import rrr as rrr_group

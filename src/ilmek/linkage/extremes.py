@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float
 
+from ilmek.arrays import Bool, Float
 from ilmek.errors import MechanismError
 from ilmek.linkage.dimensions import Dimension
 from ilmek.linkage.one_input import OneInput

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 import numpy as np
-from jaxtyping import Bool, Float, Int8
 
+from ilmek.arrays import Bool, Float, Int8
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
 from ilmek.linkage.groups.group import InputMotion, Known, Step

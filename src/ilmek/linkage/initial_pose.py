@@ -10,8 +10,8 @@ import cmath
 from collections.abc import Mapping
 
 import numpy as np
-from jaxtyping import Float, Int
 
+from ilmek.arrays import Float, Int
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.equations import relative_angle, travel
 from ilmek.linkage.groups.general import GeneralGroup

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from jaxtyping import Bool, Complex
 
+from ilmek.arrays import Bool, Complex
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
-from jaxtyping import Complex, Float, Int8
 
-from ilmek.arrays import ComplexField, RealField
+from ilmek.arrays import Complex, ComplexField, Float, Int8, RealField
 from ilmek.linkage.body_jerk import STILL_JERK, BodyJerk
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.faults import first_fault

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Float
 
+from ilmek.arrays import Float
 from ilmek.errors import MechanismError
 from ilmek.linkage.displacements import at_origins, contracted
 from ilmek.linkage.equations import Equation, Row, displacement_equation

@@ -8,8 +8,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
+from ilmek.arrays import Float
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import lengths
 from ilmek.linkage.model import Pin

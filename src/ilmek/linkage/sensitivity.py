@@ -14,9 +14,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import RealField
+from ilmek.arrays import Float, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.dimensions import NONE, BodyShift, Dimension, Nudges

@@ -3,8 +3,8 @@
 from enum import IntEnum
 
 import numpy as np
-from jaxtyping import Int8
 
+from ilmek.arrays import Int8
 from ilmek.linkage.groups.group import GroupSolution, Known, Step
 
 DEAD = 2e-6

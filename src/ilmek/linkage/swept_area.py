@@ -9,9 +9,8 @@ outside and no more than that inside, which is what `plane.regions` needs to bou
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.errors import MechanismError
 from ilmek.linkage.clearance import OutlinedBody
 from ilmek.linkage.configuration_path import ConfigurationPath, spaced

@@ -7,9 +7,8 @@ Predictor along the tangent, corrector square to it; the step is fitted to how f
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 from ilmek.linkage.configuration import Configurations, FreeInput
 from ilmek.num.brackets import bracketed_roots
 

@@ -1,9 +1,8 @@
 """How well force gets through any mechanism: pressure angle at a slider, velocity ratio, mechanical advantage."""
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import Mechanism, Pin, Slide
 from ilmek.linkage.motion import Motion

@@ -9,9 +9,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import UInt8
 
-from ilmek.arrays import FloatArray, Indices, IntArray
+from ilmek.arrays import FloatArray, Indices, IntArray, UInt8
 from ilmek.errors import LoomError
 from ilmek.loom.row import KnotRow
 from ilmek.loom.schedule import ByteTable, Layout, ScheduleResult, schedule

@@ -4,9 +4,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from jaxtyping import UInt8
 
-from ilmek.arrays import IntArray
+from ilmek.arrays import IntArray, UInt8
 from ilmek.errors import LoomError
 from ilmek.loom.schedule import PASSES, Layout, Line, replay
 from ilmek.loom.sharing import halves

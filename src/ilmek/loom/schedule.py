@@ -15,9 +15,8 @@ A move to the next warp pair is part of the knot; of a move of d pitches, d - 1 
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import UInt8
 
-from ilmek.arrays import FloatArray, Indices, IntArray
+from ilmek.arrays import FloatArray, Indices, IntArray, UInt8
 from ilmek.num.compiled import compiled
 
 Line: TypeAlias = UInt8[np.ndarray, " columns"]

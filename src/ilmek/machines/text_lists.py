@@ -8,9 +8,8 @@ import re
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError, UnitError
 from ilmek.units import parse_quantity
 

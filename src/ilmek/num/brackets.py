@@ -4,7 +4,8 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
-from jaxtyping import Bool, Float
+
+from ilmek.arrays import Bool, Float
 
 Reals: TypeAlias = Float[np.ndarray, " brackets"]
 

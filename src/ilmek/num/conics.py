@@ -10,10 +10,9 @@ by a fixed rotation that has nothing to do with any task.
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import Bool, Complex, Float
 from scipy.spatial.transform import Rotation
 
-from ilmek.arrays import BoolArray, NumberArray
+from ilmek.arrays import Bool, BoolArray, Complex, Float, NumberArray
 from ilmek.num.pencil import REAL
 from ilmek.num.pencil3 import product
 

@@ -3,7 +3,8 @@
 from typing import TypeAlias
 
 import numpy as np
-from jaxtyping import Float
+
+from ilmek.arrays import Float
 
 Matrices: TypeAlias = Float[np.ndarray, "*batch n n"]
 Vectors: TypeAlias = Float[np.ndarray, "*batch n"]

@@ -3,7 +3,8 @@
 from bisect import bisect_right
 
 import numpy as np
-from jaxtyping import Bool, Float
+
+from ilmek.arrays import Bool, Float
 
 BLOCK = 512
 """Members compared at a time with the front so far."""

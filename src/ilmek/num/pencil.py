@@ -3,8 +3,9 @@
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import Complex, Float
 from scipy.linalg import eigvals
+
+from ilmek.arrays import Complex, Float
 
 Square: TypeAlias = Float[np.ndarray, "n n"]
 

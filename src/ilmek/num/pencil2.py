@@ -7,9 +7,8 @@ q : c2 and c0 : q with q = -(c1 + sgn(c1) sqrt(c1² - 4 c0 c2)) / 2, where nothi
 """
 
 import numpy as np
-from jaxtyping import Bool, Float, Num
 
-from ilmek.arrays import NumberArray
+from ilmek.arrays import Bool, Float, Num, NumberArray
 from ilmek.num.pencil import REAL
 from ilmek.num.pencil3 import SINGULAR, Roots
 

@@ -9,9 +9,8 @@ plane of (x, k) to where its determinant is large, and no root is near infinity 
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Bool, Float, Num
 
-from ilmek.arrays import NumberArray
+from ilmek.arrays import Bool, Float, Num, NumberArray
 from ilmek.num.pencil import REAL
 
 Rows = Num[np.ndarray, "*batch 3 3"]

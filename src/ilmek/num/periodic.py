@@ -1,8 +1,8 @@
 """Periodic functions from samples at equal steps of one period: derivatives to machine precision where smooth."""
 
 import numpy as np
-from jaxtyping import Float, Inexact
 
+from ilmek.arrays import Float, Inexact
 from ilmek.errors import IlmekError
 
 

@@ -11,8 +11,8 @@ one and hold it too; where the lowest point is reached, let go of the limit that
 import math
 
 import numpy as np
-from jaxtyping import Float, Int
 
+from ilmek.arrays import Float, Int
 from ilmek.num.compiled import compiled
 
 Matrix = Float[np.ndarray, "n n"]

@@ -12,9 +12,8 @@ import math
 from itertools import pairwise
 
 import numpy as np
-from jaxtyping import Complex, Int
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, FloatArray, Int
 from ilmek.plane.contours import STRAIGHT, arc_centre, counter_clockwise, polygon
 from ilmek.report import Contour
 

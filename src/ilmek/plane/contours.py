@@ -7,9 +7,8 @@ where b < 0 and right of it where b > 0; b = 1 is a half turn to the left.
 import math
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.plane.curves import hull
 from ilmek.plane.vectors import cross

@@ -1,9 +1,8 @@
 """Plane curves: curvature, where a polyline crosses itself, the hull of points."""
 
 import numpy as np
-from jaxtyping import Complex, Int
 
-from ilmek.arrays import ComplexField, RealField
+from ilmek.arrays import Complex, ComplexField, Int, RealField
 from ilmek.plane.vectors import cross
 
 

@@ -6,8 +6,8 @@ Corners run counter-clockwise; two corners are a bar with round ends, one is a d
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float
 
+from ilmek.arrays import Complex, Float
 from ilmek.errors import IlmekError
 from ilmek.plane.curves import hull
 from ilmek.plane.vectors import cross, dot

@@ -13,9 +13,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from jaxtyping import Complex, Float, Int
 
-from ilmek.arrays import ComplexArray
+from ilmek.arrays import Complex, ComplexArray, Float, Int
 from ilmek.plane.vectors import cross
 
 Distance: TypeAlias = Callable[[Complex[np.ndarray, " points"]], Float[np.ndarray, " points"]]

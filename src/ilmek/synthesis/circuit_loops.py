@@ -11,9 +11,8 @@ rocker vanishes there like the square root of the way left: B and all that follo
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import ComplexArray, FloatArray, RealField
+from ilmek.arrays import ComplexArray, Float, FloatArray, RealField
 from ilmek.linkage.quality import input_range
 from ilmek.synthesis.four_bar import FourBar
 

@@ -15,9 +15,8 @@ from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Complex, Float, Int8
 
-from ilmek.arrays import BoolArray, ComplexArray, ComplexField, FloatArray, RealField
+from ilmek.arrays import BoolArray, Complex, ComplexArray, ComplexField, Float, FloatArray, Int8, RealField
 from ilmek.errors import ParameterError
 from ilmek.num.pencil2 import roots2
 from ilmek.num.pencil3 import Roots, roots3

@@ -21,9 +21,8 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.function import Function

@@ -9,8 +9,8 @@ only where its turns from pose to pose, all counted one way, are less than once 
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Bool, Complex, Float
 
+from ilmek.arrays import Bool, Complex, Float
 from ilmek.plane.vectors import cross
 from ilmek.synthesis.burmester.links import Guide, GuideKind
 

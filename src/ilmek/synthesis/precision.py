@@ -14,9 +14,8 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray, IntArray
+from ilmek.arrays import Float, FloatArray, IntArray
 from ilmek.synthesis.circuit_loops import CircuitLoop
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.task import PrecisionTask

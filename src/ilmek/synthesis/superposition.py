@@ -9,11 +9,10 @@ that both agree to 1e-9 is what it is here for.
 """
 
 import numpy as np
-from jaxtyping import Complex, Float
 from numpy.polynomial import Polynomial
 from scipy.linalg import lu_factor, lu_solve
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import dot
 from ilmek.synthesis.dyad import TwoLinkArm

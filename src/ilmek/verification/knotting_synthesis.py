@@ -8,8 +8,8 @@ from functools import cache, partial
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import Float
 
+from ilmek.arrays import Float
 from ilmek.synthesis.dyad import Lengths, TwoLinkArm, dyads_through_poses, four_bar
 from ilmek.units import deg
 from ilmek.verification.claim import RESIDUAL, Claim, Computation, residual

@@ -8,10 +8,9 @@ from functools import cache
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import Float
 from numpy.polynomial import Polynomial
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import ComplexArray, Float, FloatArray
 from ilmek.synthesis.dyad import TwoLinkArm
 from ilmek.verification.claim import residual
 

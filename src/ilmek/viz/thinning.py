@@ -1,9 +1,8 @@
 """Curves with no more points than a figure can show."""
 
 import numpy as np
-from jaxtyping import Bool
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Bool, ComplexArray, FloatArray
 from ilmek.num.compiled import compiled
 
 LIMIT = 720

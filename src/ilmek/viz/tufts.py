@@ -14,9 +14,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float32
 
-from ilmek.arrays import Indices, Rgb
+from ilmek.arrays import Float32, Indices, Rgb
 from ilmek.carpet.colour import LINEAR, encode
 
 Plane = Float32[np.ndarray, "rows columns"]

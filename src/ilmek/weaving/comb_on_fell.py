@@ -17,9 +17,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 
 RIGID = 0.02
 """A comb of l W below this bends by less than 1e-7 of the displacement of the fell: rigid."""

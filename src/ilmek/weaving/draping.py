@@ -13,9 +13,8 @@ T dl/dtheta. The cam is taken as the polygon of its points.                     
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.plane.curves import hull_indices
 from ilmek.units import turn
 from ilmek.weaving.shed import ShedWarp

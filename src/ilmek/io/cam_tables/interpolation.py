@@ -10,10 +10,9 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from jaxtyping import Float
 from scipy.interpolate import CubicSpline
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 
 
 @dataclass(frozen=True, slots=True)

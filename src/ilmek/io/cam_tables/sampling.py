@@ -8,8 +8,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
 
+from ilmek.arrays import Float, Int
 from ilmek.errors import OutputError
 from ilmek.io.cam_tables.interpolation import INTERPOLATIONS, Interpolation, Nodes
 from ilmek.report import CamTable

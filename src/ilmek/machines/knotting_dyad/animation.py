@@ -1,9 +1,8 @@
 """The head in motion: both arms, the centre gripper, and the yarn as it lies where its ends went."""
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.machines.knotting_dyad.clearance import RoundBars, arm_bars, mirrored_bars
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import CyclePart, KnotCycle

@@ -25,9 +25,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import ComplexArray, Float, FloatArray
 from ilmek.plane.vectors import unit
 
 Jet: TypeAlias = tuple[FloatArray, FloatArray, FloatArray, FloatArray]

@@ -14,9 +14,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.plane.outlines import between, to_segments

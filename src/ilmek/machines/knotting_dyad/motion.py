@@ -9,9 +9,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 from ilmek.machines.knotting_dyad.arm_path import ArmPath
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams

@@ -16,9 +16,8 @@ A grid of all three, then finer ones about the best: no chance in it, the same a
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float
 
-from ilmek.arrays import BoolArray, ComplexArray, FloatArray
+from ilmek.arrays import Bool, BoolArray, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams

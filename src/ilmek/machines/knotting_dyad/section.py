@@ -18,8 +18,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex
 
+from ilmek.arrays import Complex
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.units import mm
 from ilmek.weaving.knots.word import Knot, knot

@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.synthesis.dyad import PointArms, RootKind
 

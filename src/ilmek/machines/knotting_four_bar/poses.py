@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from itertools import permutations
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.errors import MechanismError, ParameterError
 from ilmek.machines.text_lists import read_poses
 from ilmek.plane.vectors import unit

@@ -1,8 +1,8 @@
 """What the synthesis through three poses says: arms, four-bars, and how each pose is met; nothing without poses."""
 
 import numpy as np
-from jaxtyping import Float
 
+from ilmek.arrays import Float
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.model import KnottingState
 from ilmek.machines.knotting_four_bar.poses import PoseFourBar, Synthesis, sines

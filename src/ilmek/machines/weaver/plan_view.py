@@ -1,9 +1,8 @@
 """The grippers in plan view: where they are when they begin to turn and when the ends cross, and a turn in motion."""
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.machines.weaver.cyclogram import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.grippers import Grippers

@@ -15,9 +15,8 @@ exact synthesis: `dyad.dyads_through_points`.                                   
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import dot
 from ilmek.synthesis.approximation.exchange import PROVEN, minimax_descent

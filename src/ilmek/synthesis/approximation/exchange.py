@@ -18,10 +18,9 @@ from functools import partial
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import Float, Int
 from scipy.linalg import qr
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray, Int
 
 Parameters: TypeAlias = Float[np.ndarray, " parameters"]
 

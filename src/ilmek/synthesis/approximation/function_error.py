@@ -18,9 +18,8 @@ from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import Bool, Float
 
-from ilmek.arrays import ComplexArray, FloatArray, RealField
+from ilmek.arrays import Bool, ComplexArray, Float, FloatArray, RealField
 from ilmek.plane.vectors import dot
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.function import Function

@@ -19,9 +19,8 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.num.brackets import bracketed_roots
 from ilmek.synthesis.approximation.exchange import PROVEN, extremes

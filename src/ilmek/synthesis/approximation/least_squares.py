@@ -12,9 +12,8 @@ with its eigenvalues made positive. The first kind of step creeps round bends, t
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 from ilmek.synthesis.approximation.exchange import Errors, Parameters
 
 Square = Float[np.ndarray, "n n"]

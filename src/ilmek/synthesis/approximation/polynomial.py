@@ -21,9 +21,8 @@ from functools import partial
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.synthesis.approximation.exchange import (
     PROVEN,

@@ -10,9 +10,8 @@ from collections.abc import Iterator
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import Bool
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Bool, ComplexArray, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.synthesis.approximation.exchange import PROVEN, minimax_over_range
 from ilmek.synthesis.approximation.function_design import design_generators

@@ -18,9 +18,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Complex, Float, Num
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray, Num
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import unit
 from ilmek.synthesis.task import require_angles

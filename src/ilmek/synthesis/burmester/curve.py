@@ -19,9 +19,8 @@ from functools import partial
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.num.pencil3 import adjugate, determinant, null_vector, product
 from ilmek.plane.vectors import unit

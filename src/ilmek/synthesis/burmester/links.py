@@ -15,9 +15,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import ComplexArray, FloatArray, NumberArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray, NumberArray
 from ilmek.errors import MechanismError
 from ilmek.num.conics import meet
 from ilmek.num.pencil3 import product

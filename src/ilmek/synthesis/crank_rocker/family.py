@@ -7,9 +7,8 @@ ends of the open interval: nearer than that to an end stand toggles, of use to n
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import FloatArray, RealField
+from ilmek.arrays import Float, FloatArray, RealField
 from ilmek.synthesis.crank_rocker.dead_centres import (
     LinkRatios,
     OpenInterval,

@@ -12,8 +12,8 @@ H' and d_k carry the damping, lambda times the diagonal.     [Marquardt 1963; Ni
 """
 
 import numpy as np
-from jaxtyping import Complex, Float, Int
 
+from ilmek.arrays import Complex, Float, Int
 from ilmek.num.compiled import compiled
 from ilmek.num.quadratic import limited_step
 from ilmek.synthesis.path.limits import GRACE, LIMITS, Rows, Slack, excess, limit_rows

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Complex, Float, Int
 
+from ilmek.arrays import Complex, Float, Int
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.path.limits import excess

@@ -11,9 +11,8 @@ are Grashof's inequalities: D = |r3 - r4|, E = r3 + r4.
 import math
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import RealField
+from ilmek.arrays import Float, RealField
 from ilmek.num.compiled import compiled
 from ilmek.synthesis.path.model import SIZE, Design
 

@@ -7,8 +7,8 @@ narrow, lengths drawn within the bounds and sifted by the crank's limits fill up
 """
 
 import numpy as np
-from jaxtyping import Float
 
+from ilmek.arrays import Float
 from ilmek.synthesis.path.limits import spans
 
 Four = Float[np.ndarray, "4"]

@@ -11,8 +11,8 @@ Ten numbers make a four-bar and its start: see `NAMES`. The crank's angle th2 is
 import math
 
 import numpy as np
-from jaxtyping import Complex, Float, Int
 
+from ilmek.arrays import Complex, Float, Int
 from ilmek.num.compiled import compiled
 
 NAMES = ("ground", "crank", "coupler", "rocker", "along", "across", "x", "y", "turn", "start")

@@ -7,7 +7,8 @@ angle, its block, and the search goes on with fewer angles.        [Barlow, Bart
 import math
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+
+from ilmek.arrays import Bool, Float, Int
 
 Angles = Float[np.ndarray, " points"]
 Blocks = Int[np.ndarray, " points"]

@@ -14,9 +14,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import ComplexArray, FloatArray, NumberArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray, NumberArray
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import unit
 from ilmek.synthesis.burmester.constant_distance import (

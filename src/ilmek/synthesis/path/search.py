@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Bool, Complex, Float, Int
 
+from ilmek.arrays import Bool, Complex, Float, Int
 from ilmek.errors import ParameterError
 from ilmek.synthesis.path.descent import EXACT, descend_all
 from ilmek.synthesis.path.fit import PathFit, Search, SearchEnd, least_transmission, path_fit

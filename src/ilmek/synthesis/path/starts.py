@@ -11,8 +11,8 @@ so that one linear least squares gives size, place, turn and tracer. A start is 
 import math
 
 import numpy as np
-from jaxtyping import Complex, Float, Int
 
+from ilmek.arrays import Complex, Float, Int
 from ilmek.num.compiled import compiled
 from ilmek.num.quadratic import back_solve, cholesky
 from ilmek.synthesis.path.limits import GRACE, excess

@@ -14,11 +14,10 @@ that w cannot vanish at one of them, where a jerk would cost nothing.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
 from scipy.interpolate import BSpline
 from scipy.linalg import solveh_banded
 
-from ilmek.arrays import FloatArray, IntArray
+from ilmek.arrays import Float, FloatArray, IntArray
 
 ORDER = 4
 """Coefficients of a cubic that a place sees."""

@@ -15,10 +15,9 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 import numpy as np
-from jaxtyping import Float
 from scipy.interpolate import BPoly, PPoly
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
 
 Three: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]

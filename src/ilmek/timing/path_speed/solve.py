@@ -15,10 +15,9 @@ is not convex.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
 from scipy.interpolate import BSpline
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.timing.path_speed.barrier import SpeedTask, clamped, local_basis, quickest
 from ilmek.timing.path_speed.path import AxesLimits, JointPath, Three, rates, rise

@@ -20,9 +20,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from jaxtyping import Complex, Float, Int
 
-from ilmek.arrays import BoolArray, ComplexArray, FloatArray
+from ilmek.arrays import BoolArray, Complex, ComplexArray, Float, FloatArray, Int
 from ilmek.errors import CarpetError
 from ilmek.units import format_quantity
 from ilmek.weaving.knots.word import Word

@@ -11,9 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex, Float
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import CarpetError
 from ilmek.weaving.knots.proof import TiedKnot, no_knot, tied_knot
 

@@ -12,9 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Complex
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import Complex, ComplexArray, FloatArray
 from ilmek.errors import CarpetError
 from ilmek.units import format_quantity
 from ilmek.weaving.knots.crossings import WarpRow, check_points, crossings, sampled_curve
