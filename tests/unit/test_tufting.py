@@ -9,7 +9,7 @@ import pytest
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.linkage.structure import plan
 from ilmek.machines.catalogue import MACHINES
-from ilmek.machines.tufting import MACHINE, TuftingParams, design, report
+from ilmek.machines.tufting import MACHINE, TuftingParams, design
 from ilmek.machines.tufting.model import evaluate, mechanism
 from ilmek.report import Drawing, Plot, Report
 from ilmek.units import deg
@@ -18,7 +18,7 @@ JOINTS = ["O", "A", "B", "C", "D", "E", "guide"]
 
 
 def answer(**settings: str) -> Report:
-    return report(design(TuftingParams.read(settings)))
+    return MACHINE.report_for(settings)
 
 
 def test_answers_by_the_names_that_are_promised() -> None:
@@ -73,7 +73,7 @@ def test_bars_in_step_add_up_and_bars_out_of_step_smooth_the_torque() -> None:
     assert in_step.peaks["total_torque"].value == pytest.approx(3 * one, rel=1e-12)
     assert in_step.peaks["bearing"].value == pytest.approx(3 * alone.peaks["O"].value, rel=1e-12)
     assert spread.peaks["total_torque"].value < 2 * one
-    said = report(spread)
+    said = MACHINE.report(spread)
     results = said.as_json()["results"]
     assert results["total_energy_per_revolution"] == pytest.approx(3 * alone.work["drive"], rel=1e-12)
     # At 45 deg of the first crank the sum is that of three bars at their own angles.
@@ -84,7 +84,7 @@ def test_bars_in_step_add_up_and_bars_out_of_step_smooth_the_torque() -> None:
 
 
 def test_figures_are_a_drawing_and_curves_over_a_turn_with_jumps_upright() -> None:
-    made = report(design(TuftingParams()))
+    made = MACHINE.report_for({})
     first, *plots = made.figures
     assert isinstance(first, Drawing)
     assert {dot.label for dot in first.dots} == {"O", "A", "B", "C", "D", "E", "F"}

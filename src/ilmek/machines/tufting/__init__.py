@@ -3,17 +3,18 @@
 After Xu, Sun, Huang, Sheng and Chi, "Dynamic characteristic analysis of the needle multi-linkage mechanism in a carpet
 tufting machine's driving system", Fibres and Textiles in Eastern Europe; moved by `ilmek.linkage`, loaded by
 `ilmek.dynamics`. Misprints there: M4 in Eqs 35 and 43 needs a plus, omega4 in Eq 33 its square, the least theta4 is
--7.68 deg where -7.89 deg is printed, and the needle turns round at 106.98 and 288.23 deg of the crank, not at 108 and
+-7.68 deg where -7.89 deg is printed, and the needle reverses at 106.98 and 288.23 deg of the crank, not at 108 and
 287 deg.
 """
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.tufting.design import Tufting, design
+from ilmek.machines.tufting.figures import figures
 from ilmek.machines.tufting.params import TuftingParams
-from ilmek.machines.tufting.report import report
+from ilmek.machines.tufting.report import checks, plates, tables, warnings
 
-__all__ = ["MACHINE", "Tufting", "TuftingParams", "design", "report"]
+__all__ = ["MACHINE", "Tufting", "TuftingParams", "design"]
 
 MACHINE = Component(
     name="tufting",
@@ -21,5 +22,10 @@ MACHINE = Component(
     summary=SUMMARIES["tufting"],
     params=TuftingParams,
     design=design,
-    reporter=report,
+    reported=(Tufting,),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
+    plates=plates,
 )

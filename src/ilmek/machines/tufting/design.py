@@ -1,25 +1,34 @@
 """The needle mechanism's design: ranges of its angles, its stroke, and greatest torques and forces over a turn.
 
-Torques and forces jump where the needles enter and leave the backing and where they turn round in it. Greatest values
+Torques and forces jump where the needles enter and leave the backing and where they reverse in it. Greatest values
 are suprema: at a jump the limits from both sides count.
+
+Several mechanisms on one main shaft run each behind the one before by the same angle:
+
+    M(theta) = sum_k M_b(theta - k phase),      R(theta) = sum_k R_O(theta - k phase),      k = 0 ... bars - 1
+
+The sum R is carried by all bearings of the main shaft together; their shares depend on their positions.
 """
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TypeAlias
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.attached import attached
+from ilmek.dynamics.attached import AttachedPoint, attached
 from ilmek.dynamics.friction import AngleRange
 from ilmek.errors import MechanismError
+from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.tufting.bars import all_breaks, together
 from ilmek.machines.tufting.model import PINS, TuftingState, evaluate, mechanism, move
 from ilmek.machines.tufting.params import TuftingParams
 from ilmek.num.piecewise import Extremum, around, integrals, roots_of_turn, suprema
+from ilmek.records import computed, record, result
+from ilmek.report import Json
 from ilmek.units import turn
 
 SAMPLES, PARTS = 720, 16
@@ -28,39 +37,123 @@ SAMPLES, PARTS = 720, 16
 LINKS = {"theta2": "coupler", "theta3": "rocker", "theta4": "arm", "theta5": "rod"}
 """The paper's angles: of A-B, C-B, C-D and D-E against x."""
 
+TORQUES = ("main_torque", "driven_torque")
+JOINTS = (*PINS, "guide")
 
-@dataclass(frozen=True, slots=True)
+Moved: TypeAlias = Callable[[FloatArray], Motion]
+"""Motion at crank angles [rad]."""
+
+Evaluated: TypeAlias = Callable[[FloatArray, FloatArray], TuftingState]
+"""State at crank angles [rad]; sides: which limit counts where the friction jumps."""
+
+
+@record
 class Tufting:
     """A designed needle mechanism.
 
     ranges           theta2 ... theta5 -> least and greatest angle [rad], unwrapped as in the paper
-    lowest, highest  crank angles [rad] at which the needle turns round
-    stroke           of the needle [m]
     breaks           crank angles [rad] at which the friction jumps
     state            over one turn, both ends included; at breaks twice, with both limits
-    peaks            greatest sizes over the turn: main_torque, driven_torque, joints, needle_velocity and
+    peaks            greatest magnitudes over the turn: main_torque, driven_torque, joints, needle_velocity and
                      needle_acceleration, and of all bars together total_torque and bearing
     extremes         least and greatest values with their signs: main_torque, driven_torque
-    work             over a turn [J]: drive, friction (what the backing takes), and sums for the rms torques [N² m² rad]
-    pressure_angle   greatest angle [rad] between rod and needle's line
-    transmission     least acute angle [rad] between coupler and rocker
-    at               at the crank angle asked for, if any
+    work             over a turn [J]: drive, friction (in the backing), and sums for the rms torques [N² m² rad]
+    at               at the given crank angle, if any
     """
 
     params: TuftingParams
     plan: Plan
     ranges: Mapping[str, tuple[float, float]]
-    lowest: float
-    highest: float
-    stroke: float
     breaks: tuple[float, ...]
     state: TuftingState
     peaks: Mapping[str, Extremum]
     extremes: Mapping[str, tuple[float, float]]
     work: Mapping[str, float]
-    pressure_angle: float
-    transmission: float
     at: TuftingState | None
+    stroke: float = result("mm", "distance of the needle's highest position from its lowest")
+    lowest: float = result("deg", "crank angle at which the needle is lowest", name="lowest_crank_angle")
+    highest: float = result("deg", "crank angle at which the needle is highest", name="highest_crank_angle")
+    transmission: float = result("deg", "least acute angle of coupler and rocker", name="transmission_angle_min")
+    pressure_angle: float = result("deg", "greatest angle of the rod to the needle's line", name="pressure_angle_max")
+
+    theta2_range = computed(
+        "deg", "least and greatest angle of the coupler, A to B", lambda it: list(it.ranges["theta2"])
+    )
+    theta3_range = computed(
+        "deg", "least and greatest angle of the rocker, C to B", lambda it: list(it.ranges["theta3"])
+    )
+    theta4_range = computed(
+        "deg",
+        "least and greatest angle of the arm, C to D: theta3 + beta1 - 360 deg (Eq 15)",
+        lambda it: list(it.ranges["theta4"]),
+    )
+    theta5_range = computed("deg", "least and greatest angle of the rod, D to E", lambda it: list(it.ranges["theta5"]))
+    entry_height = computed("mm", "needle above its lowest position at entry", lambda it: it.height(it.params.entry))
+    exit_height = computed("mm", "needle above its lowest position at exit", lambda it: it.height(it.params.exit))
+    needle_velocity_max = computed("m/s", "greatest speed of the needle", lambda it: it.peak("needle_velocity"))
+    needle_acceleration_max = computed(
+        "m/s^2", "greatest acceleration of the needle", lambda it: it.peak("needle_acceleration")
+    )
+    main_shaft_torque_max = computed(
+        "N*m", "greatest magnitude of the torque on the crank", lambda it: it.peak("main_torque")
+    )
+    main_shaft_torque_range = computed(
+        "N*m", "least and greatest, with sign", lambda it: list(it.extremes["main_torque"])
+    )
+    main_shaft_torque_rms = computed(
+        "N*m", "root mean square of the torque on the crank", lambda it: it.rms("main_torque")
+    )
+    driven_shaft_torque_max = computed(
+        "N*m",
+        "greatest magnitude of the torque between rocker and arm in the driven shaft; a limit where friction jumps",
+        lambda it: it.peak("driven_torque"),
+    )
+    driven_shaft_torque_range = computed(
+        "N*m", "least and greatest, with sign", lambda it: list(it.extremes["driven_torque"])
+    )
+    driven_shaft_torque_rms = computed("N*m", "root mean square of the same", lambda it: it.rms("driven_torque"))
+    pin_force_max = computed(
+        "N",
+        "greatest force in each joint; C is the whole load of the driven shaft's bearing",
+        lambda it: {name: it.peak(name) for name in JOINTS},
+    )
+    driven_shaft_force_max = computed(
+        "N",
+        "greatest force of the driven shaft on rocker and arm each",
+        lambda it: {name: it.peak(f"C on {name}") for name in ("rocker", "arm")},
+    )
+    energy_per_revolution = computed("J", "work of the drive in a turn of the crank", lambda it: it.work["drive"])
+    friction_work_per_revolution = computed(
+        "J", "part of it for the friction of the backing", lambda it: it.work["friction"]
+    )
+    main_shaft_torque_mean = computed("N*m", "mean torque on the crank", lambda it: it.work["drive"] / turn)
+    power_mean = computed("W", "mean power of the drive", lambda it: it.work["drive"] / turn * it.params.speed)
+    total_torque_max = computed(
+        "N*m", "greatest torque of all bars on the main shaft", lambda it: it.peak("total_torque")
+    )
+    total_energy_per_revolution = computed(
+        "J", "work of the drive for all bars", lambda it: it.params.bars * it.work["drive"]
+    )
+    shaft_bearing_force_max = computed(
+        "N", "greatest force of its bearings on the main shaft", lambda it: it.peak("bearing")
+    )
+
+    @computed(
+        "",
+        "the same at crank_angle, just after it where they jump; torques counter-clockwise, needle downward",
+        name="at",
+        optional=True,
+    )
+    def at_crank_angle(self) -> Json:
+        if self.at is None:
+            return None
+        return {
+            "main_shaft_torque": float(self.at.main_torque[0]),
+            "driven_shaft_torque": float(self.at.driven_torque[0]),
+            "pin_forces": {name: float(np.abs(self.at.joints[name][0])) for name in JOINTS},
+            "needle_velocity": float(self.at.velocity[0]),
+            "needle_acceleration": float(self.at.acceleration[0]),
+        }
 
     @property
     def lowest_within(self) -> bool:
@@ -68,56 +161,58 @@ class Tufting:
         return bool(AngleRange(self.params.entry, self.params.exit).holds(self.lowest))
 
     def height(self, angle: float) -> float:
-        """Needle's point against its lowest place [m] at a crank angle [rad]."""
-        ends = np.array([angle, self.lowest])
-        heights = np.imag(attached(move(self.params, self.plan, ends), "needle", 0j).position)
+        """Needle's point above its lowest position [m] at a crank angle [rad]."""
+        heights = np.imag(_needle(move(self.params, self.plan, np.array([angle, self.lowest]))).position)
         return float(heights[0] - heights[1])
+
+    def peak(self, name: str) -> float:
+        """One of the greatest magnitudes over the turn [SI]."""
+        return self.peaks[name].value
 
     def rms(self, name: str) -> float:
         """Root mean square over a turn [N m] of main_torque or driven_torque."""
         return math.sqrt(self.work[f"{name}_squared"] / turn)
 
+    def shaft_torque(self) -> tuple[FloatArray, FloatArray]:
+        """Crank angles of the first bar [rad] and torque of all bars on the main shaft [N m]; at jumps twice."""
+        breaks = tuple(sorted(at % turn for at in _all_breaks(self.params, self.breaks)))
+        angle, side = turn_with(breaks)
+        return angle, _shaft(self.params, partial(evaluate, self.params, self.plan), angle, side)[0]
+
 
 def design(params: TuftingParams) -> Tufting:
     """Move and load a needle mechanism. Raises MechanismError where it does not turn or its rocker does not swing."""
     planned = plan(mechanism(params))
-    ranges = _ranges(params, planned)
-    turns = roots_of_turn(
-        lambda at: np.imag(attached(move(params, planned, at), "needle", 0j).velocity), samples=SAMPLES
-    )
-    lowest, highest, stroke = _reversals(params, planned, turns)
-    breaks = _breaks(params, turns)
-
-    def curves(at: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
-        return _curves(params, planned, at, side)
-
-    pieces = around(breaks)
-    top = suprema(curves, pieces, samples=SAMPLES)
-    quality = suprema(lambda at, _: _quality(params, planned, at), around(), samples=SAMPLES)
-    work = integrals(lambda *at: _work(params, planned, *at), around(breaks, parts=PARTS))
+    moved, evaluated = partial(move, params, planned), partial(evaluate, params, planned)
+    ranges = _ranges(params, moved)
+    reversals = roots_of_turn(lambda at: np.imag(_needle(moved(at)).velocity), samples=SAMPLES)
+    lowest, highest, stroke = _reversals(moved, reversals)
+    breaks = _breaks(params, reversals)
+    pieces, all_pieces = around(breaks), around(_all_breaks(params, breaks))
+    top = suprema(lambda *at: _curves(evaluated(*at)), pieces, samples=SAMPLES)
+    quality = suprema(lambda at, _: _quality(moved(at)), around(), samples=SAMPLES)
+    shaft = suprema(lambda *at: _shaft_loads(params, evaluated, *at), all_pieces, samples=SAMPLES)
+    work = integrals(lambda *at: _work(params, evaluated(*at)), around(breaks, parts=PARTS))
     return Tufting(
         params=params,
         plan=planned,
         ranges=ranges,
-        lowest=lowest,
-        highest=highest,
-        stroke=stroke,
         breaks=breaks,
-        state=evaluate(params, planned, *course(breaks)),
-        peaks={**_sizes(top), **quality, **_all_bars(params, planned, breaks)},
+        state=evaluated(*turn_with(breaks)),
+        peaks={**_magnitudes(top), **quality, **shaft},
         extremes={name: (-top[f"{name} least"].value, top[f"{name} greatest"].value) for name in TORQUES},
         work={name: math.fsum(parts) for name, parts in work.items()},
-        pressure_angle=quality["pressure angle"].value,
+        at=None if params.crank_angle is None else evaluated(np.array([params.crank_angle])),
+        stroke=stroke,
+        lowest=lowest,
+        highest=highest,
         transmission=math.pi / 2 - quality["off square"].value,
-        at=None if params.crank_angle is None else evaluate(params, planned, np.array([params.crank_angle])),
+        pressure_angle=quality["pressure angle"].value,
     )
 
 
-TORQUES = ("main_torque", "driven_torque")
-
-
-def course(breaks: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
-    """Crank angles over a turn [rad], ascending, both ends included, each break twice; and the side meant at each."""
+def turn_with(breaks: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+    """Crank angles over a turn [rad], ascending, both ends included, each break twice; and the side of each."""
     even = np.arange(SAMPLES + 1) * (turn / SAMPLES)
     angle = np.concatenate((even, breaks, breaks))
     side = np.concatenate((np.ones(even.size), -np.ones(len(breaks)), np.ones(len(breaks))))
@@ -125,12 +220,16 @@ def course(breaks: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
     return angle[order], side[order]
 
 
-def _ranges(params: TuftingParams, planned: Plan) -> dict[str, tuple[float, float]]:
-    """Least and greatest of every angle. Raises MechanismError where a link turns right round.
+def _needle(motion: Motion) -> AttachedPoint:
+    return attached(motion, "needle", 0j)
+
+
+def _ranges(params: TuftingParams, moved: Moved) -> dict[str, tuple[float, float]]:
+    """Least and greatest of every angle. Raises MechanismError where a link makes full turns.
 
     Angles are taken about the link's mean direction, so that a swing across 0 is one swing.
     """
-    motion = move(params, planned, np.arange(SAMPLES) * (turn / SAMPLES))
+    motion = moved(np.arange(SAMPLES) * (turn / SAMPLES))
     mean = {name: complex(np.mean(motion.direction(body))) for name, body in LINKS.items()}
     for name, body in LINKS.items():
         if np.any(np.real(np.conj(mean[name]) * motion.direction(body)) <= 0):
@@ -141,9 +240,10 @@ def _ranges(params: TuftingParams, planned: Plan) -> dict[str, tuple[float, floa
             )
 
     def about_mean(angle: FloatArray, _: FloatArray) -> dict[str, FloatArray]:
-        moved = move(params, planned, angle)
-        off = {name: np.angle(np.conj(mean[name]) * moved.direction(body)) for name, body in LINKS.items()}
-        return {f"{name} {end}": sign * off[name] for name in LINKS for end, sign in (("least", -1), ("greatest", 1))}
+        motion = moved(angle)
+        return _both_ends(
+            {name: np.angle(np.conj(mean[name]) * motion.direction(body)) for name, body in LINKS.items()}
+        )
 
     found = suprema(about_mean, around(), samples=SAMPLES)
     middle = {name: float(np.angle(direction)) % turn for name, direction in mean.items()}
@@ -155,48 +255,44 @@ def _ranges(params: TuftingParams, planned: Plan) -> dict[str, tuple[float, floa
     }
 
 
-def _reversals(params: TuftingParams, planned: Plan, turns: FloatArray) -> tuple[float, float, float]:
-    """Crank angles of the lowest and highest place of the needle, and the stroke between them."""
-    if turns.size == 0:
+def _both_ends(curves: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """Each curve with both signs, so that its supremum gives the least value too."""
+    ends = (("least", -1.0), ("greatest", 1.0))
+    return {f"{name} {end}": sign * values for name, values in curves.items() for end, sign in ends}
+
+
+def _reversals(moved: Moved, reversals: FloatArray) -> tuple[float, float, float]:
+    """Crank angles of the lowest and highest position of the needle, and the stroke between them."""
+    if reversals.size == 0:
         raise MechanismError("the needle of tufting does not move", do="lengthen crank or arm")
-    height = np.imag(attached(move(params, planned, turns), "needle", 0j).position)
+    height = np.imag(_needle(moved(reversals)).position)
     low, high = int(np.argmin(height)), int(np.argmax(height))
-    return float(turns[low]), float(turns[high]), float(height[high] - height[low])
+    return float(reversals[low]), float(reversals[high]), float(height[high] - height[low])
 
 
-def _breaks(params: TuftingParams, turns: FloatArray) -> tuple[float, ...]:
+def _breaks(params: TuftingParams, reversals: FloatArray) -> tuple[float, ...]:
     ends = (params.entry, params.exit) if params.friction == "window" else ()
-    return tuple(sorted(at % turn for at in (*turns.tolist(), *ends)))
+    return tuple(sorted(at % turn for at in (*reversals.tolist(), *ends)))
 
 
-def _all_bars(params: TuftingParams, planned: Plan, breaks: tuple[float, ...]) -> dict[str, Extremum]:
-    pieces = around(all_breaks(breaks, params.bars, params.phase))
-    return suprema(lambda *at: _shaft_sizes(params, planned, *at), pieces, samples=SAMPLES)
+def _all_breaks(params: TuftingParams, breaks: tuple[float, ...]) -> list[float]:
+    """Angles at which the sum of all bars may jump [rad]: those of each bar."""
+    return [at + params.phase * bar for at in breaks for bar in range(params.bars)]
 
 
-def _curves(params: TuftingParams, planned: Plan, angle: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
-    state = evaluate(params, planned, angle, side)
+def _curves(state: TuftingState) -> dict[str, FloatArray]:
+    """Torques with both signs, magnitudes of joint forces; the driven shaft's force on rocker and arm besides C."""
+    forces = {
+        **{name: state.joints[name] for name in JOINTS},
+        "C on rocker": state.joints["C"] - state.joints["shaft"],
+        "C on arm": state.joints["shaft"],
+    }
     torques = {"main_torque": state.main_torque, "driven_torque": state.driven_torque}
-    ends = {
-        f"{name} {end}": sign * torque
-        for name, torque in torques.items()
-        for end, sign in (("least", -1.0), ("greatest", 1.0))
-    }
-    return {**ends, **{name: np.abs(force) for name, force in _pin_forces(state).items()}}
+    return {**_both_ends(torques), **{name: np.abs(force) for name, force in forces.items()}}
 
 
-def _pin_forces(state: TuftingState) -> dict[str, ComplexArray]:
-    """Joints as reported; what the driven shaft gives to rocker and arm each is told apart from their sum C."""
-    joints = state.joints
-    return {
-        **{name: joints[name] for name in (*PINS, "guide")},
-        "C on rocker": joints["C"] - joints["shaft"],
-        "C on arm": joints["shaft"],
-    }
-
-
-def _sizes(top: Mapping[str, Extremum]) -> dict[str, Extremum]:
-    """The greatest sizes: of a torque the greater of its two ends."""
+def _magnitudes(top: Mapping[str, Extremum]) -> dict[str, Extremum]:
+    """The greatest magnitudes: of a torque the greater of its two ends."""
     joints = {name: peak for name, peak in top.items() if not name.endswith((" least", " greatest"))}
     torques = {
         name: max((top[f"{name} least"], top[f"{name} greatest"]), key=lambda peak: peak.value) for name in TORQUES
@@ -204,23 +300,24 @@ def _sizes(top: Mapping[str, Extremum]) -> dict[str, Extremum]:
     return {**torques, **joints}
 
 
-def shaft(params: TuftingParams, planned: Plan, angle: FloatArray, side: FloatArray) -> tuple[FloatArray, ComplexArray]:
+def _shaft(
+    params: TuftingParams, evaluated: Evaluated, angle: FloatArray, side: FloatArray
+) -> tuple[FloatArray, ComplexArray]:
     """Torque on the main shaft [N m] and force of its bearings on it [N], all bars together."""
-
-    def one(at: FloatArray, beside: FloatArray) -> tuple[FloatArray, ComplexArray]:
-        state = evaluate(params, planned, at, beside)
-        return state.main_torque, state.joints["O"]
-
-    return together(one, params.bars, params.phase, angle, side)
+    behind = params.phase * np.arange(params.bars)[:, None]
+    state = evaluated(np.ravel(angle - behind), np.tile(side, params.bars))
+    torque, force = (one.reshape(params.bars, -1).sum(axis=0) for one in (state.main_torque, state.joints["O"]))
+    return torque, force
 
 
-def _shaft_sizes(params: TuftingParams, planned: Plan, angle: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
-    torque, force = shaft(params, planned, angle, side)
+def _shaft_loads(
+    params: TuftingParams, evaluated: Evaluated, angle: FloatArray, side: FloatArray
+) -> dict[str, FloatArray]:
+    torque, force = _shaft(params, evaluated, angle, side)
     return {"total_torque": np.abs(torque), "bearing": np.abs(force)}
 
 
-def _work(params: TuftingParams, planned: Plan, angle: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
-    state = evaluate(params, planned, angle, side)
+def _work(params: TuftingParams, state: TuftingState) -> dict[str, FloatArray]:
     return {
         "drive": state.main_torque,
         "friction": state.friction * state.velocity / params.speed,
@@ -229,12 +326,17 @@ def _work(params: TuftingParams, planned: Plan, angle: FloatArray, side: FloatAr
     }
 
 
-def _quality(params: TuftingParams, planned: Plan, angle: FloatArray) -> dict[str, FloatArray]:
-    motion = move(params, planned, angle)
-    rod, needle = motion.direction("rod"), attached(motion, "needle", 0j)
+def _quality(motion: Motion) -> dict[str, FloatArray]:
+    needle = _needle(motion)
     return {
-        "pressure angle": np.arctan2(np.abs(np.real(rod)), -np.imag(rod)),
+        "pressure angle": pressure_angle(motion),
         "needle_velocity": np.abs(np.imag(needle.velocity)),
         "needle_acceleration": np.abs(np.imag(needle.acceleration)),
         "off square": np.abs(transmission_angle(motion, "B") - math.pi / 2),
     }
+
+
+def pressure_angle(motion: Motion) -> FloatArray:
+    """Angle of the rod to the needle's line [rad], 0 ... pi, one a sample."""
+    rod = motion.direction("rod")
+    return np.asarray(np.arctan2(np.abs(np.real(rod)), -np.imag(rod)))

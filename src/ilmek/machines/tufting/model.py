@@ -8,7 +8,6 @@ D. Rocker and arm are two bodies: the torque that holds the arm at its fixed ang
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -23,17 +22,18 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
 from ilmek.machines.tufting.params import TuftingParams
+from ilmek.records import record
 from ilmek.units import deg
 
 PINS = ("O", "A", "B", "C", "D", "E")
 DOWN = -90 * deg
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TuftingState:
     """The mechanism at given crank angles, one value a sample.
 
-    joints         joint -> force in it [N], complex: O to E and guide; C is all that the driven shaft's bearing gives
+    joints         joint -> force in it [N], complex: O to E and guide; C: whole force of the driven shaft's bearing
     main_torque    torque on the crank, counter-clockwise [N m]
     driven_torque  torque of the rocker on the arm through the driven shaft, counter-clockwise [N m]
     height         needle's point F against the driven shaft, upward [m]
@@ -83,7 +83,7 @@ def mechanism(params: TuftingParams) -> Mechanism:
 
 
 def inertias(params: TuftingParams) -> dict[str, Inertia]:
-    """Mass centres in the middle of the links, the needle's in E: it does not turn, so that any place will do."""
+    """Mass centres in the middle of the links, the needle's in E: it does not turn, so that any point will do."""
     return {
         "crank": Inertia(params.crank_mass, params.crank / 2, params.crank_inertia),
         "coupler": Inertia(params.coupler_mass, params.coupler / 2, params.coupler_inertia),
@@ -96,15 +96,15 @@ def inertias(params: TuftingParams) -> dict[str, Inertia]:
 
 def move(params: TuftingParams, planned: Plan, angle: FloatArray) -> Motion:
     """Motion at the given crank angles [rad]. Raises MechanismError where it does not close."""
-    courses: dict[str, RealField] = {"crank": angle, "arm": params.arm_angle}
-    return solve(planned, courses, {"crank": params.speed}).require()
+    angles: dict[str, RealField] = {"crank": angle, "arm": params.arm_angle}
+    return solve(planned, angles, {"crank": params.speed}).require()
 
 
 def evaluate(params: TuftingParams, planned: Plan, angle: FloatArray, side: RealField = 1.0) -> TuftingState:
-    """Motion and forces at the given crank angles [rad]; side: which limit where the friction jumps, see `Friction`."""
+    """Motion and forces at crank angles [rad]; side: which limit counts where the friction jumps, see `Friction`."""
     motion = move(params, planned, angle)
-    rubbing = friction(params, side)
-    forces = inverse(motion, inertias(params), (Gravity(-1j * params.gravity), rubbing))
+    load = friction(params, side)
+    forces = inverse(motion, inertias(params), (Gravity(-1j * params.gravity), load))
     point = attached(motion, "needle", motion.plan.mechanism.point("needle", "F"))
     return TuftingState(
         angle=angle,
@@ -116,11 +116,11 @@ def evaluate(params: TuftingParams, planned: Plan, angle: FloatArray, side: Real
         height=np.imag(point.position) - params.shaft_height,
         velocity=-np.imag(point.velocity),
         acceleration=-np.imag(point.acceleration),
-        friction=np.imag(rubbing.force(motion)),
+        friction=np.imag(load.force(motion)),
     )
 
 
 def friction(params: TuftingParams, side: RealField) -> Friction:
-    """The backing's friction on the needle, as the paper's words are read."""
+    """The backing's friction on the needle, from entry to exit or all the time."""
     window = AngleRange(params.entry, params.exit) if params.friction == "window" else None
     return Friction("needle", "F", params.friction_force, "crank", window, side)

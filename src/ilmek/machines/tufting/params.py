@@ -1,34 +1,31 @@
-"""What may be asked of a tufting needle mechanism."""
+"""Parameters of a tufting needle mechanism."""
 
 from dataclasses import dataclass
 from typing import Any
 
-from ilmek.params import Params, param
+from ilmek.params import Params, kind
 from ilmek.units import deg, mm, rpm, turn
 
 SMALL, LARGE = 1e-4, 5.0
-"""Lengths that are taken for meant [m]."""
+"""Plausible range of lengths [m]."""
 
 
-def _length(default: float, alias: str, doc: str) -> Any:
-    return param(default, unit="mm", at_least=SMALL, at_most=LARGE, doc=doc, symbol=alias, alias=alias)
+def _length(default: float, symbol: str, doc: str, *, least: float = SMALL) -> Any:
+    return kind.length(default, at_least=least, at_most=LARGE, doc=doc, symbol=symbol, alias=symbol)
 
 
-def _distance(default: float, alias: str, doc: str) -> Any:
-    return param(default, unit="mm", at_least=-LARGE, at_most=LARGE, doc=doc, symbol=alias, alias=alias)
+def _mass(default: float, symbol: str, doc: str) -> Any:
+    return kind.mass(default, at_least=0.0, at_most=1e4, doc=doc, symbol=symbol, alias=symbol)
 
 
-def _mass(default: float, alias: str, doc: str) -> Any:
-    return param(default, unit="kg", at_least=0.0, at_most=1e4, doc=doc, symbol=alias, alias=alias)
-
-
-def _moment(default: float, alias: str, doc: str) -> Any:
-    return param(default, unit="kg*m^2", at_least=0.0, at_most=1e3, doc=doc, symbol=alias, alias=alias)
+def _inertia(default: float, symbol: str, body: str) -> Any:
+    doc = f"moment of inertia of the {body} about its middle"
+    return kind.inertia(default, at_least=0.0, at_most=1e3, doc=doc, symbol=symbol, alias=symbol)
 
 
 @dataclass(frozen=True, slots=True)
 class TuftingParams(Params):
-    """What may be asked of a needle mechanism; the defaults are the paper's (its Table 1), the aliases its symbols.
+    """A needle mechanism, its masses and loads; the defaults are the paper's (its Table 1), the aliases its symbols.
 
     Masses and moments of inertia do not follow the lengths: give them too where the links are others.
     """
@@ -39,12 +36,11 @@ class TuftingParams(Params):
     arm: float = _length(125 * mm, "l4", "arm on the driven shaft, C to D")
     rod: float = _length(120 * mm, "l5", "rod, D to E")
     needle: float = _length(440 * mm, "l6", "needle bar, E to the needle's point F")
-    shaft_distance: float = _distance(70 * mm, "x1", "driven shaft C beside the main shaft O")
-    shaft_height: float = _distance(155 * mm, "H1", "driven shaft C above the main shaft O")
-    needle_distance: float = _distance(100 * mm, "x2", "needle's line beside the driven shaft C")
-    arm_angle: float = param(
+    shaft_distance: float = _length(70 * mm, "x1", "driven shaft C beside the main shaft O", least=-LARGE)
+    shaft_height: float = _length(155 * mm, "H1", "driven shaft C above the main shaft O", least=-LARGE)
+    needle_distance: float = _length(100 * mm, "x2", "needle's line beside the driven shaft C", least=-LARGE)
+    arm_angle: float = kind.angle(
         168 * deg,
-        unit="deg",
         at_least=-turn,
         at_most=turn,
         doc="from the rocker C-B to the arm C-D, counter-clockwise",
@@ -57,49 +53,47 @@ class TuftingParams(Params):
     arm_mass: float = _mass(1.74, "m4", "mass of the arm")
     rod_mass: float = _mass(0.36, "m5", "mass of the rod")
     needle_mass: float = _mass(1.47, "m6", "mass of needle bar and needles")
-    crank_inertia: float = _moment(4.34e-3, "J1", "moment of inertia of the crank about its middle")
-    coupler_inertia: float = _moment(26.99e-3, "J2", "moment of inertia of the coupler about its middle")
-    rocker_inertia: float = _moment(10.77e-3, "J3", "moment of inertia of the rocker about its middle")
-    arm_inertia: float = _moment(6.69e-3, "J4", "moment of inertia of the arm about its middle")
-    rod_inertia: float = _moment(0.91e-3, "J5", "moment of inertia of the rod about its middle")
-    speed: float = param(160 * rpm, unit="rpm", above=0.0, at_most=1e4, doc="speed of the main shaft", symbol="ω1")
-    friction_force: float = param(
+    crank_inertia: float = _inertia(4.34e-3, "J1", "crank")
+    coupler_inertia: float = _inertia(26.99e-3, "J2", "coupler")
+    rocker_inertia: float = _inertia(10.77e-3, "J3", "rocker")
+    arm_inertia: float = _inertia(6.69e-3, "J4", "arm")
+    rod_inertia: float = _inertia(0.91e-3, "J5", "rod")
+    speed: float = kind.angular_speed(160 * rpm, above=0.0, at_most=1e4, doc="speed of the main shaft", symbol="ω1")
+    friction_force: float = kind.force(
         1000.0,
-        unit="N",
         at_least=0.0,
         at_most=1e6,
         doc="friction of the backing on the needles, against their motion",
         symbol="Fr",
         alias="Fr",
     )
-    friction: str = param(
+    friction: str = kind.choice(
         "window",
-        choices=("window", "always"),
+        ("window", "always"),
         doc="when the friction acts: from entry to exit, or all the time (the paper's words allow both)",
     )
-    entry: float = param(
-        22 * deg, unit="deg", at_least=-turn, at_most=turn, doc="crank angle at which needles enter the backing"
+    entry: float = kind.angle(
+        22 * deg, at_least=-turn, at_most=turn, doc="crank angle at which needles enter the backing"
     )
-    exit: float = param(
-        194 * deg, unit="deg", at_least=-turn, at_most=turn, doc="crank angle at which needles leave the backing"
+    exit: float = kind.angle(
+        194 * deg, at_least=-turn, at_most=turn, doc="crank angle at which needles leave the backing"
     )
-    gravity: float = param(9.81, unit="m/s^2", at_least=0.0, at_most=1e3, doc="free fall, downward", symbol="g")
-    stroke: float = param(
-        32.5 * mm, unit="mm", above=0.0, at_most=LARGE, doc="stroke that is wanted at least; the paper: about 33 mm"
+    gravity: float = kind.acceleration(
+        9.81, at_least=0.0, at_most=1e3, doc="acceleration of gravity, downward", symbol="g"
     )
-    bars: int = param(1, at_least=1, at_most=64, doc="such mechanisms side by side on the main shaft")
-    phase: float = param(
-        0.0, unit="deg", at_least=-turn, at_most=turn, doc="angle by which each crank runs behind the one before"
+    stroke: float = kind.length(32.5 * mm, above=0.0, at_most=LARGE, doc="required stroke; the paper: about 33 mm")
+    bars: int = kind.count(1, at_least=1, at_most=64, doc="such mechanisms side by side on the main shaft")
+    phase: float = kind.angle(
+        0.0, at_least=-turn, at_most=turn, doc="angle by which each crank runs behind the one before"
     )
-    link_width: float = param(
-        30 * mm, unit="mm", at_least=SMALL, at_most=LARGE, doc="width of the links' plates; masses do not follow"
+    link_width: float = kind.length(
+        30 * mm, at_least=SMALL, at_most=LARGE, doc="width of the links' plates; masses do not follow"
     )
-    link_thickness: float = param(
-        10 * mm, unit="mm", at_least=SMALL, at_most=LARGE, doc="thickness of the links' plates; masses do not follow"
+    link_thickness: float = kind.length(
+        10 * mm, at_least=SMALL, at_most=LARGE, doc="thickness of the links' plates; masses do not follow"
     )
-    crank_angle: float | None = param(
+    crank_angle: float | None = kind.angle(
         None,
-        unit="deg",
         at_least=-2 * turn,
         at_most=2 * turn,
         doc="crank angle at which to report forces; where they jump, just after",
