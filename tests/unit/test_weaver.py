@@ -8,15 +8,17 @@ import pytest
 
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.errors import ParameterError
-from ilmek.machines.weaver import MACHINE, WeaverParams, design, report, step_time, travel_time
-from ilmek.machines.weaver.cyclogram import DRAW_TURN, HANDLER
-from ilmek.timing.s_curve import AxisLimits, move_time
+from ilmek.machines.weaver import MACHINE, WeaverParams, design, mass_of, step_time, travel_time
+from ilmek.machines.weaver.cams import torque_at
+from ilmek.machines.weaver.cyclogram import DRAW_TURN
+from ilmek.machines.weaver.motions import HANDLER, SLEY
+from ilmek.timing.s_curve import AxisLimits, move_time, s_curve
 from ilmek.timing.track import sample
 from ilmek.units import deg
 
 
 def test_the_default_head_passes_all_checks_and_beats_the_hand() -> None:
-    made = report(design(WeaverParams()))
+    made = MACHINE.report(design(WeaverParams()))
     assert made.failed == ()
     assert made.results[0].name == "cycle_time_knot"
     assert made.results[0].value == 2.0
@@ -40,25 +42,25 @@ def test_no_tool_exceeds_its_limits_at_the_shortest_cycle(law: str, limit: float
     assert largest == pytest.approx(1.0, abs=2e-3)
 
 
-def test_a_cycle_that_is_too_short_is_said() -> None:
-    made = report(design(WeaverParams(cycle=0.5)))
+def test_a_cycle_that_is_too_short_is_reported() -> None:
+    made = MACHINE.report(design(WeaverParams(cycle=0.5)))
     assert made.failed == ()
-    assert "not the 0.5 s asked for" in made.warnings[0]
+    assert "not the required 0.5 s" in made.warnings[0]
 
 
 def test_a_slow_head_fails_against_the_hand() -> None:
-    failed = report(design(WeaverParams(cycle=3.0))).failed
+    failed = MACHINE.report(design(WeaverParams(cycle=3.0))).failed
     assert [check.name for check in failed] == ["knot cycle"]
 
 
 @pytest.mark.parametrize("shift", [-20, 0, 20])
 def test_the_order_holds_wherever_the_steps_end(shift: float) -> None:
     moved = WeaverParams(open_end=(172 + shift) * deg, knot_end=(250 - shift / 2) * deg, relation_gap=0.5 * deg)
-    assert [check.name for check in report(design(moved)).failed if " after " in check.name] == []
+    assert [check.name for check in MACHINE.report(design(moved)).failed if " after " in check.name] == []
 
 
 def test_a_gap_that_does_not_fit_is_found() -> None:
-    failed = report(design(WeaverParams(relation_gap=20 * deg))).failed
+    failed = MACHINE.report(design(WeaverParams(relation_gap=20 * deg))).failed
     assert failed
     assert all("after" in check.name for check in failed)
 
@@ -71,7 +73,7 @@ def test_the_handler_draws_the_yarn_of_a_knot() -> None:
 
 
 def test_the_screw_turns_the_grippers() -> None:
-    assert design(WeaverParams(crossing=0.02, crossing_turn=180 * deg)).screw_lead == pytest.approx(0.04)
+    assert design(WeaverParams(crossing=0.02, crossing_turn=180 * deg)).grippers.screw_lead == pytest.approx(0.04)
 
 
 @pytest.mark.parametrize("tubes", [1, 2, 3, 16, 40])
@@ -106,21 +108,78 @@ def test_steps_must_follow_each_other() -> None:
 
 
 def test_the_machine_reads_its_parameters() -> None:
-    made = MACHINE.report(MACHINE.design(WeaverParams.read({"cycle": "2.2s", "law": "cycloidal", "tubes": "8"})))
+    made = MACHINE.report_for({"cycle": "2.2s", "law": "cycloidal", "tubes": "8"})
     assert made.as_json()["results"]["knots_per_minute"] == pytest.approx(60 / 2.2)
     assert {"knot", "weaver-plan", "weaver-moving"} <= {figure.name for figure in made.figures}
 
 
-def test_the_selector_has_time_for_the_longest_way_while_a_knot_is_tied() -> None:
-    """From the cut to the next grasp, 0.62 and 0.285 of the first step: 1.81 s of 2 s; the longest way takes 1.12 s."""
+def test_the_selector_has_time_for_the_longest_travel_while_a_knot_is_tied() -> None:
+    """From the cut to the next grasp, 0.62 and 0.285 of the first step: 1.81 s of 2 s; the longest takes 1.12 s."""
     head = design(WeaverParams())
     assert head.selector_window == pytest.approx(2 * (360 - 0.62 * 104 + 0.285 * 104) / 360)
     assert head.colour_change < head.colour_change_longest == pytest.approx(0.18 / 0.2 + 0.2 + 1 / 50)
     assert head.colour_change_longest < head.selector_window
 
 
-def test_tools_too_heavy_for_a_motor_are_said() -> None:
-    heavy = report(design(WeaverParams(tool_mass=100.0, cycle=0.1, speed_limit=100.0, acceleration_limit=1e5)))
+def test_tools_too_heavy_for_a_motor_are_reported() -> None:
+    heavy = MACHINE.report(design(WeaverParams(tool_mass=100.0, cycle=0.1, speed_limit=100.0, acceleration_limit=1e5)))
     assert heavy.as_json()["results"]["motor"] is None
-    assert any("no motor of the table gives" in said for said in heavy.warnings)
-    assert not report(design(WeaverParams())).warnings
+    assert any("no motor of the table gives" in warning for warning in heavy.warnings)
+    assert not MACHINE.report(design(WeaverParams())).warnings
+
+
+def test_the_angles_of_a_tool_can_be_set_and_its_motions_keep_their_shares() -> None:
+    usual = design(WeaverParams()).cyclogram.track(HANDLER)
+    quick = design(WeaverParams.read({"pile_handler.rise": "60deg"}))
+    track = quick.cyclogram.track(HANDLER)
+    assert track.segment("to tube").start == 0.0
+    assert track.segment("present").end == pytest.approx(60 * deg)
+    shares = [[edge / track.segments[2].end for edge in (one.start, one.end)] for one in track.segments[:3]]
+    then = [[edge / usual.segments[2].end for edge in (one.start, one.end)] for one in usual.segments[:3]]
+    assert np.array(shares) == pytest.approx(np.array(then))
+    assert track.event("cut").angle == pytest.approx(60 / (0.89 * 104) * 0.62 * 104 * deg)
+    assert track.segment("home") == usual.segment("home")
+    assert quick.peaks[HANDLER].acceleration > design(WeaverParams()).peaks[HANDLER].acceleration
+    later = WeaverParams.read({"sley.start": "300deg", "sley.rise": "20deg", "sley.return_start": "325deg"})
+    down, up = design(later).cyclogram.track(SLEY).segments
+    assert (down.start, down.end, up.start) == pytest.approx((300 * deg, 320 * deg, 325 * deg))
+
+
+def test_angles_of_a_tool_that_break_the_order_of_the_tools_fail_a_check() -> None:
+    failed = MACHINE.report_for({"pile_handler.fall": "55deg"}).failed
+    assert failed[0].name.startswith("side-gripper motion: open warps")
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"pile_handler.rise": "150deg"}, "pile_handler.rise=150 deg: the motions forward end at 150 deg, those back"),
+        ({"sley.fall": "45deg"}, "sley.fall=45 deg: the motions back end at"),
+        ({"sley.rise": "10deg", "optimise": "yes"}, "optimise chooses the cam angles .* sley.rise is set"),
+        ({"sley.raise": "10deg"}, "did you mean sley.rise"),
+    ],
+)
+def test_angles_of_a_tool_that_contradict_are_refused_by_their_names(settings: dict[str, str], message: str) -> None:
+    with pytest.raises(ParameterError, match=message):
+        WeaverParams.read(settings)
+
+
+def test_parts_and_work_of_one_head() -> None:
+    head = design(WeaverParams())
+    parts = {part.name: part for part in MACHINE.parts(head)}
+    assert parts["knotting head"].mass == pytest.approx(sum(mass_of(head).values()))
+    assert parts["yarn tube"].number == 16
+    assert [part.name for part in parts.values() if part.drives] == [
+        "motor of a head",
+        "motor of a carriage",
+        "motor of the colours",
+    ]
+    work = {one.name: one for one in MACHINE.work(head)}
+    even = np.arange(20_000) * (2 * math.pi / 20_000)
+    torque = np.maximum(torque_at(head.cams, even), 0.0)
+    assert work["knotting"].energy == pytest.approx(float(torque.mean()) * 2 * math.pi, rel=1e-3)
+    step = s_curve(0.004, AxisLimits(0.25, 2.0, 100.0))
+    assert work["carriages"].energy == pytest.approx(0.5 * parts["knotting head"].mass * step.speed**2)
+    heavy = design(WeaverParams(head_mass=2 * parts["knotting head"].mass))
+    assert MACHINE.work(heavy)[1].energy == pytest.approx(2 * work["carriages"].energy)
+    assert [one.per for one in work.values()] == ["knot", "knot", "colour change"]

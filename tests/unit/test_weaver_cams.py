@@ -8,10 +8,10 @@ import pytest
 
 from ilmek.cams import limits as cam_limits
 from ilmek.cams.sizing import CamLimits, pressure_prime
-from ilmek.machines.weaver import Weaver, WeaverParams, design, report
+from ilmek.machines.weaver import MACHINE, Weaver, WeaverParams, design
 from ilmek.machines.weaver.cams import FASTER, WALL, programme_of, torque_at
-from ilmek.machines.weaver.cyclogram import HANDLER, SLEY
 from ilmek.machines.weaver.limits import cut_share, cycle_limits
+from ilmek.machines.weaver.motions import HANDLER, SLEY
 from ilmek.timing.track import sample
 from ilmek.units import deg, mm, turn
 
@@ -84,7 +84,7 @@ def test_springs_hold_the_followers_and_no_more() -> None:
 
 
 def test_a_groove_needs_no_spring_and_room_on_its_outer_flank() -> None:
-    made = report(design(WeaverParams(closure="groove")))
+    made = MACHINE.report(design(WeaverParams(closure="groove")))
     assert set(made.as_json()["results"]["spring_rate"].values()) == {0.0}
     assert any(check.name.startswith("roller in the groove") for check in made.checks)
 
@@ -96,10 +96,10 @@ def test_the_inertia_of_a_cam_is_between_those_of_its_circles() -> None:
 
 
 def test_five_cams_on_the_shaft_and_the_sleys_on_a_geared_one() -> None:
-    results = report(usual()).as_json()["results"]
+    results = MACHINE.report(usual()).as_json()["results"]
     assert results["cam_stack_width"] == pytest.approx(5 * usual().params.cam_thickness + 6 * usual().params.cam_gap)
     assert [cam.actuator for cam in usual().cams if cam.name == SLEY] == ["gear"]
-    failed = [check.name for check in report(design(WeaverParams(head_width=0.05, cam_room=0.15))).failed]
+    failed = [check.name for check in MACHINE.report(design(WeaverParams(head_width=0.05, cam_room=0.15))).failed]
     assert failed == ["cams beside each other", "diameter, side-gripper motion"]
 
 
@@ -114,7 +114,7 @@ def test_the_limits_of_the_cycle_are_where_they_are_said(faster: float) -> None:
 
 
 def test_plates_and_tables_of_all_tracks() -> None:
-    made = report(usual())
+    made = MACHINE.report(usual())
     assert len(made.plates) == len(made.cam_tables) == 6
     for plate, cam in zip(made.plates, usual().cams, strict=True):
         one, then = plate.outline, np.roll(plate.outline, -1)
@@ -135,7 +135,7 @@ def test_motions_stretched_within_their_order_are_gentler_and_quicker() -> None:
     assert better.cycle == plain.cycle
     assert max(p.acceleration for p in better.peaks.values()) < max(p.acceleration for p in plain.peaks.values())
     assert better.shortest < plain.shortest
-    assert report(better).failed == ()
+    assert MACHINE.report(better).failed == ()
     assert better.knot_tied == "symmetric"
     quickest = design(WeaverParams(optimise=True, cycle=0.1))
     assert quickest.cycle < design(WeaverParams(cycle=0.1)).cycle
@@ -143,7 +143,7 @@ def test_motions_stretched_within_their_order_are_gentler_and_quicker() -> None:
 
 
 def test_the_selector_and_the_masses() -> None:
-    results = report(usual()).as_json()["results"]
+    results = MACHINE.report(usual()).as_json()["results"]
     assert results["selector_step"] == pytest.approx(2 * math.pi * 0.010 / 200)
     assert results["mass"] == pytest.approx(sum(results["masses"].values()))
     assert results["cutting_force"] == pytest.approx(96.0)

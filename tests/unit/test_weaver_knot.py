@@ -9,10 +9,10 @@ import pytest
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.errors import ParameterError
-from ilmek.machines.weaver import WeaverParams, design, report
-from ilmek.machines.weaver.cyclogram import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
+from ilmek.machines.weaver import MACHINE, WeaverParams, design
 from ilmek.machines.weaver.grippers import clearance_min, crossing_point, taut
 from ilmek.machines.weaver.knot import on_the_pair, tied_by
+from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
 from ilmek.timing.cyclogram import Cyclogram, TrackEvent
 from ilmek.timing.track import Track, TrackSegment
 
@@ -42,14 +42,14 @@ def test_the_head_ties_the_symmetric_knot_at_any_pitch(law: str, pitch: float) -
 def test_the_yarn_drawn_is_the_yarn_bills() -> None:
     head = design(WeaverParams(pile_height=0.010, cut_waste=0.002, yarn_density=0.9e-3))
     billed = knot_length("symmetric", Quality(250.0, 250.0), 0.9e-3, PileParams(pile_height=0.010, cut_waste=0.002))
-    results = report(head).as_json()["results"]
+    results = MACHINE.report(head).as_json()["results"]
     assert results["yarn_drawn"] == pytest.approx(billed, rel=1e-12)
     assert results["yarn_in_knot"] == pytest.approx(billed - 0.004, rel=1e-12)
     assert results["cut_waste"] == pytest.approx(0.004, rel=1e-9)
 
 
 def test_short_yarn_of_a_fine_carpet_is_drawn_longer_and_told() -> None:
-    made = report(design(WeaverParams(knot_pitch=0.0005, pile_height=0.003)))
+    made = MACHINE.report(design(WeaverParams(knot_pitch=0.0005, pile_height=0.003)))
     results = made.as_json()["results"]
     assert results["yarn_drawn"] > results["yarn_billed"] + 0.005
     assert made.failed == ()
@@ -59,18 +59,18 @@ def test_short_yarn_of_a_fine_carpet_is_drawn_longer_and_told() -> None:
 def test_a_bill_that_is_given_is_drawn_or_more_where_the_grippers_need_it() -> None:
     long, short = design(WeaverParams(knot_yarn=0.045)), design(WeaverParams(knot_yarn=0.030))
     assert long.drawn == 0.045
-    assert report(long).warnings == ()
+    assert MACHINE.report(long).warnings == ()
     assert short.drawn > 0.033
-    assert "more yarn than the bill's" in report(short).warnings[0]
+    assert "more yarn than the bill's" in MACHINE.report(short).warnings[0]
 
 
 def test_yarn_too_short_for_a_turn_that_is_given_fails() -> None:
-    failed = [check.name for check in report(design(WeaverParams(crossing_turn=math.pi))).failed]
+    failed = [check.name for check in MACHINE.report(design(WeaverParams(crossing_turn=math.pi))).failed]
     assert failed == ["yarn needed between the grippers"]
 
 
 def test_no_asymmetric_knot_and_why() -> None:
-    made = report(design(WeaverParams(knot="asymmetric")))
+    made = MACHINE.report(design(WeaverParams(knot="asymmetric")))
     assert [check.name for check in made.failed] == ["asymmetric knot tied"]
     assert "both come out between them" in made.warnings[0]
     assert made.as_json()["results"]["knot_tied"] == "symmetric"
@@ -115,11 +115,11 @@ def test_dimensions_that_do_not_tie_say_why(settings: dict[str, float], why: str
     made = design(WeaverParams(**settings))
     assert made.knot_tied is None
     assert why in made.tied.words
-    assert "symmetric knot tied" in [check.name for check in report(made).failed]
+    assert "symmetric knot tied" in [check.name for check in MACHINE.report(made).failed]
 
 
 def test_the_pair_must_leave_the_centre_gripper_room() -> None:
-    with pytest.raises(ParameterError, match="leaves the centre gripper no way"):
+    with pytest.raises(ParameterError, match="leaves the centre gripper no path"):
         WeaverParams(pair_opened=0.003)
 
 

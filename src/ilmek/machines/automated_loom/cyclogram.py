@@ -19,8 +19,8 @@ from ilmek.machines.automated_loom.beating import Beat
 from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.warp_tension.design import TAKE_UP_LAW
 from ilmek.machines.weaver import Weaver
-from ilmek.machines.weaver.cyclogram import CENTRE_MOTION, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.cyclogram import relations as head_relations
+from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.moves import carriage
 from ilmek.report import CamTable
 from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, Track, TrackEvent, TrackSegment, Zone, riding

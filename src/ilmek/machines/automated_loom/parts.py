@@ -190,14 +190,15 @@ def _crank_rockers(loom: LoomDesign) -> tuple[LoomPart, ...]:
 
 def _heads(loom: LoomDesign) -> tuple[LoomPart, ...]:
     head, wide = loom.weaver, frame_width(loom.params)
-    limits, geared, torque = head.params, head.drive.reducer, head.drive.torque_max
+    limits, servo, torque = head.params, head.drive.servo, head.drive.torque_max
+    motor = servo.motor if servo else None
     thrust = loom.head_mass * limits.carriage_acceleration
     selected = limits.tubes * limits.tube_mass * limits.selector_acceleration
     return (
         LoomPart("knotting head", loom.heads, "cams, tools, tubes, motors", "", "head mechanism", loom.head_mass),
         LoomPart("yarn tube", loom.heads * limits.tubes, "one for each colour, weighed with the head", "", "yarn tube"),
-        *_with_the_head(_motor("motor of a head", loom.heads, head.drive.motor, torque, head.cyclogram.speed)),
-        *((_reducer("reducer of a head", loom.heads, geared.ratio, head.drive.motor),) if geared else ()),
+        *_with_the_head(_motor("motor of a head", loom.heads, motor, torque, head.cyclogram.speed)),
+        *((_reducer("reducer of a head", loom.heads, servo.reducer.ratio, motor),) if servo else ()),
         LoomPart("rail of the heads", 1, "with a belt for each head", "", "linear axis", length=wide),
         *_axis("motor of a carriage", loom.heads, thrust, limits.carriage_speed),
         *_with_the_head(_axis("motor of the colours", loom.heads, selected, limits.selector_speed)),

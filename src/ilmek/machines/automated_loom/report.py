@@ -58,7 +58,7 @@ def parts_of(loom: LoomDesign) -> tuple[Report, ...]:
     """The reports of the machines in the loom: head, its arms where they can tie, what beats, shedding, tension."""
     arms = arms_of(loom.params).report
     return (
-        _without(weaver.report(loom.weaver), "knot", "weaver-moving", "acceleration"),
+        weaver.MACHINE.report(loom.weaver, in_a_loom=True),
         *(() if arms is None else (arms,)),
         *(() if loom.beat_up is None else (beat_up.MACHINE.report(loom.beat_up, in_a_loom=True),)),
         *(() if loom.hammer is None else (hammer.MACHINE.report(loom.hammer),)),

@@ -8,12 +8,14 @@ from dataclasses import replace
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
+from ilmek.machines.weaver.cam_report import cam_tables, plates
 from ilmek.machines.weaver.cyclogram import relations
 from ilmek.machines.weaver.design import Weaver, design
-from ilmek.machines.weaver.limits import mass_of
+from ilmek.machines.weaver.in_loom import params_for, parts, work
+from ilmek.machines.weaver.limits import head_mass, mass_of
 from ilmek.machines.weaver.moves import step_time, travel_time
 from ilmek.machines.weaver.params import WeaverParams
-from ilmek.machines.weaver.report import report, timing
+from ilmek.machines.weaver.report import WeaverAnalysis, analyse, checks, figures, tables, warnings
 from ilmek.timing.cyclogram import Cyclogram
 
 __all__ = [
@@ -22,16 +24,15 @@ __all__ = [
     "WeaverParams",
     "cyclograms",
     "design",
+    "head_mass",
     "mass_of",
-    "report",
     "step_time",
-    "timing",
     "travel_time",
 ]
 
 
 def cyclograms(weaver: Weaver) -> tuple[Cyclogram, ...]:
-    """The head's cyclogram with what must come after what."""
+    """The head's cyclogram with the order of its motions."""
     order = (*weaver.cyclogram.relations, *relations(weaver.params.relation_gap))
     return (replace(weaver.cyclogram, relations=tuple(dict.fromkeys(order))),)
 
@@ -42,6 +43,17 @@ MACHINE = Component(
     summary=SUMMARIES["weaver"],
     params=WeaverParams,
     design=design,
-    reporter=report,
+    analysis=analyse,
+    reported=(WeaverAnalysis,),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
+    plates=plates,
+    cam_tables=cam_tables,
     cyclograms=cyclograms,
+    parts=parts,
+    work=work,
+    fit=params_for,
+    own_figures=("knot", "weaver-moving", "acceleration"),
 )

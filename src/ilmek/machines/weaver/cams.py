@@ -1,4 +1,4 @@
-"""The head's cams: a plate cam for every track, as small as the pressure angle lets it be, and what it bears.
+"""The head's cams: a plate cam for every track, as small as the pressure angle allows, its loads, the shaft's drive.
 
 A lever, or for the handler a rack and pinion, stands between a cam's follower and its tool: the follower moves s = x/i,
 and the tool's mass m counts i² m there. The handler turns one way only: its rack drives it forward through a freewheel,
@@ -10,11 +10,13 @@ needs
 and presses with N = F / cos(mu) on the cam, at the torque F s'. The spring is the weakest of those whose force doubles
 over the lift that holds the follower at 1.2 times the speed; a groove needs none. Prime circle and forces are the
 largest of samples every 1/8 degree and at both sides of every joint of the motion.
+
+The torque of the shaft is the sum of F s' of all cams. At constant speed its mean over a turn is the torque of the
+handler's brake. Friction is not included.
 """
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,15 +27,18 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, CamProgramme, CamSegment, FollowerMotion, dwell
 from ilmek.cams.trace import CamTrace
+from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import MATERIALS, hertz_limit
-from ilmek.machines.weaver.cyclogram import HANDLER
+from ilmek.elements.reducers import DIRECT, PLANETARY
+from ilmek.machines.weaver.motions import HANDLER
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.plane.vectors import cross, dot
+from ilmek.records import computed, record, result
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track
 from ilmek.units import mm, turn
 
-SAMPLES = 2881
+SAMPLES, DRIVE_SAMPLES = 2881, 2880
 STEEL, ROLLER = MATERIALS["induction-hardened steel"], MATERIALS["bearing steel"]
 PRESSURE_LIMIT = hertz_limit(STEEL, ROLLER) or 0.0
 MODULUS = contact_modulus(STEEL.modulus, STEEL.poisson, ROLLER.modulus, ROLLER.poisson)
@@ -47,14 +52,18 @@ ROOM = 1.25
 WALL = 5 * mm
 """Least metal between the bore's keyway and the cam's surface."""
 
+_FIT = 1e-9
+_REST = 0.03
+"""Share of the rest of the turn for which the rack stands before and after it goes back."""
 
-@dataclass(frozen=True, slots=True, eq=False)
+
+@record
 class HeadCam:
     """A cam of the head.
 
     name, actuator   of its track               ratio    i: the tool's motion [m, rad] over the follower's [m]
     programme, cam   of the follower            lift     of the follower [m]
-    angle, course, trace  over the turn         mass_moved  at the follower, forward and back [kg]
+    angle, motion, trace  over the turn         mass_moved  at the follower, forward and back [kg]
     rate, preload    of the spring [N/m, N]     brake    on the handler, at its rack [N]
     force, contact   F and N over the turn [N]  pressure Hertz, over the turn [Pa]
     lift_off         speed of the shaft at which the follower would leave the cam [rad/s]
@@ -68,7 +77,7 @@ class HeadCam:
     cam: PlateCam
     lift: float
     angle: FloatArray
-    course: FollowerMotion
+    motion: FollowerMotion
     trace: CamTrace
     mass_moved: tuple[float, float]
     rate: float
@@ -85,12 +94,22 @@ class HeadCam:
     @property
     def torque(self) -> FloatArray:
         """Torque on the cam shaft over the turn [N m]."""
-        return np.asarray(self.force * self.course.ds)
+        return np.asarray(self.force * self.motion.ds)
 
     @property
     def pressure_angle(self) -> float:
         """Largest pressure angle [rad]."""
         return float(np.max(np.abs(self.trace.pressure_angle)))
+
+    @property
+    def contact_max(self) -> float:
+        """Greatest force of the roller on the cam [N]."""
+        return float(self.contact.max())
+
+    @property
+    def pressure_max(self) -> float:
+        """Greatest Hertz pressure [Pa]."""
+        return float(self.pressure.max())
 
     @property
     def convex_radius(self) -> float:
@@ -125,7 +144,7 @@ def cams_for(params: WeaverParams, cyclogram: Cyclogram, handler_radius: float) 
 
 
 def programme_of(track: Track, ratio: float) -> CamProgramme:
-    """The follower's programme over the turn, from its lowest place on; a tool that turns on has its rack go back.
+    """The follower's programme over the turn, from its lowest position on; a tool that turns on has its rack go back.
 
     ratio  the tool's motion over the follower's
     """
@@ -148,11 +167,6 @@ def programme_of(track: Track, ratio: float) -> CamProgramme:
     return CamProgramme((*parts[first:], *parts[:first]), float(start))
 
 
-_FIT = 1e-9
-_REST = 0.03
-"""Share of the rest of the turn for which the rack stands before and after it goes back."""
-
-
 def _still(span: float) -> list[CamSegment]:
     return [dwell(span)] if span > _FIT else []
 
@@ -162,15 +176,15 @@ def _cam_for(params: WeaverParams, track: Track, speed: float, handler_radius: f
     ratio = 1 / params.pinion if turns else params.lever
     programme = programme_of(track, ratio)
     angle = sample_angles(programme, count=SAMPLES)
-    course = programme.at(angle)
-    lift = float(np.max(course.s))
-    cam, trace = _sized(params, programme, angle, course)
+    motion = programme.at(angle)
+    lift = float(np.max(motion.s))
+    cam, trace = _sized(params, programme, angle, motion)
     moved = params.tool_mass * ((handler_radius * ratio) ** 2 if turns else ratio**2)
     masses = (moved, params.tool_mass) if turns else (moved, moved)
-    need = np.where(course.ds >= 0, masses[0], masses[1]) * speed**2 * course.dds
-    brake = float(np.max(masses[0] * speed**2 * np.abs(course.dds[course.ds > 0]), initial=0.0)) if turns else 0.0
-    need = need + brake * (course.ds > 0)
-    weight = 1 + course.s / lift
+    need = np.where(motion.ds >= 0, masses[0], masses[1]) * speed**2 * motion.dds
+    brake = float(np.max(masses[0] * speed**2 * np.abs(motion.dds[motion.ds > 0]), initial=0.0)) if turns else 0.0
+    need = need + brake * (motion.ds > 0)
+    weight = 1 + motion.s / lift
     preload = _preload(params, need * FASTER**2, weight)
     force = need + (preload * weight + params.contact_force if params.closure == "spring" else 0.0)
     contact = np.abs(force) / np.cos(trace.pressure_angle)
@@ -178,41 +192,41 @@ def _cam_for(params: WeaverParams, track: Track, speed: float, handler_radius: f
     pressure = line_contact(contact / width, 1 / params.roller_radius + trace.surface_curvature, MODULUS).pressure
     area, inertia = _sections(trace)
     return HeadCam(
-        track.name,
-        track.actuator,
-        ratio,
-        programme,
-        cam,
-        lift,
-        angle,
-        course,
-        trace,
-        masses,
-        preload / lift,
-        preload,
-        brake,
-        force,
-        contact,
-        pressure,
-        _lift_off(params, need / speed**2, preload * weight + params.contact_force),
-        area,
-        inertia * width * STEEL.density,
-        width,
+        name=track.name,
+        actuator=track.actuator,
+        ratio=ratio,
+        programme=programme,
+        cam=cam,
+        lift=lift,
+        angle=angle,
+        motion=motion,
+        trace=trace,
+        mass_moved=masses,
+        rate=preload / lift,
+        preload=preload,
+        brake=brake,
+        force=force,
+        contact=contact,
+        pressure=pressure,
+        lift_off=_lift_off(params, need / speed**2, preload * weight + params.contact_force),
+        area=area,
+        inertia=inertia * width * STEEL.density,
+        thickness=width,
     )
 
 
 def _sized(
-    params: WeaverParams, programme: CamProgramme, angle: FloatArray, course: FollowerMotion
+    params: WeaverParams, programme: CamProgramme, angle: FloatArray, motion: FollowerMotion
 ) -> tuple[PlateCam, CamTrace]:
     """The cam on the least whole millimetre of prime radius that keeps pressure angle, bore and roller."""
     slope = math.tan(params.pressure_angle_limit)
     hub = 0.7 * params.shaft + WALL + params.roller_radius
-    least = max(float(np.max(np.abs(course.ds) / slope - course.s)), hub)
+    least = max(float(np.max(np.abs(motion.ds) / slope - motion.s)), hub)
     cam = PlateCam(programme, math.ceil(least / mm - _FIT) * mm, 0.0, params.roller_radius)
-    trace = cam.trace_of(angle, course)
+    trace = cam.trace_of(angle, motion)
     while _convex_radius(trace) < ROOM * params.roller_radius:
         cam = cam.resized(cam.prime_radius + max(1.0, math.floor(0.05 * cam.prime_radius / mm)) * mm)
-        trace = cam.trace_of(angle, course)
+        trace = cam.trace_of(angle, motion)
     return cam, trace
 
 
@@ -226,12 +240,12 @@ def _preload(params: WeaverParams, need: FloatArray, weight: FloatArray) -> floa
     return max(0.0, float(np.max(-need / weight))) if params.closure == "spring" else 0.0
 
 
-def _lift_off(params: WeaverParams, need: FloatArray, held: FloatArray) -> float:
-    """Speed of the shaft [rad/s] at which the follower leaves the cam: 1 / w² = sup -need / held."""
+def _lift_off(params: WeaverParams, need: FloatArray, hold: FloatArray) -> float:
+    """Speed of the shaft [rad/s] at which the follower leaves the cam: 1 / w² = sup -need / hold."""
     if params.closure != "spring":
         return math.inf
-    asked = float(np.max(-need / np.maximum(held, _FIT)))
-    return 1 / math.sqrt(asked) if asked > 0 else math.inf
+    greatest = float(np.max(-need / np.maximum(hold, _FIT)))
+    return 1 / math.sqrt(greatest) if greatest > 0 else math.inf
 
 
 def _sections(trace: CamTrace) -> tuple[float, float]:
@@ -255,3 +269,46 @@ def torque_at(cams: Sequence[HeadCam], angle: FloatArray) -> FloatArray:
     for cam in cams:
         total += np.interp(angle, cam.angle, cam.torque, period=TURN)
     return total
+
+
+@record
+class CamShaftDrive:
+    """The cam shaft's drive: `servo` of least power whose motor bears the turn; None where none does."""
+
+    torque_max: float = result("Nm", "greatest torque of all cams on their shaft", name="cam_torque_max")
+    torque_rms: float = result("Nm", "root mean square of the same", name="cam_torque_rms")
+    power_max: float = result("W", "greatest power of the same, in both directions", name="cam_power_max")
+    power_mean: float = result("W", "mean power, of the handler's brake", name="cam_power_mean")
+    inertia: float = result("kg*m^2", "moment of inertia of the cams", name="cam_inertia")
+    servo: ServoDrive | None
+
+    motor = computed("", "class of motor of the cam shaft", lambda it: it.servo and it.servo.motor.name)
+    ratio = computed("1", "ratio of its reducer", lambda it: it.servo and it.servo.reducer.ratio)
+    motor_torque_peak = computed("Nm", "greatest torque of the motor", lambda it: it.servo and it.servo.duty.peak)
+    motor_torque_rms = computed("Nm", "root mean square of the same", lambda it: it.servo and it.servo.duty.rms)
+    motor_inertia_ratio = computed(
+        "1", "inertia of the cams at the motor over its rotor's", lambda it: it.servo and it.servo.duty.inertia_ratio
+    )
+
+
+def drive_for(cams: Sequence[HeadCam], speed: float) -> CamShaftDrive:
+    """The drive of a cam shaft with these cams at a speed [rad/s]."""
+    angle = np.arange(DRIVE_SAMPLES) * (turn / DRIVE_SAMPLES)
+    torque = torque_at(cams, angle)
+    most, inertia = float(np.max(np.abs(torque))), sum(cam.inertia for cam in cams)
+    cycle = LoadCycle(np.full(DRIVE_SAMPLES, speed), np.zeros(DRIVE_SAMPLES), torque, inertia)
+    return CamShaftDrive(
+        torque_max=most,
+        torque_rms=math.sqrt(float(np.mean(torque**2))),
+        power_max=most * speed,
+        power_mean=float(np.mean(torque)) * speed,
+        inertia=inertia,
+        servo=_smallest(cycle),
+    )
+
+
+def _smallest(cycle: LoadCycle) -> ServoDrive | None:
+    """The motor of least power, with the least ratio at which it bears the cycle."""
+    ratios = sorted((DIRECT, *PLANETARY), key=lambda reducer: reducer.ratio)
+    found = [size_motor(cycle, (reducer,)) for reducer in ratios]
+    return min((one for one in found if one), key=lambda one: one.motor.power, default=None)

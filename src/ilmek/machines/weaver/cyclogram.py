@@ -1,90 +1,98 @@
-"""The cyclogram of the knotting head: five cams on one shaft that turns once for each knot.
+"""The cyclogram of the knotting head: five cams on one shaft that turns once for each knot, and a geared one.
 
-The order is the thesis' (section 2.2.3, Figure 2.11); its figure has no angles in the text, so these are ours. The turn
-is in four steps; within a step the motions have fixed shares of it, so that moving a step's end keeps the order.
-
-    1 prepare    the handler goes to the tube, grasps the pile, draws it, has it cut, presents it; side grippers close
-    2 open       side grippers pull back; the handler turns home; they go forward, the opener parts the warps
-    3 knot       side grippers go on along the screw, linear and turning, until the pile crosses; the centre gripper
-                 comes, closes; side grippers open
-    4 press      side grippers turn back; the centre gripper draws the ends out between the warps; side grippers and
-                 opener return; the sley pushes the knot down; the centre gripper opens; the sley returns
-
-The thesis lets the centre gripper go "finally", and does not say when it goes back. It must go back before: ends that
-it lets go behind the warps stay there, and no knot is tied.
+The order is the thesis' (section 2.2.3, Figure 2.11). The angles follow from the steps of the turn (`motions`), or from
+the optimum that `timing.solver` finds: the shortest cycle that the tools' limits allow; where that is shorter than the
+required one, the cyclogram of the required one whose largest acceleration, over its limit, is least.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import replace
 
 from ilmek.cams.laws import LAWS
+from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, SIDE_GRASP, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Track, TrackEvent, TrackSegment, riding
-from ilmek.timing.track import MotionLaw
-from ilmek.units import deg
+from ilmek.timing.solver import least_acceleration, least_period
+from ilmek.timing.track import ActuatorLimits
+from ilmek.units import deg, turn
 
-SIDE_GRASP, SIDE_MOTION = "side-gripper grasp", "side-gripper motion"
-CENTRE_GRASP, CENTRE_MOTION = "centre-gripper grasp", "centre-gripper motion"
-HANDLER, SLEY = "pile handler", "sley"
 SOURCE = "thesis, 2.2.3: order of the knotting sequence"
 
 TUBE_TURN, DRAW_TURN, PRESENT_TURN = 90 * deg, 110 * deg, 70 * deg
-"""What the handler turns to the tube, drawing the pile, and to the side grippers; the rest of a turn brings it home."""
+"""Rotations of the handler to the tube, drawing the pile, and to the side grippers; it turns on to come home."""
+
+_ITERATIONS, _SAME = 20, 1e-9
 
 
-@dataclass(frozen=True, slots=True)
-class Strokes:
-    """Strokes of the tracks [m]: jaws of the grippers, side grippers back, forward through the warps and along the
-    screw, centre gripper, sley; and the law of all motions by name.
+def cyclogram(params: WeaverParams, crossing: float) -> Cyclogram:
+    """The head's cyclogram at the required cycle; positions [m], of the handler [rad].
+
+    crossing  travel of the side grippers along the screw [m]
     """
-
-    jaw: float
-    back: float
-    opening: float
-    crossing: float
-    centre: float
-    sley: float
-    law: str
-
-
-@dataclass(frozen=True, slots=True)
-class CycleSteps:
-    """Master angles at which the four steps of the turn end [rad]; the rest of the turn is a dwell of all."""
-
-    prepare: float
-    open: float
-    knot: float
-    press: float
-
-    def angle(self, step: int, share: float) -> float:
-        """The master angle at a share of a step, 1 to 4."""
-        ends = (0.0, self.prepare, self.open, self.knot, self.press)
-        return ends[step - 1] + share * (ends[step] - ends[step - 1])
-
-    def motion(
-        self, name: str, step: int, shares: tuple[float, float], path: tuple[float, float], law: str
-    ) -> TrackSegment:
-        """A motion between two shares of a step, from path[0] to path[1]."""
-        return TrackSegment(name, self.angle(step, shares[0]), self.angle(step, shares[1]), *path, _law(law))
-
-
-def cyclogram(steps: CycleSteps, strokes: Strokes, period: float) -> Cyclogram:
-    """The head's cyclogram at a period of the cam shaft [s]; positions [m], of the handler [rad].
-
-    Raises ParameterError where a step is left no angle.
-    """
+    jaw, back, centre, sley = params.jaw, params.pull_back, params.centre_stroke, params.sley_stroke
+    opened, far = params.opening, params.opening + crossing
+    drawn, shown = TUBE_TURN + DRAW_TURN, TUBE_TURN + DRAW_TURN + PRESENT_TURN
     tracks = (
-        _side_grasp(steps, strokes),
-        _side_motion(steps, strokes),
-        _centre_grasp(steps, strokes),
-        _centre_motion(steps, strokes),
-        _handler(steps, strokes),
-        _sley(steps, strokes),
+        _track(
+            params,
+            Track(SIDE_GRASP, "cam 1", ()),
+            {"close": (0.0, jaw), "open": (jaw, 0.0)},
+            {"pile held": "close", "pile released": "open"},
+        ),
+        # The warp opener sits on the side grippers; from the opened warps on the screw turns them.
+        _track(
+            params,
+            Track(SIDE_MOTION, "cam 2", ()),
+            {
+                "pull back": (0.0, -back),
+                "open warps": (-back, opened),
+                "cross": (opened, far),
+                "turn back": (far, opened),
+                "return": (opened, 0.0),
+            },
+            {"warps open": "open warps", "pile crossed": "cross"},
+        ),
+        _track(
+            params,
+            Track(CENTRE_GRASP, "cam 3", ()),
+            {"close": (0.0, jaw), "open": (jaw, 0.0)},
+            {"knot held": "close", "knot released": "open"},
+        ),
+        _track(
+            params,
+            Track(CENTRE_MOTION, "cam 4", ()),
+            {"forward": (0.0, centre), "return": (centre, 0.0)},
+            {"ends drawn out": "return"},
+        ),
+        _track(
+            params,
+            Track(HANDLER, "cam 5", (), unit="deg", revolves=turn),
+            {
+                "to tube": (0.0, TUBE_TURN),
+                "draw": (TUBE_TURN, drawn),
+                "present": (drawn, shown),
+                "home": (shown, 2 * math.pi),
+            },
+            {"grasp": "", "cut": ""},
+        ),
+        _track(params, Track(SLEY, "gear", ()), {"down": (0.0, sley), "up": (sley, 0.0)}, {"knot down": "down"}),
     )
-    return Cyclogram("knot", period, tracks)
+    return Cyclogram("knot", params.cycle, tracks)
+
+
+def _track(
+    params: WeaverParams, track: Track, positions: Mapping[str, tuple[float, float]], events: Mapping[str, str]
+) -> Track:
+    """A track with its motions from position to position, and its events at the end of a motion, or by themselves."""
+    at, law = params.motions(track.name), LAWS[params.law]
+    parts = {name: TrackSegment(name, *at[name], *ends, law) for name, ends in positions.items()}
+    found = (riding(name, parts[on]) if on else TrackEvent(name, at[name][0]) for name, on in events.items())
+    return replace(track, segments=tuple(parts.values()), events=tuple(found))
 
 
 def relations(gap: float, cut: float = 0.0) -> tuple[Relation, ...]:
-    """What must come after what, by at least `gap` [rad of the cam shaft]; the cutter needs the angle `cut`."""
+    """The order of the motions, each at least `gap` after the other; the cutter needs the angle `cut` [rad]."""
     blade = Relation(Moment(HANDLER, "present", "start"), Moment(HANDLER, "draw", "end"), max(gap, cut), "the cutter")
     order = (
         (Moment(HANDLER, "grasp", "event"), Moment(HANDLER, "to tube", "end")),
@@ -108,64 +116,29 @@ def relations(gap: float, cut: float = 0.0) -> tuple[Relation, ...]:
     return (*(Relation(then, first, gap, SOURCE) for then, first in order), blade)
 
 
-def _law(name: str) -> MotionLaw:
-    return LAWS[name]
+def optimised(required: Cyclogram, limits: Mapping[str, ActuatorLimits], gap: float, cutting: float) -> Cyclogram:
+    """The cyclogram with the same motions at better cam angles, at its period, or at the shortest that is possible.
+
+    limits  of each track      gap  of motions in sequence [rad]      cutting  time that the cutter needs [s]
+    """
+    tracks = tuple(replace(track, limits=limits[track.name]) for track in required.tracks)
+    limited = replace(required, tracks=tracks)
+    shortest = _shortest(limited, gap, cutting)
+    if shortest.period >= required.period:
+        return replace(shortest, period=shortest.period * (1 + _SAME))
+    return least_acceleration(_ordered(limited, gap, cutting, required.period)).cyclogram
 
 
-def _side_grasp(steps: CycleSteps, by: Strokes) -> Track:
-    parts = (
-        steps.motion("close", 1, (0.905, 1.0), (0.0, by.jaw), by.law),
-        steps.motion("open", 3, (0.85, 0.985), (by.jaw, 0.0), by.law),
-    )
-    events = (riding("pile held", parts[0]), riding("pile released", parts[1]))
-    return Track(SIDE_GRASP, "cam 1", parts, events)
+def _shortest(limited: Cyclogram, gap: float, cutting: float) -> Cyclogram:
+    """The shortest cycle in which the cutter has its time; its angle follows the cycle, so it is found by iteration."""
+    found = least_period(_ordered(limited, gap, 0.0, 1.0)).cyclogram
+    for _ in range(_ITERATIONS):
+        then = least_period(_ordered(limited, gap, cutting, found.period)).cyclogram
+        if abs(then.period - found.period) <= _SAME * found.period:
+            break
+        found = then
+    return then
 
 
-def _side_motion(steps: CycleSteps, by: Strokes) -> Track:
-    """With the warp opener on it, and from the opened warps on the screw that turns the grippers."""
-    far = by.opening + by.crossing
-    parts = (
-        steps.motion("pull back", 2, (0.02, 0.215), (0.0, -by.back), by.law),
-        steps.motion("open warps", 2, (0.62, 1.0), (-by.back, by.opening), by.law),
-        steps.motion("cross", 3, (0.0, 0.26), (by.opening, far), by.law),
-        steps.motion("turn back", 4, (0.015, 0.24), (far, by.opening), by.law),
-        steps.motion("return", 4, (0.35, 0.64), (by.opening, 0.0), by.law),
-    )
-    return Track(SIDE_MOTION, "cam 2", parts, (riding("warps open", parts[1]), riding("pile crossed", parts[2])))
-
-
-def _centre_grasp(steps: CycleSteps, by: Strokes) -> Track:
-    parts = (
-        steps.motion("close", 3, (0.695, 0.83), (0.0, by.jaw), by.law),
-        steps.motion("open", 4, (0.685, 0.80), (by.jaw, 0.0), by.law),
-    )
-    events = (riding("knot held", parts[0]), riding("knot released", parts[1]))
-    return Track(CENTRE_GRASP, "cam 3", parts, events)
-
-
-def _centre_motion(steps: CycleSteps, by: Strokes) -> Track:
-    parts = (
-        steps.motion("forward", 3, (0.275, 0.68), (0.0, by.centre), by.law),
-        steps.motion("return", 4, (0.015, 0.335), (by.centre, 0.0), by.law),
-    )
-    return Track(CENTRE_MOTION, "cam 4", parts, (riding("ends drawn out", parts[1]),))
-
-
-def _handler(steps: CycleSteps, by: Strokes) -> Track:
-    drawn, shown = TUBE_TURN + DRAW_TURN, TUBE_TURN + DRAW_TURN + PRESENT_TURN
-    parts = (
-        steps.motion("to tube", 1, (0.0, 0.27), (0.0, TUBE_TURN), by.law),
-        steps.motion("draw", 1, (0.30, 0.60), (TUBE_TURN, drawn), by.law),
-        steps.motion("present", 1, (0.65, 0.89), (drawn, shown), by.law),
-        steps.motion("home", 2, (0.23, 0.605), (shown, 2 * math.pi), by.law),
-    )
-    events = (TrackEvent("grasp", steps.angle(1, 0.285)), TrackEvent("cut", steps.angle(1, 0.62)))
-    return Track(HANDLER, "cam 5", parts, events, unit="deg", revolves=2 * math.pi)
-
-
-def _sley(steps: CycleSteps, by: Strokes) -> Track:
-    parts = (
-        steps.motion("down", 4, (0.35, 0.67), (0.0, by.sley), by.law),
-        steps.motion("up", 4, (0.685, 1.0), (by.sley, 0.0), by.law),
-    )
-    return Track(SLEY, "gear", parts, (riding("knot down", parts[0]),))
+def _ordered(limited: Cyclogram, gap: float, cutting: float, period: float) -> Cyclogram:
+    return replace(limited, relations=relations(gap, cutting / period * turn))

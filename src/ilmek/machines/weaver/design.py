@@ -4,22 +4,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ilmek.machines.weaver import moves
-from ilmek.machines.weaver.cams import HeadCam, cams_for
-from ilmek.machines.weaver.cyclogram import (
-    CENTRE_MOTION,
-    DRAW_TURN,
-    HANDLER,
-    SIDE_MOTION,
-    SLEY,
-    CycleSteps,
-    Strokes,
-)
+from ilmek.machines.weaver.cams import CamShaftDrive, HeadCam, cams_for, drive_for
+from ilmek.machines.weaver.cyclogram import DRAW_TURN, optimised
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
-from ilmek.machines.weaver.drive import CamShaftDrive, drive_for
 from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
-from ilmek.machines.weaver.knot import on_the_pair, tied_by
-from ilmek.machines.weaver.optimised import optimised
+from ilmek.machines.weaver.knot import on_the_pair, proof_text, tied_by
+from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.records import computed, record, result
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import ActuatorLimits, Track, peak_acceleration, peak_speed, shortest_period
 from ilmek.units import turn
@@ -41,115 +33,108 @@ class TrackPeaks:
     shortest: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Weaver:
     """A designed knotting head.
 
-    cyclogram        at the cycle it keeps            peaks  by track, in order of the cyclogram
-    cycle            the time of a knot [s]: what was asked for, or the shortest that the limits allow
-    drawn            pile yarn drawn for a knot [m]     handler_radius  of the handler's tip [m], such that it draws it
-    grippers         in plan view                       tied  the knot that their motions tie, proved
-    carriage_step    time of a step to the next knot [s]      carriage_window  time in which no gripper is in the warps
-    travel           time of each further pitch [s]           colour_change    mean time to bring another tube in line
-    cams             one for each track                 drive  of the cam shaft
+    cyclogram  at its cycle                   peaks   by track, in order of the cyclogram
+    grippers   in plan view                   tied    the knot that their motions tie, proved
+    cams       one for each track             drive   of the cam shaft
     """
 
     params: WeaverParams
     cyclogram: Cyclogram
     peaks: Mapping[str, TrackPeaks]
-    cycle: float
-    drawn: float
-    handler_radius: float
+    cycle: float = result("s", "time of a knot: as required, or the shortest possible", name="cycle_time_knot")
+    drawn: float = result("mm", "pile yarn drawn for a knot", name="yarn_drawn")
+    handler_radius: float = result("mm", "radius at which the handler draws that yarn")
     grippers: Grippers
     tied: TiedKnot
-    carriage_step: float
-    carriage_window: float
-    travel: float
-    colour_change: float
+    carriage_step: float = result("s", "time of the step to the next knot", name="carriage_step_time")
+    carriage_window: float = result("s", "time in which no tool is in the warps")
+    travel: float = result("s", "time of each further pitch", name="carriage_travel_time")
+    colour_change: float = result("s", "mean time to bring another tube in line", name="colour_change_time")
     cams: tuple[HeadCam, ...]
     drive: CamShaftDrive
 
-    @property
-    def colour_change_longest(self) -> float:
-        """Time to bring the last tube in line after the first [s]; none for a single tube."""
-        return moves.colour_change_longest(self.params)
+    shortest = computed(
+        "s",
+        "the shortest that speeds and accelerations allow",
+        lambda it: it.peaks[it.limiting].shortest,
+        name="cycle_time_shortest",
+    )
+    knots_per_minute = computed("", "knots of one head in a minute, without colour changes", lambda it: 60 / it.cycle)
+    cam_speed = computed("rpm", "speed of the cam shaft", lambda it: it.cyclogram.speed)
+    speed_max = computed(
+        "m/s", "largest speed of each track", lambda it: {name: peak.speed for name, peak in it.peaks.items()}
+    )
+    acceleration_max = computed(
+        "m/s^2",
+        "largest acceleration of each track",
+        lambda it: {name: peak.acceleration for name, peak in it.peaks.items()},
+    )
+    knot_tied = computed(
+        "",
+        "the knot that the grippers' motion ties on the pair of warps, proved; null: none",
+        lambda it: on_the_pair(it.tied),
+    )
+    knot_why = computed("", "conclusion of the proof", lambda it: proof_text(it.tied))
+    yarn_billed = computed(
+        "mm", "pile yarn of a knot by the yarn bill, what is shorn off included", lambda it: it.params.billed
+    )
+    yarn_in_knot = computed(
+        "mm",
+        "pile yarn that stays in the carpet for a knot",
+        lambda it: it.params.billed - 2 * it.params.cut_waste,
+    )
+    cut_waste = computed("mm", "pile yarn cut off for a knot", lambda it: it.drawn - it.yarn_in_knot)
+    colour_change_longest = computed(
+        "s", "time from the first tube to the last", lambda it: moves.colour_change_longest(it.params)
+    )
 
-    @property
+    @computed("", "the track that sets the shortest cycle", name="cycle_time_set_by")
+    def limiting(self) -> str:
+        return max(self.peaks, key=lambda name: self.peaks[name].shortest)
+
+    @computed("s", "from cut to next grasp: a selector that knows the next colour could move in it; not used")
     def selector_window(self) -> float:
-        """Time from the cut of a pile to the grasp of the next [s], in which the selector could go ahead."""
         events = {event.name: event.angle for event in self.cyclogram.track(HANDLER).events}
         return (turn - events["cut"] + events["grasp"]) / self.cyclogram.speed
 
-    @property
-    def limiting(self) -> str:
-        """The track that sets the shortest cycle."""
-        return max(self.peaks, key=lambda name: self.peaks[name].shortest)
-
-    @property
-    def shortest(self) -> float:
-        """The shortest cycle that all limits allow [s]."""
-        return self.peaks[self.limiting].shortest
-
-    @property
-    def screw_lead(self) -> float:
-        """Advance of the side grippers' screw per turn [m]."""
-        return self.grippers.crossing * turn / self.grippers.turn
-
-    @property
-    def in_knot(self) -> float:
-        """Pile yarn that stays in the carpet for a knot [m]: the bill's less what is shorn off both ends."""
-        return self.params.billed - 2 * self.params.cut_waste
-
-    @property
-    def knot_tied(self) -> str | None:
-        """Kind of the knot that is tied on the pair of warps; None where none is."""
-        return on_the_pair(self.tied)
-
 
 def design(params: WeaverParams) -> Weaver:
-    """The head that ties a knot in the time asked for, or in the shortest that speeds and accelerations allow."""
-    steps = CycleSteps(params.prepare_end, params.open_end, params.knot_end, params.press_end)
+    """The head that ties a knot in the required time, or in the shortest that speeds and accelerations allow."""
     drawn = max(params.billed, yarn_needed(params))
     radius, grippers = drawn / DRAW_TURN, grippers_for(params, drawn)
-    strokes = Strokes(
-        params.jaw,
-        params.pull_back,
-        params.opening,
-        grippers.crossing,
-        params.centre_stroke,
-        params.sley_stroke,
-        params.law,
-    )
-    kept = _kept(params, knot_cyclogram(steps, strokes, params.cycle), radius)
-    cycle = kept.period
-    cams = cams_for(params, kept, radius)
+    cycle = _within_limits(params, knot_cyclogram(params, grippers.crossing), radius)
+    window, cams = carriage_window(cycle), cams_for(params, cycle, radius)
     return Weaver(
-        params,
-        kept,
-        {track.name: _peaks(track, cycle, radius, params) for track in kept.tracks},
-        cycle,
-        drawn,
-        radius,
-        grippers,
-        tied_by(kept, grippers, params.jaw),
-        moves.step_time(params),
-        carriage_window(kept),
-        moves.travel_time(params, carriage_window(kept)),
-        moves.colour_change_time(params),
-        cams,
-        drive_for(cams, kept.speed),
+        params=params,
+        cyclogram=cycle,
+        peaks={track.name: _peaks(track, cycle.period, radius, params) for track in cycle.tracks},
+        cycle=cycle.period,
+        drawn=drawn,
+        handler_radius=radius,
+        grippers=grippers,
+        tied=tied_by(cycle, grippers, params.jaw),
+        carriage_step=moves.step_time(params),
+        carriage_window=window,
+        travel=moves.travel_time(params, window),
+        colour_change=moves.colour_change_time(params),
+        cams=cams,
+        drive=drive_for(cams, cycle.speed),
     )
 
 
-def _kept(params: WeaverParams, asked: Cyclogram, radius: float) -> Cyclogram:
-    """The cyclogram at the cycle asked for, or at the shortest that the limits allow."""
+def _within_limits(params: WeaverParams, required: Cyclogram, radius: float) -> Cyclogram:
+    """The cyclogram at the required cycle, or at the shortest that the limits allow."""
     if params.optimise:
-        speed, pull = params.speed_limit, params.acceleration_limit
-        arms = {track.name: radius if track.name == HANDLER else 1.0 for track in asked.tracks}
-        limits = {name: ActuatorLimits(speed / arm, pull / arm) for name, arm in arms.items()}
-        return optimised(asked, limits, params.relation_gap, params.cutting_time)
-    shortest = max(_peaks(track, asked.period, radius, params).shortest for track in asked.tracks)
-    return replace(asked, period=max(asked.period, shortest))
+        speed, acceleration = params.speed_limit, params.acceleration_limit
+        arms = {track.name: radius if track.name == HANDLER else 1.0 for track in required.tracks}
+        limits = {name: ActuatorLimits(speed / arm, acceleration / arm) for name, arm in arms.items()}
+        return optimised(required, limits, params.relation_gap, params.cutting_time)
+    shortest = max(_peaks(track, required.period, radius, params).shortest for track in required.tracks)
+    return replace(required, period=max(required.period, shortest))
 
 
 def carriage_window(cyclogram: Cyclogram) -> float:

@@ -1,70 +1,88 @@
-"""The side grippers and the centre gripper in plan view: where their tips are, what room they have, what yarn it takes.
+"""The side grippers and the centre gripper in plan view: positions of their tips, their clearances, the yarn they need.
 
 The section across the warps: x along the row, 0 in the middle of the pair, y towards the pile and the weaver. The pair
-stands g apart in the opener's slots; all other warps are pushed aside by it. A side gripper is a rod along y with an
-arm across it, of length rho, at whose end the yarn is held. The rods stand at -+a, beside the pair,
+stands g apart in the opener's slots, which push all other warps aside. A side gripper is a rod along y with an arm
+across it, of length rho, at whose end the yarn is held. The rods stand at -+a, beside the pair,
 
     a = g/2 + D/2 + t/2 + e             D warp's diameter, t thickness of rod and arm, e clearance
 
-and the cam's way p beyond the opened warps goes through a screw guide: linear and turning, tau = turn p / crossing. The
-left tip (the right one is its mirror image) is at
+and the cam's travel p beyond the opened warps goes through a screw guide: linear and turning, tau = turn p / crossing.
+The left tip (the right one is its mirror image) is at
 
     x = -(a + rho cos tau),     y = y0 - p,     z = -+h/2 + rho sin tau,     y0 = D/2 + t/2 + e
 
 so it goes round its warp from outside. h = t + e keeps the two arms one above the other where the ends cross; both turn
-the same way up, so that the knot comes about at the height of the centre gripper. At the beginning the yarn lies
-straight between the tips, sqrt(4 (a + rho)² + h²): that is the yarn drawn less its two tails, and sets rho. At the end
-the tips are c past the middle: cos turn = -(a + c)/rho. There each end of the yarn comes from behind its warp, from
--g/2 - i r, r = (D + d)/2, d the yarn's diameter, and crosses the middle at the depth r + k (Y - r), k = g / (g + 2 c),
-Y = -y. The centre gripper reaches d/2 beyond that, and keeps e from the arms, if
+the same way up, so that the knot forms at the height of the centre gripper. At the beginning the yarn lies straight
+between the tips, sqrt(4 (a + rho)² + h²): the yarn drawn less its two tails, which gives rho. At the end the tips are c
+past the middle: cos turn = -(a + c)/rho. There each end of the yarn comes from behind its warp, from -g/2 - i r,
+r = (D + d)/2, d the yarn's diameter, and crosses the middle at the depth r + k (Y - r), k = g / (g + 2 c), Y = -y. The
+centre gripper reaches d/2 beyond that, and keeps e from the arms, if
 
     Y = r + (t/2 + e + d/2) / (1 - k),     crossing = y0 + Y
 
-On the way the taut yarn about both warps needs, from each tip P at
-the distance q of its warp's axis,
+Meanwhile the taut yarn about both warps needs, from each tip P at the distance q of its warp's axis,
 
     l = sqrt(q² - r²),   alpha = arg P - atan(l/r) - 90°,      in all g + r (alpha + alpha') + l + l'
 
-[thesis 2.2.3, Figures 2.13 to 2.15: the arrangement; the formulas are ours]
+[thesis 2.2.3, Figures 2.13 to 2.15: the arrangement; the formulas are this project's]
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.machines.weaver.params import WeaverParams
-from ilmek.units import um
+from ilmek.records import computed, record, result
+from ilmek.units import turn, um
 
 SAMPLES = 401
 
-LEAST_YARN = 1 * um
-"""Yarn that is not worth telling."""
+YARN_TOLERANCE = 1 * um
+"""Tolerance of lengths of yarn."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Grippers:
     """The grippers' dimensions [m, rad].
 
-    pair     g, of the two warps opened     warp, yarn  diameters       finger  t        clearance  e
-    axis     a, of a side gripper's rod from the middle                 arm     rho, from the rod to the yarn
-    opening  the cam's way that opens the warps                         crossing, turn   of the screw beyond it
-    depth    of the centre gripper's tip behind the warps' axes         stroke  of the centre gripper
+    warp, yarn  diameters       finger  t, of rods and arms      clearance  e      opening  travel that opens the warps
+    stroke      of the centre gripper
     """
 
-    pair: float
+    pair: float = result("mm", "distance of the pair of warps in the opener's slots", name="pair_opened")
     warp: float
     yarn: float
     finger: float
     clearance: float
-    axis: float
-    arm: float
+    axis: float = result("mm", "a side gripper's rod from the middle of the pair", name="gripper_axis")
+    arm: float = result("mm", "a side gripper's arm, from its rod to the yarn", name="gripper_arm")
     opening: float
-    crossing: float
-    turn: float
-    depth: float
+    crossing: float = result("mm", "travel of the side grippers along the screw")
+    turn: float = result("deg", "rotation of them by the screw", name="crossing_turn")
+    depth: float = result("mm", "centre gripper's tip behind the warps", name="centre_depth")
     stroke: float
+
+    yarn_held = computed("mm", "yarn between the side grippers", lambda it: it.apart)
+    screw_lead = computed(
+        "mm", "advance of the side grippers' screw for a turn", lambda it: it.crossing * turn / it.turn
+    )
+    opener_width = computed(
+        "mm", "width within which the opener holds all other warps away", lambda it: 2 * abs(it.warps[-1].real)
+    )
+
+    @computed("mm", "most yarn needed between the side grippers on their path")
+    def yarn_taut_max(self) -> float:
+        return taut_max(self)
+
+    @computed("mm", "least clearance of a side gripper and its warp; below 0 they overlap")
+    def gripper_clearance(self) -> float:
+        return clearance_min(self)
+
+    @computed("mm", "centre gripper above the side grippers' rods, along the warps", name="centre_height")
+    def height(self) -> float:
+        return self.arm * math.sin(self.turn)
 
     @property
     def front(self) -> float:
@@ -88,17 +106,12 @@ class Grippers:
         return np.array([-aside, -self.pair / 2, self.pair / 2, aside]) + 0j
 
     @property
-    def height(self) -> float:
-        """Height of the centre gripper above the side grippers' rods, along the warps [m]."""
-        return self.arm * math.sin(self.turn)
-
-    @property
     def end(self) -> complex:
-        """The left tip at the end of its way [m]."""
+        """The left tip at the end of its path [m]."""
         return complex(self.tip(np.array(self.opening + self.crossing)))
 
     def turned(self, position: RealField) -> FloatArray:
-        """How far the screw has turned the side grippers [rad] at positions of the cam's way [m]."""
+        """Rotation of the side grippers by the screw [rad] at positions of their cam [m]."""
         return np.asarray(self.turn * np.clip((position - self.opening) / self.crossing, 0.0, 1.0))
 
     def tip(self, position: RealField) -> ComplexArray:
@@ -112,33 +125,33 @@ class Grippers:
 
     @property
     def reach_bound(self) -> float:
-        """Bound of the left tip's way in plan view for each metre of its cam's way."""
+        """Upper bound of the length of the left tip's path in plan view, for each metre of its cam's travel."""
         return math.hypot(1.0, self.arm * self.turn / self.crossing)
 
 
 def grippers_for(params: WeaverParams, drawn: float) -> Grippers:
-    """The grippers for a length of yarn drawn [m]; no turn makes the ends of a short yarn cross: then half a turn."""
+    """The grippers for a length of yarn drawn [m]; where it is too short for the ends to cross, they turn by pi."""
     axis, lift = axis_of(params), params.finger + params.clearance
     arm = max(math.sqrt(max((drawn - 2 * params.tail) ** 2 - lift**2, 0.0)) / 2 - axis, 0.0)
     loose = Grippers(
-        params.pair,
-        params.warp,
-        params.yarn,
-        params.finger,
-        params.clearance,
-        axis,
-        arm,
-        params.opening,
-        params.crossing or crossing_of(params),
-        params.crossing_turn or _turn(arm, axis + params.overlap),
-        0.0,
-        params.centre_stroke,
+        pair=params.pair,
+        warp=params.warp,
+        yarn=params.yarn,
+        finger=params.finger,
+        clearance=params.clearance,
+        axis=axis,
+        arm=arm,
+        opening=params.opening,
+        crossing=params.crossing or crossing_of(params),
+        turn=params.crossing_turn or _turn(arm, axis + params.overlap),
+        depth=0.0,
+        stroke=params.centre_stroke,
     )
     return replace(loose, depth=-crossing_point(loose).imag + params.yarn / 2)
 
 
 def crossing_of(params: WeaverParams) -> float:
-    """The way along the screw that leaves the centre gripper room before the arms [m]."""
+    """Travel along the screw that leaves the centre gripper room before the arms [m]."""
     share = params.pair / (params.pair + 2 * params.overlap)
     deep = (params.finger / 2 + params.clearance + params.yarn / 2) / (1 - share)
     front = (params.warp + params.finger) / 2 + params.clearance
@@ -151,10 +164,10 @@ def axis_of(params: WeaverParams) -> float:
 
 
 def yarn_needed(params: WeaverParams) -> float:
-    """The least yarn [m] with which the ends cross, and with which it is never longer between the grippers than held.
+    """The least yarn [m] with which the ends cross, and the yarn held is nowhere shorter than the taut yarn.
 
-    A longer yarn has longer arms, whose ends need no more at the crossing: so bisection finds it. Where the turn is
-    said, the arms' ends may be anywhere, and no length may be enough: then only that they reach their warps.
+    A longer yarn has longer arms, whose ends need no more at the crossing: so bisection finds it. Where `crossing_turn`
+    is given, the arms' ends may be anywhere, and no length may be enough: then only that they reach their warps.
     """
     axis = axis_of(params)
     reach = axis + (axis + params.overlap if params.crossing_turn is None else 0.0)
@@ -164,30 +177,30 @@ def yarn_needed(params: WeaverParams) -> float:
     high = 2 * low
     while not _reaches(params, high):
         low, high = high, 2 * high
-    while high - low > LEAST_YARN:
+    while high - low > YARN_TOLERANCE:
         middle = (low + high) / 2
         low, high = (low, middle) if _reaches(params, middle) else (middle, high)
     return high
 
 
 def taut_max(grippers: Grippers) -> float:
-    """The most yarn that is needed between the tips on their way [m]."""
+    """The most yarn that is needed between the tips on their path [m]."""
     position = np.linspace(grippers.opening, grippers.opening + grippers.crossing, SAMPLES)
     return float(np.max(taut(grippers, position)))
 
 
 def _reaches(params: WeaverParams, drawn: float) -> bool:
     made = grippers_for(params, drawn)
-    return taut_max(made) <= made.apart + LEAST_YARN
+    return taut_max(made) <= made.apart + YARN_TOLERANCE
 
 
 def taut(grippers: Grippers, position: FloatArray) -> FloatArray:
     """Length of the taut yarn between the tips [m] at positions of the side grippers' cam [m], going forward."""
     radius = (grippers.warp + grippers.yarn) / 2
     tip = grippers.tip(position)
-    place = tip + grippers.pair / 2
-    straight = np.sqrt(np.maximum(np.abs(place) ** 2 - radius**2, 0.0))
-    heading = np.mod(np.angle(place), 2 * np.pi)  # from the row's direction on, by the front and the outside
+    from_warp = tip + grippers.pair / 2
+    straight = np.sqrt(np.maximum(np.abs(from_warp) ** 2 - radius**2, 0.0))
+    heading = np.mod(np.angle(from_warp), 2 * np.pi)  # from the row's direction on, by the front and the outside
     wrap = heading - np.arctan2(straight, radius) - np.pi / 2
     around = grippers.pair + 2 * (radius * wrap + straight)
     across = np.where(wrap <= 0, 2 * np.abs(tip.real), around)
@@ -195,9 +208,9 @@ def taut(grippers: Grippers, position: FloatArray) -> FloatArray:
 
 
 def crossing_point(grippers: Grippers) -> complex:
-    """Where the left end of the yarn, from its warp to its gripper at the end of the way, crosses the middle [m].
+    """The point at which the left end of the yarn, from its warp to its gripper at the end, crosses the middle [m].
 
-    The yarn leaves its warp near the place behind it, -g/2 - i r; a tip that is not past the middle counts itself.
+    The yarn leaves its warp near the point behind it, -g/2 - i r; of a tip that is not past the middle, the tip itself.
     """
     tip, leaves = grippers.end, complex(-grippers.pair / 2, -(grippers.warp + grippers.yarn) / 2)
     if tip.real <= 0:
@@ -207,7 +220,7 @@ def crossing_point(grippers: Grippers) -> complex:
 
 
 def clearance_min(grippers: Grippers) -> float:
-    """Least room between a side gripper and its warp [m], over the way along the screw; below 0 they overlap."""
+    """Least clearance of a side gripper and its warp [m] along the screw; below 0 they overlap."""
     position = np.linspace(0.0, grippers.opening + grippers.crossing, SAMPLES)
     tip = grippers.tip(position)
     inner = np.maximum(tip.real, -grippers.axis)  # the arm reaches from the rod to the tip, across
@@ -219,5 +232,5 @@ def clearance_min(grippers: Grippers) -> float:
 
 
 def _turn(arm: float, beyond: float) -> float:
-    """The turn [rad] that brings the end of an arm beyond its rod's axis by so much [m]; at most half a turn."""
+    """The rotation [rad] that brings the end of an arm beyond its rod's axis by a distance [m]; at most pi."""
     return math.acos(max(-beyond / arm, -1.0)) if arm > 0 else math.pi

@@ -13,8 +13,8 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.machines.weaver.cyclogram import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
 from ilmek.machines.weaver.grippers import Grippers, crossing_point
+from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, sample
 from ilmek.units import format_quantity
@@ -47,25 +47,31 @@ def on_the_pair(tied: TiedKnot) -> str | None:
     return tied.knot.kind if tied.knot is not None and tied.knot.warps == PAIR else None
 
 
-def told(tied: TiedKnot) -> str:
-    """What the proof says, the pair's warps called 1 and 2."""
+def proof_text(tied: TiedKnot) -> str:
+    """The conclusion of the proof, the pair's warps called 1 and 2."""
     kind = on_the_pair(tied)
     return tied.words if kind is None else knot(kind).name
 
 
 def led(cyclogram: Cyclogram, grippers: Grippers, samples: int) -> SampledPath:
     """Path of the left end from where its gripper holds it to where the centre gripper releases it."""
-    held, taken = _angle(cyclogram, SIDE_GRASP, "close"), _angle(cyclogram, CENTRE_GRASP, "close")
-    let_go = _start(cyclogram, CENTRE_GRASP, "open")
-    side = _positions(cyclogram.track(SIDE_MOTION), held, taken, samples)
-    centre = _positions(cyclogram.track(CENTRE_MOTION), taken, let_go, samples)
+    grasped, taken, released = led_between(cyclogram)
+    side = _positions(cyclogram.track(SIDE_MOTION), grasped, taken, samples)
+    centre = _positions(cyclogram.track(CENTRE_MOTION), taken, released, samples)
     by_side = (grippers.tip(side), np.abs(np.diff(side)) * grippers.reach_bound)
     return end_path([by_side, (grippers.centre(centre), np.abs(np.diff(centre)))])
 
 
+def led_between(cyclogram: Cyclogram) -> tuple[float, float, float]:
+    """Cam angles [rad] at which the side grippers have grasped the ends, the centre gripper takes and releases them."""
+    grasped = cyclogram.track(SIDE_GRASP).segment("close").end
+    centre = cyclogram.track(CENTRE_GRASP)
+    return grasped, centre.segment("close").end, centre.segment("open").start
+
+
 def _order(cyclogram: Cyclogram, grippers: Grippers) -> str:
-    """What is wrong with the order of holding, letting go and the warps; "" where nothing is."""
-    taken, released = _angle(cyclogram, CENTRE_GRASP, "close"), _start(cyclogram, SIDE_GRASP, "open")
+    """What is wrong with the order of grasp, release and warps; "" where nothing is."""
+    taken, released = led_between(cyclogram)[1], cyclogram.track(SIDE_GRASP).segment("open").start
     if released < taken:
         shown = [format_quantity(angle, "deg") for angle in (released, taken)]
         return f"the side grippers let the pile go at {shown[0]}, before the centre gripper holds it at {shown[1]}"
@@ -103,13 +109,5 @@ def _positions(track: Track, begin: float, end: float, samples: int) -> FloatArr
     """Positions of a track [m] from one master angle to another [rad], evenly apart in each motion."""
     joints = [edge for part in track.segments for edge in (part.start, part.end) if begin < edge < end]
     at = sample(track, np.unique(np.array([begin, *joints, end]))).position
-    ways = [np.linspace(one, then, samples) for one, then in pairwise(at) if one != then]
-    return np.concatenate([at[:1], *ways])
-
-
-def _angle(cyclogram: Cyclogram, track: str, motion: str) -> float:
-    return cyclogram.track(track).segment(motion).end
-
-
-def _start(cyclogram: Cyclogram, track: str, motion: str) -> float:
-    return cyclogram.track(track).segment(motion).start
+    strokes = [np.linspace(one, then, samples) for one, then in pairwise(at) if one != then]
+    return np.concatenate([at[:1], *strokes])

@@ -1,19 +1,18 @@
-"""How short a knot's cycle could be, by what limits it, and what else the head needs: cutter, colour selector, mass.
+"""The shortest cycle of a knot that each limit allows, and the head's cutter, colour selector and masses.
 
-Speeds of a cam shaft that turns once for a knot go with 1/T, accelerations, forces and torques with 1/T². So from the
+Speeds of a cam shaft that turns once for a knot are as 1/T, accelerations, forces and torques as 1/T². So from the
 cycle T of the design
 
     tools       T such that no track exceeds speed and acceleration      cutter   sqrt(4 h / a) over its share of a turn
-    cams        T p / p_limit         since p² goes with the force        carriage its step over the window's share
+    cams        T p / p_limit         since p² is as the force           carriage its step over the window's share
     motor       the least at which the motor still gives 1.25 times the torque, T sqrt(M / M(w))
 
-The cutter's blade goes h = 2 d across the yarn from rest to rest. Cutting takes at most the force that breaks all the
+The cutter's blade moves h = 2 d across the yarn from rest to rest. Cutting takes at most the force that breaks all the
 fibres of the pile yarn at once.
 """
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,49 +21,80 @@ from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import FULL_STEPS, Motor, smallest_motor
 from ilmek.elements.yarns import WOOL
 from ilmek.machines.weaver.cams import PRESSURE_LIMIT, STEEL
-from ilmek.machines.weaver.cyclogram import HANDLER
 from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.motions import HANDLER
 from ilmek.num.brackets import bracketed_roots
+from ilmek.records import computed, group, record, result
 from ilmek.units import turn
 
 _SHORTEST = 1e-6
 """A cycle that no motor allows, as a part of the cycle."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Selector:
-    """The stepper that brings a tube in line: its torque [N m] and speed [rad/s], way of a step [m], the motor."""
+    """The stepper that brings a tube in line; `stepper` is None where none of the table is enough.
 
-    torque: float
+    speed  of the motor [rad/s]
+    """
+
+    torque: float = result("Nm", "torque that it must give")
     speed: float
-    step: float
-    motor: Motor | None
+    step: float = result("mm", "travel of the tubes for a step of it")
+    stepper: Motor | None
+
+    motor = computed("", "stepper that moves the tubes", lambda it: it.stepper and it.stepper.name)
+
+
+@record
+class HeadLimits:
+    """How short the cycle could be, cutter, selector, masses."""
+
+    cycle_limits: Mapping[str, float] = result("s", "the shortest cycle that each limit allows")
+    cutting_force: float = result("N", "force that cuts all fibres of the yarn at once")
+    cutting_time: float = result("s", "time of the cutter's blade across the yarn")
+    cutting_window: float = result("s", "time from the end of drawing to presenting")
+    selector: Selector = group("selector_")
+    masses: Mapping[str, float] = result("kg", "masses of cams, shaft, tools, tubes and motors")
+
+    cycle_time_possible = computed(
+        "s", "the shortest cycle that all limits allow", lambda it: max(it.cycle_limits.values())
+    )
+    cycle_time_possible_set_by = computed(
+        "", "the limit that sets it", lambda it: max(it.cycle_limits, key=lambda name: it.cycle_limits[name])
+    )
+    mass = computed("kg", "mass of the head's cams, shaft, tools, tubes and motors", lambda it: sum(it.masses.values()))
+
+
+def head_limits(weaver: Weaver) -> HeadLimits:
+    """The limits of a head."""
+    return HeadLimits(
+        cycle_limits=cycle_limits(weaver),
+        cutting_force=WOOL.breaking_force(weaver.params.yarn_density),
+        cutting_time=weaver.params.cutting_time,
+        cutting_window=cut_share(weaver) * weaver.cycle,
+        selector=selector_of(weaver),
+        masses=mass_of(weaver),
+    )
 
 
 def cycle_limits(weaver: Weaver) -> Mapping[str, float]:
     """The shortest cycle that each limit allows [s]."""
     cycle = weaver.cycle
-    pressure = max(float(cam.pressure.max()) for cam in weaver.cams)
+    pressure = max(cam.pressure_max for cam in weaver.cams)
     limits = {
         "tools": weaver.shortest,
         "cutter": weaver.params.cutting_time / cut_share(weaver),
         "cams": cycle * pressure / PRESSURE_LIMIT,
         "carriage": weaver.carriage_step / (weaver.carriage_window / cycle),
     }
-    if weaver.drive.motor is not None:
-        limits["motor"] = _motor_limit(weaver)
-    return limits
+    return limits if weaver.drive.servo is None else {**limits, "motor": _motor_limit(weaver)}
 
 
 def cut_share(weaver: Weaver) -> float:
-    """Share of the turn that the cutter has: from the end of the draw to the begin of presenting."""
+    """Share of the turn that the cutter has: from the end of drawing to the begin of presenting."""
     handler = weaver.cyclogram.track(HANDLER)
     return (handler.segment("present").start - handler.segment("draw").end) / turn
-
-
-def cutting_force(weaver: Weaver) -> float:
-    """Upper bound of the cutting force [N]: all fibres of the yarn at once."""
-    return WOOL.breaking_force(weaver.params.yarn_density)
 
 
 def selector_of(weaver: Weaver) -> Selector:
@@ -77,26 +107,30 @@ def selector_of(weaver: Weaver) -> Selector:
 
 def mass_of(weaver: Weaver) -> Mapping[str, float]:
     """Masses of the head's parts [kg]."""
-    params, motor, selector = weaver.params, weaver.drive.motor, selector_of(weaver).motor
+    params, servo, stepper = weaver.params, weaver.drive.servo, selector_of(weaver).stepper
     return {
         "cams": sum(cam.mass for cam in weaver.cams),
         "shaft": math.pi / 4 * params.shaft**2 * params.head_width * STEEL.density,
         "tools": params.tool_mass * len(weaver.cams),
         "tubes": params.tubes * params.tube_mass,
-        "motors": sum(one.mass for one in (motor, selector) if one is not None),
+        "motors": (servo.motor.mass if servo else 0) + (stepper.mass if stepper else 0),
     }
 
 
+def head_mass(weaver: Weaver) -> float:
+    """Mass of the head on its carriage [kg]: as given, or as designed."""
+    return weaver.params.head_mass or sum(mass_of(weaver).values())
+
+
 def _motor_limit(weaver: Weaver) -> float:
-    """The shortest cycle that the head's motor allows [s],"""
-    drive, cycle = weaver.drive, weaver.cycle
-    motor, reducer = drive.motor, drive.reducer
-    if motor is None or reducer is None or drive.duty is None:
+    """The shortest cycle that the head's motor allows [s]."""
+    servo, cycle = weaver.drive.servo, weaver.cycle
+    if servo is None:
         return math.inf
-    peak = MARGIN * drive.duty.peak
+    peak = MARGIN * servo.duty.peak
 
     def spare(time: FloatArray) -> FloatArray:
-        return np.asarray(motor.peak_at(reducer.ratio * turn / time) - peak * (cycle / time) ** 2)
+        return np.asarray(servo.motor.peak_at(servo.reducer.ratio * turn / time) - peak * (cycle / time) ** 2)
 
     found = float(bracketed_roots(spare, np.array([cycle * _SHORTEST]), np.array([cycle]))[0])
     return found if math.isfinite(found) else cycle

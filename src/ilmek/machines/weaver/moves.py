@@ -1,4 +1,4 @@
-"""Moves of the head beside its cams, each jerk-limited from rest to rest: the carriage's along the row, the tubes'."""
+"""Jerk-limited moves of the head beside its cams, from rest to rest: of the carriage along the row, of the tubes."""
 
 import math
 
@@ -7,12 +7,12 @@ from ilmek.timing.s_curve import AxisLimits, move_time
 
 
 def carriage(params: WeaverParams) -> AxisLimits:
-    """What the carriage keeps."""
+    """Limits of the carriage."""
     return AxisLimits(params.carriage_speed, params.carriage_acceleration, params.carriage_jerk)
 
 
 def selector(params: WeaverParams) -> AxisLimits:
-    """What the colour selector keeps."""
+    """Limits of the colour selector."""
     return AxisLimits(params.selector_speed, params.selector_acceleration, params.selector_jerk)
 
 
@@ -22,25 +22,25 @@ def step_time(params: WeaverParams) -> float:
 
 
 def travel_time(params: WeaverParams, window: float) -> float:
-    """Time t of each further pitch of a longer move [s], such that no move of d pitches p takes longer than reckoned:
+    """Time t of each further pitch of a longer move [s], such that no move of d pitches p takes longer than this:
 
         move_time(d p) <= W + (d - 1) t   for every d,   W = max(window, move_time(p))
 
-    With a window [s] for start and stop, t is p / v; in a shorter one they take a part of it. move_time is concave in
-    the distance, so that what d pitches ask, (move_time(d p) - W)/(d - 1), rises to one summit and then falls, and
-    bisection finds it; from the distance on at which the speed is reached it only tends to p / v.
+    Where the window [s] is long enough for start and stop, t is p / v; a shorter one lengthens t. move_time is concave
+    in the distance, so that the t required for d pitches, (move_time(d p) - W)/(d - 1), rises to one maximum and then
+    falls, and bisection finds it; beyond the distance at which the speed is reached it only tends to p / v.
     """
     limits, pitch = carriage(params), params.knot_pitch
     room = max(window, step_time(params))
 
-    def asked(pitches: int) -> float:
+    def required(pitches: int) -> float:
         return (move_time(pitches * pitch, limits) - room) / (pitches - 1)
 
     low, high = 2, 2 + math.ceil(_reach(limits) / pitch)
     while low < high:
         middle = (low + high) // 2
-        low, high = (middle + 1, high) if asked(middle + 1) > asked(middle) else (low, middle)
-    return max(pitch / limits.speed, asked(low))
+        low, high = (middle + 1, high) if required(middle + 1) > required(middle) else (low, middle)
+    return max(pitch / limits.speed, required(low))
 
 
 def _reach(limits: AxisLimits) -> float:

@@ -1,12 +1,12 @@
-"""The grippers in plan view: where they are when they begin to turn and when the ends cross, and a turn in motion."""
+"""The grippers in plan view: as they begin to turn, as the ends cross, and in motion over a turn."""
 
 import numpy as np
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
-from ilmek.machines.weaver.cyclogram import CENTRE_GRASP, CENTRE_MOTION, SIDE_GRASP, SIDE_MOTION
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.grippers import Grippers
-from ilmek.machines.weaver.knot import led, told
+from ilmek.machines.weaver.knot import led, led_between
+from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.timing.track import sample
 from ilmek.units import mm, turn
@@ -14,40 +14,40 @@ from ilmek.units import mm, turn
 FRAMES = 90
 ALONG, EACH = 90, 41
 ROD = 14 * mm
-"""How much of a rod is drawn."""
+"""Length of a rod that is drawn [m]."""
 
 _RING = np.exp(1j * turn * np.arange(24) / 24)
 
 
 def plan_view(weaver: Weaver) -> Drawing:
-    """Side grippers before they turn, dashed, and where their ends cross; the way of the ends; the centre gripper."""
+    """Side grippers before they turn, dashed, and where their ends cross; the paths of the ends; the centre gripper."""
     by = weaver.grippers
     start, end = (_bent(by, np.array([at])) for at in (by.opening, by.opening + by.crossing))
-    way = by.tip(np.linspace(by.opening, by.opening + by.crossing, EACH))
+    path = by.tip(np.linspace(by.opening, by.opening + by.crossing, EACH))
     grip = np.array([-1j * by.depth, 1j * ROD])
     strokes = (
-        *(Stroke(place + by.warp / 2 * _RING, "outline", closed=True, filled=True) for place in by.warps),
+        *(Stroke(warp + by.warp / 2 * _RING, "outline", closed=True, filled=True) for warp in by.warps),
         *(Stroke(one[0], "construction") for one in (start, _mirrored(start))),
-        *(Stroke(one, "path") for one in (way, _mirrored(way))),
+        *(Stroke(one, "path") for one in (path, _mirrored(path))),
         Stroke(end[0], "link", "side gripper"),
         Stroke(_mirrored(end)[0], "link"),
         Stroke(grip, "outline", "centre gripper"),
         Stroke(_yarn(weaver), "yarn"),
     )
-    dots = tuple(Dot(complex(place), "", "point") for place in (by.end, -by.end.conjugate()))
-    note = f"{told(weaver.tied)}; the pile is upwards, seen along the warps; dashed: before the grippers turn"
+    dots = tuple(Dot(complex(tip), "", "point") for tip in (by.end, -by.end.conjugate()))
+    note = f"{weaver.knot_why}; the pile is upwards, seen along the warps; dashed: before the grippers turn"
     return Drawing("weaver-plan", "The ends of the pile round the pair of warps", strokes, dots, note=note)
 
 
-def moving(weaver: Weaver) -> Animation:
+def animation(weaver: Weaver) -> Animation:
     """The grippers over a turn of the cams, the warps parted by the opener, and the yarn where its ends went."""
     by, angle = weaver.grippers, np.arange(FRAMES) * (turn / FRAMES)
     side = sample(weaver.cyclogram.track(SIDE_MOTION), angle).position
     centre = sample(weaver.cyclogram.track(CENTRE_MOTION), angle).position
     bars, tip = _bent(by, side), by.centre(centre)
-    at, places = _led(weaver)
+    at, points = _led(weaver)
     known = np.maximum(np.searchsorted(at, angle, side="right"), 1)
-    yarn = np.stack([_evenly(places[:until]) for until in known])
+    yarn = np.stack([_evenly(points[:until]) for until in known])
     strokes = (
         *_warps(weaver, side),
         MovingStroke(yarn, "outline", "yarn"),
@@ -78,25 +78,24 @@ def _mirrored(points: ComplexArray) -> ComplexArray:
 
 
 def _yarn(weaver: Weaver) -> ComplexArray:
-    """The whole way of both ends: the knot as it lies."""
+    """The whole path of both ends: the knot as it lies."""
     left = led(weaver.cyclogram, weaver.grippers, EACH).points
     return np.concatenate([left[::-1], _mirrored(left)])
 
 
 def _led(weaver: Weaver) -> tuple[FloatArray, ComplexArray]:
-    """Cam angles at which the left end is led [rad], and its places then [m]."""
+    """Cam angles at which the left end is led [rad], and its positions then [m]."""
     by, tracks = weaver.grippers, weaver.cyclogram
-    held, taken = tracks.track(SIDE_GRASP).segment("close").end, tracks.track(CENTRE_GRASP).segment("close").end
-    freed = tracks.track(CENTRE_GRASP).segment("open").start
-    by_side, by_centre = np.linspace(held, taken, 6 * EACH), np.linspace(taken, freed, 2 * EACH)
+    grasped, taken, released = led_between(tracks)
+    by_side, by_centre = np.linspace(grasped, taken, 6 * EACH), np.linspace(taken, released, 2 * EACH)
     side = by.tip(sample(tracks.track(SIDE_MOTION), by_side).position)
     centre = by.centre(sample(tracks.track(CENTRE_MOTION), by_centre).position)
     return np.concatenate([by_side, by_centre]), np.concatenate([side, centre])
 
 
-def _evenly(way: ComplexArray) -> Complex[np.ndarray, " along"]:
-    """The yarn by the way of its left end until now: the way backwards, then its mirror image, in even steps."""
-    whole = np.concatenate([way[::-1], _mirrored(way)])
+def _evenly(path: ComplexArray) -> Complex[np.ndarray, " along"]:
+    """The yarn by the path of its left end: the path backwards, then its mirror image, in even steps."""
+    whole = np.concatenate([path[::-1], _mirrored(path)])
     length = np.append(0.0, np.cumsum(np.abs(np.diff(whole))))
     even = np.linspace(0.0, length[-1], ALONG)
     return np.asarray(np.interp(even, length, whole.real) + 1j * np.interp(even, length, whole.imag))
@@ -107,6 +106,6 @@ def _warps(weaver: Weaver, side: Float[np.ndarray, " n"]) -> tuple[MovingStroke,
     by, pitch = weaver.grippers, weaver.params.quality.warp_pitch
     share = np.clip(side / by.opening, 0.0, 1.0)
     closed = pitch * np.array([-1.5, -0.5, 0.5, 1.5])
-    places = closed + share[:, None] * (by.warps.real - closed)
-    rings = places[:, :, None] + by.warp / 2 * _RING
+    axes = closed + share[:, None] * (by.warps.real - closed)
+    rings = axes[:, :, None] + by.warp / 2 * _RING
     return tuple(MovingStroke(rings[:, k], "outline", closed=True) for k in range(len(closed)))

@@ -1,0 +1,154 @@
+"""Cam angles of the head's motions.
+
+The turn of the cam shaft is in four steps, and a motion takes fixed shares of its step, so that moving a step's end
+keeps the order [thesis, 2.2.3, Figure 2.11; the thesis prints no angles, the shares are assumed by this project]:
+
+    1 prepare    the handler turns to the tube, grasps the pile, draws it, has it cut, presents it; side grippers close
+    2 open       side grippers pull back; the handler turns home; they go forward, the opener parts the warps
+    3 knot       side grippers go on along the screw, linear and turning, until the pile crosses; the centre gripper
+                 comes, closes; side grippers open
+    4 press      side grippers turn back; the centre gripper draws the ends out between the warps; side grippers and
+                 opener return; the sley pushes the knot down; the centre gripper opens; the sley returns
+
+The thesis lets the centre gripper return "finally", after it has opened. It must return before: ends that are released
+behind the warps stay there, and no knot is tied.
+
+A tool moves forward and then back, each in one or more motions. Where the angles of a tool are set, its motions forward
+or back keep their shares of the angle that they take together.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import NamedTuple
+
+from ilmek.errors import ParameterError
+from ilmek.params import Params, kind
+from ilmek.units import format_quantity, turn
+
+SIDE_GRASP, SIDE_MOTION = "side-gripper grasp", "side-gripper motion"
+CENTRE_GRASP, CENTRE_MOTION = "centre-gripper grasp", "centre-gripper motion"
+HANDLER, SLEY = "pile handler", "sley"
+
+ROUNDING = 1e-9
+"""Angles this near to each other are the same [rad]."""
+
+
+class StepMotion(NamedTuple):
+    """A motion, or an instant, at shares of a step, 1 to 4."""
+
+    name: str
+    step: int
+    begin: float
+    end: float
+
+
+MOTIONS: Mapping[str, tuple[tuple[StepMotion, ...], tuple[StepMotion, ...]]] = {
+    SIDE_GRASP: ((StepMotion("close", 1, 0.905, 1.0),), (StepMotion("open", 3, 0.85, 0.985),)),
+    SIDE_MOTION: (
+        (
+            StepMotion("pull back", 2, 0.02, 0.215),
+            StepMotion("open warps", 2, 0.62, 1.0),
+            StepMotion("cross", 3, 0.0, 0.26),
+        ),
+        (StepMotion("turn back", 4, 0.015, 0.24), StepMotion("return", 4, 0.35, 0.64)),
+    ),
+    CENTRE_GRASP: ((StepMotion("close", 3, 0.695, 0.83),), (StepMotion("open", 4, 0.685, 0.80),)),
+    CENTRE_MOTION: ((StepMotion("forward", 3, 0.275, 0.68),), (StepMotion("return", 4, 0.015, 0.335),)),
+    HANDLER: (
+        (
+            StepMotion("to tube", 1, 0.0, 0.27),
+            StepMotion("grasp", 1, 0.285, 0.285),
+            StepMotion("draw", 1, 0.30, 0.60),
+            StepMotion("cut", 1, 0.62, 0.62),
+            StepMotion("present", 1, 0.65, 0.89),
+        ),
+        (StepMotion("home", 2, 0.23, 0.605),),
+    ),
+    SLEY: ((StepMotion("down", 4, 0.35, 0.67),), (StepMotion("up", 4, 0.685, 1.0),)),
+}
+"""Of each track its motions forward, and its motions back."""
+
+
+@dataclass(frozen=True, slots=True)
+class CycleSteps:
+    """Master angles at which the four steps of the turn end [rad]; the rest of the turn is a dwell of all."""
+
+    prepare: float
+    open: float
+    knot: float
+    press: float
+
+    def angle(self, step: int, share: float) -> float:
+        """The master angle [rad] at a share of a step, 1 to 4."""
+        ends = (0.0, self.prepare, self.open, self.knot, self.press)
+        return ends[step - 1] + share * (ends[step] - ends[step - 1])
+
+
+@dataclass(frozen=True, slots=True)
+class ToolAngles(Params):
+    """Cam angles of one tool's motions, in place of those that follow from the steps of the turn."""
+
+    start: float | None = kind.angle(
+        None, at_least=0.0, below=turn, doc="cam angle at which its motions forward begin; default: by the steps"
+    )
+    rise: float | None = kind.angle(
+        None, above=0.0, below=turn, doc="cam angle that its motions forward take together; default: by the steps"
+    )
+    return_start: float | None = kind.angle(
+        None, above=0.0, below=turn, doc="cam angle at which its motions back begin; default: by the steps"
+    )
+    fall: float | None = kind.angle(
+        None, above=0.0, below=turn, doc="cam angle that its motions back take together; default: by the steps"
+    )
+
+    @property
+    def given(self) -> dict[str, float]:
+        """The angles that are set [rad]."""
+        values = {one.name: getattr(self, one.name) for one in fields(self)}
+        return {name: value for name, value in values.items() if value is not None}
+
+
+def motion_angles(track: str, steps: CycleSteps, angles: ToolAngles) -> dict[str, tuple[float, float]]:
+    """Begin and end of each motion of a track [rad], and of its instants, by name."""
+    forward, back = MOTIONS[track]
+    return {
+        **_placed(forward, steps, angles.start, angles.rise),
+        **_placed(back, steps, angles.return_start, angles.fall),
+    }
+
+
+def _placed(
+    motions: tuple[StepMotion, ...], steps: CycleSteps, start: float | None, span: float | None
+) -> dict[str, tuple[float, float]]:
+    usual = {one.name: (steps.angle(one.step, one.begin), steps.angle(one.step, one.end)) for one in motions}
+    if start is None and span is None:
+        return usual
+    first, last = usual[motions[0].name][0], usual[motions[-1].name][1]
+    begin = first if start is None else start
+    scale = 1.0 if span is None else span / (last - first)
+    return {
+        name: (begin + scale * (one - first), begin + scale * (then - first)) for name, (one, then) in usual.items()
+    }
+
+
+def require_order(tool: str, track: str, steps: CycleSteps, angles: ToolAngles) -> None:
+    """Raise ParameterError, naming the angles set, where a tool does not move forward and then back within a turn."""
+    if not angles.given:
+        return
+    forward, back = MOTIONS[track]
+    at = motion_angles(track, steps, angles)
+    end, begin, last = at[forward[-1].name][1], at[back[0].name][0], at[back[-1].name][1]
+    given = ", ".join(f"{tool}.{name}={format_quantity(value, 'deg')}" for name, value in angles.given.items())
+    shown = [format_quantity(angle, "deg") for angle in (end, begin, last)]
+    if begin < end - ROUNDING:
+        raise ParameterError(
+            f"{given}: the motions forward end at {shown[0]}, those back begin at {shown[1]}",
+            allowed=f"a return that begins at {shown[0]} or later",
+            do=f"set {tool}.return_start later, or {tool}.rise smaller",
+        )
+    if last > turn + ROUNDING:
+        raise ParameterError(
+            f"{given}: the motions back end at {shown[2]}",
+            allowed="at most 360 deg",
+            do=f"set {tool}.return_start earlier, or {tool}.fall smaller",
+        )
