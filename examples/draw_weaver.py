@@ -6,7 +6,8 @@ Run it as `python examples/draw_weaver.py`; it ends with the pile yarn drawn for
 from pathlib import Path
 
 from ilmek.machines import warp_tension, weaver
-from ilmek.machines.warp_tension.cylinder_report import side_view
+from ilmek.machines.warp_tension.analysis import analyse
+from ilmek.machines.warp_tension.figures import side_view
 from ilmek.machines.weaver.cam_report import cams_drawing
 from ilmek.machines.weaver.plan_view import plan_view
 from ilmek.report import Drawing
@@ -22,7 +23,7 @@ HEAD = weaver.design(weaver.WeaverParams())
 def drawings() -> tuple[Drawing, ...]:
     """The grippers in plan view, the cams, the three cylinders."""
     cylinders = warp_tension.design(warp_tension.WarpTensionParams())
-    return plan_view(HEAD), cams_drawing(HEAD), side_view(cylinders)
+    return plan_view(HEAD), cams_drawing(HEAD), side_view(analyse(cylinders))
 
 
 if __name__ == "__main__":

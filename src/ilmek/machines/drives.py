@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.elements.motors import Motor, smallest_motor
+from ilmek.elements.motors import MOTORS, Motor, smallest_motor
 from ilmek.report import Part
 from ilmek.units import format_quantity, mm, turn
 
@@ -37,6 +37,13 @@ def belt_motor_part(name: str, thrust: float, speed: float, number: int = 1) -> 
 def reducer_part(name: str, ratio: float, motor: Motor | None, number: int = 1) -> Part:
     """The line of a reducer, priced by the power of its motor."""
     return Part(name, number, f"{ratio:g}:1", "", "reducer", power=motor.power if motor else 0.0)
+
+
+def no_motor(torque: float, speed: float) -> str:
+    """Warning that no motor of the catalogue gives a torque [N m] at a speed [rad/s]."""
+    largest = max(MOTORS, key=lambda motor: motor.torque).name
+    needed, at = format_quantity(torque, "Nm"), format_quantity(speed, "rpm")
+    return f"no motor gives {needed} at {at}; the largest is {largest}: set another ratio"
 
 
 def positive_work(torque: Callable[[FloatArray], FloatArray]) -> float:

@@ -63,7 +63,7 @@ def parts_of(loom: LoomDesign) -> tuple[Report, ...]:
         *(() if loom.beat_up is None else (beat_up.MACHINE.report(loom.beat_up, in_a_loom=True),)),
         *(() if loom.hammer is None else (hammer.MACHINE.report(loom.hammer),)),
         shedding.MACHINE.report(loom.shedding, in_a_loom=True),
-        warp_tension.report(loom.warp_tension),
+        warp_tension.MACHINE.report(loom.warp_tension, in_a_loom=True),
     )
 
 

@@ -8,7 +8,7 @@ from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, jumps
 from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.elements import shafts
-from ilmek.elements.motors import MOTORS
+from ilmek.machines.drives import no_motor
 from ilmek.machines.shedding.analysis import SheddingAnalysis
 from ilmek.machines.shedding.design import SheddingDesign, lifting
 from ilmek.machines.shedding.phases import Shed, required_window, shed_of
@@ -106,9 +106,7 @@ def _design_warnings(design: SheddingDesign) -> tuple[str, ...]:
         load, life = format_quantity(shaft.seat.reaction, "N"), format_quantity(params.bearing_life, "h")
         made.append(f"no insert bearing on the bar lives {life} under {load}: set more spans, or name a bearing")
     if params.motor_torque is None and drive.motor is None:
-        largest = max(MOTORS, key=lambda motor: motor.torque).name
-        needed, speed = format_quantity(drive.motor_torque, "Nm"), format_quantity(drive.motor_speed, "rpm")
-        made.append(f"no motor gives {needed} at {speed}; the largest is {largest}: set another ratio")
+        made.append(no_motor(drive.motor_torque, drive.motor_speed))
     return tuple(made)
 
 

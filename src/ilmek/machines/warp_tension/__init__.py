@@ -10,11 +10,14 @@ takes an efficiency of 0.9 where self-locking allows one half.
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
+from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis, analyse
 from ilmek.machines.warp_tension.design import WarpTensionDesign, design
+from ilmek.machines.warp_tension.figures import figures
+from ilmek.machines.warp_tension.in_loom import fit, parts, work
 from ilmek.machines.warp_tension.params import WarpTensionParams
-from ilmek.machines.warp_tension.report import report
+from ilmek.machines.warp_tension.report import checks, tables, warnings
 
-__all__ = ["MACHINE", "WarpTensionDesign", "WarpTensionParams", "design", "report"]
+__all__ = ["MACHINE", "WarpTensionDesign", "WarpTensionParams", "design"]
 
 MACHINE = Component(
     name="warp-tension",
@@ -22,5 +25,13 @@ MACHINE = Component(
     summary=SUMMARIES["warp-tension"],
     params=WarpTensionParams,
     design=design,
-    reporter=report,
+    analysis=analyse,
+    reported=(WarpTensionAnalysis,),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
+    parts=parts,
+    work=work,
+    fit=fit,
 )

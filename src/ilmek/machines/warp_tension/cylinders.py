@@ -1,22 +1,21 @@
-"""The three cylinders: what pulls at each, how it bends, its bearings and shaft ends.
+"""The three cylinders: loads, bending, bearings and shaft ends.
 
-    upper    the warps wind off it and pull down: T n / l, and its weight with them
+    upper    the warps wind off it and pull down with T n / l, in the direction of its weight
     lower    the carpet winds on it and pulls up, against its weight
-    spacer   the warps go over it by an angle phi, from behind to straight down: the resultant of both strands,
-             T n / l (-i + i exp(i phi)), 2 T sin(phi/2) a warp, and its weight; its slots take the tube's outside away
+    spacer   the warps wrap it by an angle phi, from behind to straight down: the resultant of both strands,
+             T n / l (-i + i exp(i phi)), 2 T sin(phi/2) a warp, and its weight; its slots reduce the tube's section
 
 Loads are complex, x to the front, y upwards. A cylinder bends in the plane of its load, as a beam between its bearings.
 The warps slip over the spacer: on its other side they pull with T exp(mu phi) while they move.
 
-Bearings: the load is the reaction; life after ISO 281 in turns of the cylinder, which are few: so what counts is the
-static safety C0 / P0, 1.5 and more [ISO 76: 1 to 2 for ball bearings of ordinary demands]. A shaft end of the bearing's
-bore carries the reaction at an overhang e and, on the driven side, the torque:
+Bearings: the load is the reaction; life after ISO 281 in turns of the cylinder, which are few, so that the static
+safety C0 / P0 decides, 1.5 and more [ISO 76: 1 to 2 for ball bearings under normal conditions]. A shaft end of the
+bearing's bore carries the reaction at an overhang e and, on the driven side, the torque:
 
     sigma = 32 R e / (pi d³),   tau = 16 M / (pi d³),   sigma_v = sqrt(sigma² + 3 tau²)              [von Mises]
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -36,8 +35,9 @@ from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.elements.yarns import warp_diameter
 from ilmek.errors import ParameterError
-from ilmek.machines.warp_tension.design import WarpTensionDesign, tube_weight
+from ilmek.machines.warp_tension.design import WarpTensionDesign, keeps_limits, tube_weight
 from ilmek.machines.warp_tension.params import WarpTensionParams
+from ilmek.records import computed, record, result
 from ilmek.units import format_quantity, hour, mm
 from ilmek.weaving.tension import capstan
 
@@ -46,21 +46,21 @@ STUB = MATERIALS["heat-treatable steel"]
 STUB_SAFETY = 1.5
 THESIS_BEARING = "UCF 207"
 TAUT = 0.6
-"""Most of the pitch that a warp takes up: drawn tight it is thinner than as yarn, and leaves room for metal."""
+"""Largest diameter of a warp over the pitch: under tension it is thinner than as yarn, and leaves room for metal."""
 
 LEAST_WALL = 3 * mm
 """Metal under the slots of the spacer."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Cylinder:
     """A cylinder between its bearings.
 
-    inner, outer   radii of its section that bears [m]: under the slots, of the spacer      tube  stock, or None
-    load, bare     on it per length, x to the front, y upwards [N/m], with and without its own weight
-    slope, deflection, stress, slope_bare, deflection_bare   of the load; and without the own weight
+    inner, outer   radii of its section [m]: of the spacer below the slots      tube  of stock, or None
+    load, bare     per length, x to the front, y upwards [N/m], with and without its own weight
+    slope, deflection, stress, slope_bare, deflection_bare   by the load; without its own weight
     torque         at its driven end [N m]        mass    of the tube [kg]
-    bearing        life [turns], time of it at the take-up's mean speed [s], static safety
+    life, time     of the bearing [turns], at the take-up's mean speed [s]      static_safety  C0 / P0
     stub_stress    von Mises, in the shaft end [Pa]
     """
 
@@ -89,20 +89,24 @@ class Cylinder:
         """Yield strength of the shaft end over its stress."""
         return STUB.strength / self.stub_stress if self.stub_stress > 0 else math.inf
 
-
-@dataclass(frozen=True, slots=True)
-class Slots:
-    """The spacer's slots: pitch, width, depth [m], and the warp's diameter in them."""
-
-    pitch: float
-    width: float
-    depth: float
-    warp: float
-
     @property
-    def land(self) -> float:
-        """Metal left between two slots [m]."""
-        return self.pitch - self.width
+    def tube_name(self) -> str:
+        """Outer diameter x wall [mm], marked where it is no stock size."""
+        if self.tube is not None:
+            return self.tube.name
+        return f"{2 * self.outer / mm:.5g}x{(self.outer - self.inner) / mm:.5g}, no stock size"
+
+
+@record
+class Slots:
+    """The spacer's slots."""
+
+    pitch: float = result("mm", "distance of the spacer's slots", name="slot_pitch")
+    width: float = result("mm", "width of a slot", name="slot_width")
+    depth: float = result("mm", "depth of a slot", name="slot_depth")
+    warp: float = result("mm", "diameter of a warp", name="warp_diameter")
+
+    land = computed("mm", "metal between two slots", lambda it: it.pitch - it.width, name="slot_land")
 
 
 def slots_of(params: WarpTensionParams) -> Slots:
@@ -152,42 +156,40 @@ def _cylinder(  # noqa: PLR0917
     params, (outer, inner) = design.params, sizes
     weight = tube_weight(params, inner, outer)
     load = bare - 1j * weight
-    inertia = float(uniform.tube_inertia(outer, inner))
-    span = (params.width, params.modulus, inertia)
-    size = abs(load)
+    size, inertia = abs(load), float(uniform.tube_inertia(outer, inner))
+    bent = (params.width, params.modulus, inertia)
     reaction = float(uniform.reaction(size, params.width))
-    slope = float(uniform.slope_max(size, *span))
+    slope = float(uniform.slope_max(size, *bent))
     bearing = bearing_for(params, reaction, torque, slope)
-    turns = params.row_pitch / outer / params.row_time
     lives = life(bearing.dynamic, equivalent_load(bearing, reaction), bearing.kind)
     return Cylinder(
-        name,
-        outer,
-        inner,
-        tube,
-        bare,
-        load,
-        float(uniform.slope_max(abs(bare), *span)),
-        float(uniform.deflection_max(abs(bare), *span)),
-        slope,
-        float(uniform.deflection_max(size, *span)),
-        float(uniform.bending_stress(uniform.moment_max(size, params.width), outer, inertia)),
-        reaction,
-        torque,
-        weight / GRAVITY * params.width,
-        bearing,
-        lives,
-        hours(lives, turns) * hour,
-        bearing.static / static_load(bearing, reaction),
-        stub_stress(params, reaction, torque, bearing.bore),
+        name=name,
+        outer=outer,
+        inner=inner,
+        tube=tube,
+        bare=bare,
+        load=load,
+        slope_bare=float(uniform.slope_max(abs(bare), *bent)),
+        deflection_bare=float(uniform.deflection_max(abs(bare), *bent)),
+        slope=slope,
+        deflection=float(uniform.deflection_max(size, *bent)),
+        stress=float(uniform.bending_stress(uniform.moment_max(size, params.width), outer, inertia)),
+        reaction=reaction,
+        torque=torque,
+        mass=weight / GRAVITY * params.width,
+        bearing=bearing,
+        life=lives,
+        time=hours(lives, params.row_pitch / outer / params.row_time) * hour,
+        static_safety=bearing.static / static_load(bearing, reaction),
+        stub_stress=stub_stress(params, reaction, torque, bearing.bore),
     )
 
 
 def bearing_for(params: WarpTensionParams, reaction: float, torque: float, slope: float) -> RollingBearing:
-    """The bearing by its designation; or the thesis', or where that is not enough the least that is.
+    """The bearing given; default: the thesis', or where that is not enough the smallest that is.
 
-    Flanged inserts come first, as the thesis has them, then deep-groove ball and cylindrical roller bearings, each by
-    its bore; the largest ball bearing where none is enough: the checks say so.
+    Flanged inserts come first, as in the thesis, then deep-groove ball and cylindrical roller bearings, each by its
+    bore. Where none is enough it is the largest ball bearing, and a check fails.
     """
     if params.bearing is not None:
         return find_bearing(params.bearing)
@@ -214,7 +216,7 @@ def _enough(params: WarpTensionParams, bearing: RollingBearing, reaction: float,
 
 
 def _spacer_tube(params: WarpTensionParams, load: float) -> Tube | None:
-    """The spacer's tube: as said, or the lightest that keeps the limits under its slots; None where none does."""
+    """The spacer's tube: as given, or the lightest that keeps the limits below its slots; None where none does."""
     depth = slots_of(params).depth
     if params.spacer_tube is not None:
         tube = find_tube(params.spacer_tube)
@@ -225,15 +227,6 @@ def _spacer_tube(params: WarpTensionParams, load: float) -> Tube | None:
                 do="set a smaller slot_depth, or a tube with a thicker wall",
             )
         return tube
-    walls = (tube for tube in TUBES.values() if tube.wall >= depth + LEAST_WALL)
-    return next((tube for tube in sorted(walls, key=lambda tube: tube.area) if _keeps(params, tube, load, depth)), None)
-
-
-def _keeps(params: WarpTensionParams, tube: Tube, load: float, depth: float) -> bool:
-    outer, inner = tube.outer_radius - depth, tube.inner_radius
-    size = abs(spacer_load(params, load) - 1j * tube_weight(params, inner, outer))
-    span = (params.width, params.modulus, uniform.tube_inertia(outer, inner))
-    return bool(
-        uniform.slope_max(size, *span) <= params.slope_limit
-        and uniform.deflection_max(size, *span) <= params.deflection_limit
-    )
+    pull, by_mass = spacer_load(params, load), sorted(TUBES.values(), key=lambda tube: tube.area)
+    thick = (tube for tube in by_mass if tube.wall >= depth + LEAST_WALL)
+    return next((one for one in thick if keeps_limits(params, one.inner_radius, one.outer_radius - depth, pull)), None)
