@@ -46,10 +46,11 @@ def draw_animation(animation: Animation) -> tuple[Sheet, str]:
     bars = _bars(pen, animation)
     unnamed = tuple(dataclasses.replace(one, label="") if one.role == "path" else one for one in still.strokes)
     quiet = dataclasses.replace(still, strokes=unnamed, dots=())
-    boxes = names(pen, quiet, np.concatenate([obstacles(pen, still), *bars]), foot)
+    fixed = obstacles(pen, still)
+    boxes = names(pen, quiet, np.concatenate([fixed, *bars]), foot)
     course = PointTracks(pen.sheet.height, start)
     parts = [*_lines(pen, animation, course), *_dots(pen, animation, course)]
-    met = [np.concatenate([at, obstacles(pen, still), *(_filled(*box) for box in boxes)]) for at in bars]
+    met = [np.concatenate([at, fixed, *(_filled(*box) for box in boxes)]) for at in bars]
     parts += _names(pen, animation, course, met, foot)
     return pen.sheet, "\n".join((*parts, f"<metadata>{escape(_run(animation, course))}</metadata>"))
 

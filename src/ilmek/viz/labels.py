@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import BoolArray, ComplexArray, FloatArray
 from ilmek.viz.font import text_width
 
 _AROUND = np.exp(1j * np.radians([45, 135, -45, -135, 90, -90, 0, 180, 22, 158, -22, -158, 68, 112, -68, -112]))
@@ -69,7 +69,14 @@ def covered(centres: ComplexArray, half: complex, obstacles: ComplexArray) -> Fl
     """How many obstacle points each box covers, up to 12."""
     if not len(obstacles):
         return np.zeros(len(centres))
+    reach = half + (1 + 1j)
     x, y = obstacles.real.copy(), obstacles.imag.copy()
-    across = np.abs(x - centres.real[:, np.newaxis]) < half.real + 1.0
-    inside = across & (np.abs(y - centres.imag[:, np.newaxis]) < half.imag + 1.0)
+    near = _between(x, centres.real, reach.real) & _between(y, centres.imag, reach.imag)
+    across = np.abs(x[near] - centres.real[:, np.newaxis]) < reach.real
+    inside = across & (np.abs(y[near] - centres.imag[:, np.newaxis]) < reach.imag)
     return np.asarray(np.minimum(inside.sum(axis=1), 12).astype(float))
+
+
+def _between(values: FloatArray, middles: FloatArray, reach: float) -> BoolArray:
+    """Which values lie within `reach` of the range of the middles: only these can lie within it of one."""
+    return (values > middles.min() - reach) & (values < middles.max() + reach)
