@@ -16,6 +16,8 @@ COMMANDS = {
     "machines": (*HEAVY, "ilmek.report", "ilmek.machines.catalogue"),
     "machines --json -": (*NO_TABLES, "ilmek.machines.catalogue"),
     "design warp-tension --json -": (*NO_TABLES, "ilmek.machines.beat_up", "ilmek.carpet"),
+    "design cam --json -": NO_TABLES,
+    "design weaver --json -": ("scipy.optimize", "scipy.interpolate", "numba", "jaxtyping", "rich", *FIGURES),
     "design warp-tension": ("scipy", "numba", "jaxtyping", *FIGURES),
     "knot examples/gripper_path.csv --json -": (*NO_TABLES, "ilmek.machines.catalogue", "ilmek.linkage"),
 }

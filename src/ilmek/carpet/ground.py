@@ -13,7 +13,7 @@ the two wefts, haliciomer.com.tr.
 import math
 from dataclasses import dataclass
 
-from scipy.special import ellipe
+import scipy
 
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
@@ -62,7 +62,7 @@ def sinuous_length(width: float, pitch: float, amplitude: float) -> float:
     True
     """
     bend = (math.pi * amplitude) ** 2
-    over_pitch = 2 / math.pi * math.sqrt(pitch**2 + bend) * float(ellipe(bend / (pitch**2 + bend)))
+    over_pitch = 2 / math.pi * math.sqrt(pitch**2 + bend) * float(scipy.special.ellipe(bend / (pitch**2 + bend)))
     return width * over_pitch / pitch
 
 

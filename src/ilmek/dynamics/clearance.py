@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import MechanismError
@@ -47,7 +47,7 @@ def exact_hysteresis(restitution: float) -> float:
         h = -math.expm1(-u) / e
         return math.log1p(h) + u - h * (1 + e)
 
-    return -math.expm1(-float(brentq(apart, 0.1 * e * first, 1 / e + 2, xtol=1e-300, rtol=1e-15))) / e
+    return -math.expm1(-float(scipy.optimize.brentq(apart, 0.1 * e * first, 1 / e + 2, xtol=1e-300, rtol=1e-15))) / e
 
 
 def flores_hysteresis(restitution: float) -> float:

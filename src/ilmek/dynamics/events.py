@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from scipy.optimize import brentq
+import scipy
 
 from ilmek.errors import MechanismError
 
@@ -65,4 +65,4 @@ def located(value: Callable[[float], float], early: float, late: float) -> float
     """Where a value changes its sign between two times; the later one where rounding hides the change."""
     if value(early) * value(late) >= 0:
         return late
-    return float(brentq(value, early, late, xtol=4e-16 * max(abs(late), 1e-300), rtol=1e-15))
+    return float(scipy.optimize.brentq(value, early, late, xtol=4e-16 * max(abs(late), 1e-300), rtol=1e-15))

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from scipy.integrate import DOP853
+import scipy
 
 from ilmek.arrays import Float
 from ilmek.dynamics.events import Event, EventRecord, located, until_terminal
@@ -87,7 +87,9 @@ def forward(
     _check(duration, every, rtol)
     course = _Course(reduced, tabulate(reduced), drive)
     first, scale = _first(course, start)
-    solver = DOP853(course.rates, start.time, first, start.time + duration, rtol=rtol, atol=rtol * scale)
+    solver = scipy.integrate.DOP853(
+        course.rates, start.time, first, start.time + duration, rtol=rtol, atol=rtol * scale
+    )
     return _run(course, _advance(solver, course, tuple(events), every))
 
 
@@ -171,7 +173,9 @@ def _first(course: _Course, start: ForwardState) -> tuple[Row, Row]:
     return np.array([start.position, momentum, 0.0, 0.0]), np.array([1.0, math.sqrt(2 * energy), energy, energy])
 
 
-def _advance(solver: DOP853, course: _Course, events: tuple[RunEvent, ...], every: float | None) -> _Told:
+def _advance(
+    solver: "scipy.integrate.DOP853", course: _Course, events: tuple[RunEvent, ...], every: float | None
+) -> _Told:
     """Step to the end; the samples wanted, the last of them the end, and what happened."""
     samples: list[tuple[float, Row]] = [(float(solver.t), np.array(solver.y))]
     happened: list[EventRecord[ForwardState]] = []
@@ -195,7 +199,9 @@ def _advance(solver: DOP853, course: _Course, events: tuple[RunEvent, ...], ever
     return _Told(samples, happened, RunEnd(EndKind.TIME, course.state(*samples[-1]), "its time was over"))
 
 
-def _between(solver: DOP853, every: float, start: float, until: float, *, last: bool) -> list[tuple[float, Row]]:
+def _between(
+    solver: "scipy.integrate.DOP853", every: float, start: float, until: float, *, last: bool
+) -> list[tuple[float, Row]]:
     """Samples every so often in the last step up to `until`; that instant too if it is the run's last."""
     first = int(np.floor((solver.t_old - start) / every + 1e-9)) + 1
     final = int(np.floor((until - start) / every + 1e-9))
@@ -209,7 +215,11 @@ def _between(solver: DOP853, every: float, start: float, until: float, *, last: 
 
 
 def _met(
-    solver: DOP853, course: _Course, events: tuple[RunEvent, ...], before: list[float], now: list[float]
+    solver: "scipy.integrate.DOP853",
+    course: _Course,
+    events: tuple[RunEvent, ...],
+    before: list[float],
+    now: list[float],
 ) -> list[EventRecord[ForwardState]]:
     """What happened in the last step, in its order, up to the first terminal event."""
     met: list[EventRecord[ForwardState]] = []
@@ -236,7 +246,7 @@ PROBES = np.concatenate(([0.0], np.logspace(-15, -3, 25)))
 """How far beyond the last state the reason of a failure is looked for [rad, m]."""
 
 
-def _arrested(solver: DOP853, course: _Course) -> bool:
+def _arrested(solver: "scipy.integrate.DOP853", course: _Course) -> bool:
     """Whether the input has come to the end of its range: there q' falls to 0 with p undiminished, and q creeps."""
     if course.table is not None or abs(float(solver.y[0]) - float(solver.y_old[0])) > ARREST:
         return False
@@ -244,7 +254,7 @@ def _arrested(solver: DOP853, course: _Course) -> bool:
     return bool(solve(course.reduced.plan, near, 1.0).status.any())
 
 
-def _failure(solver: DOP853, course: _Course) -> RunEnd:
+def _failure(solver: "scipy.integrate.DOP853", course: _Course) -> RunEnd:
     """Why no further step could be made: what the engine says of the poses just ahead."""
     last = course.state(float(solver.t), solver.y)
     plan = course.reduced.plan

@@ -3,7 +3,7 @@
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from scipy.linalg import eigvals
+import scipy
 
 from ilmek.arrays import Complex, Float
 
@@ -32,7 +32,7 @@ def roots(A: Square, B: Square) -> Complex[np.ndarray, " m"]:
     array([3.+0.j])
     """
     size = max(float(np.max(np.abs(A))), 1e-300), max(float(np.max(np.abs(B))), 1e-300)
-    numerator, denominator = eigvals(A / size[0], -B / size[1], homogeneous_eigvals=True)
+    numerator, denominator = scipy.linalg.eigvals(A / size[0], -B / size[1], homogeneous_eigvals=True)
     small = np.abs(numerator) < NOTHING, np.abs(denominator) < NOTHING
     if np.any(small[0] & small[1]):
         return np.empty(0, dtype=complex)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
@@ -97,7 +97,7 @@ def function_of_samples(x: FloatArray, y: FloatArray, crank_swing: float, rocker
         raise ParameterError(f"samples of shapes {x.shape} and {y.shape}", allowed="two or more pairs of x and y")
     if not (np.isfinite(x).all() and np.isfinite(y).all()) or not (np.diff(x) > 0).all():
         raise ParameterError("samples are not in order", allowed="finite values, x rising from sample to sample")
-    return Function(PchipInterpolator(x, y), float(x[0]), float(x[-1]), crank_swing, rocker_swing)
+    return Function(scipy.interpolate.PchipInterpolator(x, y), float(x[0]), float(x[-1]), crank_swing, rocker_swing)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,8 +9,8 @@ that both agree to 1e-9 is what it is here for.
 """
 
 import numpy as np
+import scipy
 from numpy.polynomial import Polynomial
-from scipy.linalg import lu_factor, lu_solve
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
@@ -112,8 +112,8 @@ def _superposed(matrix: FloatArray, *right: FloatArray) -> list[FloatArray]:
     singular = np.linalg.svd(matrix, compute_uv=False)
     if singular[-1] <= SINGULAR * singular[0]:
         raise _breaks("the matrix of eq. 2.40 is singular", "dyads_through_points or dyads_through_poses")
-    factors = lu_factor(matrix)
-    return [np.asarray(lu_solve(factors, side)) for side in right]
+    factors = scipy.linalg.lu_factor(matrix)
+    return [np.asarray(scipy.linalg.lu_solve(factors, side)) for side in right]
 
 
 def _polished(lam: FloatArray, ell: FloatArray, m: FloatArray, n: FloatArray) -> FloatArray:

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import linprog
+import scipy
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
@@ -237,7 +237,7 @@ def _maximum(rows: Sequence[Constraint]) -> _Answer | None:
     least = -np.array([row.form.constant for row in rows])
     goal = -np.eye(1, weights.shape[1])[0]
     bounds = [(0.0, None), *[(None, None)] * (weights.shape[1] - 1)]
-    found = linprog(goal, A_ub=-weights, b_ub=-least, bounds=bounds, method="highs-ds")
+    found = scipy.optimize.linprog(goal, A_ub=-weights, b_ub=-least, bounds=bounds, method="highs-ds")
     if found.status == 3:
         raise ParameterError("nothing binds the cyclogram", do="give limits, or relations")
     if found.status != 0:
@@ -331,7 +331,7 @@ def _blame(rows: Sequence[Constraint], known: Unknowns) -> None:
     least = -np.array([row.form.constant for row in rows])
     goal = np.eye(1, weights.shape[1], weights.shape[1] - 1)[0]
     bounds = [(1e-6, None), *[(None, None)] * (weights.shape[1] - 2), (0.0, None)]
-    found = linprog(goal, A_ub=-weights, b_ub=-least, bounds=bounds, method="highs-ds")
+    found = scipy.optimize.linprog(goal, A_ub=-weights, b_ub=-least, bounds=bounds, method="highs-ds")
     if found.status != 0:
         raise ParameterError(f"{known.cyclogram.name}: its numbers are too far apart to be solved")
     y = -np.asarray(found.ineqlin.marginals)

@@ -79,4 +79,4 @@ def covered(centres: ComplexArray, half: complex, obstacles: ComplexArray) -> Fl
 
 def _between(values: FloatArray, middles: FloatArray, reach: float) -> BoolArray:
     """Which values lie within `reach` of the range of the middles: only these can lie within it of one."""
-    return (values > middles.min() - reach) & (values < middles.max() + reach)
+    return np.asarray((values > middles.min() - reach) & (values < middles.max() + reach))

@@ -4,8 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import reverse_cuthill_mckee
+import scipy
 
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.clearance import ClearancePin
@@ -190,8 +189,8 @@ def _ordered(moving: Sequence[str], joints: Sequence[Joint | ClearancePin]) -> t
         (place[a], place[b]) for joint in joints for a, b in [joint.bodies, joint.bodies[::-1]] if {a, b} <= set(place)
     ]
     rows, columns = np.array(pairs, dtype=int).reshape(-1, 2).T
-    graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(moving), len(moving))).tocsr()
-    return tuple(moving[k] for k in reverse_cuthill_mckee(graph, symmetric_mode=True))
+    graph = scipy.sparse.coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(moving), len(moving))).tocsr()
+    return tuple(moving[k] for k in scipy.sparse.csgraph.reverse_cuthill_mckee(graph, symmetric_mode=True))
 
 
 def modelled(system: System) -> Model:

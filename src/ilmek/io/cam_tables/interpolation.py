@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from ilmek.arrays import Float, FloatArray
 
@@ -51,7 +51,7 @@ def spline(nodes: Nodes, angle: FloatArray) -> FloatArray:
     slope = (nodes.s[-1] - nodes.s[0]) / (nodes.angle[-1] - nodes.angle[0])
     rest = nodes.s - slope * nodes.angle
     rest[-1] = rest[0]
-    return np.asarray(CubicSpline(nodes.angle, rest, bc_type="periodic")(angle) + slope * angle)
+    return np.asarray(scipy.interpolate.CubicSpline(nodes.angle, rest, bc_type="periodic")(angle) + slope * angle)
 
 
 def quintic(nodes: Nodes, angle: FloatArray) -> FloatArray:

@@ -18,7 +18,7 @@ from functools import partial
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from scipy.linalg import qr
+import scipy
 
 from ilmek.arrays import Float, FloatArray, Int
 
@@ -112,7 +112,7 @@ def _first_reference(
 ) -> tuple[Int[np.ndarray, " rows"], Float[np.ndarray, " rows"], Float[np.ndarray, " rows"]]:
     """Rows that are independent and one more, their signs and multipliers."""
     rank = basis.shape[1]
-    order = np.asarray(qr(basis.T, mode="r", pivoting=True)[1], dtype=np.int64)
+    order = np.asarray(scipy.linalg.qr(basis.T, mode="r", pivoting=True)[1], dtype=np.int64)
     rows = order[: rank + 1].copy()
     if len(rows) <= rank:
         return rows, np.ones(len(rows)), np.zeros(len(rows))

@@ -14,7 +14,7 @@ the two extremes of the angle are equal. So `CENTRIC` is the turn of the crank t
 import math
 from dataclasses import dataclass
 
-from scipy.optimize import brentq
+import scipy
 
 from ilmek.arrays import RealField
 from ilmek.errors import ParameterError
@@ -100,7 +100,7 @@ def select_ratio(swing: float, rotation: float = CENTRIC, limit: float = RATIO_L
         if excess(limit, deviation) >= 0:
             return limit
         if best < limit and excess(best, deviation) >= 0:
-            return float(brentq(excess, best, limit, args=(deviation,), xtol=1e-15))
+            return float(scipy.optimize.brentq(excess, best, limit, args=(deviation,), xtol=1e-15))
     return best
 
 
