@@ -2,8 +2,9 @@
 
 import argparse
 import fnmatch
+import hashlib
 import os
-import random
+import shutil
 import sys
 import tempfile
 import time
@@ -29,13 +30,13 @@ def main() -> int:
     accepted = read_accepted(ACCEPTED.read_text(encoding="utf-8"))
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     sys.dont_write_bytecode = True
+    load_libraries()
+    files = table(ROOT, "ilmek", given.output / "table.json", jobs=given.jobs, show=_show, stale=given.stale)
+    sample = sampled(all_mutants(given.modules), given.number, given.seed)
+    begin = time.monotonic()
+    survivors, verdicts = [], Counter[str]()
     with tempfile.TemporaryDirectory() as cache:
-        os.environ["XDG_CACHE_HOME"] = cache  # machine code of mutants is not for keeping
-        load_libraries()
-        files = table(ROOT, "ilmek", given.output / "table.json", jobs=given.jobs, show=_show, stale=given.stale)
-        sample = sampled(all_mutants(given.modules), given.number, given.seed)
-        begin = time.monotonic()
-        survivors, verdicts = [], Counter[str]()
+        _copy_kernels(Path(cache))
         tasks = ((mutant, _task(mutant, concerned(files, mutant, given.seconds))) for mutant in sample)
         for mutant, outcome in outcomes(ROOT, tasks, given.jobs):
             known = outcome.verdict == SURVIVED and mutant.key in accepted
@@ -63,8 +64,14 @@ def all_mutants(patterns: list[str]) -> list[Mutant]:
 
 
 def sampled(found: list[Mutant], number: int, seed: int) -> list[Mutant]:
-    """So many of them, the same for the same seed."""
-    return random.Random(seed).sample(found, min(number, len(found)))
+    """So many of them, by a hash of each and the seed: an edit elsewhere leaves the others in the sample."""
+    times = Counter[str]()
+
+    def place(mutant: Mutant) -> str:
+        times[mutant.key] += 1
+        return hashlib.sha256(f"{seed} {mutant.key} {times[mutant.key]}".encode()).hexdigest()
+
+    return sorted(found, key=place)[:number]
 
 
 def read_accepted(text: str) -> dict[str, str]:
@@ -95,6 +102,14 @@ def _task(mutant: Mutant, files: list[TestFile]) -> Task:
     return Task(
         (*doctests, *(file.path for file in files)), (mutant.module, mutated(text, mutant)), timeout=60 + 5 * seconds
     )
+
+
+def _copy_kernels(cache: Path) -> None:
+    """Let all kernels be kept in another folder from now on: the machine code of mutants is not for keeping."""
+    usual = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "ilmek" / "kernels"
+    if usual.exists():
+        shutil.copytree(usual, cache / "ilmek" / "kernels")
+    os.environ["XDG_CACHE_HOME"] = str(cache)
 
 
 def _arguments() -> argparse.Namespace:
