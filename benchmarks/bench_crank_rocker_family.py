@@ -13,7 +13,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined, point_mass
 from ilmek.linkage.structure import plan
-from ilmek.machines.beat_up.design import evaluate, mechanism, sizes
+from ilmek.machines.beat_up.design import evaluate, magnitudes, mechanism
 from ilmek.machines.beat_up.family import tabulate
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
 from ilmek.num.pareto import front
@@ -57,7 +57,7 @@ def looped(params: BeatUpParams, members: CrankRockerFamily, places: Sequence[in
             "rocker": rod(params, lengths["beater"]),
         }
         bodies["rocker"] = combined(bodies["rocker"], point_mass(params.beater_mass, lengths["beater"]))
-        curves = sizes(evaluate(params, plan(mechanism(lengths)), bodies, ANGLE))
+        curves = magnitudes(evaluate(params, plan(mechanism(lengths)), bodies, ANGLE))
         found.append([float(np.max(curves[name.removesuffix("_max")])) for name in PEAKS])
     return np.array(found)
 

@@ -1,11 +1,11 @@
 """The beat-up mechanism: a crank-rocker that drives weft and knots to the fell.
 
-Sized by the swing of the rocker and the turn of the crank between its dead centres, or by its lengths outright, after
+Sized by the swing of the rocker and the rotation of the crank between its dead centres, or by its lengths, after
 Topalbekiroglu and Celik, "Kinematic analysis of beat-up mechanism used for handmade carpet looms"; moved by
 `ilmek.linkage`, loaded by `ilmek.dynamics`.
 
-The force given for the beater is the one the rocker pushes it with, m_E (a_E - g): what its inertia and weight ask of
-its bolts. It is greatest near the extended dead centre, where the beater turns back at the fell.
+The force on the beater is that of the rocker, m_E (a_E - g), which its bolts transmit against its inertia and weight.
+It is greatest near the extended dead centre, where the beater reverses at the fell.
 """
 
 from ilmek.machines import SUMMARIES

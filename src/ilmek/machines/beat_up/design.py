@@ -22,8 +22,8 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.beat_up.family import FamilyResult, chosen_ratio, is_chosen, weigh
-from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams, weight
+from ilmek.machines.beat_up.family import FamilyResult, chosen_ratio, family_of, is_chosen
+from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
 from ilmek.machines.beat_up.running import MotorRun, run
 from ilmek.machines.beat_up.shaking import Balance, balance
 from ilmek.num.piecewise import Extremum, around, suprema
@@ -53,7 +53,7 @@ TOGGLE = 1e-9
 class BeatUpState:
     """The mechanism at given crank angles, one value a sample.
 
-    pins          pin -> size of the force in it [N]
+    pins          pin -> magnitude of the force in it [N]
     torque        drive torque on the crank, counter-clockwise [N m]
     beater        position, velocity, acceleration of the beater E [m, s], complex
     beater_force  force of the rocker on the beater [N], complex: m_E (a_E - g)
@@ -112,9 +112,7 @@ class BeatUp:
         lambda it: it.peaks["beater_acceleration"].value,
     )
     beater_acceleration_angle = computed(
-        "deg",
-        "crank angle of the greatest acceleration, near the beat",
-        lambda it: it.peaks["beater_acceleration"].at,
+        "deg", "crank angle of the greatest acceleration, near the beat", lambda it: it.peaks["beater_acceleration"].at
     )
     beater_force_max = computed(
         "N",
@@ -126,9 +124,7 @@ class BeatUp:
         "N*m", "greatest magnitude of the torque on the crank", lambda it: it.peaks["drive_torque"].value
     )
     drive_power_max = computed(
-        "W",
-        "greatest power to and from the drive, at constant speed",
-        lambda it: it.drive_torque_max * it.params.speed,
+        "W", "greatest power to and from the drive, at constant speed", lambda it: it.drive_torque_max * it.params.speed
     )
 
     @computed("deg", "least acute transmission angle over a turn")
@@ -164,16 +160,16 @@ class BeatUp:
         return float(np.mod(self.dead_centres.beta + self.dead_centres.rotation, turn))
 
     def family(self) -> FamilyResult:
-        """The family that it stands in, weighed."""
-        return weigh(self.params, self.links, self.dead_centres)
+        """All crank-rockers with its dead centres."""
+        return family_of(self.params, self.links, self.dead_centres)
 
     def run(self) -> MotorRun:
-        """Its run by the motor, from rest and at speed, and what that asks of motor and flywheel."""
+        """Its run by the motor, from rest and at speed, and the motor and flywheel that it needs."""
         return run(
             self.params,
             self.plan,
             self.bodies,
-            Gravity(weight(self.params)),
+            Gravity(self.params.gravity_vector),
             torque=lambda at: evaluate(self.params, self.plan, self.bodies, at).torque,
             back=self.back_angle,
         )
@@ -183,7 +179,7 @@ def design(params: BeatUpParams) -> BeatUp:
     """Size, move and load a beat-up mechanism.
 
     Raises ParameterError where the family of crank-rockers has no such member or none within the limits, and
-    MechanismError where lengths given outright do not turn or do not swing.
+    MechanismError where given lengths do not turn or do not swing.
     """
     links = _links(params)
     lengths = _lengths(params, links)
@@ -207,7 +203,7 @@ def design(params: BeatUpParams) -> BeatUp:
         bodies=inertias,
         plan=planned,
         state=whole,
-        peaks=suprema(lambda at, _: sizes(state(at)), around(), samples=SAMPLES),
+        peaks=suprema(lambda at, _: magnitudes(state(at)), around(), samples=SAMPLES),
         balance=balance(params, lengths, inertias, whole.motion),
         at=None if params.crank_angle is None else state(np.array([params.crank_angle])),
     )
@@ -237,8 +233,8 @@ def mechanism(lengths: Mapping[str, float]) -> Mechanism:
 def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia], angle: FloatArray) -> BeatUpState:
     """Motion and forces at the given crank angles [rad]."""
     motion = solve(planned, angle, params.speed).require()
-    falling = weight(params)
-    forces = inverse(motion, inertias, (Gravity(falling),))
+    gravity = params.gravity_vector
+    forces = inverse(motion, inertias, (Gravity(gravity),))
     beater = attached(motion, "rocker", planned.mechanism.point("rocker", "E"))
     return BeatUpState(
         angle=angle,
@@ -247,11 +243,11 @@ def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia
         pins={pin: np.abs(forces.pin(pin)) for pin in PINS},
         torque=forces.effort("crank"),
         beater=beater,
-        beater_force=params.beater_mass * (beater.acceleration - falling),
+        beater_force=params.beater_mass * (beater.acceleration - gravity),
     )
 
 
-def sizes(state: BeatUpState) -> dict[str, FloatArray]:
+def magnitudes(state: BeatUpState) -> dict[str, FloatArray]:
     """The curves whose greatest values are reported, by name; pins by their letters."""
     return {
         "beater_velocity": np.abs(state.beater.velocity),
@@ -271,7 +267,7 @@ def _links(params: BeatUpParams) -> LinkRatios:
 
 
 def _lengths(params: BeatUpParams, links: LinkRatios) -> dict[str, float]:
-    """Lengths [m]; those given outright stay as given, to the last bit."""
+    """Lengths [m]; given ones stay as given, to the last bit."""
     ratios = {"ground": 1.0, "crank": links.crank, "coupler": links.coupler, "rocker": links.rocker}
     lengths = {name: float(getattr(params, name) or ratio * params.ground) for name, ratio in ratios.items()}
     return {**lengths, "beater": params.beater or BEATER_RATIO * lengths["rocker"]}

@@ -1,26 +1,32 @@
-"""The family that a beat-up stands in: all crank-rockers with its swing and crank rotation, their motion and forces.
+"""The family of a beat-up: all crank-rockers with its swing and crank rotation, their motion and forces.
 
-Each is sized, loaded and run at the speed like the beat-up itself, ground, beater and bars as its parameters say. From
-them the best within limits is chosen, and Pareto's front is taken: what no other member beats in everything weighed.
+Each is sized, loaded and run at the speed like the beat-up itself, with the ground, beater and bars of its parameters.
+The best within limits is chosen from them; the Pareto front are the members that no other dominates in the objectives.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, IntArray, RealField
 from ilmek.machines.beat_up.family_forces import bodies, loaded
-from ilmek.machines.beat_up.params import LIMITS, OBJECTIVES, BeatUpParams, weighed_names
+from ilmek.machines.beat_up.params import LIMITS, OBJECTIVES, BeatUpParams, front_objectives
 from ilmek.num.pareto import front
 from ilmek.num.periodic_maxima import summits
+from ilmek.records import computed, record
+from ilmek.report import Json
 from ilmek.synthesis.crank_rocker.choice import Limit, Objective, choose
 from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
     LinkRatios,
+    OpenInterval,
+    best_ratio,
+    beta_limits,
     beta_of_ratio,
+    coupler_limits,
     grashof_margin,
     links_of_ratio,
+    ratio_limits,
     transmission_angle_min,
 )
 from ilmek.synthesis.crank_rocker.family import family, link_ratio, size
@@ -50,44 +56,87 @@ QUANTITIES = {
     "drive_torque_max": ("greatest drive torque", "N*m"),
     "joint_force_max": ("greatest force in a pin", "N"),
 }
-"""What is told of every member: in words, and the unit to show it in."""
+"""Quantities of every member: their names in reports, and the unit to show them in."""
+
+REPORTED = 25
+"""Members of the front in the results."""
+
+ROUNDING = 1e-5
+"""A best ratio this small is that of the centric crank-rocker, whose cubic has its roots at 0; so is an end of it."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FamilyResult:
-    """A family weighed: members by ascending ratio, their quantities, and Pareto's front.
+    """A family: members by ascending ratio, their quantities, and the Pareto front.
 
+    swing, rotation  of the family [rad]
     own        the beat-up's own quantities             table  those of the members
-    weighed    names of what the front weighs           front  whether each member is on it
+    objectives of the front                             front  whether each member is on it
     """
 
+    swing: float
+    rotation: float
     own: Mapping[str, float]
     table: Table
-    weighed: tuple[str, ...]
+    objectives: tuple[str, ...]
     front: BoolArray
+
+    pareto_weighed = computed("", "objectives of the Pareto front", lambda it: list(it.objectives))
+    pareto_count = computed("", "members on the front", lambda it: int(it.front.sum()))
+    own_quantities = computed(
+        "", "the quantities of this beat-up; SI and radians", lambda it: dict(it.own), name="own", shown=False
+    )
+
+    @computed("", "ends of the family of this swing and crank rotation, themselves excluded; beta in radians")
+    def family_limits(self) -> Json:
+        return {
+            "crank_coupler_ratio": _ends(ratio_limits(self.swing, self.rotation)),
+            "coupler": _ends(coupler_limits(self.swing, self.rotation)),
+            "beta": _ends(beta_limits(self.swing, self.rotation)),
+        }
+
+    @computed("1", "crank/coupler ratio of the family's best transmission angle; 0: never reached")
+    def best_ratio(self) -> float:
+        best = float(best_ratio(self.swing, self.rotation))
+        return 0.0 if best < ROUNDING else best
+
+    @computed("deg", "that angle, by the cubic")
+    def best_transmission_angle(self) -> float:
+        return float(transmission_angle_min(links_of_ratio(self.swing, self.rotation, self.best_ratio)))
+
+    @computed("", "members of the front, by their ratio", shown=False)
+    def pareto(self) -> Json:
+        return [dict(one) for one in self.some(REPORTED)]
 
     def __len__(self) -> int:
         return self.front.size
 
     def some(self, number: int) -> tuple[dict[str, float], ...]:
         """At most so many members of the front, evenly apart in it, the first and the last among them."""
-        places = np.flatnonzero(self.front)
-        if places.size > number:
-            places = places[np.linspace(0, places.size - 1, number).round().astype(np.intp)]
-        return tuple({name: float(values[place]) for name, values in self.table.items()} for place in places)
+        members = np.flatnonzero(self.front)
+        if members.size > number:
+            members = members[np.linspace(0, members.size - 1, number).round().astype(np.intp)]
+        return tuple({name: float(values[one]) for name, values in self.table.items()} for one in members)
 
 
-def weigh(params: BeatUpParams, links: LinkRatios, dead: DeadCentres) -> FamilyResult:
+def _ends(interval: OpenInterval) -> list[float]:
+    return [end if abs(end) > ROUNDING else 0.0 for end in (float(interval.low), float(interval.high))]
+
+
+def family_of(params: BeatUpParams, links: LinkRatios, dead: DeadCentres) -> FamilyResult:
     """The family of a beat-up with these links and dead centres."""
-    objectives = {name: Objective(*OBJECTIVES[name]) for name in weighed_names(params.front)}
-    members = family(float(dead.swing), float(dead.rotation), params.members)
+    objectives = {name: Objective(*OBJECTIVES[name]) for name in front_objectives(params.front)}
+    swing, rotation = float(dead.swing), float(dead.rotation)
+    members = family(swing, rotation, params.members)
     table = tabulate(params, members.links, members.beta)
     own = tabulate(params, LinkRatios(*(np.array([float(link)]) for link in links)), np.array([float(dead.beta)]))
     costs = np.stack([one.cost(table) for one in objectives.values()], axis=1)
     return FamilyResult(
+        swing=swing,
+        rotation=rotation,
         own={name: float(values[0]) for name, values in own.items()},
         table=table,
-        weighed=tuple(objectives),
+        objectives=tuple(objectives),
         front=front(costs),
     )
 
@@ -132,25 +181,27 @@ def is_chosen(params: BeatUpParams) -> bool:
 def chosen_ratio(params: BeatUpParams) -> float:
     """Ratio crank / coupler of the member that limits and objective choose.
 
-    Ratios below 0.1, whose crank is a stub beside its ground, are chosen only where they are asked for or no other
-    keeps the limits.     Raises ParameterError, with the limits that clash, where no member keeps them.
+    Ratios below 0.1, whose crank is a stub beside its ground, are chosen only where they are required or no other
+    member is within the limits. Raises ParameterError, with the limits that clash, where no member is.
     """
-    asked = limits(params)
+    given = limits(params)
     members = family(params.swing, params.crank_rotation, params.members)
-    bounds = [limit.bound for limit in asked if limit.quantity == "crank_coupler_ratio"]
+    bounds = [limit.bound for limit in given if limit.quantity == "crank_coupler_ratio"]
     ends = members.ratio[0], members.ratio[-1]
     ratios = np.unique(np.concatenate([members.ratio, [bound for bound in bounds if ends[0] < bound < ends[1]]]))
 
     def table(ratio: FloatArray) -> Table:
-        place = params.swing, params.crank_rotation, ratio
-        return tabulate(params, links_of_ratio(*place), beta_of_ratio(*place))
+        member = params.swing, params.crank_rotation, ratio
+        return tabulate(params, links_of_ratio(*member), beta_of_ratio(*member))
 
     quantity, sign = OBJECTIVES[params.objective or next(iter(OBJECTIVES))]
     floor = Limit("crank_coupler_ratio", RATIO_FLOOR, +1, "ratio_min")
-    return choose(table, ratios, Objective(quantity, sign), asked, [floor] if params.ratio_min is None else [])
+    return choose(table, ratios, Objective(quantity, sign), given, [floor] if params.ratio_min is None else [])
 
 
 def limits(params: BeatUpParams) -> tuple[Limit, ...]:
-    """The limits that are asked for."""
-    said = ((name, getattr(params, name), of) for name, of in LIMITS.items())
-    return tuple(Limit(of[0], bound, of[1], name, of[2]) for name, bound, of in said if bound is not None)
+    """The given limits."""
+    bounds = ((name, getattr(params, name), *declared) for name, declared in LIMITS.items())
+    return tuple(
+        Limit(quantity, bound, sign, name, unit) for name, bound, quantity, sign, unit in bounds if bound is not None
+    )

@@ -1,4 +1,4 @@
-"""Figures of the family that a beat-up stands in: its quantities over the ratio r/l, and Pareto's front."""
+"""Figures of the family of a beat-up: its quantities over the ratio r/l, and the Pareto front."""
 
 import numpy as np
 
@@ -23,51 +23,51 @@ AXES = {"m/s^2": "acceleration", "N": "force"}
 """What axes of several curves are called, by their unit."""
 
 WORTH = 4.0
-"""A member is drawn while no value exceeds this many times the quantity's middle one: near toggles all grow no end."""
+"""A member is drawn while no value exceeds so many times the quantity's median: near a toggle all tend to infinity."""
 
 
-def family_figures(weighed: FamilyResult) -> tuple[Plot, ...]:
-    """Curves over the ratio, then Pareto's front: the first thing weighed against each other one."""
-    first, *others = weighed.weighed
+def family_figures(found: FamilyResult) -> tuple[Plot, ...]:
+    """Curves over the ratio, then the Pareto front: the first objective against each other one."""
+    first, *others = found.objectives
     return (
-        *(_curves(weighed, name, title, quantities) for name, title, quantities in CURVES),
-        *(_front(weighed, first, other) for other in others),
+        *(_curves(found, name, title, quantities) for name, title, quantities in CURVES),
+        *(_front(found, first, other) for other in others),
     )
 
 
-def _curves(weighed: FamilyResult, name: str, title: str, quantities: tuple[str, ...]) -> Plot:
-    ratio = weighed.table["crank_coupler_ratio"]
+def _curves(found: FamilyResult, name: str, title: str, quantities: tuple[str, ...]) -> Plot:
+    ratio = found.table["crank_coupler_ratio"]
     labels, units = zip(*(QUANTITIES[quantity] for quantity in quantities), strict=True)
-    ceiling = max(WORTH * float(np.nanmedian(weighed.table[quantity])) for quantity in quantities)
+    ceiling = max(WORTH * float(np.nanmedian(found.table[quantity])) for quantity in quantities)
     series = tuple(
-        Series(label, ratio, _below(weighed.table[quantity], ceiling), dashed=place > 0 and len(quantities) == 2)
-        for place, (quantity, label) in enumerate(zip(quantities, labels, strict=True))
+        Series(label, ratio, _below(found.table[quantity], ceiling), dashed=number > 0 and len(quantities) == 2)
+        for number, (quantity, label) in enumerate(zip(quantities, labels, strict=True))
     )
     axis = Axis(labels[0] if len(labels) == 1 else AXES[units[0]], units[0])
-    marks = (Mark(weighed.own["crank_coupler_ratio"], "this beat-up"),)
+    marks = (Mark(found.own["crank_coupler_ratio"], "this beat-up"),)
     return Plot(name, title, Axis("crank/coupler ratio r/l", "1"), axis, series, marks)
 
 
-def _front(weighed: FamilyResult, first: str, second: str) -> Plot:
-    """The family with its front, and a ring about the beat-up's own place."""
+def _front(found: FamilyResult, first: str, second: str) -> Plot:
+    """The family with its front, and a ring about the beat-up itself."""
     (x, _), (y, _) = OBJECTIVES[first], OBJECTIVES[second]
     (x_label, x_unit), (y_label, y_unit) = QUANTITIES[x], QUANTITIES[y]
-    kept = np.ones(len(weighed), dtype=bool)
+    kept = np.ones(len(found), dtype=bool)
     for quantity in (x, y):
-        kept &= np.isfinite(_below(weighed.table[quantity], WORTH * float(np.nanmedian(weighed.table[quantity]))))
-    across, up = (np.where(kept, weighed.table[quantity], np.nan) for quantity in (x, y))
-    ring = _ring(weighed.own[x], weighed.own[y], _width(across), _width(up))
-    series = [Series("Pareto's front", *_where(weighed.front, across, up)), Series("this beat-up", *ring)]
-    if not weighed.front.all():
-        series.append(Series("other members", *_where(~_inner(weighed.front), across, up), dashed=True))
+        kept &= np.isfinite(_below(found.table[quantity], WORTH * float(np.nanmedian(found.table[quantity]))))
+    across, up = (np.where(kept, found.table[quantity], np.nan) for quantity in (x, y))
+    ring = _ring(found.own[x], found.own[y], _width(across), _width(up))
+    series = [Series("Pareto front", *_where(found.front, across, up)), Series("this beat-up", *ring)]
+    if not found.front.all():
+        series.append(Series("other members", *_where(~_inner(found.front), across, up), dashed=True))
     names = f"{x_label} and {y_label}"
     return Plot(
         f"family-front-{second}".replace("_", "-"),
-        f"Pareto's front: {names}",
+        f"Pareto front: {names}",
         Axis(x_label, x_unit),
         Axis(y_label, y_unit),
         tuple(series),
-        note=f"The front weighs {', '.join(weighed.weighed)}.".replace("_", " "),
+        note=f"Objectives of the front: {', '.join(found.objectives)}.".replace("_", " "),
     )
 
 
@@ -94,6 +94,6 @@ def _width(values: FloatArray) -> float:
 
 
 def _ring(x: float, y: float, width: float, height: float) -> tuple[FloatArray, FloatArray]:
-    """A ring about a place, round on the paper, whose axes are as 2.3 to 1."""
+    """A ring about a point, round on the page, whose axes are as 2.3 to 1."""
     around = np.linspace(0, 2 * np.pi, 37)
     return x + 0.009 * width * np.cos(around), y + 0.021 * height * np.sin(around)

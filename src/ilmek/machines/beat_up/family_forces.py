@@ -6,7 +6,8 @@
     T = C x F_C - g_2 x m_2 w    on the crank, whose speed is constant
 
 u = CB, v = AB; 2, 3, 4 are crank, coupler and rocker with masses m, mass centres g from D, C and A, and accelerations a
-of these; w is free fall. The first two are two equations for F:  F = (N v - M u) / (u x v),  M and N their right sides.
+of these; w is the acceleration of gravity. The first two are two equations for F:  F = (N v - M u) / (u x v),  M and N
+their right sides.
 [Newton and Euler, body by body; a test holds them equal to `dynamics.inverse`]
 """
 
@@ -16,7 +17,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray, IntArray
 from ilmek.dynamics.inertia import bar_mass, bar_moment
-from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams, weight
+from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
 from ilmek.plane.vectors import cross
 from ilmek.synthesis.crank_rocker.dead_centres import LinkRatios
 from ilmek.synthesis.crank_rocker.motion import CrankRockerMotion, moved
@@ -52,7 +53,7 @@ class Bodies(NamedTuple):
 
 
 def bodies(params: BeatUpParams, links: LinkRatios) -> Bodies:
-    """The bars and the beater of beat-ups with given links, all else as the parameters say."""
+    """The bars and the beater of beat-ups with given links, all else as in the parameters."""
     crank, coupler, rocker = (np.asarray(link, dtype=float) * params.ground for link in links)
     beater = np.broadcast_to(np.asarray(params.beater or BEATER_RATIO * rocker), rocker.shape)
     spans = crank, coupler, np.maximum(rocker, beater)
@@ -74,13 +75,13 @@ def bodies(params: BeatUpParams, links: LinkRatios) -> Bodies:
 
 
 def loaded(params: BeatUpParams, made: Bodies, angle: FloatArray) -> dict[str, FloatArray]:
-    """Curves of beat-ups at crank angles [rad] that broadcast with them; sizes, by name.
+    """Curves of beat-ups at crank angles [rad] that broadcast with them; magnitudes, by name.
 
     rocker_speed [rad/s], rocker_acceleration [rad/s^2], beater_acceleration [m/s^2], beater_force [N],
     drive_torque [N m], and the forces in the pins A, B, C, D [N]
     """
     at = moved(made.links(params.ground), angle)
-    pull, falling = params.speed**2, weight(params)
+    pull, gravity = params.speed**2, params.gravity_vector
     turned = (1j * at.alpha[1] - at.omega[1] ** 2) * at.rocker
     beater = (made.beater / made.rocker * (params.ground * pull)) * turned
     torque, pins = _forces(params, made, at, turned)
@@ -89,7 +90,7 @@ def loaded(params: BeatUpParams, made: Bodies, angle: FloatArray) -> dict[str, F
         "rocker_speed": np.abs(at.omega[1]) * params.speed,
         "rocker_acceleration": np.abs(at.alpha[1]) * pull,
         "beater_acceleration": size,
-        "beater_force": params.beater_mass * (np.abs(beater - falling) if falling else size),
+        "beater_force": params.beater_mass * (np.abs(beater - gravity) if gravity else size),
         "drive_torque": np.abs(torque),
         **{pin: np.abs(force) for pin, force in zip("ABCD", pins, strict=True)},
     }
@@ -100,22 +101,22 @@ def _forces(
 ) -> tuple[FloatArray, tuple[ComplexField, ...]]:
     """Torque on the crank [N m] and forces in the pins A, B, C, D [N]; turned: acceleration of B, at unit speed.
 
-    Whatever is the same over the turn is multiplied first, because it is small beside what is not.
+    Factors that are constant over the turn are multiplied first: their arrays are small beside the others.
     """
-    ground, pull, falling = params.ground, params.speed**2, weight(params)
+    ground, pull, gravity = params.ground, params.speed**2, params.gravity_vector
     half = 0.5 * at.coupler
     coupler = (made.coupler_mass * (ground * pull)) * ((1j * at.alpha[0] - at.omega[0] ** 2) * half - at.pin)
     rocker = (made.rocker_static / made.rocker * (ground * pull)) * turned
     crank = (made.crank_mass * (ground * pull / 2)) * at.pin
     M = (made.rocker_moment * (pull / ground)) * at.alpha[1]
-    if falling:
-        coupler, rocker = coupler - made.coupler_mass * falling, rocker - made.rocker_mass * falling
-        crank = crank + made.crank_mass * falling
-        M = M - made.rocker_static / made.rocker * cross(at.rocker, falling)
+    if gravity:
+        coupler, rocker = coupler - made.coupler_mass * gravity, rocker - made.rocker_mass * gravity
+        crank = crank + made.crank_mass * gravity
+        M = M - made.rocker_static / made.rocker * cross(at.rocker, gravity)
     N = -cross(half, coupler) - (made.coupler_moment * (pull / ground)) * at.alpha[0]
     B = (N * at.rocker - M * at.coupler) / at.lean
     C = B + coupler
     torque = cross(at.pin, C) * ground
-    if falling:
-        torque = torque - (made.crank_mass * (ground / 2)) * cross(at.pin, falling)
+    if gravity:
+        torque = torque - (made.crank_mass * (ground / 2)) * cross(at.pin, gravity)
     return np.asarray(torque), (rocker - B, B, C, C - crank)

@@ -27,9 +27,7 @@ def fit(task: LoomTask) -> BeatUpParams:
     params = task.params
     share = params.width / crank_rockers(task)
     return BeatUpParams(
-        speed=params.beat_speed,
-        beater_mass=params.beater_density * share,
-        beat_force=params.beat_force * share,
+        speed=params.beat_speed, beater_mass=params.beater_density * share, beat_force=params.beat_force * share
     )
 
 

@@ -1,19 +1,19 @@
-"""What may be asked of a beat-up mechanism."""
+"""Parameters of a beat-up mechanism."""
 
 import difflib
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from ilmek.errors import ParameterError
-from ilmek.params import Params, param
+from ilmek.params import Params, kind
 from ilmek.units import deg, turn
 
 SMALL, LARGE = 1e-4, 1e2
-"""Lengths that are taken for meant [m]."""
+"""Plausible range of lengths [m]."""
 
 BEATER_RATIO = 1.3
 """Beater over rocker, AE / AB: 0.3001 m / 0.2308 m; inferred from the paper, which prints AE only."""
-
 
 OBJECTIVES = {
     "force_at_beat": ("force_at_beat", +1),
@@ -26,7 +26,7 @@ OBJECTIVES = {
     "drive_torque": ("drive_torque_max", -1),
     "joint_force": ("joint_force_max", -1),
 }
-"""What may be sought: the quantity of a member, and whether the greatest (+1) or the least (-1) is best."""
+"""Objectives: the quantity of a member, and whether the greatest (+1) or the least (-1) is best."""
 
 LIMITS = {
     "ratio_min": ("crank_coupler_ratio", +1, "1"),
@@ -40,173 +40,145 @@ LIMITS = {
     "torque_max": ("drive_torque_max", -1, "N*m"),
     "joint_force_max": ("joint_force_max", -1, "N"),
 }
-"""What may be limited: the quantity of a member, whether it must be at least (+1) or at most (-1) that, its unit."""
+"""Limits: the quantity of a member, whether it must be at least (+1) or at most (-1) that, its unit."""
 
 CHOOSING = ("objective", *LIMITS)
 """Parameters by which the member is chosen."""
+
+
+def _length(default: float | None, doc: str, symbol: str = "") -> Any:
+    return kind.length(default, at_least=SMALL, at_most=LARGE, doc=doc, symbol=symbol)
 
 
 @dataclass(frozen=True, slots=True)
 class BeatUpParams(Params):
     """A beat-up mechanism, its masses and its run, or limits by which it is chosen; the defaults are the paper's."""
 
-    swing: float = param(
-        30 * deg, unit="deg", above=0.0, below=math.pi, doc="swing of the rocker between its dead centres", symbol="ψ"
+    swing: float = kind.angle(
+        30 * deg, above=0.0, below=math.pi, doc="swing of the rocker between its dead centres", symbol="ψ"
     )
-    crank_rotation: float = param(
+    crank_rotation: float = kind.angle(
         180 * deg,
-        unit="deg",
         above=math.pi / 2,
         below=2 * math.pi,
-        doc="turn of the crank from the beat to the other dead centre; 180 deg has the best transmission angle",
+        doc="rotation of the crank from the beat to the other dead centre; 180 deg has the best transmission angle",
         symbol="φ",
     )
-    beta: float | None = param(
+    beta: float | None = kind.angle(
         None,
-        unit="deg",
         above=0.0,
         below=math.pi,
-        doc="crank angle of the beat; unsaid: chosen by transmission angle and crank/coupler ratio",
+        doc="crank angle of the beat; default: chosen by transmission angle and crank/coupler ratio",
         symbol="β",
     )
-    ground: float = param(
-        0.3, unit="mm", at_least=SMALL, at_most=LARGE, doc="distance of the pivots of crank and rocker", symbol="AD"
+    ground: float = _length(0.3, "distance of the pivots of crank and rocker", "AD")
+    crank: float | None = _length(None, "length of the crank; default: by synthesis", "DC")
+    coupler: float | None = _length(None, "length of the coupler; default: by synthesis", "CB")
+    rocker: float | None = _length(None, "length of the rocker; default: by synthesis", "AB")
+    beater: float | None = _length(None, "beater from the rocker's pivot; default: 1.3 times the rocker", "AE")
+    speed: float = kind.angular_speed(15.5, unit="rad/s", above=0.0, at_most=1e4, doc="speed of the crank", symbol="ω")
+    beater_mass: float = kind.mass(2.5, at_least=0.0, at_most=1e5, doc="mass of the beater", symbol="m_E")
+    density: float = kind.density(7210.0, above=0.0, at_most=1e5, doc="density of the links; cast iron", symbol="ρ")
+    width: float = _length(0.03, "width of the links, in the plane of motion", "w")
+    thickness: float = _length(0.01, "thickness of the links")
+    gravity: float = kind.acceleration(
+        0.0, at_least=0.0, at_most=1e3, doc="acceleration of gravity; the paper leaves weight out", symbol="g"
     )
-    crank: float | None = param(
-        None, unit="mm", at_least=SMALL, at_most=LARGE, doc="crank outright, instead of synthesis", symbol="DC"
-    )
-    coupler: float | None = param(
-        None, unit="mm", at_least=SMALL, at_most=LARGE, doc="coupler outright, instead of synthesis", symbol="CB"
-    )
-    rocker: float | None = param(
-        None, unit="mm", at_least=SMALL, at_most=LARGE, doc="rocker outright, instead of synthesis", symbol="AB"
-    )
-    beater: float | None = param(
-        None,
-        unit="mm",
-        at_least=SMALL,
-        at_most=LARGE,
-        doc="beater from the rocker's pivot; unsaid: 1.3 times the rocker",
-        symbol="AE",
-    )
-    speed: float = param(15.5, unit="rad/s", above=0.0, at_most=1e4, doc="speed of the crank", symbol="ω")
-    beater_mass: float = param(2.5, unit="kg", at_least=0.0, at_most=1e5, doc="mass of the beater", symbol="m_E")
-    density: float = param(
-        7210.0, unit="kg/m^3", above=0.0, at_most=1e5, doc="density of the links; cast iron", symbol="ρ"
-    )
-    width: float = param(
-        0.03, unit="mm", at_least=SMALL, at_most=LARGE, doc="width of the links, in the plane of motion", symbol="w"
-    )
-    thickness: float = param(0.01, unit="mm", at_least=SMALL, at_most=LARGE, doc="thickness of the links")
-    gravity: float = param(
-        0.0, unit="m/s^2", at_least=0.0, at_most=1e3, doc="free fall; the paper leaves weight out", symbol="g"
-    )
-    gravity_direction: float = param(
+    gravity_direction: float = kind.angle(
         -90 * deg,
-        unit="deg",
         at_least=-turn,
         at_most=turn,
-        doc="where weight points, from the ground line D-A counter-clockwise; turns with the place of the loom",
+        doc="direction of the weight, from the ground line D-A counter-clockwise; it turns with the loom",
     )
-    beat_force: float = param(
-        60.0, unit="N", at_least=0.0, at_most=1e6, doc="force on the beater that is wanted at its peak"
-    )
-    balance_share: float = param(
+    beat_force: float = kind.force(60.0, at_least=0.0, at_most=1e6, doc="required peak force on the beater")
+    balance_share: float = kind.ratio(
         1.0,
         at_least=0.0,
         at_most=2.0,
         doc="share of the shaking force's first harmonic, the part that turns with the crank, that a counterweight on "
         "it cancels",
     )
-    counterweight_radius: float | None = param(
-        None, unit="mm", at_least=SMALL, at_most=LARGE, doc="of its mass centre from the pivot; unsaid: the crank"
+    counterweight_radius: float | None = _length(
+        None, "distance of the counterweight's mass centre from the pivot; default: the crank"
     )
-    fluctuation: float = param(
-        0.05, at_least=1e-4, at_most=1.0, doc="fluctuation of the speed that the flywheel is to keep", symbol="δ"
+    fluctuation: float = kind.ratio(
+        0.05, at_least=1e-4, at_most=1.0, doc="allowed fluctuation of the speed, kept by the flywheel", symbol="δ"
     )
-    flywheel: float | None = param(
+    flywheel: float | None = kind.inertia(
         None,
-        unit="kg*m^2",
         at_least=0.0,
         at_most=1e6,
-        doc="moment of inertia of flywheel and rotor on the crank; unsaid: as the fluctuation asks",
+        doc="moment of inertia of flywheel and rotor on the crank; default: what the fluctuation needs",
     )
-    motor_torque: float | None = param(
+    motor_torque: float | None = kind.torque(
         None,
-        unit="N*m",
         at_least=1e-6,
         at_most=1e9,
-        doc="greatest torque of the motor on the crank; unsaid: the greatest that the constant speed asks",
+        doc="greatest torque of the motor on the crank; default: the greatest that the constant speed needs",
     )
-    slip: float = param(0.1, at_least=1e-3, at_most=1.0, doc="loss of speed at which the motor gives its torque")
-    crank_angle: float | None = param(
-        None, unit="deg", at_least=-2 * turn, at_most=2 * turn, doc="crank angle at which to report forces", symbol="θ"
+    slip: float = kind.ratio(0.1, at_least=1e-3, at_most=1.0, doc="loss of speed at which the motor gives its torque")
+    crank_angle: float | None = kind.angle(
+        None, at_least=-2 * turn, at_most=2 * turn, doc="crank angle at which to report forces", symbol="θ"
     )
-    objective: str | None = param(
+    objective: str | None = kind.choice(
         None,
-        choices=tuple(OBJECTIVES),
-        doc="what is best among the crank-rockers within the limits; unsaid, where a limit is given: force_at_beat",
+        tuple(OBJECTIVES),
+        doc="what is best among the crank-rockers within the limits; default, where a limit is given: force_at_beat",
     )
-    ratio_min: float | None = param(None, above=0.0, at_most=1.0, doc="limit: crank/coupler ratio, r/l")
-    ratio_max: float | None = param(None, above=0.0, at_most=1.0, doc="limit: crank/coupler ratio, r/l")
-    transmission_min: float | None = param(
-        None, unit="deg", above=0.0, below=math.pi / 2, doc="limit: least acute transmission angle over a turn"
+    ratio_min: float | None = kind.ratio(None, above=0.0, at_most=1.0, doc="limit: crank/coupler ratio, r/l")
+    ratio_max: float | None = kind.ratio(None, above=0.0, at_most=1.0, doc="limit: crank/coupler ratio, r/l")
+    transmission_min: float | None = kind.angle(
+        None, above=0.0, below=math.pi / 2, doc="limit: least acute transmission angle over a turn"
     )
-    link_ratio_max: float | None = param(None, at_least=1.0, at_most=1e6, doc="limit: longest link over the shortest")
-    size_max: float | None = param(
-        None, unit="mm", at_least=SMALL, at_most=LARGE, doc="limit: greatest distance of places that its points get to"
+    link_ratio_max: float | None = kind.ratio(
+        None, at_least=1.0, at_most=1e6, doc="limit: longest link over the shortest"
     )
-    acceleration_max: float | None = param(
-        None, unit="m/s^2", above=0.0, at_most=1e9, doc="limit: greatest acceleration of the beater, at the speed"
+    size_max: float | None = _length(None, "limit: overall size, the greatest distance of points that it reaches")
+    acceleration_max: float | None = kind.acceleration(
+        None, above=0.0, at_most=1e9, doc="limit: greatest acceleration of the beater, at the speed"
     )
-    rocker_acceleration_max: float | None = param(
-        None, unit="rad/s^2", above=0.0, at_most=1e9, doc="limit: greatest angular acceleration of the rocker"
+    rocker_acceleration_max: float | None = kind.angular_acceleration(
+        None, above=0.0, at_most=1e9, doc="limit: greatest angular acceleration of the rocker"
     )
-    force_at_beat_min: float | None = param(
-        None, unit="N", above=0.0, at_most=1e9, doc="limit: force on the beater at the beat itself"
+    force_at_beat_min: float | None = kind.force(
+        None, above=0.0, at_most=1e9, doc="limit: force on the beater at the beat itself"
     )
-    torque_max: float | None = param(None, unit="N*m", above=0.0, at_most=1e9, doc="limit: greatest drive torque")
-    joint_force_max: float | None = param(
-        None, unit="N", above=0.0, at_most=1e9, doc="limit: greatest force in any pin"
-    )
-    front: str = param(
+    torque_max: float | None = kind.torque(None, above=0.0, at_most=1e9, doc="limit: greatest drive torque")
+    joint_force_max: float | None = kind.force(None, above=0.0, at_most=1e9, doc="limit: greatest force in any pin")
+    front: str = kind.text(
         "transmission_angle force_at_beat drive_torque",
-        doc=f"what Pareto's front weighs, two or more of: {' '.join(OBJECTIVES)}",
+        doc=f"objectives of the Pareto front, two or more of: {' '.join(OBJECTIVES)}",
     )
-    members: int = param(500, at_least=10, at_most=100_000, doc="crank-rockers of the family that are looked at")
+    members: int = kind.count(500, at_least=10, at_most=100_000, doc="crank-rockers of the family that are compared")
 
     def check_together(self) -> None:
         """Crank, coupler and rocker together or not at all; limits only where there is something to choose."""
-        self._check_links()
-        weighed_names(self.front)
-        asked = [name for name in CHOOSING if getattr(self, name) is not None]
-        settled = [name for name in ("beta", "crank") if getattr(self, name) is not None]
-        if asked and settled:
-            given = "beta" if settled[0] == "beta" else "crank, coupler and rocker"
-            raise ParameterError(
-                f"{asked[0]} given with {given}",
-                allowed=f"with {given} nothing is left to choose",
-                do=f"leave out {given}, or {' and '.join(asked)}",
-            )
-
-    def _check_links(self) -> None:
-        outright = {"crank": self.crank, "coupler": self.coupler, "rocker": self.rocker}
-        missing = [name for name, length in outright.items() if length is None]
-        if 0 < len(missing) < len(outright):
-            given = [name for name in outright if name not in missing]
+        links = ("crank", "coupler", "rocker")
+        given = [name for name in links if getattr(self, name) is not None]
+        if 0 < len(given) < len(links):
+            missing = [name for name in links if name not in given]
             raise ParameterError(
                 f"{' and '.join(given)} given without {' and '.join(missing)}",
                 do="give crank, coupler and rocker, or none of them",
             )
+        front_objectives(self.front)
+        choosing = [name for name in CHOOSING if getattr(self, name) is not None]
+        if choosing and (given or self.beta is not None):
+            fixed = "beta" if self.beta is not None else "crank, coupler and rocker"
+            raise ParameterError(
+                f"{choosing[0]} given with {fixed}",
+                allowed=f"with {fixed} nothing is left to choose",
+                do=f"leave out {fixed}, or {' and '.join(choosing)}",
+            )
+
+    @property
+    def gravity_vector(self) -> complex:
+        """Acceleration of gravity [m/s²] in the frame of the ground line."""
+        return self.gravity * complex(math.cos(self.gravity_direction), math.sin(self.gravity_direction))
 
 
-def weight(params: BeatUpParams) -> complex:
-    """Free fall [m/s²] in the frame of the ground line."""
-    return params.gravity * complex(math.cos(params.gravity_direction), math.sin(params.gravity_direction))
-
-
-def weighed_names(text: str) -> tuple[str, ...]:
-    """Names of `OBJECTIVES` with blanks or commas between, as `front` says them.
+def front_objectives(text: str) -> tuple[str, ...]:
+    """Names of `OBJECTIVES` with blanks or commas between, as `front` lists them.
 
     Raises ParameterError for an unknown or repeated name, and for fewer than two.
     """
@@ -218,8 +190,8 @@ def weighed_names(text: str) -> tuple[str, ...]:
             raise ParameterError(f"front={text!r}: {name!r} is unknown", allowed=f"of {' '.join(OBJECTIVES)}", do=hint)
     if len(set(names)) < max(2, len(names)):
         raise ParameterError(
-            f"front={text!r} is no choice between two things",
+            f"front={text!r} does not name two different objectives",
             allowed=f"two or more different ones of {' '.join(OBJECTIVES)}",
-            do="say what the front is to weigh",
+            do="name the objectives of the front",
         )
     return names

@@ -3,14 +3,14 @@
 import math
 
 from ilmek.machines.beat_up.design import PINS, BeatUp
+from ilmek.machines.beat_up.family import QUANTITIES, FamilyResult, limits
 from ilmek.machines.beat_up.family_figures import family_figures
-from ilmek.machines.beat_up.family_report import FamilyResults, front_table, limit_checks
 from ilmek.machines.beat_up.figures import figures_of
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.running import REACHED, MotorRun
 from ilmek.machines.plates import link_plates
 from ilmek.records import record
-from ilmek.report import Check, Figure, Plate, Table, at_least, at_most, columns, group
+from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group
 from ilmek.synthesis.crank_rocker.dead_centres import grashof_margin
 from ilmek.synthesis.crank_rocker.selection import DEVIATIONS, RATIO_LIMIT
 from ilmek.units import format_quantity
@@ -19,6 +19,20 @@ PAPER = "Topalbekiroglu and Celik, beat-up mechanism"
 POWER_LIMIT = 1e-9
 ENERGY_LIMIT = 1e-6
 
+SHOWN = 9
+"""Members of the front in the table."""
+
+COLUMNS = (
+    "crank_coupler_ratio",
+    "transmission_angle_min",
+    "force_at_beat",
+    "beater_acceleration_max",
+    "drive_torque_max",
+    "joint_force_max",
+    "size",
+)
+"""Quantities of the table of the front."""
+
 
 @record
 class BeatUpAnalysis:
@@ -26,34 +40,39 @@ class BeatUpAnalysis:
 
     design: BeatUp = group()
     running: MotorRun = group()
-    family: FamilyResults = group()
+    family: FamilyResult = group()
 
 
 def analyse(design: BeatUp) -> BeatUpAnalysis:
     """The run and the family of a design."""
-    family = FamilyResults(design.family(), design.swing, design.crank_rotation)
-    return BeatUpAnalysis(design, design.run(), family)
+    return BeatUpAnalysis(design, design.run(), design.family())
 
 
 def checks(found: BeatUpAnalysis) -> tuple[Check, ...]:
     """The paper's criteria, the run by the motor, and the limits by which the member was chosen."""
     design = found.design
-    return (
-        *_criteria(design),
-        *_running_checks(design.params, found.running),
-        *limit_checks(design, found.family.weighed),
+    given = tuple(
+        (at_least if limit.sign > 0 else at_most)(
+            f"{QUANTITIES[limit.quantity][0]}, {limit.name}",
+            found.family.own[limit.quantity],
+            limit.bound,
+            limit.unit,
+            "given",
+        )
+        for limit in limits(design.params)
     )
+    return (*_criteria(design), *_running_checks(design.params, found.running), *given)
 
 
 def tables(found: BeatUpAnalysis) -> tuple[Table, ...]:
     """Links, dead centres, greatest values, Pareto front."""
     design = found.design
-    return (_link_table(design), _dead_centre_table(design), _peak_table(design), front_table(found.family.weighed))
+    return (_link_table(design), _dead_centre_table(design), _peak_table(design), _front_table(found.family))
 
 
 def figures(found: BeatUpAnalysis) -> tuple[Figure, ...]:
     """The mechanism, its curves over a turn, its run, and its family."""
-    return (*figures_of(found.design, found.running), *family_figures(found.family.weighed))
+    return (*figures_of(found.design, found.running), *family_figures(found.family))
 
 
 def plates(design: BeatUp) -> tuple[Plate, ...]:
@@ -70,8 +89,8 @@ def plates(design: BeatUp) -> tuple[Plate, ...]:
 
 def _criteria(design: BeatUp) -> tuple[Check, ...]:
     wanted, tolerated = (math.pi / 2 - deviation for deviation in DEVIATIONS)
-    angle, ratio = design.transmission_angle_min, float(design.links.crank / design.links.coupler)
-    margin, force = float(grashof_margin(design.links)), design.peaks["beater_force"].value
+    angle, ratio = design.transmission_angle_min, design.crank_coupler_ratio
+    margin, force = float(grashof_margin(design.links)), design.beater_force_max
     return (
         at_least("transmission angle, to run at all", angle, tolerated, "deg", f"{PAPER}, criterion i: 90° - µ < 50°"),
         at_least("transmission angle, to run well", angle, wanted, "deg", f"{PAPER}, criterion i: 90° - µ < 40°"),
@@ -157,3 +176,11 @@ def _peak_table(design: BeatUp) -> Table:
     )
     heads = columns("quantity", "greatest value", "at crank angle [deg]")
     return Table("beat-up-peaks", "Greatest values over a turn", heads, rows)
+
+
+def _front_table(family: FamilyResult) -> Table:
+    """Some members of the front, and the beat-up itself."""
+    members = (*family.some(SHOWN), family.own)
+    rows = tuple(("this" if one is family.own else "front", *(one[name] for name in COLUMNS)) for one in members)
+    heads = columns("member", *(Column(*QUANTITIES[name]) for name in COLUMNS))
+    return Table("beat-up-front", "Members on the Pareto front, and this beat-up", heads, rows)

@@ -1,4 +1,4 @@
-"""The beat-up run by a motor: what it asks of it, the flywheel, the start from rest and the steady run.
+"""The beat-up run by a motor: required torque, the flywheel, the start from rest and the steady run.
 
     M = M_0 tanh((omega_0 - omega) / (s omega_0))          a motor or drive that limits its torque to M_0
 
@@ -27,12 +27,12 @@ REACHED = 0.95
 """Part of the speed at which the start is over."""
 
 MOST_TURNS = 100
-"""A start that takes more turns is not run to its end."""
+"""Turns after which a start is given up."""
 
 STEADY_TURNS, STEADY_SAMPLES = 4, 120
 RTOL = 1e-9
 ROUNDING = 1e-10
-"""A mean torque this small against the greatest is rounding."""
+"""A mean torque below this part of the greatest is rounding."""
 
 
 @record
@@ -61,7 +61,7 @@ class MotorRun:
     def drive_torque_mean(self) -> float:
         return self.duty.mean if abs(self.duty.mean) > ROUNDING * self.duty.peak.value else 0.0
 
-    @computed("s", "from rest to 95 % of the speed; none: not reached", optional=True)
+    @computed("s", "time from rest to 95 % of the speed; none: not reached", optional=True)
     def start_time(self) -> float | None:
         if self.start is None:
             return None
@@ -107,14 +107,14 @@ def run(
     back: float,
 ) -> MotorRun:
     """The running of a beat-up: `torque` on the crank at constant speed, `back` the crank angle that it starts from."""
-    asked = duty(lambda angle, _: torque(angle))
+    required = duty(lambda angle, _: torque(angle))
     wheel = params.flywheel
     if wheel is None:
-        wheel = max(flywheel(asked.excess, params.speed, params.fluctuation) - inertias["crank"].about(0), 0.0)
-    most = params.motor_torque or asked.peak.value
+        wheel = max(flywheel(required.excess, params.speed, params.fluctuation) - inertias["crank"].about(0), 0.0)
+    most = params.motor_torque or required.peak.value
     reduced = reduce(planned, inertias, (weight,), flywheel=wheel)
     if most == 0 or tabulate(reduced) is None:
-        return MotorRun(asked, wheel, most, None, False, None)
+        return MotorRun(required, wheel, most, None, False, None)
 
     def motor(_time: float, _position: float, speed: float) -> float:
         return most * math.tanh((params.speed - speed) / (params.slip * params.speed))
@@ -122,7 +122,7 @@ def run(
     start, started = _start(params, reduced, motor, most, back)
     last = start.end.state
     steady = _steady(params, reduced, motor, ForwardState(last.position, last.speed)) if started else None
-    return MotorRun(asked, wheel, most, start, started, steady)
+    return MotorRun(required, wheel, most, start, started, steady)
 
 
 def _start(

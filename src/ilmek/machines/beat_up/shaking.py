@@ -1,11 +1,11 @@
-"""What the beat-up shakes the loom with, and the counterweights against it."""
+"""Shaking force and moment of the beat-up on the loom, and the counterweights against them."""
 
 import cmath
 from collections.abc import Mapping
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, NumberArray
+from ilmek.arrays import NumberArray
 from ilmek.dynamics.balance import (
     Shaking,
     counterweighted,
@@ -93,9 +93,3 @@ def balance(
     after = shaking(motion, {**inertias, "crank": counterweighted(inertias["crank"], weight, radius)})
     whole = four_bar_counterweights(lengths, inertias)
     return Balance(before, after, (abs(first[1]), abs(first[-1])), weight, abs(weight) / radius, whole)
-
-
-def size(shaken: Shaking) -> FloatArray:
-    """Size of the force [N]."""
-    sizes: FloatArray = np.abs(shaken.force)
-    return sizes

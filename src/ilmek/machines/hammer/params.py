@@ -124,10 +124,7 @@ class HammerParams(Params):
     axis: str = kind.choice("screw", AXES, doc="ball screws or toothed belts")
     lead: float = kind.length(10 * mm, at_least=0.5 * mm, at_most=0.2, doc="lead of the screws")
     screw_diameter: float | None = kind.length(
-        None,
-        at_least=5 * mm,
-        at_most=0.5,
-        doc="diameter of a screw; default: the least of stock that does not buckle",
+        None, at_least=5 * mm, at_most=0.5, doc="diameter of a screw; default: the least of stock that does not buckle"
     )
     pulley_radius: float = kind.length(25 * mm, at_least=5 * mm, at_most=0.5, doc="pitch radius of the belts' pulleys")
     axis_efficiency: float = kind.ratio(0.9, at_least=0.05, at_most=1.0, doc="efficiency of screw or belt")
