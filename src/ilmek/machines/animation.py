@@ -1,7 +1,7 @@
 """A mechanism of the engine in motion, as a figure: bodies as bars, joints as their symbols, points as paths.
 
-A machine solves its plan at `frames()` and hands the motion over; what stands beside the mechanism (cloth, fell) comes
-in its drawing.
+A machine solves its plan at `frames()` and hands the motion over; its drawing holds what is at rest beside the
+mechanism (cloth, fell).
 """
 
 import dataclasses
@@ -14,18 +14,17 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.attached import attached
 from ilmek.linkage.model import GROUND, Pin, Slide
 from ilmek.linkage.motion import Motion
+from ilmek.machines.crank_figures import CRANK
 from ilmek.plane.vectors import cross, dot, unit
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import turn
 
 FRAMES = 60
 SAME = 1e-9
-"""Places nearer than this are one [m]; angles, [rad]."""
+"""Points nearer than this coincide [m]; angles too [rad]."""
 
 BEYOND = 0.15
-"""How far a guide reaches beyond the way of its slider, over that way."""
-
-CRANK = Axis("crank angle", "deg")
+"""Length of a guide beyond the range of its slider, over that range."""
 
 Naming = Callable[[str], str]
 
@@ -53,12 +52,12 @@ def animated(
     readings: tuple[Reading, ...] = (),
     drive: Axis = CRANK,
 ) -> Animation:
-    """The mechanism over its frames; it goes to and fro where they are no whole turn.
+    """The mechanism over its frames; it runs to and fro where they are no whole turn.
 
     motion   solved at the values `at` of the drive [SI], ascending and evenly apart
-    drawing  name, title and note, and what stands still beside the mechanism
+    drawing  name, title and note, and the strokes and dots that do not move
     traces   bodies and their points whose paths are drawn
-    names    what to write for a body, joint or point instead of its own name; "" for nothing
+    names    labels of bodies, joints or points that differ from their names; "" for none
     start    value of the drive that is shown first            period  of a run of the real machine [s]
     """
     named: Naming = lambda name: (names or {}).get(name, name)  # noqa: E731
@@ -96,15 +95,15 @@ def _pins(motion: Motion, named: Naming, pivots: tuple[Dot, ...]) -> Iterator[Mo
 
 
 @dataclass(frozen=True, slots=True)
-class _Way:
-    """The way of a slider on its guide: least and greatest distance from the guide's point, in the guide's frame."""
+class _Range:
+    """The range of a slider on its guide: its end positions in the guide's frame [m]."""
 
     slide: Slide
     least: complex
     most: complex
 
 
-def _ways(motion: Motion) -> Iterator[_Way]:
+def _ranges(motion: Motion) -> Iterator[_Range]:
     mechanism = motion.plan.mechanism
     for slide in mechanism.joints:
         if isinstance(slide, Slide):
@@ -113,18 +112,19 @@ def _ways(motion: Motion) -> Iterator[_Way]:
             along = complex(unit(slide.along))
             shift = np.asarray(dot(motion.direction(slide.guide) * along, away))
             more = BEYOND * (shift.max() - shift.min())
-            yield _Way(slide, point + along * (shift.min() - more), point + along * (shift.max() + more))
+            yield _Range(slide, point + along * (shift.min() - more), point + along * (shift.max() + more))
 
 
 def _guides(motion: Motion) -> tuple[Stroke, ...]:
-    """The guides on the ground, as far as their sliders go."""
-    return tuple(Stroke(np.array([way.least, way.most]), "guide") for way in _ways(motion) if way.slide.guide == GROUND)
+    """The guides on the ground, over the range of their sliders."""
+    grounded = (one for one in _ranges(motion) if one.slide.guide == GROUND)
+    return tuple(Stroke(np.array([one.least, one.most]), "guide") for one in grounded)
 
 
 def _blocks(motion: Motion, named: Naming) -> Iterator[MovingDot]:
     """The sliders, along their guides; only a renamed one has a name."""
-    for way in _ways(motion):
-        slide = way.slide
+    for one in _ranges(motion):
+        slide = one.slide
         label = named(slide.name)
         along = np.asarray(motion.direction(slide.guide) * complex(unit(slide.along)))
         at = _track(motion, slide.body, slide.name)
@@ -132,16 +132,16 @@ def _blocks(motion: Motion, named: Naming) -> Iterator[MovingDot]:
 
 
 def _bars(motion: Motion, named: Naming, traces: Sequence[tuple[str, str]]) -> Iterator[MovingStroke]:
-    """Every body through its joints, traced points and the way of what slides on it, the driven ones on top; what
-    slides itself is a plain rod.
+    """Every body through its joints, traced points and the range of its sliders, the driven ones on top; a slider is a
+    plain rod.
     """
     mechanism = motion.plan.mechanism
-    ways = list(_ways(motion))
-    sliding = {way.slide.body for way in ways}
+    ranges = list(_ranges(motion))
+    sliding = {one.slide.body for one in ranges}
     for body in reversed(mechanism.moving):
         joints = (joint.name for joint in mechanism.joints if body in joint.bodies)
         local = [mechanism.point(body, name) for name in (*joints, *(point for of, point in traces if of == body))]
-        local += [end for way in ways if way.slide.guide == body for end in (way.least, way.most)]
+        local += [end for one in ranges if one.slide.guide == body for end in (one.least, one.most)]
         corners = _corners(np.array(local))
         if len(corners) > 1:
             points = np.column_stack([attached(motion, body, complex(corner)).position for corner in corners])
@@ -150,7 +150,7 @@ def _bars(motion: Motion, named: Naming, traces: Sequence[tuple[str, str]]) -> I
 
 
 def _corners(points: ComplexArray) -> ComplexArray:
-    """The ends of points in a line, the others round their middle; each place once."""
+    """The ends of points in a line; other points in order around their middle, each once."""
     farthest = points[np.argmax(np.abs(points - points[0]))]
     along = farthest - points[0]
     if abs(along) < SAME:

@@ -10,13 +10,13 @@ from ilmek.units import turn
 
 
 def cam_table(track: Track, name: str, title: str, period: float) -> CamTable:
-    """The track's motion at a period of the master [s], with every place where its laws are not smooth."""
+    """The track's motion at a period of the master [s], with all angles at which its laws are not smooth."""
 
-    def course(angle: FloatArray) -> FloatArray:
-        motion = sample(track, np.asarray(angle))
-        return np.stack([motion.position, motion.slope, motion.bend])
+    def motion(angle: FloatArray) -> FloatArray:
+        at = sample(track, np.asarray(angle))
+        return np.stack([at.position, at.slope, at.bend])
 
     laws = ((part, law_of(part.law.name, part.law.parameters)) for part in track.segments)
     inner = [part.angle(u) % turn for part, law in laws for u in law.breaks]
     knots = np.unique(np.concatenate([joints(track), inner]))
-    return CamTable(name, title, course, knots, track.unit, period, track.revolves)
+    return CamTable(name, title, motion, knots, track.unit, period, track.revolves)

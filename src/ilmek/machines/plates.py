@@ -13,11 +13,10 @@ from ilmek.report import Contour, Hole, Plate
 from ilmek.units import format_quantity
 
 ZERO_MARK = 0.1
-"""Length of the scribed mark of the angle 0, as a share of the plate's radius there."""
-
+"""Length of the scribed mark of the angle 0, as a share of the plate's radius."""
 
 PIN_SHARE = 1 / 3
-"""Diameter of a link's pin as a share of its width, where a design says none."""
+"""Diameter of a link's pin over the link's width, where a design gives none."""
 
 
 def link_plate(
@@ -33,10 +32,10 @@ def link_plate(
 ) -> Plate:
     """A link's plate: a bored hole at each pin, and as much material around them as `width` asks for.
 
-    pins   names and places of the pins in the link's own frame [m], two or more
+    pins   names and positions of the pins in the link's own frame [m], two or more
     width  across a straight link [m]: twice the radius of its ends
-    Three pins or more make the hull of their ends. Raises ParameterError for pins in one place, or a width that the
-    holes leave no material.
+    Three pins or more make the hull of their ends. Raises ParameterError for coincident pins, or a width without
+    material beside the holes.
 
     >>> plate = link_plate("crank", "Crank", [("A", 0j), ("B", 0.06 + 0j)], hole_radius=0.005, width=0.024,
     ...                    thickness=0.008, material="steel")
@@ -48,14 +47,14 @@ def link_plate(
             f"a link {format_quantity(width, 'mm')} wide with holes of {format_quantity(2 * hole_radius, 'mm')}",
             allowed="wider than its holes",
         )
-    places = np.array([place for _, place in pins], dtype=complex)
-    apart = np.abs(places[:, None] - places[None, :])[np.triu_indices(len(places), 1)]
-    if len(places) < 2 or apart.min() < 2 * hole_radius:
+    centres = np.array([centre for _, centre in pins], dtype=complex)
+    apart = np.abs(centres[:, None] - centres[None, :])[np.triu_indices(len(centres), 1)]
+    if len(centres) < 2 or apart.min() < 2 * hole_radius:
         raise ParameterError(
             f"the holes of {name} run into one another", allowed=f"{format_quantity(2 * hole_radius, 'mm')} apart"
         )
-    outline = rounded_hull(places, width / 2)
-    holes = tuple(Hole(place, hole_radius, pin) for pin, place in pins)
+    outline = rounded_hull(centres, width / 2)
+    holes = tuple(Hole(centre, hole_radius, pin) for pin, centre in pins)
     return Plate(name, title, outline, thickness, material, holes, area=area(outline), number=number)
 
 
@@ -69,9 +68,9 @@ def link_plates(
 ) -> tuple[Plate, ...]:
     """The plates of a linkage's links, bored for pins of a third of their width.
 
-    links  link -> names and places of its pins in its own frame [m]
-    A pin so near to one before it that their holes would leave no bridge between them is left out, and a link that has
-    fewer than two left has no plate: it is made otherwise.
+    links  link -> names and positions of its pins in its own frame [m]
+    A pin is left out where its hole and that of a pin before it would leave no bridge; a link with fewer than two pins
+    left has no plate: it is made otherwise.
     """
     hole = PIN_SHARE * width / 2
     bored = {name: _apart(pins, 3 * hole) for name, pins in links.items()}
@@ -100,7 +99,7 @@ def _apart(pins: Sequence[tuple[str, complex]], least: float) -> list[tuple[str,
 
 
 class Bore(NamedTuple):
-    """How a disc is bored for its shaft; `Plate(..., **bore._asdict())` is a plate bored so."""
+    """The bore of a disc for its shaft; `Plate(..., **bore._asdict())` is a plate with it."""
 
     holes: tuple[Hole, ...]
     cutouts: tuple[Contour, ...]
@@ -110,18 +109,18 @@ class Bore(NamedTuple):
 def round_bore(diameter: float, *, key: bool = True) -> Bore:
     """A bore about the origin; with the hub's keyway of DIN 6885-1, towards +x.
 
-    Raises ParameterError for a diameter that no parallel key is for.
+    Raises ParameterError for a diameter beyond those of parallel keys.
 
     >>> round_bore(0.025).notes
     ('bore 25 mm H7, keyway 8 mm JS9, 28.3 mm across bore and keyway (DIN 6885-1)',)
     """
-    said = f"bore {format_quantity(diameter, 'mm')} H7"
+    bore = f"bore {format_quantity(diameter, 'mm')} H7"
     if not key:
-        return Bore((Hole(0j, diameter / 2, "bore"),), (), (said,))
-    way = keyway_for(diameter)
-    across = format_quantity(diameter + way.in_hub, "mm")
-    keyed = f"keyway {format_quantity(way.width, 'mm')} JS9, {across} across bore and keyway (DIN 6885-1)"
-    return Bore((), (keyed_bore(diameter / 2, way.width, way.in_hub),), (f"{said}, {keyed}",))
+        return Bore((Hole(0j, diameter / 2, "bore"),), (), (bore,))
+    keyway = keyway_for(diameter)
+    across = format_quantity(diameter + keyway.in_hub, "mm")
+    keyed = f"keyway {format_quantity(keyway.width, 'mm')} JS9, {across} across bore and keyway (DIN 6885-1)"
+    return Bore((), (keyed_bore(diameter / 2, keyway.width, keyway.in_hub),), (f"{bore}, {keyed}",))
 
 
 def square_bore(side: float) -> Bore:
