@@ -123,7 +123,7 @@ def _child(sender: Connection, root: Path, task: Task) -> None:
             sys.meta_path.insert(0, _Finder(*task.mutant))
             importlib.import_module(task.mutant[0])
         first_failure = () if task.record else ("-x",)
-        code = int(pytest.main([*OPTIONS, *first_failure, *task.files], plugins=[plugin]))
+        code = int(pytest.main([*OPTIONS, *first_failure, *task.files], plugins=[plugin])) if task.files else 0
     except BaseException as error:  # the mutant cannot even be loaded
         code, plugin.failed = 1, repr(error)[:200]
     sender.send(Outcome(CAUGHT if code else SURVIVED, plugin.failed, plugin.functions(), plugin.seconds))
