@@ -24,7 +24,6 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.beat_up.family import FamilyResult, chosen_ratio, family_of, is_chosen
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
-from ilmek.machines.beat_up.running import MotorRun, run
 from ilmek.machines.beat_up.shaking import Balance, balance
 from ilmek.num.piecewise import Extremum, around, suprema
 from ilmek.records import record
@@ -163,16 +162,9 @@ class BeatUp:
         """All crank-rockers with its dead centres."""
         return family_of(self.params, self.links, self.dead_centres)
 
-    def run(self) -> MotorRun:
-        """Its run by the motor, from rest and at speed, and the motor and flywheel that it needs."""
-        return run(
-            self.params,
-            self.plan,
-            self.bodies,
-            Gravity(self.params.gravity_vector),
-            torque=lambda at: evaluate(self.params, self.plan, self.bodies, at).torque,
-            back=self.back_angle,
-        )
+    def state_at(self, angle: FloatArray) -> BeatUpState:
+        """Motion and forces at crank angles [rad]."""
+        return evaluate(self.params, self.plan, self.bodies, angle)
 
 
 def design(params: BeatUpParams) -> BeatUp:
@@ -185,7 +177,7 @@ def design(params: BeatUpParams) -> BeatUp:
     lengths = _lengths(params, links)
     planned = plan(mechanism(lengths))
     bars = _bars(params, lengths)
-    inertias = _inertias(params, lengths, bars)
+    inertias = {**bars, "rocker": combined(bars["rocker"], point_mass(params.beater_mass, lengths["beater"]))}
     angle = np.arange(SAMPLES + 1) * (turn / SAMPLES)
     _require_swing(links, planned, angle)
 
@@ -275,22 +267,12 @@ def _lengths(params: BeatUpParams, links: LinkRatios) -> dict[str, float]:
 
 def _bars(params: BeatUpParams, lengths: Mapping[str, float]) -> dict[str, Inertia]:
     """The bars of the moving links, from pin to pin; the rocker's reaches to the beater, or to B if that is farther."""
-    spans = {
-        "crank": lengths["crank"],
-        "coupler": lengths["coupler"],
-        "rocker": max(lengths["rocker"], lengths["beater"]),
+    spans = {**lengths, "rocker": max(lengths["rocker"], lengths["beater"])}
+    masses = {
+        name: float(bar_mass(spans[name], params.width, params.thickness, params.density))
+        for name in ("crank", "coupler", "rocker")
     }
-    return {
-        name: bar(
-            0, span, mass=float(bar_mass(span, params.width, params.thickness, params.density)), width=params.width
-        )
-        for name, span in spans.items()
-    }
-
-
-def _inertias(params: BeatUpParams, lengths: Mapping[str, float], bars: Mapping[str, Inertia]) -> dict[str, Inertia]:
-    """The moving bodies: the bars, and the beater as a point mass on the rocker."""
-    return {**bars, "rocker": combined(bars["rocker"], point_mass(params.beater_mass, lengths["beater"]))}
+    return {name: bar(0, spans[name], mass=mass, width=params.width) for name, mass in masses.items()}
 
 
 def _require_swing(links: LinkRatios, planned: Plan, angle: FloatArray) -> None:

@@ -121,13 +121,12 @@ def curves_over_a_turn(design: BeatUp) -> tuple[Plot, ...]:
 
 def started(running: MotorRun) -> tuple[Plot, ...]:
     """Speed of the crank from rest, under the motor; nothing where the motor is not run."""
-    runs = [run for run in (running.start, running.steady) if run is not None]
-    if not runs:
+    if not running.runs:
         return ()
-    begin = [0.0, float(runs[0].time[-1])]
+    begin = [0.0, float(running.runs[0].time[-1])]
     series = tuple(
         Series(label, start + run.time, run.speed)
-        for label, start, run in zip(("from rest", "at speed"), begin, runs, strict=False)
+        for label, start, run in zip(("from rest", "at speed"), begin, running.runs, strict=False)
     )
     axes = Axis("time", "s"), Axis("speed", "rad/s")
     return (Plot("run-speed", "Speed of the crank under its motor", *axes, series),)

@@ -7,7 +7,7 @@ from ilmek.machines.beat_up.family import QUANTITIES, FamilyResult, limits
 from ilmek.machines.beat_up.family_figures import family_figures
 from ilmek.machines.beat_up.figures import figures_of
 from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.machines.beat_up.running import REACHED, MotorRun
+from ilmek.machines.beat_up.running import REACHED, MotorRun, motor_run
 from ilmek.machines.plates import link_plates
 from ilmek.records import record
 from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group
@@ -45,7 +45,7 @@ class BeatUpAnalysis:
 
 def analyse(design: BeatUp) -> BeatUpAnalysis:
     """The run and the family of a design."""
-    return BeatUpAnalysis(design, design.run(), design.family())
+    return BeatUpAnalysis(design, motor_run(design), design.family())
 
 
 def checks(found: BeatUpAnalysis) -> tuple[Check, ...]:
@@ -105,15 +105,15 @@ def _running_checks(params: BeatUpParams, running: MotorRun) -> tuple[Check, ...
     """Whether the motor starts it, the flywheel is enough, and the runs keep their energy."""
     if running.start is None:
         return ()
-    runs = [run for run in (running.start, running.steady) if run is not None]
-    reached = max(float(run.speed.max()) for run in runs)
-    energy = max(run.energy_error for run in runs)
+    reached = max(float(run.speed.max()) for run in running.runs)
+    energy = max(run.energy_error for run in running.runs)
+    last = running.last_turn
     return (
         at_least("speed that the motor reaches", reached, REACHED * params.speed, "rad/s", "forward run, 95 % of it"),
         at_most("energy balance of the runs", energy, ENERGY_LIMIT, "1", "work of motor and weight against energy"),
         *(
-            (at_most("fluctuation of the speed", running.fluctuation, params.fluctuation, "1", "forward run"),)
-            if running.steady
+            (at_most("fluctuation of the speed", last.fluctuation, params.fluctuation, "1", "forward run"),)
+            if last
             else ()
         ),
     )

@@ -6,7 +6,6 @@ omega_0 the speed without load, s the slip at which it would give M_0 were its c
 """
 
 import math
-from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -14,13 +13,11 @@ from ilmek.arrays import FloatArray
 from ilmek.dynamics.flywheel import CyclicTorque, duty, flywheel
 from ilmek.dynamics.forward import ForwardRun, ForwardState, at_speed, forward
 from ilmek.dynamics.fourier_terms import tabulate
-from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity
-from ilmek.dynamics.reduced import ReducedMechanism, reduce
-from ilmek.linkage.structure import Plan
-from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.dynamics.reduced import reduce
+from ilmek.machines.beat_up.design import BeatUp
 from ilmek.records import record
-from ilmek.report import computed, result
+from ilmek.report import computed, group, result
 from ilmek.units import turn
 
 REACHED = 0.95
@@ -36,13 +33,33 @@ ROUNDING = 1e-10
 
 
 @record
+class LastTurn:
+    """The last turn of the steady run: speeds of the crank [rad/s], torques of the motor [N m]."""
+
+    speed: FloatArray
+    torque: FloatArray
+
+    run_speed_mean = computed("rad/s", "mean speed of the last turn that was run", lambda it: float(it.speed.mean()))
+    run_motor_torque_max = computed(
+        "N*m", "greatest torque of the motor in it", lambda it: float(np.max(np.abs(it.torque)))
+    )
+    run_motor_torque_rms = computed(
+        "N*m", "root mean square of the same", lambda it: math.sqrt(float(np.mean(it.torque**2)))
+    )
+
+    @computed("1", "fluctuation of the speed in that turn: (greatest - least) / mean of both", name="run_fluctuation")
+    def fluctuation(self) -> float:
+        return float((self.speed.max() - self.speed.min()) / ((self.speed.max() + self.speed.min()) / 2))
+
+
+@record
 class MotorRun:
     """The beat-up under its motor.
 
     duty      of the torque at constant speed
-    start     the run from rest, the beater farthest back, to 95 % of the speed; `started`: whether it came there
-    steady    turns at speed, after it; None where it does not start
-    Both are None where the linkage stands so near a toggle that its inertia has no usable Fourier series.
+    start     the run from rest, the beater farthest back, to 95 % of the speed; `started`: whether it reached that
+    steady    turns at speed, after it, and the last of them; None where it does not start
+    All are None where the linkage stands so near a toggle that its inertia has no usable Fourier series.
     """
 
     duty: CyclicTorque
@@ -51,6 +68,7 @@ class MotorRun:
     start: ForwardRun | None
     started: bool
     steady: ForwardRun | None
+    last_turn: LastTurn | None = group()
 
     drive_torque_rms = computed("N*m", "root mean square of the torque", lambda it: it.duty.rms)
     work_excess = computed(
@@ -67,85 +85,42 @@ class MotorRun:
             return None
         return float(self.start.time[-1]) if self.started else math.nan
 
-    @computed("rad/s", "mean speed of the last turn that was run", optional=True)
-    def run_speed_mean(self) -> float | None:
-        return float(self.last_turn[0].mean()) if self.steady else None
-
-    @computed("1", "fluctuation of the speed in that turn", optional=True)
-    def run_fluctuation(self) -> float | None:
-        return self.fluctuation if self.steady else None
-
-    @computed("N*m", "greatest torque of the motor in it", optional=True)
-    def run_motor_torque_max(self) -> float | None:
-        return float(np.max(np.abs(self.last_turn[1]))) if self.steady else None
-
-    @computed("N*m", "root mean square of the same", optional=True)
-    def run_motor_torque_rms(self) -> float | None:
-        return math.sqrt(float(np.mean(self.last_turn[1] ** 2))) if self.steady else None
-
     @property
-    def last_turn(self) -> tuple[FloatArray, FloatArray]:
-        """Speeds [rad/s] and motor torques [N m] of the steady run's last turn; empty where there is none."""
-        if self.steady is None:
-            return np.zeros(0), np.zeros(0)
-        return self.steady.speed[-STEADY_SAMPLES:], self.steady.effort[-STEADY_SAMPLES:]
-
-    @property
-    def fluctuation(self) -> float:
-        """Of the speed in the last turn, (greatest - least) / mean of both; NaN where there is none."""
-        speed, _ = self.last_turn
-        return float((speed.max() - speed.min()) / ((speed.max() + speed.min()) / 2)) if speed.size else math.nan
+    def runs(self) -> tuple[ForwardRun, ...]:
+        """The start and the turns at speed, as far as they were run."""
+        return tuple(run for run in (self.start, self.steady) if run is not None)
 
 
-def run(
-    params: BeatUpParams,
-    planned: Plan,
-    inertias: Mapping[str, Inertia],
-    weight: Gravity,
-    *,
-    torque: Callable[[FloatArray], FloatArray],
-    back: float,
-) -> MotorRun:
-    """The running of a beat-up: `torque` on the crank at constant speed, `back` the crank angle that it starts from."""
-    required = duty(lambda angle, _: torque(angle))
+def motor_run(design: BeatUp) -> MotorRun:
+    """The run of a beat-up by its motor, and the motor and flywheel that it needs.
+
+    It reaches its speed in the time that twice the greatest inertia would take, or does not start.
+    """
+    params, speed = design.params, design.params.speed
+    required = duty(lambda angle, _: design.state_at(angle).torque)
     wheel = params.flywheel
     if wheel is None:
-        wheel = max(flywheel(required.excess, params.speed, params.fluctuation) - inertias["crank"].about(0), 0.0)
+        wheel = max(flywheel(required.excess, speed, params.fluctuation) - design.bodies["crank"].about(0), 0.0)
     most = params.motor_torque or required.peak.value
-    reduced = reduce(planned, inertias, (weight,), flywheel=wheel)
+    reduced = reduce(design.plan, design.bodies, (Gravity(params.gravity_vector),), flywheel=wheel)
     if most == 0 or tabulate(reduced) is None:
-        return MotorRun(required, wheel, most, None, False, None)
+        return MotorRun(required, wheel, most, None, False, None, None)
 
-    def motor(_time: float, _position: float, speed: float) -> float:
-        return most * math.tanh((params.speed - speed) / (params.slip * params.speed))
+    def motor(_time: float, _position: float, at: float) -> float:
+        return most * math.tanh((speed - at) / (params.slip * speed))
 
-    start, started = _start(params, reduced, motor, most, back)
-    last = start.end.state
-    steady = _steady(params, reduced, motor, ForwardState(last.position, last.speed)) if started else None
-    return MotorRun(required, wheel, most, start, started, steady)
+    def run(start: ForwardState, duration: float, every: float, *, reach: bool) -> ForwardRun:
+        events = (reached,) if reach else ()
+        return forward(reduced, start, duration, drive=motor, events=events, every=every, rtol=RTOL)
 
-
-def _start(
-    params: BeatUpParams,
-    reduced: ReducedMechanism,
-    motor: Callable[[float, float, float], float],
-    most: float,
-    back: float,
-) -> tuple[ForwardRun, bool]:
-    """The run from rest; whether it reached its speed in the time that twice the greatest inertia would take."""
+    reached = at_speed(REACHED * speed)
     greatest = float(np.max(reduced.terms(np.linspace(0, turn, 181)).inertia))
-    duration = min(4 * greatest * params.speed / most, MOST_TURNS * turn / params.speed)
-    reached = at_speed(REACHED * params.speed)
-    found = forward(
-        reduced, ForwardState(back), duration, drive=motor, events=(reached,), every=duration / 200, rtol=RTOL
-    )
-    return found, found.end.words == reached.name
-
-
-def _steady(
-    params: BeatUpParams, reduced: ReducedMechanism, motor: Callable[[float, float, float], float], start: ForwardState
-) -> ForwardRun:
-    """The run from the start's last state."""
-    period = turn / params.speed
-    every = period / STEADY_SAMPLES
-    return forward(reduced, start, STEADY_TURNS * period, drive=motor, every=every, rtol=RTOL)
+    duration = min(4 * greatest * speed / most, MOST_TURNS * turn / speed)
+    start = run(ForwardState(design.back_angle), duration, duration / 200, reach=True)
+    if start.end.words != reached.name:
+        return MotorRun(required, wheel, most, start, False, None, None)
+    last, period = start.end.state, turn / speed
+    at_speed_from = ForwardState(last.position, last.speed)
+    steady = run(at_speed_from, STEADY_TURNS * period, period / STEADY_SAMPLES, reach=False)
+    final = LastTurn(steady.speed[-STEADY_SAMPLES:], steady.effort[-STEADY_SAMPLES:])
+    return MotorRun(required, wheel, most, start, True, steady, final)

@@ -13,7 +13,6 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.machines import beat_up
-from ilmek.machines.beat_up.design import evaluate
 from ilmek.machines.hammer.axis import CombDrive, axis_for
 from ilmek.machines.hammer.comb import Comb, comb_for, comb_mass, with_depth
 from ilmek.machines.hammer.params import HammerParams
@@ -144,8 +143,7 @@ def linkage_for(params: HammerParams, needed: float) -> CombLinkage:
     one = beat_up.design(
         beat_up.BeatUpParams(ground=params.ground, speed=params.beat_speed, beater_mass=share, beat_force=0.0)
     )
-    beat = evaluate(one.params, one.plan, one.bodies, np.array([one.beta]))
-    force = number * float(np.abs(beat.beater_force[0]))
+    force = number * float(np.abs(one.state_at(np.array([one.beta])).beater_force[0]))
     # Without weight every force grows with the square of the speed.
     speed = params.beat_speed * math.sqrt(needed * params.warps / force) if force else None
     energy = 0.5 * number * share * one.beater_velocity_max**2
