@@ -33,7 +33,7 @@ def machine() -> tuple[KnottingFourBar, KnottingSides]:
 
 def tied(made: KnottingFourBar, sides: KnottingSides) -> TwoHandKnot:
     """What the hands tie on the opened warps."""
-    first, second = (way[made.onward] for way in hands(sides.course.motion))
+    first, second = (way[made.onward] for way in hands(sides.moving.motion))
     return knot_of_hands(first, second, OPENED)
 
 

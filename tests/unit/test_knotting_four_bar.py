@@ -9,7 +9,7 @@ import pytest
 from ilmek.dynamics.attached import attached
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.machines.catalogue import MACHINES
-from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBarParams, design, report
+from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBarParams, design
 from ilmek.report import Animation, Drawing, Plot, Report
 from ilmek.units import deg, mm
 
@@ -25,7 +25,7 @@ GOOD = {
 
 
 def answer(**settings: str) -> Report:
-    return report(design(KnottingFourBarParams.read(settings)))
+    return MACHINE.report_for(settings)
 
 
 def test_answers_by_the_names_that_are_promised() -> None:
@@ -104,7 +104,7 @@ def test_the_hand_on_the_other_side_moves_the_mass_there() -> None:
 
 def test_figures_are_two_drawings_and_curves_over_the_range() -> None:
     made = design(KnottingFourBarParams())
-    quoted, moving, instead, replaced, *plots = report(made).figures
+    quoted, moving, instead, replaced, *plots = MACHINE.report(made).figures
     assert isinstance(moving, Animation)
     assert isinstance(replaced, Animation)
     assert isinstance(quoted, Drawing)

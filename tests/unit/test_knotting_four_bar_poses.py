@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.errors import ParameterError
-from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design, report
+from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBar, KnottingFourBarParams, design
 from ilmek.machines.knotting_four_bar.poses import HandPoses, best_ray, synthesised
 from ilmek.report import Animation, Drawing
 from ilmek.units import deg, mm
@@ -29,7 +29,7 @@ def published() -> KnottingFourBar:
 
 def test_both_arms_of_the_published_poses_and_the_four_bar_of_both(published) -> None:
     """Re-computed from the report: its own arms miss by 10 to 29 mm."""
-    said = report(published).as_json()["results"]
+    said = MACHINE.report(published).as_json()["results"]
     table = [[one["a0"] / mm, one["a1"] / mm, one["a2"] / mm, *np.degrees(one["theta1"])] for one in said["solutions"]]
     right = [
         [1.255712017, 17.16552771, 17.22932881, -174.1791206, 63.40440539, 33.73276562],
@@ -48,7 +48,7 @@ def test_both_arms_of_the_published_poses_and_the_four_bar_of_both(published) ->
 
 
 def test_the_machine_moves_its_hand_through_the_poses(published) -> None:
-    said = report(published).as_json()["results"]
+    said = MACHINE.report(published).as_json()["results"]
     assert [(pose["order"], pose["branch"], pose["circuit"]) for pose in said["poses"]] == [
         (1, -1, 1),
         (2, -1, 1),
@@ -65,7 +65,7 @@ def test_the_machine_moves_its_hand_through_the_poses(published) -> None:
 
 
 def test_the_drive_is_chosen_for_the_whole_way(published) -> None:
-    said = report(published).as_json()["results"]
+    said = MACHINE.report(published).as_json()["results"]
     assert said["drive_torque_max"] >= max(abs(pose["drive_torque"]) for pose in said["poses"])
     assert said["drive_torque_max"] == pytest.approx(np.abs(published.standing.torque).max(), rel=1e-4)
     assert said["servo_torque"] == pytest.approx(said["drive_torque_max"] / (0.9 * said["gear_ratio"]))
@@ -74,18 +74,18 @@ def test_the_drive_is_chosen_for_the_whole_way(published) -> None:
 
 
 def test_parameters_are_those_in_force_and_the_poses_as_typed(published) -> None:
-    said = report(published).as_json()["parameters"]
+    said = MACHINE.report(published).as_json()["parameters"]
     assert said["poses"] == PUBLISHED
     assert said["crank"] == pytest.approx(17.16552771 * mm, abs=1e-11)
     assert said["ground_angle"] == pytest.approx(275 * deg)
-    plain = report(design(KnottingFourBarParams())).as_json()
+    plain = MACHINE.report(design(KnottingFourBarParams())).as_json()
     assert plain["parameters"]["poses"] is None
     assert plain["parameters"]["crank_angle"] == pytest.approx(135 * deg)
     assert "solutions" not in plain["results"]
 
 
 def test_figures_show_the_poses(published) -> None:
-    still, moving, *plots = report(published).figures
+    still, moving, *plots = MACHINE.report(published).figures
     assert isinstance(still, Drawing)
     assert isinstance(moving, Animation)
     assert not moving.closes
@@ -129,7 +129,7 @@ def test_turned_and_scaled_poses_make_the_same_four_bar(turned, factor) -> None:
         ({"r0": "78.105mm"}, "poses are given together with ground; either poses, .*; leave out poses, or ground"),
         ({"r1": "20mm", "hand": "1mm"}, "together with crank, hand"),
         ({"branch": "1"}, "together with branch"),
-        ({"crank_angle": "10deg"}, "crank_angle 10 deg is outside the way through the poses; 33.73 deg to 185.8 deg"),
+        ({"crank_angle": "10deg"}, "crank_angle 10 deg is outside the motion through the poses; 33.73 deg to 185.8 deg"),
         ({"poses": PUBLISHED + " (31mm,1mm,-30deg)"}, "4 poses; exactly 3; for 4 poses: motion-four-bar"),
         ({"poses": PUBLISHED + " (31mm,1mm,-30deg)" * 3}, "6 poses; exactly 3; no four-bar takes more than 5"),
         ({"poses": "(0mm,0mm,10deg)"}, "1 pose; exactly 3"),

@@ -12,7 +12,7 @@ from ilmek.linkage.clearance import OutlinedBody, distances
 from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.model import degrees_of_freedom
 from ilmek.linkage.one_input import one_input
-from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design, report
+from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBar, KnottingFourBarParams, design
 from ilmek.machines.knotting_four_bar.sides import KnottingSides, clearances, hands, other, outlines
 from ilmek.report import Animation, Drawing, Report
 from ilmek.units import MPa, mm
@@ -41,7 +41,7 @@ def test_both_sides_are_one_mechanism_of_one_freedom_and_mirror_images(quick) ->
     sides = sides_of(quick)
     assert degrees_of_freedom(sides.plan.mechanism) == 1
     assert [one.name for one in sides.plan.mechanism.inputs] == ["crank"]
-    motion = sides.course.motion
+    motion = sides.moving.motion
     for body, point in (("crank", "O2"), ("coupler", "O2'"), ("coupler", "H"), ("rocker", "O2'")):
         one, two = motion.point(body, point), motion.point(other(body), other(point))
         np.testing.assert_allclose(two.position, 2 * sides.mirror - np.conj(one.position), atol=1e-15)
@@ -51,7 +51,7 @@ def test_both_sides_are_one_mechanism_of_one_freedom_and_mirror_images(quick) ->
 
 def test_the_motor_bears_the_sum_of_both_sides_alone(quick) -> None:
     sides = sides_of(quick)
-    course = sides.course
+    course = sides.moving
     np.testing.assert_allclose(
         course.torque, course.alone[0] - course.alone[1], atol=1e-12 * np.abs(course.torque).max()
     )
@@ -62,7 +62,7 @@ def test_the_motor_bears_the_sum_of_both_sides_alone(quick) -> None:
     # The gears' discs turn with the cranks: at 400 rad/s² they are felt.
     disc = np.pi * sides.gears.pitch_radius**2 * sides.gears.width * quick.params.density
     added = 2 * disc * sides.gears.pitch_radius**2 / 2 * 400
-    np.testing.assert_allclose(course.torque, 2 * quick.course.torque + added, rtol=1e-9)
+    np.testing.assert_allclose(course.torque, 2 * quick.moving.torque + added, rtol=1e-9)
 
 
 def test_axes_stand_as_near_as_clearance_and_teeth_allow() -> None:
@@ -74,7 +74,7 @@ def test_axes_stand_as_near_as_clearance_and_teeth_allow() -> None:
 
 @cache
 def told() -> Report:
-    return report(made())
+    return MACHINE.report(made())
 
 
 def test_every_answer_by_its_name() -> None:
@@ -93,17 +93,17 @@ def test_every_answer_by_its_name() -> None:
     # All of the clearance is used but for the rest to the next tooth.
     wanted = 1 * mm + sides.gears.distance - sides.least_distance
     assert said["side_clearance_min"] == pytest.approx(wanted, abs=1e-6)
-    assert not {"knot_tied", "gears"} & set(report(design(KnottingFourBarParams())).as_json()["results"])
+    assert not {"knot_tied", "gears"} & set(MACHINE.report(design(KnottingFourBarParams())).as_json()["results"])
 
 
 def test_two_bodies_of_different_kinds_never_come_nearer() -> None:
     """Why only a body and its own mirror image are looked at."""
     sides, params = sides_of(made()), made().params
-    way = InputPath(one_input(sides.plan), *sides.course.angle[[0, -1]])
+    way = InputPath(one_input(sides.plan), *sides.moving.angle[[0, -1]])
     least = min(one.least for one in clearances(params, sides).values())
     rocker = outlines(params, sides.plan.mechanism, "rocker")
     coupler = outlines(params, sides.plan.mechanism, "coupler")
-    crossed = distances(way, coupler, OutlinedBody(other("rocker"), rocker.outlines), sides.course.angle[::20])
+    crossed = distances(way, coupler, OutlinedBody(other("rocker"), rocker.outlines), sides.moving.angle[::20])
     assert np.min(crossed) > least
 
 
@@ -112,7 +112,7 @@ def test_a_given_distance_shifts_the_teeth_and_too_small_a_one_fails_its_checks(
     assert sides.gears.teeth == 80
     assert sides.gears.profile_shift == pytest.approx(0.303, abs=2e-3)
     assert 2 * sides.gears.pitch_radius == pytest.approx(80.3 * mm)
-    near = report(made(axis_distance="70mm", gear_stress="1MPa", gear_module="0.5mm"))
+    near = MACHINE.report(made(axis_distance="70mm", gear_stress="1MPa", gear_module="0.5mm"))
     failed = [check.name for check in near.failed]
     assert {"clearance of the two sides", "bending of the gears' teeth"} < set(failed)
     assert near.as_json()["results"]["side_clearance_min"] < 0
@@ -123,7 +123,7 @@ def test_a_given_distance_shifts_the_teeth_and_too_small_a_one_fails_its_checks(
 def test_links_without_poses_have_two_sides_too() -> None:
     sides = sides_of(design(KnottingFourBarParams(sides=2)))
     assert sides.gears.distance >= sides.least_distance
-    assert sides.course.torque_error < 1e-9
+    assert sides.moving.torque_error < 1e-9
     assert sides.facing == -1
 
 
@@ -134,7 +134,7 @@ def test_the_published_hands_tie_no_knot_on_warps_2_mm_apart_but_on_opened_ones(
     assert said["knot_why"].startswith("at every height of the warps: ")
     assert said["knot_pitches"][0] == pytest.approx(said["hand_distance_min"], abs=0.2 * mm)
     assert any("they tie a symmetric knot" in warning for warning in told().warnings)
-    first, second = (way[made().onward] for way in hands(sides_of(made()).course.motion))
+    first, second = (way[made().onward] for way in hands(sides_of(made()).moving.motion))
     assert knot_of_hands(first, second, 20 * mm).name == "symmetric knot over warps 1 and 2"
     assert knot_of_hands(first, second, 15 * mm).tied is None
 
@@ -154,7 +154,7 @@ def test_hands_that_go_round_a_warp_each_tie_it_and_others_do_not() -> None:
 
 
 def test_the_ways_of_the_hands_are_led_in_the_order_of_the_poses(quick) -> None:
-    first, _ = hands(sides_of(quick).course.motion)
+    first, _ = hands(sides_of(quick).moving.motion)
     onward = first[quick.onward]
     np.testing.assert_allclose([onward[0], onward[-1]], [0, (30 + 1j) * mm], atol=1e-12)
 

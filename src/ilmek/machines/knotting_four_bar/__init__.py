@@ -1,20 +1,21 @@
 """The planar knotting four-bar: a crank swings a coupler whose end, the hand, carries holder and gripper.
 
-After the student report "Planar knotting mechanisms for Turkish hand woven carpet" (ME 332), whose model has a freedom
-too many: it chooses both crank and coupler angle. Here the coupler follows from the crank, and the ground link points
-as closure at the stated pose demands, to 74.34 deg; with the report's -95 deg the loop misses by 155.5 mm. That pose is
-0.0107 deg from a dead point, and the report's r3 is a difference of two separate links, which means nothing: `instead`
-is the four-bar of both arms of its own synthesis. With `poses` of one's own that synthesis is the machine; with
-`sides=2` the mirrored four-bar stands beside it, and gears couple both cranks.
+After the student report "Planar knotting mechanisms for Turkish hand woven carpet" (ME 332), whose model has a degree
+of freedom too many: it chooses both crank and coupler angle. Here the coupler follows from the crank, and the ground
+link has the direction that closure at the stated pose requires, 74.34 deg; with the report's -95 deg the loop misses by
+155.5 mm. That pose is 0.0107 deg from a dead point, and the report's r3 is a difference of two separate links, which
+means nothing: `instead` is the four-bar of both arms of its own synthesis. With `poses` given, that synthesis is the
+machine; with `sides=2` the mirrored four-bar stands beside it, and gears couple both cranks.
 """
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
-from ilmek.machines.knotting_four_bar.design import KnottingFourBar, design
+from ilmek.machines.knotting_four_bar.design import KnottingFourBar, design, parameters
+from ilmek.machines.knotting_four_bar.figures import figures
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
-from ilmek.machines.knotting_four_bar.report import report
+from ilmek.machines.knotting_four_bar.report import KnottingFourBarAnalysis, analyse, checks, tables, warnings
 
-__all__ = ["MACHINE", "KnottingFourBar", "KnottingFourBarParams", "design", "report"]
+__all__ = ["MACHINE", "KnottingFourBar", "KnottingFourBarParams", "design"]
 
 MACHINE = Component(
     name="knotting-four-bar",
@@ -22,5 +23,11 @@ MACHINE = Component(
     summary=SUMMARIES["knotting-four-bar"],
     params=KnottingFourBarParams,
     design=design,
-    reporter=report,
+    analysis=analyse,
+    reported=(KnottingFourBarAnalysis,),
+    checks=checks,
+    tables=tables,
+    figures=lambda found: figures(found.design),
+    warnings=warnings,
+    parameters=parameters,
 )

@@ -3,8 +3,8 @@
 import dataclasses
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -14,12 +14,21 @@ from ilmek.errors import ParameterError
 from ilmek.linkage.quality import Grashof, grashof, input_range, transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.knotting_four_bar.drive import GearedServo, drive_for
-from ilmek.machines.knotting_four_bar.model import KnottingState, closing_ground, evaluate, inertias, mechanism, parts
-from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, params_of
-from ilmek.machines.knotting_four_bar.poses import Synthesis, read_three_poses, synthesised
-from ilmek.machines.knotting_four_bar.replacement import Replacement, instead
+from ilmek.machines.knotting_four_bar.model import (
+    GearedServo,
+    KnottingState,
+    closing_ground,
+    drive_for,
+    evaluate,
+    inertias,
+    mechanism,
+    parts,
+)
+from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, PosedParams
+from ilmek.machines.knotting_four_bar.posed import PosedFourBar, through_poses, through_the_reports_poses
+from ilmek.machines.knotting_four_bar.poses import read_three_poses, synthesised
 from ilmek.machines.knotting_four_bar.sides import KnottingSides, both_sides
+from ilmek.records import computed, group, record, result
 from ilmek.units import deg, format_quantity, turn
 
 SAMPLES = 360
@@ -27,111 +36,149 @@ EDGE = 0.02
 """Part of the crank's range left out of the curves at each dead point, where forces grow without bound."""
 
 STATED = 135 * deg
-"""Crank angle to report where none is said [rad]."""
+"""Default of the crank angle to report [rad]."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class KnottingFourBar:
     """A designed knotting four-bar.
 
-    params        as in force: with poses, the links that follow from them
+    params        in force: with poses, the links that follow from them
+    posed         the four-bar through the poses; None without
     origin        its pivot O1 [m], complex; off 0 only with poses
-    crank_angle   asked for [rad]
-    ground_angle  direction O1 -> O1' [rad]
-    grashof       its class
-    range         crank angles between which this assembly closes [rad], about the crank angle asked for; None: all
+    crank_angle   to report [rad]
     working       crank angles from the first pose to the last, the lesser first [rad]; None without poses
-    at            at the crank angle asked for
+    at            at the crank angle to report
     static, unit  the same at rest, and at 1 rad/s without acceleration
-    course        over the working range, or all the range, its edges left out
+    moving        over the working range, or the whole range without its edges
     standing      the same at rest
-    synthesis     of the poses; None without            at_poses  the state there
+    load_torque   that the drive is chosen for [N m]: the greatest magnitude, moving or at rest, at the crank angle to
+                  report, with poses over the working range
     instead       the four-bar of both arms through the report's poses; None with poses
-    sides         both sides over the course, coupled by gears; None of one side
+    sides         both sides over the same motion, coupled by gears; None of one side
     """
 
     params: KnottingFourBarParams
+    posed: PosedFourBar | None = group()
     origin: complex
     crank_angle: float
     plan: Plan
-    ground_angle: float
+    ground_angle: float = result("deg", "direction of the ground link, O1 to O1'")
     grashof: Grashof
-    range: tuple[float, float] | None
-    working: tuple[float, float] | None
+    range: tuple[float, float] | None = result(
+        "deg", "crank angles between its dead points; none where it turns fully", name="crank_range"
+    )
+    working: tuple[float, float] | None = result(
+        "deg", "crank angles from the first pose to the last", name="working_range", optional=True
+    )
     parts: Mapping[str, Inertia]
     inertias: Mapping[str, Inertia]
     at: KnottingState
     static: KnottingState
     unit: KnottingState
-    course: KnottingState
+    moving: KnottingState
     standing: KnottingState
-    synthesis: Synthesis | None
-    at_poses: KnottingState | None
-    instead: Replacement | None
+    load_torque: float
+    drive: GearedServo = group()
+    instead: PosedFourBar | None
     sides: KnottingSides | None
+
+    grashof_class = computed("", "class of the four-bar", lambda it: it.grashof.kind, name="grashof")
+    distance = computed(
+        "deg",
+        "rotation of the crank to the nearer dead point, from crank_angle, with poses least over the working range",
+        lambda it: it.dead_point_distance if it.range else None,
+        name="dead_point_distance",
+    )
+
+    @computed("deg", "acute angle of coupler and rocker at crank_angle, with poses least over the working range")
+    def transmission_angle(self) -> float:
+        angle = transmission_angle(self.moving.motion if self.working else self.at.motion, "O2'")
+        return float(np.min(np.minimum(angle, math.pi - angle)))
+
+    drive_torque_max = computed(
+        "N*m",
+        "greatest torque on the crank over the working range, moving or at rest",
+        lambda it: it.load_torque if it.working else None,
+        optional=True,
+    )
+    at_crank_angle = computed(
+        "",
+        "motion of coupler and rocker at crank_angle, torque on the crank, forces in the pins as magnitudes and as "
+        "x, y (O1 on the crank, O2 and O2' on the coupler, O1' on the rocker)",
+        lambda it: it.at.first_as_json(),
+        name="at",
+    )
+    drive_torque_static = computed(
+        "N*m", "torque on the crank at rest, from weight and the yarn's force", lambda it: float(it.static.torque[0])
+    )
+    drive_torque_dynamic = computed(
+        "N*m*s^2",
+        "torque that each (rad/s)² of the crank's speed adds to it",
+        lambda it: float(it.unit.torque[0]) - it.drive_torque_static,
+    )
+    masses = computed(
+        "",
+        "of each link, SI: mass, mass centre from its first pin, moment of inertia about it; hand on the coupler",
+        lambda it: {
+            name: {"mass": inertia.mass, "centre": complex(inertia.centre).real, "moment": inertia.moment}
+            for name, inertia in it.inertias.items()
+        },
+    )
+    replacement = computed(
+        "",
+        "four-bar whose coupler takes the report's three poses: parameters to set; crank and torque at the poses, "
+        "gears and servo for the greatest; SI",
+        lambda it: None if it.instead is None else it.instead.to_use_instead(),
+        name="instead",
+        optional=True,
+    )
 
     @property
     def dead_point_distance(self) -> float:
-        """Turn of the crank from the angle asked for, or from its working range, to the nearer dead point [rad].
+        """Rotation of the crank from its angle, or its working range, to the nearer dead point [rad].
 
         Infinite where it turns fully.
         """
         if not self.range:
             return math.inf
-        return min(abs(place - end) for end in self.range for place in self.working or (self.crank_angle,))
-
-    @property
-    def transmission_angle(self) -> float:
-        """Acute angle of coupler and rocker [rad]: at the crank angle asked for; with poses, least on the way."""
-        motion = self.course.motion if self.working else self.at.motion
-        angle = transmission_angle(motion, "O2'")
-        return float(np.min(np.minimum(angle, math.pi - angle)))
-
-    @property
-    def load_torque(self) -> float:
-        """The torque that the drive is chosen for [N m]: the greatest size, moving or at rest.
-
-        At the crank angle asked for; with poses over the working range.
-        """
-        states = (self.course, self.standing) if self.working else (self.at, self.static)
-        return max(float(np.max(np.abs(state.torque))) for state in states)
-
-    @property
-    def drive(self) -> GearedServo:
-        """The drive for that torque, or for that of both sides."""
-        # Without poses the angle asked for may lie beyond the course, nearer to a dead point; both sides stand there.
-        both = max(self.sides.torque, 2 * self.load_torque) if self.sides else self.load_torque
-        return drive_for(self.params, both)
+        return min(abs(angle - end) for end in self.range for angle in self.working or (self.crank_angle,))
 
     @property
     def onward(self) -> slice:
-        """The course in the order of the poses; without poses, of the crank's angle."""
-        back = self.synthesis is not None and self.synthesis.crank_angles[0] > self.synthesis.crank_angles[-1]
-        return slice(None, None, -1 if back else 1)
+        """The samples in the order of the poses; without poses, of the crank's angle."""
+        angles = self.posed.crank_angles if self.posed else (0.0, 1.0)
+        return slice(None, None, -1 if angles[0] > angles[-1] else 1)
 
 
 def design(params: KnottingFourBarParams) -> KnottingFourBar:
-    """Place, move and load a knotting four-bar.
+    """Position, move and load a knotting four-bar.
 
     Raises ParameterError where no ground closes the stated pose, or no four-bar takes the poses, MechanismError where
-    the crank angle cannot be taken.
+    it does not close at the crank angle.
     """
-    found = None if params.poses is None else synthesised(read_three_poses(params.poses), params.ground_angle)
-    asked = params if found is None else params_of(params, found)
-    angle = STATED if asked.crank_angle is None else asked.crank_angle
-    params = dataclasses.replace(asked, crank_angle=angle)
+    posed = None
+    if params.poses is not None:
+        posed = through_poses(params, synthesised(read_three_poses(params.poses), params.ground_angle))
+        params = posed.params
+    angle = STATED if params.crank_angle is None else params.crank_angle
+    params = dataclasses.replace(params, crank_angle=angle)
     ground_angle = closing_ground(params) if params.ground_angle is None else params.ground_angle
-    origin = found.crank.pivot if found else 0j
-    planned = plan(mechanism(params, ground_angle, origin))
+    planned = posed.plan if posed else plan(mechanism(params, ground_angle))
     at = np.array([angle])
     solve(planned, at).require()
     closes = _range(params, ground_angle, angle)
-    working = _working(found, angle)
-    course = _course(angle, closes) if working is None else np.linspace(*working, SAMPLES + 1)
-    moving = partial(evaluate, params, planned, speed=params.speed, acceleration=params.acceleration)
+    working = None if posed is None else _working(posed, angle)
+    angles = _angles(angle, closes) if working is None else np.linspace(*working, SAMPLES + 1)
+    evaluated = partial(evaluate, params, planned)
+    here, static = evaluated(at, params.speed, params.acceleration), evaluated(at, 0.0)
+    moving, standing = evaluated(angles, params.speed, params.acceleration), evaluated(angles, 0.0)
+    load = max(state.torque_max for state in ((moving, standing) if working else (here, static)))
+    sides = both_sides(params, planned, angles) if params.sides > 1 else None
     return KnottingFourBar(
         params=params,
-        origin=origin,
+        posed=posed,
+        origin=posed.synthesis.crank.pivot if posed else 0j,
         crank_angle=angle,
         plan=planned,
         ground_angle=ground_angle % turn,
@@ -140,27 +187,35 @@ def design(params: KnottingFourBarParams) -> KnottingFourBar:
         working=working,
         parts=parts(params),
         inertias=inertias(params),
-        at=moving(at),
-        static=evaluate(params, planned, at, 0.0),
-        unit=evaluate(params, planned, at, 1.0),
-        course=moving(course),
-        standing=evaluate(params, planned, course, 0.0),
-        synthesis=found,
-        at_poses=moving(found.crank_angles) if found else None,
-        instead=None if found else instead(params),
-        sides=both_sides(params, planned, course) if params.sides > 1 else None,
+        at=here,
+        static=static,
+        unit=evaluated(at, 1.0),
+        moving=moving,
+        standing=standing,
+        load_torque=load,
+        # Without poses the crank angle may be nearer to a dead point than the curves; both sides stand there.
+        drive=drive_for(params, max(sides.torque, 2 * load) if sides else load),
+        instead=None if posed else through_the_reports_poses(params),
+        sides=sides,
     )
 
 
-def _working(found: Synthesis | None, angle: float) -> tuple[float, float] | None:
+def parameters(design: KnottingFourBar) -> KnottingFourBarParams:
+    """The parameters in force; with poses, the poses and the links that follow from them."""
+    if design.posed is None:
+        return design.params
+    found = design.posed.synthesis
+    values: dict[str, Any] = {**design.params.as_dict(), "poses": found.poses.text, "ground_angle": found.ground_angle}
+    return PosedParams(**values)
+
+
+def _working(posed: PosedFourBar, angle: float) -> tuple[float, float]:
     """The crank's range from the first pose to the last. Raises ParameterError for an angle outside."""
-    if found is None:
-        return None
-    low, high = float(np.min(found.crank_angles)), float(np.max(found.crank_angles))
+    low, high = float(np.min(posed.crank_angles)), float(np.max(posed.crank_angles))
     if not low - 1e-9 <= angle <= high + 1e-9:
-        said, ends = format_quantity(angle, "deg"), [format_quantity(end, "deg") for end in (low, high)]
+        given, *ends = (format_quantity(one, "deg") for one in (angle, low, high))
         raise ParameterError(
-            f"crank_angle {said} is outside the way through the poses", allowed=f"{ends[0]} to {ends[1]}"
+            f"crank_angle {given} is outside the motion through the poses", allowed=f"{ends[0]} to {ends[1]}"
         )
     return low, high
 
@@ -180,7 +235,8 @@ def _range(params: KnottingFourBarParams, ground_angle: float, angle: float) -> 
     raise AssertionError("a crank angle that closes lies in an interval that does")
 
 
-def _course(angle: float, closes: tuple[float, float] | None) -> FloatArray:
+def _angles(angle: float, closes: tuple[float, float] | None) -> FloatArray:
+    """Crank angles of the curves: a turn, or the range without its edges."""
     if closes is None:
         return angle + np.arange(SAMPLES + 1) * (turn / SAMPLES)
     edge = EDGE * (closes[1] - closes[0])

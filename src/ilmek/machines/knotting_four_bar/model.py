@@ -2,13 +2,12 @@
 
     ground O1-O1'     crank O1-O2, driven     coupler O2-O2', the hand H on its line     rocker O1'-O2'
 
-O1 is the origin, unless the four-bar is made for poses; all angles are counter-clockwise from x. One freedom: the
-coupler's angle follows from the crank's.
-The report chooses both; that is the same as to turn the ground link until the loop closes, see `closing_ground`.
+O1 is the origin, unless the four-bar is made for poses; all angles are counter-clockwise from x. It has one degree of
+freedom: the coupler's angle follows from the crank's. The report chooses both; that is the same as to turn the ground
+link until the loop closes, see `closing_ground`. A servo drives the crank through gears.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.inertia import Inertia, bar, bar_mass, bar_moment, combined
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, PointForce
+from ilmek.elements.motors import Motor, Reducer, geared_motor
 from ilmek.errors import ParameterError
 from ilmek.linkage.groups import rrr
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
@@ -24,12 +24,18 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.plane.vectors import cross, unit
-from ilmek.units import format_quantity
+from ilmek.records import computed, record, result
+from ilmek.report import Json
+from ilmek.units import format_quantity, turn
 
-PINS = ("O1", "O2", "O2'", "O1'")
+PIN_BODIES = {"O1": "crank", "O2": "coupler", "O2'": "coupler", "O1'": "rocker"}
+"""Pins, and the body on which their forces are reported."""
+
+RATIOS = (1.0, 3.0, 4.0, 5.0, 7.0, 10.0, 16.0, 20.0, 25.0, 35.0, 50.0, 70.0, 100.0)
+"""Gears to choose from: none, and the usual planetary ones of one and two stages."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class KnottingState:
     """The mechanism at given crank angles, one value a sample.
 
@@ -42,6 +48,57 @@ class KnottingState:
     forces: Forces
     pins: Mapping[str, ComplexArray]
     torque: FloatArray
+
+    @property
+    def torque_max(self) -> float:
+        """Greatest magnitude of the torque [N m]."""
+        return float(np.max(np.abs(self.torque)))
+
+    def first_as_json(self) -> dict[str, Json]:
+        """The first sample by the report's symbols [SI]: motion of coupler (2) and rocker (3), torque, pin forces."""
+        motion, forces = self.motion, {pin: complex(force[0]) for pin, force in self.pins.items()}
+        return {
+            "theta2": float(motion.angle("coupler")[0]) % turn,
+            "theta3": float(motion.angle("rocker")[0]) % turn,
+            "omega2": float(motion.omega("coupler")[0]),
+            "omega3": float(motion.omega("rocker")[0]),
+            "alpha2": float(motion.alpha("coupler")[0]),
+            "alpha3": float(motion.alpha("rocker")[0]),
+            "drive_torque": float(self.torque[0]),
+            "pin_forces": {pin: abs(force) for pin, force in forces.items()},
+            "pin_force_vectors": {pin: [force.real, force.imag] for pin, force in forces.items()},
+        }
+
+
+@record
+class GearedServo:
+    """The drive of the crank: a servo behind gears; None where no servo of the catalogue is enough."""
+
+    reducer: Reducer
+    torque: float = result(
+        "N*m",
+        "torque of the servo, moving or at rest: at crank_angle, with poses or both sides over the motion",
+        name="servo_torque",
+    )
+    speed: float = result("rad/s", "speed of the servo", name="servo_speed")
+    servo: Motor | None
+
+    gear_ratio = computed("", "turns of the servo for one of the crank", lambda it: it.reducer.ratio)
+    servo_name = computed(
+        "",
+        "smallest servo that gives both",
+        lambda it: it.servo.name if it.servo else "none of the catalogue is enough",
+        name="servo",
+    )
+
+
+def drive_for(params: KnottingFourBarParams, torque: float) -> GearedServo:
+    """The smallest servo and its gears for a torque on the crank [N m], in either direction, at the crank's speed."""
+    ratios = RATIOS if params.gear_ratio is None else (params.gear_ratio,)
+    reducers = [Reducer(ratio, params.gear_efficiency) for ratio in ratios]
+    load, speed = abs(torque), abs(params.speed)
+    servo, reducer = geared_motor(load, speed, reducers, "servo") or (None, reducers[0])
+    return GearedServo(reducer, reducer.motor_torque(load), speed * reducer.ratio, servo)
 
 
 def closing_ground(params: KnottingFourBarParams) -> float:
@@ -127,11 +184,10 @@ def evaluate(
     motion = solve(planned, angle, speed, acceleration).require()
     pull = PointForce("coupler", "H", params.grip_force * unit(params.grip_angle))
     forces = inverse(motion, inertias(params), (Gravity(-1j * params.gravity), pull))
-    on = {"O1": "crank", "O2": "coupler", "O2'": "coupler", "O1'": "rocker"}
     return KnottingState(
         angle=angle,
         motion=motion,
         forces=forces,
-        pins={pin: forces.pin(pin, on=body) for pin, body in on.items()},
+        pins={pin: forces.pin(pin, on=body) for pin, body in PIN_BODIES.items()},
         torque=forces.effort("crank"),
     )

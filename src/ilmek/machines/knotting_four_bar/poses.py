@@ -5,7 +5,6 @@ side by side are a four-bar: their second links are one body, the first links it
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import permutations
 
 import numpy as np
@@ -14,6 +13,8 @@ from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.errors import MechanismError, ParameterError
 from ilmek.machines.text_lists import read_poses
 from ilmek.plane.vectors import unit
+from ilmek.records import computed, record
+from ilmek.report import Json
 from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.dyad import PoseArms, RootKind, TwoLinkArm, arms_through_poses, dyads_through_poses
@@ -23,11 +24,10 @@ from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg, format_quantity, turn
 
 DIRECTIONS = np.arange(360) * 0.5 * deg
-"""Ground rays that are tried where none is said; a ray and its opposite are one line, and have the same arms."""
+"""Ground rays that are tried by default; a ray and its opposite are one line, and have the same arms."""
 
 LINK_RATIO = 10.0
-"""Longest link by shortest, up to which a four-bar of a tried ray is taken."""
-
+"""Greatest longest link by shortest of a four-bar on a tried ray."""
 
 OTHERS = {
     1: "one leaves nearly everything free: give three",
@@ -35,21 +35,21 @@ OTHERS = {
     4: "for 4 poses: motion-four-bar",
     5: "for 5 poses: motion-four-bar",
 }
-"""What takes other numbers of poses."""
+"""What to do with other numbers of poses."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class HandPoses:
-    """Three poses of the hand: its places [m], the directions of the coupler there [rad], and as they were written."""
+    """Three poses of the hand: its positions [m], the directions of the coupler there [rad], and the text given."""
 
     points: Complex[np.ndarray, "3"]
     angles: Float[np.ndarray, "3"]
     text: str = ""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class PoseFourBar:
-    """A four-bar of two arms: their numbers from 0, the driven one first; what was found, and its defects in words."""
+    """A four-bar of two arms: their numbers from 0, the driven one first; judged, with its defects by filter."""
 
     crank: int
     rocker: int
@@ -57,22 +57,88 @@ class PoseFourBar:
     defects: Mapping[str, str]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class Synthesis:
     """All arms through three poses with their pivots on one ray, and the four-bars made of them.
 
     ground_angle  of the ray from the poses' origin [rad]      tried  whether it was found by trial
-    roots         both roots of the task, and what they are    dyads  the real arms among them
+    arms          both roots of the task                       dyads  the real arms among them
     choices       every four-bar                               best   the one to build
     """
 
     poses: HandPoses
     ground_angle: float
     tried: bool
-    roots: PoseArms
+    arms: PoseArms
     dyads: tuple[TwoLinkArm, ...]
     choices: tuple[PoseFourBar, ...]
     best: PoseFourBar
+
+    solutions = computed(
+        "",
+        "every real arm through the poses, SI and radians: pivot a0 along theta0 = (pivot_x, pivot_y), links a1 and "
+        "a2, theta1 and residual at the poses",
+        lambda it: [it.arm_as_json(arm) for arm in it.dyads],
+        shown=False,
+    )
+    roots = computed(
+        "",
+        "what each of the task's two roots is",
+        lambda it: [RootKind(int(one)).words for one in it.arms.found],
+        shown=False,
+    )
+    four_bars = computed(
+        "",
+        "the arms joined, either one driven, SI and radians: numbers of the driven and the other arm in solutions, "
+        "links, ground_angle from O1 to O1', hand, branch; class, order of the poses, least transmission angle over "
+        "the motion, its sine at the poses, whether kept, defects",
+        lambda it: [it.four_bar_as_json(one) for one in it.choices],
+        shown=False,
+    )
+    chosen = computed("", "number of the four-bar to build, from 1", lambda it: it.choices.index(it.best) + 1)
+    pivots = computed(
+        "mm",
+        "positions of O1 and O1'",
+        lambda it: [[arm.pivot.real, arm.pivot.imag] for arm in (it.crank, it.rocker)],
+    )
+
+    def arm_as_json(self, arm: TwoLinkArm) -> dict[str, Json]:
+        """An arm by the report's symbols."""
+        return {
+            "a0": arm.ground,
+            "theta0": self.ground_angle,
+            "a1": arm.first,
+            "a2": arm.second,
+            "theta1": arm.first_angles(self.poses.points, self.poses.angles).tolist(),
+            "pivot_x": arm.pivot.real,
+            "pivot_y": arm.pivot.imag,
+            "residual": float(np.max(self.residuals(arm))),
+        }
+
+    def four_bar_as_json(self, one: PoseFourBar) -> dict[str, Json]:
+        """A four-bar of two arms."""
+        candidate = one.candidate
+        drawn, along = candidate.four_bar, candidate.four_bar.tracer_on_coupler
+        return {
+            "driven": one.crank + 1,
+            "other": one.rocker + 1,
+            **drawn.lengths._asdict(),
+            "ground_angle": float(np.angle(drawn.b0 - drawn.a0)) % turn,
+            "hand": (along or 0j).real,
+            "branch": drawn.branch,
+            "grashof": candidate.grashof.kind,
+            "crank_angles": [met.crank_angle for met in candidate.positions],
+            "order": candidate.order,
+            "in_order": candidate.in_order,
+            "one_circuit": candidate.one_circuit,
+            "one_branch": candidate.one_branch,
+            "transmission_angle_min": candidate.least_transmission,
+            "transmission_sines": sines(self.poses, self.dyads[one.rocker]).tolist(),
+            "link_ratio": candidate.link_ratio,
+            "size": candidate.size,
+            "kept": not one.defects,
+            "defects": list(one.defects.values()),
+        }
 
     @property
     def crank(self) -> TwoLinkArm:
@@ -88,12 +154,11 @@ class Synthesis:
     def hand(self) -> float:
         """The gripping point on the coupler, from O2 towards O2' [m]."""
         drawn = self.best.candidate.four_bar
-        along = drawn.tracer_on_coupler
-        return float(np.real(along if along is not None else 0j))
+        return (drawn.tracer_on_coupler or 0j).real
 
     @property
     def crank_angles(self) -> Float[np.ndarray, "3"]:
-        """Of the driven link at the poses, as it turns through them one way [rad]; the last within the first turn."""
+        """Of the driven link at the poses, turning in one direction [rad]; the last within the first turn."""
         return turned_through(self.best.candidate)
 
     def residuals(self, dyad: TwoLinkArm) -> FloatArray:
@@ -103,7 +168,7 @@ class Synthesis:
 
 
 def read_three_poses(text: str) -> HandPoses:
-    """The three poses of a text. Raises ParameterError for anything else; other numbers are sent to who takes them."""
+    """The three poses of a text. Raises ParameterError for anything else."""
     points, angles = read_poses("poses", text)
     if len(points) in OTHERS:
         given = f"{len(points)} pose{'s' if len(points) > 1 else ''}"
@@ -120,7 +185,7 @@ def synthesised(poses: HandPoses, ground_angle: float | None) -> Synthesis:
     """The four-bar through three poses, the best of both cranks; ground angle [rad], or None to try them.
 
     Raises ParameterError where there are not two real arms, or where neither four-bar goes through the poses without
-    defects; it says what there is, and which ground angles will do.
+    defects; it states what there is, and which ground angles have one.
     """
     tried = ground_angle is None
     if ground_angle is None:
@@ -138,7 +203,7 @@ def synthesised(poses: HandPoses, ground_angle: float | None) -> Synthesis:
     choices = tuple(_choices(poses, dyads))
     kept = [one for one in choices if not one.defects]
     if not kept:
-        raise _none_will_do(poses, ground_angle, choices)
+        raise _only_defective(poses, ground_angle, choices)
     best = max(kept, key=lambda one: one.candidate.least_transmission)
     return Synthesis(poses, ground_angle, tried, roots, dyads, choices, best)
 
@@ -182,7 +247,7 @@ def _bounds(poses: HandPoses) -> Float[np.ndarray, "rays 2"]:
         (np.abs(coupler - rocker) <= span) & (span <= coupler + rocker)
         for span in (np.abs(ground - first), ground + first)
     )
-    # A crank that passes the stretched pose is at half a turn from the ground line there: no place to cut its angle.
+    # A crank that passes the stretched pose is half a turn from the ground line there: its angle must not be cut there.
     steps = np.diff(np.where(stretched[..., None], np.mod(cranks, turn), cranks))
     in_order = np.all(steps > 0, axis=-1) | np.all(steps < 0, axis=-1) | (folded & stretched)
     one_branch = np.abs(np.sum(np.sign(sines), axis=-1)) == 3
@@ -191,16 +256,16 @@ def _bounds(poses: HandPoses) -> Float[np.ndarray, "rays 2"]:
 
 
 def turned_through(candidate: Candidate) -> Float[np.ndarray, "3"]:
-    """Crank angles at the positions of a candidate that meets them in order, turning one way [rad]."""
+    """Crank angles at the positions of a candidate that meets them in order, turning in one direction [rad]."""
     angles = np.array([met.crank_angle for met in candidate.positions])
     if candidate.crank_turns:
-        onward, back = (np.mod(way * (angles - angles[0]), turn) for way in (+1, -1))
+        onward, back = (np.mod(sign * (angles - angles[0]), turn) for sign in (+1, -1))
         angles = angles[0] + (onward if np.all(np.diff(onward) > 0) else -back)
     return np.asarray(angles - turn * np.floor(angles[-1] / turn))
 
 
 def sines(poses: HandPoses, arm: TwoLinkArm) -> Float[np.ndarray, "3"]:
-    """Sine of the coupler against an arm's first link, at the poses: what the other arm as crank works with."""
+    """Sine of the angle between the coupler and an arm's first link at the poses: of the transmission angle there."""
     return np.asarray(np.abs(np.sin(arm.first_angles(poses.points, poses.angles) - poses.angles)))
 
 
@@ -238,7 +303,7 @@ def _too_few(poses: HandPoses, ground_angle: float, roots: PoseArms) -> Paramete
 
 
 def _rays_with_two(poses: HandPoses) -> str:
-    """The ground angles that have two real arms, in words."""
+    """Which ground angles have two real arms."""
     shape = (DIRECTIONS.size, 3)
     points, angles = (np.broadcast_to(one, shape) for one in (poses.points, poses.angles))
     there = np.all(arms_through_poses(points, angles, DIRECTIONS).found == RootKind.ARM, axis=-1)
@@ -249,10 +314,10 @@ def _rays_with_two(poses: HandPoses) -> str:
         f"{np.degrees(DIRECTIONS[start]):g}deg..{np.degrees(DIRECTIONS[stop - 1]):g}deg"
         for start, stop in edges.reshape(-1, 2)
     ]
-    return f"ground_angle {' or '.join(spans)}, or their opposites, has two; leave it out to have the best"
+    return f"ground_angle {' or '.join(spans)}, or their opposites, has two; the default is the best"
 
 
-def _none_will_do(poses: HandPoses, ground_angle: float, choices: tuple[PoseFourBar, ...]) -> ParameterError:
+def _only_defective(poses: HandPoses, ground_angle: float, choices: tuple[PoseFourBar, ...]) -> ParameterError:
     said = "; ".join(f"driven at arm {one.crank + 1}: {' and '.join(one.defects.values())}" for one in choices)
     best = best_ray(poses)
     other = "move or turn a pose" if best is None else f"ground_angle={np.degrees(best):g}deg has one"

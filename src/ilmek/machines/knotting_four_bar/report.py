@@ -1,188 +1,73 @@
-"""What a knotting four-bar's design says: results, checks, tables and figures."""
+"""Analysis, checks, tables and warnings of a knotting four-bar."""
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
-from ilmek.machines.knotting_four_bar import poses_report
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.drive import GearedServo, drive_for
-from ilmek.machines.knotting_four_bar.figures import figures
-from ilmek.machines.knotting_four_bar.model import KnottingState
-from ilmek.machines.knotting_four_bar.replacement import Replacement
-from ilmek.machines.knotting_four_bar.sides_report import said
-from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
+from ilmek.machines.knotting_four_bar.posed import PosedFourBar
+from ilmek.machines.knotting_four_bar.sides import SidesAnalysis, analyse_sides
+from ilmek.records import group, record
+from ilmek.report import Check, Column, Table, at_least, at_most, columns
 from ilmek.units import deg, format_quantity, turn
 
 BALANCE = 1e-9
 TRANSMISSION, DISTANCE = 40 * deg, 5 * deg
 RULE = "rule of thumb for rockers"
 
-
-def report(design: KnottingFourBar) -> Report:
-    """Everything that the design says."""
-    both = said(design)
-    return Report(
-        machine="knotting-four-bar",
-        title="Knotting four-bar",
-        parameters=_parameters(design),
-        results=(
-            *poses_report.results(design),
-            *_place(design),
-            _at(design),
-            *_split(design),
-            *_drive(design),
-            _mass(design),
-            *_instead(design),
-            *both.results,
-        ),
-        checks=(*_checks(design), *poses_report.checks(design), *both.checks),
-        tables=(
-            *poses_report.tables(design),
-            *both.tables,
-            _force_table(design),
-            _part_table(design),
-            *_instead_table(design),
-        ),
-        figures=figures(design),
-        warnings=(*_warnings(design), *both.warnings),
-    )
+MET = 1e-9
+"""Error of a position, of the extent of the poses, and of an angle [rad], that is rounding."""
 
 
-def _parameters(design: KnottingFourBar) -> dict[str, Json]:
-    """As asked; the links that follow from poses as they are."""
-    found = design.synthesis
-    poses: dict[str, Json] = {} if found is None else {"poses": found.poses.text, "ground_angle": found.ground_angle}
-    return {**design.params.as_dict(), **poses}
+@record
+class KnottingFourBarAnalysis:
+    """A design with clearances and knot of both sides; `sides` is None where there is one."""
+
+    design: KnottingFourBar = group()
+    sides: SidesAnalysis | None = group()
 
 
-def _place(design: KnottingFourBar) -> tuple[Result, ...]:
-    closes = None if design.range is None else list(design.range)
-    distance = design.dead_point_distance if design.range else None
-    place, least = ("its way", "least on the way") if design.working else ("crank_angle", "there")
-    return (
-        Result("ground_angle", design.ground_angle, "deg", "direction of the ground link, O1 to O1'"),
-        Result("grashof", design.grashof.kind, "", "class of the four-bar"),
-        Result("crank_range", closes, "deg", "crank angles between its dead points; none where it turns fully"),
-        Result("dead_point_distance", distance, "deg", f"crank's turn from {place} to the nearer dead point"),
-        Result("transmission_angle", design.transmission_angle, "deg", f"acute angle of coupler and rocker {least}"),
-    )
+def analyse(design: KnottingFourBar) -> KnottingFourBarAnalysis:
+    """The design with the analysis of both sides."""
+    sides = None if design.sides is None else analyse_sides(design.params, design.sides, design.onward)
+    return KnottingFourBarAnalysis(design, sides)
 
 
-def _at(design: KnottingFourBar) -> Result:
-    motion = design.at.motion
-    answer: dict[str, Json] = {
-        "theta2": _direction(motion.angle("coupler")),
-        "theta3": _direction(motion.angle("rocker")),
-        "omega2": _only(motion.omega("coupler")),
-        "omega3": _only(motion.omega("rocker")),
-        "alpha2": _only(motion.alpha("coupler")),
-        "alpha3": _only(motion.alpha("rocker")),
-        "drive_torque": _only(design.at.torque),
-        "pin_forces": {pin: float(np.abs(force[0])) for pin, force in design.at.pins.items()},
-        "pin_force_vectors": _vectors(design.at),
-    }
-    meaning = (
-        "motion of coupler and rocker at crank_angle, torque on the crank, forces in the pins as sizes and as x, y"
-    )
-    return Result("at", answer, "", f"{meaning} (O1 on the crank, O2 and O2' on the coupler, O1' on the rocker)")
-
-
-def _only(values: FloatArray) -> float:
-    return float(values[0])
-
-
-def _direction(values: FloatArray) -> float:
-    return float(values[0]) % turn
-
-
-def _vectors(state: KnottingState) -> dict[str, Json]:
-    return {pin: [float(force[0].real), float(force[0].imag)] for pin, force in state.pins.items()}
-
-
-def _split(design: KnottingFourBar) -> tuple[Result, ...]:
-    static, dynamic = _torques(design)
-    return (
-        Result("drive_torque_static", static, "N*m", "torque on the crank at rest, from weight and the yarn's force"),
-        Result("drive_torque_dynamic", dynamic, "N*m*s^2", "what each (rad/s)² of the crank's speed adds to it"),
-    )
-
-
-def _torques(design: KnottingFourBar) -> tuple[float, float]:
-    static = _only(design.static.torque)
-    return static, _only(design.unit.torque) - static
-
-
-def _drive(design: KnottingFourBar) -> tuple[Result, ...]:
-    drive, where = design.drive, "on the way through the poses" if design.working else "at crank_angle"
-    if design.sides:
-        where = "over all the way, for both sides"
-    return (
-        Result("servo_torque", drive.torque, "N*m", f"torque of the servo {where}, moving or at rest"),
-        Result("servo_speed", drive.speed, "rad/s", "speed of the servo"),
-        Result("gear_ratio", drive.reducer.ratio, "", "turns of the servo for one of the crank"),
-        Result("servo", _servo(drive), "", "smallest servo that gives both"),
-    )
-
-
-def _servo(drive: GearedServo) -> str:
-    return drive.servo.name if drive.servo else "none of the catalogue is enough"
-
-
-def _mass(design: KnottingFourBar) -> Result:
-    answer: dict[str, Json] = {
-        name: {"mass": inertia.mass, "centre": complex(inertia.centre).real, "moment": inertia.moment}
-        for name, inertia in design.inertias.items()
-    }
-    meaning = "of each link, SI: mass, mass centre from its first pin, moment of inertia about it; hand on the coupler"
-    return Result("masses", answer, "", meaning)
-
-
-def _instead(design: KnottingFourBar) -> tuple[Result, ...]:
-    made = design.instead
-    if made is None:
-        return ()
-    params, drive = made.params, _drive_instead(made)
-    answer: dict[str, Json] = {
-        "ground": params.ground,
-        "crank": params.crank,
-        "coupler": params.coupler,
-        "rocker": params.rocker,
-        "hand": params.hand,
-        "ground_angle": params.ground_angle,
-        "branch": params.branch,
-        "crank_angles": made.crank_angles.tolist(),
-        "drive_torques": made.state.torque.tolist(),
-        "transmission_angle_min": _least_transmission(made),
-        "gear_ratio": drive.reducer.ratio,
-        "servo": _servo(drive),
-    }
-    meaning = (
-        "four-bar whose coupler takes the report's three poses: parameters to set; crank and torque at the poses, "
-        "gears and servo for the greatest; SI"
-    )
-    return (Result("instead", answer, "", meaning),)
-
-
-def _drive_instead(made: Replacement) -> GearedServo:
-    """The drive for the greatest torque of the four-bar to use instead at the report's poses."""
-    return drive_for(made.params, float(np.max(np.abs(made.state.torque))))
-
-
-def _least_transmission(made: Replacement) -> float:
-    motion = made.state.motion
-    return float(np.min(np.arcsin(np.abs(np.sin(motion.angle("coupler") - motion.angle("rocker"))))))
-
-
-def _checks(design: KnottingFourBar) -> tuple[Check, ...]:
+def checks(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
+    """Dead point, transmission angle and power balance; the poses; both sides."""
+    design = found.design
     return (
         at_least("crank's distance from its dead point", design.dead_point_distance, DISTANCE, "deg", "rule of thumb"),
         at_least("transmission angle", design.transmission_angle, TRANSMISSION, "deg", RULE),
         at_most("power balance of the forces", design.at.forces.power_error, BALANCE, "1", "virtual power"),
+        *(() if design.posed is None else _pose_checks(design.posed)),
+        *(() if found.sides is None else _side_checks(design, found.sides)),
     )
 
 
-def _warnings(design: KnottingFourBar) -> tuple[str, ...]:
-    return (*_near_dead_point(design), *_too_weak(design))
+def _pose_checks(posed: PosedFourBar) -> tuple[Check, ...]:
+    distances, angles = posed.errors
+    points = posed.synthesis.poses.points
+    extent = float(np.max(np.abs(points - points[0])))
+    source = "forward simulation"
+    return (
+        at_most("hand at the poses, missed, of their extent", float(np.max(distances)) / extent, MET, "1", source),
+        at_most("coupler at the poses, missed", float(np.max(angles)), MET, "deg", source),
+    )
+
+
+def _side_checks(design: KnottingFourBar, found: SidesAnalysis) -> tuple[Check, ...]:
+    params, sides = design.params, found.sides
+    error, bending = max(one.torque_error for one in (sides.moving, sides.standing)), sides.gears.bending(sides.tooth)
+    return (
+        at_least("clearance of the two sides", found.side_clearance_min, params.side_clearance, "mm", "side_clearance"),
+        at_most("bending of the gears' teeth", bending, params.gear_stress, "MPa", "gear_stress; Lewis"),
+        at_most("torque of both sides coupled, against each alone", error, BALANCE, "1", "mirror image"),
+        at_most("power balance of both sides", sides.moving.forces.power_error, BALANCE, "1", "virtual power"),
+    )
+
+
+def warnings(found: KnottingFourBarAnalysis) -> tuple[str, ...]:
+    """A dead point that is near, a drive that is too weak, a knot that is not tied."""
+    return (*_near_dead_point(found.design), *_too_weak(found.design), *_no_knot(found))
 
 
 def _too_weak(design: KnottingFourBar) -> tuple[str, ...]:
@@ -196,72 +81,131 @@ def _too_weak(design: KnottingFourBar) -> tuple[str, ...]:
 def _near_dead_point(design: KnottingFourBar) -> tuple[str, ...]:
     if design.dead_point_distance >= DISTANCE:
         return ()
-    distance = format_quantity(design.dead_point_distance, "deg")
-    asked, torque = (
-        format_quantity(design.crank_angle, "deg"),
-        format_quantity(abs(_only(design.at.torque)), "N*m"),
-    )
-    instead = design.instead
-    if instead is None:
-        return (f"on its way through the poses the crank comes within {distance} of a dead point",)
-    params = instead.params
-    lengths = ", ".join(
-        f"{alias} {format_quantity(length, 'mm')}"
-        for alias, length in (
-            ("r0", params.ground),
-            ("r1", params.crank),
-            ("r2", params.coupler),
-            ("r3", params.rocker),
-        )
-    )
-    greatest = format_quantity(float(np.max(np.abs(instead.state.torque))), "N*m")
-    wrong = f"at {asked} the crank is {distance} from its dead point: {torque} move it, coupler and rocker are in line"
+    distance, angle = (format_quantity(one, "deg") for one in (design.dead_point_distance, design.crank_angle))
+    if design.instead is None:
+        return (f"in its motion through the poses the crank comes within {distance} of a dead point",)
+    params = design.instead.params
+    links = {"r0": params.ground, "r1": params.crank, "r2": params.coupler, "r3": params.rocker}
+    lengths = ", ".join(f"{alias} {format_quantity(length, 'mm')}" for alias, length in links.items())
+    torque, greatest = (format_quantity(one.torque_max, "N*m") for one in (design.at, design.instead.state))
+    wrong = f"at {angle} the crank is {distance} from its dead point: {torque} move it, coupler and rocker are in line"
     return (f"{wrong}; use the four-bar of both arms instead: {lengths}, at most {greatest} at the report's poses",)
 
 
-def _force_table(design: KnottingFourBar) -> Table:
-    columns = (
-        Column("quantity"),
-        Column("at rest", digits=7),
-        Column("for each (rad/s)²", digits=7),
-        Column("as asked"),
+def _no_knot(found: KnottingFourBarAnalysis) -> tuple[str, ...]:
+    """That no knot is tied, and on which warps one is."""
+    if found.sides is None or found.sides.proof.tied is not None:
+        return ()
+    none = f"the hands tie no knot on two warps {format_quantity(found.design.params.warp_pitch, 'mm')} apart"
+    if found.sides.knot_pitches is None:
+        return (f"{none}, nor on any opened wider",)
+    least, most = (format_quantity(end, "mm") for end in found.sides.knot_pitches)
+    return (f"{none}; on warps opened to {least} to {most} they tie a {found.sides.wider}",)
+
+
+def tables(found: KnottingFourBarAnalysis) -> tuple[Table, ...]:
+    """Arms, four-bars and poses; gears; forces, masses, and the four-bar to use instead."""
+    design = found.design
+    return (
+        *(() if design.posed is None else _pose_tables(design.posed)),
+        *(() if found.sides is None else (_gear_table(found.sides),)),
+        _force_table(design),
+        _part_table(design),
+        *(() if design.instead is None else (_instead_table(design.instead),)),
     )
+
+
+def _pose_tables(posed: PosedFourBar) -> tuple[Table, ...]:
+    found, best = posed.synthesis, posed.synthesis.best.candidate
+    angles = (f"θ1 at pose {at} [deg] 7" for at in (1, 2, 3))
+    lengths = ("ground a0 [mm] 7", "first link a1 [mm] 7", "second link a2 [mm] 7", "pivot x [mm] 7", "pivot y [mm] 7")
+    arms = tuple(
+        (
+            at,
+            *(arm.ground, arm.first, arm.second, arm.pivot.real, arm.pivot.imag),
+            *arm.first_angles(found.poses.points, found.poses.angles).tolist(),
+        )
+        for at, arm in enumerate(found.dyads, 1)
+    )
+    title = "Arms through the poses with their pivots on the ground ray"
+    arm_table = Table("knotting-arms", title, columns("arm", *lengths, *angles), arms, brief=True)
+
+    heads = columns(
+        *("driven arm", "ground [mm] 7", "crank [mm] 7", "coupler [mm] 7", "rocker [mm] 7", "class"),
+        *("least transmission angle [deg]", "verdict"),
+    )
+    four_bars = tuple(
+        (
+            one.crank + 1,
+            *one.candidate.four_bar.lengths,
+            one.candidate.grashof.kind,
+            one.candidate.least_transmission,
+            "to build" if one is found.best else "; ".join(one.defects.values()) or "no defect",
+        )
+        for one in found.choices
+    )
+    four_bar_table = Table("knotting-four-bars", "The arms joined as one four-bar", heads, four_bars, brief=True)
+
+    heads = columns(
+        *("pose", "crank angle [deg] 7", "met as number", "branch", "error of the hand [mm]"),
+        *("error of the coupler [deg]", "drive torque [N*m]"),
+    )
+    values = zip(posed.crank_angles, best.positions, *posed.errors, posed.state.torque, strict=True)
+    poses = tuple(
+        (at, float(angle), best.order.index(at) + 1, met.branch, float(distance), float(turned), float(torque))
+        for at, (angle, met, distance, turned, torque) in enumerate(values, 1)
+    )
+    pose_table = Table("knotting-poses", "The poses, from the four-bar's motion", heads, poses, brief=True)
+    return arm_table, four_bar_table, pose_table
+
+
+def _gear_table(found: SidesAnalysis) -> Table:
+    gears, tooth = found.sides.gears, found.sides.tooth
+    heads = columns(
+        *("distance of axes [mm] 7", "module [mm]", "teeth of each", "width [mm]", "pressure angle [deg]"),
+        *("sum of profile shifts", "greatest tooth force [N]", "separating force [N]", "bending [MPa]"),
+    )
+    row = (
+        *(gears.distance, gears.module, gears.teeth, gears.width, gears.pressure_angle, gears.profile_shift),
+        *(tooth, gears.separating(tooth), gears.bending(tooth)),
+    )
+    return Table("knotting-gears", "Gears that couple both cranks", heads, (row,), brief=True)
+
+
+def _force_table(design: KnottingFourBar) -> Table:
     rows: list[tuple[str, float, float, float]] = []
     for pin, force in (("O2'", "F32"), ("O2", "F12")):
-        static, moved, asked = (complex(state.pins[pin][0]) for state in (design.static, design.unit, design.at))
+        static, unit, at = (complex(state.pins[pin][0]) for state in (design.static, design.unit, design.at))
         rows += [
-            (f"{force}x, on the coupler in {pin} [N]", static.real, moved.real - static.real, asked.real),
-            (f"{force}y, on the coupler in {pin} [N]", static.imag, moved.imag - static.imag, asked.imag),
+            (f"{force}x, on the coupler in {pin} [N]", static.real, unit.real - static.real, at.real),
+            (f"{force}y, on the coupler in {pin} [N]", static.imag, unit.imag - static.imag, at.imag),
         ]
-    rows.append(("M1, on the crank [N·m]", *_torques(design), _only(design.at.torque)))
-    return Table(
-        "knotting-forces", "Forces at the crank angle: at rest + speed² times the dynamic part", columns, tuple(rows)
+    torques = design.drive_torque_static, design.drive_torque_dynamic, float(design.at.torque[0])
+    # The quantities have no common unit: it stands beside each.
+    heads = (
+        *columns("quantity"),
+        *(Column(head, digits=7) for head in ("at rest", "for each (rad/s)²")),
+        Column("at speed"),
     )
+    title = "Forces at the crank angle: at rest + speed² times the dynamic part"
+    return Table("knotting-forces", title, heads, (*rows, ("M1, on the crank [N·m]", *torques)))
 
 
 def _part_table(design: KnottingFourBar) -> Table:
-    columns = (Column("part"), Column("mass", "g"), Column("centre from first pin", "mm"), Column("J about it [g·mm²]"))
+    heads = (*columns("part", "mass [g]", "centre from first pin [mm]"), Column("J about it [g·mm²]"))
     named = {**design.parts, "coupler with holder and gripper": design.inertias["coupler"]}
     rows = tuple(
         (name, inertia.mass, complex(inertia.centre).real, inertia.moment * 1e9) for name, inertia in named.items()
     )
-    return Table("knotting-parts", "Masses and moments of inertia", columns, rows)
+    return Table("knotting-parts", "Masses and moments of inertia", heads, rows)
 
 
-def _instead_table(design: KnottingFourBar) -> tuple[Table, ...]:
-    if design.instead is None:
-        return ()
-    state = design.instead.state
-    columns = (
-        Column("pose"),
-        Column("crank angle", "deg"),
-        Column("coupler angle, O2 to O2'", "deg"),
-        Column("rocker angle", "deg"),
-        Column("drive torque", "N*m"),
+def _instead_table(posed: PosedFourBar) -> Table:
+    motion = posed.state.motion
+    coupler, rocker = (np.mod(motion.angle(body), turn) for body in ("coupler", "rocker"))
+    heads = columns(
+        *("pose", "crank angle [deg]", "coupler angle, O2 to O2' [deg]", "rocker angle [deg]", "drive torque [N*m]")
     )
-    coupler, rocker = (np.mod(state.motion.angle(body), turn) for body in ("coupler", "rocker"))
-    rows = tuple(
-        (at + 1, float(state.angle[at]), float(coupler[at]), float(rocker[at]), float(state.torque[at]))
-        for at in range(3)
-    )
-    return (Table("knotting-instead", "The four-bar of both arms at the report's poses", columns, rows),)
+    values = zip(posed.crank_angles, coupler, rocker, posed.state.torque, strict=True)
+    rows = tuple((at, *(float(one) for one in row)) for at, row in enumerate(values, 1))
+    return Table("knotting-instead", "The four-bar of both arms at the report's poses", heads, rows)

@@ -1,12 +1,12 @@
 """Both sides of the knotting machine: the four-bar and its mirror image, their cranks coupled 1:-1 by equal gears.
 
 The mirror is an upright line half way between the pivots of the two cranks, so both hands come to it at one height and
-at one time. It is one mechanism of one freedom: the second crank is driven by the first through the gears' teeth.
+at one time. It is one mechanism of one degree of freedom: the first crank drives the second through the gears' teeth.
 """
 
 import dataclasses
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -27,6 +27,9 @@ from ilmek.machines.knotting_four_bar.model import inertias
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.plane.outlines import Outline
 from ilmek.plane.vectors import unit
+from ilmek.records import computed, group, record, result
+from ilmek.report import Json
+from ilmek.weaving.knots.two_hands import TwoHandKnot, knot_of_hands, pitch_range
 
 GEARS = "gears"
 BODIES = ("crank", "coupler", "rocker")
@@ -37,7 +40,7 @@ def other(name: str) -> str:
     return f"{name} *"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class Coupled:
     """Motion and forces of both sides at given crank angles, and the torques of each side driven alone.
 
@@ -59,45 +62,115 @@ class Coupled:
         return float(np.max(np.abs(missed)) / max(float(np.max(np.abs(self.torque))), 1e-300))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class KnottingSides:
     """Both sides, designed.
 
-    mirror    x of the mirror [m]         facing  +1: the mirror is right of the first side, -1: left
-    gears     on the cranks' pivots       least_distance  of these that keeps the clearance asked for [m]
-    course    over the crank's way        standing  the same at rest
-    knot      crank angle at which the hands are nearest to one another [rad]
+    facing    +1: the mirror is right of the first side, -1: left
+    gears     on the cranks' pivots           least_distance  of these that keeps side_clearance [m]
+    moving    over the motion of the crank    standing        the same at rest
     """
 
-    mirror: float
+    mirror: float = result("mm", "x of the upright line that the second side is mirrored in")
     facing: int
     gears: EqualGears
     least_distance: float
     plan: Plan
-    course: Coupled
+    moving: Coupled
     standing: Coupled
-    knot: float
+    knot: float = result("deg", "crank angle at which the hands are nearest to one another", name="knot_crank_angle")
 
-    @property
+    axis_distance = computed("mm", "distance of the pivots of both cranks", lambda it: it.gears.distance)
+    hand_distance_min = computed("mm", "least distance of the two hands", lambda it: float(it.gap.min()))
+
+    @computed("N*m", "greatest torque of one motor on the first crank, for both sides", name="motor_torque_max")
     def torque(self) -> float:
-        """The greatest torque of the motor, moving or at rest [N m]."""
-        return max(float(np.max(np.abs(one.torque))) for one in (self.course, self.standing))
+        return max(float(np.max(np.abs(one.torque))) for one in (self.moving, self.standing))
+
+    @computed(
+        "",
+        "of both cranks, equal, SI; torque and pins contain the force along the pitch circle, not the force that "
+        "presses the gears apart, friction or play",
+        name="gears",
+        shown=False,
+    )
+    def gear_data(self) -> Json:
+        gears = self.gears
+        return {
+            "module": gears.module,
+            "teeth": gears.teeth,
+            "width": gears.width,
+            "pitch_radius": gears.pitch_radius,
+            "pressure_angle": gears.pressure_angle,
+            "profile_shift": gears.profile_shift,
+            "tooth_force_max": self.tooth,
+            "separating_force_max": gears.separating(self.tooth),
+            "bending_stress": gears.bending(self.tooth),
+        }
+
+    @computed("", "greatest force in each pin over the motion, *: of the second side; SI", shown=False)
+    def side_pin_forces_max(self) -> Json:
+        pins = (joint.name for joint in self.plan.mechanism.joints)
+        return {name.replace(" ", ""): float(np.max(np.abs(self.moving.forces.pin(name)))) for name in pins}
 
     @property
     def tooth(self) -> float:
         """The greatest force along the gears' pitch circle [N], moving or at rest."""
-        return max(float(np.max(np.abs(one.tooth))) for one in (self.course, self.standing))
+        return max(float(np.max(np.abs(one.tooth))) for one in (self.moving, self.standing))
 
     @property
     def gap(self) -> FloatArray:
-        """Distance of the two hands over the way [m]."""
-        first, second = hands(self.course.motion)
+        """Distance of the two hands over the motion [m]."""
+        first, second = hands(self.moving.motion)
         return np.asarray(np.abs(second - first))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
+class SidesAnalysis:
+    """Clearances of both sides, and the knot that the hands tie.
+
+    clearances  of each body to its mirror image        proof  of the knot on warps at warp_pitch
+    wider       the knot on warps opened to the middle of knot_pitches, "" where there are none
+    """
+
+    sides: KnottingSides = group()
+    clearances: Mapping[str, Clearance]
+    proof: TwoHandKnot
+    knot_pitches: tuple[float, float] | None = result(
+        "mm", "least and greatest distance of two warps on which a knot is tied"
+    )
+    wider: str
+
+    side_clearance_min = computed(
+        "mm",
+        "least of all bodies over the motion, each to its mirror image",
+        lambda it: min(one.least for one in it.clearances.values()),
+    )
+    gripper_clearance_min = computed(
+        "mm", "least of the couplers with their grippers", lambda it: it.clearances["coupler"].least
+    )
+    knot_tied = computed(
+        "", "knot on two warps at warp_pitch between the sides, by the crossings of the yarn", lambda it: it.proof.name
+    )
+    knot_why = computed("", "where it is tied, or why there is none", lambda it: it.proof.why, shown=False)
+
+
+def analyse_sides(params: KnottingFourBarParams, sides: KnottingSides, onward: slice) -> SidesAnalysis:
+    """Clearances, and the knot; `onward`: the samples in the order of the poses."""
+    first, second = (path[onward] for path in hands(sides.moving.motion))
+    wide = pitch_range(first, second)
+    return SidesAnalysis(
+        sides=sides,
+        clearances=clearances(params, sides),
+        proof=knot_of_hands(first, second, params.warp_pitch),
+        knot_pitches=wide,
+        wider="" if wide is None else knot_of_hands(first, second, sum(wide) / 2).name,
+    )
+
+
+@record
 class CrankMotion:
-    """How the first crank is moved: angles [rad], speed [rad/s], acceleration [rad/s²]; the gear on it, if any."""
+    """Motion of the first crank: angles [rad], speed [rad/s], acceleration [rad/s²]; the gear on it, if any."""
 
     angles: FloatArray
     speed: float
@@ -106,12 +179,12 @@ class CrankMotion:
 
     def inertias(self, params: KnottingFourBarParams) -> dict[str, Inertia]:
         """The moving bodies of one side, its gear on its crank."""
-        had = inertias(params)
-        return had if self.disc is None else {**had, "crank": combined(had["crank"], self.disc)}
+        bodies = inertias(params)
+        return bodies if self.disc is None else {**bodies, "crank": combined(bodies["crank"], self.disc)}
 
 
 def hands(motion: Motion) -> tuple[ComplexArray, ComplexArray]:
-    """Places of both hands over the samples [m]."""
+    """Positions of both hands over the samples [m]."""
     first, second = motion.point("coupler", "H"), motion.point(other("coupler"), other("H"))
     return np.asarray(first.position), np.asarray(second.position)
 
@@ -119,19 +192,19 @@ def hands(motion: Motion) -> tuple[ComplexArray, ComplexArray]:
 def both_sides(params: KnottingFourBarParams, one: Plan, angles: FloatArray) -> KnottingSides:
     """The mirrored side beside the first over its crank angles [rad], and the gears between them.
 
-    Raises ParameterError where the axes are too near for gears.
+    Raises ParameterError where the axes are too close for gears.
     """
     motion = solve(one, angles).require()
     start = one.mechanism.point(GROUND, "O1")
     reaches = {facing: _reach(params, motion, start, facing) for facing in (+1, -1)}
-    facing = max((+1, -1), key=lambda way: _hand(motion, start, way))
+    facing = max((+1, -1), key=lambda side: _hand(motion, start, side))
     least = 2 * reaches[facing] + params.side_clearance
     runs = CrankMotion(angles, params.speed, params.acceleration), CrankMotion(angles, 0.0, 0.0)
     gears = _gears(params, least, max(float(np.max(np.abs(_alone(params, one, run)))) for run in runs))
     mirror = start.real + facing * gears.distance / 2
     planned, image = plan(coupled(one.mechanism, mirror)), plan(mirrored(one.mechanism, mirror))
     geared = [dataclasses.replace(run, disc=wheel(params, gears)) for run in runs]
-    course, standing = (_moved(params, (one, image), planned, run) for run in geared)
+    moving, standing = (_moved(params, (one, image), planned, run) for run in geared)
     hand = facing * motion.point("coupler", "H").position.real
     return KnottingSides(
         mirror=mirror,
@@ -139,7 +212,7 @@ def both_sides(params: KnottingFourBarParams, one: Plan, angles: FloatArray) -> 
         gears=gears,
         least_distance=least,
         plan=planned,
-        course=course,
+        moving=moving,
         standing=standing,
         knot=float(angles[int(np.argmax(hand))]),
     )
@@ -210,18 +283,18 @@ def outlines(params: KnottingFourBarParams, mechanism: Mechanism, body: str) -> 
 
 
 def _hand(motion: Motion, start: complex, facing: int) -> float:
-    """How far the hand goes from the crank's pivot to one side [m]."""
+    """Greatest distance of the hand from the crank's pivot to one side [m]."""
     return float(np.max(facing * (motion.point("coupler", "H").position.real - start.real)))
 
 
 def _reach(params: KnottingFourBarParams, motion: Motion, start: complex, facing: int) -> float:
-    """How far any body goes from the crank's pivot to one side [m]."""
+    """Greatest distance of any body from the crank's pivot to one side [m]."""
     most = 0.0
     for body in BODIES:
         origin, direction = motion.origin(body), motion.direction(body)
         for shape in outlines(params, motion.plan.mechanism, body).outlines:
-            places = origin[:, None] + direction[:, None] * shape.corners
-            most = max(most, float(np.max(facing * (places.real - start.real))) + shape.radius)
+            corners = origin[:, None] + direction[:, None] * shape.corners
+            most = max(most, float(np.max(facing * (corners.real - start.real))) + shape.radius)
     return most
 
 
@@ -240,13 +313,13 @@ def _gears(params: KnottingFourBarParams, least: float, torque: float) -> EqualG
 
 
 def _alone(params: KnottingFourBarParams, one: Plan, run: CrankMotion) -> FloatArray:
-    """Torque on the crank of one side by itself [N m]; the second one's input turns the other way."""
+    """Torque on the crank of one side by itself [N m]; the second one's input turns in the other direction."""
     second = one.mechanism.inputs[0].name != "crank"
     name = other if second else str
-    turned, way = (math.pi - run.angles, -1) if second else (run.angles, 1)
-    motion = solve(one, turned, way * run.speed, way * run.acceleration).require()
-    had = {name(body): one for body, one in run.inertias(params).items()}
-    return inverse(motion, had, _loads(params, second=second)).effort(name("crank"))
+    angles, sense = (math.pi - run.angles, -1) if second else (run.angles, 1)
+    motion = solve(one, angles, sense * run.speed, sense * run.acceleration).require()
+    bodies = {name(body): inertia for body, inertia in run.inertias(params).items()}
+    return inverse(motion, bodies, _loads(params, second=second)).effort(name("crank"))
 
 
 def _loads(params: KnottingFourBarParams, *, second: bool) -> tuple[Gravity, PointForce]:
@@ -260,21 +333,21 @@ def _loads(params: KnottingFourBarParams, *, second: bool) -> tuple[Gravity, Poi
 
 def _moved(params: KnottingFourBarParams, sides: tuple[Plan, Plan], planned: Plan, run: CrankMotion) -> Coupled:
     """Both sides coupled, and each alone."""
-    had = run.inertias(params)
+    bodies = run.inertias(params)
     motion = solve(planned, run.angles, run.speed, run.acceleration).require()
     loads = (*_loads(params, second=False), _loads(params, second=True)[1])
-    forces = inverse(motion, {**had, **{other(body): one for body, one in had.items()}}, loads)
+    forces = inverse(motion, {**bodies, **{other(body): one for body, one in bodies.items()}}, loads)
     first, second = (_alone(params, side, run) for side in sides)
     return Coupled(run.angles, motion, forces, forces.effort("crank"), np.abs(forces.tooth(GEARS)), (first, second))
 
 
 def clearances(params: KnottingFourBarParams, sides: KnottingSides) -> dict[str, Clearance]:
-    """The least clearance of each body, and of its mirror image, over the way [m].
+    """The least clearance of each body, and of its mirror image, over the motion [m].
 
     No other pair comes nearer: a body that stays the distance d from the mirror stays 2 d from its image, and d + d'
     from any other that stays d' from it. The coupler has holder and gripper.
     """
-    angles = sides.course.angle
-    way = InputPath(one_input(sides.plan), float(np.min(angles)), float(np.max(angles)))
-    placed = {body: outlines(params, sides.plan.mechanism, body) for body in BODIES}
-    return {body: clearance(way, one, OutlinedBody(other(body), one.outlines)) for body, one in placed.items()}
+    angles = sides.moving.angle
+    path = InputPath(one_input(sides.plan), float(np.min(angles)), float(np.max(angles)))
+    bodies = {body: outlines(params, sides.plan.mechanism, body) for body in BODIES}
+    return {body: clearance(path, one, OutlinedBody(other(body), one.outlines)) for body, one in bodies.items()}

@@ -1,4 +1,4 @@
-"""Figures of both sides: to scale where the hands are nearest, in motion, torque and distance over the way."""
+"""Figures of both sides: to scale where the hands are nearest, in motion, torque and distance over the motion."""
 
 from collections.abc import Callable
 
@@ -17,19 +17,16 @@ ROUND = np.exp(1j * turn * np.arange(97) / 96)
 LINKS = (("O1", "O2"), ("O2", "O2'"), ("O2'", "O1'"))
 
 
-def figures(design: KnottingFourBar) -> tuple[Figure, ...]:
+def figures(design: KnottingFourBar, sides: KnottingSides) -> tuple[Figure, ...]:
     """Drawing, motion and two plots."""
-    sides = design.sides
-    if sides is None:
-        return ()
-    return drawing(design, sides), moving(design, sides), torque(sides), distance(sides)
+    return drawing(design, sides), _moving(design, sides), _torque(sides), _distance(sides)
 
 
 def drawing(design: KnottingFourBar, sides: KnottingSides) -> Drawing:
-    """Both sides to scale where the hands are nearest to one another, their gears and ways."""
+    """Both sides to scale where the hands are nearest to one another, their gears and paths."""
     motion = solve(sides.plan, np.array([sides.knot])).require()
-    first_way, second_way = hands(sides.course.motion)
-    ways = Stroke(first_way, "path", "way of the hand"), Stroke(second_way, "path")
+    first_path, second_path = hands(sides.moving.motion)
+    paths = Stroke(first_path, "path", "path of the hand"), Stroke(second_path, "path")
     first, second = _points(motion, str), _points(motion, other)
     links = [Stroke(np.array([pose[a], pose[b]]), "link") for pose in (first, second) for a, b in LINKS]
     grounds = [Stroke(np.array([pose["O1"], pose["O1'"]]), "ground") for pose in (first, second)]
@@ -43,18 +40,18 @@ def drawing(design: KnottingFourBar, sides: KnottingSides) -> Drawing:
         f"{sides.gears.teeth} teeth each, module {format_quantity(sides.gears.module, 'mm')}, and the mirror."
     )
     arms = [Stroke(np.array([pose["O2"], pose["H"]]), "outline") for pose in (first, second)]
-    strokes = (*_gears(sides), *ways, *grounds, *links, *arms, *_grippers(design, sides, motion))
+    strokes = (*_gears(sides), *paths, *grounds, *links, *arms, *_grippers(design, sides, motion))
     return Drawing("knotting-sides", "Both sides to scale, the hands nearest to one another", strokes, dots, note=note)
 
 
-def moving(design: KnottingFourBar, sides: KnottingSides) -> Animation:
-    """Both sides over the crank's way."""
-    course = sides.course.angle
-    at = frames(course[0], course[-1])
+def _moving(design: KnottingFourBar, sides: KnottingSides) -> Animation:
+    """Both sides over the motion of the crank."""
+    angles = sides.moving.angle
+    at = frames(angles[0], angles[-1])
     motion = solve(sides.plan, at).require()
     readings = (
-        Reading("motor torque", np.interp(at, course, sides.course.torque), "N*m"),
-        Reading("distance of the hands", np.interp(at, course, sides.gap), "mm"),
+        Reading("motor torque", np.interp(at, angles, sides.moving.torque), "N*m"),
+        Reading("distance of the hands", np.interp(at, angles, sides.gap), "mm"),
     )
     note = "The second crank is driven by the first through equal gears, whose pitch circles are dashed."
     still = Drawing("knotting-sides-moving", "Both sides in motion", _gears(sides), note=note)
@@ -65,9 +62,10 @@ def moving(design: KnottingFourBar, sides: KnottingSides) -> Animation:
 
 
 def _points(motion: Motion, named: Callable[[str], str]) -> dict[str, complex]:
-    """Places of a side's points at the first sample, by their names on the first side."""
-    held = {"O1": "crank", "O2": "crank", "O2'": "coupler", "O1'": "rocker", "H": "coupler"}
-    return {name: complex(np.ravel(motion.point(named(body), named(name)).position)[0]) for name, body in held.items()}
+    """Positions of a side's points at the first sample, by their names on the first side."""
+    bodies = {"O1": "crank", "O2": "crank", "O2'": "coupler", "O1'": "rocker", "H": "coupler"}
+    points = {name: motion.point(named(body), named(name)) for name, body in bodies.items()}
+    return {name: complex(np.ravel(point.position)[0]) for name, point in points.items()}
 
 
 def _grippers(design: KnottingFourBar, sides: KnottingSides, motion: Motion) -> tuple[Stroke, ...]:
@@ -80,21 +78,20 @@ def _grippers(design: KnottingFourBar, sides: KnottingSides, motion: Motion) -> 
     return tuple(found)
 
 
-def torque(sides: KnottingSides) -> Plot:
+def _torque(sides: KnottingSides) -> Plot:
     """Torque of the motor for both sides, and of each alone."""
-    course = sides.course
+    state = sides.moving
     series = (
-        Series("motor, both sides", course.angle, course.torque),
-        Series("one side alone", course.angle, course.alone[0], dashed=True),
+        Series("motor, both sides", state.angle, state.torque),
+        Series("one side alone", state.angle, state.alone[0], dashed=True),
     )
-    return Plot(
-        "knotting-sides-torque", "Torque on the first crank", Axis("crank angle", "deg"), Axis("torque", "N*m"), series
-    )
+    axes = Axis("crank angle", "deg"), Axis("torque", "N*m")
+    return Plot("knotting-sides-torque", "Torque on the first crank", *axes, series)
 
 
-def distance(sides: KnottingSides) -> Plot:
+def _distance(sides: KnottingSides) -> Plot:
     """Distance of the two hands."""
-    series = (Series("from hand to hand", sides.course.angle, sides.gap),)
+    series = (Series("from hand to hand", sides.moving.angle, sides.gap),)
     axes = Axis("crank angle", "deg"), Axis("distance", "mm")
     return Plot("knotting-sides-distance", "Distance of the hands", *axes, series, (Mark(sides.knot, "nearest"),))
 
