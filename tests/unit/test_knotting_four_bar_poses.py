@@ -129,7 +129,7 @@ def test_turned_and_scaled_poses_make_the_same_four_bar(turned, factor) -> None:
         ({"r0": "78.105mm"}, "poses are given together with ground; either poses, .*; leave out poses, or ground"),
         ({"r1": "20mm", "hand": "1mm"}, "together with crank, hand"),
         ({"branch": "1"}, "together with branch"),
-        ({"crank_angle": "10deg"}, "crank_angle 10 deg is outside the motion through the poses; 33.73 deg to 185.8 deg"),
+        ({"crank_angle": "10deg"}, "10 deg is outside the motion through the poses; 33.73 deg to 185.8 deg"),
         ({"poses": PUBLISHED + " (31mm,1mm,-30deg)"}, "4 poses; exactly 3; for 4 poses: motion-four-bar"),
         ({"poses": PUBLISHED + " (31mm,1mm,-30deg)" * 3}, "6 poses; exactly 3; no four-bar takes more than 5"),
         ({"poses": "(0mm,0mm,10deg)"}, "1 pose; exactly 3"),

@@ -6,9 +6,8 @@ rocker.
 """
 
 import numpy as np
-from jaxtyping import Float
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import ComplexArray, Float, FloatArray
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.knotting_four_bar.model import KnottingState, drive_for, evaluate, mechanism
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, params_of
