@@ -78,7 +78,7 @@ def arm() -> tuple[JointPath, AxesLimits]:
     params = KnottingDyadParams()
     head = design(params).head
     assert head is not None
-    way = head.way
+    way = head.path
     limits = equal(2, params.joint_speed, params.joint_acceleration, params.joint_jerk)
     return JointPath(way.s, way.theta, way.first, way.second), limits
 

@@ -64,5 +64,5 @@ def test_every_solution_meets_the_mended_elimination_and_not_the_printed_one(whi
 
 def test_three_roots_as_the_thesis_says() -> None:
     """Text after Eq 2.46: the equation is of third order; the roots of the machine are three, real or not."""
-    assert made().roots.found.shape == (3,)
+    assert made().arms.found.shape == (3,)
     assert len(made().dyads) in (1, 3)

@@ -8,7 +8,7 @@ import pytest
 
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
-from ilmek.machines.knotting_dyad import MACHINE, KnottingDyadParams, design, report
+from ilmek.machines.knotting_dyad import MACHINE, KnottingDyadParams, design
 from ilmek.report import Drawing, Report
 from ilmek.units import deg
 
@@ -19,7 +19,7 @@ LINE = "(0,0) (10mm,0) (20mm,0) (30mm,0)"
 
 
 def answer(**settings: str) -> Report:
-    return report(design(KnottingDyadParams.read(settings)))
+    return MACHINE.report(design(KnottingDyadParams.read(settings)))
 
 
 def test_given_points_are_met_by_every_solution_by_the_names_that_are_promised() -> None:

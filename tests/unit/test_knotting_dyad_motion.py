@@ -10,19 +10,12 @@ import pytest
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad import MACHINE, design
-from ilmek.machines.knotting_dyad.drives import drives_of, inertias
+from ilmek.machines.knotting_dyad.drives import HeadMotion, drives_of, head_motion, inertias
+from ilmek.machines.knotting_dyad.figures import cyclogram, motion_figures
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import LEFT, RIGHT, KnotCycle
-from ilmek.machines.knotting_dyad.motion_report import (
-    HeadMotion,
-    cyclogram,
-    head_motion,
-    motion_figures,
-    motion_results,
-    motion_warnings,
-)
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.report import Plot, Timing
+from ilmek.report import Plot, Timing, results_of
 from ilmek.timing.s_curve import AxisLimits, move_time
 from ilmek.units import turn
 
@@ -43,6 +36,7 @@ def made(settings: Settings = ()) -> tuple[KnottingDyadParams, Head, HeadMotion]
     return params, head, head_motion(params, head)
 
 
+POINTS = {"points": "(12mm,4mm) (18.5mm,9.5mm) (24mm,8mm) (27mm,3mm)", "angles": "20deg 65deg 100deg 150deg"}
 DIRECT: Settings = (("elbow_drive", "direct"), ("elbow_mass", "20g"))
 ASYMMETRIC: Settings = (("knot", "asymmetric"), ("opens", "right"), ("gravity", "0"))
 
@@ -87,7 +81,7 @@ def test_torques_are_those_of_the_closed_equations_of_the_arm(settings: Settings
     params, head, motion = made(settings)
     absolute = equations(params, head, motion, side)
     expected = absolute if params.elbow_drive == "belt" else np.stack([absolute.sum(1), absolute[:, 1]], 1)
-    found = motion.drives.arms[side].torque
+    found = motion.arms[side].torque
     assert np.abs(found - expected).max() <= 1e-9 * np.abs(expected).max()
     assert motion.power_error < 1e-12
 
@@ -116,7 +110,7 @@ def test_the_cycle_goes_round_without_a_jump_and_follows_the_ways(settings: Sett
     assert (cycle.arms[LEFT].s + cycle.arms[RIGHT].s).max() <= 1 + 1e-9
     for side, course in cycle.arms.items():
         assert course.s[0] == pytest.approx(course.s[-1], abs=1e-12)
-        exact = head.arm.way(np.clip(course.s, 0.0, 1.0)).theta
+        exact = head.arm.path(np.clip(course.s, 0.0, 1.0)).theta
         assert np.abs(course.angle - (exact if side == LEFT else np.pi - exact)).max() < 1e-9
         steps = np.diff(cycle.time)[:, None]
         trapezoid = (course.speed[1:] + course.speed[:-1]) / 2 * steps
@@ -131,7 +125,7 @@ def test_the_cycle_goes_round_without_a_jump_and_follows_the_ways(settings: Sett
 def test_parts_follow_one_another_and_every_grip_has_its_grippers() -> None:
     params, head, motion = made()
     parts = motion.cycle.parts
-    assert [part.name for part in parts if not part.grippers] == [phase.name for phase in head.phases]
+    assert [part.name for part in parts if not part.grippers] == [phase.name for phase in head.sequence]
     assert all(first.end == then.start for first, then in itertools.pairwise(parts))
     grips = [(part.name, part.grippers) for part in parts if part.grippers]
     assert grips == [
@@ -159,7 +153,7 @@ def test_tighter_limits_take_longer_and_grips_without_time_are_no_parts() -> Non
 
 def test_servos_are_strong_and_quick_enough_with_their_own_rotors() -> None:
     params, head, motion = made((("gear_ratio", "5"), ("rotor_inertia", "1e-5kg*m^2")))
-    for at, drive in enumerate(motion.drives.joints):
+    for at, drive in enumerate(motion.joints):
         assert drive.servo is not None
         assert drive.reducer.ratio == 5
         assert drive.servo_speed == pytest.approx(5 * drive.speed_max)
@@ -169,7 +163,7 @@ def test_servos_are_strong_and_quick_enough_with_their_own_rotors() -> None:
         expected = max(
             float(
                 np.abs(
-                    motion.drives.arms[side].torque[:, at] / (5 * params.gear_efficiency)
+                    motion.arms[side].torque[:, at] / (5 * params.gear_efficiency)
                     + 5e-5 * arms[side].acceleration[:, at]
                 ).max()
             )
@@ -177,14 +171,14 @@ def test_servos_are_strong_and_quick_enough_with_their_own_rotors() -> None:
         )
         assert drive.servo_torque_max == pytest.approx(expected, rel=1e-12)
     heavy = dataclasses.replace(params, gripper_mass=9.0, gear_ratio=None)
-    stronger = drives_of(heavy, head, motion.cycle).joints[0].servo
+    stronger = drives_of(heavy, head, motion.cycle)[1][0].servo
     assert stronger is None or stronger.power > 100
 
 
 def test_no_servo_is_said_and_results_have_the_promised_names() -> None:
-    _, _, motion = made((("gear_ratio", "9000"),))
-    assert len(motion_warnings(motion)) == 2
-    values = {result.name: result.value for result in motion_results(motion)}
+    params, _, motion = made((("gear_ratio", "9000"),))
+    assert len([warning for warning in MACHINE.report(design(params)).warnings if "no servo" in warning]) == 2
+    values = {result.name: result.value for result in results_of(motion)}
     assert json.dumps(values)
     assert values["servo"] is None
     assert {"cycle_time", "torque_max", "torque_rms", "joint_speed_max", "drives", "cycle"} < set(values)
@@ -206,6 +200,25 @@ def test_figures_cover_the_cycle() -> None:
         assert isinstance(plot, Plot)
         assert len(plot.series) == (3 if plot.name.endswith("limits") else 4)
         assert len(plot.marks) == 7
+
+
+def test_parts_and_work_of_the_arms_of_a_head() -> None:
+    made_ = design(KnottingDyadParams())
+    parts = {part.name: part for part in MACHINE.parts(made_)}
+    assert made_.head is not None
+    one, two = inertias(made_.params, *links_of(made_.head)).values()
+    assert parts["first link of an arm"].mass == pytest.approx(one.mass)
+    assert parts["second link of an arm"].mass == pytest.approx(two.mass - made_.params.gripper_mass)
+    assert sum(part.number for part in parts.values() if part.drives) == 4
+    (work,) = MACHINE.work(made_)
+    motion, energy = head_motion(made_.params, made_.head), 0.0
+    for name, arm in motion.cycle.arms.items():
+        power = motion.arms[name].torque * arm.speed
+        steps = np.diff(motion.cycle.time)[:, None]
+        energy += float((np.maximum((power[1:] + power[:-1]) / 2, 0.0) * steps).sum())
+    assert work.per == "knot"
+    assert work.energy == pytest.approx(energy, rel=1e-2)
+    assert MACHINE.parts(design(KnottingDyadParams.read(POINTS))) == ()
 
 
 def test_the_machine_itself_reports_its_cycle() -> None:

@@ -7,8 +7,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams, design, report
-from ilmek.machines.knotting_dyad.arm_path import mirrored_way
+from ilmek.machines.knotting_dyad import MACHINE, KnottingDyad, KnottingDyadParams, design
+from ilmek.machines.knotting_dyad.arm_path import mirrored_path
 from ilmek.machines.knotting_dyad.clearance import apart, arm_bars, mirrored_bars, to_warps
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.section import NEIGHBOURS, section_of
@@ -49,7 +49,7 @@ SECTIONS: list[dict[str, str]] = [
 def test_every_check_holds_and_the_needle_has_the_greatest_clearance_that_the_section_has(
     settings: dict[str, str],
 ) -> None:
-    assert not report(made(**settings)).failed
+    assert not MACHINE.report(made(**settings)).failed
     found = head(**settings)
     assert found.clearance_min == pytest.approx(found.section.clearance_bound, abs=1e-9)
 
@@ -74,11 +74,11 @@ def test_each_derivative_of_the_joint_angles_is_that_of_a_polynomial_through_the
     """One derivative at a time: three in one go lose nine digits, and how many more depends on the arm found."""
     arm, s = head(**settings).arm, np.linspace(0, 1, 33)
     for lower, higher in pairwise(("theta", "first", "second", "third")):
-        exact = getattr(arm.way(s), higher)
+        exact = getattr(arm.path(s), higher)
         for joint in (0, 1):
 
             def values(s: np.ndarray, name: str = lower, joint: int = joint) -> np.ndarray:
-                return getattr(arm.way(s), name)[:, joint]
+                return getattr(arm.path(s), name)[:, joint]
 
             slope = np.polynomial.Chebyshev.interpolate(values, 60, domain=[0, 1]).deriv()(s)
             assert slope == pytest.approx(exact[:, joint], abs=1e-7 * np.abs(exact[:, joint]).max())
@@ -90,17 +90,17 @@ def test_no_point_of_an_arm_is_faster_than_its_bound_and_no_pose_nearer_to_strai
         bars = arm_bars(head(**settings).section, arm, s)
         fastest = max(np.abs(np.diff(places, axis=0)).max() / s[1] for places in (bars.starts, bars.ends))
         assert fastest <= arm.speed_bound < 3 * fastest
-        theta = arm.way(s).theta
+        theta = arm.path(s).theta
         assert np.abs(np.sin(theta[:, 1] - theta[:, 0])).min() == pytest.approx(arm.bend, rel=1e-9)
 
 
 def test_the_right_arms_way_is_the_mirror_image() -> None:
     one = head()
-    way = mirrored_way(one.way)
+    way = mirrored_path(one.path)
     twice, arm = 2 * one.section.middle, one.arm
     elbow = twice - np.conj(arm.pivot) + arm.first * np.exp(1j * way.theta[:, 0])
     tip = elbow + arm.second * np.exp(1j * way.theta[:, 1])
-    assert tip == pytest.approx(twice - np.conj(arm.tip(one.way.s)), abs=1e-15)
+    assert tip == pytest.approx(twice - np.conj(arm.tip(one.path.s)), abs=1e-15)
     step = np.diff(way.theta, axis=0) / np.diff(way.s)[:, None]
     assert step == pytest.approx((way.first[1:] + way.first[:-1]) / 2, rel=1e-2, abs=1e-3)
 
@@ -108,7 +108,7 @@ def test_the_right_arms_way_is_the_mirror_image() -> None:
 @pytest.mark.parametrize("settings", SECTIONS[:4])
 def test_no_sampled_distance_is_less_than_the_least_that_is_told(settings: dict[str, str]) -> None:
     found, rng = head(**settings), np.random.default_rng(7)
-    told = {one.name: one for one in found.clearances}
+    told = {one.name: one for one in found.least}
     s, t = rng.uniform(0, 1, (2, 4000))
     s, t = np.where(s + t > 1, 1 - s, s), np.where(s + t > 1, 1 - t, t)
     left = arm_bars(found.section, found.arm, s)
@@ -136,7 +136,7 @@ KNOTS = [("symmetric", "left"), ("asymmetric", "left"), ("asymmetric", "right")]
 def test_the_phases_tie_the_knot_and_no_other(kind: str, opens: str) -> None:
     found = head(knot=kind, opens=opens)
     assert found.tied.knot == knot(kind, NEIGHBOURS + 1, opens=opens)
-    assert report(made(knot=kind, opens=opens)).as_json()["results"]["knot_tied"] == kind
+    assert MACHINE.report(made(knot=kind, opens=opens)).as_json()["results"]["knot_tied"] == kind
 
 
 def _carried(phases: tuple[Phase, ...], end: int, *by: str) -> tuple[Phase, ...]:
@@ -149,7 +149,7 @@ def _carried(phases: tuple[Phase, ...], end: int, *by: str) -> tuple[Phase, ...]
 
 def test_an_arm_that_keeps_its_end_ties_nothing_round_its_warp() -> None:
     found = head()
-    kept = _carried(found.phases, 0, LEFT, LEFT, LEFT, LEFT, "", "", "")
+    kept = _carried(found.sequence, 0, LEFT, LEFT, LEFT, LEFT, "", "", "")
     assert tied_by(found.section, found.arm, kept).words.startswith("no knot: the yarn only passes behind warp 8")
     both = _carried(kept, 1, *(RIGHT,) * 7)
     assert tied_by(found.section, found.arm, both).words == "no knot: pulled, the yarn comes away from every warp"
@@ -166,8 +166,8 @@ def test_the_carriers_of_the_other_side_tie_the_mirrored_knot() -> None:
 
 def test_a_hand_over_at_two_places_is_told_with_the_distance() -> None:
     found = head()
-    early = _carried(found.phases, 0, CENTRE, LEFT, CENTRE, "", "", "", "")
-    assert "first end is 14 mm from the left gripper" not in tied_by(found.section, found.arm, found.phases).words
+    early = _carried(found.sequence, 0, CENTRE, LEFT, CENTRE, "", "", "", "")
+    assert "first end is 14 mm from the left gripper" not in tied_by(found.section, found.arm, found.sequence).words
     words = tied_by(found.section, found.arm, early).words
     assert words.startswith("no knot: at 'centre gripper to the left arm' the first end is ")
 
@@ -182,7 +182,7 @@ def test_a_needle_that_just_passes_the_warps_is_told_apart_from_one_that_does_no
 
 def test_an_end_left_behind_the_warps_is_no_knot() -> None:
     found = head()
-    left = _carried(found.phases, 0, LEFT, LEFT, "", "", "", "", "")
+    left = _carried(found.sequence, 0, LEFT, LEFT, "", "", "", "", "")
     assert "4 mm behind the front of the warps" in tied_by(found.section, found.arm, left).words
 
 
@@ -191,7 +191,7 @@ def test_the_needle_bends_as_the_curvature_of_a_clamped_bar_adds_up() -> None:
     section, arm = found.section, found.arm
     s = np.linspace(0, 1, 2001)
     way = np.gradient(arm.tip(s), s)
-    needle = np.exp(1j * arm.way(s).theta[:, 1])
+    needle = np.exp(1j * arm.path(s).theta[:, 1])
     across = pull * np.abs((np.conj(needle) * way).imag) / np.abs(way)
     inertia = 2e-3 * section.needle**3 / 12
     most = 0.0
@@ -205,7 +205,7 @@ def test_the_needle_bends_as_the_curvature_of_a_clamped_bar_adds_up() -> None:
 
 
 def test_a_thin_needle_bends_into_the_warps_and_is_told() -> None:
-    found = report(made(needle_diameter="0.1mm"))
+    found = MACHINE.report(made(needle_diameter="0.1mm"))
     assert [check.name for check in found.failed] == ["needle bent aside by the yarn"]
     assert "the yarn bends the needle" in found.warnings[0]
 
@@ -221,7 +221,7 @@ def test_a_thin_needle_bends_into_the_warps_and_is_told() -> None:
 def test_too_little_room_is_a_failed_check_and_a_warning_that_says_what_to_change(
     settings: dict[str, str], said: str
 ) -> None:
-    found = report(made(**settings))
+    found = MACHINE.report(made(**settings))
     assert [check.name for check in found.failed if "clearance" in check.name] == ["clearance over the whole cycle"]
     assert said in found.warnings[0]
     assert head(**settings).clearance_min < 1e-4
@@ -242,12 +242,12 @@ def test_a_given_depth_is_kept_and_a_deeper_hand_over_has_more_room() -> None:
 
 
 def test_the_animation_shows_both_arms_that_never_do_more_than_one_way_together() -> None:
-    moving = next(figure for figure in report(made()).figures if isinstance(figure, Animation))
+    moving = next(figure for figure in MACHINE.report(made()).figures if isinstance(figure, Animation))
     assert {stroke.label for stroke in moving.strokes} >= {"left arm", "right arm"}
     assert all(np.isfinite(stroke.points).all() for stroke in moving.strokes)
     assert [reading.values[0] for reading in moving.readings[:2]] == [0.0, 0.0]
     assert [reading.values.max() for reading in moving.readings[:2]] == pytest.approx([1.0, 1.0])
     assert np.max(moving.readings[0].values + moving.readings[1].values) == pytest.approx(1.0)
-    assert moving.period == report(made()).as_json()["results"]["cycle_time"]
+    assert moving.period == MACHINE.report(made()).as_json()["results"]["cycle_time"]
     tips = [stroke.points[:, 1] for stroke in moving.strokes if stroke.role == "outline"]
     assert len(tips) == 4

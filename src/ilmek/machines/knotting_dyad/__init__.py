@@ -1,17 +1,18 @@
 """The knotting dyad: arms of two links, both driven, whose needles lead the ends of the pile yarn behind the warps.
 
 A head of two mirrored arms and a centre gripper ties the knot on warps of a given pitch, proved, with its clearances,
-cycle and drives. Its links follow from four points of the way and the angles that the first link has there, as in the
-thesis, 2.1.3, by all real roots at once: none to three arms. Four points of one's own are solved alike.
+cycle and drives. Its links follow from four points of the path and the angles that the first link has there, as in the
+thesis, 2.1.3, by all real roots at once: none to three arms. Four points that are given are solved alike.
 """
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.knotting_dyad.design import KnottingDyad, design
+from ilmek.machines.knotting_dyad.in_loom import params_at, params_for, parts, work
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.machines.knotting_dyad.report import report
+from ilmek.machines.knotting_dyad.report import DyadAnalysis, analyse, checks, figures, tables, warnings
 
-__all__ = ["MACHINE", "KnottingDyad", "KnottingDyadParams", "design", "report"]
+__all__ = ["MACHINE", "KnottingDyad", "KnottingDyadParams", "design", "params_at"]
 
 MACHINE = Component(
     name="knotting-dyad",
@@ -19,5 +20,25 @@ MACHINE = Component(
     summary=SUMMARIES["knotting-dyad"],
     params=KnottingDyadParams,
     design=design,
-    reporter=report,
+    analysis=analyse,
+    reported=(DyadAnalysis,),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
+    parts=parts,
+    work=work,
+    fit=params_for,
+    own_figures=(
+        "knotting-dyad-workspace",
+        "knotting-dyad-servos",
+        "knotting-dyad-bend",
+        "knotting-dyad-clearance",
+        "knotting-dyad-solutions",
+        "knotting-dyad-poses",
+        "knotting-dyad-angles",
+        "knotting-dyad-speeds",
+        "knotting-dyad-limits",
+        "knotting-dyad-torques",
+    ),
 )

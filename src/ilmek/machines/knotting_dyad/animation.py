@@ -9,13 +9,14 @@ from ilmek.machines.knotting_dyad.motion import CyclePart, KnotCycle
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT, Phase
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import turn
+from ilmek.weaving.knots.led_yarn import evenly
 
 FRAMES = 66
 ALONG, EACH = 80, 41
-"""Places that the yarn is drawn through, and that an end's way of a phase is known at."""
+"""Points of the yarn that are drawn, and of an end's path in a phase."""
 
 
-def moving(head: Head, cycle: KnotCycle) -> Animation:
+def animation(head: Head, cycle: KnotCycle) -> Animation:
     """A cycle, as quick as the drives allow."""
     section, time = head.section, np.arange(FRAMES) * (cycle.period / FRAMES)
     left, right, centre = _at(cycle, time)
@@ -32,7 +33,7 @@ def moving(head: Head, cycle: KnotCycle) -> Animation:
     still = Drawing(
         "knotting-dyad-moving",
         "The head ties a knot",
-        tuple(Stroke(place + ring, "outline", closed=True, filled=True) for place in section.warps),
+        tuple(Stroke(warp + ring, "outline", closed=True, filled=True) for warp in section.warps),
         dots,
         note="The yarn lies where its ends went, not yet tightened.",
     )
@@ -42,9 +43,9 @@ def moving(head: Head, cycle: KnotCycle) -> Animation:
 
 
 def _at(cycle: KnotCycle, time: Float[np.ndarray, " n"]) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Places of both arms, s, and the height of the centre gripper's tip at times."""
-    courses = cycle.arms[LEFT].s, cycle.arms[RIGHT].s, cycle.centre[0]
-    left, right, centre = (np.interp(time, cycle.time, one) for one in courses)
+    """S of both arms, and the height of the centre gripper's tip at times [s]."""
+    positions = cycle.arms[LEFT].s, cycle.arms[RIGHT].s, cycle.centre[0]
+    left, right, centre = (np.interp(time, cycle.time, one) for one in positions)
     return left, right, centre
 
 
@@ -55,15 +56,15 @@ def _links(bars: RoundBars, name: str) -> tuple[MovingStroke, ...]:
 
 
 def _led(head: Head, cycle: KnotCycle, end: int) -> tuple[FloatArray, ComplexArray]:
-    """Times at which an end is led, and its places then."""
+    """Times at which an end is led, and its positions then."""
     parts = [part for part in cycle.parts if not part.grippers]
     led = [
         _carried(head, cycle, part, phase, end)
-        for part, phase in zip(parts, head.phases, strict=True)
+        for part, phase in zip(parts, head.sequence, strict=True)
         if phase.carries[end]
     ]
-    times, places = zip(*led, strict=True)
-    return np.concatenate(times), np.concatenate(places)
+    times, points = zip(*led, strict=True)
+    return np.concatenate(times), np.concatenate(points)
 
 
 def _carried(head: Head, cycle: KnotCycle, part: CyclePart, phase: Phase, end: int) -> tuple[FloatArray, ComplexArray]:
@@ -77,9 +78,6 @@ def _carried(head: Head, cycle: KnotCycle, part: CyclePart, phase: Phase, end: i
 
 
 def _yarn(ends: list[tuple[FloatArray, ComplexArray]], now: float) -> Complex[np.ndarray, " along"]:
-    """The yarn at a time: the first end's way until then backwards, then the second's, in even steps."""
-    first, second = (places[: max(int(np.searchsorted(times, now, side="right")), 1)] for times, places in ends)
-    whole = np.concatenate([first[::-1], second])
-    length = np.append(0.0, np.cumsum(np.abs(np.diff(whole))))
-    even = np.linspace(0.0, length[-1], ALONG)
-    return np.asarray(np.interp(even, length, whole.real) + 1j * np.interp(even, length, whole.imag))
+    """The yarn at a time: the first end's path until then backwards, then the second's, in even steps."""
+    first, second = (points[: max(int(np.searchsorted(times, now, side="right")), 1)] for times, points in ends)
+    return evenly(np.concatenate([first[::-1], second]), ALONG)

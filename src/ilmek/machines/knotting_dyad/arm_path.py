@@ -1,6 +1,6 @@
-"""The way of an arm: its needle always goes through the middle of the gap between two warps.
+"""The path of an arm: its needle always goes through the middle of the gap between two warps.
 
-Link 2 is the needle. Its line goes through the middle G of the gap at every place of the way, as if it slid in a swivel
+Link 2 is the needle. Its line goes through the middle G of the gap everywhere on the path, as if it slid in a swivel
 there: the arm moves like an oscillating block, and G, the pivot O and the elbow E are a triangle with two fixed sides,
 
     b = |O - G|,     a1 = |E - O|,     r = |E - G| = a2 - rho,     rho = rho0 + s (rho1 - rho0),     0 <= s <= 1
@@ -11,8 +11,8 @@ angles psi of the triangle at G and chi at O,
     cos psi = (r + (b² - a1²)/r) / 2b           E - G = r exp(i (arg(O - G) + side psi)),    th2 = arg(G - E)
     cos chi = (a1² + b² - r²) / 2 a1 b          E - O = a1 exp(i (arg(G - O) - side chi)),   th1 = arg(E - O)
 
-and the tip P = G + (r - a2) (E - G)/r. All of it is analytic in s as long as the triangle is one, and that it is as
-long as the arm is bent: links 1 and 2 in one line are the dead points of the arm and of the triangle alike. With
+and the tip P = G + (r - a2) (E - G)/r. All of it is analytic in s as long as the triangle is one, which holds
+as long as the arm is bent: links 1 and 2 in one line are the dead points of the arm and of the triangle alike. With
 c = cos psi, S = sin psi the derivatives by s follow from c' = -S psi' and so on:
 
     psi' = -c'/S      psi'' = -(c'' + c psi'²)/S      psi''' = -(c''' + 3 c psi' psi'' - S psi'³)/S
@@ -35,9 +35,9 @@ Jet: TypeAlias = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 
 @dataclass(frozen=True, slots=True)
 class ArmPath:
-    """Joint angles along an arm's way, and their derivatives by the way's parameter s.
+    """Joint angles along an arm's path, and their derivatives by the path's parameter s.
 
-    s      0: at rest in front of the warps, 1: at the hand-over behind them; the arm goes out and back the same way
+    s      0: at rest in front of the warps, 1: at the hand-over behind them; the arm goes out and back on the same path
     theta  angles of the first and second link, absolute [rad], without jumps; the elbow's angle is their difference
     first, second, third  derivatives of theta by s [rad]
     """
@@ -51,7 +51,7 @@ class ArmPath:
 
 @dataclass(frozen=True, slots=True)
 class Arm:
-    """The left arm and its way; the right one is its mirror image (`mirrored_way`).
+    """The left arm and its path; the right one is its mirror image (`mirrored_path`).
 
     pivot   O [m]             first, second  links a1, a2 [m], both above 0
     gap     G [m]             side           of the elbow: +1 left of the line from the gap to the pivot, -1 right
@@ -73,19 +73,19 @@ class Arm:
 
     @property
     def stroke(self) -> float:
-        """Length of the way along the needle [m]."""
+        """Length of the path along the needle [m]."""
         return self.end - self.begin
 
     def beyond(self, s: FloatArray) -> FloatArray:
-        """How far the tip is beyond the gap's middle [m], rho."""
+        """Distance rho of the tip beyond the gap's middle [m]."""
         return np.asarray(self.begin + s * self.stroke)
 
     def elbow(self, s: FloatArray) -> ComplexArray:
-        """Places of the elbow [m]; NaN where the arm cannot be."""
+        """Positions of the elbow [m]; NaN where the arm cannot close."""
         return np.asarray(self.pivot + self.first * unit(self._first(s)[0]))
 
     def tip(self, s: FloatArray) -> ComplexArray:
-        """Places of the needle's tip [m]; NaN where the arm cannot be."""
+        """Positions of the needle's tip [m]; NaN where the arm cannot close."""
         return np.asarray(self.gap + self.beyond(s) * unit(self._second(s)[0]))
 
     def tilt(self, s: FloatArray) -> FloatArray:
@@ -94,7 +94,7 @@ class Arm:
 
     @property
     def bend(self) -> float:
-        """Least |sin| of the angle between the links on the way, -1 where the arm cannot be everywhere on it.
+        """Least |sin| of the angle between the links on the path, -1 where the arm cannot close everywhere on it.
 
         cos = (r + (a1² - b²)/r) / 2 a1 grows with r, or is positive with one minimum: the greatest |cos| is at an end.
         """
@@ -106,7 +106,7 @@ class Arm:
 
     @property
     def turn_bound(self) -> float:
-        """Bound of |d th2 / ds| on the way [rad]: |b c'| / (a1 sin bend), c' greatest at an end."""
+        """Bound of |d th2 / ds| on the path [rad]: |b c'| / (a1 sin bend), c' greatest at an end."""
         r = self.second - np.array([self.begin, self.end])
         slope = float(np.max(np.abs(1 - (self.base**2 - self.first**2) / r**2))) / 2
         return self.stroke * slope / (self.first * self.bend)
@@ -117,7 +117,7 @@ class Arm:
         far = max(self.second - self.begin, self.end)
         return math.hypot(self.stroke, far * self.turn_bound)
 
-    def way(self, s: Float[np.ndarray, " n"]) -> ArmPath:
+    def path(self, s: Float[np.ndarray, " n"]) -> ArmPath:
         """Joint angles and their derivatives at values of s."""
         both = zip(self._first(s), self._second(s), strict=True)
         return ArmPath(s, *(np.stack(np.broadcast_arrays(*pair), axis=-1) for pair in both))
@@ -141,14 +141,14 @@ class Arm:
         return _turned(_arccosine(cosine), float(np.angle(self.gap - self.pivot)), self.side)
 
 
-def mirrored_way(way: ArmPath) -> ArmPath:
-    """The mirror image of a way about an upright line: theta becomes pi - theta.
+def mirrored_path(path: ArmPath) -> ArmPath:
+    """The mirror image of a path about an upright line: theta becomes pi - theta.
 
     >>> zero = np.zeros((1, 2))
-    >>> mirrored_way(ArmPath(np.zeros(1), zero, zero + 1, zero, zero)).theta.round(3).tolist()
+    >>> mirrored_path(ArmPath(np.zeros(1), zero, zero + 1, zero, zero)).theta.round(3).tolist()
     [[3.142, 3.142]]
     """
-    return ArmPath(way.s, np.pi - way.theta, -way.first, -way.second, -way.third)
+    return ArmPath(path.s, np.pi - path.theta, -path.first, -path.second, -path.third)
 
 
 def _arccosine(cosine: Jet) -> Jet:

@@ -1,13 +1,13 @@
-"""How clear everything that moves stays of the warps, of the other arm and of the centre gripper, over the whole cycle.
+"""Clearances of everything that moves from the warps, the other arm and the centre gripper, over the whole cycle.
 
-Links and needles are bars with round ends, warps are discs, all exact. A least distance over the way is found by
-halving: no point of an arm moves faster than V by s (`Arm.speed_bound`), so over a piece of the way of half length e
-the distance is no less than f - V e, f that at its middle. Pieces that cannot go below the least distance found yet
-by more than the tolerance are left; the others are halved. What is returned is a distance that occurs, and none is less
+Links and needles are bars with round ends, warps are discs, all exact. A least distance over the path is found by
+bisection: no point of an arm moves faster than V by s (`Arm.speed_bound`), so over an interval of half length e the
+distance is no less than f - V e, f that at its middle. Intervals that cannot go below the least distance found so far
+by more than the tolerance are dropped; the others are halved. The result is a distance that occurs, and none is less
 by more than the tolerance.
 
-For both arms the piece is a rectangle: s_left = u (1 - v) and s_right = u v, 0 <= u, v <= 1, are all their places with
-s_left + s_right <= 1, however they are timed, and the distance changes by V at most by u, by 2 V at most by v.
+For both arms the interval is a rectangle: s_left = u (1 - v) and s_right = u v, 0 <= u, v <= 1, are all their positions
+with s_left + s_right <= 1, however they are timed, and the distance changes by V at most by u, by 2 V at most by v.
 """
 
 from collections.abc import Callable
@@ -21,10 +21,10 @@ from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.plane.outlines import between, to_segments
 
 TOLERANCE, RELATIVE = 1e-6, 5e-3
-"""By which a least distance may be too great: [m], and besides of itself."""
+"""Absolute [m] and relative tolerance of a least distance."""
 
 PIECES, MOST = 16, 60_000
-"""Pieces of the way at first in each direction; pieces at most, after which the tolerance is not met."""
+"""Intervals at first in each direction; intervals at most, after which the tolerance is not met."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,8 +32,8 @@ class LeastDistance:
     """A least distance.
 
     name   of what, from what        value  [m], below 0 where they overlap
-    at     places s of the ways there, one for each arm that matters
-    sure   how much less it might be at most [m]
+    at     s there, one for each arm that matters
+    sure   tolerance: how much less it might be at most [m]
     """
 
     name: str
@@ -44,7 +44,7 @@ class LeastDistance:
 
 @dataclass(frozen=True, slots=True)
 class RoundBars:
-    """Bars with round ends: (places, bars) ends [m], and the radii of each [m]."""
+    """Bars with round ends: (positions, bars) ends [m], and the radii of each [m]."""
 
     starts: Complex[np.ndarray, "n bars"]
     ends: Complex[np.ndarray, "n bars"]
@@ -77,14 +77,14 @@ def mirrored_bars(section: WarpSection, bars: RoundBars) -> RoundBars:
 
 
 def to_warps(section: WarpSection, bars: RoundBars) -> Float[np.ndarray, " n"]:
-    """Least distance of the bars from any warp [m], at each place."""
+    """Least distance of the bars from any warp [m], at each position."""
     apart = to_segments(section.warps, bars.starts[..., None], bars.ends[..., None])
     least: Float[np.ndarray, " n"] = np.min(apart - bars.radii[:, None], axis=(-2, -1)) - section.warp / 2
     return least
 
 
 def apart(one: RoundBars, other: RoundBars, but: tuple[int, int] | None = None) -> Float[np.ndarray, " n"]:
-    """Least distance of two sets of bars [m], at each place; `but` a pair of them that is meant to meet."""
+    """Least distance of two sets of bars [m], at each position; `but` a pair of them that meets on purpose."""
     pairs = [
         between(np.stack([one.starts[:, i], one.ends[:, i]], -1), np.stack([other.starts[:, j], other.ends[:, j]], -1))
         - one.radii[i]
@@ -137,7 +137,7 @@ def _centre(section: WarpSection, arm: Arm) -> tuple[LeastDistance, ...]:
 
         return at_height
 
-    # At the hand-over the needles meet, as they shall; their wide parts must not.
+    # At the hand-over the needles meet; their wide parts must not.
     return (
         least("centre gripper at rest to an arm", waiting, (arm.speed_bound,)),
         least("centre gripper to an arm at the hand-over, but for the tips", coming(1.0, (2, 0)), (stroke,)),

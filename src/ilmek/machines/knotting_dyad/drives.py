@@ -1,4 +1,4 @@
-"""What turns the joints: torques of both arms over the cycle, by the engine's inverse dynamics, and the servos.
+"""The drives of the joints: torques of both arms over the cycle, by inverse dynamics, and the servos.
 
 An arm is a mechanism of two inputs, at the pivot and in the elbow, with torques M1 and M2, each on the outer link from
 the inner one. A belt that turns the second link from the pivot reacts on the ground instead of the first link, so that
@@ -9,6 +9,7 @@ Behind gears of ratio i and efficiency e a servo of rotor inertia J gives     M 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -23,8 +24,10 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.knotting_dyad.head import Head
-from ilmek.machines.knotting_dyad.motion import ArmMotion, KnotCycle, drive_angles
+from ilmek.machines.knotting_dyad.motion import ArmMotion, KnotCycle, cycle_of, drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+from ilmek.records import computed, record
+from ilmek.report import Json
 
 RATIOS = (1.0, 3.0, 4.0, 5.0, 7.0, 10.0, 16.0, 20.0, 25.0, 35.0, 50.0, 70.0, 100.0)
 """Gears to choose from: none, and the usual planetary ones of one and two stages."""
@@ -32,9 +35,9 @@ RATIOS = (1.0, 3.0, 4.0, 5.0, 7.0, 10.0, 16.0, 20.0, 25.0, 35.0, 50.0, 70.0, 100
 JOINTS = ("first link", "second link")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class ArmForces:
-    """An arm's torques over the cycle: of its two drives [N m], and the engine's forces they come from."""
+    """An arm's torques over the cycle: of its two drives [N m], and the forces they come from."""
 
     torque: Float[np.ndarray, "samples 2"]
     forces: Forces
@@ -61,13 +64,70 @@ class JointDrive:
     servo_speed: float
     servo: Motor | None
 
+    @property
+    def as_json(self) -> dict[str, Json]:
+        """The drive as plain data, SI."""
+        return {
+            "joint": self.joint,
+            "torque_max": self.torque_max,
+            "torque_rms": self.torque_rms,
+            "speed_max": self.speed_max,
+            "power_max": self.power_max,
+            "gear_ratio": self.reducer.ratio,
+            "servo_torque_max": self.servo_torque_max,
+            "servo_torque_rms": self.servo_torque_rms,
+            "servo_speed": self.servo_speed,
+            "servo": self.servo.name if self.servo else None,
+        }
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ArmDrives:
-    """Torques of both arms, by name, and the drive of each joint."""
 
+@record
+class HeadMotion:
+    """The cycle of a head in time, torques of both arms, by name, and the drive of each joint."""
+
+    cycle: KnotCycle
     arms: Mapping[str, ArmForces]
     joints: tuple[JointDrive, JointDrive]
+
+    cycle_time = computed(
+        "ms", "of a knot, every motion as quick as the limits of the drives allow", lambda it: it.cycle.period
+    )
+    torque_max = computed("mN*m", "greatest torque at a joint", lambda it: max(one.torque_max for one in it.joints))
+    torque_rms = computed(
+        "mN*m",
+        "greatest root mean square of the torque at a joint, over the cycle",
+        lambda it: max(one.torque_rms for one in it.joints),
+    )
+    joint_speed_max = computed("rad/s", "greatest speed of a joint", lambda it: max(one.speed_max for one in it.joints))
+    drives = computed(
+        "",
+        "of first and second link, for the worse arm: at the joint and at its servo, SI",
+        lambda it: [one.as_json for one in it.joints],
+    )
+
+    @computed("", "servo class that is enough for every joint; null where a joint has none")
+    def servo(self) -> str | None:
+        servos = [joint.servo for joint in self.joints if joint.servo]
+        return max(servos, key=lambda one: one.power).name if len(servos) == len(self.joints) else None
+
+    @computed("", "phases and grips, one after the other [s]", name="cycle")
+    def parts(self) -> Json:
+        return [
+            {"name": part.name, "start": part.start, "end": part.end, "grippers": list(part.grippers)}
+            for part in self.cycle.parts
+        ]
+
+    @property
+    def power_error(self) -> float:
+        """Greatest power residual of the torques, over the powers' size."""
+        return max(arm.forces.power_error for arm in self.arms.values())
+
+
+@lru_cache(maxsize=4)
+def head_motion(params: KnottingDyadParams, head: Head) -> HeadMotion:
+    """The cycle of a head, and the drives that it needs."""
+    cycle = cycle_of(params, head)
+    return HeadMotion(cycle, *drives_of(params, head, cycle))
 
 
 def arm_mechanism(first: float, second: float) -> Mechanism:
@@ -85,57 +145,67 @@ def arm_mechanism(first: float, second: float) -> Mechanism:
     )
 
 
-def inertias(params: KnottingDyadParams, first: float, second: float) -> dict[str, Inertia]:
-    """Links of the parameters' width, thickness and density, the mass in the elbow, and the gripper in the tip."""
+def links_of(params: KnottingDyadParams, first: float, second: float) -> tuple[Inertia, Inertia]:
+    """The bare links [m], of the parameters' width, thickness and density."""
     one, two = (link(0j, end, params.link_width, params.link_thickness, params.density) for end in (first, second))
+    return one, two
+
+
+def inertias(params: KnottingDyadParams, first: float, second: float) -> dict[str, Inertia]:
+    """The links, with the mass in the elbow, and the gripper in the tip."""
+    one, two = links_of(params, first, second)
     return {
         "link 1": combined(one, point_mass(params.elbow_mass, first)),
         "link 2": combined(two, point_mass(params.gripper_mass, second)),
     }
 
 
-def drives_of(params: KnottingDyadParams, head: Head, cycle: KnotCycle) -> ArmDrives:
-    """Torques and drives of a head over its cycle."""
+def drives_of(
+    params: KnottingDyadParams, head: Head, cycle: KnotCycle
+) -> tuple[dict[str, ArmForces], tuple[JointDrive, JointDrive]]:
+    """Torques of the arms and the drives of a head over its cycle."""
     links = abs(head.arm.first), head.arm.second
-    arms = {name: _arm_forces(params, links, course) for name, course in cycle.arms.items()}
+    arms = {name: _arm_forces(params, links, motion) for name, motion in cycle.arms.items()}
     turned = drive_angles(params).T
-    loads = [
-        _Load(
-            cycle.time,
-            [forces.torque[:, at] for forces in arms.values()],
-            [(course.speed @ turned)[:, at] for course in cycle.arms.values()],
-            [(course.acceleration @ turned)[:, at] for course in cycle.arms.values()],
+    first, second = (
+        _drive(
+            params,
+            joint,
+            _Load(
+                cycle.time,
+                [forces.torque[:, at] for forces in arms.values()],
+                [(motion.speed @ turned)[:, at] for motion in cycle.arms.values()],
+                [(motion.acceleration @ turned)[:, at] for motion in cycle.arms.values()],
+            ),
         )
-        for at in range(2)
-    ]
-    return ArmDrives(arms, (_drive(params, JOINTS[0], loads[0]), _drive(params, JOINTS[1], loads[1])))
-
-
-def _arm_forces(params: KnottingDyadParams, links: tuple[float, float], course: ArmMotion) -> ArmForces:
-    mechanism = arm_mechanism(*links)
-    angle, speed, acceleration = (
-        {"link 1": one[:, 0], "link 2": one[:, 1] - one[:, 0]}
-        for one in (course.angle, course.speed, course.acceleration)
+        for at, joint in enumerate(JOINTS)
     )
-    motion = solve(plan(mechanism), angle, speed, acceleration).require()
-    loads = (Gravity(-1j * params.gravity), PointForce("link 2", "P", _pull(params, motion, course)))
+    return arms, (first, second)
+
+
+def _arm_forces(params: KnottingDyadParams, links: tuple[float, float], arm: ArmMotion) -> ArmForces:
+    angle, speed, acceleration = (
+        {"link 1": one[:, 0], "link 2": one[:, 1] - one[:, 0]} for one in (arm.angle, arm.speed, arm.acceleration)
+    )
+    motion = solve(plan(arm_mechanism(*links)), angle, speed, acceleration).require()
+    loads = (Gravity(-1j * params.gravity), PointForce("link 2", "P", _pull(params, motion, arm)))
     forces = inverse(motion, inertias(params, *links), loads)
     at_pivot, in_elbow = forces.effort("link 1"), forces.effort("link 2")
     base = at_pivot - in_elbow if params.elbow_drive == "belt" else at_pivot
     return ArmForces(np.stack([base, in_elbow], axis=1), forces)
 
 
-def _pull(params: KnottingDyadParams, motion: Motion, course: ArmMotion) -> np.ndarray:
+def _pull(params: KnottingDyadParams, motion: Motion, arm: ArmMotion) -> np.ndarray:
     """Force of the yarn on the tip [N], against its motion while it leads an end."""
     velocity = np.asarray(motion.point("link 2", "P").velocity)
     speed = np.abs(velocity)
-    moves = course.leads & (speed > 0)
+    moves = arm.leads & (speed > 0)
     return np.asarray(np.where(moves, -params.yarn_pull * velocity / np.where(speed > 0, speed, 1.0), 0j))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class _Load:
-    """What one joint's drive does over the cycle, in each arm."""
+    """Load of one joint's drive over the cycle, in each arm."""
 
     time: FloatArray
     torque: list[FloatArray]
@@ -171,10 +241,10 @@ def _behind(params: KnottingDyadParams, joint: str, load: _Load, reducer: Reduce
     )
 
 
-def _most(courses: list[FloatArray]) -> float:
-    return max(float(np.max(np.abs(course))) for course in courses)
+def _most(values: list[FloatArray]) -> float:
+    return max(float(np.max(np.abs(one))) for one in values)
 
 
-def _rms(time: FloatArray, courses: list[FloatArray]) -> float:
+def _rms(time: FloatArray, values: list[FloatArray]) -> float:
     """The greater root mean square over the cycle."""
-    return max(math.sqrt(float(np.trapezoid(course**2, time)) / float(time[-1])) for course in courses)
+    return max(math.sqrt(float(np.trapezoid(one**2, time)) / float(time[-1])) for one in values)

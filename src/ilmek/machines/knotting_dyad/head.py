@@ -1,75 +1,118 @@
-"""The knotting head: an arm and its mirror image, the centre gripper between them, and what they do together."""
+"""The knotting head of two mirrored arms and the centre gripper between them: what they do together, and its results.
 
-from dataclasses import dataclass
+A needle is a blade, as thin across the section as the gap requires, broader along the warps, clamped where the wide
+link ends. The yarn pulls at the tip against its motion with the force F across the needle, which deflects it at the
+warps, x from the clamp of the length L, by
+
+    y = F x² (3 L - x) / 6 E I,      I = breadth d³/12                            [cantilever with a force at its end]
+"""
 
 import numpy as np
 
+from ilmek.elements.materials import MATERIALS
 from ilmek.machines.knotting_dyad.arm_path import Arm, ArmPath
 from ilmek.machines.knotting_dyad.clearance import LeastDistance, clearances
-from ilmek.machines.knotting_dyad.needle_bending import bent_aside
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import WarpSection, knot_of
 from ilmek.machines.knotting_dyad.sequence import Phase, sequence
 from ilmek.machines.knotting_dyad.yarn import tied_by
+from ilmek.records import computed, group, record, result
+from ilmek.report import Json
 from ilmek.weaving.knots.proof import TiedKnot
 from ilmek.weaving.knots.word import Knot, knot
 
-SAMPLES = 401
-"""Places of the way that are tabulated."""
+STEEL = MATERIALS["heat-treatable steel"]
+
+SAMPLES, BENDING_SAMPLES = 401, 201
+"""Samples of the path that are tabulated, and at which the needle's deflection is computed."""
+
+REPORTED = 40
+"""Every n-th sample of the path is reported."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class Head:
     """A head that ties a knot.
 
-    section     the warps that it works among      phases      of a cycle, one after the other
-    knot        to be tied                         clearances  of everything that moves, over the whole cycle
-    arm         the left one; the right mirrored   tied        the knot that the phases tie, proved
-    way         of the left arm, tabulated         bent        the needle aside by the yarn, at the warps [m]
+    knot  required          arm          the left one; the right mirrored     path  of the left arm, tabulated
+    tied  proved            least        distances of everything that moves, over the whole cycle
     """
 
-    section: WarpSection
+    section: WarpSection = group()
     knot: Knot
     arm: Arm
-    way: ArmPath
-    phases: tuple[Phase, ...]
-    clearances: tuple[LeastDistance, ...]
+    path: ArmPath
+    sequence: tuple[Phase, ...]
+    least: tuple[LeastDistance, ...]
     tied: TiedKnot
-    bent: float
+    bent: float = result("um", "deflection of the needle by the yarn's pull, at the warps' axes", name="needle_bent")
 
-    @property
-    def clearance_min(self) -> float:
-        """The least of all clearances [m]; below 0 something overlaps."""
-        return min(one.value for one in self.clearances)
+    clearances = computed(
+        "", "each least distance over the cycle [m]", lambda it: {one.name: one.value for one in it.least}
+    )
+    clearance_min = computed(
+        "mm", "least of all clearances over the cycle; below 0: overlap", lambda it: min(it.clearances.values())
+    )
+    centre_stroke = computed("mm", "stroke of the centre gripper", lambda it: it.section.front + it.section.depth)
 
-    @property
-    def centre_stroke(self) -> float:
-        """Way of the centre gripper, one way [m]."""
-        return self.section.front + self.section.depth
-
-    @property
+    @computed("", "the knot that the motion is proved to tie; null if it is not the required one")
     def knot_tied(self) -> str | None:
-        """Kind of the knot that is tied on the pair, None if it is not the one asked for."""
         return self.knot.kind if self.tied.knot == self.knot else None
 
-    @property
+    @computed("", "conclusion of the proof; the pair's warps are 1 and 2, else warps are counted from the left")
     def proof(self) -> str:
-        """What the proof says, the pair's warps called 1 and 2; else warps are counted from the left of the section."""
         return knot(self.knot.kind, opens=self.knot.opens or "left").name if self.knot_tied else self.tied.words
+
+    @computed("", "radii about the pivot that bound the workspace, where the arm is singular [m]")
+    def workspace(self) -> Json:
+        return {"inner": abs(self.arm.first - self.arm.second), "outer": self.arm.first + self.arm.second}
+
+    @computed("", "of a cycle: s of the arms at begin and end, the centre gripper's height [m], carriers of the ends")
+    def phases(self) -> Json:
+        return [
+            {
+                "name": one.name,
+                "left": list(one.left),
+                "right": list(one.right),
+                "centre": list(one.centre),
+                "carries": list(one.carries),
+            }
+            for one in self.sequence
+        ]
+
+    @computed("", "of the left arm along its path, and their derivatives by s [rad]")
+    def servo_angles(self) -> Json:
+        names = ("s", "theta1", "theta2", "theta1_by_s", "theta2_by_s")
+        values = (self.path.s, *self.path.theta.T, *self.path.first.T)
+        return [
+            {name: float(value[at]) for name, value in zip(names, values, strict=True)}
+            for at in range(0, len(self.path.s), REPORTED)
+        ]
 
 
 def head_of(params: KnottingDyadParams, section: WarpSection, arm: Arm) -> Head:
     """The head of an arm."""
-    wanted = knot_of(params)
-    phases = sequence(wanted, section.front, -section.depth)
-    way = arm.way(np.linspace(0.0, 1.0, SAMPLES))
+    required = knot_of(params)
+    phases = sequence(required, section.front, -section.depth)
     return Head(
-        section,
-        wanted,
-        arm,
-        way,
-        phases,
-        clearances(section, arm),
-        tied_by(section, arm, phases),
-        bent_aside(params, section, arm),
+        section=section,
+        knot=required,
+        arm=arm,
+        path=arm.path(np.linspace(0.0, 1.0, SAMPLES)),
+        sequence=phases,
+        least=clearances(section, arm),
+        tied=tied_by(section, arm, phases),
+        bent=needle_deflection(params, section, arm),
     )
+
+
+def needle_deflection(params: KnottingDyadParams, section: WarpSection, arm: Arm) -> float:
+    """Greatest deflection of the needle [m] at the warps' axes, on its path behind them."""
+    s = np.linspace(0.0, 1.0, BENDING_SAMPLES)
+    beyond, length = arm.beyond(s), section.needle_length
+    turn = arm.path(s).first[:, 1] * beyond  # the tip across the needle, by s; along it the stroke
+    across = params.yarn_pull * np.abs(turn) / np.hypot(turn, arm.stroke)
+    x = length - np.maximum(beyond, 0.0)
+    inertia = params.needle_breadth * section.needle**3 / 12
+    bent = across * x**2 * (3 * length - x) / (6 * STEEL.modulus * inertia)
+    return float(np.max(bent[beyond >= 0]))

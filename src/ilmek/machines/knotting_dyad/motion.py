@@ -1,12 +1,13 @@
 """The head's cycle in time: every phase as quick as the drives allow, and a pause for each grip.
 
-An arm goes its way in the least time within the limits of its joints, and back in the same motion backwards. Where both
-arms move, one parameter leads both, so that the ways done always add up to one. The centre gripper goes straight, in
-seven phases of constant jerk. Before a phase the grippers that take an end close, then those that leave one open.
+An arm follows its path in the least time within the limits of its joints, and back in the same motion backwards. Where
+both arms move, one parameter leads both, so that the sum of both s is always one. The centre gripper moves straight, in
+seven phases of constant jerk. Before a phase the grippers that take an end close, then those that release one open.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import TypeAlias
 
 import numpy as np
 
@@ -14,7 +15,8 @@ from ilmek.arrays import Float, FloatArray
 from ilmek.machines.knotting_dyad.arm_path import ArmPath
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, OUT, RIGHT, Phase
+from ilmek.machines.knotting_dyad.sequence import LEFT, OUT, RIGHT, Phase
+from ilmek.records import record
 from ilmek.timing.path_speed.solve import AxesLimits, JointPath, PathMotion, Trajectory, quickest_motion
 from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
 
@@ -32,7 +34,7 @@ class CyclePart:
     grippers: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class ArmMotion:
     """An arm over the samples: s, and of both links the absolute angles [rad] and their rates by time.
 
@@ -51,7 +53,7 @@ class ArmMotion:
         return ArmMotion(self.s, np.pi - self.angle, -self.speed, -self.acceleration, -self.jerk, self.leads)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class KnotCycle:
     """A whole cycle.
 
@@ -74,24 +76,28 @@ class KnotCycle:
         return self.parts[-1].end
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class _Motions:
     """The motions that a cycle is made of: one arm in, one out while the other comes in, the centre gripper down."""
 
-    way: ArmPath
+    path: ArmPath
     single: PathMotion
     both: PathMotion
     centre: SCurve
     absolute: FloatArray  # of the drives' angles, the links' absolute ones
 
 
+_Piece: TypeAlias = tuple[FloatArray, ArmMotion, ArmMotion, FloatArray]
+"""Times, both arms as left ones, centre gripper."""
+
+
 def cycle_of(params: KnottingDyadParams, head: Head) -> KnotCycle:
     """The cycle of a head."""
     motions = _motions(params, head)
-    before = (*head.phases[-1:], *head.phases[:-1])
+    before = (*head.sequence[-1:], *head.sequence[:-1])
     parts: list[CyclePart] = []
-    pieces: list[tuple[FloatArray, ArmMotion, ArmMotion, FloatArray]] = []
-    for last, phase in zip(before, head.phases, strict=True):
+    pieces: list[_Piece] = []
+    for last, phase in zip(before, head.sequence, strict=True):
         for grip in _grips(params, last, phase, parts[-1].end if parts else 0.0):
             parts.append(grip)
             pieces.append(_still(motions, phase, np.linspace(grip.start, grip.end, PAUSED)))
@@ -105,19 +111,19 @@ def cycle_of(params: KnottingDyadParams, head: Head) -> KnotCycle:
 
 
 def drive_angles(params: KnottingDyadParams) -> Float[np.ndarray, "2 2"]:
-    """What the drives turn, in the links' absolute angles: with a belt these themselves, else the elbow's own angle."""
+    """Angles of the drives over the links' absolute ones: with a belt the same, else the second link's to the first."""
     return np.array([[1.0, 0.0], [0.0 if params.elbow_drive == "belt" else -1.0, 1.0]])
 
 
 def _motions(params: KnottingDyadParams, head: Head) -> _Motions:
-    way, turned = head.way, drive_angles(params).T
-    of_one = way.theta @ turned, way.first @ turned, way.second @ turned
+    path, turned = head.path, drive_angles(params).T
+    of_one = path.theta @ turned, path.first @ turned, path.second @ turned
     backwards = [sign * one[::-1] for sign, one in zip((1, -1, 1), of_one, strict=True)]
     together = [np.concatenate(pair, axis=1) for pair in zip(backwards, of_one, strict=True)]
     return _Motions(
-        way,
-        quickest_motion(JointPath(way.s, *of_one), _limits(params, 2), INTERVALS),
-        quickest_motion(JointPath(way.s, *together), _limits(params, 4), INTERVALS),
+        path,
+        quickest_motion(JointPath(path.s, *of_one), _limits(params, 2), INTERVALS),
+        quickest_motion(JointPath(path.s, *together), _limits(params, 4), INTERVALS),
         s_curve(
             head.centre_stroke,
             AxisLimits(params.centre_speed, params.centre_acceleration, params.centre_jerk),
@@ -142,9 +148,7 @@ def _grips(params: KnottingDyadParams, last: Phase, phase: Phase, now: float) ->
             now += takes
 
 
-def _moved(
-    motions: _Motions, phase: Phase, now: float
-) -> tuple[float, tuple[FloatArray, ArmMotion, ArmMotion, FloatArray]]:
+def _moved(motions: _Motions, phase: Phase, now: float) -> tuple[float, _Piece]:
     """A phase's motion from a time on, both arms as left ones."""
     moves = [name for name, span in ((LEFT, phase.left), (RIGHT, phase.right)) if span[0] != span[1]]
     if not moves:
@@ -152,45 +156,45 @@ def _moved(
         time, left, right, centre = _still(motions, phase, now + np.linspace(0.0, duration, SAMPLES))
         return duration, (time, left, right, _centre(motions, phase, time - now))
     motion = motions.both if len(moves) == 2 else motions.single
-    course = motion.even(SAMPLES)
-    time, *arms, centre = _still(motions, phase, now + course.time)
-    courses = []
+    along = motion.even(SAMPLES)
+    time, *arms, centre = _still(motions, phase, now + along.time)
+    moved = []
     for name, span, still in ((LEFT, phase.left, arms[0]), (RIGHT, phase.right, arms[1])):
         comes = span[0] == OUT
         leads = np.full(SAMPLES, name in phase.carries)
-        moved = _arm(course, motions, 2 * (comes and len(moves) == 2), leads)
+        arm = _arm(along, motions, 2 * (comes and len(moves) == 2), leads)
         # Alone an arm goes out as it comes in, backwards; of two, the first axes go out and the last come in.
         backwards = not comes and len(moves) == 1
-        courses.append(still if name not in moves else _reversed(moved) if backwards else moved)
-    return motion.duration, (time, courses[0], courses[1], centre)
+        moved.append(still if name not in moves else _reversed(arm) if backwards else arm)
+    return motion.duration, (time, moved[0], moved[1], centre)
 
 
-def _arm(course: Trajectory, motions: _Motions, axis: int, leads: np.ndarray) -> ArmMotion:
+def _arm(along: Trajectory, motions: _Motions, axis: int, leads: np.ndarray) -> ArmMotion:
     """The arm of the two axes from `axis` on, as a left one."""
     of = slice(axis, axis + 2)
-    s = course.s if axis or course.position.shape[1] == 2 else 1 - course.s
-    rates = course.position, course.speed, course.acceleration, course.jerk
+    s = along.s if axis or along.position.shape[1] == 2 else 1 - along.s
+    rates = along.position, along.speed, along.acceleration, along.jerk
     angle, speed, acceleration, jerk = (one[:, of] @ motions.absolute for one in rates)
     return ArmMotion(s, angle, speed, acceleration, jerk, leads)
 
 
-def _reversed(course: ArmMotion) -> ArmMotion:
+def _reversed(motion: ArmMotion) -> ArmMotion:
     """The same motion backwards in time."""
-    speed, jerk = -course.speed[::-1], -course.jerk[::-1]
-    return ArmMotion(course.s[::-1], course.angle[::-1], speed, course.acceleration[::-1], jerk, course.leads)
+    speed, jerk = -motion.speed[::-1], -motion.jerk[::-1]
+    return ArmMotion(motion.s[::-1], motion.angle[::-1], speed, motion.acceleration[::-1], jerk, motion.leads)
 
 
-def _still(motions: _Motions, phase: Phase, time: FloatArray) -> tuple[FloatArray, ArmMotion, ArmMotion, FloatArray]:
-    """Nothing moves: all stand where the phase begins."""
-    left, right = (_standing(motions.way, span[0], len(time)) for span in (phase.left, phase.right))
+def _still(motions: _Motions, phase: Phase, time: FloatArray) -> _Piece:
+    """Nothing moves: all stand as the phase begins."""
+    left, right = (_standing(motions.path, span[0], len(time)) for span in (phase.left, phase.right))
     centre = np.zeros((4, len(time)))
     centre[0] = phase.centre[0]
     return time, left, right, centre
 
 
-def _standing(way: ArmPath, s: float, samples: int) -> ArmMotion:
+def _standing(path: ArmPath, s: float, samples: int) -> ArmMotion:
     zero = np.zeros((samples, 2))
-    angle = np.broadcast_to(way.theta[0 if s == OUT else -1], (samples, 2))
+    angle = np.broadcast_to(path.theta[0 if s == OUT else -1], (samples, 2))
     return ArmMotion(np.full(samples, s), angle + zero, zero, zero, zero, np.zeros(samples, bool))
 
 
@@ -202,16 +206,9 @@ def _centre(motions: _Motions, phase: Phase, time: FloatArray) -> FloatArray:
     return np.asarray(moved)
 
 
-def _joined(courses: tuple[ArmMotion, ...]) -> ArmMotion:
-    """One course after the other."""
-    return ArmMotion(
-        np.concatenate([one.s for one in courses]),
-        np.concatenate([one.angle for one in courses]),
-        np.concatenate([one.speed for one in courses]),
-        np.concatenate([one.acceleration for one in courses]),
-        np.concatenate([one.jerk for one in courses]),
-        np.concatenate([one.leads for one in courses]),
-    )
+def _joined(motions: tuple[ArmMotion, ...]) -> ArmMotion:
+    """One motion after the other."""
+    return ArmMotion(*(np.concatenate([getattr(one, part.name) for one in motions]) for part in fields(ArmMotion)))
 
 
 def _use(params: KnottingDyadParams, arms: Mapping[str, ArmMotion]) -> FloatArray:
@@ -228,6 +225,3 @@ def _centre_use(params: KnottingDyadParams, centre: SCurve) -> float:
     """The centre gripper's greatest use of a limit."""
     top = centre.jerk * centre.ramp
     return max(centre.speed / params.centre_speed, top / params.centre_acceleration, centre.jerk / params.centre_jerk)
-
-
-__all__ = ["CENTRE", "LEFT", "RIGHT", "ArmMotion", "CyclePart", "KnotCycle", "cycle_of", "drive_angles"]

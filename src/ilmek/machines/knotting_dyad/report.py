@@ -1,180 +1,274 @@
-"""What a knotting dyad's design says: results, checks, tables and figures."""
+"""The report of a knotting dyad: checks, warnings, tables."""
+
+import math
 
 import numpy as np
 
-from ilmek.machines.knotting_dyad.design import KnottingDyad
-from ilmek.machines.knotting_dyad.figures import figures
-from ilmek.machines.knotting_dyad.head_report import head_checks, head_results, head_tables, head_warnings
-from ilmek.machines.knotting_dyad.motion_report import (
-    head_motion,
-    motion_checks,
-    motion_figures,
-    motion_results,
-    motion_tables,
-    motion_warnings,
-)
-from ilmek.report import Check, Column, Json, Report, Result, Table, at_least, at_most
-from ilmek.synthesis.dyad import RootKind, TwoLinkArm
+from ilmek.arrays import FloatArray
+from ilmek.machines.knotting_dyad.design import KnottingDyad, longest_link
+from ilmek.machines.knotting_dyad.drives import HeadMotion, head_motion
+from ilmek.machines.knotting_dyad.figures import design_figures, head_figures, motion_figures
+from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+from ilmek.machines.knotting_dyad.section import GREATEST_DEPTH, WarpSection
+from ilmek.machines.knotting_dyad.yarn import MISSED
+from ilmek.num.brackets import bracketed_roots
+from ilmek.records import group, record
+from ilmek.report import Check, Figure, Table, at_least, at_most, columns
+from ilmek.synthesis.dyad import RootKind
+from ilmek.timing.path_speed.solve import TOLERANCE
 from ilmek.units import format_quantity
 
-CLOSURE = 1e-9
+CLOSURE, BALANCE, ROUNDING = 1e-9, 1e-9, 1e-9
 
 
-def report(design: KnottingDyad) -> Report:
-    """Everything that the design says."""
-    head = design.head
-    motion = None if head is None else head_motion(design.params, head)
-    return Report(
-        machine="knotting-dyad",
-        title="Knotting dyad",
-        parameters=design.params.as_dict(),
-        results=(
-            *(() if head is None else head_results(head)),
-            *(() if motion is None else motion_results(motion)),
-            *_task(design),
-            *_arms(design),
-        ),
-        checks=(
-            *_checks(design),
-            *(() if head is None else head_checks(design.params, head)),
-            *(() if motion is None else motion_checks(motion)),
-        ),
-        tables=(
-            *(() if head is None else head_tables(head)),
-            *(() if motion is None else motion_tables(motion)),
-            _point_table(design),
-            _arm_table(design),
-        ),
-        figures=(
-            *figures(design, None if motion is None else motion.cycle),
-            *(() if motion is None else motion_figures(motion)),
-        ),
-        warnings=(
-            *_warnings(design),
-            *(() if head is None else head_warnings(design.params, head)),
-            *(() if motion is None else motion_warnings(motion)),
-        ),
-    )
+@record
+class DyadAnalysis:
+    """A knotting dyad, and where a knot is tied its head and the head's motion."""
+
+    head: Head | None = group()
+    motion: HeadMotion | None = group()
+    design: KnottingDyad = group()
 
 
-def _task(design: KnottingDyad) -> tuple[Result, ...]:
-    task = design.task
-    points: list[Json] = [[float(point.real), float(point.imag)] for point in task.points]
+def analyse(design: KnottingDyad) -> DyadAnalysis:
+    """The motion of a design's head."""
+    motion = None if design.head is None else head_motion(design.params, design.head)
+    return DyadAnalysis(design.head, motion, design)
+
+
+def checks(found: DyadAnalysis) -> tuple[Check, ...]:
+    """Every arm closes, the one to build is within its limits; the knot, the clearances, the limits of the drives."""
+    params = found.design.params
     return (
-        Result("timed_points", points, "mm", "the four points, x and y from the pair's left warp, the pile upwards"),
-        Result("timed_angles", task.angles.tolist(), "deg", "angles of the first link there"),
-        Result(
-            "shares",
-            None if task.shares is None else task.shares.tolist(),
-            "",
-            "of the left arm's way, its s, where the points were chosen on it",
-        ),
+        *_arm_checks(found.design),
+        *(() if found.head is None else _head_checks(params, found.head)),
+        *(() if found.motion is None else _motion_checks(found.motion)),
     )
 
 
-def _arms(design: KnottingDyad) -> tuple[Result, ...]:
-    solutions: list[Json] = [_solution(design, at) for at in range(len(design.dyads))]
-    kinds: list[Json] = [RootKind(int(found)).words for found in design.roots.found]
-    chosen = None if design.chosen is None else design.chosen + 1
-    return (
-        Result("solutions", solutions, "", f"every real arm, SI and radians: {MEANING}"),
-        Result("roots", kinds, "", "what each of the task's three roots is"),
-        Result("chosen", chosen, "", "number of the arm to build, from 1"),
-    )
-
-
-MEANING = (
-    "pivot a0 at theta0 = (pivot_x, pivot_y), also as ground_length and ground_angle; first link a1, below 0 if it "
-    "points away from its angle; second link a2; link1, link2 their lengths; theta2, residual at the points; bend, "
-    "least sine between the links, 0: elbow on both sides, -1: out of reach"
-)
-
-
-def _solution(design: KnottingDyad, at: int) -> dict[str, Json]:
-    dyad = design.dyads[at]
-    angle = float(np.angle(dyad.pivot))
-    return {
-        "ground_length": dyad.ground,
-        "ground_angle": angle,
-        "link1": abs(dyad.first),
-        "link2": dyad.second,
-        "a0": dyad.ground,
-        "theta0": angle,
-        "a1": dyad.first,
-        "a2": dyad.second,
-        "pivot_x": dyad.pivot.real,
-        "pivot_y": dyad.pivot.imag,
-        "theta2": design.second_angles(dyad).tolist(),
-        "residual": float(np.max(design.residuals(dyad))),
-        "bend": float(design.bends[at]),
-    }
-
-
-def _checks(design: KnottingDyad) -> tuple[Check, ...]:
-    missed = max(float(np.max(design.residuals(dyad))) / design.size(dyad) for dyad in design.dyads)
-    built = sum(1 for dyad in design.dyads if dyad.first)
+def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
+    missed = max(design.residual(dyad) / design.size(dyad) for dyad in design.dyads)
+    links = sum(1 for dyad in design.dyads if dyad.first)
     closes = at_most("closure of every arm at the points, of its size", missed, CLOSURE, "1", "loop equation")
-    found = at_least("real arms of two links", built, 1, "", "the task has three roots")
-    if design.chosen is None:
-        return closes, found
+    real = at_least("real arms of two links", links, 1, "", "the task has three roots")
+    if design.built is None:
+        return closes, real
     where = "at the points" if design.head is None else "along the way"
-    sine = float(design.bends[design.chosen]) if design.head is None else design.head.arm.bend
+    sine = float(design.bends[design.built]) if design.head is None else design.head.arm.bend
     off = float(np.arcsin(max(sine, 0.0)))
-    longest, limits = _longest(design.dyads[design.chosen]), design.params
+    longest, limits = longest_link(design.dyads[design.built]), design.params
     return (
         closes,
-        found,
+        real,
         at_most("longest link of the arm to build", longest, limits.link_limit, "mm", "link_limit"),
-        # As bent as asked for is bent enough, though rounding may take its last digit.
-        at_least(f"angle between its links, off straight, {where}", off + 1e-9, limits.bend_limit, "deg", "bend_limit"),
+        at_least(
+            f"angle between its links, off straight, {where}", off + ROUNDING, limits.bend_limit, "deg", "bend_limit"
+        ),
     )
 
 
-def _longest(dyad: TwoLinkArm) -> float:
-    return max(abs(dyad.first), dyad.second)
-
-
-def _warnings(design: KnottingDyad) -> tuple[str, ...]:
-    if design.head is not None:  # the other arms are by the way
-        return ()
-    kinds = dict.fromkeys(RootKind(int(found)) for found in design.roots.found)
-    odd = [kind.words for kind in kinds if kind not in (RootKind.ARM, RootKind.COMPLEX)]
-    return (*(f"one root is no arm of two links: {words}" for words in odd), *_elbow(design))
-
-
-def _elbow(design: KnottingDyad) -> tuple[str, ...]:
-    if design.chosen is None or design.bends[design.chosen] > 0:
-        return ()
-    number = design.chosen + 1
-    return (f"arm {number} has its elbow on both sides at the points: between them it must pass a stretched pose",)
-
-
-def _point_table(design: KnottingDyad) -> Table:
-    columns = (Column("point"), Column("x", "mm"), Column("y", "mm"), Column("angle of the first link", "deg"))
-    task = design.task
-    rows = tuple(
-        (f"P{at + 1}", float(point.real), float(point.imag), float(angle))
-        for at, (point, angle) in enumerate(zip(task.points, task.angles, strict=True))
+def _head_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
+    section = head.section
+    apart = float(abs(head.arm.tip(np.array([1.0]))[0] - section.handover))
+    gap, tied = section.pitch - section.warp, 1.0 if head.knot_tied else 0.0
+    return (
+        at_least("the knot asked for is tied, proved: 1", tied, 1.0, "", "word of the yarn's path"),
+        at_least("clearance over the whole cycle", head.clearance_min, section.required - ROUNDING, "mm", "clearance"),
+        at_most("needle bent aside by the yarn", head.bent, max(head.clearance_min, 0.0), "um", "clearance_min"),
+        at_most("arm and centre gripper apart at the hand-over", apart, MISSED, "um", "grip of the tips"),
+        at_most(
+            "pile yarn in the gap between the warps", params.yarn_diameter, gap, "mm", "warp_pitch - warp_diameter"
+        ),
     )
-    return Table("knotting-dyad-points", "Timed points", columns, rows)
 
 
-def _arm_table(design: KnottingDyad) -> Table:
-    columns = (
-        Column("arm"),
-        Column("first link", "mm"),
-        Column("second link", "mm"),
-        Column("pivot x", "mm"),
-        Column("pivot y", "mm"),
-        Column("elbow"),
+def _motion_checks(motion: HeadMotion) -> tuple[Check, ...]:
+    used = "greatest use of a drive's limit: speed, acceleration, jerk"
+    return (
+        at_most(used, motion.cycle.usage, 1 + TOLERANCE, "1", "limits of joints and centre gripper"),
+        at_most("power balance of the torques", motion.power_error, BALANCE, "1", "virtual power"),
     )
-    words = {-1: "out of reach", 0: "on both sides"}
-    rows = tuple(
-        (at + 1, dyad.first, dyad.second, dyad.pivot.real, dyad.pivot.imag, words.get(bend, _angle(bend)))
-        for at, (dyad, bend) in enumerate(zip(design.dyads, design.bends.tolist(), strict=True))
+
+
+def warnings(found: DyadAnalysis) -> tuple[str, ...]:
+    """Roots without an arm, changes where something overlaps or comes too near, joints for which no servo is enough."""
+    design, head, motion = found.design, found.head, found.motion
+    return (
+        *(_arm_warnings(design) if head is None else _head_warnings(design.params, head)),
+        *(() if motion is None else _motion_warnings(motion)),
     )
-    return Table("knotting-dyad-arms", "Arms, and how far they stay from straight", columns, rows)
+
+
+def _arm_warnings(design: KnottingDyad) -> tuple[str, ...]:
+    odd = [kind.words for kind in dict.fromkeys(design.kinds) if kind not in (RootKind.ARM, RootKind.COMPLEX)]
+    warned = [f"one root is no arm of two links: {words}" for words in odd]
+    if design.built is not None and design.bends[design.built] <= 0:
+        warned.append(
+            f"arm {design.chosen} has its elbow on both sides at the points: between them it must pass a stretched pose"
+        )
+    return tuple(warned)
+
+
+def _head_warnings(params: KnottingDyadParams, head: Head) -> tuple[str, ...]:
+    section, warned = head.section, []
+    least = min(head.least, key=lambda one: one.value)
+    if least.value < section.required - ROUNDING:
+        found, required = format_quantity(least.value, "mm", 3), format_quantity(section.required, "mm")
+        warned.append(f"{least.name}: {found}, {required} is required; {_remedy(params, section)}")
+    if head.bent > max(head.clearance_min, 0.0):
+        aside = format_quantity(head.bent, "mm", 3)
+        warned.append(
+            f"the yarn bends the needle {aside} aside between the warps: these warps are too close for it; "
+            "take a broader needle, narrower links, a wider pitch or an opening"
+        )
+    return tuple(warned)
+
+
+def _motion_warnings(motion: HeadMotion) -> tuple[str, ...]:
+    return tuple(
+        f"no servo of the catalogue gives the {joint.joint} {format_quantity(joint.torque_max, 'mN*m')} at "
+        f"{format_quantity(joint.speed_max, 'rad/s')}, behind the gears that it may have"
+        for joint in motion.joints
+        if joint.servo is None
+    )
+
+
+def _remedy(params: KnottingDyadParams, section: WarpSection) -> str:
+    """How the needle gets its room."""
+    pair = section.pitch - section.warp - 2 * section.required
+    if pair < section.needle:
+        fine = f"take a needle of {format_quantity(pair, 'mm', 3)} or less" if pair > 0 else "take finer warps"
+        return f"{fine}, or a pitch of {format_quantity(section.pitch + section.needle - pair, 'mm', 3)} or more"
+    cosine = (section.warp + section.needle + 2 * section.required) / section.outer
+    across = (section.pitch + section.outer) / 2
+    thin = section.needle - 2 * (section.required - section.clearance_bound)
+    remedies = [f"a needle of {format_quantity(thin, 'mm', 3)}"] if thin > 0 else []
+    if cosine < 1:
+        remedies.append(f"a depth of {format_quantity(across / math.tan(math.acos(cosine)), 'mm', 3)}")
+    opening = _opening(section)
+    if opening is not None:
+        remedies.append(f"an opening of {format_quantity(opening, 'mm', 3)}")
+    limit = "" if params.depth else f" (unless given, the depth is {GREATEST_DEPTH:g} pitches at most)"
+    return f"try {' or '.join(remedies)}{limit}"
+
+
+def _opening(section: WarpSection) -> float | None:
+    """The least opening that gives the outer gaps the clearance at this depth [m], None if none."""
+
+    def spare(opening: FloatArray) -> FloatArray:
+        outer = section.pitch + opening
+        cosine = np.cos(np.arctan2((section.pitch + outer) / 2, section.depth))
+        return np.asarray(outer / 2 * cosine - (section.warp + section.needle) / 2 - section.required)
+
+    low, high = section.outer - section.pitch, section.outer + 8 * section.pitch
+    found = float(bracketed_roots(spare, np.array([low]), np.array([high]))[0])
+    return found if math.isfinite(found) else None
+
+
+def tables(found: DyadAnalysis) -> tuple[Table, ...]:
+    """Clearances and phases, drives and cycle, points and arms."""
+    return (
+        *(() if found.head is None else _head_tables(found.head)),
+        *(() if found.motion is None else _motion_tables(found.motion)),
+        *_arm_tables(found.design),
+    )
+
+
+def _head_tables(head: Head) -> tuple[Table, Table]:
+    distances = Table(
+        "knotting-dyad-clearances",
+        "Least distances over the cycle",
+        columns("of", "distance [mm]", "tolerance [um]"),
+        tuple((one.name, one.value, one.sure) for one in head.least),
+    )
+    phases = Table(
+        "knotting-dyad-phases",
+        "Phases of a cycle",
+        columns("phase", "left arm s", "right arm s", "centre gripper", "yarn's ends"),
+        tuple(
+            (
+                one.name,
+                _span(one.left),
+                _span(one.right),
+                " to ".join(dict.fromkeys(format_quantity(height, "mm", 3) for height in one.centre)),
+                ", ".join(carrier or "in the pile" for carrier in one.carries),
+            )
+            for one in head.sequence
+        ),
+    )
+    return distances, phases
+
+
+def _span(span: tuple[float, float]) -> str:
+    return " to ".join(dict.fromkeys(f"{value:g}" for value in span))
+
+
+def _motion_tables(motion: HeadMotion) -> tuple[Table, Table]:
+    drives = Table(
+        "knotting-dyad-drives",
+        "Drives, for the worse arm; servos with their rotors",
+        columns(
+            "joint",
+            "torque [mN*m]",
+            "root mean square [mN*m]",
+            "speed [rad/s]",
+            "gears",
+            "servo's torque [mN*m]",
+            "servo",
+        ),
+        tuple(
+            (
+                one.joint,
+                one.torque_max,
+                one.torque_rms,
+                one.speed_max,
+                one.reducer.ratio,
+                one.servo_torque_max,
+                one.servo.name if one.servo else "none is enough",
+            )
+            for one in motion.joints
+        ),
+    )
+    cycle = Table(
+        "knotting-dyad-cycle",
+        "The cycle in time",
+        columns("part", "begins [ms]", "takes [ms]", "grippers"),
+        tuple((one.name, one.start, one.end - one.start, ", ".join(one.grippers)) for one in motion.cycle.parts),
+    )
+    return drives, cycle
+
+
+def _arm_tables(design: KnottingDyad) -> tuple[Table, Table]:
+    task, words = design.task, {-1: "out of reach", 0: "on both sides"}
+    points = Table(
+        "knotting-dyad-points",
+        "Timed points",
+        columns("point", "x [mm]", "y [mm]", "angle of the first link [deg]"),
+        tuple(
+            (f"P{at}", float(point.real), float(point.imag), float(angle))
+            for at, (point, angle) in enumerate(zip(task.points, task.angles, strict=True), 1)
+        ),
+    )
+    arms = Table(
+        "knotting-dyad-arms",
+        "Arms, and their least angle off straight",
+        columns("arm", "first link [mm]", "second link [mm]", "pivot x [mm]", "pivot y [mm]", "elbow"),
+        tuple(
+            (at, dyad.first, dyad.second, dyad.pivot.real, dyad.pivot.imag, words.get(bend, _angle(bend)))
+            for at, (dyad, bend) in enumerate(zip(design.dyads, design.bends.tolist(), strict=True), 1)
+        ),
+    )
+    return points, arms
 
 
 def _angle(bend: float) -> str:
     return format_quantity(float(np.arcsin(max(bend, 0.0))), "deg")
+
+
+def figures(found: DyadAnalysis) -> tuple[Figure, ...]:
+    """The head and its motion, where a knot is tied; all arms, and the arm to build; the motion over time."""
+    head, motion = found.head, found.motion
+    if head is None or motion is None:
+        return design_figures(found.design)
+    return (*head_figures(head, motion.cycle), *design_figures(found.design), *motion_figures(motion))

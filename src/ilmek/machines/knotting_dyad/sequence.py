@@ -1,11 +1,11 @@
 """The order in which the head ties a knot: both arms, the centre gripper, and who carries which end of the yarn.
 
-A rigid arm cannot go round a warp, which is an endless line across its way. So each arm dips through the gap outside
-its own warp, reaches behind the warp to the middle, and goes back the way it came. Between the warps a third gripper
+A rigid arm cannot go round a warp, which is an endless line across its path. So each arm dips through the gap outside
+its own warp, reaches behind the warp to the middle, and goes back on the same path. Between the warps a third gripper
 goes to and fro, upright and straight: the centre gripper, as in the thesis' weaver.
 
     symmetric    each arm leads an end behind its warp, the centre gripper draws it out to the front
-    asymmetric   on the open side it is the other way round: the centre gripper leads the end behind, and the arm, which
+    asymmetric   on the open side the roles change: the centre gripper leads the end behind, and the arm, which
                  has come in empty, draws it out
 
 The arms come one after the other, for at the middle they would meet. While they change they move together.
@@ -26,7 +26,7 @@ TOGETHER = 1.0
 class Phase:
     """A part of the cycle; the parts follow one another.
 
-    left, right  the arms' way parameter s at its begin and end, equal where the arm stands still
+    left, right  the arms' path parameter s at its begin and end, equal where the arm stands still
     centre       height of the centre gripper's tip above the warps' axes at its begin and end [m]
     carries      who holds the first and the second end of the yarn meanwhile; "" where it lies in the pile
     Where both arms move, s_left + s_right <= TOGETHER must hold at every moment.

@@ -19,13 +19,13 @@ from ilmek.weaving.knots.led_yarn import SampledPath, end_path, knot_of_ends
 from ilmek.weaving.knots.proof import TiedKnot
 
 MISSED = 1 * um
-"""How far apart two grippers may be at a hand-over."""
+"""Largest distance of two grippers at a hand-over [m]."""
 
 
 def carried(
     section: WarpSection, arm: Arm, carrier: str, phase: Phase, shares: Float[np.ndarray, " n"]
 ) -> Complex[np.ndarray, " n"]:
-    """Places of a carrier's tip at shares of a phase [m]."""
+    """Positions of a carrier's tip at shares of a phase [m]."""
     if carrier == CENTRE:
         begin, end = phase.centre
         return np.asarray(section.middle + 1j * (begin + (end - begin) * shares))

@@ -10,6 +10,7 @@ from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.timing.track import sample
 from ilmek.units import mm, turn
+from ilmek.weaving.knots.led_yarn import evenly
 
 FRAMES = 90
 ALONG, EACH = 90, 41
@@ -47,7 +48,7 @@ def animation(weaver: Weaver) -> Animation:
     bars, tip = _bent(by, side), by.centre(centre)
     at, points = _led(weaver)
     known = np.maximum(np.searchsorted(at, angle, side="right"), 1)
-    yarn = np.stack([_evenly(points[:until]) for until in known])
+    yarn = np.stack([evenly(_both(points[:until]), ALONG) for until in known])
     strokes = (
         *_warps(weaver, side),
         MovingStroke(yarn, "outline", "yarn"),
@@ -79,7 +80,11 @@ def _mirrored(points: ComplexArray) -> ComplexArray:
 
 def _yarn(weaver: Weaver) -> ComplexArray:
     """The whole path of both ends: the knot as it lies."""
-    left = led(weaver.cyclogram, weaver.grippers, EACH).points
+    return _both(led(weaver.cyclogram, weaver.grippers, EACH).points)
+
+
+def _both(left: ComplexArray) -> ComplexArray:
+    """The path of the left end backwards, then its mirror image."""
     return np.concatenate([left[::-1], _mirrored(left)])
 
 
@@ -91,14 +96,6 @@ def _led(weaver: Weaver) -> tuple[FloatArray, ComplexArray]:
     side = by.tip(sample(tracks.track(SIDE_MOTION), by_side).position)
     centre = by.centre(sample(tracks.track(CENTRE_MOTION), by_centre).position)
     return np.concatenate([by_side, by_centre]), np.concatenate([side, centre])
-
-
-def _evenly(path: ComplexArray) -> Complex[np.ndarray, " along"]:
-    """The yarn by the path of its left end: the path backwards, then its mirror image, in even steps."""
-    whole = np.concatenate([path[::-1], _mirrored(path)])
-    length = np.append(0.0, np.cumsum(np.abs(np.diff(whole))))
-    even = np.linspace(0.0, length[-1], ALONG)
-    return np.asarray(np.interp(even, length, whole.real) + 1j * np.interp(even, length, whole.imag))
 
 
 def _warps(weaver: Weaver, side: Float[np.ndarray, " n"]) -> tuple[MovingStroke, ...]:

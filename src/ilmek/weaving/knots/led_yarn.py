@@ -61,6 +61,17 @@ def yarn_between(first: SampledPath, second: SampledPath) -> SampledPath:
     return SampledPath(points, np.maximum(lengths, np.abs(np.diff(points))))
 
 
+def evenly(path: Complex[np.ndarray, " points"], samples: int) -> Complex[np.ndarray, " samples"]:
+    """Points along a polygon [m], evenly apart by its length, both ends included.
+
+    >>> evenly(np.array([0j, 1 + 0j, 1 + 3j]), 5).tolist()
+    [0j, (1+0j), (1+1j), (1+2j), (1+3j)]
+    """
+    length = np.append(0.0, np.cumsum(np.abs(np.diff(path))))
+    even = np.linspace(0.0, length[-1], samples)
+    return np.asarray(np.interp(even, length, path.real) + 1j * np.interp(even, length, path.imag))
+
+
 def knot_of_ends(
     ends: Callable[[int], tuple[SampledPath, SampledPath]],
     warps: Complex[np.ndarray, " warps"],
