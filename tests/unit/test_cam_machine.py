@@ -11,14 +11,15 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.programme import TURN
 from ilmek.cli import main
 from ilmek.errors import ParameterError
-from ilmek.machines.cam import MACHINE, CamParams, design, report
-from ilmek.machines.cam.compliant_follower import springy
+from ilmek.machines.cam import MACHINE, CamDesign, CamParams, design
+from ilmek.machines.cam.analysis import analyse
+from ilmek.machines.cam.compliant_follower import compliant_follower
 from ilmek.machines.cam.hub import Hub, bore_for, hub_for
-from ilmek.machines.cam.parts import cam_table, plates
-from ilmek.machines.cam.results import results as numbers
+from ilmek.machines.cam.parts import cam_tables, plates
 from ilmek.machines.cam.rollers import ROLLERS, RollerDuty
 from ilmek.machines.catalogue import MACHINES
 from ilmek.plane import contours
+from ilmek.report import results_of
 from ilmek.units import deg, mm, rpm
 
 
@@ -26,15 +27,19 @@ def made(**settings):
     return design(CamParams.read(settings))
 
 
+def numbers(found: CamDesign) -> dict:
+    return {result.name: result.value for result in results_of(analyse(found))}
+
+
 def results(**settings):
-    return {result.name: result.value for result in numbers(made(**settings))}
+    return numbers(made(**settings))
 
 
 SHED = dict(law="harmonic", lift="60mm", rise="90deg")
 
 
 def test_cam_of_the_guide_is_what_its_page_says() -> None:
-    found = {result.name: result.value for result in numbers(drawn())}
+    found = numbers(drawn())
     assert found["prime_radius"] == pytest.approx(52.5 * mm, abs=0.05 * mm)
     assert found["roller"] == "CF 5"
     assert found["bore"] == 12 * mm
@@ -170,7 +175,7 @@ def test_cam_that_leads_both_ways_needs_no_spring(more) -> None:
 
 def test_groove_keeps_the_limit_both_ways_and_is_cut_into_a_disc() -> None:
     found = made(law="modified-sine", lift="30mm", kind="grooved", fall="70deg", pressure_angle_limit="32deg")
-    numbers_found = {result.name: result.value for result in numbers(found)}
+    numbers_found = numbers(found)
     assert numbers_found["pressure_angle_fall_max"] == pytest.approx(32 * deg, rel=1e-9)
     assert numbers_found["pressure_angle_max"] < 32 * deg
     (plate,) = plates(found)
@@ -208,20 +213,20 @@ def test_wedge_is_a_plate_of_its_area() -> None:
     (plate,) = plates(found)
     points = np.asarray(plate.outline)
     assert 0.5 * np.sum(np.imag(np.conj(points) * np.roll(points, -1))) == pytest.approx(plate.area, rel=1e-5)
-    travel = {result.name: result.value for result in numbers(found)}["travel"]
+    travel = numbers(found)["travel"]
     assert np.ptp(points.real) == pytest.approx(travel, rel=1e-9)
 
 
 def test_conjugate_cams_are_two_plates_of_one_prime_circle() -> None:
     found = made(law="cycloidal", lift="30mm", kind="conjugate", rise="120deg")
-    other = {result.name: result.value for result in numbers(found)}["second"]
+    other = numbers(found)["second"]
     assert other["prime_radius"] == pytest.approx(found.cam.prime_radius)
     assert other["pressure_angle_max"] == pytest.approx(30 * deg, rel=1e-6)
     assert [plate.name for plate in plates(found)] == ["cam", "cam-2"]
 
 
 def test_arm_of_the_smallest_size_keeps_the_limit() -> None:
-    found = {result.name: result.value for result in numbers(made(**ARM, pressure_angle_limit="35deg"))}
+    found = numbers(made(**ARM, pressure_angle_limit="35deg"))
     assert found["pressure_angle_max"] == pytest.approx(35 * deg, rel=1e-6)
     assert found["swing"] == pytest.approx(1 / 3)
 
@@ -292,19 +297,19 @@ def test_plate_has_the_area_of_the_cam_and_its_cutter_path() -> None:
     assert set(plate.paths) == {"pitch curve", "cutter path"}
     assert np.max(np.abs(plate.paths["cutter path"] - plate.paths["pitch curve"])) == 0
     assert len(plate.cutouts) == 1
-    assert cam_table(found).course(np.array([0.0, math.pi / 2]))[0] == pytest.approx([0.0, 60 * mm])
+    assert cam_tables(found)[0].course(np.array([0.0, math.pi / 2]))[0] == pytest.approx([0.0, 60 * mm])
 
 
 def test_what_undercut_leaves_no_face_of_has_no_area_mass_or_pressure() -> None:
     eaten = dict(law="harmonic", lift="40mm", rise="30deg", prime_radius="12mm", roller_radius="11.5mm")
     found = results(**eaten)
     assert [found[name] for name in ("area", "mass", "hertz_pressure_max", "hertz_at")] == [None] * 4
-    assert not any("Hertz" in check.name for check in report(made(**eaten)).checks)
+    assert not any("Hertz" in check.name for check in MACHINE.report(made(**eaten)).checks)
 
 
 def test_a_bore_that_does_not_fit_is_neither_drawn_nor_taken_off() -> None:
     asked = dict(prime_radius="20mm", bore="100mm", face_width="10mm")
-    (drawing, *_) = report(made(**asked)).figures
+    (drawing, *_) = MACHINE.report(made(**asked)).figures
     assert not any(stroke.label.startswith("bore") for stroke in drawing.strokes)
     found = results(**asked)
     assert found["mass"] == pytest.approx(found["area"] * 10 * mm * 7850, rel=1e-2)
@@ -312,13 +317,13 @@ def test_a_bore_that_does_not_fit_is_neither_drawn_nor_taken_off() -> None:
 
 @pytest.mark.parametrize(("kind", "radius", "told"), [("grooved", "7mm", True), ("plate", "7mm", False)])
 def test_a_cutter_too_large_for_a_hollow_is_told(kind: str, radius: str, told: bool) -> None:
-    found = report(made(kind=kind, roller_radius="6.5mm", cutter_radius=radius))
+    found = MACHINE.report(made(kind=kind, roller_radius="6.5mm", cutter_radius=radius))
     assert any("cutter_radius=7 mm" in warning for warning in found.warnings) is told
 
 
 def test_undercut_is_said_with_the_size_that_mends_it() -> None:
     asked = dict(law="cycloidal", lift="20mm", rise="60deg", prime_radius="24mm", roller_radius="20mm")
-    found = report(made(**asked))
+    found = MACHINE.report(made(**asked))
     assert {result.name: result.value for result in found.results}["undercut"] is True
     assert found.plates == ()
     (said,) = [warning for warning in found.warnings if warning.startswith("undercut")]
@@ -371,7 +376,7 @@ def test_corner_of_the_uniform_law_is_no_way_for_a_roller() -> None:
 )
 def test_bad_input_says_what_to_do(settings, said) -> None:
     with pytest.raises(ParameterError, match=said):
-        springy(made(**settings))
+        compliant_follower(made(**settings))
 
 
 def test_command_ends_with_2_and_no_traceback() -> None:

@@ -5,12 +5,15 @@ flat-faced and spherical followers.
 """
 
 from ilmek.machines import SUMMARIES
+from ilmek.machines.cam.analysis import CamAnalysis, analyse
 from ilmek.machines.cam.design import CamDesign, design
+from ilmek.machines.cam.figures import figures
 from ilmek.machines.cam.params import CamParams
-from ilmek.machines.cam.report import report
+from ilmek.machines.cam.parts import cam_tables, plates
+from ilmek.machines.cam.report import checks, tables, warnings
 from ilmek.machines.component import Component
 
-__all__ = ["MACHINE", "CamDesign", "CamParams", "design", "report"]
+__all__ = ["MACHINE", "CamDesign", "CamParams", "design"]
 
 MACHINE = Component(
     name="cam",
@@ -18,5 +21,12 @@ MACHINE = Component(
     summary=SUMMARIES["cam"],
     params=CamParams,
     design=design,
-    reporter=report,
+    analysis=analyse,
+    reported=(CamAnalysis,),
+    checks=checks,
+    tables=tables,
+    figures=figures,
+    warnings=warnings,
+    plates=plates,
+    cam_tables=cam_tables,
 )

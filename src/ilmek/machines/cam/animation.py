@@ -1,4 +1,4 @@
-"""The cam turning under its follower: the cam's outline turns, the follower goes up and down its guide."""
+"""The cam in motion: its outline rotates, the follower moves in its guide."""
 
 import numpy as np
 
@@ -62,7 +62,7 @@ def _more_edges(design: CamDesign) -> tuple[ComplexArray, ...]:
 
 
 def _second_follower(design: CamDesign, at: FloatArray) -> tuple[MovingStroke, ...]:
-    """The roller or face of the second conjugate cam, and what joins it to the first."""
+    """The roller or face of the second conjugate cam, and its link to the first."""
     pair = design.cams.pair
     if pair is None:
         return ()
@@ -82,7 +82,7 @@ def _swings(design: CamDesign) -> bool:
 
 
 def _up(design: CamDesign) -> complex:
-    """Where +x of the formulas is drawn."""
+    """Direction in which +x of the formulas is drawn."""
     return 1 + 0j if _swings(design) else 1j
 
 
@@ -96,7 +96,7 @@ def _reach(design: CamDesign) -> float:
 
 
 def _follower(design: CamDesign, trace: CamTrace, centre: ComplexArray) -> tuple[MovingStroke, ...]:
-    """What touches the cam, and what carries it."""
+    """Roller, edge or face, and its stem or arm."""
     radius, name = design.cam.roller_radius, design.params.follower
     carrier = _carrier(design, trace, centre)
     if design.cam.flat:
@@ -104,10 +104,7 @@ def _follower(design: CamDesign, trace: CamTrace, centre: ComplexArray) -> tuple
     if radius == 0:
         return (MovingStroke(carrier, "link", name),)
     circle = radius * np.exp(1j * np.linspace(0.0, TURN, 49)[:-1])
-    return (
-        MovingStroke(centre[:, None] + circle, "outline", closed=True),
-        MovingStroke(carrier, "link", name),
-    )
+    return (MovingStroke(centre[:, None] + circle, "outline", closed=True), MovingStroke(carrier, "link", name))
 
 
 def _carrier(design: CamDesign, trace: CamTrace, centre: ComplexArray) -> ComplexArray:
@@ -136,13 +133,13 @@ def _stem(design: CamDesign, centre: ComplexArray) -> tuple[MovingStroke, ...]:
 
 
 def _face(design: CamDesign) -> float:
-    """Half length of a flat face, a tenth longer than the way of the contact on it [m]."""
+    """Half length of a flat face, a tenth longer than the path of the contact on it [m]."""
     angle: FloatArray = np.linspace(0.0, TURN, OUTLINE)
     return 1.1 * float(np.max(np.abs(design.programme.at(angle).ds - design.params.offset)))
 
 
 def _guide(design: CamDesign, centre: ComplexArray) -> tuple[Stroke, ...]:
-    """Both walls of the guide, above the highest place of what touches the cam."""
+    """Both walls of the guide, above the highest position of the roller."""
     low = float(np.max(centre.imag)) + 1.2 * design.cam.roller_radius
     high = float(np.min(centre.imag)) + _reach(design)
     low = min(low, high - 0.05 * design.cam.prime_radius)

@@ -1,10 +1,9 @@
-"""A cam, designed: motion, size, follower, spring, forces over the turn, roller, hub.
+"""Design of a cam: motion, size, follower, spring, forces over the turn, roller, hub.
 
-Everything that is "largest" or "least" is an exact bound over the pieces of the programme, not the largest of samples.
+Every largest or least value is an exact bound over the pieces of the programme, not the largest of samples.
 """
 
 import math
-from dataclasses import dataclass
 
 from ilmek.arrays import FloatArray
 from ilmek.cams import limits
@@ -27,14 +26,16 @@ from ilmek.machines.cam.hub import Hub, bore_for, hub_for
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.rollers import ROLLERS, Roller, RollerDuty, find_roller
 from ilmek.machines.cam.shape import CamShape, CamSize, cam_of, cams_of, part_knots, programme_of, roller_width, size_of
+from ilmek.records import computed, group, record, result
+from ilmek.report import Json
 
 ROOM = 0.8
 """Radius of a roller that is chosen, at most, over the least radius of the pitch curve and over the prime radius."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CamDesign:
-    """A cam, designed. `held` is what the follower carries, with its spring, at the cam's speed."""
+    """The design of a cam; `held`: mass, load and spring of the follower, at the cam's speed."""
 
     params: CamParams
     programme: CamProgramme
@@ -45,14 +46,73 @@ class CamDesign:
     duty: RollerDuty | None
     hub: Hub
     lift_off: LiftOff
-    extremes: CamExtremes
+    extremes: CamExtremes = group()
     area: float
-    face_width: float
-    pressure_limit: float
+    face_width: float = result("mm", "thickness of the cam")
+    pressure_limit: float = result("MPa", "allowed Hertz pressure", name="hertz_pressure_limit")
+
+    prime_radius = computed(
+        "mm",
+        "prime radius Rp; base radius of a flat follower, mean radius of a barrel, travel per radian of a wedge",
+        lambda it: it.cam.prime_radius,
+    )
+    prime_radius_min = computed("mm", "smallest for the limit", lambda it: it.size.smallest.value)
+    curvature_radius_min = computed(
+        "mm",
+        "least convex radius of curvature of the pitch curve, of a flat follower's surface",
+        lambda it: limits.convex_radius_min(it.cam).value,
+    )
+    curvature_at = computed("deg", "cam angle of that radius", lambda it: limits.convex_radius_min(it.cam).at)
+
+    @computed("mm", "least concave radius of curvature of that curve")
+    def concave_radius_min(self) -> float | None:
+        hollow = limits.concave_radius_min(self.cam)
+        return hollow.value if hollow else None
+
+    lift = computed("mm", "lift of the follower; of an arm along its arc", lambda it: it.params.lift)
+    rise = computed("deg", "cam angle of the rise", lambda it: it.params.rise)
+    dwell = computed("deg", "cam angle for which the follower stays lifted", lambda it: it.params.dwell)
+    fall = computed("deg", "cam angle of the fall", lambda it: it.params.fall_angle)
+    power_max = computed(
+        "W", "largest power of the shaft", lambda it: max(it.extremes.torque.value, 0.0) * it.params.speed
+    )
+    spring_rate = computed("N/mm", "rate of the return spring", lambda it: it.held.rate / it.params.per_unit**2)
+    preload = computed(
+        "N", "force of the return spring at the lowest position", lambda it: it.held.preload / it.params.per_unit
+    )
+    spring_force_max = computed(
+        "N", "its force at the full lift", lambda it: it.preload + it.spring_rate * it.params.lift
+    )
+
+    @computed("rpm", "speed of the cam at which the follower lifts off; null: never")
+    def lift_off_speed(self) -> float | None:
+        return self.lift_off.speed if math.isfinite(self.lift_off.speed) else None
+
+    roller_name = computed(
+        "", "cam follower from the table", lambda it: it.roller.name if it.roller else None, name="roller"
+    )
+    roller_radius = computed("mm", "radius of roller or ball; 0 of knife and flat", lambda it: it.cam.roller_radius)
+
+    @computed("h", "life of the roller")
+    def roller_life(self) -> float | None:
+        life = self.duty.time(self.roller) if self.roller and self.duty else math.inf
+        return life if math.isfinite(life) else None
+
+    @computed("rpm", "mean speed of the roller")
+    def roller_speed(self) -> float | None:
+        return self.duty.turns * self.duty.speed if self.duty else None
+
+    @computed("mm", "bore of the cam", optional=True)
+    def bore(self) -> float | None:
+        return None if self.params.kind == "wedge" else self.hub.bore
+
+    @computed("mm", "keyway in the cam", optional=True)
+    def keyway(self) -> Json:
+        return None if self.params.kind == "wedge" else {"width": self.hub.key_width, "depth": self.hub.key_depth}
 
     @property
     def cam(self) -> CamRole:
-        """The cam; of conjugate ones that which lifts."""
+        """The cam; of conjugate ones the one that lifts."""
         return self.cams.cam
 
     @property
@@ -72,9 +132,8 @@ class CamDesign:
         wrong = any(step < 0 or self.params.led for step in sides)
         return wrong and (self.cam.flat or self.cam.roller_radius > 0)
 
-    @property
+    @computed("", "whether no surface can guide the follower")
     def undercut(self) -> bool:
-        """Whether no surface can guide the follower."""
         if self.cornered:
             return True
         cam, pair = self.cams
@@ -88,7 +147,7 @@ class CamDesign:
         return state_of(self.params, self.cams, self.held, angle)
 
     def hertz(self, angle: FloatArray) -> FloatArray:
-        """Hertz pressure [Pa] at cam angles [rad]; NaN where cam and follower cannot touch so."""
+        """Hertz pressure [Pa] at cam angles [rad]; NaN where cam and follower cannot be in contact."""
         return pressure_of(self.params, self.state(angle), self.face_width)
 
 
@@ -120,9 +179,9 @@ def design(params: CamParams) -> CamDesign:
 
 
 def _with_roller(params: CamParams, bare: CamRole, size: CamSize, held: FollowerLoad) -> tuple[Roller | None, CamShape]:
-    """The roller, and the cam for what touches it: as given, from the table, or half of what there is room for.
+    """The roller and its cam: as given, from the table, or of half the radius that there is room for.
 
-    The table's smallest roller that lasts is taken; where none does, the largest for which there is room.
+    Of the table it is the smallest with the required life; where none has it, the largest that there is room for.
     """
 
     def fitted(radius: float) -> CamShape:
@@ -145,7 +204,7 @@ def _with_roller(params: CamParams, bare: CamRole, size: CamSize, held: Follower
 
 
 def _room(params: CamParams, bare: CamRole) -> float:
-    """Radius [m] below which a roller is undercut nowhere and leaves something of the prime circle."""
+    """Radius [m] below which a roller nowhere undercuts the cam, and is smaller than the prime circle."""
     room = min(limits.convex_radius_min(bare).value, bare.prime_radius)
     hollow = limits.concave_radius_min(bare) if params.kind in ("grooved", "barrel") else None
     return room if hollow is None else min(room, hollow.value)

@@ -1,7 +1,7 @@
 """Barrel, end and wedge cams laid flat: the drawing, the strip passing under its roller, the wedge's plate, masses.
 
-The development has the follower's way along +x and the cam's way along -y (`ilmek.cams.strip`); it is drawn turned by a
-quarter, the follower upwards and the cam running to the left.
+In the development the follower moves along +x and the cam along -y (`ilmek.cams.strip`); it is drawn rotated by a
+quarter turn, the follower upwards and the cam moving to the left.
 """
 
 import math
@@ -47,7 +47,7 @@ def drawing(design: CamDesign) -> Drawing:
 
 
 def moving(design: CamDesign) -> Animation:
-    """The strip under its roller: a barrel goes on and on, a wedge to and fro."""
+    """The strip under its roller: a barrel rotates on, a wedge moves to and fro."""
     cam, wedge = design.cam, design.params.kind == "wedge"
     end = float(cam.knots[-1])
     at = np.linspace(0.0, end, FRAMES) if wedge else np.arange(FRAMES) * (TURN / FRAMES)
@@ -64,11 +64,7 @@ def moving(design: CamDesign) -> Animation:
     stem = centre[:, None] + 1j * np.array([0.0, 2.5 * design.params.lift + 2 * cam.roller_radius])
     strokes = (
         *(MovingStroke(shift + 1j * curve, "outline", closed=wedge) for curve in curves),
-        *(
-            (MovingStroke(centre[:, None] + cam.roller_radius * _CIRCLE[:-1], "outline", closed=True),)
-            if curves
-            else ()
-        ),
+        MovingStroke(centre[:, None] + cam.roller_radius * _CIRCLE[:-1], "outline", closed=True),
         MovingStroke(stem, "link", design.params.follower),
     )
     readings = (
@@ -110,7 +106,7 @@ def area(design: CamDesign) -> float:
 
 
 def _ends(design: CamDesign, low: float) -> float:
-    """What the ends of the foot reach beyond the ends of the surface [m^2], where the surface slopes there."""
+    """Area of the foot beyond the ends of the surface [m^2], where the surface slopes there."""
     cam = design.cam
     end = float(cam.knots[-1])
     first, last = 1j * cam.trace(np.array([0.0, end])).surface
@@ -134,7 +130,7 @@ def mass(design: CamDesign) -> float:
 
 
 def _edges(design: CamDesign) -> tuple[float, float]:
-    """Foot and top of the cam along the follower's way [m]: a rim beyond what the roller touches."""
+    """Foot and top of the cam along the follower's path [m]: a rim beyond the reach of the roller."""
     reach = design.cam.roller_radius + design.params.rim
     low, high = design.programme.bounds
     return low - reach, high + reach

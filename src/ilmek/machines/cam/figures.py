@@ -10,7 +10,9 @@ from ilmek.cams.limits import convex_radius_min
 from ilmek.cams.programme import TURN, jumps
 from ilmek.cams.trace import CamTrace
 from ilmek.machines.cam import developed_cams
+from ilmek.machines.cam.analysis import CamAnalysis
 from ilmek.machines.cam.animation import moving
+from ilmek.machines.cam.compliant_follower import vibration_figures
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.parts import cutouts, rim_radius, zero_mark
 from ilmek.num.piecewise import supremum
@@ -22,11 +24,12 @@ ANGLE = Axis("cam angle", "deg")
 _CIRCLE = np.exp(1j * np.linspace(0.0, TURN, 361))
 
 CHORD = 0.02 * mm
-"""How far the drawn edge of a bore may lie beside its arc."""
+"""Largest distance of the drawn edge of a bore from its arc [m]."""
 
 
-def figures(design: CamDesign) -> tuple[Figure, ...]:
+def figures(found: CamAnalysis) -> tuple[Figure, ...]:
     """The cam to scale, in motion, and the plots in the order of the report."""
+    design = found.design
     cam, params = design.cam, design.params
     widest = supremum(lambda angle: np.abs(cam.trace(angle).pressure_angle), design.cam.knots)
     plots = (
@@ -40,7 +43,9 @@ def figures(design: CamDesign) -> tuple[Figure, ...]:
         _torque_plot(design),
         *(() if design.extremes.pressure is None else (_hertz_plot(design, design.extremes.pressure.at),)),
     )
-    return drawing(design), moving(design), *(replace(plot, name=f"cam-{plot.name}") for plot in plots)
+    named = (replace(plot, name=f"cam-{plot.name}") for plot in plots)
+    vibration = vibration_figures(found.compliant) if found.compliant else ()
+    return (drawing(design), moving(design), *named, *vibration)
 
 
 def drawing(design: CamDesign) -> Drawing:
@@ -60,8 +65,8 @@ def drawing(design: CamDesign) -> Drawing:
         Stroke(np.array([0j, tip]), "dimension", format_quantity(float(np.abs(tip)), "mm")),
     )
     turned = "turns counter-clockwise; the follower stands on the right when the cam angle is 0"
-    said = f"{turned}; no surface guides the follower where the outline turns back" if design.undercut else turned
-    return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "", "point"),), note=said)
+    note = f"{turned}; no surface guides the follower where the outline turns back" if design.undercut else turned
+    return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "", "point"),), note=note)
 
 
 def _bodies(design: CamDesign, trace: CamTrace) -> tuple[Stroke, ...]:
@@ -82,7 +87,7 @@ def _bodies(design: CamDesign, trace: CamTrace) -> tuple[Stroke, ...]:
 
 
 def _paths(design: CamDesign, trace: CamTrace) -> tuple[Stroke, ...]:
-    """Pitch curve, the path of a cutter that is not as the roller, and the roller where the rise begins."""
+    """Pitch curve, the path of a cutter of another radius, and the roller where the rise begins."""
     cam, follower, paths = design.cam, design.params.follower, []
     cutter = design.params.cutter_radius
     if cam.roller_radius > 0:
@@ -101,23 +106,19 @@ def _unit(design: CamDesign) -> Literal["mm", "deg"]:
 
 
 def _marks(design: CamDesign) -> tuple[Mark, ...]:
-    begins = [
-        Mark(float(edge), segment.name)
-        for edge, segment in zip(design.programme.edges, design.programme.segments, strict=False)
-    ]
-    return tuple(begins)
+    programme = design.programme
+    return tuple(Mark(float(edge), part.name) for edge, part in zip(programme.edges, programme.segments, strict=False))
 
 
 def _jump_note(design: CamDesign) -> str:
-    found = jumps(design.programme)
-    said = ", ".join(f"{jump.place} at {format_quantity(jump.angle, 'deg')}" for jump in found)
-    return f"the acceleration jumps {said}" if said else "the acceleration has no jump"
+    found = ", ".join(f"{jump.place} at {format_quantity(jump.angle, 'deg')}" for jump in jumps(design.programme))
+    return f"the acceleration jumps {found}" if found else "the acceleration has no jump"
 
 
 def _jerk_plot(design: CamDesign) -> Plot:
     angle = cam_figures.sample_angles(design.programme)
     jerk = design.params.speed**3 * design.programme.at(angle).ddds
-    note = "between jumps of the acceleration, where it is endless" if jumps(design.programme) else ""
+    note = "between jumps of the acceleration, where it is infinite" if jumps(design.programme) else ""
     return _plot(
         "jerk",
         "Jerk over the cam angle",

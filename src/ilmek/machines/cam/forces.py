@@ -1,11 +1,11 @@
-"""Forces between cam and follower over the turn, for the parameters: pressed, turned, rolled, squeezed.
+"""Forces between cam and follower over the turn: contact force, torque, rolling and Hertz pressure.
 
-Whatever an arm carries is said at the length of the arm; inside it is a moment of inertia, moments, and a rate by the
-angle, so that the formulas of a slide hold with the coordinate in rad.
+The parameters of an arm hold at the length of the arm; the formulas use its moment of inertia, moments, and a rate by
+the angle, so that those of a slide hold with the coordinate in rad.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,25 +19,26 @@ from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.rollers import POWER, RollerDuty
 from ilmek.machines.cam.shape import CamShape
-from ilmek.num.piecewise import Curve, Extremum, infimum, integral, supremum
+from ilmek.num.piecewise import EQUAL, Curve, Extremum, infimum, integral, supremum
 from ilmek.plane.vectors import dot, unit
+from ilmek.records import computed, record, result
 
 POISSON = 0.3
-"""Of steels; of irons and light metals within a tenth, which moves the pressure by a hundredth."""
+"""Of steels; of irons and light metals within 10 %, which changes the pressure by 1 %."""
 
 _SIDES = {"trailing": 1, "leading": -1}
 
 MARGIN = 1.2
-"""Speed up to which a spring that is chosen holds, over the speed of the cam."""
+"""Speed up to which a chosen spring holds the follower, over the speed of the cam."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CamState:
     """Cam and follower at cam angles.
 
-    trace    geometry of the cam                    force   need along the motion [N; N m of an arm]
+    trace    geometry of the cam                    force   required along the motion [N; N m of an arm]
     normal   force on the normal [N], below 0 where the follower lifts off, or is held by the other flank or cam
-    torque   of the shaft [N m]                     bend    curvature of the surface that is pressed on [1/m]
+    torque   of the shaft [N m]                     bend    curvature of the surface in contact [1/m]
     """
 
     trace: CamTrace
@@ -47,19 +48,39 @@ class CamState:
     bend: FloatArray
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CamExtremes:
-    """What is largest over the turn, and where; `pressure` is the Hertz pressure [Pa], None for a knife's edge."""
+    """Extremes over the turn; `pressure`: the Hertz pressure [Pa], None for a knife edge."""
 
     normal: Extremum
     torque: Extremum
     back_torque: Extremum
-    torque_rms: float
+    torque_rms: float = result("N*m", "root mean square of the torque over the turn")
     pressure: Extremum | None
+
+    @property
+    def largest_torque(self) -> Extremum:
+        """The torque of largest magnitude; forwards where both are equal but for rounding."""
+        forwards = self.torque.value >= -self.back_torque.value * (1 - EQUAL)
+        return self.torque if forwards else self.back_torque
+
+    torque_max = computed("N*m", "largest torque of the shaft, in magnitude", lambda it: abs(it.largest_torque.value))
+    torque_at = computed("deg", "cam angle of the largest torque", lambda it: it.largest_torque.at)
+    torque_range = computed("N*m", "least and largest torque", lambda it: [it.back_torque.value, it.torque.value])
+    contact_force_max = computed("N", "largest force between cam and follower", lambda it: it.normal.value)
+    contact_force_at = computed("deg", "cam angle of the largest force", lambda it: it.normal.at)
+
+    @computed("MPa", "largest Hertz pressure; null of a knife edge, or where undercut leaves no face")
+    def hertz_pressure_max(self) -> float | None:
+        return None if self.pressure is None or not math.isfinite(self.pressure.value) else self.pressure.value
+
+    @computed("deg", "cam angle of the largest Hertz pressure")
+    def hertz_at(self) -> float | None:
+        return None if self.pressure is None or self.hertz_pressure_max is None else self.pressure.at
 
 
 def held_by(params: CamParams, programme: CamProgramme) -> FollowerLoad:
-    """Mass, load and return spring; what is not given of the spring is the least that holds up to the hold speed."""
+    """Mass, load and return spring; by default the weakest spring that holds up to the hold speed."""
     if params.led:
         return FollowerLoad(params.speed, params.mass * params.per_unit**2, load=params.load * params.per_unit)
     hold = MARGIN * params.speed if params.hold_speed is None else params.hold_speed
@@ -78,7 +99,7 @@ def held_by(params: CamParams, programme: CamProgramme) -> FollowerLoad:
 
 
 def duty_of(params: CamParams, cams: CamShape, held: FollowerLoad) -> RollerDuty:
-    """What a roller bears over the turn; it turns against its stud, which an arm carries with it."""
+    """The duty of a roller over the turn; it rolls on its stud, which an arm carries with it."""
 
     def borne(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
         state = state_of(params, cams, held, angle)
@@ -117,12 +138,12 @@ def _pressed(params: CamParams, trace: CamTrace, force: FloatArray, radius: floa
     if params.laid_flat:
         return _pressed_flat(params, trace, force, radius)
     sliding = 0.0 if params.follower == "roller" else params.sliding_friction
-    touch = Touch(trace.surface, trace.normal, _way(params, trace))
+    touch = Touch(trace.surface, trace.normal, _direction(params, trace))
     return pressed(touch, trace.course.ds, force, sliding=sliding, guide=params.guide_friction)
 
 
 def _pressed_flat(params: CamParams, trace: CamTrace, force: FloatArray, radius: float) -> ContactForce:
-    """N = F / (cos mu - mu_g |sin mu| sign(s')), T = N rho sin mu: the cam runs square to the follower's way."""
+    """N = F / (cos mu - mu_g |sin mu| sign(s')), T = N rho sin mu: the cam moves at right angles to the follower."""
     sense = np.where(force < 0, -1.0, 1.0) * np.sign(trace.course.ds)
     cosine, sine = np.cos(trace.pressure_angle), np.sin(trace.pressure_angle)
     along = cosine - params.guide_friction * np.abs(sine) * sense
@@ -131,18 +152,18 @@ def _pressed_flat(params: CamParams, trace: CamTrace, force: FloatArray, radius:
     return ContactForce(np.asarray(normal), np.asarray(normal * radius * sine))
 
 
-def _way(params: CamParams, trace: CamTrace) -> ComplexArray:
-    """Velocity of the follower at the touched place by its coordinate, in the cam's frame."""
-    way = trace.normal * np.exp(-1j * trace.pressure_angle)
+def _direction(params: CamParams, trace: CamTrace) -> ComplexArray:
+    """Velocity of the follower at the point of contact by its coordinate, in the cam's frame."""
+    along = trace.normal * np.exp(-1j * trace.pressure_angle)
     if params.motion == "translating":
-        return np.asarray(way)
+        return np.asarray(along)
     pivot = params.pivot_distance * unit(-trace.angle)
-    turned = np.sign(dot(way, 1j * (trace.pitch - pivot)))
+    turned = np.sign(dot(along, 1j * (trace.pitch - pivot)))
     return np.asarray(turned * 1j * (trace.surface - pivot))
 
 
 def pressure_of(params: CamParams, state: CamState, width: float) -> FloatArray:
-    """Hertz pressure [Pa] on a face of a width [m]; NaN where cam and follower cannot touch so."""
+    """Hertz pressure [Pa] on a face of a width [m]; NaN where cam and follower cannot be in contact."""
     first, second = MATERIALS[params.material], MATERIALS[params.follower_material]
     modulus = contact_modulus(first.modulus, POISSON, second.modulus, POISSON)
     round_follower = 1 / state.trace.roller_radius if state.trace.roller_radius > 0 else 0.0
@@ -154,7 +175,7 @@ def pressure_of(params: CamParams, state: CamState, width: float) -> FloatArray:
 
 
 def _size(params: CamParams, normal: FloatArray) -> FloatArray:
-    """Size of the force [N]: of a cam that leads both ways either sign presses, else what is below 0 does not."""
+    """Magnitude of the contact force [N]; below 0 there is no contact but of a cam that leads both ways."""
     return np.asarray(np.abs(normal) if params.led else np.maximum(normal, 0.0))
 
 
@@ -168,7 +189,7 @@ def pressure_limit(params: CamParams) -> float:
 
 
 def extremes_of(params: CamParams, cams: CamShape, held: FollowerLoad, width: float) -> CamExtremes:
-    """What is largest over the turn, on a face of a width [m]."""
+    """The extremes over the turn, on a face of a width [m]."""
     knots = cams.cam.knots
 
     def of(pick: str) -> Curve:

@@ -1,8 +1,8 @@
-"""The hole by which a cam sits on its shaft: bore, keyway, and the wall that is left.
+"""The hub of a cam on its shaft: bore and keyway.
 
     d^3 = 16 T / (pi tau)                     a solid shaft under a torque T at the shear stress tau
 
-The keyway's width and its depth in the hub go by the bore.                                            [DIN 6885-1]
+Width and depth of the keyway in the hub by the bore.                                                  [DIN 6885-1]
 """
 
 import bisect
@@ -14,12 +14,12 @@ from ilmek.report import Contour
 from ilmek.units import MPa, mm
 
 SHEAR = 30 * MPa
-"""Shear stress by which shafts with keyways are first sized: below a fifth of the yield strength of common steels."""
+"""Shear stress for the first sizing of shafts with keyways: below a fifth of the yield strength of common steels."""
 
 BORES = tuple(
     size * mm for size in (6, 8, 10, 12, 15, 17, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 75, 80, 85, 90, 95, 100)
 )
-"""Bores in use [m]; beyond the last, whole centimetres."""
+"""Usual bores [m]; beyond the last, whole centimetres."""
 
 _UP_TO = (8, 10, 12, 17, 22, 30, 38, 44, 50, 58, 65, 75, 85, 95, 110, 130)
 _WIDTH = (2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28, 32)
@@ -29,7 +29,7 @@ _LEAST = 6 * mm
 
 @dataclass(frozen=True, slots=True)
 class Hub:
-    """Bore's diameter, width of the keyway and its depth beyond the bore [m]; without a key both are 0."""
+    """Diameter of the bore, width of the keyway and its depth beyond the bore [m]; both 0 without a key."""
 
     bore: float
     key_width: float
@@ -59,14 +59,14 @@ def hub_for(bore: float) -> Hub:
     >>> hub_for(0.020)
     Hub(bore=0.02, key_width=0.006, key_depth=0.0028)
     """
-    place = bisect.bisect_left(_UP_TO, round(bore / mm, 9))
-    if bore < _LEAST or place == len(_UP_TO):
+    index = bisect.bisect_left(_UP_TO, round(bore / mm, 9))
+    if bore < _LEAST or index == len(_UP_TO):
         return Hub(bore, 0.0, 0.0)
-    return Hub(bore, _WIDTH[place] * mm, _DEPTH[place] * mm)
+    return Hub(bore, _WIDTH[index] * mm, _DEPTH[index] * mm)
 
 
 def bore_for(torque: float) -> float:
-    """The smallest bore in use whose shaft bears a torque [N m].
+    """The smallest usual bore whose shaft transmits a torque [N m].
 
     >>> bore_for(0.0), bore_for(100.0)
     (0.006, 0.03)

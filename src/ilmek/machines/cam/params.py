@@ -1,4 +1,4 @@
-"""What may be asked of a cam: its motion, its size or the limit that sets it, its follower, what it carries."""
+"""Parameters of a cam: its motion, its size or the limit that sets it, its follower and its load."""
 
 import math
 from collections.abc import Mapping
@@ -9,190 +9,162 @@ from ilmek.cams.programme import TURN
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
 from ilmek.machines.cam.rollers import find_roller
-from ilmek.params import Params, param
+from ilmek.params import Params
+from ilmek.params import kind as declare
 from ilmek.units import N, deg, format_quantity, kg, mm, rpm
 
 NO_DWELL = 1e-9
 """Angles below this are rounding [rad]."""
 
 LIMIT = 30 * deg
-"""Largest pressure angle of a slide on the rise where nothing is said [Norton, Cam Design and Manufacturing, 7.2]."""
+"""Usual limit of the pressure angle of a slide on the rise [Norton, Cam Design and Manufacturing, 7.2]."""
 
 FOLLOWERS = ("roller", "knife", "flat", "spherical")
-"""What touches the cam."""
+"""Followers by the part that touches the cam."""
 
 
 @dataclass(frozen=True, slots=True)
 class CamParams(Params):
     """The parameters of a cam: motion, size and follower, loads and material."""
 
-    law: str = param("modified-sine", choices=tuple(LAWS), doc="motion law of the rise, and of the fall")
-    motion: str = param(
-        "translating", choices=("translating", "oscillating"), doc="how the follower moves: on a slide, or on an arm"
+    law: str = declare.choice("modified-sine", tuple(LAWS), doc="motion law of the rise, and of the fall")
+    motion: str = declare.choice("translating", ("translating", "oscillating"), doc="follower on a slide, or on an arm")
+    law_parameters: str = declare.text(
+        "", doc="parameters of the law, like `b=0.25 c=0.5 d=0.25` or `u=0.3,0.7 s=0.2,0.9`; default: its defaults"
     )
-    law_parameters: str = param(
-        "", doc="parameters of the law, like `b=0.25 c=0.5 d=0.25` or `u=0.3,0.7 s=0.2,0.9`; none: its defaults"
+    lift: float = declare.length(
+        20 * mm, at_least=0.01 * mm, at_most=1.0, doc="lift of the follower; of an arm along its arc", symbol="L"
     )
-    lift: float = param(
-        20 * mm,
-        unit="mm",
-        at_least=0.01 * mm,
-        at_most=1.0,
-        doc="lift of the follower; of an arm along its arc",
-        symbol="L",
-    )
-    rise: float = param(
-        90 * deg, unit="deg", at_least=0.1 * deg, below=TURN, doc="cam angle of the rise", symbol="beta"
-    )
-    dwell: float = param(0.0, unit="deg", at_least=0.0, below=TURN, doc="cam angle for which it stays lifted")
-    fall: float | None = param(
+    rise: float = declare.angle(90 * deg, at_least=0.1 * deg, below=TURN, doc="cam angle of the rise", symbol="beta")
+    dwell: float = declare.angle(0.0, at_least=0.0, below=TURN, doc="cam angle for which the follower stays lifted")
+    fall: float | None = declare.angle(
         None,
-        unit="deg",
         at_least=0.1 * deg,
         below=TURN,
-        doc="cam angle of the fall; none: as the rise, or the rest of the turn where that is less",
+        doc="cam angle of the fall; default: that of the rise, or the rest of the turn",
     )
-    fall_law: str | None = param(None, choices=tuple(LAWS), doc="motion law of the fall; none: as the rise")
-    fall_law_parameters: str = param("", doc="parameters of the law of the fall, where it has one of its own")
-    speed: float = param(60 * rpm, unit="rpm", at_least=0.0, at_most=1e4, doc="speed of the cam", symbol="w")
-    angle: float | None = param(
-        None, unit="deg", at_least=0.0, at_most=TURN, doc="cam angle from the start of the rise to look at, as `at`"
+    fall_law: str | None = declare.choice(None, tuple(LAWS), doc="motion law of the fall; default: that of the rise")
+    fall_law_parameters: str = declare.text("", doc="parameters of the law of the fall, where it has one of its own")
+    speed: float = declare.angular_speed(60 * rpm, at_least=0.0, at_most=1e4, doc="speed of the cam", symbol="w")
+    angle: float | None = declare.angle(
+        None, at_least=0.0, at_most=TURN, doc="cam angle from the start of the rise that is reported as `at`"
     )
-    kind: str = param(
+    kind: str = declare.choice(
         "plate",
-        choices=("plate", "grooved", "conjugate", "barrel", "face", "wedge"),
+        ("plate", "grooved", "conjugate", "barrel", "face", "wedge"),
         doc="a plate with a spring, a groove, two plates on a shaft, a barrel's groove, a barrel's end, a wedge",
     )
-    follower: str = param("roller", choices=FOLLOWERS, doc="what touches the cam")
-    pressure_angle_limit: float | None = param(
+    follower: str = declare.choice("roller", FOLLOWERS, doc="part of the follower that touches the cam")
+    pressure_angle_limit: float | None = declare.angle(
         None,
-        unit="deg",
         at_least=1 * deg,
         below=90 * deg,
-        doc="largest pressure angle on the rise; none: 30 deg, where no prime radius is given either",
+        doc="allowed pressure angle on the rise; default: 30 deg, if there is no prime radius",
         symbol="mu",
     )
-    prime_radius: float | None = param(
+    prime_radius: float | None = declare.length(
         None,
-        unit="mm",
         at_least=1e-3 * mm,
         at_most=10.0,
-        doc="prime radius; base radius of a flat follower, mean radius of a barrel, travel for a radian of a wedge; "
-        "none: the smallest for the limit",
+        doc="prime radius; base radius of a flat follower, mean radius of a barrel, travel per radian of a wedge; "
+        "default: the smallest for the limit",
         symbol="Rp",
     )
-    roller_radius: float | None = param(
-        None, unit="mm", at_least=0.0, at_most=1.0, doc="radius of roller or ball; none: chosen", symbol="Rr"
+    roller_radius: float | None = declare.length(
+        None, at_least=0.0, at_most=1.0, doc="radius of roller or ball; default: chosen", symbol="Rr"
     )
-    roller: str | None = param(None, doc="cam follower from the table, like `CF 10`; none: the smallest that lasts")
-    offset: float = param(
+    roller: str | None = declare.text(
+        None, doc="cam follower from the table, like `CF 10`; default: the smallest with the required life"
+    )
+    offset: float = declare.length(
         0.0,
-        unit="mm",
         at_least=-1.0,
         at_most=1.0,
-        doc="distance of the follower's line from the axis; positive lowers the pressure angle of the rise",
+        doc="follower's line to the axis; positive: smaller pressure angle on the rise",
         symbol="e",
     )
-    arm: float | None = param(
+    arm: float | None = declare.length(
         None,
-        unit="mm",
         at_least=0.1 * mm,
         at_most=10.0,
-        doc="length of the arm to roller, or to where mass, load and spring act; none: three times the lift",
+        doc="arm to the roller, or to the point of mass, load and spring; default: 3 times the lift",
     )
-    pivot: float | None = param(
+    pivot: float | None = declare.length(
         None,
-        unit="mm",
         at_least=0.1 * mm,
         at_most=10.0,
-        doc="distance of the arm's pivot from the cam's axis; none: 4/3 of the arm, 5/2 of a flat one",
+        doc="arm's pivot to the cam's axis; default: 4/3 of the arm, 5/2 of a flat one",
     )
-    side: str = param(
+    side: str = declare.choice(
         "trailing",
-        choices=("trailing", "leading"),
-        doc="whether the cam's surface drags the arm away from its pivot, or pushes it towards it",
+        ("trailing", "leading"),
+        doc="trailing: the cam's surface moves away from the arm's pivot; leading: towards it",
     )
-    distance: float | None = param(
+    distance: float | None = declare.length(
         None,
-        unit="mm",
         at_least=0.1 * mm,
         at_most=10.0,
-        doc="between the followers of conjugate cams on a slide; none: so that both have one prime circle",
+        doc="between followers of conjugate cams on a slide; default: equal prime circles",
     )
-    between: float | None = param(
-        None,
-        unit="deg",
-        at_least=1 * deg,
-        below=TURN,
-        doc="angle between the arms of conjugate cams; none: so that both have one prime circle",
+    between: float | None = declare.angle(
+        None, at_least=1 * deg, below=TURN, doc="angle between the arms of conjugate cams; default: equal prime circles"
     )
-    face_offset: float = param(
-        0.0, unit="mm", at_least=-1.0, at_most=1.0, doc="how far an arm's flat face lies beyond its pivot"
+    face_offset: float = declare.length(
+        0.0, at_least=-1.0, at_most=1.0, doc="distance of an arm's flat face beyond its pivot"
     )
-    curvature_least: float = param(
+    curvature_least: float = declare.length(
         1 * mm,
-        unit="mm",
         at_least=0.0,
         at_most=1.0,
-        doc="least radius of curvature of a cam for a flat follower, where its base circle is to be found",
+        doc="least radius of curvature for a flat follower, which sets its base circle",
     )
-    mass: float = param(
-        0.5 * kg, unit="kg", at_least=0.0, at_most=1e5, doc="mass that the follower moves, with its own"
+    mass: float = declare.mass(0.5 * kg, at_least=0.0, at_most=1e5, doc="moving mass, the follower's own included")
+    load: float = declare.force(
+        100 * N, at_least=0.0, at_most=1e7, doc="constant force of the follower on the cam, weight included"
     )
-    load: float = param(
-        100 * N,
-        unit="N",
-        at_least=0.0,
-        at_most=1e7,
-        doc="force that always presses the follower to the cam, weight too",
+    spring_rate: float | None = declare.stiffness(
+        None, at_least=0.0, at_most=1e9, doc="rate of the return spring; default: chosen"
     )
-    spring_rate: float | None = param(
-        None, unit="N/mm", at_least=0.0, at_most=1e9, doc="rate of the return spring; none: chosen"
+    preload: float | None = declare.force(
+        None, at_least=0.0, at_most=1e7, doc="force of the return spring at the lowest position; default: chosen"
     )
-    preload: float | None = param(
-        None, unit="N", at_least=0.0, at_most=1e7, doc="force of the return spring at the lowest place; none: chosen"
+    hold_speed: float | None = declare.angular_speed(
+        None, at_least=0.0, at_most=1e4, doc="speed up to which the spring holds the follower; default: 1.2 times speed"
     )
-    hold_speed: float | None = param(
-        None,
-        unit="rpm",
-        at_least=0.0,
-        at_most=1e4,
-        doc="speed up to which the spring is to hold; none: 1.2 times speed",
+    sliding_friction: float = declare.ratio(
+        0.0, at_least=0.0, below=1.0, doc="friction coefficient of cam and sliding follower"
     )
-    sliding_friction: float = param(
-        0.0, at_least=0.0, below=1.0, doc="coefficient of friction between cam and a follower that slides on it"
+    guide_friction: float = declare.ratio(
+        0.0, at_least=0.0, below=1.0, doc="friction coefficient in the follower's guide"
     )
-    guide_friction: float = param(0.0, at_least=0.0, below=1.0, doc="coefficient of friction in the follower's guide")
-    linkage_stiffness: float | None = param(
-        None, unit="N/mm", above=0.0, at_most=1e12, doc="stiffness between the cam and the mass; none: rigid"
+    linkage_stiffness: float | None = declare.stiffness(
+        None, above=0.0, at_most=1e12, doc="stiffness between the cam and the mass; default: rigid"
     )
-    linkage_damping: float = param(0.05, at_least=0.0, at_most=10.0, doc="damping of that linkage, of the critical")
-    material: str = param("heat-treatable steel", choices=tuple(MATERIALS), doc="material of the cam")
-    follower_material: str = param("heat-treatable steel", choices=tuple(MATERIALS), doc="material of the follower")
-    pressure_limit: float | None = param(
-        None, unit="MPa", above=0.0, at_most=1e11, doc="largest Hertz pressure; none: where the weaker material yields"
+    linkage_damping: float = declare.ratio(0.05, at_least=0.0, at_most=10.0, doc="damping ratio of that linkage")
+    material: str = declare.choice("heat-treatable steel", tuple(MATERIALS), doc="material of the cam")
+    follower_material: str = declare.choice("heat-treatable steel", tuple(MATERIALS), doc="material of the follower")
+    pressure_limit: float | None = declare.pressure(
+        None, above=0.0, at_most=1e11, doc="allowed Hertz pressure; default: at which the weaker material yields"
     )
-    face_width: float | None = param(
-        None, unit="mm", at_least=0.1 * mm, at_most=1.0, doc="thickness of the cam; none: the roller's width, or 10 mm"
+    face_width: float | None = declare.length(
+        None, at_least=0.1 * mm, at_most=1.0, doc="thickness of the cam; default: the roller's width, or 10 mm"
     )
-    crown_radius: float | None = param(
-        None, unit="mm", at_least=1 * mm, at_most=100.0, doc="crown of the roller across its way; none: a cylinder"
+    crown_radius: float | None = declare.length(
+        None, at_least=1 * mm, at_most=100.0, doc="crown of the roller across its path; default: a cylinder"
     )
-    life: float = param(
-        10_000 * 3600.0, unit="h", at_least=0.0, at_most=1e12, doc="running time that the roller must last"
+    life: float = declare.time(10_000 * 3600.0, unit="h", at_least=0.0, at_most=1e12, doc="required life of the roller")
+    bore: float | None = declare.length(
+        None, at_least=1 * mm, at_most=1.0, doc="bore; default: the smallest whose shaft transmits the torque"
     )
-    bore: float | None = param(
-        None, unit="mm", at_least=1 * mm, at_most=1.0, doc="bore; none: the smallest whose shaft bears the torque"
+    wall: float = declare.length(4 * mm, at_least=0.0, at_most=0.5, doc="required wall between keyway and surface")
+    rim: float = declare.length(
+        5 * mm, at_least=0.0, at_most=0.5, doc="rim of a grooved cam outside the groove, and web under it"
     )
-    wall: float = param(4 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="least wall between keyway and surface")
-    rim: float = param(
-        5 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="rim of a grooved cam outside the groove, and web under it"
+    cutter_radius: float | None = declare.length(
+        None, at_least=0.1 * mm, at_most=0.5, doc="radius of the cutter; default: that of the roller"
     )
-    cutter_radius: float | None = param(
-        None, unit="mm", at_least=0.1 * mm, at_most=0.5, doc="radius of the cutter; none: as the roller's"
-    )
-    jump_limit: float = param(
-        9.81, unit="m/s^2", at_least=0.0, at_most=1e6, doc="largest jump of the acceleration; a judgement of ours: 1 g"
+    jump_limit: float = declare.acceleration(
+        9.81, at_least=0.0, at_most=1e6, doc="allowed jump of the acceleration; 1 g is assumed by this project"
     )
 
     def check_together(self) -> None:
@@ -213,9 +185,11 @@ class CamParams(Params):
     def _check_motion(self) -> None:
         taken = self.rise + self.dwell + (self.fall or 0.0)
         if taken > TURN + NO_DWELL or self.fall_angle <= NO_DWELL:
-            said = "rise + dwell + fall" if self.fall else "rise + dwell"
+            taken_by = "rise + dwell + fall" if self.fall else "rise + dwell"
             allowed = "they must fit one turn, 360 deg" if self.fall else "below 360 deg, so that a fall is left"
-            raise ParameterError(f"{said} = {format_quantity(taken, 'deg')}", allowed=allowed, do="shorten one of them")
+            raise ParameterError(
+                f"{taken_by} = {format_quantity(taken, 'deg')}", allowed=allowed, do="shorten one of them"
+            )
         self.laws()
 
     @property
@@ -272,7 +246,7 @@ class CamParams(Params):
 
     @property
     def laid_flat(self) -> bool:
-        """Whether the cam is reckoned as a strip that passes under its follower."""
+        """Whether the cam is treated as a strip that passes under its follower."""
         return self.kind in ("barrel", "face", "wedge")
 
     @property
@@ -306,19 +280,19 @@ def read_law_parameters(text: str) -> Mapping[str, float | tuple[float, ...]]:
     """
     read: dict[str, float | tuple[float, ...]] = {}
     for part in text.replace(";", " ").split():
-        name, equals, said = part.partition("=")
+        name, equals, value = part.partition("=")
         if not equals or not name or name in read:
             raise ParameterError(f"law_parameters={text!r}: {part!r}", allowed="NAME=NUMBER or NAME=NUMBER,NUMBER,...")
-        read[name] = _numbers(name, said)
+        read[name] = _numbers(name, value)
     return read
 
 
-def _numbers(name: str, said: str) -> float | tuple[float, ...]:
-    row = said.startswith("(") or "," in said
+def _numbers(name: str, value: str) -> float | tuple[float, ...]:
+    row = value.startswith("(") or "," in value
     try:
-        numbers = tuple(float(item) for item in said.strip("()").split(",") if item)
+        numbers = tuple(float(item) for item in value.strip("()").split(",") if item)
     except ValueError:
-        raise ParameterError(f"{name}={said!r} is not a number", allowed="numbers, with commas between") from None
+        raise ParameterError(f"{name}={value!r} is not a number", allowed="numbers, with commas between") from None
     if not all(math.isfinite(number) for number in numbers) or (not row and len(numbers) != 1):
-        raise ParameterError(f"{name}={said!r} is not a number", allowed="numbers, with commas between")
+        raise ParameterError(f"{name}={value!r} is not a number", allowed="numbers, with commas between")
     return numbers if row else numbers[0]

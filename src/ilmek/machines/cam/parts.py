@@ -41,14 +41,14 @@ def rim_radius(design: CamDesign) -> float:
     return flank.value + design.params.rim
 
 
-def area_of(design: CamDesign) -> float:
-    """Area of the face [m^2], bore not taken off; NaN of a barrel or end cam, and where undercut leaves no face."""
+def area_of(design: CamDesign) -> float | None:
+    """Area of the face [m^2], bore included; None of a barrel or end cam, and where undercut leaves no face."""
     found = developed_cams.area(design) if design.params.laid_flat else design.area
-    return found if found > 0 else math.nan
+    return found if found > 0 else None
 
 
-def mass_of(design: CamDesign) -> float:
-    """Mass of the cam, bored, or of both [kg]."""
+def mass_of(design: CamDesign) -> float | None:
+    """Mass of the cam, bored, or of both [kg]; None where undercut leaves no face."""
     if design.params.laid_flat:
         return developed_cams.mass(design)
     density, width = MATERIALS[design.params.material].density, design.face_width
@@ -58,7 +58,8 @@ def mass_of(design: CamDesign) -> float:
         disc = math.pi * rim_radius(design) ** 2
         return float(density * max((disc - hub) * (width + design.params.rim) - groove * width, 0.0))
     other = limits.area(design.cams.pair.second) - hub if design.cams.pair else 0.0
-    return density * width * (area_of(design) - hub + other)
+    face = area_of(design)
+    return None if face is None else density * width * (face - hub + other)
 
 
 def outline_angles(cam: CamRole) -> FloatArray:
@@ -116,7 +117,7 @@ def _grooved(design: CamDesign, title: str) -> Plate:
 
 
 def cutouts(design: CamDesign, cam: CamRole) -> tuple[Contour, ...]:
-    """The bore, where it leaves something of the cam."""
+    """The bore, where it is smaller than the cam."""
     reach = infimum(lambda at: np.abs(cam.trace(at).surface), cam.knots).value
     return (design.hub.contour,) if reach > design.hub.reach else ()
 
@@ -137,13 +138,12 @@ def zero_mark(design: CamDesign) -> ComplexArray:
     return np.array([inner, inner + 0.6 * (edge - inner)], dtype=complex)
 
 
-def cam_table(design: CamDesign) -> CamTable:
-    """The follower's motion over a turn, for a controller that does without the cam."""
+def cam_tables(design: CamDesign) -> tuple[CamTable, ...]:
+    """The follower's motion over a turn, for a controller that replaces the cam."""
 
-    def course(angle: FloatArray) -> FloatArray:
-        at = design.programme.at(angle)
-        return np.stack([at.s, at.ds, at.dds])
+    def motion(angle: FloatArray) -> FloatArray:
+        return np.stack(design.programme.at(angle)[:3])
 
     unit = "deg" if design.params.motion == "oscillating" else "mm"
     period = TURN / design.params.speed if design.params.speed > 0 else math.inf
-    return CamTable("cam", "Follower over the cam angle", course, design.programme.knots, unit, period)
+    return (CamTable("cam", "Follower over the cam angle", motion, design.programme.knots, unit, period),)

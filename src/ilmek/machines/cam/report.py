@@ -1,44 +1,85 @@
-"""What a design of a cam says: results, checks, tables, figures, and its parts for workshop and controller."""
+"""The report of a cam: checks, warnings, tables."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
+from ilmek.arrays import FloatArray
 from ilmek.cams import limits
-from ilmek.cams.programme import jumps
-from ilmek.machines.cam.compliant_follower import (
-    springy,
-    springy_checks,
-    springy_figures,
-    springy_results,
-    springy_table,
-)
+from ilmek.cams.contact import FollowerLoad
+from ilmek.cams.laws import LAWS
+from ilmek.cams.programme import CamProgramme, jumps
+from ilmek.errors import ParameterError
+from ilmek.machines.cam.analysis import CamAnalysis
+from ilmek.machines.cam.compliant_follower import vibration_checks, vibration_table
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.figures import figures
-from ilmek.machines.cam.parts import cam_table, plates
-from ilmek.machines.cam.results import pressure_angle_on, results
-from ilmek.machines.cam.shape import size_without_undercut
-from ilmek.machines.cam.tables import tables
-from ilmek.num.piecewise import infimum
-from ilmek.report import Check, Report, at_least, at_most, snap_to_limit
-from ilmek.units import format_quantity
+from ilmek.machines.cam.rollers import ROLLERS, RollerDuty
+from ilmek.machines.cam.shape import programme_of, size_without_undercut, smallest_of
+from ilmek.num.piecewise import infimum, supremum
+from ilmek.report import Check, Table, at_least, at_most, columns
+from ilmek.units import deg, format_quantity
+
+NORTON = "Norton, Cam Design and Manufacturing"
 
 
-def report(design: CamDesign) -> Report:
-    """Everything that the design says."""
-    gives = springy(design)
-    return Report(
-        machine="cam",
-        title="Cam",
-        parameters=design.params.as_dict(),
-        results=(*results(design), *(springy_results(gives) if gives else ())),
-        checks=(*_checks(design), *(springy_checks(gives) if gives else ())),
-        tables=(*tables(design), *((springy_table(gives),) if gives else ())),
-        figures=(*figures(design), *(springy_figures(gives) if gives else ())),
-        warnings=_warnings(design),
-        plates=plates(design),
-        cam_tables=(cam_table(design),),
+def checks(found: CamAnalysis) -> tuple[Check, ...]:
+    """Pressure angle, curvature, lift-off, jumps, wall, Hertz pressure, roller, and the follower on its linkage."""
+    return (
+        *_pressure_angle_checks(found),
+        *_shape_checks(found.design),
+        *_load_checks(found.design),
+        *(vibration_checks(found.compliant) if found.compliant else ()),
     )
+
+
+def _pressure_angle_checks(found: CamAnalysis) -> tuple[Check, ...]:
+    params, limit, source = found.design.params, found.design.params.limit, f"{NORTON}, 7.2"
+    if limit is None:
+        return ()
+    fall, made = found.pressure_angle_fall_max, []
+    if params.follower != "flat" or params.motion != "translating":
+        made.append(at_most("pressure angle on the rise", found.pressure_angle_max, limit, "deg", source))
+    if params.led and not found.design.cam.flat and fall is not None:
+        made.append(at_most("pressure angle on the fall", fall, limit, "deg", source))
+    return tuple(made)
+
+
+def _shape_checks(design: CamDesign) -> tuple[Check, ...]:
+    params, radius, programme = design.params, design.cam.roller_radius, design.programme
+    hollow, convex = design.concave_radius_min, design.curvature_radius_min
+    made = [
+        at_least("convex radius of curvature (no undercut)", convex, radius, "mm", f"{NORTON}, 7: rho > roller radius")
+    ]
+    if params.kind in ("grooved", "barrel") and hollow is not None:
+        made.append(
+            at_least("concave radius of the pitch curve", hollow, radius, "mm", f"{NORTON}, 7: the outer flank")
+        )
+    if not params.led:
+        source = "m w^2 s'' + k s + P + load >= 0"
+        made.append(at_least("speed of lift-off", design.lift_off.speed, params.speed, "rpm", source))
+    drop, bump = (
+        max((abs(jump.after - jump.before) * params.per_unit * params.speed**order for jump in found), default=0.0)
+        for order, found in ((order, jumps(programme, order)) for order in (1, 2))
+    )
+    made.append(at_most("jump of the velocity", drop, 0.0, "m/s", "an infinite force"))
+    made.append(at_most("jump of the acceleration", bump, params.jump_limit, "m/s^2", "jump_limit"))
+    room = least_surface_radius(design) - design.hub.reach
+    if room < math.inf:
+        made.append(at_least("wall between keyway and surface", room, params.wall, "mm", "wall"))
+    return tuple(made)
+
+
+def _load_checks(design: CamDesign) -> tuple[Check, ...]:
+    params, roller, duty, pressure, made = design.params, design.roller, design.duty, design.extremes.pressure, []
+    if pressure is not None and not math.isnan(pressure.value):
+        source = "pressure_limit" if params.pressure_limit else "first yield below the surface, Johnson"
+        made.append(at_most("Hertz pressure", pressure.value, design.pressure_limit, "MPa", source))
+    if roller is not None and duty is not None:
+        life, most = duty.time(roller), roller.force_limit
+        made.append(at_least("life of the roller", life, params.life, "h", "ISO 281, roller bearings"))
+        made.append(at_most("force on the roller", duty.largest, most, "N", "largest force of the roller's table"))
+    return tuple(made)
 
 
 def largest_cutter(design: CamDesign) -> float:
@@ -57,97 +98,122 @@ def least_surface_radius(design: CamDesign) -> float:
     return infimum(lambda angle: np.abs(design.cam.trace(angle).surface), design.cam.knots).value
 
 
-def _checks(design: CamDesign) -> tuple[Check, ...]:
-    params, cam, extremes = design.params, design.cam, design.extremes
-    speed, programme = params.speed, design.programme
-    arc = params.per_unit
-    drops = [abs(jump.after - jump.before) * arc * speed for jump in jumps(programme, 1)]
-    bumps = [abs(jump.after - jump.before) * arc * speed**2 for jump in jumps(programme, 2)]
-    room = least_surface_radius(design) - design.hub.reach
-    norton = "Norton, Cam Design and Manufacturing"
-    checks = [
-        at_least(
-            "convex radius of curvature (no undercut)",
-            limits.convex_radius_min(cam).value,
-            cam.roller_radius,
-            "mm",
-            f"{norton}, 7: rho > roller radius",
-        ),
-        at_most("jump of the velocity", max(drops, default=0.0), 0.0, "m/s", "an endless force"),
-        at_most("jump of the acceleration", max(bumps, default=0.0), params.jump_limit, "m/s^2", "jump_limit"),
-        *((at_least("wall between keyway and surface", room, params.wall, "mm", "wall"),) if room < math.inf else ()),
-    ]
-    if not params.led:
-        source = "m w^2 s'' + k s + P + load >= 0"
-        checks.insert(1, at_least("speed of lift-off", design.lift_off.speed, speed, "rpm", source))
-    hollow = limits.concave_radius_min(cam)
-    if params.kind in ("grooved", "barrel") and hollow is not None:
-        source = f"{norton}, 7: the outer flank"
-        checks.insert(1, at_least("concave radius of the pitch curve", hollow.value, cam.roller_radius, "mm", source))
-    if params.limit is not None and params.led and not cam.flat:
-        found = snap_to_limit(pressure_angle_on(design, design.fall_knots).value, params.limit)
-        checks.insert(0, at_most("pressure angle on the fall", found, params.limit, "deg", f"{norton}, 7.2"))
-    if params.limit is not None and not (params.follower == "flat" and params.motion == "translating"):
-        found = snap_to_limit(pressure_angle_on(design, design.rise_knots).value, params.limit)
-        checks.insert(0, at_most("pressure angle on the rise", found, params.limit, "deg", f"{norton}, 7.2"))
-    if extremes.pressure is not None and not math.isnan(extremes.pressure.value):
-        source = "pressure_limit" if params.pressure_limit else "first yield below the surface, Johnson"
-        checks.append(at_most("Hertz pressure", extremes.pressure.value, design.pressure_limit, "MPa", source))
-    if design.roller is not None and design.duty is not None:
-        checks += _roller_checks(design)
-    return tuple(checks)
-
-
-def _roller_checks(design: CamDesign) -> list[Check]:
-    roller, duty = design.roller, design.duty
-    if roller is None or duty is None:
-        return []
-    return [
-        at_least("life of the roller", duty.time(roller), design.params.life, "h", "ISO 281, roller bearings"),
-        at_most("force on the roller", duty.largest, roller.force_limit, "N", "largest force of the roller's table"),
-    ]
-
-
-def _warnings(design: CamDesign) -> tuple[str, ...]:
-    params, cam, said = design.params, design.cam, []
+def warnings(found: CamAnalysis) -> tuple[str, ...]:
+    """Reasons why the cam cannot be made or run as it is, and remedies."""
+    design = found.design
+    params, cam, made = design.params, design.cam, []
     smallest, limit = design.size.smallest.value, params.limit
     if params.follower != "flat" and limit is not None and cam.prime_radius < smallest * (1 - 1e-9):
         shown, least = (format_quantity(value, "mm") for value in (cam.prime_radius, smallest))
         angle = format_quantity(limit, "deg")
-        said.append(f"prime_radius={shown} is too small for a pressure angle of {angle}: the smallest is {least}")
+        made.append(f"prime_radius={shown} is too small for a pressure angle of {angle}: the smallest is {least}")
     if design.undercut:
-        said.append(_undercut_said(design))
+        made.append(_undercut_warning(design))
     if jumps(design.programme, 1):
-        said.append("the velocity jumps: the cam would need an endless force; take a law from rest to rest")
+        made.append("the velocity jumps: the cam would need an infinite force; take a law from rest to rest")
     if least_surface_radius(design) <= design.hub.reach:
-        said.append(
-            f"the bore of {format_quantity(design.hub.bore, 'mm')} does not fit into the cam, which is drawn without it"
-        )
+        bore = format_quantity(design.hub.bore, "mm")
+        made.append(f"the bore of {bore} does not fit into the cam, which is drawn without it")
     largest = largest_cutter(design)
     if params.cutter_radius is not None and params.cutter_radius > largest * (1 + 1e-9):
         shown, most = (format_quantity(value, "mm") for value in (params.cutter_radius, largest))
-        said.append(f"cutter_radius={shown} does not get into every hollow of the cam: at most {most}")
+        made.append(f"cutter_radius={shown} does not reach into every hollow of the cam: at most {most}")
     if design.roller is None and params.follower == "roller" and params.roller_radius is None:
-        said.append(
-            f"no roller of the table fits this cam: reckoned with {format_quantity(cam.roller_radius, 'mm')} of radius"
-        )
+        radius = format_quantity(cam.roller_radius, "mm")
+        made.append(f"no roller of the table fits this cam: computed with a radius of {radius}")
     if math.isnan(design.extremes.normal.value):
-        said.append("the follower jams in its guide: lower the friction or the pressure angle")
-    return tuple(said)
+        made.append("the follower jams in its guide: lower the friction or the pressure angle")
+    return tuple(made)
 
 
-def _undercut_said(design: CamDesign) -> str:
+def _undercut_warning(design: CamDesign) -> str:
     cam, params = design.cam, design.params
     if design.cornered:
         return f"undercut: where the velocity jumps the cam has a corner, which a {params.follower} cannot follow"
-    convex = format_quantity(limits.convex_radius_min(cam).value, "mm")
     if params.follower == "flat":
         least = format_quantity(design.size.smallest.value, "mm")
         return f"a flat follower needs a cam that is convex all round: the smallest base radius is {least}"
+    convex = format_quantity(design.curvature_radius_min, "mm")
     least_radius = size_without_undercut(params, design.programme, cam.roller_radius)
-    mend = (
-        f"set prime_radius={format_quantity(least_radius * (1 + 1e-4), 'mm').replace(' ', '')} or a smaller roller"
-        if math.isfinite(least_radius)
-        else "take a smaller roller"
+    remedy = "take a smaller roller"
+    if math.isfinite(least_radius):
+        shown = format_quantity(least_radius * (1 + 1e-4), "mm").replace(" ", "")
+        remedy = f"set prime_radius={shown} or a smaller roller"
+    return f"undercut: the pitch curve's radius is {convex}, not more than the roller's: {remedy}"
+
+
+def tables(found: CamAnalysis) -> tuple[Table, ...]:
+    """Laws, rollers where there is one, points of the cam, vibration where the follower is compliant."""
+    design = found.design
+    rollers = (_roller_table(design, design.duty),) if design.duty and design.roller else ()
+    vibration = (vibration_table(found.compliant),) if found.compliant else ()
+    return (_law_table(design), *rollers, _point_table(design), *vibration)
+
+
+def _law_table(design: CamDesign) -> Table:
+    """Each law for rise and fall, at the same lift, angles, load and limit."""
+    heads = columns(
+        "law",
+        "smallest prime radius [mm]",
+        "velocity [m/s]",
+        "acceleration [m/s^2]",
+        "jerk [m/s^3]",
+        "torque [N*m]",
+        "acceleration jumps",
     )
-    return f"undercut: the pitch curve's radius is {convex}, not more than the roller's: {mend}"
+    rows = tuple(_law_row(design, name) for name in LAWS)
+    return Table("cam-laws", "Motion laws compared at equal lift, angles, load and limit", heads, rows)
+
+
+def _law_row(design: CamDesign, name: str) -> tuple[float | int | str, ...]:
+    """A law's row; the spring stays the same, the torque is that of load, spring and mass without friction."""
+    params, speed = design.params, design.params.speed
+    law = params.laws()[0] if name == params.law else LAWS[name]
+    programme = programme_of(params, (law, law))
+    rate = speed / min(params.rise, params.fall_angle)
+    peaks = (law.velocity_peak * rate, law.acceleration_peak * rate**2, law.jerk_peak * rate**3)
+    try:
+        size = smallest_of(params, programme).value
+    except ParameterError:
+        size = math.nan
+    return name, size, *(params.lift * peak for peak in peaks), _torque(programme, design.held), len(jumps(programme))
+
+
+def _torque(programme: CamProgramme, held: FollowerLoad) -> float:
+    def torque(angle: FloatArray) -> FloatArray:
+        at = programme.at(angle)
+        return np.asarray(np.abs(held.force(at.s, at.dds) * at.ds))
+
+    return supremum(torque, programme.knots).value
+
+
+def _roller_table(design: CamDesign, duty: RollerDuty) -> Table:
+    """Life of each roller of the table under the force on this cam."""
+    heads = columns("roller", "diameter [mm]", "width [mm]", "C [N]", "largest force [N]", "life [h]", "chosen")
+    rows = []
+    for roller in ROLLERS.values():
+        turns = (duty.turns + 1) * design.cam.roller_radius / roller.radius - 1
+        life = replace(duty, turns=turns).time(roller) if turns > 0 else math.inf
+        chosen = "yes" if roller is design.roller else ""
+        rows.append((roller.name, roller.diameter, roller.width, roller.dynamic, roller.force_limit, life, chosen))
+    return Table("cam-rollers", "Rollers under the force on this cam", heads, tuple(rows))
+
+
+def _point_table(design: CamDesign) -> Table:
+    """The cam in steps of 5 degrees, to be drawn or checked."""
+    angle = np.arange(0, 360, 5) * deg
+    state = design.state(angle)
+    trace, lift = state.trace, state.trace.course.s * design.params.per_unit
+    shape = (angle, lift, trace.surface.real, trace.surface.imag, trace.pressure_angle, trace.curvature)
+    heads = columns(
+        "cam angle [deg]",
+        "lift [mm]",
+        "x [mm]",
+        "y [mm]",
+        "pressure angle [deg]",
+        "curvature [1/m]",
+        "contact force [N]",
+        "torque [N*m]",
+    )
+    rows = np.stack([*shape, state.normal, state.torque], axis=1).tolist()
+    return Table("cam-points", "The cam in steps of 5°", heads, tuple(map(tuple, rows)))

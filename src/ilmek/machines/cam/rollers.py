@@ -1,9 +1,9 @@
-"""Cam followers: rollers with a stud, from a table; how long one lasts on a cam, and the smallest that is enough.
+"""Cam followers: rollers with a stud, from a table; their life on a cam.
 
     L = (C / P)^(10/3) 10^6 turns of the roller,   P = (mean of N^(10/3) over those turns)^(3/10)     [ISO 281]
 
-N force on the roller, C dynamic load rating. While the cam turns by dtheta the roller turns by (flow / Rr - 1) dtheta,
-flow being the way of its centre along the pitch curve by the cam angle.
+N force on the roller, C dynamic load rating. While the cam rotates by dtheta the roller rotates by (flow / Rr - 1)
+dtheta; flow is the path of its centre along the pitch curve by the cam angle.
 """
 
 import math
@@ -14,7 +14,7 @@ from ilmek.elements.catalogue import pick
 from ilmek.units import g, mm
 
 POWER = 10 / 3
-"""Of the load in the life of a roller bearing."""
+"""Exponent of the load in the life of a roller bearing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ def find_roller(name: str) -> Roller:
 
 @dataclass(frozen=True, slots=True)
 class RollerDuty:
-    """What a roller bears: equivalent and largest force [N], its turns by turn of the cam, the cam's speed [rad/s]."""
+    """Equivalent and largest force on a roller [N], its turns per turn of the cam, the cam's speed [rad/s]."""
 
     equivalent: float
     largest: float
@@ -72,6 +72,6 @@ class RollerDuty:
     speed: float
 
     def time(self, roller: Roller) -> float:
-        """How long a roller lasts [s]: inf where nothing turns or presses."""
+        """Life of a roller [s]: inf without rotation or force."""
         pace = self.turns * self.speed / (2 * math.pi)
         return life(roller.dynamic, self.equivalent, "roller") / pace if pace > 0 else math.inf

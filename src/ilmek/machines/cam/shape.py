@@ -1,4 +1,4 @@
-"""The cam's programme, its smallest size, and the cam of a size: what depends on what the cam and its follower are."""
+"""The cam's programme, its smallest size, and the cam of a size, by the kinds of cam and follower."""
 
 import math
 from dataclasses import dataclass
@@ -46,14 +46,14 @@ def programme_of(params: CamParams, laws: tuple[Law, Law] | None = None) -> CamP
 
 def part_knots(programme: CamProgramme, name: str) -> FloatArray:
     """Cam angles between which the rise, or the fall, is smooth."""
-    place = next(i for i, segment in enumerate(programme.segments) if segment.name == name)
-    begin, segment = float(programme.edges[place]), programme.segments[place]
+    index = next(i for i, segment in enumerate(programme.segments) if segment.name == name)
+    begin, segment = float(programme.edges[index]), programme.segments[index]
     return np.array([begin + u * segment.span for u in (0.0, *segment.law.breaks, 1.0)])
 
 
 @dataclass(frozen=True, slots=True)
 class CamSize:
-    """Prime radius [m] taken, the smallest that would do, and the cam angle that asks for it."""
+    """Prime radius [m], the smallest for the limits, and the cam angle that requires it."""
 
     prime_radius: float
     smallest: Extremum
@@ -71,15 +71,15 @@ def size_of(params: CamParams, programme: CamProgramme) -> CamSize:
 def smallest_of(params: CamParams, programme: CamProgramme) -> Extremum:
     """The smallest prime radius for the limit; NaN where none does and one is given.
 
-    Of a slide with a roller the limit of the pressure angle alone counts; of any other cam that a surface exists too.
+    For a slide with a roller the pressure angle alone decides; for any other cam a surface must exist too.
     """
     if params.motion == "translating" and params.follower != "flat" and not params.laid_flat:
-        found = pressure_prime(programme, asked_of(params), params.offset)
-        # A nearly flat rise asks for next to nothing: the circle must still hold the offset and the roller.
+        found = pressure_prime(programme, limits_of(params), params.offset)
+        # A nearly flat rise hardly limits the circle: it must still be larger than offset and roller.
         room = max(abs(params.offset), params.roller_radius or 0.0)
         return found if found.value > room else Extremum(found.at, room * (1 + 1e-9))
     try:
-        size = smallest_prime(_cam(params, programme, None, params.roller_radius or 0.0), asked_of(params))
+        size = smallest_prime(_cam(params, programme, None, params.roller_radius or 0.0), limits_of(params))
     except ParameterError:
         if params.prime_radius is None:
             raise
@@ -87,8 +87,8 @@ def smallest_of(params: CamParams, programme: CamProgramme) -> Extremum:
     return Extremum(size.at, size.prime_radius)
 
 
-def asked_of(params: CamParams) -> CamLimits:
-    """The limits that set the size: a cam that leads both ways pushes on the fall too."""
+def limits_of(params: CamParams) -> CamLimits:
+    """The limits that set the size: a cam that leads both ways also pushes on the fall."""
     if params.follower == "flat":
         return CamLimits(convex=params.curvature_least)
     limit = params.limit or LIMIT
@@ -103,7 +103,7 @@ class CamShape(NamedTuple):
 
 
 def cams_of(params: CamParams, programme: CamProgramme, size: CamSize, roller_radius: float) -> CamShape:
-    """The cam of a size and a roller, and what holds its follower from the other side.
+    """The cam of a size and a roller, and the second of two conjugate ones.
 
     Raises ParameterError, naming the smallest size, where it cannot exist.
     """
@@ -112,7 +112,7 @@ def cams_of(params: CamParams, programme: CamProgramme, size: CamSize, roller_ra
 
 
 def _pair(params: CamParams, cam: CamRole) -> ConjugatePair:
-    """Both plates; where nothing is said the second has the prime circle of the first."""
+    """Both plates; by default they have equal prime circles."""
     lift = params.lift / params.per_unit
     if isinstance(cam, OscillatingCam):
         return conjugate_arms(cam, params.between or 2 * cam.start_angle + lift)
@@ -137,7 +137,7 @@ def cam_of(params: CamParams, programme: CamProgramme, size: CamSize, roller_rad
 def size_without_undercut(params: CamParams, programme: CamProgramme, roller_radius: float) -> float:
     """The least prime radius [m] that keeps the limit and suits a roller; inf where none does."""
     try:
-        return smallest_prime(_cam(params, programme, None, roller_radius), asked_of(params)).prime_radius
+        return smallest_prime(_cam(params, programme, None, roller_radius), limits_of(params)).prime_radius
     except ParameterError:
         return math.inf
 

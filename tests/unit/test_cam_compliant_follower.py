@@ -1,4 +1,4 @@
-"""`ilmek design cam` with a linkage that gives: against the rigid follower and the closed form of the residual."""
+"""`ilmek design cam` with a compliant linkage: against the rigid follower and the closed form of the residual."""
 
 import math
 
@@ -9,9 +9,9 @@ from ilmek.cams.return_spring import least_force
 from ilmek.cams.vibration import residual
 from ilmek.errors import ParameterError
 from ilmek.machines.cam import MACHINE
-from ilmek.machines.cam.compliant_follower import springy, springy_checks, springy_results
+from ilmek.machines.cam.compliant_follower import compliant_follower, vibration_checks
 from ilmek.machines.cam.design import CamDesign
-from ilmek.report import Plot
+from ilmek.report import Plot, results_of
 
 ASKED = {"lift": "20mm", "rise": "90deg", "mass": "2kg", "speed": "300rpm", "law": "modified-sine"}
 
@@ -21,13 +21,13 @@ def design(**said: str) -> CamDesign:
 
 
 def numbers(design: CamDesign) -> dict[str, float]:
-    made = springy(design)
+    made = compliant_follower(design)
     assert made is not None
-    return {result.name: result.value for result in springy_results(made)}
+    return {result.name: result.value for result in results_of(made)}
 
 
 def test_a_rigid_follower_says_nothing_of_vibration() -> None:
-    assert springy(design()) is None
+    assert compliant_follower(design()) is None
 
 
 def test_frequency_ratio_and_residual_are_those_of_the_law() -> None:
@@ -67,9 +67,9 @@ def test_a_soft_linkage_leaves_the_cam_before_the_rigid_follower_does() -> None:
 
 
 def test_a_groove_pulls_too() -> None:
-    made = springy(design(linkage_stiffness="200N/mm", kind="grooved"))
+    made = compliant_follower(design(linkage_stiffness="200N/mm", kind="grooved"))
     assert made is not None
-    assert springy_checks(made) == ()
+    assert vibration_checks(made) == ()
 
 
 @pytest.mark.parametrize(
@@ -82,4 +82,4 @@ def test_a_groove_pulls_too() -> None:
 )
 def test_refuses(said, message) -> None:
     with pytest.raises(ParameterError, match=message):
-        springy(design(**{"linkage_stiffness": "200N/mm", **said}))
+        compliant_follower(design(**{"linkage_stiffness": "200N/mm", **said}))
