@@ -110,12 +110,12 @@ def test_the_driven_torque_jumps_at_the_lowest_place() -> None:
     lowest = made().lowest / deg
     assert float(at(lowest, +1).driven_torque[0]) == pytest.approx(132.39646, abs=5e-6)
     assert float(at(lowest, -1).driven_torque[0]) == pytest.approx(-122.144, abs=5e-4)
-    assert made().extremes["driven_torque"][0] == pytest.approx(-122.398, abs=5e-4)
+    assert made().ranges["driven_torque"][0] == pytest.approx(-122.398, abs=5e-4)
 
 
 @pytest.mark.parametrize(("friction", "least"), [("window", -0.601266), ("always", -0.154755)])
 def test_least_main_torque_tells_the_readings_apart(friction: str, least: float) -> None:
-    assert made(friction=friction).extremes["main_torque"][0] == pytest.approx(least, abs=5e-7)
+    assert made(friction=friction).ranges["main_torque"][0] == pytest.approx(least, abs=5e-7)
 
 
 @pytest.mark.parametrize(
@@ -137,7 +137,7 @@ def test_the_driven_shaft_takes_far_more_torque_than_the_main_shaft() -> None:
 
 def test_without_friction() -> None:
     free = made(Fr="0N")
-    assert free.extremes["driven_torque"] == pytest.approx((1.9140, 5.1295), abs=5e-5)
+    assert free.ranges["driven_torque"] == pytest.approx((1.9140, 5.1295), abs=5e-5)
     assert free.peaks["driven_torque"].at / deg == pytest.approx(103.96, abs=5e-3)
     assert free.peaks["main_torque"].value == pytest.approx(0.7224, abs=5e-5)
     assert free.peaks["main_torque"].at / deg == pytest.approx(352.21, abs=5e-3)

@@ -26,8 +26,8 @@ from ilmek.machines.beat_up.family import FamilyResult, chosen_ratio, family_of,
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
 from ilmek.machines.beat_up.shaking import Balance, balance
 from ilmek.num.piecewise import Extremum, around, suprema
-from ilmek.records import record
-from ilmek.report import Json, computed, group, result
+from ilmek.records import Computed, computed, group, record, result
+from ilmek.report import Json
 from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
     LinkRatios,
@@ -67,6 +67,11 @@ class BeatUpState:
     beater_force: ComplexArray
 
 
+def _peak(unit: str, doc: str, name: str) -> Computed[float]:
+    """A result that is one of the `peaks`."""
+    return computed(unit, doc, lambda it: it.peaks[name].value)
+
+
 @record
 class BeatUp:
     """A designed beat-up mechanism.
@@ -104,24 +109,18 @@ class BeatUp:
 
     period = computed("s", "time of one beat, a turn of the crank", lambda it: turn / it.params.speed)
     beats_per_minute = computed("1", "beats a minute", lambda it: minute / it.period)
-    beater_velocity_max = computed("m/s", "greatest speed of the beater", lambda it: it.peaks["beater_velocity"].value)
-    beater_acceleration_max = computed(
-        "m/s^2",
-        "greatest acceleration of the beater, along and across its path together",
-        lambda it: it.peaks["beater_acceleration"].value,
+    beater_velocity_max = _peak("m/s", "greatest speed of the beater", "beater_velocity")
+    beater_acceleration_max = _peak(
+        "m/s^2", "greatest acceleration of the beater, along and across its path together", "beater_acceleration"
     )
     beater_acceleration_angle = computed(
         "deg", "crank angle of the greatest acceleration, near the beat", lambda it: it.peaks["beater_acceleration"].at
     )
-    beater_force_max = computed(
-        "N",
-        "greatest force between rocker and beater: beater mass times acceleration, less its weight",
-        lambda it: it.peaks["beater_force"].value,
+    beater_force_max = _peak(
+        "N", "greatest force between rocker and beater: mass times acceleration, less its weight", "beater_force"
     )
     pin_force_max = computed("N", "greatest force in each pin", lambda it: {pin: it.peaks[pin].value for pin in PINS})
-    drive_torque_max = computed(
-        "N*m", "greatest magnitude of the torque on the crank", lambda it: it.peaks["drive_torque"].value
-    )
+    drive_torque_max = _peak("N*m", "greatest magnitude of the torque on the crank", "drive_torque")
     drive_power_max = computed(
         "W", "greatest power to and from the drive, at constant speed", lambda it: it.drive_torque_max * it.params.speed
     )

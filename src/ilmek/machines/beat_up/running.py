@@ -40,12 +40,8 @@ class LastTurn:
     torque: FloatArray
 
     run_speed_mean = computed("rad/s", "mean speed of the last turn that was run", lambda it: float(it.speed.mean()))
-    run_motor_torque_max = computed(
-        "N*m", "greatest torque of the motor in it", lambda it: float(np.max(np.abs(it.torque)))
-    )
-    run_motor_torque_rms = computed(
-        "N*m", "root mean square of the same", lambda it: math.sqrt(float(np.mean(it.torque**2)))
-    )
+    run_motor_torque_max = computed("N*m", "its greatest motor torque", lambda it: float(np.max(np.abs(it.torque))))
+    run_motor_torque_rms = computed("N*m", "root mean square of it", lambda it: math.sqrt(float(np.mean(it.torque**2))))
 
     @computed("1", "fluctuation of the speed in that turn: (greatest - least) / mean of both", name="run_fluctuation")
     def fluctuation(self) -> float:
@@ -71,9 +67,7 @@ class MotorRun:
     last_turn: LastTurn | None = group()
 
     drive_torque_rms = computed("N*m", "root mean square of the torque", lambda it: it.duty.rms)
-    work_excess = computed(
-        "J", "work above the mean between least and greatest speed, over a turn", lambda it: it.duty.excess
-    )
+    work_excess = computed("J", "work above the mean between least and greatest speed", lambda it: it.duty.excess)
 
     @computed("N*m", "mean torque: nothing is lost, so that it is zero")
     def drive_torque_mean(self) -> float:

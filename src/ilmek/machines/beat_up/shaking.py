@@ -39,12 +39,8 @@ class Balance:
     mass: float = result("kg", "mass of the counterweight at counterweight_radius", name="counterweight_mass")
     whole: tuple[complex, complex]
 
-    shaking_force_max = computed(
-        "N", "greatest force of the moving masses on the frame", lambda it: _most(it.before.force)
-    )
-    shaking_moment_max = computed(
-        "N*m", "its greatest moment about the crank's pivot", lambda it: _most(it.before.moment)
-    )
+    shaking_force_max = computed("N", "greatest force of the moving masses", lambda it: _most(it.before.force))
+    shaking_moment_max = computed("N*m", "its moment about the crank's pivot", lambda it: _most(it.before.moment))
     shaking_first_harmonic = computed(
         "N",
         "the parts of its first harmonic that turn with the crank and against it",
@@ -53,7 +49,7 @@ class Balance:
     counterweight_moment = computed("", "on the crank: mass times radius (kg m)", lambda it: abs(it.counterweight))
     counterweight_angle = computed("deg", "its direction, from the crank", lambda it: _direction(it.counterweight))
     shaking_force_max_balanced = computed(
-        "N", "greatest shaking force with that counterweight", lambda it: _most(it.after.force)
+        "N", "greatest force with that counterweight", lambda it: _most(it.after.force)
     )
     shaking_moment_max_balanced = computed("N*m", "greatest shaking moment with it", lambda it: _most(it.after.moment))
     full_balance_moment = computed(

@@ -69,9 +69,7 @@ class CombDrive:
     balance: float = result("N", "weight that the axes hold, the balanced part taken off", name="weight_carried")
     contact_speed: float = result("mm/s", "speed of the comb where it meets the row: it presses, it does not strike")
     axes: int = result("1", "vertical axes: ball screws or toothed belts")
-    brake: float = result(
-        "Nm", "torque that holds a screw or pulley at rest: neither locks itself", name="brake_torque"
-    )
+    brake: float = result("Nm", "torque that holds a screw or pulley: neither locks itself", name="brake_torque")
     screw: float | None = result("mm", "diameter of a ball screw; none for belts", name="screw_diameter")
     buckling: float | None = result("1", "safety of a screw against buckling, Euler", name="buckling_safety")
 

@@ -30,9 +30,7 @@ class Comb:
     uniformity = computed("1", "least force over the largest, across the width", lambda it: it.line.uniformity)
     share_min = computed("1", "least force over the mean", lambda it: it.line.least)
     share_max = computed("1", "largest force over the mean", lambda it: it.line.most)
-    beam_number = computed(
-        "1", "width over the length in which the comb bends on the fell, l W", lambda it: it.line.number
-    )
+    beam_number = computed("1", "width over the length in which the comb bends, l W", lambda it: it.line.number)
 
 
 def comb_mass(params: HammerParams) -> float:

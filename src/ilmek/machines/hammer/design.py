@@ -31,9 +31,7 @@ class CombLinkage:
     energy: float = result("J", "kinetic energy of the comb at its largest speed", name="swing_energy")
     speed_needed: float | None = result("rad/s", "speed of the crank that the required rows need")
 
-    transmission_angle_min = computed(
-        "deg", "least transmission angle of the crank-rockers", lambda it: it.one.transmission_angle_min
-    )
+    transmission_angle_min = computed("deg", "least of the crank-rockers", lambda it: it.one.transmission_angle_min)
 
 
 @record
@@ -55,19 +53,14 @@ class Hammer:
 
     rows_along = computed("1/dm", "rows of knots along the carpet", lambda it: 1 / it.spacing, name="knots_along")
     row_pitch_range = computed(
-        "mm", "least and largest distance of the rows over the width", lambda it: _ends(it.spacing_across())
+        "mm", "least and largest row pitch over the width", lambda it: _ends(it.spacing_across())
     )
-    force_warp_min = computed("N", "least force of a warp across the width", lambda it: float(it.force_across().min()))
-    force_warp_max = computed(
-        "N", "largest force of a warp across the width", lambda it: float(it.force_across().max())
-    )
+    force_warp_min = computed("N", "least force of a warp over the width", lambda it: float(it.force_across().min()))
+    force_warp_max = computed("N", "largest force of a warp over the width", lambda it: float(it.force_across().max()))
     whole_force = computed("N", "force on the whole fell", lambda it: it.force * it.params.warps, name="force")
     tension = computed("N", "tension of a warp before the beat", lambda it: it.fabric.tension)
     fell = computed(
-        "mm",
-        "displacement of the fell, which returns",
-        lambda it: float(it.fabric.fell(it.force)),
-        name="fell_movement",
+        "mm", "elastic displacement of the fell", lambda it: float(it.fabric.fell(it.force)), name="fell_movement"
     )
     comb_travel = computed(
         "mm",
@@ -82,9 +75,7 @@ class Hammer:
         "part of it that packs the row and is not returned",
         lambda it: it.fabric.packing_work(it.spacing) * it.params.warps,
     )
-    beat_power = computed(
-        "W", "mean power, two beats a turn of the cams", lambda it: 2 * it.beat_energy / it.params.turn_time
-    )
+    beat_power = computed("W", "mean power, two beats a turn", lambda it: 2 * it.beat_energy / it.params.turn_time)
 
     @computed("kg", "mass of all that moves: cams and comb, or the comb alone and its crank-rockers")
     def mass(self) -> float:

@@ -62,9 +62,9 @@ class HammerParams(Params):
     warp_stiffness: float | None = kind.force(
         None, at_least=1.0, at_most=1e7, doc="force over strain of a warp; default: cotton of its mass", symbol="EA"
     )
-    warp_length: float = kind.length(1.5, unit="m", at_least=0.01, at_most=100.0, doc="warp from the fell to its beam")
+    warp_length: float = kind.length(1.5, unit="m", at_least=0.01, at_most=100.0, doc="warp from fell to beam")
     cloth_length: float = kind.length(
-        CLOTH_LENGTH, unit="m", at_least=0.01, at_most=100.0, doc="cloth from the fell to its beam"
+        CLOTH_LENGTH, unit="m", at_least=0.01, at_most=100.0, doc="cloth from fell to beam"
     )
     drive: str = kind.choice("comb", DRIVES, doc="comb on the guide cams with its vertical stroke, or crank-rockers")
     force: float | None = kind.force(
@@ -108,18 +108,16 @@ class HammerParams(Params):
     stroke: float = kind.length(100 * mm, at_least=1 * mm, at_most=2.0, doc="vertical stroke of the comb")
     law: str = kind.choice("modified-sine", SMOOTH_LAWS, doc="motion law of the stroke")
     shed_speed: float = kind.angular_speed(
-        5 * rpm, at_least=0.01 * rpm, at_most=120 * rpm, doc="speed of the shed's cams"
+        5 * rpm, at_least=0.01 * rpm, at_most=120 * rpm, doc="speed of the shed cams"
     )
-    step: float = kind.angle(
-        90 * deg, at_least=1 * deg, at_most=180 * deg, doc="cam angle for a beat, down, press and up"
-    )
+    step: float = kind.angle(90 * deg, at_least=1 * deg, at_most=180 * deg, doc="cam angle of a beat: down, press, up")
     press_share: float = kind.ratio(0.15, at_least=0.0, at_most=0.9, doc="share of it for which the comb presses")
     stack_mass: float | None = kind.mass(
         None, at_least=0.0, at_most=1e5, doc="cams that go down with the comb; default: 550 kg on 1.2 m"
     )
     counterbalance: float = kind.ratio(0.0, at_least=0.0, at_most=1.0, doc="share of the weight that is balanced")
     axes: int | None = kind.count(
-        None, at_least=1, at_most=200, doc="vertical axes that share the comb; default: one for each support"
+        None, at_least=1, at_most=200, doc="vertical axes of the comb; default: one a support"
     )
     axis: str = kind.choice("screw", AXES, doc="ball screws or toothed belts")
     lead: float = kind.length(10 * mm, at_least=0.5 * mm, at_most=0.2, doc="lead of the screws")
@@ -128,11 +126,9 @@ class HammerParams(Params):
     )
     pulley_radius: float = kind.length(25 * mm, at_least=5 * mm, at_most=0.5, doc="pitch radius of the belts' pulleys")
     axis_efficiency: float = kind.ratio(0.9, at_least=0.05, at_most=1.0, doc="efficiency of screw or belt")
-    beat_speed: float = kind.angular_speed(
-        15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the linkage's crank"
-    )
+    beat_speed: float = kind.angular_speed(15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the crank")
     beaters: int | None = kind.count(
-        None, at_least=1, at_most=100, doc="crank-rockers; default: one for 1.5 m of width"
+        None, at_least=1, at_most=100, doc="crank-rockers; default: one per 1.5 m of width"
     )
     ground: float = kind.length(0.3, at_least=1 * mm, at_most=10.0, doc="distance of the pivots of crank and rocker")
 

@@ -27,7 +27,7 @@ from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.tufting.model import PINS, TuftingState, evaluate, mechanism, move
 from ilmek.machines.tufting.params import TuftingParams
 from ilmek.num.piecewise import Extremum, around, integrals, roots_of_turn, suprema
-from ilmek.records import computed, record, result
+from ilmek.records import Computed, computed, record, result
 from ilmek.report import Json
 from ilmek.units import turn
 
@@ -47,16 +47,26 @@ Evaluated: TypeAlias = Callable[[FloatArray, FloatArray], TuftingState]
 """State at crank angles [rad]; sides: which limit counts where the friction jumps."""
 
 
+def _peak(unit: str, doc: str, name: str) -> Computed[float]:
+    """A result that is one of the `peaks`."""
+    return computed(unit, doc, lambda it: it.peaks[name].value)
+
+
+def _ends(unit: str, doc: str, name: str) -> Computed[list[float]]:
+    """A result that is the least and the greatest value of an angle or torque."""
+    return computed(unit, doc, lambda it: list(it.ranges[name]))
+
+
 @record
 class Tufting:
     """A designed needle mechanism.
 
-    ranges           theta2 ... theta5 -> least and greatest angle [rad], unwrapped as in the paper
+    ranges           least and greatest values: of theta2 ... theta5 [rad], unwrapped as in the paper, and with their
+                     signs of main_torque and driven_torque [N m]
     breaks           crank angles [rad] at which the friction jumps
     state            over one turn, both ends included; at breaks twice, with both limits
     peaks            greatest magnitudes over the turn: main_torque, driven_torque, joints, needle_velocity and
                      needle_acceleration, and of all bars together total_torque and bearing
-    extremes         least and greatest values with their signs: main_torque, driven_torque
     work             over a turn [J]: drive, friction (in the backing), and sums for the rms torques [N² m² rad]
     at               at the given crank angle, if any
     """
@@ -67,7 +77,6 @@ class Tufting:
     breaks: tuple[float, ...]
     state: TuftingState
     peaks: Mapping[str, Extremum]
-    extremes: Mapping[str, tuple[float, float]]
     work: Mapping[str, float]
     at: TuftingState | None
     stroke: float = result("mm", "distance of the needle's highest position from its lowest")
@@ -76,67 +85,41 @@ class Tufting:
     transmission: float = result("deg", "least acute angle of coupler and rocker", name="transmission_angle_min")
     pressure_angle: float = result("deg", "greatest angle of the rod to the needle's line", name="pressure_angle_max")
 
-    theta2_range = computed(
-        "deg", "least and greatest angle of the coupler, A to B", lambda it: list(it.ranges["theta2"])
-    )
-    theta3_range = computed(
-        "deg", "least and greatest angle of the rocker, C to B", lambda it: list(it.ranges["theta3"])
-    )
-    theta4_range = computed(
-        "deg",
-        "least and greatest angle of the arm, C to D: theta3 + beta1 - 360 deg (Eq 15)",
-        lambda it: list(it.ranges["theta4"]),
-    )
-    theta5_range = computed("deg", "least and greatest angle of the rod, D to E", lambda it: list(it.ranges["theta5"]))
+    theta2_range = _ends("deg", "least and greatest angle of the coupler, A to B", "theta2")
+    theta3_range = _ends("deg", "least and greatest angle of the rocker, C to B", "theta3")
+    theta4_range = _ends("deg", "those of the arm, C to D: theta3 + beta1 - 360 deg (Eq 15)", "theta4")
+    theta5_range = _ends("deg", "least and greatest angle of the rod, D to E", "theta5")
     entry_height = computed("mm", "needle above its lowest position at entry", lambda it: it.height(it.params.entry))
     exit_height = computed("mm", "needle above its lowest position at exit", lambda it: it.height(it.params.exit))
-    needle_velocity_max = computed("m/s", "greatest speed of the needle", lambda it: it.peak("needle_velocity"))
-    needle_acceleration_max = computed(
-        "m/s^2", "greatest acceleration of the needle", lambda it: it.peak("needle_acceleration")
+    needle_velocity_max = _peak("m/s", "greatest speed of the needle", "needle_velocity")
+    needle_acceleration_max = _peak("m/s^2", "greatest acceleration of the needle", "needle_acceleration")
+    main_shaft_torque_max = _peak("N*m", "greatest magnitude of the torque on the crank", "main_torque")
+    main_shaft_torque_range = _ends("N*m", "least and greatest, with sign", "main_torque")
+    main_shaft_torque_rms = computed("N*m", "root mean square of the same", lambda it: it.rms("main_torque"))
+    driven_shaft_torque_max = _peak(
+        "N*m", "greatest magnitude of the torque from rocker to arm; a limit where friction jumps", "driven_torque"
     )
-    main_shaft_torque_max = computed(
-        "N*m", "greatest magnitude of the torque on the crank", lambda it: it.peak("main_torque")
-    )
-    main_shaft_torque_range = computed(
-        "N*m", "least and greatest, with sign", lambda it: list(it.extremes["main_torque"])
-    )
-    main_shaft_torque_rms = computed(
-        "N*m", "root mean square of the torque on the crank", lambda it: it.rms("main_torque")
-    )
-    driven_shaft_torque_max = computed(
-        "N*m",
-        "greatest magnitude of the torque between rocker and arm in the driven shaft; a limit where friction jumps",
-        lambda it: it.peak("driven_torque"),
-    )
-    driven_shaft_torque_range = computed(
-        "N*m", "least and greatest, with sign", lambda it: list(it.extremes["driven_torque"])
-    )
+    driven_shaft_torque_range = _ends("N*m", "least and greatest, with sign", "driven_torque")
     driven_shaft_torque_rms = computed("N*m", "root mean square of the same", lambda it: it.rms("driven_torque"))
     pin_force_max = computed(
         "N",
         "greatest force in each joint; C is the whole load of the driven shaft's bearing",
-        lambda it: {name: it.peak(name) for name in JOINTS},
+        lambda it: {name: it.peaks[name].value for name in JOINTS},
     )
     driven_shaft_force_max = computed(
         "N",
         "greatest force of the driven shaft on rocker and arm each",
-        lambda it: {name: it.peak(f"C on {name}") for name in ("rocker", "arm")},
+        lambda it: {name: it.peaks[f"C on {name}"].value for name in ("rocker", "arm")},
     )
     energy_per_revolution = computed("J", "work of the drive in a turn of the crank", lambda it: it.work["drive"])
-    friction_work_per_revolution = computed(
-        "J", "part of it for the friction of the backing", lambda it: it.work["friction"]
-    )
+    friction_work_per_revolution = computed("J", "part of it for the backing", lambda it: it.work["friction"])
     main_shaft_torque_mean = computed("N*m", "mean torque on the crank", lambda it: it.work["drive"] / turn)
-    power_mean = computed("W", "mean power of the drive", lambda it: it.work["drive"] / turn * it.params.speed)
-    total_torque_max = computed(
-        "N*m", "greatest torque of all bars on the main shaft", lambda it: it.peak("total_torque")
-    )
+    power_mean = computed("W", "mean power of the drive", lambda it: it.main_shaft_torque_mean * it.params.speed)
+    total_torque_max = _peak("N*m", "greatest torque of all bars on the main shaft", "total_torque")
     total_energy_per_revolution = computed(
-        "J", "work of the drive for all bars", lambda it: it.params.bars * it.work["drive"]
+        "J", "work of the drive for all bars", lambda it: it.params.bars * it.energy_per_revolution
     )
-    shaft_bearing_force_max = computed(
-        "N", "greatest force of its bearings on the main shaft", lambda it: it.peak("bearing")
-    )
+    shaft_bearing_force_max = _peak("N", "greatest force of its bearings on the main shaft", "bearing")
 
     @computed(
         "",
@@ -165,10 +148,6 @@ class Tufting:
         heights = np.imag(_needle(move(self.params, self.plan, np.array([angle, self.lowest]))).position)
         return float(heights[0] - heights[1])
 
-    def peak(self, name: str) -> float:
-        """One of the greatest magnitudes over the turn [SI]."""
-        return self.peaks[name].value
-
     def rms(self, name: str) -> float:
         """Root mean square over a turn [N m] of main_torque or driven_torque."""
         return math.sqrt(self.work[f"{name}_squared"] / turn)
@@ -193,14 +172,14 @@ def design(params: TuftingParams) -> Tufting:
     quality = suprema(lambda at, _: _quality(moved(at)), around(), samples=SAMPLES)
     shaft = suprema(lambda *at: _shaft_loads(params, evaluated, *at), all_pieces, samples=SAMPLES)
     work = integrals(lambda *at: _work(params, evaluated(*at)), around(breaks, parts=PARTS))
+    torques = {name: (-top[f"{name} least"].value, top[f"{name} greatest"].value) for name in TORQUES}
     return Tufting(
         params=params,
         plan=planned,
-        ranges=ranges,
+        ranges={**ranges, **torques},
         breaks=breaks,
         state=evaluated(*turn_with(breaks)),
         peaks={**_magnitudes(top), **quality, **shaft},
-        extremes={name: (-top[f"{name} least"].value, top[f"{name} greatest"].value) for name in TORQUES},
         work={name: math.fsum(parts) for name, parts in work.items()},
         at=None if params.crank_angle is None else evaluated(np.array([params.crank_angle])),
         stroke=stroke,

@@ -72,20 +72,12 @@ class TuftingParams(Params):
         ("window", "always"),
         doc="when the friction acts: from entry to exit, or all the time (the paper's words allow both)",
     )
-    entry: float = kind.angle(
-        22 * deg, at_least=-turn, at_most=turn, doc="crank angle at which needles enter the backing"
-    )
-    exit: float = kind.angle(
-        194 * deg, at_least=-turn, at_most=turn, doc="crank angle at which needles leave the backing"
-    )
-    gravity: float = kind.acceleration(
-        9.81, at_least=0.0, at_most=1e3, doc="acceleration of gravity, downward", symbol="g"
-    )
+    entry: float = kind.angle(22 * deg, at_least=-turn, at_most=turn, doc="crank angle of entry into the backing")
+    exit: float = kind.angle(194 * deg, at_least=-turn, at_most=turn, doc="crank angle of exit from the backing")
+    gravity: float = kind.acceleration(9.81, at_least=0.0, at_most=1e3, doc="gravity, downwards", symbol="g")
     stroke: float = kind.length(32.5 * mm, above=0.0, at_most=LARGE, doc="required stroke; the paper: about 33 mm")
     bars: int = kind.count(1, at_least=1, at_most=64, doc="such mechanisms side by side on the main shaft")
-    phase: float = kind.angle(
-        0.0, at_least=-turn, at_most=turn, doc="angle by which each crank runs behind the one before"
-    )
+    phase: float = kind.angle(0.0, at_least=-turn, at_most=turn, doc="lag of each crank behind the one before")
     link_width: float = kind.length(
         30 * mm, at_least=SMALL, at_most=LARGE, doc="width of the links' plates; masses do not follow"
     )

@@ -26,7 +26,7 @@ def plates(design: Tufting) -> tuple[Plate, ...]:
 def checks(design: Tufting) -> tuple[Check, ...]:
     """Stroke, backing, angles, and the balances of work and power."""
     params, work = design.params, design.work
-    scale = max(abs(work["drive"]), design.peak("main_torque"))
+    scale = max(abs(work["drive"]), design.main_shaft_torque_max)
     unbalanced = abs(work["drive"] - work["friction"]) / scale if scale else 0.0
     levels = abs(design.entry_height - design.exit_height)
     return (
