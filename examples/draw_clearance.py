@@ -10,7 +10,7 @@ import numpy as np
 
 from ilmek.dynamics.clearance import ClearancePin, hertz_stiffness
 from ilmek.dynamics.inertia import Inertia, bar, combined, point_mass
-from ilmek.dynamics.multibody.system import System, from_motion, loosened, simulate
+from ilmek.dynamics.multibody.system import System, from_motion, simulate, with_clearance
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
@@ -40,7 +40,7 @@ def figure() -> Plot:
     turn = 2 * math.pi / SPEED
     times = np.linspace(0.0, 2 * turn, 40001)
     pin = ClearancePin("B", "coupler", "rocker", CLEARANCE, RADIUS, hertz_stiffness(RADIUS, CLEARANCE, 207e9), 0.7, 0.1)
-    ideal, loose = simulate(beat_up(), times), simulate(loosened(beat_up(), pin), times, rtol=1e-8)
+    ideal, loose = simulate(beat_up(), times), simulate(with_clearance(beat_up(), pin), times, rtol=1e-8)
     second = slice(20000, None)
     angle = ideal.angle("crank")[second] - 2 * math.pi
     hard, soft = np.abs(ideal.pin("B"))[second], np.abs(loose.pin("B"))[second]

@@ -12,7 +12,7 @@ import pytest
 
 from ilmek.dynamics.clearance import ClearancePin, hertz_stiffness
 from ilmek.dynamics.inertia import Inertia, bar
-from ilmek.dynamics.multibody.system import System, SystemRun, from_motion, loosened, simulate
+from ilmek.dynamics.multibody.system import System, SystemRun, from_motion, simulate, with_clearance
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
@@ -41,7 +41,7 @@ def loose(clearance: float, friction: float = 0.1) -> SystemRun:
     pin = ClearancePin(
         "B", "coupler", "rocker", clearance, 8e-3, hertz_stiffness(8e-3, clearance, 207e9), 0.5, friction
     )
-    return simulate(loosened(beat_up(), pin), TIMES, rtol=1e-8)
+    return simulate(with_clearance(beat_up(), pin), TIMES, rtol=1e-8)
 
 
 def mean_force(run: SystemRun) -> np.ndarray:
@@ -77,7 +77,7 @@ def engine(speed: float, clearance: float) -> tuple[SystemRun, SystemRun]:
         name, rod, slider, clearance, 0.01 - clearance, hertz_stiffness(0.01 - clearance, clearance, 207e9)
     )
     times = np.linspace(0.0, 4 * math.pi / speed, 1501)
-    return simulate(system, times), simulate(loosened(system, pin), times, rtol=1e-8)
+    return simulate(system, times), simulate(with_clearance(system, pin), times, rtol=1e-8)
 
 
 def test_a_loose_wrist_pin_hammers_while_the_slider_moves_as_before() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from ilmek.dynamics.clearance import LAWS, ClearancePin, exact_hysteresis, hertz_stiffness
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.multibody.system import BodyState, System, loosened, simulate
+from ilmek.dynamics.multibody.system import BodyState, System, simulate, with_clearance
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body
 
@@ -115,6 +115,6 @@ def test_places_of_clearance_that_are_not_there_are_refused() -> None:
         hertz_stiffness(RADIUS, CLEARANCE, -1.0)
     system = disc(PIN, BodyState(0j))
     with pytest.raises(MechanismError, match="no pin 'Q'"):
-        loosened(system, replace(PIN, name="Q"))
+        with_clearance(system, replace(PIN, name="Q"))
     with pytest.raises(MechanismError, match="no pin with clearance 'Q'"):
         simulate(system, np.array([0.0, 1e-6])).eccentricity("Q")

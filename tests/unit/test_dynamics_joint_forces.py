@@ -90,7 +90,7 @@ def test_names_that_do_not_exist_are_refused() -> None:
     forces = inverse(motion, {})
     with pytest.raises(MechanismError, match="inputs: crank"):
         forces.effort("rocker")
-    with pytest.raises(MechanismError, match="it joins crank and coupler"):
+    with pytest.raises(MechanismError, match="it connects crank and coupler"):
         forces.pin("A", on="rocker")
 
 

@@ -78,7 +78,7 @@ def test_beyond_a_friction_a_wedge_locks(nu: float, locks: bool) -> None:
     assert (forces.status[lifted] == Status.NOT_CONVERGED).all() == locks
     assert np.isnan(forces.effort("drive")[lifted]).all() == locks
     if locks:
-        with pytest.raises(MechanismError, match="wedge locks itself by friction at"):
+        with pytest.raises(MechanismError, match="wedge is self-locking by friction at"):
             forces.require()
 
 

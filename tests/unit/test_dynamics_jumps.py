@@ -19,7 +19,7 @@ BREAKS = (1.0, 4.0)
 
 def saw(angle: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
     """Up from 0 to 3 between the breaks, elsewhere from -1 upward; and a smooth curve beside it."""
-    inside = AngleRange(*BREAKS).holds(angle + 1e-9 * side)
+    inside = AngleRange(*BREAKS).contains(angle + 1e-9 * side)
     after = np.mod(angle - 4.0 + 1e-7, turn) - 1e-7
     return {"saw": np.where(inside, angle - 1.0, -1.0 + 0.1 * after), "smooth": np.cos(angle - 2.0)}
 
@@ -70,8 +70,8 @@ def test_zeros_are_found_to_rounding_also_at_the_seam() -> None:
 )
 def test_windows(start: float, end: float, inside: tuple[float, ...], outside: tuple[float, ...]) -> None:
     window = AngleRange(start * deg, end * deg)
-    assert window.holds(np.array(inside) * deg).all()
-    assert not window.holds(np.array(outside) * deg).any()
+    assert window.contains(np.array(inside) * deg).all()
+    assert not window.contains(np.array(outside) * deg).any()
 
 
 def rubbed(angle: FloatArray, speed: float, **kinds: object) -> tuple[FloatArray, FloatArray]:

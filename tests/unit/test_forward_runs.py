@@ -47,7 +47,7 @@ def test_a_motor_of_straight_curve_starts_a_rotor_exponentially() -> None:
 def test_an_event_is_met_to_rounding() -> None:
     run = forward(rotor(), ForwardState(0.0), 9.0, drive=motor, events=(at_speed(25.0),))
     assert run.end.kind is EndKind.EVENT
-    assert run.end.words == "speed 25 reached"
+    assert run.end.reason == "speed 25 reached"
     assert math.isclose(run.end.state.time, math.log(2) * J * 50 / 2.0, rel_tol=1e-9)
     assert math.isclose(run.end.state.speed, 25.0, rel_tol=1e-12)
 
@@ -55,7 +55,7 @@ def test_an_event_is_met_to_rounding() -> None:
 def test_the_earliest_of_several_events_ends_the_run() -> None:
     events = (at_speed(49.0), at_angle(2.0), RunEvent("clock", lambda state: state.time - 5.0))
     run = forward(rotor(), ForwardState(0.0), 9.0, drive=motor, events=events)
-    assert run.end.words == "position 2 reached"
+    assert run.end.reason == "position 2 reached"
     assert math.isclose(run.position[-1], 2.0, rel_tol=1e-12)
 
 
@@ -64,7 +64,7 @@ def test_an_event_minds_its_direction() -> None:
     started = forward(rotor(), ForwardState(0.0), 0.5, drive=motor, events=(falling,))
     assert started.end.kind is EndKind.TIME
     braked = forward(rotor(), started.end.state, 5.0, drive=lambda _t, _q, _w: -1.0, events=(falling,))
-    assert braked.end.words == "slow"
+    assert braked.end.reason == "slow"
 
 
 def test_events_that_do_not_end_the_run_are_told_in_their_order() -> None:
@@ -132,7 +132,7 @@ def test_a_run_stops_where_its_linkage_cannot_go_on() -> None:
     limit = input_range(*lengths)[0][1]
     assert run.end.kind is EndKind.CANNOT_CLOSE
     assert limit - 1e-8 < run.end.state.position < limit
-    assert "coupler + rocker = 430 mm" in run.end.words
+    assert "coupler + rocker = 430 mm" in run.end.reason
     assert 0 < run.end.state.time < 0.1
     assert run.energy_error < 1e-4
 
@@ -145,12 +145,12 @@ def test_a_run_that_comes_to_a_dead_centre_stops_there_with_time_state_and_reaso
     assert abs(run.end.state.position - math.pi) < 2e-6
     assert run.end.state.time == pytest.approx((math.pi - 3.0) / 10, rel=1e-3)
     assert run.end.state.speed == pytest.approx(10.0, rel=1e-2)
-    assert run.end.words == "four-bar stands at a dead centre for crank 180.0°"
+    assert run.end.reason == "four-bar stands at a dead centre for crank 180.0°"
 
 
 def test_a_motor_too_weak_is_told_so() -> None:
     run = forward(machine(), ForwardState(0.0), 1.0, drive=lambda _t, _q, _w: 0.2, events=(at_rest(),))
-    with pytest.raises(MechanismError, match="came 0.*of 1 turns.*at rest.*stronger drive"):
+    with pytest.raises(MechanismError, match="made 0.*of 1 turns.*at rest.*stronger drive"):
         run.require_turns()
     assert forward(machine(), ForwardState(0.0), 1.0, drive=lambda _t, _q, _w: 0.5).require_turns(3)
 
@@ -167,7 +167,7 @@ def test_a_drive_that_fails_on_the_way_ends_the_run_there() -> None:
         (ForwardState(0.0), -1.0, {}, "duration"),
         (ForwardState(math.nan), 1.0, {}, "finite"),
         (ForwardState(0.0), 1.0, {"rtol": 0.0}, "relative error"),
-        (ForwardState(0.0), 1.0, {"every": 0.0}, "every"),
+        (ForwardState(0.0), 1.0, {"every": 0.0}, "time between samples"),
         (ForwardState(0.0), 1.0, {"drive": lambda _t, _q, _w: math.inf}, "finite efforts"),
     ],
 )
@@ -193,7 +193,7 @@ def test_a_machine_that_cannot_be_reduced_is_refused() -> None:
         reduce(CRANK_ROCKER, BARS, (Gravity(complex(math.nan)),))
     with pytest.raises(MechanismError, match="mass centre of a body is"):
         Inertia(1.0, complex(math.nan), 1.0)
-    with pytest.raises(MechanismError, match="event 'x' gives nan"):
+    with pytest.raises(MechanismError, match="value of event 'x' is nan"):
         forward(rotor(), ForwardState(0.0, 1.0), 1.0, events=(RunEvent("x", lambda _state: math.nan),))
     with pytest.raises(MechanismError, match="by sample"):
         reduce(CRANK_ROCKER, BARS, (Torque("crank", np.ones(3)),))

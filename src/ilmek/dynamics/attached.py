@@ -1,4 +1,4 @@
-"""Motion of any place on a body, such as its mass centre, over the samples of a motion."""
+"""Motion of any point on a body, such as its mass centre, over the samples of a motion."""
 
 from typing import NamedTuple
 
@@ -9,7 +9,7 @@ from ilmek.linkage.motion import Motion
 
 
 class AttachedPoint(NamedTuple):
-    """Motion of a place on a body [m, m/s, m/s²]: complex, one value a sample."""
+    """Position, velocity, acceleration of a body's point [m, m/s, m/s²], complex, one value per sample."""
 
     position: ComplexArray
     velocity: ComplexArray
@@ -17,7 +17,7 @@ class AttachedPoint(NamedTuple):
 
 
 def attached(motion: Motion, body: str, local: complex) -> AttachedPoint:
-    """Motion of the place at `local` [m] in a body's frame."""
+    """Motion of a point of a body, at `local` [m], complex, in the body's frame."""
     moved = motion.body(body).carry(local)
     return AttachedPoint(
         _over(moved.position, motion), _over(moved.velocity, motion), _over(moved.acceleration, motion)
@@ -25,5 +25,5 @@ def attached(motion: Motion, body: str, local: complex) -> AttachedPoint:
 
 
 def _over(value: ComplexField, motion: Motion) -> ComplexArray:
-    """The value as an array over the samples: what stands still is one number in the motion."""
+    """The value as an array over the samples; a point at rest is a single number in the motion."""
     return np.broadcast_to(np.asarray(value, dtype=np.complex128), motion.status.shape)

@@ -1,10 +1,11 @@
-"""What a mechanism shakes its frame with, and the counterweights against it.
+"""Shaking force and shaking moment of a mechanism on its frame, and counterweights.
 
-    F = -Σ m a_G        M = -Σ ((G - O) x m a_G + J alpha)        [d'Alembert; O the point of reference]
+    F = -Σ m a_G        M = -Σ ((G - O) x m a_G + J alpha)        [d'Alembert's principle; O reference point]
 
-A weight on the crank of static moment U = m r [kg m], complex in the crank's frame, adds U omega² e^{i theta} while the
-speed is constant. The force's first harmonic is c_1 e^{i theta} + c_-1 e^{-i theta}: one part turns with the crank, and
-can be cancelled there, the other turns against it, and asks for a second weight that does so too [Lanchester].
+A counterweight on the crank with static moment U = m r [kg m], complex in the crank's frame, adds U omega² e^{i theta}
+at constant speed. The first harmonic of the force is c_1 e^{i theta} + c_-1 e^{-i theta}. The first part rotates with
+the crank and is cancelled by a counterweight on it. The second part rotates in the opposite direction and requires a
+second, counter-rotating weight [Lanchester balancer].
 """
 
 import math
@@ -18,7 +19,7 @@ from ilmek.arrays import ComplexArray, FloatArray, NumberArray
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia, combined, point_mass
 from ilmek.dynamics.inverse import Forces
-from ilmek.dynamics.pose_block import posed
+from ilmek.dynamics.pose_block import pose_block
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
@@ -27,14 +28,18 @@ from ilmek.plane.vectors import cross, unit
 
 @dataclass(frozen=True, slots=True)
 class Shaking:
-    """Force on the frame [N] and its moment [N m] about a point, one a sample."""
+    """Force on the frame [N] and its moment [N m] about a point, one value per sample."""
 
     force: ComplexArray
     moment: FloatArray
 
 
 def shaking(motion: Motion, inertias: Mapping[str, Inertia], about: complex = 0j) -> Shaking:
-    """Shaking force and moment of the moving masses; weight and loads do not count."""
+    """Shaking force and moment of the moving masses, without gravity and loads.
+
+    motion    with accelerations      inertias  body -> inertia; a body that is not listed is massless
+    about     reference point O [m]; default: the ground's origin
+    """
     force, moment = np.zeros(len(motion), complex), np.zeros(len(motion))
     for body, inertia in inertias.items():
         centre = attached(motion, body, inertia.centre)
@@ -45,10 +50,13 @@ def shaking(motion: Motion, inertias: Mapping[str, Inertia], about: complex = 0j
 
 
 def on_frame(forces: Forces, about: complex = 0j) -> Shaking:
-    """Force and moment of all joints, teeth, drives and frictions on the ground, from weight and loads too."""
+    """Force and moment on the ground of all joints, teeth, drives and frictions, including gravity and loads.
+
+    forces  from `inverse`      about  reference point O [m]; default: the ground's origin
+    """
     motion = forces.motion
     force, moment = np.zeros(len(motion), complex), np.zeros(len(motion))
-    for name, joint in posed(motion, {}).joints.items():
+    for name, joint in pose_block(motion, {}).joints.items():
         if GROUND not in (joint.on, joint.by):
             continue
         sign = 1.0 if joint.on == GROUND else -1.0
@@ -64,9 +72,13 @@ def on_frame(forces: Forces, about: complex = 0j) -> Shaking:
 
 
 def harmonics(values: NumberArray, most: int) -> dict[int, complex]:
-    """c_k of Σ c_k e^{i k theta}, k = -most ... most, from samples at equal steps of a turn, its end left out.
+    """Fourier coefficients c_k of Σ c_k e^{i k theta}, k = -most ... most, in the unit of the values.
 
-    Of a complex force, k > 0 turns with the crank and -k against it; of a real curve c_-k is the conjugate of c_k.
+    values  samples at equal steps over one turn, without its end; shape (samples,)
+    most    greatest order of a harmonic
+
+    For a complex force, k > 0 rotates with the crank and k < 0 in the opposite direction. For real values c_-k is the
+    conjugate of c_k.
     >>> theta = np.arange(8) * np.pi / 4
     >>> found = harmonics(3 * np.cos(theta), 1)
     >>> round(found[1].real, 12), round(found[-1].real, 12)
@@ -77,10 +89,10 @@ def harmonics(values: NumberArray, most: int) -> dict[int, complex]:
 
 
 class Counterweights(NamedTuple):
-    """Static moments m r [kg m] against the first harmonic of a shaking force, at the crank angle 0.
+    """Static moments m r [kg m], complex, that balance the first harmonic of a shaking force; at the crank angle 0.
 
-    with_crank     of a weight on the crank, in its frame
-    against_crank  of one on a shaft that turns as fast the other way
+    with_crank     of a counterweight on the crank, in its frame
+    against_crank  of a counterweight on a shaft that rotates at the same speed in the opposite direction
     """
 
     with_crank: complex
@@ -88,9 +100,10 @@ class Counterweights(NamedTuple):
 
 
 def first_harmonic(force: ComplexArray, speed: float) -> Counterweights:
-    """The two weights that cancel the first harmonic of a shaking force in full; the first alone leaves c_-1.
+    """The two counterweights that cancel the first harmonic of a shaking force; the first alone leaves c_-1.
 
-    force  at equal steps of a turn of the crank, its end left out, at constant `speed` [rad/s]
+    force  [N] at equal steps over one turn of the crank, without its end; shape (samples,)
+    speed  constant speed of the crank [rad/s]
     """
     found = harmonics(force, 1)
     return Counterweights(-found[1] / speed**2, -found[-1] / speed**2)
@@ -99,11 +112,13 @@ def first_harmonic(force: ComplexArray, speed: float) -> Counterweights:
 def crank_counterweight(
     force: ComplexArray, speed: float, *, share: float = 1.0, along: float | None = None
 ) -> complex:
-    """Static moment m r [kg m] of a weight on the crank against the first harmonic of a shaking force.
+    """Static moment m r [kg m] of a counterweight on the crank against the first harmonic of a shaking force.
 
-    share  of the part that turns with the crank: 1 leaves the least greatest value, |c_-1|
-    along  a direction [rad] in which the first harmonic is to vanish altogether, that across it growing in return;
-           `share` is then of the weight that does so
+    force  [N] at equal steps over one turn of the crank, without its end; shape (samples,)
+    speed  constant speed of the crank [rad/s]
+    share  share of the part that rotates with the crank [1]; 1 minimises the greatest remaining force, |c_-1|
+    along  direction [rad] in which the first harmonic is cancelled; its component across grows in return, and `share`
+           is a share of this counterweight; default: no preferred direction
     """
     pair = first_harmonic(force, speed)
     if along is None:
@@ -112,7 +127,10 @@ def crank_counterweight(
 
 
 def counterweighted(inertia: Inertia, static_moment: complex, radius: float) -> Inertia:
-    """A body with a point mass at a radius [m] from its origin that gives it a static moment [kg m].
+    """Inertia of a body with a point mass added as its counterweight.
+
+    static_moment  m r of the point mass, complex in the body's frame [kg m]
+    radius         distance r of the point mass from the body's origin [m]
 
     Raises MechanismError for a radius that is not above 0.
     """
@@ -123,15 +141,15 @@ def counterweighted(inertia: Inertia, static_moment: complex, radius: float) -> 
 
 
 def four_bar_counterweights(lengths: Mapping[str, float], inertias: Mapping[str, Inertia]) -> tuple[complex, complex]:
-    """Static moments [kg m] on crank and rocker that cancel a four-bar's shaking force altogether, at any speed.
+    """Static moments [kg m] on crank and rocker that cancel a four-bar's shaking force completely, at any speed.
 
         on the crank   -(m_2 c_2 + m_3 a_2 (1 - c_3 / a_3))       on the rocker   -(m_4 c_4 + m_3 a_4 c_3 / a_3)
 
-    With the loop's equation, Σ m G has one term in e^{i theta_2} and one in e^{i theta_4}; both are made to vanish
+    With the loop equation, Σ m G has one term in e^{i theta_2} and one in e^{i theta_4}; both are set to zero
     [method of linearly independent vectors, Berkof and Lowen, Journal of Engineering for Industry 91 (1969) 21].
 
-    lengths   of crank a_2, coupler a_3, rocker a_4 [m]
-    inertias  of the same, in frames from the fixed pin (crank, rocker) or the crank pin (coupler) along the link
+    lengths   "crank" a_2, "coupler" a_3, "rocker" a_4 [m]
+    inertias  of the same links, in frames from the fixed pin (crank, rocker) or the crank pin (coupler) along the link
     """
     crank, coupler, rocker = (inertias[name] for name in ("crank", "coupler", "rocker"))
     part = coupler.centre / lengths["coupler"]

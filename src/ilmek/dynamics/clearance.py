@@ -1,14 +1,14 @@
 """A pin with radial clearance: a journal free in its bearing, contact by a compliant law, Coulomb friction.
 
     e = P_journal - P_bearing,   n = e / |e|,   penetration  d = |e| - c,   contact while d > 0
-    F = K d^m (1 + h d' / v),    v = the contact's approach speed          [Hunt and Crossley, J. Appl. Mech. 42 (1975)]
+    F = K d^m (1 + h d' / v),    v approach speed of the contact           [Hunt and Crossley, J. Appl. Mech. 42 (1975)]
     friction  mu F u / sqrt(u² + u_s²),  u = sliding speed at the contact point, u_s = `slip`
 
-The journal feels -F n and the friction against its sliding, the bearing the opposite at the same point. v is the
-greatest |d'| since the contact began: in an impact that is the speed it began with, in a pin pressed for long it keeps
-the factor between 1 - h and 1 + h. It is taken no less than a quarter of the speed with which the two bodies, free,
-would go as deep, (2 K d^(m+1) / ((m+1) M))^½: a free impact never feels that, a journal that comes to lie on its
-bearing is damped at most about critically instead of without limit. The factor never falls below 0: nothing is pulled.
+-F n and the friction act on the journal; the opposite acts on the bearing at the same point. v is the greatest |d'|
+since the contact began: in an impact its initial speed; in a lasting contact it keeps the factor between 1 - h and
+1 + h. Lower bound of v: a quarter of the impact speed at which the free bodies would reach the same penetration,
+(2 K d^(m+1) / ((m+1) M))^½. It does not affect a free impact. It limits the damping of a journal at rest on its bearing
+to about the critical damping. The factor is never below 0: the contact does not pull.
 """
 
 import math
@@ -27,52 +27,57 @@ NEARLY_ELASTIC = 0.999
 
 
 def exact_hysteresis(restitution: float) -> float:
-    """Hysteresis h that gives the restitution e exactly, at any speed and any exponent.
+    """Hysteresis h [1] that gives the coefficient of restitution e exactly, at any speed and any exponent.
 
         h (1 + e) = ln((1 + h) / (1 - h e)),    0 < h < 1 / e
 
-    From m d'' = -K d^m (1 + h d'/v): ∫ u du / (1 + h u), u = d'/v from -e to 1, vanishes, whatever K and m are.
+    From M d'' = -K d^m (1 + h d'/v): ∫ u du / (1 + h u) over u = d'/v from -e to 1 is zero, for any K and m. Above
+    e = 0.999 its series is used.
 
     >>> round(exact_hysteresis(0.5), 6), exact_hysteresis(1.0)
     (1.432751, 0.0)
     """
     e = restitution
     cubic = (1 + e**3) / 3
-    # To fourth order in h; nearer to e = 1 the logarithms cancel to nothing else.
+    # Series to fourth order in h: the logarithms cancel near e = 1.
     first = (1 - e**2) / 2 / cubic
     if e > NEARLY_ELASTIC:
         return first + first**2 * (1 - e**4) / 4 / cubic
 
-    def apart(u: float) -> float:
+    def residual(u: float) -> float:
         h = -math.expm1(-u) / e
         return math.log1p(h) + u - h * (1 + e)
 
-    return -math.expm1(-float(scipy.optimize.brentq(apart, 0.1 * e * first, 1 / e + 2, xtol=1e-300, rtol=1e-15))) / e
+    return -math.expm1(-float(scipy.optimize.brentq(residual, 0.1 * e * first, 1 / e + 2, xtol=1e-300, rtol=1e-15))) / e
 
 
 def flores_hysteresis(restitution: float) -> float:
-    """Hysteresis h = 8 (1 - e) / (5 e)  [Flores, Machado, Silva and Martins, Multibody Syst. Dyn. 25 (2011)]."""
+    """Hysteresis h = 8 (1 - e) / (5 e) [1]  [Flores, Machado, Silva and Martins, Multibody Syst. Dyn. 25 (2011)]."""
     return 8 * (1 - restitution) / (5 * restitution)
 
 
 def lankarani_hysteresis(restitution: float) -> float:
-    """Hysteresis h = 3 (1 - e²) / 4, for e near 1  [Lankarani and Nikravesh, J. Mech. Design 112 (1990)]."""
+    """Hysteresis h = 3 (1 - e²) / 4 [1], for e near 1  [Lankarani and Nikravesh, J. Mech. Design 112 (1990)]."""
     return 0.75 * (1 - restitution**2)
 
 
 LAWS: Mapping[str, Callable[[float], float]] = MappingProxyType(
     {"exact": exact_hysteresis, "flores": flores_hysteresis, "lankarani-nikravesh": lankarani_hysteresis}
 )
-"""Hysteresis of each contact law as a function of the restitution."""
+"""Hysteresis of each contact law as a function of the coefficient of restitution."""
 
 
 def hertz_stiffness(radius: float, clearance: float, modulus: float, poisson: float = 0.3) -> float:
-    """Contact stiffness K [N/m^1.5] of a journal of `radius` [m] in a bearing of radius + clearance, of one material.
+    """Contact stiffness K [N/m^1.5] of a journal in a bearing of the same material.
 
         K = 4 / (3 (s + s)) sqrt(R_b R_j / (R_b - R_j)),    s = (1 - nu²) / E
 
-    modulus  Young's, E [Pa]; of two materials E1, E2 that with 2 / E = 1 / E1 + 1 / E2, nu alike
-    [Lankarani and Nikravesh, 1990; Hertz's law of two spheres, customary for journals of ordinary length]
+    radius     of the journal, R_j [m]      clearance  radial, R_b - R_j [m]
+    modulus    Young's modulus E [Pa]; for two materials with the same nu: 2 / E = 1 / E1 + 1 / E2
+    poisson    Poisson's ratio nu [1]
+
+    Raises MechanismError for a radius, clearance or modulus that is not above 0, and a ratio outside 0 to 0.5.
+    [Lankarani and Nikravesh, J. Mech. Design 112 (1990); Hertz's law of two spheres, customary for journals]
 
     >>> f"{hertz_stiffness(9.5e-3, 0.5e-3, 207e9):.3g}"
     '6.61e+10'
@@ -91,13 +96,14 @@ def hertz_stiffness(radius: float, clearance: float, modulus: float, poisson: fl
 
 @dataclass(frozen=True, slots=True)
 class ClearancePin:
-    """A pin with radial clearance, in place of a `Pin` of a `System`.
+    """A pin with radial clearance, instead of a `Pin` of a `System`.
 
-    first, second  the bearing's body and the journal's; both carry a point of the pin's name, their centres
-    clearance      bearing's radius less the journal's, c [m]      radius  of the journal [m]
-    stiffness      K [N/m^exponent], see `hertz_stiffness`         exponent  m, 1.5 by Hertz, 1 for a straight law
-    restitution    e, above 0 to 1                                 law  of the hysteresis h, one of `LAWS`
-    friction       mu                                              slip  u_s: friction fades below it [m/s]
+    first, second  names of the bearing's and the journal's body; each has a point of the pin's name, its centre
+    clearance      radial clearance c: bearing radius minus journal radius [m]
+    radius         of the journal [m]
+    stiffness      K [N/m^exponent], see `hertz_stiffness`         exponent  m: 1.5 by Hertz, 1 for a linear law
+    restitution    e, above 0, at most 1                           law       of the hysteresis h, one of `LAWS`
+    friction       mu [1]                                          slip      u_s [m/s]; friction fades below it
 
     Raises MechanismError for numbers outside these ranges.
     """
@@ -116,11 +122,11 @@ class ClearancePin:
 
     def __post_init__(self) -> None:
         for what in ("clearance", "radius", "stiffness", "slip"):
-            self._demand(what, math.isfinite(getattr(self, what)) and getattr(self, what) > 0, "finite and above 0")
-        self._demand("restitution", 0 < self.restitution <= 1, "above 0, to 1")
-        self._demand("friction", 0 <= self.friction < math.inf, "finite, not negative")
-        self._demand("exponent", 1 <= self.exponent <= 3, "1 to 3")
-        self._demand("law", self.law in LAWS, " or ".join(LAWS))
+            self._require(what, math.isfinite(getattr(self, what)) and getattr(self, what) > 0, "finite and above 0")
+        self._require("restitution", 0 < self.restitution <= 1, "above 0, to 1")
+        self._require("friction", 0 <= self.friction < math.inf, "finite, not negative")
+        self._require("exponent", 1 <= self.exponent <= 3, "1 to 3")
+        self._require("law", self.law in LAWS, " or ".join(LAWS))
 
     @property
     def bodies(self) -> tuple[str, str]:
@@ -133,10 +139,10 @@ class ClearancePin:
         return LAWS[self.law](self.restitution)
 
     def elastic_energy(self, depth: FloatArray) -> FloatArray:
-        """Energy stored at a penetration [J]: K d^(m+1) / (m + 1); none in flight."""
+        """Elastic energy at penetrations [m]: K d^(m+1) / (m + 1) [J]; 0 without contact."""
         stored: FloatArray = self.stiffness * np.maximum(depth, 0.0) ** (self.exponent + 1) / (self.exponent + 1)
         return stored
 
-    def _demand(self, what: str, fulfilled: bool, allowed: str) -> None:
+    def _require(self, what: str, fulfilled: bool, allowed: str) -> None:
         if not fulfilled:
             raise MechanismError(f"{what} of clearance pin {self.name!r} is {getattr(self, what)}", allowed=allowed)

@@ -1,15 +1,16 @@
-"""The equations of Newton and Euler for a planar mechanism, solved group by group.
+"""Newton-Euler equations of a planar mechanism, solved Assur group by Assur group.
 
     Σ f = m a_G        Σ (p - G) x f + Σ t = J alpha        for each moving body, G its mass centre
 
-A group of the plan has three equations a body for just as many unknowns: what its joints bear, two numbers each, and
-the efforts of its inputs. The groups are solved from the last to the first; each hands what it finds to the bodies that
-it hangs on [Assur's principle]. A joint bears nothing that would do work on its own motion, its `play`:
+"Needs" of a body are the force m a_G and the moment J alpha less its loads: the sum that its joints must transmit.
+A group has three equations per body and as many unknowns: two constraint forces per joint, and the efforts of its
+inputs. The groups are solved from the last to the first. Each passes its joint forces on to the bodies to which it is
+attached [Assur's principle]. Constraint forces have no generalized force g on the relative motion of their joint:
 
-    one body, one driven joint   the joint gives all that the body needs
-    a dyad                       with w the pull of the inner joint on the first body:  play_A(need_1 - w) = 0,
-                                 play_B(need_2 + w) = 0, two equations for the two numbers of w, all kinds alike
-    any other                    all equations of the group at once
+    one body, one driven joint   the joint transmits all needs of the body
+    a dyad                       with w the force of the inner joint on the first body:  g_A(need_1 - w) = 0,
+                                 g_B(need_2 + w) = 0; two equations for the two components of w, for all kinds of dyads
+    any other group              all its equations at once
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -26,102 +27,102 @@ from ilmek.num.linear import solve_many
 from ilmek.plane.vectors import cross
 
 Needs = dict[str, ForceAndMoment]
-"""What its joints must give to each body, its moment about the mass centre."""
+"""Body -> force [N] and moment about the mass centre [N m] that its joints must transmit to it."""
 
 Pulls = dict[str, ForceAndMoment]
-"""What each joint gives to its `on` body, its moment about the joint's point."""
+"""Joint -> force [N] and moment about the joint's point [N m] on its `on` body."""
 
 
-def needs(posed: PoseBlock, inertias: Mapping[str, Inertia], wrenches: Iterable[Wrench]) -> Needs:
-    """The terms m a_G and J alpha of each moving body, less its loads."""
+def needs(poses: PoseBlock, inertias: Mapping[str, Inertia], wrenches: Iterable[Wrench]) -> Needs:
+    """Terms m a_G [N] and J alpha [N m] of each moving body, less its loads; one value per sample."""
     found = {
-        body: ForceAndMoment(inertia.mass * posed.centres[body].acceleration, inertia.moment * posed.bodies[body].alpha)
+        body: ForceAndMoment(inertia.mass * poses.centres[body].acceleration, inertia.moment * poses.bodies[body].alpha)
         for body, inertia in inertias.items()
     }
     for wrench in wrenches:
-        at = posed.place(wrench.body, wrench.at).position
-        add(found, posed, wrench.body, ForceAndMoment(-wrench.force, -wrench.torque), at)
+        at = poses.point_motion(wrench.body, wrench.at).position
+        add(found, poses, wrench.body, ForceAndMoment(-wrench.force, -wrench.torque), at)
     return found
 
 
-def add(to: Needs, posed: PoseBlock, body: str, pull: ForceAndMoment, at: ComplexField) -> None:
-    """Add to a body's needs a pull whose moment is about the point `at` [m]; the ground needs nothing."""
+def add(to: Needs, poses: PoseBlock, body: str, pull: ForceAndMoment, at: ComplexField) -> None:
+    """Add a force and moment to the needs of a body; the moment is about `at` [m]. The ground is skipped."""
     if body != GROUND:
-        moment = pull.moment + cross(at - posed.centres[body].position, pull.force)
+        moment = pull.moment + cross(at - poses.centres[body].position, pull.force)
         to[body] = ForceAndMoment(to[body].force + pull.force, to[body].moment + moment)
 
 
-def joint_pulls(posed: PoseBlock, needed: Needs) -> Pulls:
-    """What the joints give, drives' efforts among it; infinite or NaN at samples whose equations are singular."""
+def joint_pulls(poses: PoseBlock, needed: Needs) -> Pulls:
+    """Forces and moments of all joints, including the drive efforts; inf or NaN where the equations are singular."""
     needed = dict(needed)
     found: Pulls = {}
-    driven = {entry.joint for entry in posed.motion.plan.mechanism.inputs}
-    for step in reversed(posed.motion.plan.steps):
+    driven = {entry.joint for entry in poses.motion.plan.mechanism.inputs}
+    for step in reversed(poses.motion.plan.steps):
         own = [
             joint
-            for name, joint in posed.joints.items()
+            for name, joint in poses.joints.items()
             if name not in found and {joint.on, joint.by} & set(step.bodies)
         ]
-        found |= _group(posed, needed, step, own, driven)
+        found |= _group(poses, needed, step, own, driven)
         for joint in own:
             for body, sign in ((joint.on, -1), (joint.by, +1)):
                 if body not in step.bodies:
                     pull = found[joint.name]
-                    add(needed, posed, body, ForceAndMoment(sign * pull.force, sign * pull.moment), joint.at)
+                    add(needed, poses, body, ForceAndMoment(sign * pull.force, sign * pull.moment), joint.at)
     return found
 
 
-def _group(posed: PoseBlock, needed: Needs, step: Step, own: Sequence[JointPoses], driven: set[str]) -> Pulls:
-    """What a group's own joints give."""
+def _group(poses: PoseBlock, needed: Needs, step: Step, own: Sequence[JointPoses], driven: set[str]) -> Pulls:
+    """Forces and moments of the joints of one group."""
     if len(step.bodies) == len(own) == 1:
-        return {own[0].name: _seen(own[0], step.bodies[0], needed[step.bodies[0]], posed)}
+        return {own[0].name: _at_joint(own[0], step.bodies[0], needed[step.bodies[0]], poses)}
     inner = [joint for joint in own if {joint.on, joint.by} <= set(step.bodies)]
     if len(step.bodies) == 2 and len(own) == 3 and len(inner) == 1 and not any(joint.name in driven for joint in own):
-        return _dyad(posed, needed, inner[0], [joint for joint in own if joint is not inner[0]])
-    return _any(posed, needed, step, own, driven)
+        return _dyad(poses, needed, inner[0], [joint for joint in own if joint is not inner[0]])
+    return _general_group(poses, needed, step, own, driven)
 
 
-def _seen(joint: JointPoses, body: str, pull: ForceAndMoment, posed: PoseBlock) -> ForceAndMoment:
-    """A pull on a body, its moment about the mass centre, as the joint gives it to `on`, its moment about the joint."""
-    moment = pull.moment + cross(posed.centres[body].position - joint.at, pull.force)
+def _at_joint(joint: JointPoses, body: str, pull: ForceAndMoment, poses: PoseBlock) -> ForceAndMoment:
+    """Force and moment about the mass centre of `body`, converted to those on `on` about the joint's point."""
+    moment = pull.moment + cross(poses.centres[body].position - joint.at, pull.force)
     return ForceAndMoment(pull.force, moment) if body == joint.on else ForceAndMoment(-pull.force, -moment)
 
 
-def _dyad(posed: PoseBlock, needed: Needs, inner: JointPoses, outer: Sequence[JointPoses]) -> Pulls:
-    """Two bodies, the joint between them and one of each to known bodies: two equations; see the module."""
+def _dyad(poses: PoseBlock, needed: Needs, inner: JointPoses, outer: Sequence[JointPoses]) -> Pulls:
+    """A dyad: two bodies, their common joint, and one joint of each to other groups; two equations."""
     first, second = inner.on, inner.by
     a, b = sorted(outer, key=lambda joint: first not in (joint.on, joint.by))
-    u, v = inner.bears
-    au, av, bu, bv = (joint.play(pull, inner.at) for joint in (a, b) for pull in (u, v))
-    ca = a.play(needed[first], posed.centres[first].position)
-    cb = -b.play(needed[second], posed.centres[second].position)
+    u, v = inner.constraint_forces
+    au, av, bu, bv = (joint.generalized_force(pull, inner.at) for joint in (a, b) for pull in (u, v))
+    ca = a.generalized_force(needed[first], poses.centres[first].position)
+    cb = -b.generalized_force(needed[second], poses.centres[second].position)
     det = au * bv - av * bu
     x, y = np.divide(ca * bv - av * cb, det), np.divide(au * cb - ca * bu, det)
     between = ForceAndMoment(x * u.force + y * v.force, x * u.moment + y * v.moment)
     left = dict(needed)
-    add(left, posed, first, ForceAndMoment(-between.force, -between.moment), inner.at)
-    add(left, posed, second, between, inner.at)
+    add(left, poses, first, ForceAndMoment(-between.force, -between.moment), inner.at)
+    add(left, poses, second, between, inner.at)
     return {
         inner.name: between,
-        a.name: _seen(a, first, left[first], posed),
-        b.name: _seen(b, second, left[second], posed),
+        a.name: _at_joint(a, first, left[first], poses),
+        b.name: _at_joint(b, second, left[second], poses),
     }
 
 
-def _any(posed: PoseBlock, needed: Needs, step: Step, own: Sequence[JointPoses], driven: set[str]) -> Pulls:
-    """All equations of a group at once, three a body, their moments over the mechanism's length."""
-    units = [(joint, pull) for joint in own for pull in _units(joint, driven, posed.length)]
-    samples = posed.motion.status.shape[0]
+def _general_group(poses: PoseBlock, needed: Needs, step: Step, own: Sequence[JointPoses], driven: set[str]) -> Pulls:
+    """All equations of a group at once, three per body; moments are divided by the mechanism's length."""
+    units = [(joint, pull) for joint in own for pull in _units(joint, driven, poses.length)]
+    samples = poses.motion.status.shape[0]
     matrix = np.zeros((samples, 3 * len(step.bodies), len(units)))
     right = np.zeros((samples, 3 * len(step.bodies)))
     for row, body in enumerate(step.bodies):
-        right[:, 3 * row : 3 * row + 3] = _rows(needed[body], posed.length, samples)
+        right[:, 3 * row : 3 * row + 3] = _rows(needed[body], poses.length, samples)
         for column, (joint, pull) in enumerate(units):
             if body in (joint.on, joint.by):
                 sign = 1 if body == joint.on else -1
-                moment = pull.moment + cross(joint.at - posed.centres[body].position, pull.force)
-                seen = ForceAndMoment(sign * pull.force, sign * moment)
-                matrix[:, 3 * row : 3 * row + 3, column] = _rows(seen, posed.length, samples)
+                moment = pull.moment + cross(joint.at - poses.centres[body].position, pull.force)
+                acting = ForceAndMoment(sign * pull.force, sign * moment)
+                matrix[:, 3 * row : 3 * row + 3, column] = _rows(acting, poses.length, samples)
     sizes = solve_many(matrix, right)
     found = {joint.name: ForceAndMoment(0j, 0.0) for joint in own}
     for column, (joint, pull) in enumerate(units):
@@ -131,12 +132,12 @@ def _any(posed: PoseBlock, needed: Needs, step: Step, own: Sequence[JointPoses],
 
 
 def _units(joint: JointPoses, driven: set[str], length: float) -> Iterable[ForceAndMoment]:
-    """What a joint may give, as pulls of the size of a force."""
-    for pull in (*joint.bears, *([joint.drive] if joint.name in driven else [])):
+    """Unit forces and moments that a joint transmits; moments times the length, for the scale of a force."""
+    for pull in (*joint.constraint_forces, *([joint.drive] if joint.name in driven else [])):
         yield ForceAndMoment(pull.force, pull.moment * length)
 
 
 def _rows(pull: ForceAndMoment, length: float, samples: int) -> FloatArray:
-    """x, y and moment over a length as the last axis, one row a sample."""
+    """Components x, y and moment / length along the last axis, one row per sample."""
     parts = (pull.force.real, pull.force.imag, pull.moment / length)
     return np.stack([np.broadcast_to(part, samples) for part in parts], axis=-1)

@@ -1,8 +1,8 @@
-"""Events of a forward run: a value that goes through zero on the way, found to rounding.
+"""Events of a forward run: zero crossings of a function of its state, located to rounding.
 
-An event is any function of the run's state. Ends of travel are events of a position, standstill one of a speed, the
-closing of a gap one of a distance. A value is looked at after each step of the integrator: two crossings in one step
-cancel, as in a value that swings faster than the machine moves.
+The end of travel is an event of a position, standstill of a speed, the closing of a gap of a distance. The value is
+evaluated after each step of the integrator. Two crossings within one step are not detected, for example of a value that
+oscillates faster than the machine moves.
 """
 
 import math
@@ -20,9 +20,12 @@ At = TypeVar("At")
 # Without slots: a slotted frozen class cannot be made through an alias such as Event[State] before Python 3.13.
 @dataclass(frozen=True)
 class Event(Generic[At]):
-    """Something that happens where `value` goes through zero: upward (direction +1), downward (-1), either way (0).
+    """An event at a zero crossing of a value.
 
-    terminal  whether the run ends there
+    name       for the report
+    value      function of the state
+    direction  +1 upward, -1 downward, 0 both
+    terminal   whether the run ends there
     """
 
     name: str
@@ -30,23 +33,25 @@ class Event(Generic[At]):
     direction: int = 0
     terminal: bool = True
 
-    def look(self, state: At) -> float:
-        """The value in a state; raises MechanismError where it is not a number."""
+    def evaluate(self, state: At) -> float:
+        """The value at a state; raises MechanismError where it is NaN."""
         value = float(self.value(state))
         if math.isnan(value):
-            raise MechanismError(f"event {self.name!r} gives {value}", allowed="a number", do="mend its function")
+            raise MechanismError(
+                f"value of event {self.name!r} is {value}", allowed="a number", do="correct its function"
+            )
         return value
 
     def crossed(self, old: float, new: float) -> bool:
-        """Whether a step from one value to another goes through zero in the direction that is meant."""
-        # A start on zero is not a crossing; nor is the step after an end on zero, whose old value is that zero.
+        """Whether a step from the old to the new value crosses zero in the direction of the event."""
+        # A start at zero is not a crossing, nor is the step after one that ended at zero.
         through = old * new < 0 or (new == 0 and old != 0)
         return bool(through and self.direction * old <= 0)
 
 
 @dataclass(frozen=True)
 class EventRecord(Generic[At]):
-    """An event that was met: its name, the time [s], the state there."""
+    """An event that occurred: its name, the time [s], the state there."""
 
     name: str
     time: float
@@ -55,14 +60,14 @@ class EventRecord(Generic[At]):
 
 
 def until_terminal(met: list[EventRecord[At]]) -> list[EventRecord[At]]:
-    """What was met in one step, in its order, up to the first that ends the run."""
+    """The events of one step in the order of time, up to the first terminal event."""
     met = sorted(met, key=lambda one: one.time)
     last = next((k for k, one in enumerate(met) if one.terminal), len(met))
     return met[: last + 1]
 
 
-def located(value: Callable[[float], float], early: float, late: float) -> float:
-    """Where a value changes its sign between two times; the later one where rounding hides the change."""
+def crossing_time(value: Callable[[float], float], early: float, late: float) -> float:
+    """Time [s] between `early` and `late` at which a value changes its sign; `late` where rounding hides the change."""
     if value(early) * value(late) >= 0:
         return late
     return float(scipy.optimize.brentq(value, early, late, xtol=4e-16 * max(abs(late), 1e-300), rtol=1e-15))

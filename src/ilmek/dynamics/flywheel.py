@@ -1,9 +1,9 @@
-"""What a torque over a turn asks of the motor, and the flywheel that evens its speed.
+"""Torque demand of a machine over one turn, and the flywheel that limits its speed fluctuation.
 
     W(theta) = ∫ (T - T_mean) dtheta,    excess = max W - min W,    J = excess / (delta omega²)
 
-with delta = (omega_max - omega_min) / omega, omega the mean of both [Norton, Design of Machinery, section 11.11]. W is
-greatest and least where the torque passes its mean or jumps across it: exact there, not at the nearest of some samples.
+with delta = (omega_max - omega_min) / omega, omega the mean of both [Norton, Design of Machinery, section 11.11]. W has
+its extrema where the torque crosses its mean or jumps across it. These angles are computed exactly, not by sampling.
 """
 
 import math
@@ -17,17 +17,19 @@ from ilmek.errors import MechanismError
 from ilmek.num.piecewise import Extremum, SidedCurve, around, crossings, integrals, suprema
 from ilmek.units import turn
 
-PARTS, MOST_PARTS = 32, 8192
+PARTS, MAX_PARTS = 32, 8192
 ACCURACY = 1e-10
 
 
 @dataclass(frozen=True, slots=True)
 class CyclicTorque:
-    """A torque over a turn.
+    """Characteristic values of a torque over one turn.
 
-    mean, rms  [N m]          peak  the greatest size [N m] and where
-    excess     work above the mean between the angles [rad] at which a shaft under an even drive is `fastest` and
-               `slowest` [J]: W is least and greatest there
+    mean, rms          [N m]
+    peak               greatest magnitude [N m] and its angle [rad]
+    excess             max W - min W [J]
+    slowest, fastest   angles [rad] at which a shaft under a constant driving torque is slowest (W greatest) and
+                       fastest (W least)
     """
 
     mean: float
@@ -38,17 +40,19 @@ class CyclicTorque:
     fastest: float
 
 
-def duty(torque: SidedCurve, breaks: Iterable[float] = ()) -> CyclicTorque:
-    """Mean, rms, peak and excess work of the torque that a machine asks for at constant speed.
+def cyclic_torque(torque: SidedCurve, breaks: Iterable[float] = ()) -> CyclicTorque:
+    """Mean, rms, peak and excess work of the torque that a machine requires at constant speed.
 
-    torque  [N m] at crank angles [rad] and sides, smooth between the `breaks` [rad]
+    torque  torque [N m] as a function of crank angle [rad] and side (+1, -1), smooth between the breaks
+    breaks  crank angles [rad] where the torque or one of its derivatives jumps; default: none
 
-    Parts of the turn are halved until all of it stands to 1e-10: a torque as sharp as near a toggle needs that.
+    The parts of the turn are halved until mean and rms change by less than 1e-10 relative, at most to 8,192 parts: a
+    torque peak near a toggle position requires this.
     """
     breaks = tuple(breaks)
     peak = suprema(lambda angle, side: {"size": np.abs(torque(angle, side))}, around(breaks))["size"]
     parts, found = PARTS, _means(torque, breaks, PARTS)
-    while parts < MOST_PARTS:
+    while parts < MAX_PARTS:
         parts, before, found = 2 * parts, found, _means(torque, breaks, 2 * parts)
         if np.allclose(found, before, rtol=ACCURACY, atol=ACCURACY * peak.value):
             break
@@ -57,7 +61,7 @@ def duty(torque: SidedCurve, breaks: Iterable[float] = ()) -> CyclicTorque:
 
 
 def _means(torque: SidedCurve, breaks: tuple[float, ...], parts: int) -> tuple[float, float]:
-    """Mean and root mean square over a turn."""
+    """Mean and root mean square over one turn [N m]."""
 
     def powers(angle: FloatArray, side: FloatArray) -> dict[str, FloatArray]:
         value = torque(angle, side)
@@ -68,7 +72,7 @@ def _means(torque: SidedCurve, breaks: tuple[float, ...], parts: int) -> tuple[f
 
 
 def _excess(torque: SidedCurve, breaks: tuple[float, ...], parts: int, mean: float) -> tuple[float, float, float]:
-    """Excess of work above the mean, and the angles where it is greatest and least."""
+    """Excess work [J], and the angles [rad] where W is greatest and least."""
     even = crossings(torque, around(breaks, parts=parts), mean).tolist()
     pieces = around((*breaks, *even), parts=parts)
     above = integrals(lambda angle, side: {"above": torque(angle, side) - mean}, pieces)["above"]
@@ -79,15 +83,19 @@ def _excess(torque: SidedCurve, breaks: tuple[float, ...], parts: int, mean: flo
 
 
 def flywheel(excess: float, speed: float, fluctuation: float) -> float:
-    """Moment of inertia [kg m²] that keeps the speed within `fluctuation` delta of its mean [rad/s].
+    """Moment of inertia that limits the speed fluctuation of a shaft: J = excess / (delta omega²) [kg m²].
 
-    It is that of everything that turns with the shaft evenly, the rotor and the wheels among it. Raises MechanismError
-    for a fluctuation that is not between 0 and 2, or a speed of 0.
+    excess       excess work of the torque over one turn [J]; see `cyclic_torque`
+    speed        mean speed omega [rad/s]
+    fluctuation  delta = (omega_max - omega_min) / omega [1], above 0 and below 2
+
+    J includes all parts that rotate with the shaft: motor rotor, gears and flywheel. Raises MechanismError for a
+    fluctuation outside its range or a speed of 0.
     >>> flywheel(100.0, 10.0, 0.02)
     50.0
     """
     if not 0 < fluctuation < 2:
-        raise MechanismError(f"fluctuation of the speed is {fluctuation:g}", allowed="above 0, below 2")
+        raise MechanismError(f"speed fluctuation is {fluctuation:g}", allowed="above 0, below 2")
     if speed == 0:
-        raise MechanismError("a flywheel that stands evens nothing", do="give a speed")
+        raise MechanismError("speed of the flywheel is 0", do="give a speed")
     return excess / (fluctuation * speed**2)

@@ -1,13 +1,14 @@
-"""Forward dynamics of a machine of one freedom: how it moves under its drive and its loads.
+"""Forward dynamics of a machine with one degree of freedom: its motion under drive and loads.
 
-    J q'' + J' q'^2 / 2 = Q + M,   written as   q' = p / √J,   p' = (Q + M) / √J           [see `reduced`; M: drive]
+    J q'' + J' q'^2 / 2 = Q + M,   written as   q' = p / √J,   p' = (Q + M) / √J       [see `reduced`; M drive effort]
 
-p = √J q' has p^2 / 2 for its energy, needs no slope of J, and stays finite where J does not: at a dead centre.
+With p = √J q' the kinetic energy is p^2 / 2, J' is not needed, and p stays finite where J does not: at a dead centre.
 
-Start-up, running, coasting and stopping are runs one after the other, each from the last one's end. A run ends at its
-time, at an event, or where the mechanism comes to a dead centre or cannot close: there, with time, state and reason.
-Integrated by the Dormand-Prince pair of order 8 with error control [Hairer, Norsett and Wanner, Solving Ordinary
-Differential Equations I, section II.10]; the work of drive and loads is integrated along, for the energy balance.
+Start-up, running, coasting and stopping are consecutive runs; each starts at the end of the previous one. A run ends at
+its duration, at a terminal event, at a dead centre, or where the mechanism cannot close. The end is reported with time,
+state and reason. The integrator is the Dormand-Prince method of order 8 with error control [Hairer, Norsett and Wanner,
+Solving Ordinary Differential Equations I, section II.10]. The work of drive and loads is integrated as well, for the
+energy balance.
 """
 
 import math
@@ -19,7 +20,7 @@ import numpy as np
 import scipy
 
 from ilmek.arrays import Float
-from ilmek.dynamics.events import Event, EventRecord, located, until_terminal
+from ilmek.dynamics.events import Event, EventRecord, crossing_time, until_terminal
 from ilmek.dynamics.forward_run import Drive, EndKind, ForwardRun, ForwardState, RunEnd, energies
 from ilmek.dynamics.fourier_terms import FourierTerms, tabulate
 from ilmek.dynamics.reduced import ReducedMechanism
@@ -41,25 +42,25 @@ __all__ = [
 ]
 
 Row: TypeAlias = Float[np.ndarray, " 4"]
-"""What is integrated: position, p, work of the drive, work of the loads other than weight and constants."""
+"""Integrated quantities: position, p, work of the drive, work of the loads except gravity."""
 
 
 RunEvent: TypeAlias = Event[ForwardState]
-"""An event of a run: its value is a function of the input's state: position, speed, time."""
+"""An event of a run; its value is a function of the state of the input."""
 
 
 def at_speed(speed: float) -> RunEvent:
-    """End where the input reaches a speed [rad/s, m/s]."""
+    """Terminal event: the input reaches a speed [rad/s; m/s]."""
     return RunEvent(f"speed {speed:g} reached", lambda state: state.speed - speed)
 
 
 def at_angle(position: float) -> RunEvent:
-    """End where the input comes to a position [rad, m], counted through all turns: an end of travel."""
+    """Terminal event: the input reaches a position [rad; m], counted through all turns."""
     return RunEvent(f"position {position:g} reached", lambda state: state.position - position)
 
 
 def at_rest() -> RunEvent:
-    """End where the input comes to rest; a start from rest is not meant."""
+    """Terminal event: the input comes to rest; a start from rest does not count."""
     return RunEvent("at rest", lambda state: state.speed)
 
 
@@ -73,36 +74,40 @@ def forward(
     every: float | None = None,
     rtol: float = 1e-9,
 ) -> ForwardRun:
-    """A run of the machine from a state, for a time [s].
+    """A run of the machine from a given state.
 
-    drive  effort on the input [N m, or N] of (t, q, q'): a motor's torque-speed curve, for example; None: coasting
-    events looked for at each step of the integrator; a terminal one ends the run
-    every  time between the samples of the answer [s]; None: the integrator's own steps
-    rtol   relative error of a step in angle (against 1 rad), speed and work
+    reduced   the mechanism with masses and loads; see `reduce`
+    start     state at the start
+    duration  [s]
+    drive     effort on the input [N m; N] as a function of time, position and speed, for example a motor's torque-speed
+              curve; default: no drive, the machine coasts
+    events    checked at each step of the integrator; a terminal event ends the run; default: none
+    every     time between the reported samples [s]; default: the steps of the integrator
+    rtol      relative error of a step in angle (relative to 1 rad), speed and work, 3e-14 to 1e-2
 
-    A machine that turns fully is run on its Fourier table (see `fourier_terms`), any other on the engine itself.
-    Raises MechanismError for a start in which the mechanism does not close, a state, duration or effort that is not
-    finite, and a tolerance that cannot be kept.
+    A machine whose input rotates fully is run on its Fourier table (see `fourier_terms`), any other on the mechanism's
+    equations. Raises MechanismError for a start at which the mechanism does not close, a state, duration or effort that
+    is not finite, and a tolerance outside its range.
     """
     _check(duration, every, rtol)
-    course = _Course(reduced, tabulate(reduced), drive)
-    first, scale = _first(course, start)
+    equation = _Equation(reduced, tabulate(reduced), drive)
+    first, scale = _first_row(equation, start)
     solver = scipy.integrate.DOP853(
-        course.rates, start.time, first, start.time + duration, rtol=rtol, atol=rtol * scale
+        equation.rates, start.time, first, start.time + duration, rtol=rtol, atol=rtol * scale
     )
-    return _run(course, _advance(solver, course, tuple(events), every))
+    return _forward_run(equation, _advance(solver, equation, tuple(events), every))
 
 
 @dataclass(frozen=True, slots=True)
-class _Course:
-    """The right-hand side of a run."""
+class _Equation:
+    """Right-hand side of the differential equation."""
 
     reduced: ReducedMechanism
     table: FourierTerms | None
     drive: Drive | None
 
     def terms(self, position: float) -> tuple[float, float, float]:
-        """J, Q of the weights and of the other steady loads; NaN where the mechanism does not close."""
+        """J, Q of gravity and Q of the other steady loads; NaN where the mechanism does not close."""
         if self.table is not None:
             return self.table(position)
         found = self.reduced.terms(np.array([position]))
@@ -111,14 +116,14 @@ class _Course:
         return float(found.inertia[0]), float(found.weight[0]), float(found.push[0])
 
     def efforts(self, time: float, position: float, speed: float) -> tuple[float, float]:
-        """Efforts of the drive and of the live loads."""
+        """Efforts of the drive and of the live loads [N m; N]."""
         effort = float(self.drive(time, position, speed)) if self.drive is not None else 0.0
         if not self.reduced.live:
             return effort, 0.0
         return effort, float(self.reduced.live_force(np.array([position]), np.array([speed]))[0])
 
     def rates(self, time: float, row: Row) -> tuple[float, float, float, float]:
-        """Derivative of what is integrated."""
+        """Time derivative of a row; NaN where the mechanism does not close."""
         position = float(row[0])
         if not math.isfinite(position):
             return math.nan, math.nan, math.nan, math.nan
@@ -138,8 +143,8 @@ class _Course:
 
 
 @dataclass(frozen=True, slots=True)
-class _Told:
-    """What the integration found: samples (time and row), events met, the end."""
+class _Integration:
+    """Samples (time and row), events that occurred, and the end."""
 
     samples: list[tuple[float, Row]]
     happened: list[EventRecord[ForwardState]]
@@ -150,21 +155,23 @@ def _check(duration: float, every: float | None, rtol: float) -> None:
     if not (np.isfinite(duration) and duration > 0):
         raise MechanismError(f"duration of a run is {duration:g} s", allowed="finite and above 0")
     if every is not None and not (np.isfinite(every) and every > 0):
-        raise MechanismError(f"samples of a run every {every:g} s", allowed="finite and above 0")
+        raise MechanismError(f"time between samples of a run is {every:g} s", allowed="finite and above 0")
     if not 3e-14 <= rtol <= 1e-2:
         raise MechanismError(f"relative error of a run is {rtol:g}", allowed="3e-14 to 1e-2")
 
 
-def _first(course: _Course, start: ForwardState) -> tuple[Row, Row]:
-    """The first row, and what an error is small against: 1 rad, and the energy at the start or that of a rad's work."""
+def _first_row(equation: _Equation, start: ForwardState) -> tuple[Row, Row]:
+    """The first row, and the scale of the errors: 1 rad, and the energy at the start or the work over 1 rad."""
     if not (math.isfinite(start.position) and math.isfinite(start.speed) and math.isfinite(start.time)):
         raise MechanismError(f"the start of the run is {start}", allowed="finite values")
-    solve(course.reduced.plan, start.position).require()
-    inertia, weight, steady = course.terms(start.position)
-    effort, live = course.efforts(start.time, start.position, start.speed)
+    solve(equation.reduced.plan, start.position).require()
+    inertia, weight, steady = equation.terms(start.position)
+    effort, live = equation.efforts(start.time, start.position, start.speed)
     if not math.isfinite(effort + live):
         raise MechanismError(
-            f"the drive or a load gives {effort + live} at the start", allowed="finite efforts", do="mend its function"
+            f"effort of the drive or a load is {effort + live} at the start",
+            allowed="finite efforts",
+            do="correct its function",
         )
     if not inertia > 0:
         raise MechanismError("no mass moves with the input at the start", do="give a flywheel or another start")
@@ -174,35 +181,39 @@ def _first(course: _Course, start: ForwardState) -> tuple[Row, Row]:
 
 
 def _advance(
-    solver: "scipy.integrate.DOP853", course: _Course, events: tuple[RunEvent, ...], every: float | None
-) -> _Told:
-    """Step to the end; the samples wanted, the last of them the end, and what happened."""
+    solver: "scipy.integrate.DOP853", equation: _Equation, events: tuple[RunEvent, ...], every: float | None
+) -> _Integration:
+    """Integrate to the end of the run; the last sample is the end."""
     samples: list[tuple[float, Row]] = [(float(solver.t), np.array(solver.y))]
     happened: list[EventRecord[ForwardState]] = []
-    before = _values(events, course.state(solver.t, solver.y))
+    before = _values(events, equation.state(solver.t, solver.y))
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         while solver.status == "running":
             solver.step()
-            if solver.status == "failed" or _arrested(solver, course):
-                return _Told([*samples, (float(solver.t), np.array(solver.y))], happened, _failure(solver, course))
-            now = _values(events, course.state(solver.t, solver.y)) if events else []
-            happened += _met(solver, course, events, before, now)
+            if solver.status == "failed" or _stopped_at_limit(solver, equation):
+                samples.append((float(solver.t), np.array(solver.y)))
+                return _Integration(samples, happened, _failure(solver, equation))
+            now = _values(events, equation.state(solver.t, solver.y)) if events else []
+            happened += _events_in_step(solver, equation, events, before, now)
             hit = happened[-1] if happened and happened[-1].terminal else None
             until = float(solver.t) if hit is None else hit.time
             if every is None:
                 samples.append((until, solver.dense_output()(until) if hit else np.array(solver.y)))
             else:
-                samples += _between(solver, every, samples[0][0], until, last=bool(hit) or solver.status == "finished")
+                last = bool(hit) or solver.status == "finished"
+                samples += _samples_in_step(solver, every, samples[0][0], until, last=last)
             if hit is not None:
-                return _Told(samples, happened, RunEnd(EndKind.EVENT, hit.state, hit.name))
+                return _Integration(samples, happened, RunEnd(EndKind.EVENT, hit.state, hit.name))
             before = now
-    return _Told(samples, happened, RunEnd(EndKind.TIME, course.state(*samples[-1]), "its time was over"))
+    return _Integration(
+        samples, happened, RunEnd(EndKind.TIME, equation.state(*samples[-1]), "its duration was reached")
+    )
 
 
-def _between(
+def _samples_in_step(
     solver: "scipy.integrate.DOP853", every: float, start: float, until: float, *, last: bool
 ) -> list[tuple[float, Row]]:
-    """Samples every so often in the last step up to `until`; that instant too if it is the run's last."""
+    """Samples at multiples of `every` in the last step up to `until`, and at `until` if the run ends there."""
     first = int(np.floor((solver.t_old - start) / every + 1e-9)) + 1
     final = int(np.floor((until - start) / every + 1e-9))
     at = [min(start + every * k, until) for k in range(first, final + 1)]
@@ -214,77 +225,77 @@ def _between(
     return [(time, dense(time)) for time in at]
 
 
-def _met(
+def _events_in_step(
     solver: "scipy.integrate.DOP853",
-    course: _Course,
+    equation: _Equation,
     events: tuple[RunEvent, ...],
     before: list[float],
     now: list[float],
 ) -> list[EventRecord[ForwardState]]:
-    """What happened in the last step, in its order, up to the first terminal event."""
+    """Events in the last step in their order, up to the first terminal event."""
     met: list[EventRecord[ForwardState]] = []
     for event, old, new in zip(events, before, now, strict=True):
         if event.crossed(old, new):
             dense = solver.dense_output()
 
             def at(time: float, dense: Callable[[float], Row] = dense) -> ForwardState:
-                return course.state(time, dense(time))
+                return equation.state(time, dense(time))
 
-            time = located(lambda time, event=event, at=at: event.look(at(time)), solver.t_old, solver.t)  # type: ignore[misc]
+            time = crossing_time(lambda time, event=event, at=at: event.evaluate(at(time)), solver.t_old, solver.t)  # type: ignore[misc]
             met.append(EventRecord(event.name, time, at(time), event.terminal))
     return until_terminal(met)
 
 
 def _values(events: tuple[RunEvent, ...], state: ForwardState) -> list[float]:
-    return [event.look(state) for event in events]
+    return [event.evaluate(state) for event in events]
 
 
-ARREST = 1e-9
-"""Where a step moves the input by less [rad, m], it is asked whether a limit stands right ahead."""
+CREEP = 1e-9
+"""Motion of the input in one step [rad; m] below which the poses just ahead are checked for a limit."""
 
 PROBES = np.concatenate(([0.0], np.logspace(-15, -3, 25)))
-"""How far beyond the last state the reason of a failure is looked for [rad, m]."""
+"""Distances ahead of the last state at which the reason of a failure is sought [rad; m]."""
 
 
-def _arrested(solver: "scipy.integrate.DOP853", course: _Course) -> bool:
-    """Whether the input has come to the end of its range: there q' falls to 0 with p undiminished, and q creeps."""
-    if course.table is not None or abs(float(solver.y[0]) - float(solver.y_old[0])) > ARREST:
+def _stopped_at_limit(solver: "scipy.integrate.DOP853", equation: _Equation) -> bool:
+    """Whether the input is at the end of its range: q' tends to 0 there while p does not, and q creeps."""
+    if equation.table is not None or abs(float(solver.y[0]) - float(solver.y_old[0])) > CREEP:
         return False
-    near = float(solver.y[0]) + np.sign(solver.y[1]) * PROBES[PROBES <= ARREST]
-    return bool(solve(course.reduced.plan, near, 1.0).status.any())
+    near = float(solver.y[0]) + np.sign(solver.y[1]) * PROBES[PROBES <= CREEP]
+    return bool(solve(equation.reduced.plan, near, 1.0).status.any())
 
 
-def _failure(solver: "scipy.integrate.DOP853", course: _Course) -> RunEnd:
-    """Why no further step could be made: what the engine says of the poses just ahead."""
-    last = course.state(float(solver.t), solver.y)
-    plan = course.reduced.plan
+def _failure(solver: "scipy.integrate.DOP853", equation: _Equation) -> RunEnd:
+    """Reason why no further step is possible, from the status of the poses just ahead."""
+    last = equation.state(float(solver.t), solver.y)
+    plan = equation.reduced.plan
     ahead = last.position + np.sign(solver.y[1] or 1.0) * PROBES
     status = solve(plan, ahead, 1.0).status
     bad = np.flatnonzero(status != Status.OK)
     if len(bad) == 0:
-        return RunEnd(EndKind.STEP, last, "the drive or a load is not finite, or too rough for this error")
-    words = ""
+        return RunEnd(EndKind.STEP, last, "the drive or a load is not finite, or not smooth enough for this error")
+    reason = ""
     try:
         solve(plan, float(ahead[bad[-1]]), 1.0).require()
     except MechanismError as fault:
-        words = fault.given
-    # A pose that can be passed is a dead centre; one that ends the input's range is where links cannot close further.
+        reason = fault.given
+    # A pose that can be passed is a dead centre; at the end of the input's range the links cannot close beyond it.
     beyond = status[-1] if status[-1] != Status.OK else Status.DEAD_CENTRE
-    return RunEnd(EndKind[Status(beyond).name], last, words)
+    return RunEnd(EndKind[Status(beyond).name], last, reason)
 
 
-def _run(course: _Course, told: _Told) -> ForwardRun:
-    """The samples as arrays, with accelerations, efforts and energies from the engine."""
-    time = np.array([sample[0] for sample in told.samples])
-    position, momentum, drive_work, load_work = np.stack([sample[1] for sample in told.samples], axis=1)
-    found = course.reduced.terms(position)
+def _forward_run(equation: _Equation, integration: _Integration) -> ForwardRun:
+    """The samples as arrays, with accelerations, efforts and energies from the mechanism's equations."""
+    time = np.array([sample[0] for sample in integration.samples])
+    position, momentum, drive_work, load_work = np.stack([sample[1] for sample in integration.samples], axis=1)
+    found = equation.reduced.terms(position)
     speed = momentum / np.sqrt(found.inertia)
-    efforts = [course.efforts(*state) for state in zip(time, position, speed, strict=True)]
+    efforts = [equation.efforts(*state) for state in zip(time, position, speed, strict=True)]
     effort, live = np.array(efforts).T
     acceleration = (found.weight + found.push + live + effort - 0.5 * found.slope * speed**2) / found.inertia
-    kinetic, potential = energies(course.reduced, position, speed)
+    kinetic, potential = energies(equation.reduced, position, speed)
     return ForwardRun(
-        course.reduced,
+        equation.reduced,
         time,
         position,
         speed,
@@ -294,7 +305,7 @@ def _run(course: _Course, told: _Told) -> ForwardRun:
         potential,
         drive_work,
         load_work,
-        told.end,
-        tuple(told.happened),
-        course.table.error if course.table else None,
+        integration.end,
+        tuple(integration.happened),
+        equation.table.error if equation.table else None,
     )

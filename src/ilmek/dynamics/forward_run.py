@@ -1,4 +1,4 @@
-"""What a forward run answers: the course of the input, what drove it, the energy balance, and why it ended."""
+"""Result of a forward run: motion of the input, drive effort, energy balance, and the reason of the end."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,12 +15,12 @@ from ilmek.linkage.solve import solve
 from ilmek.units import turn
 
 Drive: TypeAlias = Callable[[float, float, float], float]
-"""Effort on the input [N m, or N] of time [s], position [rad, m] and speed [rad/s, m/s]."""
+"""Effort on the input [N m; N] as a function of time [s], position [rad; m] and speed [rad/s; m/s]."""
 
 
 @dataclass(frozen=True, slots=True)
 class ForwardState:
-    """Position [rad, m] and speed [rad/s, m/s] of the input at a time [s]."""
+    """Position [rad; m] and speed [rad/s; m/s] of the input at a time [s]."""
 
     position: float
     speed: float = 0.0
@@ -30,10 +30,10 @@ class ForwardState:
 class EndKind(Enum):
     """Why a run ended.
 
-    TIME           its time was over               EVENT  a terminal event was met
-    DEAD_CENTRE    links in line: the drive has no definite hold on them
-    CANNOT_CLOSE   the input's range ends there    NOT_CONVERGED  Newton's method found no pose beyond
-    STEP           an effort that is not finite, or too rough for the error asked
+    TIME           the duration was reached        EVENT          a terminal event occurred
+    DEAD_CENTRE    links in line: the motion of the input does not determine theirs
+    CANNOT_CLOSE   end of the input's range        NOT_CONVERGED  Newton's method found no further pose
+    STEP           an effort that is not finite, or not smooth enough for the requested error
     """
 
     TIME = "time"
@@ -46,22 +46,25 @@ class EndKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class RunEnd:
-    """How a run ended: the kind, the last state, and the reason in words."""
+    """How a run ended: the kind, the last state, and the reason as a sentence."""
 
     kind: EndKind
     state: ForwardState
-    words: str
+    reason: str
 
 
 @dataclass(frozen=True, slots=True)
 class ForwardRun:
-    """A forward run, sample by sample; the last sample is the end.
+    """A forward run, one value per sample; the last sample is the end.
 
-    position, speed, acceleration  of the input [rad, m; per s; per s²]      effort  of the drive [N m, N]
-    kinetic, potential             energies, from the engine [J]; the weights' potential against the world's origin
-    drive_work, load_work          done since the start [J]: by the drive; by the loads that are not weights
-    end, events                    why it ended; the events met on the way, the ending one last
-    table_error                    of the Fourier table, of the greatest value; None where the engine itself was run
+    time                           [s]
+    position, speed, acceleration  of the input [rad; m, per s, per s²]
+    effort                         of the drive [N m; N]
+    kinetic, potential             energies, recomputed from the mechanism [J]; potential of gravity relative to the
+                                   ground's origin
+    drive_work, load_work          work since the start [J]: of the drive; of the loads except gravity
+    end, events                    reason of the end; the events that occurred, in their order
+    table_error                    error of the Fourier table, relative to the greatest value; None without a table
     """
 
     reduced: ReducedMechanism
@@ -80,40 +83,40 @@ class ForwardRun:
 
     @property
     def energy_residual(self) -> Samples:
-        """Energy gained less work done since the start [J]: zero but for the integration's error."""
+        """Energy gained minus work done since the start [J]: the error of the integration."""
         energy = self.kinetic + self.potential
         residual: Samples = energy - energy[0] - self.drive_work - self.load_work
         return residual
 
     @property
     def energy_error(self) -> float:
-        """Greatest energy residual over the greatest energy or work that was turned over."""
-        courses = (self.kinetic, self.potential - self.potential[0], self.drive_work, self.load_work)
-        size = max(float(np.nanmax(np.abs(course))) for course in courses)
+        """Greatest energy residual, relative to the greatest energy or work of the run [1]; 0 where both are 0."""
+        curves = (self.kinetic, self.potential - self.potential[0], self.drive_work, self.load_work)
+        size = max(float(np.nanmax(np.abs(curve))) for curve in curves)
         return float(np.nanmax(np.abs(self.energy_residual))) / size if size else 0.0
 
     def motion(self) -> Motion:
-        """The mechanism's motion over the samples, ready for `inverse`: bearing loads of the run."""
+        """The motion of the mechanism at the samples, for example for the joint forces by `inverse`."""
         return solve(self.reduced.plan, self.position, self.speed, np.nan_to_num(self.acceleration))
 
     def require_turns(self, turns: float = 1.0) -> "ForwardRun":
-        """The run itself, if the input made so many turns (or metres) in the direction in which it was driven.
+        """The run itself, if the input made at least this number of turns, in either direction.
 
-        Raises MechanismError that says how far it came: a drive too weak to start, or a time too short.
+        Raises MechanismError that states the number of turns reached: the drive is too weak or the duration too short.
         """
-        wanted, course = turns * turn, self.position - self.position[0]
-        reached = float(np.max(np.abs(course)))
-        if reached >= wanted:
+        required, curve = turns * turn, self.position - self.position[0]
+        reached = float(np.max(np.abs(curve)))
+        if reached >= required:
             return self
-        name, at = self.reduced.plan.mechanism.name, int(np.argmax(np.abs(course)))
+        name, at = self.reduced.plan.mechanism.name, int(np.argmax(np.abs(curve)))
         raise MechanismError(
-            f"{name} came {reached / turn:.3f} of {turns:g} turns and stood at {self.time[at]:.4g} s; "
-            f"the drive gave {self.effort[at]:.4g} there",
-            allowed=f"it ended because {self.end.words}",
+            f"{name} made {reached / turn:.3f} of {turns:g} turns and stood at {self.time[at]:.4g} s; "
+            f"the drive effort was {self.effort[at]:.4g} there",
+            allowed=f"the run ended: {self.end.reason}",
             do="give a stronger drive, a flywheel, more speed at the start, or more time",
         )
 
 
 def energies(reduced: ReducedMechanism, position: Samples, speed: Samples) -> tuple[Samples, Samples]:
-    """Kinetic and potential energy [J] from the engine, not from a table."""
+    """Kinetic and potential energy [J] at positions [rad; m] and speeds, from the mechanism, not from a table."""
     return reduced.terms(position).inertia * speed**2 / 2, reduced.potential(position)

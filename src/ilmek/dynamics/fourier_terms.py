@@ -1,12 +1,12 @@
-"""The terms of a turning machine as Fourier series: exact to rounding, and a thousand times quicker to evaluate.
+"""Terms of the reduced equation as Fourier series: exact to rounding and about 1,000 times faster to evaluate.
 
-Of a machine whose input turns fully, J and Q are periodic and analytic. With f analytic in the strip
-|Im q| < a and |f| <= C there, the trigonometric interpolant on N equal steps of the turn is off by
+J and Q of a machine whose input rotates fully are periodic and analytic. If f is analytic in the strip |Im q| < a with
+|f| <= C, the error of the trigonometric interpolant on N equal steps of the turn is
 
     |f - p_N| <= 4 C e^{-a N / 2} / (e^a - 1)           [Trefethen and Weideman, SIAM Review 56 (2014), theorem 3.1 ff]
 
-N is doubled until the error, measured against the engine half-way between the nodes (where 1 - e^{iNq}, the factor of
-the leading term, is greatest), is `ACCURACY` of the function or no longer falls.
+N is doubled until the relative error is `ACCURACY` or no longer falls. The error is measured half-way between the
+nodes, where the factor 1 - e^{iNq} of the leading term is greatest.
 """
 
 from dataclasses import dataclass
@@ -20,27 +20,28 @@ from ilmek.num.compiled import compiled
 from ilmek.units import turn
 
 ACCURACY = 2e-14
-"""Error that is rounding: nothing is gained by more terms."""
+"""Relative error at the level of rounding."""
 
 USABLE = 1e-11
-"""Greatest error of a table, of the greatest value; a machine that does not reach it is run on the engine."""
+"""Greatest error of a table, relative to the greatest value; otherwise the mechanism's equations are used."""
 
-MOST = 8192
-"""Most nodes on a turn."""
+MAX_NODES = 8192
+"""Greatest number of nodes on a turn."""
 
 
 @dataclass(frozen=True, slots=True)
 class FourierTerms:
-    """J, Q of the weights and of the other steady loads: the real part of Σ c_k e^{ikq}.
+    """J, Q of gravity and Q of the other steady loads, each as the real part of Σ c_k e^{ikq}.
 
-    error  the greatest found, of each one's greatest value
+    coefficients  c_k, one column per term
+    error         greatest error found, relative to the greatest value of its term
     """
 
     coefficients: Complex[np.ndarray, "terms 3"]
     error: float
 
     def __call__(self, position: float) -> tuple[float, float, float]:
-        """The three at one input angle [rad]."""
+        """J [kg m²] and the two Q [N m] at an input angle [rad]."""
         found: tuple[float, float, float] = evaluate(self.coefficients, position)
         return found
 
@@ -58,12 +59,15 @@ def evaluate(coefficients: np.ndarray, position: float) -> tuple[float, float, f
 
 
 def tabulate(reduced: ReducedMechanism) -> FourierTerms | None:
-    """The table of a machine; None where its input slides or does not turn fully, or the terms are too sharp."""
+    """The table of a machine.
+
+    None where the input slides or does not rotate fully, or the error of the table stays above `USABLE`.
+    """
     if not isinstance(reduced.plan.mechanism.inputs[0], Rotation):
         return None
     best: FourierTerms | None = None
     nodes = 64
-    while nodes <= MOST:
+    while nodes <= MAX_NODES:
         tried = _on(reduced, nodes)
         if tried is None:
             return None
@@ -77,7 +81,7 @@ def tabulate(reduced: ReducedMechanism) -> FourierTerms | None:
 
 
 def _on(reduced: ReducedMechanism, nodes: int) -> FourierTerms | None:
-    """The table from that many nodes; None where the machine does not close all round."""
+    """The table from a number of nodes; None where the mechanism does not close over the whole turn."""
     at = np.arange(2 * nodes) * (turn / (2 * nodes))
     found = reduced.terms(at)
     if found.status.any():
@@ -92,7 +96,7 @@ def _on(reduced: ReducedMechanism, nodes: int) -> FourierTerms | None:
 
 
 def _trimmed(series: Complex[np.ndarray, "terms 3"], size: Float[np.ndarray, " 3"]) -> Complex[np.ndarray, "kept 3"]:
-    """Without the trailing terms that together are below a thousandth of rounding."""
+    """The series without trailing terms whose sum is below a thousandth of rounding."""
     tail = np.cumsum(np.max(np.abs(series) / size, axis=1)[::-1])[::-1]
     kept = max(int(np.count_nonzero(tail > 1e-19)), 1)
     return np.ascontiguousarray(series[:kept])

@@ -1,7 +1,7 @@
-"""Forces that set in and turn round: windows of an input, and friction against the motion of a point.
+"""Loads that jump: loads within a range of an input, and friction against the motion of a point.
 
-Such a load jumps. At a jump it has two values, one just before and one just after: `side` says which one is meant, and
-everything that may jump is judged a moment to that side of the instant, so that forces at a jump are limits.
+At a jump such a load has two one-sided values. `side` selects one: +1 the value further on in the input, -1 further
+back. The load is evaluated at a small offset to that side, so that the force at a jump is the one-sided limit.
 """
 
 from collections.abc import Iterable, Mapping
@@ -17,23 +17,23 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.motion import Motion
 from ilmek.units import turn
 
-MOMENT = 1e-9
-"""How far beside an instant jumps are judged, in the input [rad, m]."""
+OFFSET = 1e-9
+"""Offset in the input at which one-sided values are evaluated [rad; m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class AngleRange:
-    """Angles of an input from `start` to `end` [rad], upward, whatever the turn; `end` below `start` goes through 0.
+    """Angles of an input from `start` upward to `end` [rad], in every turn; with `end` below `start` through 0.
 
-    >>> AngleRange(6.0, 1.0).holds(np.array([0.5, 3.0, 6.5]))
+    >>> AngleRange(6.0, 1.0).contains(np.array([0.5, 3.0, 6.5]))
     array([ True, False,  True])
     """
 
     start: float
     end: float
 
-    def holds(self, angle: RealField) -> BoolArray:
-        """Whether angles [rad] lie in the window; its start does, its end does not."""
+    def contains(self, angle: RealField) -> BoolArray:
+        """Whether angles [rad] are in the range, of the same shape; the start is included, the end is not."""
         span = self.end - self.start
         inside = np.mod(np.asarray(angle) - self.start, turn) < np.mod(span, turn)
         return np.asarray(inside | (abs(span) >= turn))
@@ -41,61 +41,66 @@ class AngleRange:
 
 @dataclass(frozen=True, slots=True)
 class WindowedLoad:
-    """A load that acts only while an input is in a window: the backing's resistance, a knife's cut, a beat.
+    """A load that acts only while an input is in a range: resistance of a backing, a knife's cut, a beat-up.
 
-    paced   the input whose angle opens the window
-    side    at the window's ends: +1 what acts further on in the input, -1 further back, one number or one a sample
+    load        the load inside the range
+    input_name  name of the input
+    window      range of the input's angle [rad]
+    side        at the ends of the range: +1 the load further on in the input, -1 further back; a number or one per
+                sample
     """
 
     load: Load
-    paced: str
+    input_name: str
     window: AngleRange
     side: RealField = 1.0
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:
-        """The load's wrenches, nothing outside the window."""
-        open_ = self.window.holds(motion.drives[self.paced].value + MOMENT * np.asarray(self.side))
+        """The wrenches of the load; zero outside the range."""
+        open_ = self.window.contains(motion.drives[self.input_name].value + OFFSET * np.asarray(self.side))
         for wrench in self.load.wrenches(motion, inertias):
             yield Wrench(wrench.body, wrench.force * open_, wrench.at, wrench.torque * open_)
 
 
 @dataclass(frozen=True, slots=True)
 class Friction:
-    """A force of given size [N] on a point of a body, against its velocity, while the input is in the window.
+    """A force of given magnitude on a point of a body, against its velocity, while an input is in a range.
 
-    point   by name, or where it is in the body's frame [m]
-    size    [N], one number or one a sample
-    paced   the input whose angle opens the window; it must move
-    window  unsaid: always
-    side    at a jump: +1 the force further on in the input, -1 further back, one number or one a sample
+    body        name of the body
+    point       name of the point, or its position in the body's frame [m]
+    magnitude   [N], a number or one value per sample
+    input_name  name of the input; it must move
+    window      range of the input's angle [rad]; default: the whole turn
+    side        at a jump: +1 the force further on in the input, -1 further back; a number or one per sample
     """
 
     body: str
     point: str | complex
-    size: RealField
-    paced: str
+    magnitude: RealField
+    input_name: str
     window: AngleRange | None = None
     side: RealField = 1.0
 
     def force(self, motion: Motion) -> ComplexArray:
-        """The force [N], one a sample: - size v/|v|, where v is the velocity a moment to the `side`.
+        """The force [N], one value per sample: - magnitude v/|v|, with v the velocity on the given `side`; 0 at v = 0.
 
-        Raises MechanismError where the input does not move: friction at rest has no definite direction.
+        Raises MechanismError where the input does not move: the direction of friction at rest is not determined.
         """
-        drive = motion.drives[self.paced]
+        drive = motion.drives[self.input_name]
         speed = np.asarray(drive.speed, dtype=float)
         if not speed.all():
             raise MechanismError(
-                f"friction on {self.body!r} has no direction: {self.paced} does not move", do="give the input a speed"
+                f"friction on {self.body!r} has no direction: {self.input_name} does not move",
+                do="give the input a speed",
             )
-        place = attached(motion, self.body, self._local(motion))
-        velocity = place.velocity + MOMENT * self.side / speed * place.acceleration
+        moved = attached(motion, self.body, self._local(motion))
+        velocity = moved.velocity + OFFSET * self.side / speed * moved.acceleration
         pace = np.abs(velocity)
         direction = np.divide(velocity, pace, out=np.zeros_like(velocity), where=pace > 0)
-        size: FloatArray = np.asarray(self.size, dtype=float)
+        magnitude: FloatArray = np.asarray(self.magnitude, dtype=float)
         if self.window is not None:
-            size = size * self.window.holds(drive.value + MOMENT * np.asarray(self.side))
-        force: ComplexArray = -size * direction
+            magnitude = magnitude * self.window.contains(drive.value + OFFSET * np.asarray(self.side))
+        force: ComplexArray = -magnitude * direction
         return force
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002

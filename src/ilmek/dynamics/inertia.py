@@ -1,4 +1,4 @@
-"""Mass, mass centre and moment of inertia of links; bars and point masses, combined by parallel axes.
+"""Mass, mass centre and moment of inertia of links: bars and point masses, combined by the parallel-axis theorem.
 
 >>> rocker = combined(bar(0, 0.3, mass=0.649, width=0.03), point_mass(2.5, at=0.3))
 >>> round(rocker.centre.real, 4), round(rocker.mass, 3)
@@ -16,11 +16,13 @@ from ilmek.plane.vectors import dot
 
 @dataclass(frozen=True, slots=True)
 class Inertia:
-    """What a rigid body weighs against acceleration.
+    """Mass properties of a rigid body.
 
     mass     [kg], not negative
     centre   mass centre in the body's frame [m], complex
     moment   moment of inertia about the mass centre [kg m²], not negative
+
+    Raises MechanismError for values outside these ranges or not finite.
     """
 
     mass: float
@@ -36,7 +38,7 @@ class Inertia:
             raise MechanismError(f"mass centre of a body is {self.centre}", allowed="finite coordinates")
 
     def about(self, point: complex) -> float:
-        """Moment of inertia about any point of the body's frame [kg m²]: J + m r² [Steiner's theorem].
+        """Moment of inertia about a point [m] of the body's frame: J + m r² [kg m²] [parallel-axis theorem].
 
         >>> round(bar(0, 0.3, mass=0.649).about(0), 9)  # m L² / 3
         0.01947
@@ -46,7 +48,7 @@ class Inertia:
 
 
 def bar_mass(length: RealField, width: RealField, thickness: RealField, density: RealField) -> RealField:
-    """Mass of a rectangular bar [kg]: density times length, width, thickness [kg/m³, m].
+    """Mass of a rectangular bar [kg]: m = density length width thickness; lengths [m], density [kg/m³], any shape.
 
     >>> round(bar_mass(0.3, 0.03, 0.01, 7210), 6)
     0.6489
@@ -55,9 +57,9 @@ def bar_mass(length: RealField, width: RealField, thickness: RealField, density:
 
 
 def bar_moment(mass: RealField, length: RealField, width: RealField) -> RealField:
-    """Moment of inertia of a rectangular bar about its centre, for turning in its plane [kg m²].
+    """Moment of inertia of a rectangular bar about its centre, for rotation in its plane [kg m²].
 
-        J = m (L² + w²) / 12
+        J = m (L² + w²) / 12,    mass m [kg], length L and width w [m], any shape
 
     Topalbekiroglu and Celik print 4.073e-5 kg m² for their crank of 0.129131 kg, 59.7375 mm by 30 mm: that is
     m (L² + (w/2)²) / 12; this formula gives 4.804e-5.
@@ -66,19 +68,26 @@ def bar_moment(mass: RealField, length: RealField, width: RealField) -> RealFiel
 
 
 def bar(start: complex, end: complex, *, mass: float, width: float = 0.0) -> Inertia:
-    """A uniform straight bar between two points of the body's frame [m]; `width` [m] lies in the plane of motion."""
+    """A uniform straight bar.
+
+    start, end  its ends in the body's frame [m], complex
+    mass        [kg]
+    width       in the plane of motion [m]; default: 0, a slender rod
+    """
     return Inertia(mass, (start + end) / 2, float(bar_moment(mass, abs(end - start), width)))
 
 
 def point_mass(mass: float, at: complex) -> Inertia:
-    """A mass in one point of the body's frame [kg, m]."""
+    """A point mass [kg] at a point of the body's frame [m]."""
     return Inertia(mass, complex(at), 0.0)
 
 
 def combined(*parts: Inertia) -> Inertia:
-    """The parts fixed to each other as one body; massless parts give a massless body centred at the origin.
+    """Inertia of rigidly connected parts, all given in the same frame.
 
-    m = Σ m_k,   c = Σ m_k c_k / m,   J = Σ (J_k + m_k |c_k - c|²)     [Steiner's theorem]
+        m = Σ m_k,   c = Σ m_k c_k / m,   J = Σ (J_k + m_k |c_k - c|²)     [parallel-axis theorem]
+
+    Massless parts give a massless body with its centre at the origin.
     """
     mass = math.fsum(part.mass for part in parts)
     centre: ComplexField = sum(part.mass * part.centre for part in parts) / mass if mass else 0j

@@ -1,9 +1,9 @@
-"""Inverse dynamics: the forces in the joints and the effort of the drive that a given motion needs.
+"""Inverse dynamics: joint forces and drive efforts that a given motion requires.
 
-For any planar mechanism of pins and slides; the equations are those of `equations`.
+For any planar mechanism with pins and slides. The equations are in `equations`.
 
-Sign convention: a pin's force acts on its `second` body, from the first; a slide's force and couple act on its
-`body`, from the guide; an input's effort acts on the driven body, from the other one. The opposite acts on the other.
+Sign convention: a pin's force acts from its first on its `second` body; a slide's force and couple act from the guide
+on its `body`; an input's effort acts on the driven body. The opposite acts on the other body.
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,7 +16,7 @@ from ilmek.dynamics.equations import Needs, joint_pulls, needs
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import JointFriction, check_joints, frictions, loaded
 from ilmek.dynamics.loads import Load, Wrench
-from ilmek.dynamics.pose_block import BLOCK, ForceAndMoment, PoseBlock, cut, part_of, posed, receiver
+from ilmek.dynamics.pose_block import BLOCK, ForceAndMoment, PoseBlock, cut, part_of, pose_block, receiver
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Mechanism, Rotation, Slide
 from ilmek.linkage.motion import Motion
@@ -29,17 +29,17 @@ MASSLESS = Inertia(0.0, 0j, 0.0)
 
 @dataclass(frozen=True, slots=True)
 class Forces:
-    """Forces over a motion, one a sample; NaN where the motion does not close or stands at a dead centre.
+    """Forces over a motion, one value per sample; NaN where the motion does not close or is at a dead centre.
 
-    motion        whose forces they are
-    status        Status of each sample: the motion's, and NOT_CONVERGED where friction locks the mechanism
-    reactions     joint -> force on the second body of the pin, or across the line on the slide's body [N], complex;
-                  coupling -> force on its second body
+    motion        the given motion
+    status        `Status` of each sample: that of the motion, or NOT_CONVERGED where friction locks the mechanism
+    reactions     joint -> force on the pin's second body, or across the line on the slide's body [N], complex;
+                  coupling -> force on its second body [N], complex
     couples       slide -> couple on the slide's body [N m]
     efforts       input -> torque [N m] or force along the line [N] on the driven body
-    input_power   Σ effort times speed of the drive [W]
-    frictions     joint that rubs -> torque [N m] or force along the line [N] on the same body as its reaction
-    load_power    power of the loads, weight and friction among them [W]
+    frictions     joint with friction -> torque [N m] or force along the line [N] on the same body as its reaction
+    input_power   Σ effort times input speed [W]
+    load_power    power of the loads, including gravity and friction [W]
     kinetic_rate  time derivative of the kinetic energy [W]
     """
 
@@ -59,9 +59,9 @@ class Forces:
         return self.motion.plan.mechanism
 
     def require(self) -> "Forces":
-        """The forces themselves, if every sample has them.
+        """The forces themselves, if the status of every sample is OK.
 
-        Raises MechanismError that says where the mechanism does not close, or where friction locks it.
+        Raises MechanismError that states where the mechanism does not close, or where friction locks it.
         """
         self.motion.require()
         if not self.status.any():
@@ -71,43 +71,56 @@ class Forces:
         values = np.asarray(self.motion.drives[entry.name].value)[locked]
         first, last = (format_quantity(float(value), unit) for value in (values.min(), values.max()))
         raise MechanismError(
-            f"{self.mechanism.name} locks itself by friction at {int(locked.sum())} of {locked.size} samples, "
-            f"{entry.name} from {first} to {last}: no drive keeps up the motion",
-            do="lower the friction, lengthen the guidance, or better the transmission angle there",
+            f"{self.mechanism.name} is self-locking by friction at {int(locked.sum())} of {locked.size} samples, "
+            f"{entry.name} from {first} to {last}: no drive effort maintains the motion",
+            do="lower the friction, lengthen the guidance, or improve the transmission angle there",
         )
 
     def pin(self, name: str, on: str | None = None) -> ComplexArray:
-        """Force in a joint [N] on body `on`; unsaid: on the second body of a pin, the sliding body of a slide."""
+        """Force in a joint [N] on body `on`, complex, one value per sample.
+
+        on  default: the second body of a pin, the sliding body of a slide
+
+        Raises MechanismError for an unknown joint, and for a body that it does not connect.
+        """
         joint = self.mechanism.joint(name)
         if on is not None and on not in joint.bodies:
             joined = " and ".join(joint.bodies)
-            raise MechanismError(f"joint {name!r} does not touch {on!r}", allowed=f"it joins {joined}")
+            raise MechanismError(f"joint {name!r} does not connect {on!r}", allowed=f"it connects {joined}")
         return self.reactions[name] if on in (None, receiver(joint)) else -self.reactions[name]
 
     def tooth(self, coupling: str) -> ComplexArray:
-        """Force of gears or a rack [N] on the coupling's second body, in the pitch point."""
+        """Tooth force of gears or a rack [N] on the coupling's second body, at the pitch point; complex, per sample.
+
+        Raises MechanismError for an unknown coupling.
+        """
         if coupling not in {one.name for one in self.mechanism.couplings}:
             raise MechanismError(f"{self.mechanism.name} has no coupling {coupling!r}")
         return self.reactions[coupling]
 
     def effort(self, entry: str) -> FloatArray:
-        """Torque [N m] or force [N] on the driven body, by the name of the input: that of the body, or of the slide."""
+        """Torque [N m] or force [N] on the driven body, one value per sample.
+
+        entry  name of the input: that of the driven body, or of the slide
+
+        Raises MechanismError for an unknown input.
+        """
         if entry not in self.efforts:
             raise MechanismError(f"no input {entry!r}", allowed=f"inputs: {', '.join(self.efforts)}")
         return self.efforts[entry]
 
     @property
     def power_residual(self) -> FloatArray:
-        """Input power + load power - rate of the kinetic energy [W]: zero but for rounding, at every instant.
+        """Input power + load power - rate of the kinetic energy [W]: zero except for rounding.
 
-        Joints do no work; the sum is formed without the equations that gave the forces in them.
+        Ideal joints do no work. The sum is independent of the equations that give the joint forces.
         """
         residual: FloatArray = self.input_power + self.load_power - self.kinetic_rate
         return residual
 
     @property
     def power_error(self) -> float:
-        """Greatest power residual over the greatest sum of the powers' sizes; samples that are NaN are left out."""
+        """Greatest power residual, relative to the greatest sum of the powers' magnitudes [1]; NaN samples left out."""
         size = np.abs(self.input_power) + np.abs(self.load_power) + np.abs(self.kinetic_rate)
         usable = np.isfinite(size)
         top = float(np.max(size[usable], initial=0.0))
@@ -118,44 +131,47 @@ def inverse(
     motion: Motion,
     inertias: Mapping[str, Inertia],
     loads: Sequence[Load] = (),
-    rubbing: Sequence[JointFriction] = (),
+    joint_frictions: Sequence[JointFriction] = (),
     *,
     side: RealField = 1.0,
 ) -> Forces:
-    """Joint forces and efforts of a motion, under inertia, loads and friction in the joints.
+    """Joint forces and drive efforts of a motion under inertia, loads and joint friction.
 
-    inertias  body -> inertia; a body not named is massless
-    rubbing   joints with friction, consistent with the forces that it changes; see `joint_friction`
-    side      where a joint that rubs turns round: +1 the forces just after in time, -1 just before, one or one a sample
+    motion           the given motion, with speeds and accelerations
+    inertias         body -> inertia; a body that is not listed is massless
+    loads            loads such as `Gravity`; default: none
+    joint_frictions  friction of joints, consistent with the joint forces; see `joint_friction`; default: none
+    side             at a reversal of a joint with friction: +1 the forces just after it in time, -1 just before; a
+                     number or one value per sample
 
-    Raises MechanismError for an unknown body or joint, and for friction where no input moves. Never fails for a sample:
-    see `Forces.status` and `Forces.require`.
+    Raises MechanismError for an unknown body or joint, and for friction where no input moves. A single sample never
+    raises: see `Forces.status` and `Forces.require`.
     """
     mechanism = motion.plan.mechanism
     for body in inertias:
         mechanism.body(body)
-    check_joints(mechanism, rubbing)
+    check_joints(mechanism, joint_frictions)
     bodies = {body: inertias.get(body, MASSLESS) for body in mechanism.moving}
     wrenches = [wrench for load in loads for wrench in load.wrenches(motion, bodies) if wrench.body != GROUND]
-    forces = _room(motion, rubbing)
+    forces = _empty_forces(motion, joint_frictions)
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         for start in range(0, len(motion), BLOCK):
             part = slice(start, start + BLOCK)
-            poses = posed(part_of(motion, part), bodies)
+            poses = pose_block(part_of(motion, part), bodies)
             acting = [wrench.part(part) for wrench in wrenches]
             needed = needs(poses, bodies, acting)
             forces.load_power[part] += _load_power(poses, acting)
-            if rubbing:
-                found, locked = frictions(poses, needed, rubbing, cut(side, part))
+            if joint_frictions:
+                found, locked = frictions(poses, needed, joint_frictions, cut(side, part))
                 needed = loaded(poses, needed, found)
-                _note_friction(forces, part, poses, found, locked)
+                _store_friction(forces, part, poses, found, locked)
             forces.kinetic_rate[part] = _kinetic_rate(poses, bodies)
-            _fill(forces, part, poses, needed)
+            _store_reactions(forces, part, poses, needed)
     return forces
 
 
-def _room(motion: Motion, rubbing: Sequence[JointFriction]) -> Forces:
-    """Forces yet to be filled in."""
+def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction]) -> Forces:
+    """Forces with arrays still to be filled."""
     mechanism, samples = motion.plan.mechanism, len(motion)
     return Forces(
         motion,
@@ -163,17 +179,17 @@ def _room(motion: Motion, rubbing: Sequence[JointFriction]) -> Forces:
         reactions={one.name: np.empty(samples, complex) for one in (*mechanism.joints, *mechanism.couplings)},
         couples={joint.name: np.empty(samples) for joint in mechanism.joints if isinstance(joint, Slide)},
         efforts={entry.name: np.empty(samples) for entry in mechanism.inputs},
-        frictions={one.joint: np.empty(samples) for one in rubbing},
+        frictions={one.joint: np.empty(samples) for one in joint_frictions},
         input_power=np.zeros(samples),
         load_power=np.zeros(samples),
         kinetic_rate=np.zeros(samples),
     )
 
 
-def _note_friction(
+def _store_friction(
     forces: Forces, part: slice, poses: PoseBlock, found: Mapping[str, FloatArray], locked: BoolArray
 ) -> None:
-    """Write the friction of a block of samples into the forces."""
+    """Store the friction of a block of samples in the forces."""
     status = forces.status[part]
     status[locked & (status == Status.OK)] = Status.NOT_CONVERGED
     for name, friction in found.items():
@@ -181,27 +197,27 @@ def _note_friction(
         forces.load_power[part] += friction * poses.rate(poses.joints[name])
 
 
-def _fill(forces: Forces, part: slice, poses: PoseBlock, needed: Needs) -> None:
-    """Solve a block of samples and write it into the forces."""
+def _store_reactions(forces: Forces, part: slice, poses: PoseBlock, needed: Needs) -> None:
+    """Solve a block of samples and store the reactions and efforts in the forces."""
     pulls = joint_pulls(poses, needed)
-    lost = forces.status[part] != Status.OK
+    failed = forces.status[part] != Status.OK
     for entry in forces.mechanism.inputs:
         joint = poses.joints[entry.joint]
         pull = pulls[entry.joint]
-        effort = np.where(lost, np.nan, joint.play(pull, joint.at))
+        effort = np.where(failed, np.nan, joint.generalized_force(pull, joint.at))
         forces.efforts[entry.name][part] = effort if entry.name in (joint.on, joint.name) else -effort
         forces.input_power[part] += effort * poses.rate(joint)
         pulls[entry.joint] = ForceAndMoment(pull.force - effort * joint.drive.force, pull.moment)
     for name, pull in pulls.items():
-        forces.reactions[name][part] = np.where(lost, np.nan, pull.force)
+        forces.reactions[name][part] = np.where(failed, np.nan, pull.force)
         if name in forces.couples:
-            forces.couples[name][part] = np.where(lost, np.nan, pull.moment)
+            forces.couples[name][part] = np.where(failed, np.nan, pull.moment)
 
 
 def _load_power(poses: PoseBlock, wrenches: Sequence[Wrench]) -> RealField:
     power: RealField = 0.0
     for wrench in wrenches:
-        velocity = poses.place(wrench.body, wrench.at).velocity
+        velocity = poses.point_motion(wrench.body, wrench.at).velocity
         power = power + dot(wrench.force, velocity) + wrench.torque * poses.bodies[wrench.body].omega
     return power
 

@@ -1,14 +1,14 @@
-"""Friction in pins and slides: Coulomb's, which follows from the forces that it changes, and viscous.
+"""Friction in pins and slides: Coulomb friction, consistent with the joint forces that it changes, and viscous drag.
 
-    pin      T = -mu r |F| sgn(omega) - c omega                        F the pin's force, r its radius
-    slide    F = -mu (|N_1| + |N_2|) sgn(v) - c v                      N_1, N_2 at the ends of a guidance of length b
+    pin      T = -mu r |F| sgn(omega) - c omega                        F pin force, r pin radius
+    slide    F = -mu (|N_1| + |N_2|) sgn(v) - c v                      N_1, N_2 at the ends of a guide of length b
              N_1,2 = N / 2 +- C / b,   |N_1| + |N_2| = max(|N|, 2 |C| / b)
-                                                                       N across the line, C the couple
+                                                                       N force across the line, C couple
 
-The joints' forces are linear in the frictions x, F = F_0 + Σ x_k G_k, each G_k the answer to a unit of friction. Thus
-x + sgn mu |F(x)| = 0 is solved by Newton's method on as many numbers as joints rub. Where it has no solution, no force
-of the drive keeps up the motion: the mechanism locks itself. A solution that is not joined to the frictionless one as
-mu grows from nought (the Jacobian's determinant has turned negative on the way) is one of those too.
+The joint forces are linear in the friction efforts x: F = F_0 + Σ x_k G_k, with G_k the response to a unit effort. So
+x + sgn mu |F(x)| = 0 is solved by Newton's method, with one unknown per joint with friction. Where it has no solution,
+no drive effort maintains the motion: the mechanism is self-locking. A solution that is not connected to the
+frictionless one as mu grows from 0 (the determinant of the Jacobian has changed its sign) counts as self-locking too.
 """
 
 import math
@@ -20,7 +20,7 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, RealField
 from ilmek.dynamics.equations import Needs, add, joint_pulls
-from ilmek.dynamics.friction import MOMENT
+from ilmek.dynamics.friction import OFFSET
 from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import carried_acceleration
@@ -28,14 +28,19 @@ from ilmek.linkage.model import Mechanism, Pin, Slide
 from ilmek.num.linear import solve_many
 from ilmek.plane.vectors import dot
 
-ROUNDS = 50
+MAX_ITERATIONS = 50
 TOLERANCE = 1e-12
-"""Friction is consistent with the forces to this part of the greatest friction of its joint that the forces allow."""
+"""Relative residual of a friction effort against the friction limit of its joint."""
 
 
 @dataclass(frozen=True, slots=True)
 class PinFriction:
-    """A pin that rubs: `radius` [m], coefficient mu, and viscous `drag` c [N m s]."""
+    """Friction of a pin.
+
+    joint  name      radius  of the pin [m]      coefficient  mu [1]      drag  viscous, c [N m s]
+
+    Raises MechanismError for values that are negative or not finite.
+    """
 
     joint: str
     radius: float
@@ -45,12 +50,12 @@ class PinFriction:
     def __post_init__(self) -> None:
         _require(self.joint, radius=self.radius, coefficient=self.coefficient, drag=self.drag)
 
-    def size(self, held: JointPoses, pull: ForceAndMoment) -> RealField:  # noqa: ARG002
-        """The greatest torque [N m] that Coulomb's friction gives under a pin's force."""
+    def limit(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:  # noqa: ARG002
+        """Greatest torque of Coulomb friction [N m] under the pin force: mu r |F|."""
         return self.coefficient * self.radius * np.abs(pull.force)
 
-    def slope(self, held: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:  # noqa: ARG002
-        """How `size` follows a small change of the pull."""
+    def limit_change(self, joint: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:  # noqa: ARG002
+        """Derivative of `limit` [N m] in the direction of a change of the joint force."""
         force = np.abs(pull.force)
         along = np.divide(dot(pull.force, change.force), force, out=np.zeros_like(force), where=force > 0)
         return self.coefficient * self.radius * along
@@ -58,9 +63,13 @@ class PinFriction:
 
 @dataclass(frozen=True, slots=True)
 class SlideFriction:
-    """A slide that rubs: `breadth` b of the guidance along the line [m], mu, and viscous `drag` c [N s/m].
+    """Friction of a slide.
 
-    The guidance reaches as far to either side of the body's point of the slide's name.
+    joint  name      breadth  length b of the guide along the line [m]      coefficient  mu [1]
+    drag   viscous, c [N s/m]
+
+    The guide extends by b / 2 to either side of the body's point with the slide's name. Raises MechanismError for
+    values that are negative or not finite, and a breadth of 0.
     """
 
     joint: str
@@ -73,90 +82,94 @@ class SlideFriction:
         if not (math.isfinite(self.breadth) and self.breadth > 0):
             raise MechanismError(f"breadth of slide {self.joint!r} is {self.breadth:g} m", allowed="finite and above 0")
 
-    def size(self, held: JointPoses, pull: ForceAndMoment) -> RealField:
-        """The greatest force [N] that Coulomb's friction gives under a slide's force and couple."""
-        across, couple = self._parts(held, pull)
+    def limit(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:
+        """Greatest force of Coulomb friction [N] under the slide's force and couple: mu max(|N|, 2 |C| / b)."""
+        across, couple = self._parts(joint, pull)
         return self.coefficient * np.maximum(np.abs(across), np.abs(couple))
 
-    def slope(self, held: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:
-        """How `size` follows a small change of the pull."""
-        across, couple = self._parts(held, pull)
-        to_across, to_couple = self._parts(held, change)
+    def limit_change(self, joint: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:
+        """Derivative of `limit` [N] in the direction of a change of the joint force and couple."""
+        across, couple = self._parts(joint, pull)
+        to_across, to_couple = self._parts(joint, change)
         leaning = np.abs(across) >= np.abs(couple)
         return self.coefficient * np.where(leaning, np.sign(across) * to_across, np.sign(couple) * to_couple)
 
-    def _parts(self, held: JointPoses, pull: ForceAndMoment) -> tuple[RealField, RealField]:
+    def _parts(self, joint: JointPoses, pull: ForceAndMoment) -> tuple[RealField, RealField]:
         """N and 2 C / b."""
-        line = held.line if held.line is not None else 1 + 0j
+        line = joint.line if joint.line is not None else 1 + 0j
         return dot(1j * line, pull.force), 2 * pull.moment / self.breadth
 
 
 JointFriction: TypeAlias = PinFriction | SlideFriction
 
 
-def check_joints(mechanism: Mechanism, rubbing: Sequence[JointFriction]) -> None:
-    """Raise MechanismError for friction in a joint that is unknown, of the other kind, or named twice."""
-    for one in rubbing:
-        joint, wanted = mechanism.joint(one.joint), Pin if isinstance(one, PinFriction) else Slide
-        if not isinstance(joint, wanted):
+def check_joints(mechanism: Mechanism, joint_frictions: Sequence[JointFriction]) -> None:
+    """Raise MechanismError for friction in a joint that is unknown, of the other kind, or given twice."""
+    for one in joint_frictions:
+        joint, required = mechanism.joint(one.joint), Pin if isinstance(one, PinFriction) else Slide
+        if not isinstance(joint, required):
             raise MechanismError(
                 f"{type(one).__name__} is given for {one.joint!r}, a {type(joint).__name__.lower()}",
-                allowed=f"it is for a {wanted.__name__.lower()}",
+                allowed=f"it is for a {required.__name__.lower()}",
             )
-        if sum(other.joint == one.joint for other in rubbing) > 1:
+        if sum(other.joint == one.joint for other in joint_frictions) > 1:
             raise MechanismError(f"friction in joint {one.joint!r} is given twice", do="give it once")
 
 
 def frictions(
-    posed: PoseBlock, needed: Needs, rubbing: Sequence[JointFriction], side: RealField
+    poses: PoseBlock, needed: Needs, joint_frictions: Sequence[JointFriction], side: RealField
 ) -> tuple[dict[str, FloatArray], BoolArray]:
-    """Friction on each rubbing joint's `on` body [N m, or N along the line], and where the mechanism locks itself.
+    """Friction efforts, and the samples at which the mechanism is self-locking.
 
-    needed  without friction        side  where a joint turns round: +1 just after in time, -1 just before
+    poses            the block of samples
+    needed           forces and moments that the bodies require without friction
+    joint_frictions  friction of joints
+    side             at a reversal of a joint: +1 just after it in time, -1 just before; a number or one per sample
+
+    Returns joint -> torque [N m] or force along the line [N] on its `on` body, one value per sample, NaN where locked;
+    and the locked samples. Raises MechanismError where no input moves.
     """
-    samples = posed.motion.status.shape[0]
-    joints = [posed.joints[one.joint] for one in rubbing]
-    rates = np.stack([np.broadcast_to(posed.rate(joint), samples) for joint in joints])
-    viscous = -np.array([[one.drag] for one in rubbing]) * rates
-    rest = loaded(posed, needed, dict(zip((one.joint for one in rubbing), viscous, strict=True)))
-    frictionless = joint_pulls(posed, rest)
+    samples = poses.motion.status.shape[0]
+    joints = [poses.joints[one.joint] for one in joint_frictions]
+    rates = np.stack([np.broadcast_to(poses.rate(joint), samples) for joint in joints])
+    viscous = -np.array([[one.drag] for one in joint_frictions]) * rates
+    rest = loaded(poses, needed, dict(zip((one.joint for one in joint_frictions), viscous, strict=True)))
+    frictionless = joint_pulls(poses, rest)
     nothing = {body: ForceAndMoment(0j, 0.0) for body in needed}
-    answers = [joint_pulls(posed, loaded(posed, nothing, {joint.name: np.ones(samples)})) for joint in joints]
-    signs = np.sign(rates + _moment(posed, side) * np.stack([_second_rate(posed, joint) for joint in joints]))
-    coulomb, locked = _consistent(joints, rubbing, signs, frictionless, answers)
-    return {one.joint: found for one, found in zip(rubbing, viscous + coulomb, strict=True)}, locked
+    responses = [joint_pulls(poses, loaded(poses, nothing, {joint.name: np.ones(samples)})) for joint in joints]
+    signs = np.sign(rates + _time_offset(poses, side) * np.stack([_second_rate(poses, joint) for joint in joints]))
+    coulomb, locked = _consistent(joints, joint_frictions, signs, frictionless, responses)
+    return {one.joint: found for one, found in zip(joint_frictions, viscous + coulomb, strict=True)}, locked
 
 
-def loaded(posed: PoseBlock, needed: Needs, efforts: Mapping[str, FloatArray]) -> Needs:
-    """The needs under efforts in joints [N m, or N], each on the joint's `on` body and back on the other."""
+def loaded(poses: PoseBlock, needed: Needs, efforts: Mapping[str, FloatArray]) -> Needs:
+    """The needs under efforts in joints [N m; N]: on the joint's `on` body, and the opposite on the other."""
     changed = dict(needed)
     for name, effort in efforts.items():
-        joint = posed.joints[name]
+        joint = poses.joints[name]
         for body, sign in ((joint.on, -1), (joint.by, +1)):
             pull = ForceAndMoment(sign * effort * joint.drive.force, sign * effort * joint.drive.moment)
-            add(changed, posed, body, pull, joint.at)
+            add(changed, poses, body, pull, joint.at)
     return changed
 
 
 def _consistent(
     joints: Sequence[JointPoses],
-    rubbing: Sequence[JointFriction],
+    joint_frictions: Sequence[JointFriction],
     signs: FloatArray,
     frictionless: Mapping[str, ForceAndMoment],
-    answers: Sequence[Mapping[str, ForceAndMoment]],
+    responses: Sequence[Mapping[str, ForceAndMoment]],
 ) -> tuple[FloatArray, BoolArray]:
-    """Coulomb's frictions, one row a joint, and where there are none; Newton's method on all samples at once."""
+    """Coulomb friction efforts, one row per joint, and the locked samples; Newton's method on all samples at once."""
     x = np.zeros_like(signs)
     greatest = np.zeros_like(signs)
-    for _ in range(ROUNDS):
-        pulls = [_sum(frictionless[joint.name], [answer[joint.name] for answer in answers], x) for joint in joints]
-        sizes = np.stack([one.size(joint, pull) for one, joint, pull in zip(rubbing, joints, pulls, strict=True)])
-        greatest = np.fmax(greatest, sizes)
-        residual = x + signs * sizes
-        slopes = [
-            [one.slope(joint, pull, answer[joint.name]) for answer in answers]
-            for one, joint, pull in zip(rubbing, joints, pulls, strict=True)
-        ]
+    for _ in range(MAX_ITERATIONS):
+        pulls = [_sum(frictionless[joint.name], [one[joint.name] for one in responses], x) for joint in joints]
+        rows = list(zip(joint_frictions, joints, pulls, strict=True))
+        limits = np.stack([one.limit(joint, pull) for one, joint, pull in rows])
+        greatest = np.fmax(greatest, limits)
+        residual = x + signs * limits
+        slopes = [[one.limit_change(joint, pull, unit[joint.name]) for unit in responses] for one, joint, pull in rows]
         matrix = np.eye(len(joints)) + np.moveaxis(signs[:, None] * np.array(slopes), -1, 0)
         off = np.abs(residual) > TOLERANCE * greatest
         if not off.any():
@@ -167,29 +180,29 @@ def _consistent(
     return np.where(locked, np.nan, x), locked
 
 
-def _sum(rest: ForceAndMoment, answers: Sequence[ForceAndMoment], x: FloatArray) -> ForceAndMoment:
-    force = rest.force + sum(size * answer.force for size, answer in zip(x, answers, strict=True))
+def _sum(rest: ForceAndMoment, responses: Sequence[ForceAndMoment], x: FloatArray) -> ForceAndMoment:
+    force = rest.force + sum(size * response.force for size, response in zip(x, responses, strict=True))
     return ForceAndMoment(
-        force, rest.moment + sum(size * answer.moment for size, answer in zip(x, answers, strict=True))
+        force, rest.moment + sum(size * response.moment for size, response in zip(x, responses, strict=True))
     )
 
 
-def _moment(posed: PoseBlock, side: RealField) -> RealField:
-    """The time by which a joint's turning round is judged early or late [s]."""
-    speeds = [np.abs(np.asarray(drive.speed, dtype=float)) for drive in posed.motion.drives.values()]
+def _time_offset(poses: PoseBlock, side: RealField) -> RealField:
+    """Time before or after an instant at which the direction of friction is evaluated [s]."""
+    speeds = [np.abs(np.asarray(drive.speed, dtype=float)) for drive in poses.motion.drives.values()]
     fastest = np.asarray(sum(speeds))
     if not fastest.all():
         raise MechanismError(
-            f"friction in {posed.motion.plan.mechanism.name} has no direction: its inputs stand still",
+            f"friction in {poses.motion.plan.mechanism.name} has no direction: its inputs stand still",
             do="give an input a speed",
         )
-    moment: RealField = np.asarray(side) * MOMENT / fastest
-    return moment
+    offset: RealField = np.asarray(side) * OFFSET / fastest
+    return offset
 
 
-def _second_rate(posed: PoseBlock, joint: JointPoses) -> FloatArray:
-    """Rate of the joint's rate where that is zero [rad/s², m/s²]."""
-    on, by = posed.bodies[joint.on], posed.bodies[joint.by]
+def _second_rate(poses: PoseBlock, joint: JointPoses) -> FloatArray:
+    """Time derivative of the joint's rate where the rate is zero [rad/s²; m/s²]."""
+    on, by = poses.bodies[joint.on], poses.bodies[joint.by]
     if joint.line is None:
         second = on.alpha - by.alpha
     else:
@@ -198,7 +211,7 @@ def _second_rate(posed: PoseBlock, joint: JointPoses) -> FloatArray:
             for moved in (on, by)
         )
         second = dot(joint.line, first - other)
-    return np.broadcast_to(np.asarray(second, dtype=float), posed.motion.status.shape)
+    return np.broadcast_to(np.asarray(second, dtype=float), poses.motion.status.shape)
 
 
 def _require(joint: str, **sizes: float) -> None:

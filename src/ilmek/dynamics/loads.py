@@ -1,8 +1,8 @@
-"""What acts on a mechanism from outside: weight, forces at points, torques.
+"""External loads on a mechanism: gravity, forces at points, torques.
 
-A load is turned into wrenches, one a body and sample: a force at a point of the body, and a torque. Forces and torques
-may be constant, one value a sample, or a function of the motion (a spring, a cloth's resistance, friction in air).
-Directions are those of the world: x and y of the ground, torque counter-clockwise.
+A load is resolved into wrenches: a force at a point of a body, and a torque. Forces and torques are constant, given by
+sample, or functions of the motion (a spring, a fabric's resistance, air drag). Directions are those of the ground
+frame; torques are positive counter-clockwise.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -15,15 +15,15 @@ from ilmek.dynamics.pose_block import cut
 from ilmek.linkage.motion import Motion
 
 ForceLaw: TypeAlias = ComplexField | Callable[[Motion], ComplexField]
-"""A force [N], or how it follows from the motion."""
+"""A force [N], complex: a number, one value per sample, or a function of the motion."""
 
 TorqueLaw: TypeAlias = RealField | Callable[[Motion], RealField]
-"""A torque [N m], or how it follows from the motion."""
+"""A torque [N m]: a number, one value per sample, or a function of the motion."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wrench:
-    """A force [N] at a point of a body's frame [m], and a torque [N m] on that body: one number, or one a sample."""
+    """A force [N] at the point `at` of a body's frame [m], and a torque [N m]: numbers, or one value per sample."""
 
     body: str
     force: ComplexField
@@ -31,13 +31,13 @@ class Wrench:
     torque: RealField = 0.0
 
     def part(self, part: slice) -> "Wrench":
-        """The same over some of the samples."""
+        """The wrench at the samples `part`."""
         return Wrench(self.body, cut(self.force, part), self.at, cut(self.torque, part))
 
 
 @runtime_checkable
 class Load(Protocol):
-    """Anything that can be resolved into wrenches."""
+    """A load that can be resolved into wrenches."""
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:
         """The wrenches of this load over the motion."""
@@ -45,19 +45,19 @@ class Load(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Gravity:
-    """Weight of every body at its mass centre; `acceleration` is the free fall [m/s²], such as -9.81j."""
+    """Gravity on every body at its mass centre; `acceleration` [m/s²], complex, such as -9.81j."""
 
     acceleration: complex
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
-        """One wrench a body."""
+        """One wrench per body."""
         for body, inertia in inertias.items():
             yield Wrench(body, inertia.mass * self.acceleration, inertia.centre)
 
 
 @dataclass(frozen=True, slots=True)
 class PointForce:
-    """A force [N] on a point of a body: the point by name, or where it is in the body's frame [m]."""
+    """A force [N] on a point of a body, given by its name or by its position in the body's frame [m]."""
 
     body: str
     point: str | complex

@@ -1,4 +1,4 @@
-"""A mechanism in its poses over a block of samples: what the equations of its forces are made of."""
+"""Poses of a mechanism over a block of samples: the quantities in the equations of its forces."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -16,11 +16,11 @@ from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import cross, dot, unit
 
 BLOCK = 4096
-"""Samples worked off at a time: more would leave the processor's cache."""
+"""Samples computed at a time, so that their arrays stay in the processor's cache."""
 
 
 class ForceAndMoment(NamedTuple):
-    """A force [N] and its moment [N m] about a point that is said where it is used: numbers, or one a sample."""
+    """A force [N] and its moment [N m] about a point stated at each use: numbers, or one value per sample."""
 
     force: ComplexField
     moment: RealField
@@ -28,10 +28,14 @@ class ForceAndMoment(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class JointPoses:
-    """A joint or coupling in its poses; `on` one body, `by` the other.
+    """Poses of a joint or coupling between the bodies `on` and `by`.
 
-    at    its point [m]; of gears the pitch point     line  of a slide, the direction of its line
-    tooth of a coupling, the direction of the only force that it bears, on its second body by its first
+    name   of the joint or coupling
+    on     the body on which its force is counted; of a coupling its second
+    by     the other body
+    at     position [m] of the joint; of gears the pitch point
+    line   of a slide: unit vector along its line; otherwise None
+    tooth  of a coupling: unit vector of its force on the second body; otherwise None
     """
 
     name: str
@@ -41,10 +45,13 @@ class JointPoses:
     line: ComplexField | None
     tooth: ComplexField | None = None
 
-    def play(self, pull: ForceAndMoment, about: ComplexField) -> RealField:
-        """Work of a pull, its moment about a given point, on the joint's own motion: nothing but its drive resists it.
+    def generalized_force(self, pull: ForceAndMoment, about: ComplexField) -> RealField:
+        """Generalized force of a force and moment on the joint's relative motion; only a drive effort balances it.
 
-        The moment about a pin [N m], the force along a slide's line [N].
+        pull   force and moment on the body; the moment is about the point `about`
+        about  position [m]
+
+        Returns the moment about a pin [N m], or the force along a slide's line [N].
         """
         if self.line is None:
             return pull.moment + cross(about - self.at, pull.force)
@@ -52,12 +59,12 @@ class JointPoses:
 
     @property
     def drive(self) -> ForceAndMoment:
-        """A unit of the effort that drives the joint: a torque, or a force along the line."""
+        """Unit drive effort of the joint: a torque of 1 N m, or a force of 1 N along the line."""
         return ForceAndMoment(0j, 1.0) if self.line is None else ForceAndMoment(self.line, 0.0)
 
     @property
-    def bears(self) -> tuple[ForceAndMoment, ...]:
-        """Units of what it bears by itself: two forces of a pin; across a line a force, and a couple; one of teeth."""
+    def constraint_forces(self) -> tuple[ForceAndMoment, ...]:
+        """Unit constraint forces: two forces of a pin; a cross force and a couple of a slide; one force of teeth."""
         if self.tooth is not None:
             return (ForceAndMoment(self.tooth, 0.0),)
         return (
@@ -69,10 +76,10 @@ class JointPoses:
 
 @dataclass(frozen=True, slots=True)
 class PoseBlock:
-    """The bodies' motions, those of their mass centres, and the joints, by name.
+    """Motions of the bodies, of their mass centres, and poses of the joints, by name.
 
-    length   of the mechanism [m]: where forces and moments meet in one equation, moments are divided by it
-    carried  the places computed so far
+    length         characteristic length of the mechanism [m]; moments are divided by it in equations with forces
+    point_motions  motions of body points computed so far
     """
 
     motion: Motion
@@ -80,28 +87,28 @@ class PoseBlock:
     centres: Mapping[str, PointMotion]
     joints: Mapping[str, JointPoses]
     length: float
-    carried: dict[tuple[str, complex], PointMotion] = field(default_factory=dict)
+    point_motions: dict[tuple[str, complex], PointMotion] = field(default_factory=dict)
 
-    def place(self, body: str, local: complex) -> PointMotion:
-        """Motion of the place at `local` [m] in a body's frame; computed once."""
-        if (body, local) not in self.carried:
-            self.carried[body, local] = self.bodies[body].carry(local)
-        return self.carried[body, local]
+    def point_motion(self, body: str, local: complex) -> PointMotion:
+        """Motion of the point at `local` [m] in a body's frame; computed once."""
+        if (body, local) not in self.point_motions:
+            self.point_motions[body, local] = self.bodies[body].carry(local)
+        return self.point_motions[body, local]
 
     def velocity(self, body: str, position: ComplexField) -> ComplexField:
-        """Velocity [m/s] of the material of a body that is at a position of the world [m]."""
+        """Velocity [m/s] of the body's point that coincides with a position [m] in the ground frame."""
         moved = self.bodies[body]
         return carried_velocity(moved.anchor.velocity, position - moved.anchor.position, moved.omega)
 
     def rate(self, joint: JointPoses) -> RealField:
-        """How fast `on` moves against `by` in the joint's own motion [rad/s, or m/s along the line]."""
+        """Speed of `on` relative to `by` in the joint [rad/s; m/s along the line]."""
         if joint.line is None:
             return self.bodies[joint.on].omega - self.bodies[joint.by].omega
         return dot(joint.line, self.velocity(joint.on, joint.at) - self.velocity(joint.by, joint.at))
 
 
-def posed(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
-    """The mechanism in the poses of a motion."""
+def pose_block(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
+    """Poses of the mechanism at the samples of a motion; inertias: body -> inertia [kg, m, kg m²]."""
     bodies: dict[str, BodyMotion] = {GROUND: STILL}
     for step in motion.plan.steps:
         bodies.update(step.place(bodies, {body: motion.columns[body] for body in step.bodies}))
@@ -111,14 +118,14 @@ def posed(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
         motion,
         bodies,
         centres,
-        {joint.name: _held(mechanism, joint, bodies) for joint in mechanism.joints}
-        | {coupling.name: _meshed(mechanism, coupling, bodies) for coupling in mechanism.couplings},
+        {joint.name: _joint_poses(mechanism, joint, bodies) for joint in mechanism.joints}
+        | {coupling.name: _coupling_poses(mechanism, coupling, bodies) for coupling in mechanism.couplings},
         characteristic_length(mechanism),
         {(body, inertias[body].centre): centre for body, centre in centres.items()},
     )
 
 
-def _held(mechanism: Mechanism, joint: Joint, bodies: Mapping[str, BodyMotion]) -> JointPoses:
+def _joint_poses(mechanism: Mechanism, joint: Joint, bodies: Mapping[str, BodyMotion]) -> JointPoses:
     on = receiver(joint)
     by = next(body for body in joint.bodies if body != on)
     moved = bodies[on]
@@ -127,13 +134,14 @@ def _held(mechanism: Mechanism, joint: Joint, bodies: Mapping[str, BodyMotion]) 
     return JointPoses(joint.name, on, by, at, line)
 
 
-def _meshed(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyMotion]) -> JointPoses:
-    """Gears touch in the pitch point, the pole of their turning against one another:
+def _coupling_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyMotion]) -> JointPoses:
+    """Pitch point of a gear pair, the pole of the relative rotation, and the direction of its force.
 
-        P = O_1 + ratio / (ratio - 1) (O_2 - O_1),   its force across O_1 O_2;    rack: P = O_1 - i ratio f, along f
+        gears  P = O_1 + ratio / (ratio - 1) (O_2 - O_1),   force across O_1 O_2
+        rack   P = O_1 - i ratio f,                         force along f
 
-    The pressure angle's share along the line of centres does no work and is left out. Raises MechanismError for a belt,
-    whose pull depends on its tension, and for gears that turn alike.
+    The component along the line of centres, due to the pressure angle, does no work and is left out. Raises
+    MechanismError for a belt, because its forces depend on its tension, and for gears with a ratio of 1.
     """
     (first, one), (second, two) = coupling.first, coupling.second
     at = bodies[first].carry(mechanism.point(first, one)).position
@@ -144,21 +152,21 @@ def _meshed(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyM
     if coupling.kind == "belt" or coupling.ratio == 1:
         raise MechanismError(
             f"the force of {coupling.kind} {coupling.name!r} of {mechanism.name} is not determined",
-            allowed="a belt's depends on its tension; gears that turn alike touch nowhere",
+            allowed="gears with a ratio other than 1, or a rack; the force of a belt depends on its tension",
             do="give gears of the same ratio",
         )
-    way = bodies[second].carry(mechanism.point(second, two)).position - at
-    pole = at + coupling.ratio / (coupling.ratio - 1) * way
-    return JointPoses(coupling.name, second, first, pole, None, 1j * way / np.abs(way))
+    offset = bodies[second].carry(mechanism.point(second, two)).position - at
+    pole = at + coupling.ratio / (coupling.ratio - 1) * offset
+    return JointPoses(coupling.name, second, first, pole, None, 1j * offset / np.abs(offset))
 
 
 def receiver(joint: Joint) -> str:
-    """The body on which a joint's force is counted: the second of a pin, the sliding one of a slide."""
+    """Name of the body on which a joint's force is counted: the second of a pin, the sliding body of a slide."""
     return joint.second if isinstance(joint, Pin) else joint.body
 
 
 def characteristic_length(mechanism: Mechanism) -> float:
-    """Greatest distance of a joint from its body's origin [m]; 1 where there is none."""
+    """Greatest distance of a joint from its body's origin [m]; 1 where all distances are 0."""
     return max((abs(point) for body in mechanism.bodies for point in body.points.values()), default=1.0) or 1.0
 
 
@@ -173,5 +181,5 @@ def part_of(motion: Motion, part: slice) -> Motion:
 
 
 def cut(value: Any, part: slice) -> Any:
-    """Some samples of a value given by sample; a lone number is that of every sample."""
+    """The samples `part` of an array with one value per sample; a single number is returned unchanged."""
     return value[part] if np.ndim(value) else value

@@ -1,10 +1,11 @@
-"""A mechanism of one freedom, reduced to its input: what the drive feels of all masses and loads.
+"""A mechanism with one degree of freedom, reduced to its input coordinate.
 
     T = J(q) q'^2 / 2,    J(q) q'' + J'(q) q'^2 / 2 = Q(q, q') + M
     J = Σ (m |dG/dq|^2 + I (dθ/dq)^2),    Q = Σ (F · dP/dq + T dθ/dq)        [Eksergian, Dynamical Analysis of Machines]
 
-q is the input [rad, or m for a displacement], M the effort of the drive, G the mass centres. Solved at unit speed the
-engine's velocities are d/dq and its accelerations d²/dq², so J, its slope and Q are exact: nothing is differenced.
+q is the input coordinate [rad; m for a sliding input], M the drive effort, G the mass centres. The motion is solved at
+unit input speed: its velocities are then d/dq and its accelerations d²/dq². So J, J' and Q are exact, without finite
+differences.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -28,10 +29,11 @@ Samples: TypeAlias = Float[np.ndarray, " samples"]
 
 @dataclass(frozen=True, slots=True)
 class Terms:
-    """The reduced equation's terms at input values; NaN where the mechanism does not close.
+    """The terms of the reduced equation, one value per sample; NaN where the mechanism does not close.
 
-    inertia  J [kg m², or kg]      slope  dJ/dq      status  of each sample
-    weight   Q of the weights [N m, or N]            push    Q of the other steady loads
+    inertia  J [kg m²; kg for a sliding input]       slope   dJ/dq
+    weight   Q of gravity [N m; N]                   push    Q of the other loads that depend on the pose only [N m; N]
+    status   `Status` of each sample
     """
 
     inertia: Samples
@@ -43,11 +45,12 @@ class Terms:
 
 @dataclass(frozen=True, slots=True)
 class ReducedMechanism:
-    """A mechanism of one input with its masses and loads; made by `reduce`.
+    """A mechanism with one input, its masses and loads; built by `reduce`.
 
-    weights   gravity
-    steady    other loads that follow from the pose alone      live  loads that may follow from the speed too
-    flywheel  inertia that turns with the input, the motor's rotor among it [kg m²; kg for a displacement]
+    weights   gravity loads
+    steady    other loads that depend on the pose only
+    live      loads that may depend on the speed as well
+    flywheel  inertia that moves with the input, including the motor's rotor [kg m²; kg for a sliding input]
     """
 
     plan: Plan
@@ -58,7 +61,7 @@ class ReducedMechanism:
     flywheel: float
 
     def terms(self, position: FloatArray) -> Terms:
-        """J, dJ/dq and Q at input values."""
+        """J, dJ/dq and Q at input values [rad; m], one value per sample."""
         unit = solve(self.plan, position, 1.0)
         inertia, slope = np.full(len(unit), self.flywheel), np.zeros(len(unit))
         for body, weighed in self.inertias.items():
@@ -70,19 +73,22 @@ class ReducedMechanism:
         return Terms(inertia, slope, weight, push, unit.status)
 
     def live_force(self, position: Samples, speed: Samples) -> Samples:
-        """Q of the loads that may follow from the motion [N m, or N]; they see no acceleration."""
+        """Q of the loads that may depend on the motion [N m; N], at input values [rad; m] and speeds [rad/s; m/s].
+
+        The loads are evaluated with an input acceleration of 0.
+        """
         if not self.live:
             return np.zeros(len(position))
         return self._force(solve(self.plan, position, 1.0), solve(self.plan, position, speed), self.live)
 
     def potential(self, position: Samples) -> Samples:
-        """Potential energy of the weights [J], against the world's origin."""
+        """Potential energy of gravity [J] at input values [rad; m], relative to the ground's origin."""
         motion = solve(self.plan, position)
         energy = np.zeros(len(motion))
         for load in self.weights:
             for body, weighed in self.inertias.items():
-                place = attached(motion, body, weighed.centre).position
-                energy = energy - weighed.mass * dot(complex(load.acceleration), place)
+                centre = attached(motion, body, weighed.centre).position
+                energy = energy - weighed.mass * dot(complex(load.acceleration), centre)
         return energy
 
     def _force(self, unit: Motion, motion: Motion, loads: Iterable[Load]) -> Samples:
@@ -99,16 +105,18 @@ def reduce(
 ) -> ReducedMechanism:
     """The mechanism reduced to its only input.
 
-    inertias  body -> inertia; a body not named is massless
-    loads  such as `Gravity`; see `ReducedMechanism.live_force`
+    inertias  body -> inertia; a body that is not listed is massless
+    loads     loads such as `Gravity`; default: none
+    flywheel  inertia that moves with the input [kg m²; kg for a sliding input]
 
-    Raises MechanismError for several inputs, an unknown body, a negative flywheel, a load that is given by sample or
-    gravity that is not finite, and where no mass moves with the input.
+    Raises MechanismError for several inputs, an unknown body, a negative flywheel, a load given by sample, gravity that
+    is not finite, and a mechanism in which no mass moves with the input.
     """
     mechanism = plan.mechanism
     if len(mechanism.inputs) != 1:
         raise MechanismError(
-            f"{mechanism.name} has {len(mechanism.inputs)} inputs", allowed="a reduced equation is for one freedom"
+            f"{mechanism.name} has {len(mechanism.inputs)} inputs",
+            allowed="the reduced equation is for one degree of freedom",
         )
     for body in inertias:
         mechanism.body(body)
@@ -121,7 +129,7 @@ def reduce(
     for load in weights:
         if not np.isfinite(load.acceleration):
             raise MechanismError(
-                f"gravity of {mechanism.name} is {load.acceleration}", allowed="a finite free fall in m/s²"
+                f"gravity of {mechanism.name} is {load.acceleration}", allowed="a finite acceleration in m/s²"
             )
     others = [load for load in loads if not isinstance(load, Gravity)]
     steady, live = ([load for load in others if _steady(load) is kind] for kind in (True, False))
@@ -129,7 +137,7 @@ def reduce(
 
 
 def _steady(load: Load) -> bool:
-    """Whether a load follows from the pose alone, as far as its kind says."""
+    """Whether a load is known to depend on the pose only."""
     law = load.force if isinstance(load, PointForce) else load.torque if isinstance(load, Torque) else None
     if np.ndim(law if not callable(law) else 0):  # type: ignore[arg-type]
         raise MechanismError(f"a load on {getattr(load, 'body', '?')!r} is given by sample", do="give it as a function")

@@ -1,6 +1,6 @@
-"""Mass, mass centre and moment of inertia of plates from their shape, thickness and density.
+"""Mass, mass centre and moment of inertia of flat uniform shapes in the plane of motion.
 
-A link of several shapes is `inertia.combined`; every shape is flat, uniform and lies in the plane of motion.
+Lengths in m, density in kg/m³. Several shapes form one link by `inertia.combined`.
 """
 
 import math
@@ -12,7 +12,7 @@ from ilmek.plane.vectors import cross, dot
 
 
 def disc(radius: float, thickness: float, density: float, *, at: complex = 0j) -> Inertia:
-    """A round disc [m, kg/m³]: m = rho t pi r², J = m r² / 2.
+    """A round disc with its centre `at` [m]: m = rho t pi r², J = m r² / 2; r, t [m], rho [kg/m³].
 
     >>> crank = disc(0.1, 0.01, 7800.0)
     >>> round(crank.mass, 4), round(crank.moment, 6)
@@ -22,9 +22,12 @@ def disc(radius: float, thickness: float, density: float, *, at: complex = 0j) -
 
 
 def ring(outer: float, inner: float, thickness: float, density: float, *, at: complex = 0j) -> Inertia:
-    """A disc with a round hole in its middle [m, kg/m³]: m = rho t pi (R² - r²), J = m (R² + r²) / 2.
+    """A disc with a concentric hole: m = rho t pi (R² - r²), J = m (R² + r²) / 2.
 
-    Raises MechanismError unless 0 <= inner < outer and the others are above 0.
+    outer, inner        radii R, r [m]      at  its centre [m]
+    thickness, density  t [m], rho [kg/m³]
+
+    Raises MechanismError unless 0 <= inner < outer and thickness and density are above 0.
     """
     _require(radius=outer, thickness=thickness, density=density)
     if not 0 <= inner < outer:
@@ -34,12 +37,16 @@ def ring(outer: float, inner: float, thickness: float, density: float, *, at: co
 
 
 def link(start: complex, end: complex, width: float, thickness: float, density: float) -> Inertia:
-    """A bar with round ends about two points, its pins [m, kg/m³]: a rectangle and two half discs of radius w / 2.
+    """A bar with round ends about its two pins: a rectangle and two half discs of radius w / 2.
 
         m = rho t (L w + pi w² / 4),   J = m_r (L² + w²) / 12 + m_e (r² / 2 + L² / 4 + 4 r L / (3 pi)),   r = w / 2
 
-    m_r of the rectangle, m_e of both ends; a half disc's centre lies 4 r / (3 pi) beyond its straight side.
-    Without length it is a disc.
+    m_r is the mass of the rectangle, m_e that of both ends; the centre of a half disc is 4 r / (3 pi) from its straight
+    side. A bar of length 0 is a disc.
+
+    start, end  the pins [m]      width, thickness  w, t [m]      density  rho [kg/m³]
+
+    Raises MechanismError for a width, thickness or density that is not above 0.
     >>> link(0, 0, 0.2, 0.01, 7800.0) == disc(0.1, 0.01, 7800.0)
     True
     """
@@ -52,12 +59,15 @@ def link(start: complex, end: complex, width: float, thickness: float, density: 
 
 
 def plate(corners: Sequence[complex], thickness: float, density: float) -> Inertia:
-    """A plate with straight edges, its corners in order, either way round [m, kg/m³].
+    """A plate with straight edges.
 
         A = Σ p x q / 2,   c = Σ (p + q) (p x q) / (6 A),   J_0 = rho t Σ (p² + p·q + q²) (p x q) / 12
 
-    p, q are neighbouring corners, counted from the first one [Green's theorem].
-    Raises MechanismError for fewer than three corners or no area.
+    p, q are neighbouring corners relative to the first one [Green's theorem].
+
+    corners  [m], in order, clockwise or counter-clockwise      thickness  t [m]      density  rho [kg/m³]
+
+    Raises MechanismError for fewer than three corners, an area of 0, and a thickness or density that is not above 0.
     >>> plate([0, 0.5, 0.5 + 0.25j, 0.25j], 0.01, 7800.0).centre
     (0.25+0.125j)
     """

@@ -1,7 +1,7 @@
-"""Springs and dampers between two bodies, straight and turning.
+"""Springs and dampers between two bodies: linear and torsional.
 
-Either stands between a body and any other, the ground too; the one pulls on both alike, so that it does no work on a
-mechanism that moves as a whole.
+Either body may be the ground. The forces on the two bodies are equal and opposite: they do no work when both bodies
+move together.
 """
 
 import math
@@ -20,12 +20,15 @@ from ilmek.plane.vectors import dot
 
 @dataclass(frozen=True, slots=True)
 class Spring:
-    """A straight spring and damper between points of two bodies: F = k (L - L_0) + c L', a pull where positive.
+    """A linear spring and damper between points of two bodies: F = k (L - L_0) + c L', tension positive.
 
-    stiffness  k [N/m]        length  L_0, unloaded [m]        damping  c [N s/m]; a damper alone has no stiffness
+    first, first_point, second, second_point   names of the bodies and of their points
+    stiffness  k [N/m]; 0 for a damper alone
+    length     L_0, unloaded [m]
+    damping    c [N s/m]
 
-    The pull has no direction where the points coincide: NaN there. Raises MechanismError for numbers that are negative
-    or not finite.
+    The force is NaN where the points coincide: it has no direction there. Raises MechanismError for values that are
+    negative or not finite.
     """
 
     first: str
@@ -41,7 +44,7 @@ class Spring:
             _require(name, getattr(self, name), least=0.0)
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
-        """The pull on either body, towards the other."""
+        """The force on each of the two bodies, one value per sample."""
         mechanism = motion.plan.mechanism
         ends = (mechanism.point(self.first, self.first_point), mechanism.point(self.second, self.second_point))
         start, end = attached(motion, self.first, ends[0]), attached(motion, self.second, ends[1])
@@ -56,12 +59,14 @@ class Spring:
 
 @dataclass(frozen=True, slots=True)
 class TorsionSpring:
-    """A turning spring and damper between two bodies: T = -k (theta - theta_0) - c omega on the second.
+    """A torsional spring and damper between two bodies: T = -k (theta - theta_0) - c omega on the second.
 
-    theta is the second body's angle against the first. The spring is wound by less than half a turn either way: every
-    sample is judged by itself, and a turn more cannot be told from none.
+    theta is the angle of the second body relative to the first. theta - theta_0 is taken within half a turn in either
+    direction: each sample is evaluated by itself, without a count of full turns.
 
     stiffness  k [N m/rad]     angle  theta_0, unloaded [rad]     damping  c [N m s/rad]
+
+    Raises MechanismError for values that are not finite, and for a negative stiffness or damping.
     """
 
     first: str
@@ -76,7 +81,7 @@ class TorsionSpring:
         _require("angle", self.angle, least=-math.inf)
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
-        """The torque on the second body, and the opposite on the first."""
+        """The torque on the second body, and the opposite torque on the first, one value per sample."""
         turned = motion.direction(self.second) * np.conj(motion.direction(self.first))
         wound = np.angle(turned * np.exp(-1j * self.angle))
         spin = motion.omega(self.second) - motion.omega(self.first)

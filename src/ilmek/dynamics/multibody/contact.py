@@ -1,8 +1,8 @@
-"""Compiled kernels of clearance pins: force, depth, and when a journal in flight will touch its bearing.
+"""Compiled kernels of clearance pins: force, penetration, and the time of the touch of a journal in flight.
 
-See `clearance` for the law. A pin's state is one number beside positions and velocities: -1 in flight, in contact the
-greatest speed |d'| since the contact began. In flight no force acts, whatever the trial's depth, so that a step into
-the bearing is smooth and its crossing can be found; contact begins where the integrator has landed on it.
+The contact law is in `clearance`. The state of a pin is one number: -1 in flight (no contact); in contact the greatest
+speed |d'| since the contact began. In flight no force acts at any penetration, so that a step into the bearing is
+smooth and the time of the touch can be located. Contact begins when a step ends at the touch.
 """
 
 import numpy as np
@@ -11,25 +11,25 @@ from ilmek.dynamics.multibody.kernel import Model, arm_of, dot, push
 from ilmek.num.compiled import compiled
 
 FLIGHT = -1.0
-"""State of a pin out of contact."""
+"""State of a pin without contact."""
 
 TOUCH = 1e-7
-"""Depth at which a touch is found, of the clearance."""
+"""Penetration at which a touch is located, relative to the clearance."""
 
 STRIDE = 0.5
-"""How far a journal in flight may go in one step, of the clearance."""
+"""Greatest motion of a journal in flight in one step, relative to the clearance."""
 
-SETTLED = 0.25
-"""Least speed against which damping is measured, of the impact speed that would go as deep: see `clearance`."""
+REST_SHARE = 0.25
+"""Lower bound of the speed v, relative to the impact speed with the same penetration; see `clearance`."""
 
 SCAN = 16
-"""Places within a step at which the depth is looked at."""
+"""Points within a step at which the penetration is evaluated."""
 
 
 @compiled
 def apart(model: Model, y: np.ndarray, contact: int) -> tuple[complex, complex]:
-    """Journal's centre from the bearing's [m] and its velocity [m/s]."""
-    size = model.weights.shape[0]
+    """Position [m] and velocity [m/s] of the journal's centre relative to the bearing's."""
+    size = model.masses.shape[0]
     q, v = y[:size], y[size : 2 * size]
     at = model.ends.shape[0] - model.contacts.shape[0] + contact
     _, bearing, bearing_speed, _ = arm_of(model, q, v, at, 0)
@@ -48,8 +48,11 @@ def depth(model: Model, y: np.ndarray, contact: int) -> tuple[float, float]:
 
 @compiled
 def contacts(model: Model, y: np.ndarray, out: np.ndarray, found: np.ndarray) -> float:
-    """Add the contact forces to those on the bodies, write those on the journals; power taken by damping, friction."""
-    size = model.weights.shape[0]
+    """Add the contact forces to those on the bodies; store those on the journals. Returns their power [W].
+
+    The power is that of damping and friction, negative where they dissipate energy.
+    """
+    size = model.masses.shape[0]
     q, v, power = y[:size], y[size : 2 * size], 0.0
     for k in range(model.contacts.shape[0]):
         found[2 * k], found[2 * k + 1] = 0.0, 0.0
@@ -70,7 +73,7 @@ def contacts(model: Model, y: np.ndarray, out: np.ndarray, found: np.ndarray) ->
         spin -= (v[3 * bearing + 2] if bearing >= 0 else 0.0) * outward
         sliding = dot(1j * n, pv - gv) + spin
         elastic = stiffness * deep**exponent
-        against = SETTLED * np.sqrt(2.0 * elastic * deep / ((exponent + 1.0) * numbers[7]))
+        against = REST_SHARE * np.sqrt(2.0 * elastic * deep / ((exponent + 1.0) * numbers[7]))
         normal = elastic * max(1.0 + hysteresis * rate / max(began, abs(rate), against), 0.0)
         rubbing = friction * normal * sliding / np.sqrt(sliding * sliding + slip * slip)
         force = -(normal + 1j * rubbing) * n
@@ -82,35 +85,35 @@ def contacts(model: Model, y: np.ndarray, out: np.ndarray, found: np.ndarray) ->
 
 
 @compiled
-def _gain(model: Model, y: np.ndarray, slope: np.ndarray, contact: int, side: int) -> complex:
+def _acceleration(model: Model, y: np.ndarray, slope: np.ndarray, contact: int, side: int) -> complex:
     """Acceleration of one side's centre [m/s²]."""
-    size = model.weights.shape[0]
+    size = model.masses.shape[0]
     at = model.ends.shape[0] - model.contacts.shape[0] + contact
     arm, _, _, bias = arm_of(model, y[:size], y[size : 2 * size], at, side)
     body = model.ends[at, side]
     if body < 0:
         return 0j
     a = slope[size + 3 * body : size + 3 * body + 3]
-    gained: complex = complex(a[0], a[1]) + 1j * a[2] * arm + bias
-    return gained
+    value: complex = complex(a[0], a[1]) + 1j * a[2] * arm + bias
+    return value
 
 
 @compiled
 def stride(model: Model, y: np.ndarray, slope: np.ndarray) -> float:
-    """Longest step in which no journal in flight goes further than `STRIDE` of its clearance [s]."""
-    size, longest = model.weights.shape[0], np.inf
+    """Longest step in which no journal in flight moves by more than `STRIDE` of its clearance [s]."""
+    size, longest = model.masses.shape[0], np.inf
     for k in range(model.contacts.shape[0]):
         if y[2 * size + 1 + k] < 0.0:
             _, speed = apart(model, y, k)
-            gain = _gain(model, y, slope, k, 1) - _gain(model, y, slope, k, 0)
+            acceleration = _acceleration(model, y, slope, k, 1) - _acceleration(model, y, slope, k, 0)
             reach = STRIDE * model.contacts[k, 4]
-            longest = min(longest, reach / (abs(speed) + np.sqrt(abs(gain) * reach) + 1e-300))
+            longest = min(longest, reach / (abs(speed) + np.sqrt(abs(acceleration) * reach) + 1e-300))
     return longest
 
 
 @compiled
 def _cubic(s: float, h: float, start: tuple[float, float], end: tuple[float, float]) -> float:
-    """Hermite's cubic through two depths with two rates, at the share s of the step."""
+    """Cubic Hermite interpolation of the penetration [m] at the share s of a step h [s]."""
     rest = 1.0 - s
     value: float = rest * rest * ((1 + 2 * s) * start[0] + s * h * start[1])
     return value + s * s * ((3 - 2 * s) * end[0] - rest * h * end[1])
@@ -118,8 +121,8 @@ def _cubic(s: float, h: float, start: tuple[float, float], end: tuple[float, flo
 
 @compiled
 def until_touch(model: Model, y: np.ndarray, new: np.ndarray, h: float) -> float:
-    """The part of the step h up to the first touch of a journal in flight; h where none is, or where it ends on one."""
-    size, first = model.weights.shape[0], h
+    """Time from the start of a step h to the first touch of a journal in flight [s]; h where there is none before."""
+    size, first = model.masses.shape[0], h
     for k in range(model.contacts.shape[0]):
         start, end = depth(model, y, k), depth(model, new, k)
         near = TOUCH * model.contacts[k, 4]
@@ -145,7 +148,7 @@ def until_touch(model: Model, y: np.ndarray, new: np.ndarray, h: float) -> float
 @compiled
 def settle(model: Model, y: np.ndarray) -> None:
     """Begin, keep or end each contact at the end of a step."""
-    size = model.weights.shape[0]
+    size = model.masses.shape[0]
     for k in range(model.contacts.shape[0]):
         deep, rate = depth(model, y, k)
         began = y[2 * size + 1 + k]

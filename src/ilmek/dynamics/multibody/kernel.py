@@ -1,18 +1,18 @@
 # ruff: noqa: PLR0917 - compiled functions take their arguments by position
 """Compiled kernels for planar multibody systems: equations, augmented Lagrangian, projection, and the integrator.
 
-Coordinates are x, y, theta of every mass centre, so the masses M are a diagonal. With joints c(q) = 0, J = dc/dq:
+Coordinates are x, y, theta of every mass centre; the mass matrix M is diagonal. With joints c(q) = 0, J = dc/dq:
 
     M a + J^T f = F,      J a = -b(q, v)                                              [index 1]
 
-is solved by the augmented Lagrangian:  (M + J^T W J) da = r1 + J^T W r2,  f -= W (r2 - J da),  from a = f = 0, where
-r1 and r2 are what is left of the two equations. M + J^T W J is positive definite whatever the rank of J: where joints
-are redundant or the mechanism stands in a singular pose the answer is the one of least norm, and directions that J
-holds by less than about 1e-5 of the rest are let go for that instant [Bayo and Ledesma, Nonlinear Dynamics 9 (1996)].
-Each joint's own W = w / (J M^-1 J^T), not one number for all, so that bodies of any masses are held alike; the least
-norm of the reactions is Σ f^T W^-1 f: what each joint's force alone would give its two bodies in (acceleration)² mass.
-Positions and velocities are projected onto the joints after every step, in the norm of the masses. The integrator is
-Dormand and Prince's of order 8 [Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.10].
+is solved by the augmented Lagrangian method:  (M + J^T W J) da = r1 + J^T W r2,  f -= W (r2 - J da),  from a = f = 0,
+with r1 and r2 the residuals of the two equations. M + J^T W J is positive definite for any rank of J. With redundant
+joints or in a singular pose the solution is that of least norm; directions whose constraint in J is weaker than about
+1e-5 of the others are free at that instant [Bayo and Ledesma, Nonlinear Dynamics 9 (1996)]. Each joint has its own
+W = w / (J M^-1 J^T), so that joints of light and of heavy bodies are equally stiff. The norm of the reactions is
+Σ f^T W^-1 f: mass times (acceleration)² that the force of each joint alone would give to its two bodies. Positions and
+velocities are projected onto the joint equations after every step, in the norm of the masses. The integrator is the
+Dormand-Prince method of order 8 [Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.10].
 """
 
 from typing import NamedTuple
@@ -21,27 +21,32 @@ import numpy as np
 
 from ilmek.num.compiled import compiled
 
-GRIP = 1e9
-"""Weight w of the joints against the masses: W times a joint's mobility J M^-1 J^T."""
+PENALTY = 1e9
+"""Penalty factor w of the joints: W times a joint's inverse effective mass J M^-1 J^T."""
 
-ROUNDS = 5
-"""Most iterations of the augmented Lagrangian; one or two are enough away from singular poses."""
+MAX_ITERATIONS = 5
+"""Greatest number of iterations of the augmented Lagrangian; one or two suffice away from singular poses."""
 
 
 class Model(NamedTuple):
-    """A system as arrays; body -1 is the ground, whose arms are places in the world.
+    """A system as arrays; body -1 is the ground.
 
-    weights   of the coordinates [kg, kg, kg m²]      gravity  free fall [m/s²]
-    ends      bodies of each element, arms their points from the mass centres [m], numbers what else it needs:
-              pins, slides (line's direction, angle held), springs (stiffness, free length, damping), pushes (force);
-              pins, slides, springs, pushes: how many there are, in this order, clearance pins last
-    contacts  of each clearance pin: stiffness, exponent, hysteresis, journal's radius, clearance, friction, slip, and
-              the two bodies' masses in series
-    twists    torque [N m] and viscous drag [N m s] on each body
-    touched   bodies of each joint equation           length  of the system [m]      band  of M + J^T W J
+    masses        of the coordinates [kg, kg, kg m²], three per body
+    gravity       acceleration [m/s²], complex
+    ends          the two bodies of each element
+    arms          their points relative to the mass centres [m], complex; of the ground relative to its origin
+    numbers       further values of an element: slide (direction of the line, relative angle), spring (stiffness, free
+                  length, damping), force (its components)
+    pins, slides, springs, forces   number of elements of each kind, in this order; clearance pins are last
+    contacts      per clearance pin: stiffness, exponent, hysteresis, journal's radius, clearance, friction, slip, and
+                  the effective mass of its two bodies
+    torques       torque [N m] and viscous drag [N m s] on each body
+    joint_bodies  the two bodies of each joint equation
+    length        characteristic length of the system [m]
+    band          half bandwidth of M + J^T W J
     """
 
-    weights: np.ndarray
+    masses: np.ndarray
     gravity: complex
     ends: np.ndarray
     arms: np.ndarray
@@ -49,17 +54,17 @@ class Model(NamedTuple):
     pins: int
     slides: int
     springs: int
-    pushes: int
+    forces: int
     contacts: np.ndarray
-    twists: np.ndarray
-    touched: np.ndarray
+    torques: np.ndarray
+    joint_bodies: np.ndarray
     length: float
     band: int
 
 
 @compiled
 def arm_of(model: Model, q: np.ndarray, v: np.ndarray, at: int, side: int) -> tuple[complex, complex, complex, complex]:
-    """World arm, position and velocity of one side of an element, and its bias -w² r."""
+    """Arm, position and velocity of one side of an element in the ground frame, and its acceleration bias -w² r."""
     body, arm = model.ends[at, side], model.arms[at, side]
     if body < 0:
         return arm, arm, 0j, 0j
@@ -72,19 +77,19 @@ def arm_of(model: Model, q: np.ndarray, v: np.ndarray, at: int, side: int) -> tu
 
 @compiled
 def dot(a: complex, b: complex) -> float:
-    """Scalar product of two plane vectors."""
+    """Scalar product of two planar vectors."""
     return a.real * b.real + a.imag * b.imag
 
 
 @compiled
-def _row(rows: np.ndarray, at: int, first: complex, turned: float, second: complex, back: float) -> None:
-    rows[at, 0], rows[at, 1], rows[at, 2] = first.real, first.imag, turned
+def _row(rows: np.ndarray, at: int, first: complex, rotated: float, second: complex, back: float) -> None:
+    rows[at, 0], rows[at, 1], rows[at, 2] = first.real, first.imag, rotated
     rows[at, 3], rows[at, 4], rows[at, 5] = second.real, second.imag, back
 
 
 @compiled
 def joints(model: Model, q: np.ndarray, v: np.ndarray, gap: np.ndarray, rows: np.ndarray, bias: np.ndarray) -> None:
-    """Gaps c, Jacobian rows (x, y, theta of the first body, then of the second) and bias b of all joints."""
+    """Gaps c [m], Jacobian rows (x, y, theta of the first body, then of the second) and bias b of all joints."""
     for k in range(model.pins):
         r, p, _, first = arm_of(model, q, v, k, 0)
         s, g, _, second = arm_of(model, q, v, k, 1)
@@ -101,10 +106,10 @@ def joints(model: Model, q: np.ndarray, v: np.ndarray, gap: np.ndarray, rows: np
         own = q[3 * body + 2] if body >= 0 else 0.0
         line = theta + model.numbers[k, 0]
         f = 1j * complex(np.cos(line), np.sin(line))
-        apart, turned = p - g, 1j * f
+        apart, rotated = p - g, 1j * f
         gap[2 * k] = dot(f, apart)
-        _row(rows, 2 * k, f, dot(f, 1j * r), -f, dot(turned, apart) - dot(f, 1j * s))
-        bias[2 * k] = dot(f, first - second) + 2 * spin * dot(turned, pv - gv) - spin * spin * gap[2 * k]
+        _row(rows, 2 * k, f, dot(f, 1j * r), -f, dot(rotated, apart) - dot(f, 1j * s))
+        bias[2 * k] = dot(f, first - second) + 2 * spin * dot(rotated, pv - gv) - spin * spin * gap[2 * k]
         gap[2 * k + 1] = model.length * (own - theta - model.numbers[k, 1])
         _row(rows, 2 * k + 1, 0j, model.length, 0j, -model.length)
         bias[2 * k + 1] = 0.0
@@ -112,12 +117,12 @@ def joints(model: Model, q: np.ndarray, v: np.ndarray, gap: np.ndarray, rows: np
 
 @compiled
 def applied(model: Model, q: np.ndarray, v: np.ndarray, out: np.ndarray) -> float:
-    """Applied forces F on the mass centres, and the power of all but weights and springs' stiffness [W]."""
+    """Applied forces F at the mass centres; returns the power of all except gravity and elastic springs [W]."""
     power = 0.0
-    for k in range(model.weights.shape[0] // 3):
-        mass = model.weights[3 * k]
+    for k in range(model.masses.shape[0] // 3):
+        mass = model.masses[3 * k]
         out[3 * k], out[3 * k + 1] = mass * model.gravity.real, mass * model.gravity.imag
-        out[3 * k + 2] = model.twists[k, 0] - model.twists[k, 1] * v[3 * k + 2]
+        out[3 * k + 2] = model.torques[k, 0] - model.torques[k, 1] * v[3 * k + 2]
         power += out[3 * k + 2] * v[3 * k + 2]
     start = model.pins + model.slides
     for k in range(start, start + model.springs):
@@ -131,7 +136,7 @@ def applied(model: Model, q: np.ndarray, v: np.ndarray, out: np.ndarray) -> floa
         push(out, model.ends[k, 0], r, force)
         push(out, model.ends[k, 1], s, -force)
     start += model.springs
-    for k in range(start, start + model.pushes):
+    for k in range(start, start + model.forces):
         r, _, pv, _ = arm_of(model, q, v, k, 0)
         force = complex(model.numbers[k, 0], model.numbers[k, 1])
         push(out, model.ends[k, 0], r, force)
@@ -141,7 +146,7 @@ def applied(model: Model, q: np.ndarray, v: np.ndarray, out: np.ndarray) -> floa
 
 @compiled
 def push(out: np.ndarray, body: int, arm: complex, force: complex) -> None:
-    """Add a force at an arm to the forces on a body's mass centre."""
+    """Add a force [N] at an arm [m] to the force and moment at a body's mass centre."""
     if body >= 0:
         out[3 * body] += force.real
         out[3 * body + 1] += force.imag
@@ -149,47 +154,47 @@ def push(out: np.ndarray, body: int, arm: complex, force: complex) -> None:
 
 
 @compiled
-def grips(model: Model, rows: np.ndarray, out: np.ndarray) -> None:
-    """Weight W of each joint, a symmetric 2 by 2 (xx, xy, yy): GRIP / (J M^-1 J^T) of this joint alone."""
+def penalties(model: Model, rows: np.ndarray, out: np.ndarray) -> None:
+    """Penalty W of each joint, a symmetric 2 by 2 matrix (xx, xy, yy): PENALTY / (J M^-1 J^T) of this joint alone."""
     for k in range(out.shape[0]):
         xx, xy, yy = 0.0, 0.0, 0.0
         for a in range(6):
-            body = model.touched[2 * k, a // 3]
+            body = model.joint_bodies[2 * k, a // 3]
             if body >= 0:
-                ease = 1.0 / model.weights[3 * body + a % 3]
+                ease = 1.0 / model.masses[3 * body + a % 3]
                 xx += ease * rows[2 * k, a] ** 2
                 xy += ease * rows[2 * k, a] * rows[2 * k + 1, a]
                 yy += ease * rows[2 * k + 1, a] ** 2
-        scale = GRIP / max(xx * yy - xy * xy, 1e-14 * xx * yy)
+        scale = PENALTY / max(xx * yy - xy * xy, 1e-14 * xx * yy)
         out[k, 0], out[k, 1], out[k, 2] = scale * yy, -scale * xy, scale * xx
 
 
 @compiled
-def _weigh(touched: np.ndarray, pair: np.ndarray, grip: np.ndarray, band: int, root: np.ndarray) -> None:
-    """Add J^T W J of one joint, two rows, to the lower band."""
+def _add_penalty(joint_bodies: np.ndarray, pair: np.ndarray, penalty: np.ndarray, band: int, root: np.ndarray) -> None:
+    """Add J^T W J of one joint (two rows) to the lower band."""
     for a in range(6):
-        i = 3 * touched[a // 3] + a % 3
-        first = grip[0] * pair[0, a] + grip[1] * pair[1, a]
-        second = grip[1] * pair[0, a] + grip[2] * pair[1, a]
+        i = 3 * joint_bodies[a // 3] + a % 3
+        first = penalty[0] * pair[0, a] + penalty[1] * pair[1, a]
+        second = penalty[1] * pair[0, a] + penalty[2] * pair[1, a]
         if i < 0:
             continue
         for b in range(6):
-            j = 3 * touched[b // 3] + b % 3
+            j = 3 * joint_bodies[b // 3] + b % 3
             if 0 <= j <= i:
                 root[i, j - i + band] += first * pair[0, b] + second * pair[1, b]
 
 
 @compiled
-def factor(model: Model, rows: np.ndarray, grip: np.ndarray, root: np.ndarray) -> None:
+def factor(model: Model, rows: np.ndarray, penalty: np.ndarray, root: np.ndarray) -> None:
     """Cholesky factor of M + J^T W J within its band: root[i, j - i + band] = L_ij."""
-    weights, touched, band = model.weights, model.touched, model.band
-    count = weights.shape[0]
+    masses, joint_bodies, band = model.masses, model.joint_bodies, model.band
+    count = masses.shape[0]
     for i in range(count):
         for j in range(band):
             root[i, j] = 0.0
-        root[i, band] = weights[i]
-    for k in range(grip.shape[0]):
-        _weigh(touched[2 * k], rows[2 * k : 2 * k + 2], grip[k], band, root)
+        root[i, band] = masses[i]
+    for k in range(penalty.shape[0]):
+        _add_penalty(joint_bodies[2 * k], rows[2 * k : 2 * k + 2], penalty[k], band, root)
     for i in range(count):
         for j in range(max(0, i - band), i + 1):
             total = root[i, j - i + band]
@@ -212,84 +217,84 @@ def _substitute(root: np.ndarray, band: int, x: np.ndarray) -> None:
 
 
 @compiled
-def along(model: Model, row: np.ndarray, k: int, x: np.ndarray) -> float:
+def row_product(model: Model, row: np.ndarray, k: int, x: np.ndarray) -> float:
     """One row of J times x."""
     total = 0.0
     for a in range(6):
-        if model.touched[k, a // 3] >= 0:
-            total += row[a] * x[3 * model.touched[k, a // 3] + a % 3]
+        if model.joint_bodies[k, a // 3] >= 0:
+            total += row[a] * x[3 * model.joint_bodies[k, a // 3] + a % 3]
     return total
 
 
 @compiled
-def _back(model: Model, row: np.ndarray, k: int, size: float, x: np.ndarray) -> None:
-    """To x is added J^T of one row times a size."""
+def _add_transposed(model: Model, row: np.ndarray, k: int, size: float, x: np.ndarray) -> None:
+    """Add one row of J, times `size`, to x."""
     for a in range(6):
-        if model.touched[k, a // 3] >= 0:
-            x[3 * model.touched[k, a // 3] + a % 3] += row[a] * size
+        if model.joint_bodies[k, a // 3] >= 0:
+            x[3 * model.joint_bodies[k, a // 3] + a % 3] += row[a] * size
 
 
 @compiled
-def _pull(grip: np.ndarray, missing: np.ndarray, k: int) -> float:
-    """One row of W times what is missing."""
+def _penalty_force(penalty: np.ndarray, residual: np.ndarray, k: int) -> float:
+    """One row of W times the residual."""
     joint, second = k // 2, k % 2
-    pulled: float = grip[joint, second] * missing[2 * joint] + grip[joint, second + 1] * missing[2 * joint + 1]
-    return pulled
+    total: float = penalty[joint, second] * residual[2 * joint] + penalty[joint, second + 1] * residual[2 * joint + 1]
+    return total
 
 
 @compiled
-def _round(
+def _iterate(
     model: Model,
     rows: np.ndarray,
-    grip: np.ndarray,
+    penalty: np.ndarray,
     root: np.ndarray,
     force: np.ndarray,
-    wanted: np.ndarray,
-    found: np.ndarray,
+    required: np.ndarray,
+    solution: np.ndarray,
     reaction: np.ndarray,
     step: np.ndarray,
-    missing: np.ndarray,
+    residual: np.ndarray,
 ) -> None:
-    """One iteration of the augmented Lagrangian; into `step` goes what it added to `found`."""
+    """One iteration of the augmented Lagrangian; the increment of `solution` is written to `step`."""
     count = reaction.shape[0]
-    for i in range(found.shape[0]):
-        step[i] = force[i] - model.weights[i] * found[i]
+    for i in range(solution.shape[0]):
+        step[i] = force[i] - model.masses[i] * solution[i]
     for k in range(count):
-        missing[k] = wanted[k] - along(model, rows[k], k, found)
+        residual[k] = required[k] - row_product(model, rows[k], k, solution)
     for k in range(count):
-        _back(model, rows[k], k, _pull(grip, missing, k) - reaction[k], step)
+        _add_transposed(model, rows[k], k, _penalty_force(penalty, residual, k) - reaction[k], step)
     _substitute(root, model.band, step)
     for k in range(count):
-        missing[k] -= along(model, rows[k], k, step)
+        residual[k] -= row_product(model, rows[k], k, step)
     for k in range(count):
-        reaction[k] -= _pull(grip, missing, k)
-    for i in range(found.shape[0]):
-        found[i] += step[i]
+        reaction[k] -= _penalty_force(penalty, residual, k)
+    for i in range(solution.shape[0]):
+        solution[i] += step[i]
 
 
 @compiled
 def constrained(
     model: Model,
     rows: np.ndarray,
-    grip: np.ndarray,
+    penalty: np.ndarray,
     root: np.ndarray,
     force: np.ndarray,
-    wanted: np.ndarray,
-    found: np.ndarray,
+    required: np.ndarray,
+    solution: np.ndarray,
     reaction: np.ndarray,
 ) -> None:
-    """`found` and `reaction` of M found + J^T reaction = force, J found = wanted; `root` from `factor`."""
-    size, count = found.shape[0], reaction.shape[0]
-    step, missing = np.empty(size), np.empty(count)
+    """Solve M solution + J^T reaction = force, J solution = required; `root` is from `factor`."""
+    size, count = solution.shape[0], reaction.shape[0]
+    step, residual = np.empty(size), np.empty(count)
     for i in range(size):
-        found[i] = 0.0
+        solution[i] = 0.0
     for k in range(count):
         reaction[k] = 0.0
-    for _ in range(ROUNDS):
-        _round(model, rows, grip, root, force, wanted, found, reaction, step, missing)
+    for _ in range(MAX_ITERATIONS):
+        _iterate(model, rows, penalty, root, force, required, solution, reaction, step, residual)
         most, moved = 0.0, 0.0
         for i in range(size):
-            most = max(most, found[i] * found[i] * model.weights[i])
-            moved = max(moved, step[i] * step[i] * model.weights[i])
+            most = max(most, solution[i] * solution[i] * model.masses[i])
+            moved = max(moved, step[i] * step[i] * model.masses[i])
         if not moved > 1e-28 * most:
             break

@@ -1,4 +1,4 @@
-"""What a general planar system is, and how it becomes the arrays of the compiled kernels."""
+"""Definition of a general planar multibody system, and its conversion to the arrays of the compiled kernels."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -20,7 +20,7 @@ from ilmek.plane.vectors import unit
 
 @dataclass(frozen=True, slots=True)
 class BodyState:
-    """Where a body's frame is and how it moves: origin [m], angle [rad], the origin's velocity [m/s], omega [rad/s]."""
+    """State of a body's frame: origin [m], angle [rad], velocity of the origin [m/s], omega [rad/s]."""
 
     origin: complex
     angle: float = 0.0
@@ -30,7 +30,7 @@ class BodyState:
 
 @dataclass(frozen=True, slots=True)
 class BodyForce:
-    """A constant force [N], in the world's directions, at a point of a body."""
+    """A constant force [N], in directions of the ground frame, at a named point of a body."""
 
     body: str
     point: str
@@ -39,7 +39,7 @@ class BodyForce:
 
 @dataclass(frozen=True, slots=True)
 class BodyTorque:
-    """A torque on a body that falls with its speed: torque - drag omega [N m, N m s]; a motor's straight curve."""
+    """A torque on a body, torque - drag omega [N m, N m s]: for example a linear motor characteristic."""
 
     body: str
     torque: float
@@ -48,14 +48,17 @@ class BodyTorque:
 
 @dataclass(frozen=True, slots=True)
 class System:
-    """Bodies with masses, the joints between them, the loads, and the start.
+    """Bodies with masses, the joints between them, the loads, and the initial state.
 
-    bodies    with the ground among them, as in `Mechanism`
+    bodies    including the ground, as in `Mechanism`
     joints    pins, slides, pins with clearance; they may be redundant
-    inertias  of every moving body, mass and moment above 0      poses   of every moving body at the start
-    gravity   free fall [m/s²], such as -9.81j                   loads   springs, pushes, twists
+    inertias  body -> inertia for every moving body, mass and moment above 0
+    poses     body -> initial state for every moving body
+    gravity   acceleration [m/s²], complex, such as -9.81j; default: 0
+    loads     springs, forces, torques; default: none
+    order     moving bodies in the order of the arrays (computed)
 
-    Raises MechanismError for names that are unknown or missing, a body without mass or moment, and numbers that are
+    Raises MechanismError for unknown or missing names, a body without mass or moment of inertia, and values that are
     not finite.
     """
 
@@ -74,39 +77,39 @@ class System:
             raise MechanismError(f"{self.name} has bodies {', '.join(moving) or 'none'}", allowed="each name once")
         for name in moving:
             self._check(name)
-        object.__setattr__(self, "order", _ordered(moving, self.joints))
+        object.__setattr__(self, "order", _narrow_band_order(moving, self.joints))
         for joint in self.joints:
             if joint.bodies[0] == joint.bodies[1]:
                 raise MechanismError(f"joint {joint.name!r} of {self.name} joins {joint.bodies[0]!r} to itself")
             for body in joint.bodies:
                 self.point(body, joint.name)
         if not np.isfinite(self.gravity):
-            raise MechanismError(f"gravity of {self.name} is {self.gravity}", allowed="a finite free fall in m/s²")
+            raise MechanismError(f"gravity of {self.name} is {self.gravity}", allowed="a finite acceleration in m/s²")
         for load in self.loads:
             _check_load(self, load)
 
     @property
     def pins(self) -> tuple[Pin, ...]:
-        """Its pins without clearance."""
+        """The pins without clearance."""
         return tuple(joint for joint in self.joints if isinstance(joint, Pin))
 
     @property
     def slides(self) -> tuple[Slide, ...]:
-        """Its slides."""
+        """The slides."""
         return tuple(joint for joint in self.joints if isinstance(joint, Slide))
 
     @property
     def rigid(self) -> tuple[Joint, ...]:
-        """Its joints without clearance in the order of their equations: pins, then slides."""
+        """The joints without clearance in the order of their equations: pins, then slides."""
         return (*self.pins, *self.slides)
 
     @property
     def clearances(self) -> tuple[ClearancePin, ...]:
-        """Its pins with clearance."""
+        """The pins with clearance."""
         return tuple(joint for joint in self.joints if isinstance(joint, ClearancePin))
 
     def clearance(self, name: str) -> ClearancePin:
-        """The pin with clearance of that name."""
+        """The pin with clearance of a name; raises MechanismError for an unknown name."""
         found = {pin.name: pin for pin in self.clearances}
         if name not in found:
             known = ", ".join(found) or "none"
@@ -121,13 +124,13 @@ class System:
             raise MechanismError(
                 f"body {name!r} of {self.name} has mass {inertia.mass:g} kg, moment {inertia.moment:g} kg m²",
                 allowed="both above 0",
-                do="give it some, or join it to its neighbour as one body",
+                do="give it both, or combine it with a neighbour as one body",
             )
         if not np.all(np.isfinite([pose.origin, pose.angle, pose.velocity, pose.omega])):
             raise MechanismError(f"the pose of body {name!r} of {self.name} is {pose}", allowed="finite numbers")
 
     def point(self, body: str, point: str) -> complex:
-        """A point of a body in the body's frame [m]."""
+        """Position of a body's point in the body's frame [m]; raises MechanismError for unknown names."""
         points = {one.name: one.points for one in self.bodies}
         if body not in points:
             raise MechanismError(f"{self.name} has no body {body!r}", allowed=f"it has {', '.join(points)}")
@@ -138,12 +141,15 @@ class System:
         return points[body][point]
 
     def arm(self, body: str, point: str) -> complex:
-        """A point of a body from its mass centre [m]; of the ground, its place in the world."""
+        """Position of a body's point relative to the mass centre [m]; for the ground, relative to its origin."""
         return self.point(body, point) - (0j if body == GROUND else self.inertias[body].centre)
 
 
-def loosened(system: System, *clearances: ClearancePin) -> System:
-    """The system with some of its pins replaced by pins with clearance of the same names."""
+def with_clearance(system: System, *clearances: ClearancePin) -> System:
+    """The system with some of its pins replaced by pins with clearance of the same names.
+
+    Raises MechanismError for a name without a pin.
+    """
     names = [pin.name for pin in system.pins]
     for pin in clearances:
         if pin.name not in names:
@@ -161,16 +167,19 @@ def from_motion(
     gravity: complex = 0j,
     loads: Sequence[Spring | BodyForce | BodyTorque] = (),
 ) -> System:
-    """The system that a mechanism is with its inputs let go, starting from the first sample of a motion.
+    """The system of a mechanism with free inputs; its initial state is the first sample of a motion.
 
-    Raises MechanismError where the motion fails, and for couplings, which a system does not know.
+    motion    of the mechanism       inertias  body -> inertia of every moving body
+    gravity   acceleration [m/s²], complex      loads  springs, forces, torques
+
+    Raises MechanismError where the motion fails, for couplings, which a system does not support, and as `System` does.
     """
     mechanism = motion.require().plan.mechanism
     if mechanism.couplings:
         raise MechanismError(
             f"{mechanism.name} has a coupling {mechanism.couplings[0].name!r}",
             allowed="a general system has pins and slides",
-            do="run it by the reduced equation",
+            do="use the reduced equation: `dynamics.forward`",
         )
     for body in inertias:
         mechanism.body(body)
@@ -182,55 +191,55 @@ def from_motion(
     return System(mechanism.bodies, mechanism.joints, inertias, poses, gravity, loads, mechanism.name)
 
 
-def _ordered(moving: Sequence[str], joints: Sequence[Joint | ClearancePin]) -> tuple[str, ...]:
-    """Bodies in an order that keeps neighbours close, for a narrow band [reverse Cuthill-McKee]."""
-    place = {name: k for k, name in enumerate(moving)}
+def _narrow_band_order(moving: Sequence[str], joints: Sequence[Joint | ClearancePin]) -> tuple[str, ...]:
+    """Bodies in an order that gives the matrix a narrow band [reverse Cuthill-McKee]."""
+    index = {name: k for k, name in enumerate(moving)}
     pairs = [
-        (place[a], place[b]) for joint in joints for a, b in [joint.bodies, joint.bodies[::-1]] if {a, b} <= set(place)
+        (index[a], index[b]) for joint in joints for a, b in [joint.bodies, joint.bodies[::-1]] if {a, b} <= set(index)
     ]
     rows, columns = np.array(pairs, dtype=int).reshape(-1, 2).T
     graph = scipy.sparse.coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(moving), len(moving))).tocsr()
     return tuple(moving[k] for k in scipy.sparse.csgraph.reverse_cuthill_mckee(graph, symmetric_mode=True))
 
 
-def modelled(system: System) -> Model:
+def model_arrays(system: System) -> Model:
     """The system as arrays."""
-    place = {name: k for k, name in enumerate(system.order)} | {GROUND: -1}
+    index = {name: k for k, name in enumerate(system.order)} | {GROUND: -1}
     loose = system.clearances
     springs = [load for load in system.loads if isinstance(load, Spring)]
-    pushes = [load for load in system.loads if isinstance(load, BodyForce)]
-    touched = [[place[body] for body in joint.bodies] for joint in system.rigid for _ in range(2)]
-    apart = [abs(a - b) for a, b in touched if min(a, b) >= 0]
+    forces = [load for load in system.loads if isinstance(load, BodyForce)]
+    joint_bodies = [[index[body] for body in joint.bodies] for joint in system.rigid for _ in range(2)]
+    apart = [abs(a - b) for a, b in joint_bodies if min(a, b) >= 0]
     inertias = [system.inertias[name] for name in system.order]
     ends = [[(body, joint.name) for body in joint.bodies] for joint in system.rigid]
     ends += [[(one.first, one.first_point), (one.second, one.second_point)] for one in springs]
-    ends += [[(one.body, one.point)] * 2 for one in pushes]
+    ends += [[(one.body, one.point)] * 2 for one in forces]
     ends += [[(body, pin.name) for body in pin.bodies] for pin in loose]
     numbers = [(0.0, 0.0, 0.0) for _ in system.pins] + [
-        (slide.along, _held(system, slide), 0.0) for slide in system.slides
+        (slide.along, _relative_angle(system, slide), 0.0) for slide in system.slides
     ]
     numbers += [(spring.stiffness, spring.length, spring.damping) for spring in springs]
-    numbers += [(complex(push.force).real, complex(push.force).imag, 0.0) for push in pushes]
+    numbers += [(complex(one.force).real, complex(one.force).imag, 0.0) for one in forces]
     return Model(
-        weights=np.array([value for one in inertias for value in (one.mass, one.mass, one.moment)]),
+        masses=np.array([value for one in inertias for value in (one.mass, one.mass, one.moment)]),
         gravity=complex(system.gravity),
-        ends=_pairs([[place[body] for body, _ in pair] for pair in ends]),
+        ends=_pairs([[index[body] for body, _ in pair] for pair in ends]),
         arms=np.array([[system.arm(*end) for end in pair] for pair in ends], dtype=complex).reshape(-1, 2),
         numbers=np.array(numbers, dtype=float).reshape(-1, 3),
         pins=len(system.pins),
         slides=len(system.slides),
         springs=len(springs),
-        pushes=len(pushes),
+        forces=len(forces),
         contacts=np.array([_contact(system, pin) for pin in loose], dtype=float).reshape(-1, 8),
-        twists=_twists(system),
-        touched=_pairs(touched),
+        torques=_torques(system),
+        joint_bodies=_pairs(joint_bodies),
         length=_length(system),
         band=min(3 * max(apart, default=0) + 2, 3 * len(system.order) - 1),
     )
 
 
-def start_of(system: System) -> np.ndarray:
-    """Positions and velocities of the mass centres at the start, no work, and no contact yet."""
+def start_state(system: System) -> np.ndarray:
+    """Initial state: positions and velocities of the mass centres, no work, no contact."""
     row = np.full(6 * len(system.order) + 1 + len(system.clearances), FLIGHT)
     row[6 * len(system.order)] = 0.0
     half = 3 * len(system.order)
@@ -249,7 +258,7 @@ def _contact(system: System, pin: ClearancePin) -> tuple[float, ...]:
 
 
 def _check_load(system: System, load: Spring | BodyForce | BodyTorque) -> None:
-    """Refuse a load on a body or point that is not there, or whose numbers are not finite."""
+    """Raise MechanismError for a load on an unknown body or point, and for values that are not finite."""
     if isinstance(load, Spring):
         ends, numbers = (
             [(load.first, load.first_point), (load.second, load.second_point)],
@@ -269,23 +278,23 @@ def _check_load(system: System, load: Spring | BodyForce | BodyTorque) -> None:
         raise MechanismError(f"a load of {system.name} is {load}", allowed="finite numbers")
 
 
-def _held(system: System, slide: Slide) -> float:
-    """The angle that a slide holds, in the turn in which the poses are."""
+def _relative_angle(system: System, slide: Slide) -> float:
+    """Constant relative angle of a slide [rad], with the number of full turns of the initial poses."""
     body, guide = (system.poses[name].angle if name != GROUND else 0.0 for name in slide.bodies)
     turns = round((body - guide - slide.turned) / (2 * np.pi))
     return slide.turned + turns * 2 * np.pi
 
 
-def _twists(system: System) -> np.ndarray:
-    twists = np.zeros((len(system.order), 2))
+def _torques(system: System) -> np.ndarray:
+    torques = np.zeros((len(system.order), 2))
     for load in system.loads:
         if isinstance(load, BodyTorque):
-            twists[system.order.index(load.body)] += load.torque, load.drag
-    return twists
+            torques[system.order.index(load.body)] += load.torque, load.drag
+    return torques
 
 
 def _length(system: System) -> float:
-    """Greatest distance of a joint from its body's mass centre [m]; 1 where there is none."""
+    """Greatest distance of a joint from its body's mass centre [m]; 1 where all distances are 0."""
     arms = [abs(system.arm(body, joint.name)) for joint in system.joints for body in joint.bodies if body != GROUND]
     return max(arms, default=1.0) or 1.0
 

@@ -1,4 +1,4 @@
-"""What a run of a general planar system answers: places, speeds, forces, energies, at an instant or by sample."""
+"""Result of a run of a general planar system: positions, speeds, forces, energies, at an instant or by sample."""
 
 from dataclasses import dataclass
 
@@ -13,19 +13,21 @@ from ilmek.dynamics.springs import Spring
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Joint, Pin
 
-HOLDS = 1e-6
-"""A joint counts as free to pull against the others where its share of a force that moves nothing is above this."""
+INDETERMINATE = 1e-6
+"""Share of a joint in a self-equilibrated force above which its reaction counts as indeterminate."""
 
 
 @dataclass(frozen=True, slots=True)
 class MultibodyHistory:
-    """A system over the samples of a run, or at one instant: each answer is then an array of no dimension.
+    """A system over the samples of a run, or at one instant; results are then arrays of dimension 0.
 
     time       [s]
     states     x, y [m], theta [rad] of the mass centres in the order of `system.order`; their rates; the work [J];
-               one number a clearance pin: -1 in flight, else the greatest speed of its contact so far [m/s]
+               one number per clearance pin: -1 in flight, otherwise the greatest speed of its contact so far [m/s]
     slopes     time derivatives of the states
-    reactions  two forces a pin, a force and a moment a slide, two forces a clearance pin (see `pin`)
+    reactions  two forces per pin, a force and a moment per slide, two forces per clearance pin (see `pin`)
+
+    The methods raise MechanismError for unknown names.
     """
 
     system: System
@@ -45,22 +47,22 @@ class MultibodyHistory:
 
     def alpha(self, body: str) -> FloatArray:
         """Angular acceleration of a body [rad/s²]."""
-        return self._column(body, self.slopes[..., len(self.model.weights) :], 2)
+        return self._column(body, self.slopes[..., len(self.model.masses) :], 2)
 
     def position(self, body: str, point: str) -> ComplexArray:
-        """Place of a body's point [m]."""
+        """Position of a body's point [m], complex."""
         arm = self.system.arm(body, point)
         if body == GROUND:
             return np.asarray(arm)
         return np.asarray(self._centre(body, self.states) + arm * np.exp(1j * self.angle(body)))
 
     def velocity(self, body: str, point: str) -> ComplexArray:
-        """Velocity of a body's point [m/s]."""
+        """Velocity of a body's point [m/s], complex."""
         arm = self.system.arm(body, point) * np.exp(1j * self.angle(body))
         return np.asarray(self._centre(body, self.slopes) + 1j * self.omega(body) * arm)
 
     def travel(self, slide: str) -> FloatArray:
-        """Distance of a slide's body from the guide's point along the line [m]."""
+        """Displacement of a slide's body relative to the guide's point, along the line [m]."""
         one = next((one for one in self.system.slides if one.name == slide), None)
         if one is None:
             known = ", ".join(slide.name for slide in self.system.slides) or "none"
@@ -70,9 +72,10 @@ class MultibodyHistory:
         return np.asarray(np.real(np.exp(-1j * line) * apart))
 
     def pin(self, name: str) -> ComplexArray:
-        """Force [N] of a pin, with clearance or without, on its second body; of least norm where joints are redundant.
+        """Force [N] of a pin, with or without clearance, on its second body, complex.
 
-        On the line of centres and the friction across it, for a pin with clearance.
+        Where joints are redundant, the force is that of least norm. The force of a pin with clearance is the sum of the
+        contact force along the line of centres and the friction across it.
         """
         pins: list[Joint | ClearancePin] = [*self.system.rigid, *self.system.clearances]
         known = [one.name for one in pins if isinstance(one, Pin | ClearancePin)]
@@ -84,18 +87,18 @@ class MultibodyHistory:
         return np.asarray(self.reactions[..., row] + 1j * self.reactions[..., row + 1])
 
     def eccentricity(self, name: str) -> ComplexArray:
-        """Place of a clearance pin's journal from its bearing's centre [m], in the world's directions."""
+        """Position of a clearance pin's journal relative to its bearing's centre [m], complex, in the ground frame."""
         one = self.system.clearance(name)
         return np.asarray(self.position(one.second, name) - self.position(one.first, name))
 
     @property
     def energy(self) -> FloatArray:
-        """Kinetic energy, potential of weights and springs, what contacts store [J]."""
-        count = len(self.model.weights)
-        energy = 0.5 * (self.slopes[..., :count] ** 2) @ self.model.weights
-        for k, mass in enumerate(self.model.weights[::3]):
-            place = self.states[..., 3 * k] + 1j * self.states[..., 3 * k + 1]
-            energy = energy - mass * np.real(np.conj(self.model.gravity) * place)
+        """Kinetic energy, potential energy of gravity and springs, elastic energy of contacts [J]."""
+        count = len(self.model.masses)
+        energy = 0.5 * (self.slopes[..., :count] ** 2) @ self.model.masses
+        for k, mass in enumerate(self.model.masses[::3]):
+            position = self.states[..., 3 * k] + 1j * self.states[..., 3 * k + 1]
+            energy = energy - mass * np.real(np.conj(self.model.gravity) * position)
         for load in self.system.loads:
             if isinstance(load, Spring):
                 apart = self.position(load.first, load.first_point) - self.position(load.second, load.second_point)
@@ -108,8 +111,8 @@ class MultibodyHistory:
 
     @property
     def work(self) -> FloatArray:
-        """Work done since the start by pushes, twists, dampers and contacts' losses [J]."""
-        return np.asarray(self.states[..., 2 * len(self.model.weights)])
+        """Work since the start of forces, torques, dampers and contact losses [J]."""
+        return np.asarray(self.states[..., 2 * len(self.model.masses)])
 
     def _centre(self, body: str, rows: FloatArray) -> ComplexArray:
         return np.asarray(self._column(body, rows, 0) + 1j * self._column(body, rows, 1))
@@ -124,10 +127,11 @@ class MultibodyHistory:
 
 @dataclass(frozen=True, slots=True)
 class SystemRun(MultibodyHistory):
-    """A run of a general system, sample by sample; the last sample is the end.
+    """A run of a general system, one row per sample; the last sample is the end.
 
-    steps   the integrator's, those refused among them      peaks   greatest force at each clearance pin, any step [N]
-    events  those met, in their order                       end     the event that ended it; None: its time was over
+    steps   number of integration steps, including rejected ones
+    events  events that occurred, in their order
+    peaks   clearance pin -> its greatest force at any step [N]
     """
 
     steps: int
@@ -136,44 +140,44 @@ class SystemRun(MultibodyHistory):
 
     @property
     def end(self) -> EventRecord[MultibodyHistory] | None:
-        """The event that ended the run; None where its time was over."""
+        """The event that ended the run; None where the last time was reached."""
         return self.events[-1] if self.events and self.events[-1].terminal else None
 
     @property
     def energy_residual(self) -> FloatArray:
-        """Energy gained less the work done since the start [J]: zero but for errors."""
+        """Energy gained minus work done since the start [J]: the error of the integration."""
         residual: FloatArray = self.energy - self.energy[0] - (self.work - self.work[0])
         return residual
 
     @property
     def gap(self) -> float:
         """Greatest opening of a joint without clearance over the samples [m]."""
-        return max(float(np.max(np.abs(_opened(self.model, state)[0]), initial=0.0)) for state in self.states)
+        return max(float(np.max(np.abs(_gaps_and_rows(self.model, state)[0]), initial=0.0)) for state in self.states)
 
     def indeterminate(self, sample: int = 0) -> tuple[str, ...]:
-        """Joints whose reactions do not follow from the motion in a sample's pose: others could take their part.
+        """Names of the joints whose reactions the motion does not determine in the pose of a sample.
 
-        Found from the forces J^T f = 0 that move nothing: there are any where joints are redundant, or for the
-        instant in which the mechanism stands in a singular pose. `pin` gives the forces of least norm of all.
+        Computed from the self-equilibrated forces J^T f = 0. They exist where joints are redundant, and in a singular
+        pose. `pin` gives the forces of least norm.
         """
-        _, rows = _opened(self.model, self.states[sample])
-        full = np.zeros((len(rows), len(self.model.weights)))
-        for row, touched, values in zip(full, self.model.touched, rows, strict=True):
-            for side, body in enumerate(touched):
+        _, rows = _gaps_and_rows(self.model, self.states[sample])
+        full = np.zeros((len(rows), len(self.model.masses)))
+        for row, bodies, values in zip(full, self.model.joint_bodies, rows, strict=True):
+            for side, body in enumerate(bodies):
                 if body >= 0:
                     row[3 * body : 3 * body + 3] += values[3 * side : 3 * side + 3]
-        eased = full / np.sqrt(self.model.weights)
+        eased = full / np.sqrt(self.model.masses)
         eased /= np.linalg.norm(eased, axis=1, keepdims=True)
         left, sizes, _ = np.linalg.svd(eased)
-        idle = left[:, np.concatenate((sizes, np.zeros(len(left) - len(sizes)))) < HOLDS]
-        share = np.sqrt(np.sum(np.abs(idle) ** 2, axis=1)) > HOLDS
+        idle = left[:, np.concatenate((sizes, np.zeros(len(left) - len(sizes)))) < INDETERMINATE]
+        share = np.sqrt(np.sum(np.abs(idle) ** 2, axis=1)) > INDETERMINATE
         names = [joint.name for joint in self.system.rigid]
         return tuple(name for k, name in enumerate(names) if share[2 * k] or share[2 * k + 1])
 
 
-def _opened(model: Model, state: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Gaps and Jacobian rows of the joints in a state."""
-    count, size = len(model.touched), len(model.weights)
+def _gaps_and_rows(model: Model, state: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Gaps and Jacobian rows of the joints at a state."""
+    count, size = len(model.joint_bodies), len(model.masses)
     gap, bias, rows = np.zeros(count), np.zeros(count), np.zeros((count, 6))
     joints(model, state[:size], state[size : 2 * size], gap, rows, bias)
     return gap, rows

@@ -1,7 +1,7 @@
 # ruff: noqa: PLR0917 - compiled functions take their arguments by position
 """Compiled integration of a planar multibody system: right-hand side, projection, steps of order 8.
 
-A state is positions, velocities, work, and one number a clearance pin (see `multibody.contact`).
+A state consists of positions, velocities, work, and one number per clearance pin (see `multibody.contact`).
 """
 
 from typing import TypeAlias
@@ -9,58 +9,58 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.dynamics.multibody.contact import contacts, settle, stride, until_touch
-from ilmek.dynamics.multibody.kernel import Model, along, applied, constrained, factor, grips, joints
+from ilmek.dynamics.multibody.kernel import Model, applied, constrained, factor, joints, penalties, row_product
 from ilmek.num.compiled import compiled
 
 DONE, TOO_SMALL, TOO_MANY, STEPPED = 0, 1, 2, 3
-"""How an integration ended: at its last time, at a step below rounding, at the most steps, after one step."""
+"""How an integration ended: at the last time, at a step below rounding, at the limit of steps, after a single step."""
 
-TIME, NEXT, TAKEN, DONE_TO, FASTEST, SPUN, PEAKS = 0, 1, 2, 3, 4, 5, 6
-"""Places in the clock of a run, see `advance`."""
+TIME, NEXT_STEP, STEPS, REACHED, FASTEST, FASTEST_SPIN, PEAKS = 0, 1, 2, 3, 4, 5, 6
+"""Indices in the clock of a run, see `advance`."""
 
 Method: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Coefficients: stages and, last, the step; error of third order; of fifth."""
+"""Coefficients: stages and, in the last row, the step; error of third order; of fifth."""
 
-Kept: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""States, slopes and reactions at the times, to be filled."""
+SampleArrays: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""States, slopes and reactions at the sample times, to be filled."""
 
 STAGES = 12
-"""Stages of the method; one more evaluation, at the step's end, serves the error and the next step."""
+"""Stages of the method; one more evaluation at the end of a step is used for its error and for the next step."""
 
 
 @compiled
 def rates(model: Model, y: np.ndarray, out: np.ndarray, reaction: np.ndarray) -> None:
-    """Derivative of a state; the joints' reactions (forces f of J^T f on the left side), forces on the journals."""
-    count, size = model.touched.shape[0], model.weights.shape[0]
+    """Time derivative of a state; joint reactions (f of J^T f on the left side) and forces on the journals."""
+    count, size = model.joint_bodies.shape[0], model.masses.shape[0]
     q, v = y[:size], y[size : 2 * size]
     gap, bias, rows = np.empty(count), np.empty(count), np.empty((count, 6))
-    force, root, grip = np.empty(size), np.empty((size, model.band + 1)), np.empty((count // 2, 3))
+    force, root, penalty = np.empty(size), np.empty((size, model.band + 1)), np.empty((count // 2, 3))
     joints(model, q, v, gap, rows, bias)
     out[2 * size] = applied(model, q, v, force) + contacts(model, y, force, reaction[count:])
     for i in range(2 * size + 1, out.shape[0]):
         out[i] = 0.0
-    grips(model, rows, grip)
-    factor(model, rows, grip, root)
+    penalties(model, rows, penalty)
+    factor(model, rows, penalty, root)
     for k in range(count):
         bias[k] = -bias[k]
-    constrained(model, rows, grip, root, force, bias, out[size : 2 * size], reaction[:count])
+    constrained(model, rows, penalty, root, force, bias, out[size : 2 * size], reaction[:count])
     for i in range(size):
         out[i] = v[i]
 
 
 @compiled
 def project(model: Model, y: np.ndarray) -> float:
-    """Move positions, then velocities, onto the joints by the least move in the masses' norm; the gap left [m]."""
-    count, size = model.touched.shape[0], model.weights.shape[0]
+    """Project positions, then velocities, onto the joint equations in the norm of the masses; the remaining gap [m]."""
+    count, size = model.joint_bodies.shape[0], model.masses.shape[0]
     q, v = y[:size], y[size : 2 * size]
     gap, bias, rows = np.empty(count), np.empty(count), np.empty((count, 6))
     none, move, reaction = np.zeros(size), np.empty(size), np.empty(count)
-    root, grip = np.empty((size, model.band + 1)), np.empty((count // 2, 3))
+    root, penalty = np.empty((size, model.band + 1)), np.empty((count // 2, 3))
     open_by, before = 0.0, np.inf
     for _ in range(6):
         joints(model, q, v, gap, rows, bias)
-        grips(model, rows, grip)
-        factor(model, rows, grip, root)
+        penalties(model, rows, penalty)
+        factor(model, rows, penalty, root)
         open_by = 0.0
         for k in range(count):
             open_by = max(open_by, abs(gap[k]))
@@ -68,26 +68,26 @@ def project(model: Model, y: np.ndarray) -> float:
         if open_by <= 1e-15 * model.length or open_by > 0.5 * before:
             break
         before = open_by
-        constrained(model, rows, grip, root, none, gap, move, reaction)
+        constrained(model, rows, penalty, root, none, gap, move, reaction)
         for i in range(size):
             q[i] += move[i]
     for _ in range(2):
         for k in range(count):
-            bias[k] = -along(model, rows[k], k, v)
-        constrained(model, rows, grip, root, none, bias, move, reaction)
+            bias[k] = -row_product(model, rows[k], k, v)
+        constrained(model, rows, penalty, root, none, bias, move, reaction)
         for i in range(size):
             v[i] += move[i]
     return open_by
 
 
 @compiled
-def _sizes(model: Model, clock: np.ndarray, y: np.ndarray, slope: np.ndarray, h: float, out: np.ndarray) -> None:
-    """What each number's error is small against: the mechanism's length, a radian, the fastest so far, the energy."""
-    size = model.weights.shape[0]
-    fast, spin, energy = clock[FASTEST], clock[SPUN], 0.0
+def _error_scales(model: Model, clock: np.ndarray, y: np.ndarray, slope: np.ndarray, h: float, out: np.ndarray) -> None:
+    """Scale of each error: the system's length, 1 rad, the greatest speeds so far, the energy."""
+    size = model.masses.shape[0]
+    fast, spin, energy = clock[FASTEST], clock[FASTEST_SPIN], 0.0
     for i in range(size):
         v, reach = abs(y[size + i]), abs(slope[size + i]) * h
-        energy += 0.5 * model.weights[i] * (v * v + reach * reach)
+        energy += 0.5 * model.masses[i] * (v * v + reach * reach)
         if i % 3 == 2:
             spin = max(spin, v + reach)
         else:
@@ -103,7 +103,7 @@ def _sizes(model: Model, clock: np.ndarray, y: np.ndarray, slope: np.ndarray, h:
 
 @compiled
 def _error(k: np.ndarray, h: float, scale: np.ndarray, method: Method) -> float:
-    """Estimated error of a step over its allowance [Hairer, Norsett and Wanner, II.10: fifth and third order]."""
+    """Estimated error of a step relative to its scale [Hairer, Norsett and Wanner, II.10: fifth and third order]."""
     _, e3, e5 = method
     fifth, third = 0.0, 0.0
     for i in range(scale.shape[0]):
@@ -127,7 +127,7 @@ def _copy(source: np.ndarray, target: np.ndarray) -> None:
 
 @compiled
 def _combined(y: np.ndarray, h: float, shares: np.ndarray, k: np.ndarray, count: int, out: np.ndarray) -> None:
-    """Into out goes y + h Σ shares k."""
+    """Write y + h Σ shares k to `out`."""
     _copy(y, out)
     for j in range(count):
         if shares[j] != 0.0:
@@ -136,17 +136,17 @@ def _combined(y: np.ndarray, h: float, shares: np.ndarray, k: np.ndarray, count:
 
 
 @compiled
-def _attempt(
+def _stages(
     model: Model, y: np.ndarray, h: float, a: np.ndarray, k: np.ndarray, f: np.ndarray, new: np.ndarray
 ) -> None:
-    """All stages of a step from y, whose slope is k[0]; into `new` goes its end, not yet on the joints."""
+    """All stages of a step from y with the slope k[0]; its end, not yet projected, is written to `new`."""
     for s in range(1, STAGES + 1):
         _combined(y, h, a[s], k, s, new)
         rates(model, new, k[s], f)
 
 
 @compiled
-def _tried(
+def _trial_step(
     model: Model,
     clock: np.ndarray,
     y: np.ndarray,
@@ -156,17 +156,17 @@ def _tried(
     f: np.ndarray,
     new: np.ndarray,
 ) -> float:
-    """A step into `new`, and its error over what it is small against."""
+    """A trial step, written to `new`; returns its error relative to the scales."""
     scale = np.empty(y.shape[0])
-    _attempt(model, y, h, method[0], k, f, new)
-    _sizes(model, clock, y, k[0], h, scale)
+    _stages(model, y, h, method[0], k, f, new)
+    _error_scales(model, clock, y, k[0], h, scale)
     for i in range(y.shape[0]):
         scale[i] += max(abs(y[i]), abs(new[i]))
     return _error(k, h, scale, method)
 
 
 @compiled
-def leap(
+def single_step(
     model: Model,
     y: np.ndarray,
     slope: np.ndarray,
@@ -176,10 +176,10 @@ def leap(
     end: np.ndarray,
     f: np.ndarray,
 ) -> None:
-    """One step of h, its error not asked for: state, slope and reactions at its end."""
+    """One step h [s] without error control: state, slope and reactions at its end."""
     k = np.empty((STAGES + 1, y.shape[0]))
     _copy(slope, k[0])
-    _attempt(model, y, h, method[0], k, f, new)
+    _stages(model, y, h, method[0], k, f, new)
     project(model, new)
     rates(model, new, end, f)
 
@@ -193,44 +193,45 @@ def advance(
     f: np.ndarray,
     times: np.ndarray,
     rtol: float,
-    most: int,
+    max_steps: int,
     single: bool,
     method: Method,
-    kept: Kept,
+    samples: SampleArrays,
 ) -> int:
-    """Steps to the last of the times, or one step where `single`; how it ended.
+    """Integrate to the last of the times, or by one step if `single`; returns how it ended.
 
-    clock   time [s], next step [s], steps taken, times reached, greatest speed and spin, greatest contact forces [N]
-    y, slope, f   state, its derivative, reactions there: changed in place; at the times a copy goes to `kept`
+    clock         time [s], next step [s], number of steps, index of the last time reached, greatest speed [m/s] and
+                  angular velocity [rad/s], greatest contact forces [N]
+    y, slope, f   state, its derivative, reactions: changed in place; copied to `samples` at the times
     """
     last, k, new = times.shape[0] - 1, np.empty((STAGES + 1, y.shape[0])), np.empty(y.shape[0])
     _copy(slope, k[0])
-    while clock[DONE_TO] < last:
-        clock[TAKEN] += 1
-        if clock[TAKEN] > most:
+    while clock[REACHED] < last:
+        clock[STEPS] += 1
+        if clock[STEPS] > max_steps:
             return TOO_MANY
-        left = times[int(clock[DONE_TO]) + 1] - clock[TIME]
-        wish = min(clock[NEXT], stride(model, y, k[0]))
-        ends = wish >= left * (1 - 1e-10)
-        now = left if ends else wish
+        left = times[int(clock[REACHED]) + 1] - clock[TIME]
+        step = min(clock[NEXT_STEP], stride(model, y, k[0]))
+        reaches = step >= left * (1 - 1e-10)
+        now = left if reaches else step
         if not now > 1e-14 * max(abs(clock[TIME]), 1e-300):
             return TOO_SMALL
-        error = _tried(model, clock, y, now, method, k, f, new) / rtol
+        error = _trial_step(model, clock, y, now, method, k, f, new) / rtol
         factor = 0.9 * error**-0.125 if 0.0 < error < 1e300 else (6.0 if error == 0.0 else 0.2)
         if not error < 1.0:
-            clock[NEXT] = now * max(0.2, factor)
+            clock[NEXT_STEP] = now * max(0.2, factor)
             continue
         touch = until_touch(model, y, new, now)
         if touch < now:
-            clock[NEXT] = touch
+            clock[NEXT_STEP] = touch
             continue
         grown = now * min(6.0, factor)
-        clock[NEXT] = max(clock[NEXT], grown) if ends else grown
-        clock[TIME] = times[int(clock[DONE_TO]) + 1] if ends else clock[TIME] + now
-        _land(model, clock, y, new, k, f)
-        if ends:
-            clock[DONE_TO] += 1
-            _keep(int(clock[DONE_TO]), y, k[0], f, kept)
+        clock[NEXT_STEP] = max(clock[NEXT_STEP], grown) if reaches else grown
+        clock[TIME] = times[int(clock[REACHED]) + 1] if reaches else clock[TIME] + now
+        _accept(model, clock, y, new, k, f)
+        if reaches:
+            clock[REACHED] += 1
+            _store(int(clock[REACHED]), y, k[0], f, samples)
         if single:
             _copy(k[0], slope)
             return STEPPED
@@ -239,33 +240,33 @@ def advance(
 
 
 @compiled
-def _land(model: Model, clock: np.ndarray, y: np.ndarray, new: np.ndarray, k: np.ndarray, f: np.ndarray) -> None:
-    """Take a step's end: onto the joints, contacts settled, slope and reactions there, greatest forces."""
+def _accept(model: Model, clock: np.ndarray, y: np.ndarray, new: np.ndarray, k: np.ndarray, f: np.ndarray) -> None:
+    """Accept a step: projection, contact states, slope and reactions at its end, greatest speeds and forces."""
     _copy(new, y)
     project(model, y)
     settle(model, y)
     rates(model, y, k[0], f)
-    held_by, size = model.touched.shape[0], model.weights.shape[0]
+    joint_forces, size = model.joint_bodies.shape[0], model.masses.shape[0]
     for i in range(size):
-        greatest = SPUN if i % 3 == 2 else FASTEST
+        greatest = FASTEST_SPIN if i % 3 == 2 else FASTEST
         clock[greatest] = max(clock[greatest], abs(y[size + i]))
     for c in range(model.contacts.shape[0]):
-        clock[PEAKS + c] = max(clock[PEAKS + c], np.hypot(f[held_by + 2 * c], f[held_by + 2 * c + 1]))
+        clock[PEAKS + c] = max(clock[PEAKS + c], np.hypot(f[joint_forces + 2 * c], f[joint_forces + 2 * c + 1]))
 
 
 @compiled
-def _keep(at: int, y: np.ndarray, slope: np.ndarray, f: np.ndarray, kept: Kept) -> None:
-    """Write a sample."""
-    states, slopes, reactions = kept
+def _store(at: int, y: np.ndarray, slope: np.ndarray, f: np.ndarray, samples: SampleArrays) -> None:
+    """Store a sample."""
+    states, slopes, reactions = samples
     _copy(y, states[at])
     _copy(slope, slopes[at])
     _copy(f, reactions[at])
 
 
 @compiled
-def begin(model: Model, y: np.ndarray, slope: np.ndarray, f: np.ndarray, kept: Kept) -> None:
-    """Close the joints, see which pins touch, and write the first sample."""
+def begin(model: Model, y: np.ndarray, slope: np.ndarray, f: np.ndarray, samples: SampleArrays) -> None:
+    """Close the joints, determine the contacts, and store the first sample."""
     project(model, y)
     settle(model, y)
     rates(model, y, slope, f)
-    _keep(0, y, slope, f, kept)
+    _store(0, y, slope, f, samples)

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.flywheel import CyclicTorque, duty, flywheel
+from ilmek.dynamics.flywheel import CyclicTorque, cyclic_torque, flywheel
 from ilmek.dynamics.forward import ForwardRun, ForwardState, at_speed, forward
 from ilmek.dynamics.fourier_terms import tabulate
 from ilmek.dynamics.loads import Gravity
@@ -91,7 +91,7 @@ def motor_run(design: BeatUp) -> MotorRun:
     It reaches its speed in the time that twice the greatest inertia would take, or does not start.
     """
     params, speed = design.params, design.params.speed
-    required = duty(lambda angle, _: design.state_at(angle).torque)
+    required = cyclic_torque(lambda angle, _: design.state_at(angle).torque)
     wheel = params.flywheel
     if wheel is None:
         wheel = max(flywheel(required.excess, speed, params.fluctuation) - design.bodies["crank"].about(0), 0.0)
@@ -111,7 +111,7 @@ def motor_run(design: BeatUp) -> MotorRun:
     greatest = float(np.max(reduced.terms(np.linspace(0, turn, 181)).inertia))
     duration = min(4 * greatest * speed / most, MOST_TURNS * turn / speed)
     start = run(ForwardState(design.back_angle), duration, duration / 200, reach=True)
-    if start.end.words != reached.name:
+    if start.end.reason != reached.name:
         return MotorRun(required, wheel, most, start, False, None, None)
     last, period = start.end.state, turn / speed
     at_speed_from = ForwardState(last.position, last.speed)

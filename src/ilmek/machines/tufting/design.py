@@ -141,7 +141,7 @@ class Tufting:
     @property
     def lowest_within(self) -> bool:
         """Whether the needle is lowest between entry and exit."""
-        return bool(AngleRange(self.params.entry, self.params.exit).holds(self.lowest))
+        return bool(AngleRange(self.params.entry, self.params.exit).contains(self.lowest))
 
     def height(self, angle: float) -> float:
         """Needle's point above its lowest position [m] at a crank angle [rad]."""
