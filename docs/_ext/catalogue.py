@@ -24,7 +24,8 @@ from ilmek.viz.page import machine_page
 SOURCE = Path(__file__).parents[2] / "src" / "ilmek"
 OUT = Path(__file__).parents[1] / "reference" / "generated"
 PACKAGES = (
-    "units", "errors", "arrays", "params", "report", "num", "plane", "linkage", "elements", "carpet", "synthesis",
+    "units", "errors", "arrays", "progress", "params", "report", "num", "plane", "linkage", "elements", "carpet",
+    "synthesis",
     "dynamics", "cams", "timing", "weaving", "loom", "machines", "verification", "io", "viz", "jobs",
 )  # fmt: skip
 

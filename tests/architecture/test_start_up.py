@@ -40,3 +40,9 @@ def test_the_package_itself_imports_nothing() -> None:
 def test_a_command_imports_what_it_uses(command: str) -> None:
     statement = f"from ilmek.cli import main; main({command.split()!r}, standalone_mode=False)"
     assert imported(statement, COMMANDS[command]) == []
+
+
+def test_a_page_compiles_nothing(tmp_path: Path) -> None:
+    command = ["design", "warp-tension", "--report", str(tmp_path / "page.html")]
+    statement = f"from ilmek.cli import main; main({command!r}, standalone_mode=False)"
+    assert imported(statement, ("numba", "scipy.optimize", "matplotlib", "reportlab", "ezdxf", "OCP")) == []

@@ -3,7 +3,6 @@
 import numpy as np
 
 from ilmek.arrays import Bool, ComplexArray, FloatArray
-from ilmek.num.compiled import compiled
 
 LIMIT = 720
 TOLERANCE = 0.04
@@ -45,33 +44,28 @@ def thinned_line(points: ComplexArray, tolerance: float = TOLERANCE, limit: int 
     keep = ~np.isfinite(points)
     edges = np.flatnonzero(np.diff(np.concatenate([[True], keep, [True]]).astype(np.int8)))
     for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
-        keep[start:stop] = _kept(np.ascontiguousarray(points[start:stop]), tolerance)
+        keep[start:stop] = _kept(points[start:stop], tolerance)
     return np.asarray(points[keep])
 
 
-@compiled
 def _kept(points: ComplexArray, tolerance: float) -> Bool[np.ndarray, " n"]:
-    """Which points of a line without gaps stay.
+    """Which points of a line without gaps stay; all its stretches are cut at once, until none needs a cut.
 
     How far a point lies from a chord is measured to its ends too: a line may turn back beyond them.
     """
-    keep = np.zeros(len(points), np.bool_)
-    stretches = [(0, len(points) - 1)]
-    while stretches:
-        first, last = stretches.pop()
-        keep[first] = keep[last] = True
-        start, chord = points[first], points[last] - points[first]
-        length = chord.real**2 + chord.imag**2
-        farthest, most = first, 0.0
-        for at in range(first + 1, last):
-            off = points[at] - start
-            along = off.real * chord.real + off.imag * chord.imag
-            share = min(max(along / length, 0.0), 1.0) if length > 0.0 else 0.0
-            left = off - share * chord
-            away = left.real**2 + left.imag**2
-            if away > most:
-                farthest, most = at, away
-        if most > tolerance**2:
-            stretches.append((first, farthest))
-            stretches.append((farthest, last))
+    keep = np.zeros(len(points), dtype=bool)
+    keep[[0, -1]] = True
+    while len(points) > 2:
+        ends = np.flatnonzero(keep)
+        stretch = np.minimum(np.cumsum(keep) - 1, len(ends) - 2)
+        starts = points[ends[stretch]]
+        chord, off = points[ends[stretch + 1]] - starts, points - starts
+        squared = np.maximum(chord.real**2 + chord.imag**2, np.finfo(float).tiny)
+        share = np.clip((off.real * chord.real + off.imag * chord.imag) / squared, 0.0, 1.0)
+        away = np.abs(off - share * chord)
+        farthest = np.maximum.reduceat(away, ends[:-1])[stretch]
+        cuts = np.flatnonzero((away == farthest) & (farthest > tolerance))
+        if not len(cuts):
+            break
+        keep[cuts[np.unique(stretch[cuts], return_index=True)[1]]] = True
     return keep
