@@ -26,7 +26,7 @@ from ilmek.machines.beat_up.family import FamilyResult, chosen_ratio, family_of,
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
 from ilmek.machines.beat_up.shaking import Balance, balance
 from ilmek.num.piecewise import Extremum, around, suprema
-from ilmek.records import Computed, computed, group, record, result
+from ilmek.records import Computed, computed, record, result
 from ilmek.report import Json
 from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
@@ -89,11 +89,11 @@ class BeatUp:
     plan: Plan
     state: BeatUpState
     peaks: Mapping[str, Extremum]
+    balance: Balance
     at: BeatUpState | None
     lengths: Mapping[str, float] = result("mm", "lengths of the links, and of the beater from the rocker's pivot")
     masses: Mapping[str, float] = result("kg", "masses of the bars; the rocker's reaches to the beater")
     inertias: Mapping[str, float] = result("kg*m^2", "moments of inertia of the bars about their centres")
-    balance: Balance = group()
 
     crank = computed("1", "crank over ground (paper, Eq 1)", lambda it: float(it.links.crank))
     coupler = computed("1", "coupler over ground (paper, Eq 1)", lambda it: float(it.links.coupler))

@@ -7,7 +7,8 @@ from ilmek.machines.beat_up.family import QUANTITIES, FamilyResult, limits
 from ilmek.machines.beat_up.family_figures import family_figures
 from ilmek.machines.beat_up.figures import figures_of
 from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.machines.beat_up.running import REACHED, MotorRun, motor_run
+from ilmek.machines.beat_up.running import REACHED, LastTurn, MotorRun, motor_run
+from ilmek.machines.beat_up.shaking import Balance
 from ilmek.machines.plates import link_plates
 from ilmek.records import record
 from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group
@@ -36,16 +37,19 @@ COLUMNS = (
 
 @record
 class BeatUpAnalysis:
-    """A beat-up, its run by the motor, and the family of crank-rockers with the same dead centres."""
+    """A beat-up, its balance, its run by the motor, and the family of crank-rockers with the same dead centres."""
 
     design: BeatUp = group()
+    balance: Balance = group()
     running: MotorRun = group()
+    last_turn: LastTurn | None = group()
     family: FamilyResult = group()
 
 
 def analyse(design: BeatUp) -> BeatUpAnalysis:
     """The run and the family of a design."""
-    return BeatUpAnalysis(design, motor_run(design), design.family())
+    running = motor_run(design)
+    return BeatUpAnalysis(design, design.balance, running, running.last_turn, design.family())
 
 
 def checks(found: BeatUpAnalysis) -> tuple[Check, ...]:

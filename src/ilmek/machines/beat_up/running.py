@@ -17,7 +17,7 @@ from ilmek.dynamics.loads import Gravity
 from ilmek.dynamics.reduced import reduce
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.records import record
-from ilmek.report import computed, group, result
+from ilmek.report import computed, result
 from ilmek.units import turn
 
 REACHED = 0.95
@@ -64,7 +64,7 @@ class MotorRun:
     start: ForwardRun | None
     started: bool
     steady: ForwardRun | None
-    last_turn: LastTurn | None = group()
+    last_turn: LastTurn | None
 
     drive_torque_rms = computed("N*m", "root mean square of the torque", lambda it: it.duty.rms)
     work_excess = computed("J", "work above the mean between least and greatest speed", lambda it: it.duty.excess)

@@ -31,7 +31,9 @@ class CombLinkage:
     energy: float = result("J", "kinetic energy of the comb at its largest speed", name="swing_energy")
     speed_needed: float | None = result("rad/s", "speed of the crank that the required rows need")
 
-    transmission_angle_min = computed("deg", "least of the crank-rockers", lambda it: it.one.transmission_angle_min)
+    transmission_angle_min = computed(
+        "deg", "least transmission angle of the crank-rockers", lambda it: it.one.transmission_angle_min
+    )
 
 
 @record

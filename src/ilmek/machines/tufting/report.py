@@ -30,7 +30,7 @@ def checks(design: Tufting) -> tuple[Check, ...]:
     unbalanced = abs(work["drive"] - work["friction"]) / scale if scale else 0.0
     levels = abs(design.entry_height - design.exit_height)
     return (
-        at_least("stroke of the needle", design.stroke, params.stroke, "mm", f"wanted; {PAPER}: about 33 mm"),
+        at_least("stroke of the needle", design.stroke, params.stroke, "mm", f"required; {PAPER}: about 33 mm"),
         at_most("needle's height at entry against exit", levels, LEVELS, "mm", "one backing: both at its level"),
         at_least("transmission angle of rocker", design.transmission, TRANSMISSION, "deg", "rule of thumb for rockers"),
         at_most("pressure angle of the rod", design.pressure_angle, PRESSURE, "deg", "rule of thumb for sliders"),
