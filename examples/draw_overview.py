@@ -15,8 +15,7 @@ from ilmek.carpet.quality import parse_quality
 from ilmek.carpet.sizes import parse_size
 from ilmek.io.picture import read_picture
 from ilmek.io.yarn_file import default_yarns
-from ilmek.machines.automated_loom import AutomatedLoomParams, design, report
-from ilmek.machines.automated_loom.report import parts_of
+from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
 from ilmek.report import Figure
 from ilmek.viz.carpet_picture import carpet_picture
 from ilmek.viz.svg import svg
@@ -81,8 +80,8 @@ def draw() -> str:
     params = AutomatedLoomParams(
         width=size.width, length=size.length, knots_across=quality.across, knots_along=quality.along, heads=4
     )
-    loom = design(params)
-    figures = {one.name: one for made in (report(loom), *parts_of(loom)) for one in made.figures}
+    loom = MACHINE.report(design(params))
+    figures = {one.name: one for made in (loom, *loom.children) for one in made.figures}
     tall, wide = 300, 200
     parts = [
         caption(30, 40, "A picture", "medallion.png, 120 × 180 cm"),

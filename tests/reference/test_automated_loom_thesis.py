@@ -2,7 +2,7 @@
 
 import pytest
 
-from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design, report
+from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD, SHUTTLE
 from ilmek.timing.cyclogram import Moment, moment_angle
 from ilmek.timing.track import peak_acceleration, peak_speed
@@ -52,7 +52,7 @@ def test_four_steps_of_chapter_3_3(loom: LoomDesign) -> None:
 
 
 def test_every_check_of_the_thesis_loom_holds(loom: LoomDesign) -> None:
-    assert report(loom).failed == ()
+    assert MACHINE.report(loom).failed == ()
 
 
 def test_one_head_takes_the_time_of_the_facts_sheet() -> None:

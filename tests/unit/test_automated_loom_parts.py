@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines import warp_tension
-from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design, report
+from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.cyclogram import BEATER, SHUTTLE
-from ilmek.machines.automated_loom.energy import energy_of, positive_work
+from ilmek.machines.automated_loom.energy import energy_of
 from ilmek.machines.automated_loom.frame import (
     SECTIONS,
     STEEL,
@@ -24,9 +24,10 @@ from ilmek.machines.automated_loom.frame import (
     frame_for,
     rail_sag,
 )
-from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
+from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom, price_of
 from ilmek.machines.automated_loom.prices import PRICES, read_prices
 from ilmek.machines.automated_loom.production_time import estimated_time, estimated_times_at, time_shares
+from ilmek.machines.drives import positive_work
 from ilmek.report import Report
 from ilmek.timing.track import peak_acceleration
 from ilmek.units import turn
@@ -48,7 +49,7 @@ def task_of_frame() -> FrameTask:
 
 @cache
 def loose() -> Report:
-    return report(loom())
+    return MACHINE.report(loom())
 
 
 def test_a_price_list_from_a_text_changes_what_it_names_and_nothing_else():
@@ -82,7 +83,7 @@ def test_the_price_is_linear_in_every_rate():
         k: replace(r, each=2 * r.each, per_kg=2 * r.per_kg, per_m=2 * r.per_m, per_W=2 * r.per_W)
         for k, r in PRICES.items()
     }
-    assert sum(part.price(double) for part in listed().parts) == pytest.approx(2 * listed().price)
+    assert sum(price_of(part, double) for part in listed().parts) == pytest.approx(2 * listed().price)
     assert listed().price > 0
 
 
@@ -125,8 +126,7 @@ def test_work_of_a_torque_counts_only_where_it_drives():
 
 def test_energy_without_losses_or_standby_is_the_work_alone():
     bare = design(AutomatedLoomParams(drive_efficiency=1.0, standby_power=0.0))
-    usual = energy_of(loom())
-    work = energy_of(bare)
+    usual, work = energy_of(loom(), listed().axes), energy_of(bare, listed().axes)
     assert work.shares["standing by"] == 0
     assert usual.total - usual.shares["standing by"] == pytest.approx(work.total / 0.7)
 
@@ -206,15 +206,16 @@ def comb_loom() -> LoomDesign:
 
 @cache
 def pressed() -> Report:
-    return report(comb_loom())
+    return MACHINE.report(comb_loom())
 
 
 def test_the_comb_presses_the_rows_together_where_the_paper_s_linkage_leaves_them_loose():
-    linkage, comb = loom().left, comb_loom().left
-    assert linkage.needed == comb.needed == pytest.approx(10.0)  # the hammer's fabric: 10 N on 15 N of tension
-    assert comb.spacing == pytest.approx(4e-3)
-    assert linkage.force == pytest.approx(0.1066, abs=1e-4)
-    assert linkage.spacing > 5.9e-3
+    linkage, comb = loom().beat, comb_loom().beat
+    assert linkage.beat_force_needed == pytest.approx(10.0)  # the hammer's fabric: 10 N on 15 N of tension
+    assert comb.beat_force_needed == pytest.approx(10.0)
+    assert comb.row_pitch_left == pytest.approx(4e-3)
+    assert linkage.beat_force_warp == pytest.approx(0.1066, abs=1e-4)
+    assert linkage.row_pitch_left > 5.9e-3
     said = loose().warnings[0]
     assert "5.94 mm apart, not 4 mm; hammer=comb" in said
     assert not any("apart, not" in warning for warning in pressed().warnings)

@@ -1,6 +1,6 @@
 """The whole arc: carpet picture in; chart, yarn, loom, programme and report out."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,7 @@ from ilmek.io.programme_file import Label, write_programme
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed
 from ilmek.jobs.order import CarpetOrder
-from ilmek.machines.automated_loom.report import parts_of, report_with
+from ilmek.machines.automated_loom import MACHINE
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Report, at_most
 from ilmek.units import format_quantity, hour
@@ -32,22 +32,21 @@ FILES = (
 
 @dataclass(frozen=True, slots=True)
 class WeaveResult:
-    """All that the job found, and the folder it lies in.
+    """Everything that the job found, and the folder of its files.
 
-    loom   the loom's report with everything of its machines in it     parts  the reports of its machines
+    loom   the loom's report, with those of its machines
     """
 
     charted: ChartResult
     asked: LoomOrder
     loomed: LoomResult
     loom: Report
-    parts: tuple[Report, ...]
     folder: Path
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """Every check: of the whole, the loom and each of its machines, by whose name it begins."""
-        return (*self.own_checks, *self.loom.checks)
+        return (*self.own_checks, *self.loom.all_checks)
 
     @property
     def own_checks(self) -> tuple[Check, ...]:
@@ -57,7 +56,7 @@ class WeaveResult:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Every warning: of the carpet, the loom and its machines."""
-        return (*self.charted.warnings, *self.loom.warnings)
+        return (*self.charted.warnings, *self.loom.all_warnings)
 
     @property
     def notes(self) -> tuple[FileNote, ...]:
@@ -80,8 +79,7 @@ def weave(
     charted = make_charted(order, progress.part(0.0, 0.4, "picture"))
     progress.part(0.4, 0.5, "loom")
     loomed = make_loomed(asked, order, charted.chart)
-    parts = parts_of(loomed.design)
-    woven = WeaveResult(charted, asked, loomed, report_with(loomed.design, parts), parts, folder)
+    woven = WeaveResult(charted, asked, loomed, MACHINE.report(loomed.design), folder)
     with output_folder(folder, force=force) as work:
         write_chart(charted, work, progress.part(0.5, 0.7, "chart.pdf"))
         write_programme(
@@ -92,18 +90,6 @@ def weave(
         progress.part(0.8, 1.0, "report")
         (work / "report.html").write_text(carpet_page(_page(woven)), encoding="utf-8")
     return woven
-
-
-def loom_alone(loom: Report, parts: tuple[Report, ...]) -> Report:
-    """The loom's report without what its machines say themselves."""
-    names = tuple(f"{part.machine}: " for part in parts)
-    nested = {part.machine.replace("-", "_") for part in parts}
-    return replace(
-        loom,
-        results=tuple(result for result in loom.results if result.name not in nested),
-        checks=tuple(check for check in loom.checks if not check.name.startswith(names)),
-        warnings=tuple(warning for warning in loom.warnings if not warning.startswith(names)),
-    )
 
 
 def job_checks(asked: LoomOrder, loomed: LoomResult) -> tuple[Check, ...]:
@@ -144,8 +130,8 @@ def weave_json(woven: WeaveResult) -> dict[str, Any]:
 
 def machine_json(woven: WeaveResult) -> dict[str, Any]:
     """The loom's report as JSON, and under `machines` those of its machines by name."""
-    machines = {part.machine: part.as_json() for part in woven.parts}
-    return {**loom_alone(woven.loom, woven.parts).as_json(), "machines": machines}
+    machines = {child.machine: child.as_json() for child in woven.loom.children}
+    return {**woven.loom.own().as_json(), "machines": machines}
 
 
 def _label(woven: WeaveResult) -> Label:
@@ -178,7 +164,7 @@ def _page(woven: WeaveResult) -> CarpetPage:
         bill=woven.charted.bill,
         symbols=symbols(len(chart.yarns)),
         facts=tuple(facts),
-        reports=(loom_alone(woven.loom, woven.parts), *woven.parts),
+        reports=(woven.loom.own(), *woven.loom.children),
         checks=woven.own_checks,
         files=woven.notes,
         warnings=(*woven.charted.warnings, *woven.charted.notes),

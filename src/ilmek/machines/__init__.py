@@ -58,11 +58,15 @@ ENTRIES = {
 SUMMARIES = {name: entry.summary for name, entry in ENTRIES.items()}
 """What each machine is, by its name."""
 
-PARTS = tuple(name for name, entry in ENTRIES.items() if entry.part)
-"""Machines that every automated loom has, in the order in which they are designed."""
-
 BEATS = {entry.beat: name for name, entry in ENTRIES.items() if entry.beat}
 """Machines that can beat in a loom, by the name of the choice."""
 
-IN_A_LOOM = tuple(name for name, entry in ENTRIES.items() if entry.in_a_loom)
-"""Machines that an automated loom can have."""
+
+def loom_parts() -> tuple[str, ...]:
+    """Machines that every automated loom has, in the order in which they are designed."""
+    return tuple(name for name, entry in ENTRIES.items() if entry.part)
+
+
+def loom_machines() -> tuple[str, ...]:
+    """Machines that an automated loom can have."""
+    return tuple(name for name, entry in ENTRIES.items() if entry.in_a_loom)

@@ -5,7 +5,7 @@ import importlib
 from collections.abc import Iterator, Mapping
 
 from ilmek.errors import ParameterError
-from ilmek.machines import SUMMARIES
+from ilmek.machines import ENTRIES
 from ilmek.machines.component import Component
 
 
@@ -14,17 +14,17 @@ class Catalogue(Mapping[str, Component]):
 
     def __getitem__(self, name: str) -> Component:
         """The machine of a name; KeyError for any other."""
-        if name not in SUMMARIES:
+        if name not in ENTRIES:
             raise KeyError(name)
         machine = importlib.import_module(f"ilmek.machines.{name.replace('-', '_')}").MACHINE
         assert isinstance(machine, Component)
         return machine
 
     def __iter__(self) -> Iterator[str]:
-        return iter(SUMMARIES)
+        return iter(ENTRIES)
 
     def __len__(self) -> int:
-        return len(SUMMARIES)
+        return len(ENTRIES)
 
 
 MACHINES = Catalogue()
@@ -33,8 +33,8 @@ MACHINES = Catalogue()
 
 def find_machine(name: str) -> Component:
     """The machine of a name. Raises ParameterError, naming the nearest."""
-    if name in SUMMARIES:
+    if name in ENTRIES:
         return MACHINES[name]
-    near = difflib.get_close_matches(name.lower().replace("_", "-"), SUMMARIES, n=1)
+    near = difflib.get_close_matches(name.lower().replace("_", "-"), ENTRIES, n=1)
     hint = f"did you mean {near[0]}?" if near else ""
-    raise ParameterError(f"unknown machine {name!r}", allowed=f"machines: {', '.join(SUMMARIES)}", do=hint)
+    raise ParameterError(f"unknown machine {name!r}", allowed=f"machines: {', '.join(ENTRIES)}", do=hint)

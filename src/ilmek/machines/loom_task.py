@@ -41,7 +41,7 @@ class LoomTask:
     @property
     def width(self) -> float:
         """Distance of the bearings of cylinders and cam shaft [m]."""
-        return self.params.width + 2 * self.params.margin
+        return self.params.frame_width
 
     @property
     def knot_pitch(self) -> float:

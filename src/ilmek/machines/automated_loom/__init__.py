@@ -1,6 +1,6 @@
 """The fully automated carpet loom of the thesis, sized for one carpet.
 
-Warp cylinders, shedding cams, beat-up and k knotting heads, each by its own machine, with parameters that follow from
+Warp cylinders, shedding cams, beat-up and k knotting heads, each a machine of its own, with parameters that follow from
 the carpet's width, length and quality; timed together by two cyclograms, of a knot and of a row.
 
 Source: thesis, chapters 2.2.3 and 3. How heads share a row: `ilmek.loom.sharing`.
@@ -11,9 +11,10 @@ from dataclasses import replace
 from ilmek.machines import SUMMARIES
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign, design
+from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.production_time import Production, estimated_time, production_time, programme_for
-from ilmek.machines.automated_loom.report import report
+from ilmek.machines.automated_loom.report import LoomAnalysis, analyse, cam_tables, checks, tables, warnings
 from ilmek.machines.component import Component
 from ilmek.timing.cyclogram import Cyclogram
 
@@ -27,12 +28,11 @@ __all__ = [
     "estimated_time",
     "production_time",
     "programme_for",
-    "report",
 ]
 
 
 def cyclograms(loom: LoomDesign) -> tuple[Cyclogram, ...]:
-    """The cyclograms of a knot and of a row, with what must come after what; cams and crank of the row are as made."""
+    """The cyclograms of a knot and of a row with their relations; cams and crank of the row are as made."""
     knot, row = loom.cyclograms
     made = tuple(replace(track, held=track.name in (EVEN, ODD, BEATER)) for track in row.tracks)
     return knot, replace(row, tracks=made)
@@ -44,6 +44,14 @@ MACHINE = Component(
     summary=SUMMARIES["automated-loom"],
     params=AutomatedLoomParams,
     design=design,
-    reporter=report,
+    analysis=analyse,
+    reported=(LoomAnalysis,),
+    checks=checks,
+    tables=tables,
+    figures=lambda found: figures(found.loom),
+    warnings=warnings,
+    cam_tables=cam_tables,
     cyclograms=cyclograms,
+    parts=lambda loom: analyse(loom).listed.parts,
+    children=lambda loom: loom.children,
 )

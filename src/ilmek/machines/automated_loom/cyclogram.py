@@ -15,7 +15,7 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import LAWS, law_of
-from ilmek.machines.automated_loom.beating import Beat
+from ilmek.machines.beat import Beat
 from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.warp_tension.design import TAKE_UP_LAW
 from ilmek.machines.weaver import Weaver
@@ -77,7 +77,7 @@ def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
     return Cyclogram(tied.name, period, (*tied.tracks, track), relations, (*tied.exclusions, *apart))
 
 
-def cam_tables(cyclogram: Cyclogram, names: tuple[str, ...]) -> tuple[CamTable, ...]:
+def cam_tables_of(cyclogram: Cyclogram, names: tuple[str, ...]) -> tuple[CamTable, ...]:
     """Some tracks of a cyclogram for a controller's electronic cams."""
     return tuple(
         cam_table(
@@ -174,7 +174,7 @@ def _beater(timing: RowTiming, period: float) -> Track:
             TrackSegment(f"back {number}", middle + beat.pressed * spent, end, beat.stroke, 0.0, _law(beat.law)),
         ]
     events = (TrackEvent("beat", parts[0].end), TrackEvent("beat", parts[2].end))
-    return Track(BEATER, "vertical axes" if beat.pressed else "beat-up crank", tuple(parts), events)
+    return Track(BEATER, beat.actuator, tuple(parts), events)
 
 
 def _take_up(timing: RowTiming) -> Track:

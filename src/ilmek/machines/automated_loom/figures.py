@@ -6,7 +6,7 @@ import numpy as np
 
 from ilmek.carpet.quality import COARSEST, FINEST
 from ilmek.loom.sharing import halves, heads_that_fit, share
-from ilmek.machines.automated_loom.design import LoomDesign, frame_width
+from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.production_time import estimated_time, estimated_times_at
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.timing.figures import draw
@@ -127,7 +127,7 @@ def time_of_one_head(loom: LoomDesign) -> Plot:
 def front(loom: LoomDesign) -> Drawing:
     """The loom from the front, true across; heights chosen."""
     params = loom.params
-    edge, wide, at = params.margin, frame_width(params), _heights(loom)
+    edge, wide, at = params.margin, params.frame_width, _heights(loom)
     strokes = (
         *(
             _box(complex(x, 0), complex(0.06, at.top + loom.tube[0] / 2 + 0.08), "outline", filled=True)

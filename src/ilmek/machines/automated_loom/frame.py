@@ -20,6 +20,7 @@ import numpy as np
 from ilmek.elements.beam import uniform
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.errors import LoomError
+from ilmek.records import computed, record, result
 from ilmek.units import format_quantity, mm
 
 STEEL = MATERIALS["structural steel"]
@@ -112,10 +113,10 @@ class FrameTask:
         return (self.pull + self.carried * GRAVITY) / 2
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoomFrame:
-    """The frame, designed: sections, stress [Pa] and bow [m] of a column, its factor against buckling, sag [m] of the
-    rail, mass of all [kg].
+    """The frame, designed: sections, stress [Pa] and bow [m] of a column, its safety against buckling, sag [m] of the
+    rail.
     """
 
     task: FrameTask
@@ -125,7 +126,10 @@ class LoomFrame:
     column_bow: float
     buckling_factor: float
     rail_sag: float
-    mass: float
+    mass: float = result("kg", "mass of the frame", name="frame_mass")
+
+    frame_column = computed("", "square hollow section of the two columns", lambda it: it.column.name)
+    frame_rail = computed("", "square hollow section of the heads' rail", lambda it: it.rail.name)
 
 
 def frame_for(task: FrameTask) -> LoomFrame:

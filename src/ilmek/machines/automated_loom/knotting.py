@@ -1,36 +1,48 @@
-"""The arms that tie the loom's knots: the knotting dyad for the carpet's own pitch and knot."""
+"""The arms that can tie the knots in a loom's heads: the knotting dyad for the carpet's own pitch and knot.
 
-from dataclasses import dataclass
-from functools import lru_cache
+The finer the pitch, the thinner the needle, until the yarn bends it into the warps: then arms cannot tie this carpet,
+and the loom reports the reason.
+"""
+
+from dataclasses import replace
 
 from ilmek.errors import ParameterError
-from ilmek.machines import knotting_dyad
-from ilmek.machines.automated_loom.params import AutomatedLoomParams
-from ilmek.report import Report
+from ilmek.machines.catalogue import MACHINES
+from ilmek.machines.component import Child
+from ilmek.machines.loom_task import LoomTask
+from ilmek.records import record
 from ilmek.units import format_quantity
 
+DYAD = "knotting-dyad"
 
-@dataclass(frozen=True, slots=True)
+SHOWN = ("knotting-dyad-head", "knotting-dyad-passing", "knotting-dyad-moving", "knotting-dyad-cycle")
+"""Figures of the arms on the loom's page; the machine's own page shows all of them."""
+
+
+@record
 class KnottingArms:
-    """The arms of a loom's heads: what their design says where they can tie its knots; else None, and why, in words."""
+    """The arms of a loom's heads, where they can tie its knots.
 
-    report: Report | None
-    cannot: str = ""
+    child   the arms; not in the parts list, as an alternative to the head's cams and grippers; None: they cannot tie
+    cycle   time of a knot [s]; nan: none           reason  why they cannot tie
+    """
+
+    child: Child | None
+    cycle: float = float("nan")
+    reason: str = ""
 
 
-def arms_of(params: AutomatedLoomParams) -> KnottingArms:
+def arms_for(task: LoomTask) -> KnottingArms:
     """The arms for a loom's pitch and knot; never raises for a pitch that they cannot tie at."""
-    return _arms(params.pitch, params.knot)
-
-
-@lru_cache(maxsize=32)
-def _arms(pitch: float, knot: str) -> KnottingArms:
-    shown = format_quantity(pitch, "mm", 3)
+    component, shown = MACHINES[DYAD], format_quantity(task.params.pitch, "mm", 3)
+    assert component.fit is not None
     try:
-        arms = knotting_dyad.MACHINE.report(knotting_dyad.design(knotting_dyad.params_at(pitch, knot)), in_a_loom=True)
+        made = component.design(task.parameters(DYAD, component.fit(task)))
     except ParameterError as error:
-        return KnottingArms(None, f"no arms of a knotting-dyad tie on warps {shown} apart: {error.given}")
-    if not arms.failed:
-        return KnottingArms(arms)
-    why = "; ".join(arms.warnings) or ", ".join(check.name for check in arms.failed)
-    return KnottingArms(None, f"the arms of a knotting-dyad cannot tie on warps {shown} apart: {why}")
+        return KnottingArms(None, reason=f"no arms of a knotting-dyad tie on warps {shown} apart: {error.given}")
+    report = component.report(made, in_a_loom=True)
+    report = replace(report, figures=tuple(figure for figure in report.figures if figure.name in SHOWN))
+    if report.failed:
+        why = "; ".join(report.warnings) or ", ".join(check.name for check in report.failed)
+        return KnottingArms(None, reason=f"the arms of a knotting-dyad cannot tie on warps {shown} apart: {why}")
+    return KnottingArms(Child(component, made, 0, report), float(str(report["cycle_time"])))

@@ -7,7 +7,7 @@ from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
-from ilmek.machines import BEATS, IN_A_LOOM
+from ilmek.machines import BEATS, loom_machines
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import Overrides, Params, kind, overrides, param
 from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
@@ -124,9 +124,14 @@ class AutomatedLoomParams(Params):
     )
 
     machines: Overrides = overrides(
-        lambda: {name: MACHINES[name].params for name in IN_A_LOOM},
+        lambda: {name: MACHINES[name].params for name in loom_machines()},
         doc="parameters of the machines in the loom, shedding.law, in place of those that the loom derives",
     )
+
+    @property
+    def frame_width(self) -> float:
+        """Distance of the bearings of cylinders and cam shaft [m]."""
+        return self.width + 2 * self.margin
 
     @property
     def pitch(self) -> float:

@@ -1,4 +1,4 @@
-"""How long a loom weaves: estimated before there is a chart, and told from a programme.
+"""How long a loom weaves: estimated before there is a chart, and computed from a programme.
 
     estimate = rows * ( wefts + (n_first + n_second) * (t_knot + c t_change) )
 
@@ -20,6 +20,7 @@ from ilmek.loom.programme import Programme, Times, heads_for, least_time, make_p
 from ilmek.machines.automated_loom.design import LoomDesign, design, times_at
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.weaver.design import HAND_KNOT
+from ilmek.records import computed, record, result
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +29,7 @@ class Production:
 
     total        weaving time                       wefts      of it, wefts and beats
     tying, changing, travelling, waiting            the rest, as the mean of the heads: together total - wefts
-    by_hand      what the best hand weaver takes for the knots alone
+    by_hand      time of the best hand weaver for the knots alone
     """
 
     total: float
@@ -80,7 +81,7 @@ def production_time(programme: Programme) -> Production:
     busy = float(work.busy.sum()) / heads
     total = programme.duration
     waiting = max(0.0, total - wefts - busy)
-    # What a head is busy with besides tying and changing is moving.
+    # Besides tying and changing, a busy head moves.
     travelling = max(0.0, busy - tying - changing)
     return Production(total, wefts, tying, changing, travelling, waiting, knots, knots * HAND_KNOT)
 
@@ -103,23 +104,23 @@ def estimated_times_at(loom: LoomDesign, pitch: float, heads: Sequence[int]) -> 
     return np.array([least_time(rows, columns, number, times) for number in heads])
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TimeShares:
-    """Where the estimated time goes: shares of tying, of colour changes, and of wefts with beats; together 1.
-
-    utilisation  share of the time that a head ties or changes colour, as the mean of the heads
-    """
+    """Where the estimated time goes: shares of tying, of colour changes, and of wefts with beats; together 1."""
 
     knotting: float
     colour_changes: float
     wefts: float
-    utilisation: float
+    utilisation: float = result("%", "time that a head ties or changes colour, as the mean of the heads")
 
-    @property
+    @computed("%", "where the time goes")
+    def time_shares(self) -> dict[str, float]:
+        return {"knotting": self.knotting, "colour changes": self.colour_changes, "wefts and beats": self.wefts}
+
+    @computed("", "the largest share of the time")
     def bottleneck(self) -> str:
-        """The largest share, in words."""
-        named = {"knotting": self.knotting, "colour changes": self.colour_changes, "wefts and beats": self.wefts}
-        return max(named, key=lambda name: named[name])
+        shares: dict[str, float] = self.time_shares
+        return max(shares, key=lambda name: shares[name])
 
 
 def time_shares(loom: LoomDesign) -> TimeShares:
