@@ -100,7 +100,7 @@ class LoomDesign:
     @property
     def tube(self) -> tuple[float, float]:
         """Outer diameter and wall of the warp cylinder [m]."""
-        cylinder = self.warp_tension.params
+        cylinder = self.warp_tension
         return 2 * cylinder.outer_radius, cylinder.outer_radius - cylinder.inner_radius
 
     @property
