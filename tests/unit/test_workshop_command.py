@@ -135,7 +135,10 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> None:
         summary="for this test",
         params=Made,
         design=lambda params: params,
-        reporter=lambda _: made,
+        results=lambda _: (),
+        parameters=lambda params: params,
+        plates=lambda _: made.plates,
+        cam_tables=lambda _: made.cam_tables,
     )
     monkeypatch.setattr("ilmek.jobs.design.find_machine", lambda _: machine)
 

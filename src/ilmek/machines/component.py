@@ -72,15 +72,12 @@ class Component:
     fit: Callable[[LoomTask], Any] | None = None
     beat: Callable[[LoomTask], PlannedBeat] | None = None
     own_figures: tuple[str, ...] = ()
-    reporter: Callable[[Any], Report] | None = None
 
     def report(self, design: Any, *, in_a_loom: bool = False) -> Report:
         """The report of a design, with those of the machines in it.
 
         in_a_loom  True: without the figures that only the machine's own page shows
         """
-        if self.reporter is not None:
-            return self.reporter(design)
         analysis = self.analysis(design)
         records = self.results(analysis)
         figures = self.figures(analysis)

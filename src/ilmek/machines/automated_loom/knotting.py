@@ -4,8 +4,6 @@ The finer the pitch, the thinner the needle, until the yarn bends it into the wa
 and the loom reports the reason.
 """
 
-from dataclasses import replace
-
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
@@ -14,9 +12,6 @@ from ilmek.records import record
 from ilmek.units import format_quantity
 
 DYAD = "knotting-dyad"
-
-SHOWN = ("knotting-dyad-head", "knotting-dyad-passing", "knotting-dyad-moving", "knotting-dyad-cycle")
-"""Figures of the arms on the loom's page; the machine's own page shows all of them."""
 
 
 @record
@@ -41,7 +36,6 @@ def arms_for(task: LoomTask) -> KnottingArms:
     except ParameterError as error:
         return KnottingArms(None, reason=f"no arms of a knotting-dyad tie on warps {shown} apart: {error.given}")
     report = component.report(made, in_a_loom=True)
-    report = replace(report, figures=tuple(figure for figure in report.figures if figure.name in SHOWN))
     if report.failed:
         why = "; ".join(report.warnings) or ", ".join(check.name for check in report.failed)
         return KnottingArms(None, reason=f"the arms of a knotting-dyad cannot tie on warps {shown} apart: {why}")
