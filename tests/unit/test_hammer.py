@@ -236,7 +236,7 @@ def test_the_stroke_for_the_controller_comes_back_twice_a_turn() -> None:
 
 def test_wide_carpets_hold_the_comb_more_often() -> None:
     wide = made(warps=4000, warp_pitch=1 * mm)
-    assert (wide.params.support_count, wide.params.shared) == (4, 4)
+    assert (wide.params.support_count, wide.params.axis_count) == (4, 4)
     assert wide.comb.line.uniformity >= 0.9
 
 

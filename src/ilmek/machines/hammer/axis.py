@@ -133,11 +133,11 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
     cycle = LoadCycle(
         speed=speed / arm,
         acceleration=acceleration / arm,
-        torque=resisting * lost * arm / params.shared,
-        inertia=mass * arm**2 / params.shared,
+        torque=resisting * lost * arm / params.axis_count,
+        inertia=mass * arm**2 / params.axis_count,
     )
     contact = (speed > 0) & (press > 0)
-    screw, buckling = _screw(params, _most(total) / params.shared)
+    screw, buckling = _screw(params, _most(total) / params.axis_count)
     return CombDrive(
         programme=programme,
         angle=angle,
@@ -152,8 +152,8 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
         stroke_needed=float(fabric.travel(force)),
         balance=balance,
         contact_speed=float(speed[contact].max()) if contact.any() else 0.0,
-        axes=params.shared,
-        brake=balance * arm / params.shared,
+        axes=params.axis_count,
+        brake=balance * arm / params.axis_count,
         screw=screw,
         buckling=buckling,
     )

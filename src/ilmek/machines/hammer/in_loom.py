@@ -54,7 +54,7 @@ def parts(hammer: Hammer) -> tuple[Part, ...]:
     """Comb and vertical axes, or the crank-rockers."""
     if hammer.axis is None:
         return crank_rockers.parts(hammer.linkage.one, hammer.linkage.number) if hammer.linkage else ()
-    number, drive, load = hammer.params.shared, hammer.axis.drive, hammer.axis.cycle
+    number, drive, load = hammer.params.axis_count, hammer.axis.drive, hammer.axis.cycle
     torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
     motor, axis = drive.motor if drive else None, "vertical axis"
     bar = f"bar {format_quantity(hammer.params.depth, 'mm')} high, a leaf between two warps"

@@ -195,7 +195,7 @@ class HammerParams(Params):
         return self.supports or (self.rockers + 1 if self.drive == "comb" else self.rockers)
 
     @property
-    def shared(self) -> int:
+    def axis_count(self) -> int:
         """Vertical axes that share the comb."""
         return self.axes or self.support_count
 
