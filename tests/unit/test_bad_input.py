@@ -209,7 +209,7 @@ OTHER = {
     "no side": ("design knotting-four-bar --set branch=0", "branch=0 is no side"),
     "force in millimetres": ("design knotting-four-bar --set grip_force=15mm", "wrong unit"),
     "steps of a head out of order": ("design weaver --set open_end=90deg", "no room"),
-    "next to nothing": ("design shedding --set dwell=1e-320", "next to nothing"),
+    "next to nothing": ("design shedding --set dwell=1e-320", "is too small"),
     "JSON into a folder": ("design beat-up --json taken", "taken is a folder"),
     "JSON into no folder": ("chart good.png --out new --json gone/a.json", "there is no folder"),
     "page good, JSON not": ("design beat-up --report new.html --json gone/a.json", "there is no folder"),

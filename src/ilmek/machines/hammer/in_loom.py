@@ -16,13 +16,11 @@ from ilmek.machines.beat import Beat, BeatDrive
 from ilmek.machines.beat_up import in_loom as crank_rockers
 from ilmek.machines.drives import motor_part, reducer_part
 from ilmek.machines.hammer.design import Hammer, design
-from ilmek.machines.hammer.params import HammerParams
+from ilmek.machines.hammer.params import STEEL, HammerParams
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
 from ilmek.report import Part, Work
 from ilmek.units import format_quantity, turn
-
-STEEL = "structural steel"
 
 
 def fit(task: LoomTask) -> HammerParams:
@@ -59,7 +57,7 @@ def parts(hammer: Hammer) -> tuple[Part, ...]:
     motor, axis = drive.motor if drive else None, "vertical axis"
     bar = f"bar {format_quantity(hammer.params.depth, 'mm')} high, a leaf between two warps"
     return (
-        Part("comb of the hammer", 1, bar, STEEL, "laser-cut part", hammer.comb.mass),
+        Part("comb of the hammer", 1, bar, STEEL.name, "laser-cut part", hammer.comb.mass),
         Part(axis, number, hammer.params.axis, "", "linear axis", length=hammer.params.stroke),
         motor_part(f"motor of a {axis}", motor, torque, speed, number),
         *((reducer_part(f"reducer of a {axis}", drive.reducer.ratio, motor, number),) if drive else ()),
