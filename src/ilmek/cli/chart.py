@@ -8,9 +8,7 @@ import click
 from ilmek.carpet.bill import YarnBill
 from ilmek.cli.options import carpet_options, force_option, json_option
 from ilmek.cli.terminal import check_json, console, give_json, note, progress_bar, show_pairs, show_table
-from ilmek.io.json_file import write_json
-from ilmek.io.output import check_free, output_folder
-from ilmek.jobs.chart import ChartResult, chart_json, make_charted, write_chart
+from ilmek.jobs.chart import ChartResult, chart_json, chart_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.units import format_quantity, g
@@ -36,27 +34,14 @@ def command(out: Path | None, force: bool, json_to: str | None, **order: Any) ->
     check_json(json_to)
     wanted = read_order(**order)
     folder = out or (None if json_to else free_folder(wanted.picture, "chart"))
-    if folder is not None:
-        check_free(folder, force=force)
     with progress_bar() as progress:
-        charted = make_charted(wanted, progress)
-        files = _write(charted, folder, force)
+        charted, files = chart_order(wanted, folder, force=force, progress=progress)
     if not give_json(json_to, chart_json(charted, files)):
         show_chart(charted)
         if folder is not None:
             console().print(f"files in {folder}: {', '.join(Path(file).name for file in files)}")
     for said in (*charted.notes, *charted.warnings):
         note(said)
-
-
-def _write(charted: ChartResult, folder: Path | None, force: bool) -> list[str]:
-    if folder is None:
-        return []
-    files = [str(folder / name) for name in (*charted.files, "chart.json")]
-    with output_folder(folder, force=force) as work:
-        write_chart(charted, work)
-        write_json(work / "chart.json", chart_json(charted, files))
-    return files
 
 
 def show_chart(charted: ChartResult) -> None:

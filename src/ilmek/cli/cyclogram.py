@@ -6,7 +6,7 @@ import click
 
 from ilmek.cli.options import json_option
 from ilmek.cli.settings import read_settings
-from ilmek.cli.terminal import check_json, console, give_json, note, passed, show_checks, show_table
+from ilmek.cli.terminal import check_json, console, give_json, note, passed, progress_bar, show_checks, show_table
 from ilmek.errors import ParameterError
 from ilmek.io.cyclogram_file import write_cyclogram
 from ilmek.io.output import check_file, write_whole
@@ -54,7 +54,8 @@ def command(
     """Read the cyclogram in FILE (TOML or JSON) or of a MACHINE, judge what must hold, place its motions better."""
     _check_places(csv_to, page_to, file_to, json_to)
     given = find(file, read_settings(settings))
-    solution = solve(given, goal) if goal else None
+    with progress_bar() as progress:
+        solution = solve(given, goal, progress) if goal else None
     found = solution.cyclogram if solution else given
     said = report(found, solution)
     write_page(page_to, said)

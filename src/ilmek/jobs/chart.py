@@ -14,6 +14,8 @@ from ilmek.carpet.pile import coarsest_count, pile_fill
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart.png import write_chart_png
+from ilmek.io.json_file import write_json
+from ilmek.io.output import check_free, output_folder
 from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.order import CarpetOrder
@@ -68,6 +70,25 @@ class ChartResult:
         said = f"{yarn.name!r} (Nm {yarn.metric_count:g}, ply {yarn.ply}) is too thick for {self.chart.quality}"
         takes = f"its pile would take {format_quantity(fails[0].value, '%', 3)} of the ground"
         return (f"{said}: {takes}; with ply {yarn.ply}, Nm {fits:g} or finer fits, or take a coarser quality",)
+
+
+def chart_order(
+    order: CarpetOrder, folder: Path | None = None, *, force: bool = False, progress: Progress = SILENT
+) -> tuple[ChartResult, list[str]]:
+    """Do the whole job, and put its files into a folder, whole or not at all; gives their paths too.
+
+    folder  default: nothing is written      force  replace a folder that ilmek made
+    Raises OutputError, before any work, for a folder that cannot be made; errors of `make_charted`; Cancelled.
+    """
+    if folder is None:
+        return make_charted(order, progress), []
+    check_free(folder, force=force)
+    charted = make_charted(order, progress.part(0.0, 0.7))
+    files = [str(folder / name) for name in (*charted.files, "chart.json")]
+    with output_folder(folder, force=force) as work:
+        write_chart(charted, work, progress.part(0.7, 1.0, "files"))
+        write_json(work / "chart.json", chart_json(charted, files))
+    return charted, files
 
 
 def make_charted(order: CarpetOrder, progress: Progress = SILENT) -> ChartResult:

@@ -10,6 +10,7 @@ from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 from ilmek.io.cyclogram_file import cyclogram_data, read_cyclogram
 from ilmek.machines.catalogue import MACHINES
+from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Column, Report, Result, Table, at_most
 from ilmek.timing.cyclogram import Cyclogram, Track, judged
 from ilmek.timing.figures import draw
@@ -49,10 +50,11 @@ def _timed() -> list[str]:
     return [name for name, machine in MACHINES.items() if machine.cyclograms is not None]
 
 
-def solve(cyclogram: Cyclogram, goal: str) -> Solution:
-    """The cyclogram solved for a goal. Raises ParameterError for an unknown one, and as the solver."""
+def solve(cyclogram: Cyclogram, goal: str, progress: Progress = SILENT) -> Solution:
+    """The cyclogram solved for a goal. Raises ParameterError for an unknown one, and as the solver; Cancelled."""
     if goal not in GOALS:
         raise ParameterError(f"--solve {goal}", allowed=" or ".join(GOALS))
+    progress.part(0.0, 1.0, "solve")
     return GOALS[goal](cyclogram)
 
 

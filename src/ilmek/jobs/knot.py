@@ -9,6 +9,7 @@ import numpy as np
 from ilmek.arrays import Complex, ComplexArray
 from ilmek.errors import CarpetError
 from ilmek.io.path_file import read_path
+from ilmek.progress import SILENT, Progress
 from ilmek.report import Dot, Drawing, Json, Report, Result, Stroke
 from ilmek.units import format_quantity
 from ilmek.weaving.knots.crossings import arc_lengths
@@ -58,7 +59,9 @@ class KnotRequest:
         return self.first + self.pitch * np.arange(self.count)
 
 
-def knot_of(files: Sequence[Path], asked: KnotRequest, columns: tuple[str, str] | None = None) -> Report:
+def knot_of(
+    files: Sequence[Path], asked: KnotRequest, columns: tuple[str, str] | None = None, progress: Progress = SILENT
+) -> Report:
     """The knot that yarn ties whose end is led along the path of a file, or whose two ends along two.
 
     columns  headings of the columns of x and y; default: the only two
@@ -66,6 +69,7 @@ def knot_of(files: Sequence[Path], asked: KnotRequest, columns: tuple[str, str] 
     """
     if len(files) > 2:
         raise CarpetError(f"{len(files)} paths", allowed="one, or two for both ends of the yarn")
+    progress.part(0.0, 1.0, "knot")
     return report(*judged([read_path(file, columns) for file in files], asked), asked)
 
 

@@ -13,6 +13,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
+from ilmek.progress import SILENT, Progress
 from ilmek.units import parse_quantity, turn
 
 CUTS, PIECES = 9, 64
@@ -79,12 +80,13 @@ class MechanismRun:
         return float(ends[0])
 
 
-def run(file: MechanismFile, course: MotionRequest) -> MechanismRun:
+def run(file: MechanismFile, course: MotionRequest, progress: Progress = SILENT) -> MechanismRun:
     """The mechanism moved through its course.
 
     Raises MechanismError where it has no plan, where the course names an unknown input or leaves two to run, and where
     it closes nowhere; UnitError for a value that cannot be read.
     """
+    progress.part(0.0, 1.0, "motion")
     plan = file.plan()
     inputs = {entry.name: entry for entry in plan.mechanism.inputs}
     held = _held(plan, inputs, course.held)
