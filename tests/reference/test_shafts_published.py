@@ -39,6 +39,16 @@ def test_shigley_example_7_1() -> None:
     assert yielding(loading, section, strength=82 * kpsi, notch=notch) == pytest.approx(4.48, abs=0.01)
 
 
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_mean_moment_adds_to_the_largest_whatever_its_sign(sign: int) -> None:
+    """A moment of 50 +- 100 N m yields as one of 150 N m."""
+    section = round_section(30 * mm)
+    both, most = Loading(100.0, 0.0, moment_mean=sign * 50.0), Loading(150.0, 0.0)
+    expected = yielding(most, section, strength=300 * MPa)
+    assert yielding(both, section, strength=300 * MPa) == pytest.approx(expected)
+    assert expected == pytest.approx(300 * MPa * math.pi * 0.03**3 / 32 / 150.0)
+
+
 def test_shigley_examples_of_the_factors() -> None:
     """Ex. 6-3: 520 MPa machined ka 0.860; 6-4: 32 mm kb 0.858; 6-9: 690 MPa ka 0.798, Se 236 MPa; 6-6: Kf 1.55."""
     assert surface_factor(520 * MPa, "machined") == pytest.approx(0.860, abs=5e-4)

@@ -1,10 +1,13 @@
 """Four-bars judged: Grashof's classes, dead centres, transmission angle against the solved motion."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
+from ilmek.linkage.model import Body
 from ilmek.linkage.quality import (
     dead_centres,
     grashof,
@@ -15,6 +18,7 @@ from ilmek.linkage.quality import (
 )
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
+from ilmek.linkage.transmission import pressure_angle
 
 BEAT_UP = (0.300, 0.0597, 0.2007, 0.2308)
 
@@ -79,3 +83,14 @@ def test_what_has_no_transmission_angle_is_refused():
         dead_centres(*BEAT_UP, branch=0)
     with pytest.raises(MechanismError, match="rocker of four-bar"):
         grashof(1, 1, 1, 0)
+
+
+def test_the_pressure_angle_does_not_depend_on_the_frame_of_the_link() -> None:
+    """The rod's own frame turned and shifted: asin((A.y - offset) / rod) of a slider-crank all the same."""
+    plain = slider_crank(0.1, 0.2, branch=+1, offset=0.03)
+    own = {"A": 0.05 + 0.02j, "B": 0.05 + 0.02j + 0.2 * np.exp(0.7j)}
+    bodies = tuple(Body("rod", own) if body.name == "rod" else body for body in plain.bodies)
+    angle = np.linspace(0.0, 6.0, 13)
+    expected = np.arcsin(np.abs(0.1 * np.sin(angle) - 0.03) / 0.2)
+    for mechanism in (plain, dataclasses.replace(plain, bodies=bodies)):
+        np.testing.assert_allclose(pressure_angle(solve(plan(mechanism), angle), "line"), expected, atol=1e-12)

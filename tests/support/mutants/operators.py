@@ -66,7 +66,7 @@ class Mutant:
 def mutants_of(module: str, source: str) -> list[Mutant]:
     """All changes of a module's source."""
     tree = ast.parse(source)
-    functions = dict(_functions(tree, ""))
+    functions = dict(_functions(tree))
     left_out = _left_out(tree)
     return [
         Mutant(module, functions.get(index, ""), node.lineno, ast.unparse(node), ast.unparse(changed), index, variant)
@@ -93,20 +93,19 @@ class _Replacement(ast.NodeTransformer):
         return self.replacement if node is self.target else self.generic_visit(node)
 
 
-def _functions(node: ast.AST, inside: str) -> Iterator[tuple[int, str]]:
-    """Index in the order of `ast.walk` and qualified name of the function of every node within one."""
+def _functions(tree: ast.Module) -> Iterator[tuple[int, str]]:
+    """Index in the order of `ast.walk`, and name of its function, of every node; no name of what is run at import."""
     names: dict[ast.AST, str] = {}
 
-    def name(node: ast.AST, inside: str) -> None:
+    def name(node: ast.AST, inside: str, in_function: bool) -> None:
         for child in ast.iter_child_nodes(node):
-            own = inside
-            if isinstance(child, ast.FunctionDef | ast.ClassDef):
-                own = f"{inside}.{child.name}" if inside else child.name
-            names[child] = own
-            name(child, own)
+            own = f"{inside}.{child.name}".strip(".") if isinstance(child, ast.FunctionDef | ast.ClassDef) else inside
+            within = in_function or isinstance(child, ast.FunctionDef)
+            names[child] = own if within else ""
+            name(child, own, within)
 
-    name(node, inside)
-    yield from ((index, names.get(one, "")) for index, one in enumerate(ast.walk(node)))
+    name(tree, "", False)
+    yield from ((index, names.get(one, "")) for index, one in enumerate(ast.walk(tree)))
 
 
 def _left_out(tree: ast.Module) -> set[ast.AST]:
@@ -123,6 +122,8 @@ def _left_out(tree: ast.Module) -> set[ast.AST]:
                     roots.append(node.value)
             case ast.ClassDef():
                 roots += [*node.decorator_list, *node.bases]
+            case ast.Dict() | ast.Tuple() | ast.List() if _is_table(node):
+                roots.append(node)
             case ast.Raise() | ast.JoinedStr() | ast.Assert() | ast.Import() | ast.ImportFrom():
                 roots.append(node)
             case ast.If() if "__name__" in ast.unparse(node.test):
@@ -135,6 +136,16 @@ def _left_out(tree: ast.Module) -> set[ast.AST]:
 def _is_declaration(value: ast.expr | None) -> bool:
     """Whether it declares a parameter or a result: a call with a documentation."""
     return isinstance(value, ast.Call) and any(keyword.arg == "doc" for keyword in value.keywords)
+
+
+def _is_table(collection: ast.Dict | ast.Tuple | ast.List) -> bool:
+    """Whether it is a table of data, copied from its source: eight numbers or more."""
+    numbers = [
+        node for node in ast.walk(collection) if isinstance(node, ast.Constant) and not isinstance(node.value, str)
+    ]
+    return len(numbers) >= 8 and not any(
+        isinstance(node, ast.Name | ast.comprehension) for node in ast.walk(collection)
+    )
 
 
 def _is_alias(value: ast.expr) -> bool:
@@ -167,7 +178,7 @@ def _of_operators(node: ast.expr) -> Iterator[ast.expr]:
 def _of_values(node: ast.expr) -> Iterator[ast.expr]:
     match node:
         case ast.Constant(value=int() as value) if not isinstance(value, bool):
-            yield _with(node, value=value + 1)
+            yield _with(node, value=value + 1 if abs(value) < 100 else value + value // 10)
         case ast.Constant(value=float() as value) if abs(value) >= TOLERANCE:
             yield _with(node, value=value * 1.1)
         case ast.Call(func=ast.Name(id="abs"), args=[inner]):

@@ -37,7 +37,7 @@ def table(
     if kept.exists():
         found = json.loads(kept.read_text(encoding="utf-8"))
         if stale or found["stamp"] == stamp:
-            return [_read(one) for one in found["files"]]
+            return [_read(one) for one in found["files"] if (root / one["path"]).exists()]
     found = []
     for file, outcome in outcomes(root, ((file, Task((file,), record=package)) for file in files), jobs):
         if outcome.test:
@@ -63,9 +63,9 @@ def concerned(files: Iterable[TestFile], mutant: Mutant, most_seconds: float) ->
     module = f"{mutant.module} "
 
     def runs(file: TestFile) -> bool:
-        return name in file.functions or any(used.startswith(module) for used in file.functions)
+        return any(used.startswith(module) for used in file.functions)
 
-    exact = [file for file in files if name in file.functions]
+    exact = [file for file in files if mutant.function and name in file.functions]
     found = exact if exact else [file for file in files if mutant.module in file.modules or runs(file)]
     chosen: list[TestFile] = []
     for file in sorted(found, key=lambda file: (mutant.module not in file.modules, file.seconds, file.path)):

@@ -11,6 +11,7 @@ import itertools
 import multiprocessing
 import os
 import sys
+import threading
 import time
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
@@ -161,9 +162,11 @@ class _Plugin:
         if self.package:
             self.codes.setdefault(self.file, set())
             sys.setprofile(self._called)
+            threading.setprofile(self._called)
 
     def pytest_runtest_logfinish(self) -> None:
         sys.setprofile(None)
+        threading.setprofile(None)  # type: ignore[arg-type]
 
     def _called(self, frame: FrameType, event: str, _: object) -> None:
         if event == "call":
