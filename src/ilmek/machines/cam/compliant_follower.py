@@ -98,9 +98,7 @@ def vibration_checks(made: CompliantFollower) -> tuple[Check, ...]:
 
 def vibration_table(made: CompliantFollower) -> Table:
     """Residual vibration by each law at this lift, time and follower, and the speed up to which it is small."""
-    heads = columns(
-        "law", "residual vibration [mm]", "time ratio for 1 % of the lift", "speed for 1 % of the lift [rpm]"
-    )
+    heads = columns("law", "residual vibration [mm]", "time ratio for 1 % of lift", "speed for 1 % of lift [rpm]")
     own, damping = made.params.laws()[0], made.params.linkage_damping
     rows = []
     for name in SMOOTH_LAWS:

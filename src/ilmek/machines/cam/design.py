@@ -73,24 +73,16 @@ class CamDesign:
     rise = computed("deg", "cam angle of the rise", lambda it: it.params.rise)
     dwell = computed("deg", "cam angle for which the follower stays lifted", lambda it: it.params.dwell)
     fall = computed("deg", "cam angle of the fall", lambda it: it.params.fall_angle)
-    power_max = computed(
-        "W", "largest power of the shaft", lambda it: max(it.extremes.torque.value, 0.0) * it.params.speed
-    )
+    power_max = computed("W", "greatest shaft power", lambda it: max(it.extremes.torque.value, 0.0) * it.params.speed)
     spring_rate = computed("N/mm", "rate of the return spring", lambda it: it.held.rate / it.params.per_unit**2)
-    preload = computed(
-        "N", "force of the return spring at the lowest position", lambda it: it.held.preload / it.params.per_unit
-    )
-    spring_force_max = computed(
-        "N", "its force at the full lift", lambda it: it.preload + it.spring_rate * it.params.lift
-    )
+    preload = computed("N", "spring force at the lowest position", lambda it: it.held.preload / it.params.per_unit)
+    spring_force_max = computed("N", "its force at full lift", lambda it: it.preload + it.spring_rate * it.params.lift)
 
     @computed("rpm", "speed of the cam at which the follower lifts off; null: never")
     def lift_off_speed(self) -> float | None:
         return self.lift_off.speed if math.isfinite(self.lift_off.speed) else None
 
-    roller_name = computed(
-        "", "cam follower from the table", lambda it: it.roller.name if it.roller else None, name="roller"
-    )
+    roller_name = computed("", "roller of the table", lambda it: it.roller.name if it.roller else None, name="roller")
     roller_radius = computed("mm", "radius of roller or ball; 0 of knife and flat", lambda it: it.cam.roller_radius)
 
     @computed("h", "life of the roller")

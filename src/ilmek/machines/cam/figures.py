@@ -1,12 +1,13 @@
 """The cam's figures: to scale and in motion, its diagrams over the turn, its forces."""
 
+from collections.abc import Mapping
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
 
 from ilmek.cams import figures as cam_figures
-from ilmek.cams.limits import convex_radius_min
 from ilmek.cams.programme import TURN, jumps
 from ilmek.cams.trace import CamTrace
 from ilmek.machines.cam import developed_cams
@@ -15,7 +16,7 @@ from ilmek.machines.cam.animation import moving
 from ilmek.machines.cam.compliant_follower import vibration_figures
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.parts import cutouts, rim_radius, zero_mark
-from ilmek.num.piecewise import supremum
+from ilmek.num.piecewise import Curve, supremum
 from ilmek.plane import contours
 from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.units import format_quantity, mm
@@ -30,18 +31,15 @@ CHORD = 0.02 * mm
 def figures(found: CamAnalysis) -> tuple[Figure, ...]:
     """The cam to scale, in motion, and the plots in the order of the report."""
     design = found.design
-    cam, params = design.cam, design.params
-    widest = supremum(lambda angle: np.abs(cam.trace(angle).pressure_angle), design.cam.knots)
+    cam, params, unit = design.cam, design.params, _unit(design)
+    widest = supremum(lambda angle: np.abs(cam.trace(angle).pressure_angle), cam.knots)
+    motion = {"follower": design.programme}
     plots = (
-        *cam_figures.motion_plots(
-            {"follower": design.programme}, params.speed, _marks(design), _jump_note(design), _unit(design)
-        ),
+        *cam_figures.motion_plots(motion, params.speed, _marks(design), _jump_note(design), unit),
         _jerk_plot(design),
         *(() if cam.flat and widest.value == 0 else (_pressure_angle_plot(design, widest.at),)),
-        cam_figures.curvature_plot(cam, convex_radius_min(cam).at),
-        _force_plot(design),
-        _torque_plot(design),
-        *(() if design.extremes.pressure is None else (_hertz_plot(design, design.extremes.pressure.at),)),
+        cam_figures.curvature_plot(cam, design.curvature_at),
+        *_force_plots(design),
     )
     named = (replace(plot, name=f"cam-{plot.name}") for plot in plots)
     vibration = vibration_figures(found.compliant) if found.compliant else ()
@@ -116,73 +114,61 @@ def _jump_note(design: CamDesign) -> str:
 
 
 def _jerk_plot(design: CamDesign) -> Plot:
-    angle = cam_figures.sample_angles(design.programme)
-    jerk = design.params.speed**3 * design.programme.at(angle).ddds
+    jerk = {"follower": lambda angle: design.params.speed**3 * design.programme.at(angle).ddds}
     note = "between jumps of the acceleration, where it is infinite" if jumps(design.programme) else ""
-    return _plot(
-        "jerk",
-        "Jerk over the cam angle",
-        Axis("jerk", f"{_unit(design)}/s^3"),
-        (Series("follower", angle, jerk),),
-        note=note,
-    )
+    return _plot(design, "jerk", "Jerk over the cam angle", Axis("jerk", f"{_unit(design)}/s^3"), jerk, note=note)
 
 
 def _pressure_angle_plot(design: CamDesign, at: float) -> Plot:
     """Pressure angle, and the limit on the rise; of a cam that leads both ways on the fall too."""
-    limit, ends = design.params.limit, np.array([0.0, TURN])
-    angle = cam_figures.sample_angles(design.programme)
-    series = [Series("pressure angle", angle, design.cam.trace(angle).pressure_angle)]
-    if limit is not None:
-        series.append(Series("limit", ends, np.full(2, limit), dashed=True))
+    limit, axis = design.params.limit, Axis("pressure angle", "deg")
+    levels = {} if limit is None else {"limit": limit}
     if limit is not None and design.params.led:
-        series.append(Series("limit on the fall", ends, np.full(2, -limit), dashed=True))
-    axis, mark = Axis("pressure angle", "deg"), Mark(at, "largest")
-    return _plot("pressure-angle", "Pressure angle", axis, tuple(series), marks=(mark,))
+        levels["limit on the fall"] = -limit
+    curve = {"pressure angle": lambda angle: design.cam.trace(angle).pressure_angle}
+    return _plot(design, "pressure-angle", "Pressure angle", axis, curve, levels=levels, mark=Mark(at, "largest"))
 
 
-def _force_plot(design: CamDesign) -> Plot:
-    angle = cam_figures.sample_angles(design.programme)
-    state = design.state(angle)
-    arc = design.params.per_unit
-    spring = (design.held.preload + design.held.rate * state.trace.course.s) / arc
-    series = (
-        Series("on the normal", angle, state.normal),
-        Series("along the motion", angle, state.force / arc),
-        *(() if design.params.led else (Series("spring", angle, spring, dashed=True),)),
-    )
-    note = "the follower stays on the cam as long as the force is above 0"
-    if design.params.led:
-        note = "below 0 the other flank or cam holds the follower"
-    mark = Mark(design.extremes.normal.at, format_quantity(design.extremes.normal.value, "N"))
-    return _plot(
-        "contact-force", "Force between cam and follower", Axis("force", "N"), series, marks=(mark,), note=note
-    )
-
-
-def _torque_plot(design: CamDesign) -> Plot:
-    angle = cam_figures.sample_angles(design.programme)
-    rms = design.extremes.torque_rms
-    series = (
-        Series("torque", angle, design.state(angle).torque),
-        Series("root mean square", np.array([0.0, TURN]), np.full(2, rms), dashed=True),
-    )
-    mark = Mark(design.extremes.torque.at, format_quantity(design.extremes.torque.value, "N*m"))
-    note = "positive: the shaft drives the cam; negative: the follower presses it on"
-    return _plot("torque", "Torque of the shaft", Axis("torque", "N*m"), series, marks=(mark,), note=note)
-
-
-def _hertz_plot(design: CamDesign, at: float) -> Plot:
-    angle = cam_figures.sample_angles(design.programme)
-    series = (
-        Series("Hertz pressure", angle, design.hertz(angle)),
-        Series("limit", np.array([0.0, TURN]), np.full(2, design.pressure_limit), dashed=True),
-    )
-    title = "Pressure between cam and follower"
-    return _plot("hertz-pressure", title, Axis("pressure", "MPa"), series, marks=(Mark(at, "largest"),))
+def _force_plots(design: CamDesign) -> tuple[Plot, ...]:
+    """Contact force, torque and, but for a knife edge, Hertz pressure."""
+    extremes, held, arc, led = design.extremes, design.held, design.params.per_unit, design.params.led
+    forces: dict[str, Curve] = {
+        "on the normal": lambda angle: design.state(angle).normal,
+        "along the motion": lambda angle: design.state(angle).force / arc,
+    }
+    note = "below 0 the other flank or cam holds the follower"
+    if not led:
+        forces["spring"] = lambda angle: (held.preload + held.rate * design.state(angle).trace.course.s) / arc
+        note = "the follower stays on the cam as long as the force is above 0"
+    mark = Mark(extremes.normal.at, format_quantity(extremes.normal.value, "N"))
+    title, newton = "Force between cam and follower", Axis("force", "N")
+    force = _plot(design, "contact-force", title, newton, forces, mark=mark, note=note)
+    mark = Mark(extremes.torque.at, format_quantity(extremes.torque.value, "N*m"))
+    note = "positive: the shaft drives the cam; negative: the follower drives it"
+    curve, level = {"torque": lambda angle: design.state(angle).torque}, {"root mean square": extremes.torque_rms}
+    axis = Axis("torque", "N*m")
+    torque = _plot(design, "torque", "Torque of the shaft", axis, curve, levels=level, mark=mark, note=note)
+    if extremes.pressure is None:
+        return force, torque
+    title, axis = "Pressure between cam and follower", Axis("pressure", "MPa")
+    mark = Mark(extremes.pressure.at, "largest")
+    curve, level = {"Hertz pressure": design.hertz}, {"limit": design.pressure_limit}
+    return force, torque, _plot(design, "hertz-pressure", title, axis, curve, levels=level, mark=mark)
 
 
 def _plot(
-    name: str, title: str, y: Axis, series: tuple[Series, ...], *, marks: tuple[Mark, ...] = (), note: str = ""
+    design: CamDesign,
+    name: str,
+    title: str,
+    axis: Axis,
+    curves: Mapping[str, Curve],
+    *,
+    levels: Mapping[str, float] = MappingProxyType({}),
+    mark: Mark | None = None,
+    note: str = "",
 ) -> Plot:
-    return Plot(name, title, ANGLE, y, series, marks, note)
+    """Curves over the turn, and levels as dashed lines."""
+    angle, ends = cam_figures.sample_angles(design.programme), np.array([0.0, TURN])
+    drawn = [Series(label, angle, curve(angle), dashed=label == "spring") for label, curve in curves.items()]
+    drawn += [Series(label, ends, np.full(2, level), dashed=True) for label, level in levels.items()]
+    return Plot(name, title, ANGLE, axis, tuple(drawn), (mark,) if mark else (), note)

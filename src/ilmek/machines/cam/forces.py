@@ -26,8 +26,6 @@ from ilmek.records import computed, record, result
 POISSON = 0.3
 """Of steels; of irons and light metals within 10 %, which changes the pressure by 1 %."""
 
-_SIDES = {"trailing": 1, "leading": -1}
-
 MARGIN = 1.2
 """Speed up to which a chosen spring holds the follower, over the speed of the cam."""
 
@@ -103,7 +101,7 @@ def duty_of(params: CamParams, cams: CamShape, held: FollowerLoad) -> RollerDuty
 
     def borne(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
         state = state_of(params, cams, held, angle)
-        swung = _SIDES[params.side] * state.trace.course.ds if params.motion == "oscillating" else 0.0
+        swung = params.side_sign * state.trace.course.ds if params.motion == "oscillating" else 0.0
         spin = np.abs(state.trace.flow / cams.cam.roller_radius - (0 if params.laid_flat else 1) - swung)
         return _size(params, state.normal), spin
 

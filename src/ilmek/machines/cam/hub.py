@@ -1,14 +1,12 @@
 """The hub of a cam on its shaft: bore and keyway.
 
-    d^3 = 16 T / (pi tau)                     a solid shaft under a torque T at the shear stress tau
-
-Width and depth of the keyway in the hub by the bore.                                                  [DIN 6885-1]
+d^3 = 16 T / (pi tau)                     a solid shaft under a torque T at the shear stress tau
 """
 
-import bisect
 import math
 from dataclasses import dataclass
 
+from ilmek.elements.keyways import KEYWAYS
 from ilmek.plane import contours
 from ilmek.report import Contour
 from ilmek.units import MPa, mm
@@ -21,10 +19,10 @@ BORES = tuple(
 )
 """Usual bores [m]; beyond the last, whole centimetres."""
 
-_UP_TO = (8, 10, 12, 17, 22, 30, 38, 44, 50, 58, 65, 75, 85, 95, 110, 130)
-_WIDTH = (2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28, 32)
-_DEPTH = (1.0, 1.4, 1.8, 2.3, 2.8, 3.3, 3.3, 3.3, 3.8, 4.3, 4.4, 4.9, 5.4, 5.4, 6.4, 7.4)
-_LEAST = 6 * mm
+LEAST_BORE = 6 * mm
+"""Smallest bore with a keyway [m]."""
+
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,10 +57,10 @@ def hub_for(bore: float) -> Hub:
     >>> hub_for(0.020)
     Hub(bore=0.02, key_width=0.006, key_depth=0.0028)
     """
-    index = bisect.bisect_left(_UP_TO, round(bore / mm, 9))
-    if bore < _LEAST or index == len(_UP_TO):
+    keyway = next((one for one in KEYWAYS if bore <= one.upto * (1 + ROUNDING)), None)
+    if keyway is None or bore < LEAST_BORE:
         return Hub(bore, 0.0, 0.0)
-    return Hub(bore, _WIDTH[index] * mm, _DEPTH[index] * mm)
+    return Hub(bore, keyway.width, keyway.in_hub)
 
 
 def bore_for(torque: float) -> float:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from ilmek.cams.laws import LAWS, Law, law_of
 from ilmek.cams.programme import TURN
@@ -73,9 +74,7 @@ class CamParams(Params):
     roller_radius: float | None = declare.length(
         None, at_least=0.0, at_most=1.0, doc="radius of roller or ball; default: chosen", symbol="Rr"
     )
-    roller: str | None = declare.text(
-        None, doc="cam follower from the table, like `CF 10`; default: the smallest with the required life"
-    )
+    roller: str | None = declare.text(None, doc="roller of the table, like `CF 10`; default: the smallest of that life")
     offset: float = declare.length(
         0.0,
         at_least=-1.0,
@@ -109,9 +108,7 @@ class CamParams(Params):
     between: float | None = declare.angle(
         None, at_least=1 * deg, below=TURN, doc="angle between the arms of conjugate cams; default: equal prime circles"
     )
-    face_offset: float = declare.length(
-        0.0, at_least=-1.0, at_most=1.0, doc="distance of an arm's flat face beyond its pivot"
-    )
+    face_offset: float = declare.length(0.0, at_least=-1.0, at_most=1.0, doc="arm's flat face beyond its pivot")
     curvature_least: float = declare.length(
         1 * mm,
         at_least=0.0,
@@ -119,24 +116,18 @@ class CamParams(Params):
         doc="least radius of curvature for a flat follower, which sets its base circle",
     )
     mass: float = declare.mass(0.5 * kg, at_least=0.0, at_most=1e5, doc="moving mass, the follower's own included")
-    load: float = declare.force(
-        100 * N, at_least=0.0, at_most=1e7, doc="constant force of the follower on the cam, weight included"
-    )
+    load: float = declare.force(100 * N, at_least=0.0, at_most=1e7, doc="constant force on the cam, weight included")
     spring_rate: float | None = declare.stiffness(
-        None, at_least=0.0, at_most=1e9, doc="rate of the return spring; default: chosen"
+        None, at_least=0.0, at_most=1e9, doc="rate of the spring; default: chosen"
     )
     preload: float | None = declare.force(
-        None, at_least=0.0, at_most=1e7, doc="force of the return spring at the lowest position; default: chosen"
+        None, at_least=0.0, at_most=1e7, doc="spring force at the lowest position; default: chosen"
     )
     hold_speed: float | None = declare.angular_speed(
         None, at_least=0.0, at_most=1e4, doc="speed up to which the spring holds the follower; default: 1.2 times speed"
     )
-    sliding_friction: float = declare.ratio(
-        0.0, at_least=0.0, below=1.0, doc="friction coefficient of cam and sliding follower"
-    )
-    guide_friction: float = declare.ratio(
-        0.0, at_least=0.0, below=1.0, doc="friction coefficient in the follower's guide"
-    )
+    sliding_friction: float = declare.ratio(0.0, at_least=0.0, below=1.0, doc="friction coefficient, sliding follower")
+    guide_friction: float = declare.ratio(0.0, at_least=0.0, below=1.0, doc="friction coefficient of the guide")
     linkage_stiffness: float | None = declare.stiffness(
         None, above=0.0, at_most=1e12, doc="stiffness between the cam and the mass; default: rigid"
     )
@@ -157,9 +148,7 @@ class CamParams(Params):
         None, at_least=1 * mm, at_most=1.0, doc="bore; default: the smallest whose shaft transmits the torque"
     )
     wall: float = declare.length(4 * mm, at_least=0.0, at_most=0.5, doc="required wall between keyway and surface")
-    rim: float = declare.length(
-        5 * mm, at_least=0.0, at_most=0.5, doc="rim of a grooved cam outside the groove, and web under it"
-    )
+    rim: float = declare.length(5 * mm, at_least=0.0, at_most=0.5, doc="rim outside a groove, and web under it")
     cutter_radius: float | None = declare.length(
         None, at_least=0.1 * mm, at_most=0.5, doc="radius of the cutter; default: that of the roller"
     )
@@ -248,6 +237,11 @@ class CamParams(Params):
     def laid_flat(self) -> bool:
         """Whether the cam is treated as a strip that passes under its follower."""
         return self.kind in ("barrel", "face", "wedge")
+
+    @property
+    def side_sign(self) -> Literal[1, -1]:
+        """1 of a trailing arm, -1 of a leading one."""
+        return 1 if self.side == "trailing" else -1
 
     @property
     def arm_length(self) -> float:

@@ -52,9 +52,7 @@ def _shape_checks(design: CamDesign) -> tuple[Check, ...]:
         at_least("convex radius of curvature (no undercut)", convex, radius, "mm", f"{NORTON}, 7: rho > roller radius")
     ]
     if params.kind in ("grooved", "barrel") and hollow is not None:
-        made.append(
-            at_least("concave radius of the pitch curve", hollow, radius, "mm", f"{NORTON}, 7: the outer flank")
-        )
+        made.append(at_least("concave radius of the pitch curve", hollow, radius, "mm", f"{NORTON}, 7: outer flank"))
     if not params.led:
         source = "m w^2 s'' + k s + P + load >= 0"
         made.append(at_least("speed of lift-off", design.lift_off.speed, params.speed, "rpm", source))

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,8 +23,6 @@ from ilmek.machines.cam.params import LIMIT, NO_DWELL, CamParams
 from ilmek.machines.cam.rollers import ROLLERS
 from ilmek.num.piecewise import Extremum
 from ilmek.units import format_quantity, mm
-
-_SIDES: dict[str, Literal[1, -1]] = {"trailing": 1, "leading": -1}
 
 
 def programme_of(params: CamParams, laws: tuple[Law, Law] | None = None) -> CamProgramme:
@@ -154,7 +152,7 @@ def _cam(params: CamParams, programme: CamProgramme, prime_radius: float | None,
         return WedgeCam(programme, (prime_radius or 1.0) * TURN, roller_radius, used=params.rise + params.dwell)
     if params.laid_flat:
         return BarrelCam(programme, prime_radius or 10.0, roller_radius, roller_width(params, roller_radius))
-    flat, pivot, side = params.follower == "flat", params.pivot_distance, _SIDES[params.side]
+    flat, pivot, side = params.follower == "flat", params.pivot_distance, params.side_sign
     if params.motion == "translating" and flat:
         return FlatCam(programme, prime_radius or 1.0, params.offset)
     if params.motion == "translating":

@@ -69,14 +69,10 @@ class SheddingDrive:
     motor_power = computed("W", "largest power of the motor", lambda it: it.motor_torque * it.motor_speed)
     name = computed("", "class of motor chosen", lambda it: it.motor.name if it.motor else None, name="motor")
     motor_torque_rms = computed(
-        "Nm", "root mean square of the motor's torque over the turn", lambda it: it.duty.rms if it.duty else None
+        "Nm", "rms of the motor's torque over the turn", lambda it: it.duty.rms if it.duty else None
     )
-    motor_power_mean = computed(
-        "W", "mean power into the reducer, with its losses", lambda it: it.duty.power_mean if it.duty else None
-    )
-    inertia_ratio = computed(
-        "1", "cams over rotor, on the motor's shaft", lambda it: it.duty.inertia_ratio if it.duty else None
-    )
+    motor_power_mean = computed("W", "mean power, losses included", lambda it: it.duty.power_mean if it.duty else None)
+    inertia_ratio = computed("1", "load over rotor inertia", lambda it: it.duty.inertia_ratio if it.duty else None)
 
 
 @record
@@ -107,17 +103,13 @@ class SheddingDesign:
         "smallest that leaves the wall outside the corners of the square bore",
         lambda it: it.shaft.bar / math.sqrt(2) + it.params.bore_wall + it.cam.roller_radius,
     )
-    pressure_angle_max = computed(
-        "deg", "largest pressure angle over the turn", lambda it: limits.pressure_angle_max(it.cam).value
-    )
-    pressure_angle_at = computed(
-        "deg", "cam angle of the largest pressure angle", lambda it: limits.pressure_angle_max(it.cam).at
-    )
+    pressure_angle_max = computed("deg", "largest pressure angle", lambda it: limits.pressure_angle_max(it.cam).value)
+    pressure_angle_at = computed("deg", "cam angle of that maximum", lambda it: limits.pressure_angle_max(it.cam).at)
     curvature_radius_min = computed(
-        "mm", "least radius of the pitch curve, convex", lambda it: limits.convex_radius_min(it.cam).value
+        "mm", "least convex radius of the pitch curve", lambda it: limits.convex_radius_min(it.cam).value
     )
 
-    @computed("mm", "least radius of the pitch curve, concave")
+    @computed("mm", "least concave radius of the pitch curve")
     def concave_radius_min(self) -> float | None:
         hollow = limits.concave_radius_min(self.cam)
         return hollow.value if hollow else None
@@ -135,9 +127,7 @@ class SheddingDesign:
         lambda it: it.shuttle_window[1] - it.shuttle_window[0],
         name="shuttle_window",
     )
-    shuttle_time = computed(
-        "s", "time for which each shed is open for it", lambda it: it.shuttle_window_angle / it.params.speed
-    )
+    shuttle_time = computed("s", "time that each shed is open", lambda it: it.shuttle_window_angle / it.params.speed)
     turn_time = computed("s", "time of a turn: two sheds", lambda it: TURN / it.params.speed)
     phase_groups = computed("1", "groups of each parity's cams, staggered", lambda it: it.shed.groups)
     phase_spread = computed("deg", "angle from the first group to the last", lambda it: it.shed.spread)

@@ -24,9 +24,7 @@ class SheddingParams(Params):
 
     lift: float = kind.length(60 * mm, at_least=0.01 * mm, at_most=1.0, doc="lift of a warp: the height of the shed")
     rise: float = kind.angle(90 * deg, at_least=1 * deg, below=TURN, doc="cam angle of the rise", symbol="beta")
-    fall: float | None = kind.angle(
-        None, at_least=1 * deg, below=TURN, doc="cam angle of the return; default: that of the rise"
-    )
+    fall: float | None = kind.angle(None, at_least=1 * deg, below=TURN, doc="cam angle of the return; default: rise")
     dwell: float = kind.angle(0.0, at_least=0.0, below=TURN, doc="cam angle for which the warp stays lifted")
     law: str = kind.choice("harmonic", SMOOTH_LAWS, doc="motion law of rise and return")
     pressure_angle_limit: float = kind.angle(
@@ -39,25 +37,18 @@ class SheddingParams(Params):
         doc="prime radius; default: the smallest for the pressure angle",
         symbol="Rp",
     )
-    roller_radius: float = kind.length(
-        0.0, at_least=0.0, at_most=0.5, doc="radius of the warp or roller that touches the cam"
-    )
+    roller_radius: float = kind.length(0.0, at_least=0.0, at_most=0.5, doc="radius of the warp or roller on the cam")
     warps: int = kind.count(600, at_least=2, at_most=100_000, doc="warps, one cam each")
     warp_pitch: float = kind.length(2 * mm, at_least=0.01 * mm, at_most=50 * mm, doc="distance of two warps")
     cam_thickness: float | None = kind.length(
         None, at_least=0.001 * mm, at_most=50 * mm, doc="thickness of a cam; default: half the pitch"
     )
-    guide_height: float = kind.length(
-        10 * mm, at_least=0.0, at_most=0.5, doc="height of the guide cams above the nose of the cams"
-    )
+    guide_height: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="height of the guide cams above the nose")
     density: float = kind.density(STEEL.density, at_least=1.0, at_most=25e3, doc="density of cams and shaft")
     warp_force: float = kind.force(10 * N, at_least=0.0, at_most=1e4, doc="force of a lifted warp across the cam")
     tension: float | None = kind.force(None, at_least=1e-6, at_most=1e4, doc="tension of a warp, with half_span")
     half_span: float | None = kind.length(
-        None,
-        at_least=0.1 * mm,
-        at_most=10.0,
-        doc="cam to the next hold of the warp: force from tension and lift",
+        None, at_least=0.1 * mm, at_most=10.0, doc="cam to the next hold of the warp: force from tension and lift"
     )
     front_span: float | None = kind.length(
         None, at_least=0.1 * mm, at_most=10.0, doc="cam to the fell, with back_span instead of half_span"
@@ -75,9 +66,7 @@ class SheddingParams(Params):
     warp_length: float | None = kind.length(
         None, unit="m", at_least=0.1 * mm, at_most=100.0, doc="warp that stretches, fell to beam; default: both spans"
     )
-    compensation: float = kind.ratio(
-        0.0, at_least=0.0, at_most=1.0, doc="share of a warp's elongation taken up by its cylinder"
-    )
+    compensation: float = kind.ratio(0.0, at_least=0.0, at_most=1.0, doc="share of elongation taken up by the cylinder")
     strain_limit: float = kind.ratio(
         3.5e-2, unit="%", at_least=1e-6, at_most=1.0, doc="allowed strain of a warp; half of what breaks cotton"
     )
@@ -90,60 +79,39 @@ class SheddingParams(Params):
         doc="cam angle for which the shed must be open for the shuttle; "
         "default: half of that of cams in phase for flattest, else not checked",
     )
-    phase: str = kind.choice(
-        "together", PHASES, doc="cams of a parity in phase, spread by `stagger`, or spread for the least torque"
-    )
+    phase: str = kind.choice("together", PHASES, doc="cams of a parity in phase, staggered, or in the flattest phases")
     stagger: float = kind.angle(20 * deg, at_least=0.0, at_most=TURN / 2, doc="angle of spread of staggered cams")
     stagger_groups: int = kind.count(
         2, at_least=1, at_most=12, doc="groups of a parity's cams, evenly spread; flattest: the most of them"
     )
     speed: float = kind.angular_speed(5 * rpm, at_least=1e-6 * rpm, at_most=600 * rpm, doc="speed of the cam shaft")
     shaft_length: float | None = kind.length(
-        None,
-        unit="m",
-        at_least=1 * mm,
-        at_most=20.0,
-        doc="between its bearings; default: warps x pitch",
-        symbol="l",
+        None, unit="m", at_least=1 * mm, at_most=20.0, doc="between its bearings; default: warps x pitch", symbol="l"
     )
-    spans: int = kind.count(
-        1, at_least=1, at_most=1000, doc="equal spans of the shaft between its supports: bearings, steadies"
-    )
+    spans: int = kind.count(1, at_least=1, at_most=1000, doc="equal spans of the shaft between bearings and steadies")
     shaft_bar: float | None = kind.length(
         None, at_least=1 * mm, at_most=2.0, doc="side of the square bar; default: the smallest of stock"
     )
     shaft_load: float | None = kind.line_load(
         None, unit="kN/m", at_least=1e-3, at_most=1e7, doc="load of the shaft; default: from cams and warps", symbol="w"
     )
-    pull_angle: float = kind.angle(
-        90 * deg, at_least=0.0, at_most=TURN / 2, doc="between weight and pull of the warps; upright: 90 deg"
-    )
+    pull_angle: float = kind.angle(90 * deg, at_least=0.0, at_most=TURN / 2, doc="between weight and pull of the warps")
     safety: float | None = kind.ratio(
         None, at_least=1.0, at_most=20.0, doc="factor on the load; default: 1 on a given load, 2 on a computed one"
     )
     modulus: float = kind.pressure(
-        200 * GPa, unit="GPa", at_least=1 * MPa, at_most=1e13, doc="Young's modulus of the shaft", symbol="E"
+        200 * GPa, unit="GPa", at_least=1 * MPa, at_most=1e13, doc="Young's modulus", symbol="E"
     )
     slope_limit: float = kind.angle(0.004, unit="rad", at_least=1e-9, below=0.5, doc="allowed slope at the bearings")
     deflection_limit: float = kind.length(1 * mm, at_least=1e-9, at_most=0.1, doc="allowed deflection of the shaft")
-    twist_limit: float = kind.angle(
-        2 * deg, at_least=1e-6, below=TURN / 4, doc="allowed twist of the shaft from end to end"
-    )
-    strength: float = kind.pressure(
-        195 * MPa, at_least=1 * MPa, at_most=1e10, doc="yield strength of the shaft; S235 to 150 mm"
-    )
-    tensile: float = kind.pressure(
-        360 * MPa, at_least=1 * MPa, at_most=1e10, doc="tensile strength of the shaft, for its fatigue; S235"
-    )
-    bearing: str | None = kind.text(
-        None, doc="bearing of the shaft, by designation; default: the lightest with the required life"
-    )
+    twist_limit: float = kind.angle(2 * deg, at_least=1e-6, below=TURN / 4, doc="allowed twist from end to end")
+    strength: float = kind.pressure(195 * MPa, at_least=1 * MPa, at_most=1e10, doc="yield strength; S235 to 150 mm")
+    tensile: float = kind.pressure(360 * MPa, at_least=1 * MPa, at_most=1e10, doc="tensile strength, for fatigue; S235")
+    bearing: str | None = kind.text(None, doc="bearing by designation; default: the lightest with the required life")
     bearing_life: float = kind.time(
         20_000 * hour, unit="h", at_least=1 * hour, at_most=1e6 * hour, doc="required life of the bearings"
     )
-    bore_wall: float = kind.length(
-        5 * mm, at_least=0.0, at_most=0.5, doc="required wall between square bore and surface of the cam"
-    )
+    bore_wall: float = kind.length(5 * mm, at_least=0.0, at_most=0.5, doc="required wall outside the square bore")
     ratio: float = kind.ratio(100.0, at_least=1e-3, at_most=1e5, doc="ratio of the reducer on the shaft")
     efficiency: float = kind.ratio(0.85, at_least=0.01, at_most=1.0, doc="efficiency of the reducer")
     motor_torque: float | None = kind.torque(

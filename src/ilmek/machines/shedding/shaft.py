@@ -61,9 +61,7 @@ class ShaftBearings:
     life: float
 
     name = computed("", "bearing of the shaft", lambda it: it.bearing.name if it.bearing else None, name="bearing")
-    life_of_bearing = computed(
-        "h", "life that 90 % of them reach", lambda it: it.life if it.bearing else None, name="bearing_life"
-    )
+    life_of_bearing = computed("h", "rating life", lambda it: it.life if it.bearing else None, name="bearing_life")
 
 
 @record
@@ -74,19 +72,15 @@ class Shaft:
     length: float = result("m", "length of the shaft between its first and last support", name="shaft_length")
     span: float = result("m", "distance of two supports", name="shaft_span")
     torque: float
-    side_slope: float = result("mm", "least side of the square shaft for the slope", name="shaft_side_slope")
-    side_deflection: float = result(
-        "mm", "least side of the square shaft for the deflection", name="shaft_side_deflection"
-    )
-    side_twist: float = result("mm", "least side of the square shaft for the twist", name="shaft_side_twist")
-    side_strength: float = result("mm", "least side of the square shaft for its strength", name="shaft_side_strength")
+    side_slope: float = result("mm", "least side of the shaft for the slope", name="shaft_side_slope")
+    side_deflection: float = result("mm", "least side of the shaft for the deflection", name="shaft_side_deflection")
+    side_twist: float = result("mm", "least side of the shaft for the twist", name="shaft_side_twist")
+    side_strength: float = result("mm", "least side of the shaft for its strength", name="shaft_side_strength")
     bar: float = result("mm", "side of the bar chosen: as given, or from stock", name="shaft_bar")
     slope: float = result("rad", "slope of the shaft at the supports", name="shaft_slope")
     deflection: float = result("mm", "deflection of the shaft between the supports", name="shaft_deflection")
     twist: float = result("deg", "twist from end to end by the largest torque, without the safety", name="shaft_twist")
-    stress: float = result(
-        "MPa", "equivalent stress in bending and torsion [von Mises], with the safety", name="shaft_stress"
-    )
+    stress: float = result("MPa", "stress in bending and torsion [von Mises], with the safety", name="shaft_stress")
     endurance: float = result("1", "safety against fatigue [Goodman], besides that of the load", name="shaft_endurance")
     critical: float = result("rpm", "lowest critical speed of a span with its cams", name="shaft_critical_speed")
     directions: ShaftLoads | None
@@ -94,7 +88,7 @@ class Shaft:
 
     side = computed(
         "mm",
-        "least side of the square shaft for slope and deflection",
+        "least side of the shaft for slope and deflection",
         lambda it: max(it.side_slope, it.side_deflection),
         name="shaft_side",
     )

@@ -19,7 +19,7 @@ class WarpTensionAnalysis:
 
     cylinder_tube = computed("", "stock tube of each cylinder", lambda it: it.of_each("tube_name"))
     cylinder_load = computed(
-        "kN/m", "load, own weight included", lambda it: {one.name: abs(one.load) for one in it.cylinders}
+        "kN/m", "load with own weight", lambda it: {one.name: abs(one.load) for one in it.cylinders}
     )
     cylinder_slope = computed("mrad", "slope in the bearings", lambda it: it.of_each("slope"))
     cylinder_slope_bare = computed("mrad", "the same without own weight", lambda it: it.of_each("slope_bare"))
@@ -34,9 +34,7 @@ class WarpTensionAnalysis:
     stub_stress = computed("MPa", "stress in the shaft ends [von Mises]", lambda it: it.of_each("stub_stress"))
     mass_cylinders = computed("kg", "mass of the three tubes", lambda it: sum(one.mass for one in it.cylinders))
     spacer_radius = computed("mm", "outer radius of the spacer", lambda it: it.spacer.outer + it.slots.depth)
-    tension_spacer = computed(
-        "N", "tension beyond the spacer while warps slip", lambda it: tension_beyond(it.design.params)
-    )
+    tension_spacer = computed("N", "tension beyond the spacer in slip", lambda it: tension_beyond(it.design.params))
 
     @property
     def spacer(self) -> Cylinder:

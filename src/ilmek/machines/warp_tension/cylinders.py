@@ -146,12 +146,7 @@ def stock(inner: float, outer: float) -> Tube | None:
 
 
 def _cylinder(  # noqa: PLR0917
-    design: WarpTensionDesign,
-    name: str,
-    sizes: tuple[float, float],
-    tube: Tube | None,
-    bare: complex,
-    torque: float,
+    design: WarpTensionDesign, name: str, sizes: tuple[float, float], tube: Tube | None, bare: complex, torque: float
 ) -> Cylinder:
     params, (outer, inner) = design.params, sizes
     weight = tube_weight(params, inner, outer)

@@ -61,9 +61,7 @@ class WarpTensionDesign:
 
     reaction = computed("N", "force on each bearing", lambda it: float(uniform.reaction(it.load, it.params.width)))
     force = computed("kN", "pull of all warps", lambda it: it.load * it.params.width)
-    self_weight = computed(
-        "N/m", "weight of the tube", lambda it: tube_weight(it.params, it.inner_radius, it.outer_radius)
-    )
+    self_weight = computed("N/m", "own weight", lambda it: tube_weight(it.params, it.inner_radius, it.outer_radius))
     mass = computed(
         "kg",
         "mass of the tube between its bearings",
@@ -81,7 +79,7 @@ class WarpTensionDesign:
     )
     motor_name = computed("", "class of motor chosen", lambda it: it.motor.name if it.motor else None, name="motor")
     take_up_angle = computed(
-        "deg", "rotation of the cylinder for a row of knots", lambda it: it.params.row_pitch / it.outer_radius
+        "deg", "rotation of the cylinder per row", lambda it: it.params.row_pitch / it.outer_radius
     )
     take_up_motor_turns = computed("1", "motor turns a row", lambda it: it.take_up_angle * it.ratio / turn)
 

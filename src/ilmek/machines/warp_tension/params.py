@@ -16,9 +16,7 @@ class WarpTensionParams(Params):
 
     warps: int = kind.count(600, at_least=1, at_most=100_000, doc="warps on the cylinder", symbol="n")
     tension: float = kind.force(15 * N, at_least=1e-6, at_most=1e4, doc="tension of a warp", symbol="T")
-    width: float = kind.length(
-        1.2 * m, unit="m", at_least=1 * mm, at_most=20.0, doc="cylinder between its bearings", symbol="l"
-    )
+    width: float = kind.length(1.2 * m, unit="m", at_least=1 * mm, at_most=20.0, doc="between its bearings", symbol="l")
     outer_radius: float | None = kind.length(
         None,
         at_least=0.1 * mm,
@@ -49,9 +47,7 @@ class WarpTensionParams(Params):
     motor_torque: float | None = kind.torque(
         None, unit="Nm", at_least=1e-6, at_most=1e4, doc="torque of the motor; default: of the smallest that is enough"
     )
-    row_pitch: float = kind.length(
-        4 * mm, at_least=0.001 * mm, at_most=0.1, doc="carpet taken up for each row of knots"
-    )
+    row_pitch: float = kind.length(4 * mm, at_least=0.001 * mm, at_most=0.1, doc="carpet taken up for a row of knots")
     take_up_time: float = kind.time(1 * s, at_least=1 * ms, at_most=3600.0, doc="time to take up a row")
     carpet_length: float = kind.length(1.8 * m, unit="m", at_least=1 * mm, at_most=1000.0, doc="length of the carpet")
     carpet_thickness: float = kind.length(
@@ -64,31 +60,23 @@ class WarpTensionParams(Params):
     bearing: str | None = kind.text(
         None, doc="bearing of the cylinders by its designation; default: the thesis' UCF 207, or a larger one if needed"
     )
-    stub: float = kind.length(
-        40 * mm, at_least=0.0, at_most=1.0, doc="overhang of the shaft ends, a bearing's middle to the tube"
-    )
+    stub: float = kind.length(40 * mm, at_least=0.0, at_most=1.0, doc="overhang of the shaft ends, bearing to tube")
     row_time: float = kind.time(150 * s, at_least=1 * ms, at_most=1e6, doc="time of a row, its knots included")
-    spacer_tube: str | None = kind.text(
-        None, doc="stock tube of the spacer; default: the lightest that keeps the limits"
-    )
-    spacer_wrap: float = kind.angle(
-        90 * deg, at_least=0.0, at_most=180 * deg, doc="angle of wrap of the warps on the spacer"
-    )
+    spacer_tube: str | None = kind.text(None, doc="tube of the spacer; default: the lightest that keeps the limits")
+    spacer_wrap: float = kind.angle(90 * deg, at_least=0.0, at_most=180 * deg, doc="wrap of the warps on the spacer")
     warp_pitch: float | None = kind.length(
         None, above=0.0, at_most=50 * mm, doc="pitch of the spacer's slots; default: width over warps"
     )
     warp_diameter: float | None = kind.length(
         None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual warp, or 0.6 pitches"
     )
-    slot_width: float | None = kind.length(
-        None, above=0.0, at_most=50 * mm, doc="width of a slot; default: 1.1 times the warp"
-    )
+    slot_width: float | None = kind.length(None, above=0.0, at_most=50 * mm, doc="width of a slot; default: 1.1 warps")
     slot_depth: float | None = kind.length(
-        None, at_least=0.0, at_most=20 * mm, doc="depth of a slot; default: the warp's diameter"
+        None, at_least=0.0, at_most=20 * mm, doc="depth of a slot; default: one warp"
     )
     friction: float = kind.ratio(0.2, at_least=0.0, at_most=1.0, doc="friction coefficient of a warp on the spacer")
     free_length: float = kind.length(
-        1.5 * m, unit="m", at_least=10 * mm, at_most=100.0, doc="warp between both cylinders"
+        1.5 * m, unit="m", at_least=10 * mm, at_most=100.0, doc="warp between the cylinders"
     )
     warp_stiffness: float | None = kind.force(
         None, at_least=1.0, at_most=1e7, doc="force over strain of a warp; default: cotton of the usual mass"
@@ -96,7 +84,7 @@ class WarpTensionParams(Params):
     crimp: float = kind.ratio(0.03, at_least=0.0, at_most=1.0, doc="warp in the carpet over its length, less 1")
     shed_lift: float = kind.length(60 * mm, at_least=0.0, at_most=0.5, doc="lift of a warp for the shed; 0: none")
     shed_span: float = kind.length(
-        170 * mm, at_least=1 * mm, at_most=2.0, doc="from the shedding cam to the next hold, to both sides"
+        170 * mm, at_least=1 * mm, at_most=2.0, doc="shedding cam to the holds on both sides"
     )
     rows_between: int = kind.count(1, at_least=1, at_most=1000, doc="rows between two take-ups")
 

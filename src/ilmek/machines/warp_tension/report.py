@@ -76,7 +76,7 @@ def warnings(found: WarpTensionAnalysis) -> tuple[str, ...]:
         )
     if params.self_locking and SURE < params.efficiency <= LOCKING:
         made.append(
-            f"a reducer of efficiency {efficiency} locks itself in theory only: makers guarantee it below {SURE:g}"
+            f"a reducer of efficiency {efficiency} locks itself in theory only: makers ensure it below {SURE:g}"
         )
     if params.motor_torque is None and design.motor is None:
         made.append(no_motor(design.motor_torque, design.motor_speed))
@@ -84,9 +84,7 @@ def warnings(found: WarpTensionAnalysis) -> tuple[str, ...]:
     if params.spacer_tube is None and (
         spacer.slope > params.slope_limit or spacer.deflection > params.deflection_limit
     ):
-        made.append(
-            "no stock tube is stiff enough for the spacer: less tension, a narrower width or a smaller spacer_wrap"
-        )
+        made.append("no stock tube is stiff enough for the spacer: lower the tension, width or spacer_wrap")
     return tuple(made)
 
 

@@ -23,15 +23,11 @@ class WarpTension:
     rows_between: int
     stiffness: float = result("kN", "force over strain of a warp", name="warp_stiffness")
     breaking: float = result("N", "breaking force of a cotton warp", name="tension_breaking")
-    correction: float = result(
-        "deg", "angle that the upper cylinder releases beyond the lower one", name="correction_angle"
-    )
+    correction: float = result("deg", "release of the upper cylinder beyond the lower one", name="correction_angle")
     step: float = result("N", "change of tension for a full step of the motor", name="tension_step")
 
     tension_woven = computed("N", "tension before the take-up: crimp tightens the warps", lambda it: it.over.woven)
-    tension_row = computed(
-        "N", "change of tension over a row", lambda it: (it.over.woven - it.over.rest) / it.rows_between
-    )
+    tension_row = computed("N", "change of it over a row", lambda it: (it.over.woven - it.over.rest) / it.rows_between)
     tension_shed = computed("N", "tension with the shed open, the cylinders at rest", lambda it: it.over.shed)
     tension_locked = computed("N", "tension if only the lower cylinder took up", lambda it: it.over.locked)
 

@@ -1,0 +1,95 @@
+"""Shedding and warp tension in a loom: parameters from its task, lines of the parts list, work."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ilmek.errors import LoomError
+from ilmek.machines import shedding, warp_tension
+from ilmek.machines.automated_loom import AutomatedLoomParams
+from ilmek.machines.loom_task import LoomTask
+from ilmek.machines.warp_tension.design import keeps_limits
+from ilmek.machines.warp_tension.in_loom import STOCK_TUBES
+from ilmek.units import mm
+
+
+def task(**settings: str) -> LoomTask:
+    """A loom of 300 knots a row."""
+    params = AutomatedLoomParams.read(settings)
+    return LoomTask(params, 450, 300, 15.0, 1050.0, {}, take_up_time=0.7, row_time=90.0)
+
+
+def test_fitted_cams_leave_room_for_the_bore_of_their_own_shaft() -> None:
+    assert shedding.MACHINE.fit(task()).prime_radius is None
+    found = shedding.MACHINE.fit(task(width="3m", length="4m", shaft_span="4m"))
+    made = shedding.design(found)
+    assert found.prime_radius is not None
+    assert made.cam.prime_radius >= made.prime_radius_for_bore
+    assert found.prime_radius == pytest.approx(round(found.prime_radius / mm) * mm)
+    assert (found.warps, found.shaft_length) == (600, pytest.approx(3.1))
+
+
+def test_a_prime_radius_that_the_user_set_stays() -> None:
+    assert shedding.MACHINE.fit(task(**{"shedding.prime_radius": "150mm"})).prime_radius == pytest.approx(0.15)
+
+
+def test_parts_of_the_shedding_weigh_what_the_design_weighs() -> None:
+    made = shedding.design(shedding.SheddingParams(prime_radius=0.2))
+    parts = {part.name: part for part in shedding.MACHINE.parts(made)}
+    cams = parts["shedding cam"].mass_all + parts["guide cam"].mass_all
+    # The stack is weighed with the shaft in its bores.
+    assert cams + parts["cam shaft"].mass == pytest.approx(made.stack.mass, rel=1e-9)
+    assert [part.name for part in parts.values() if part.drives] == ["motor of the cam shaft"]
+    assert parts["bearing of the cam shaft"].number == 2
+    spans = shedding.design(shedding.SheddingParams(prime_radius=0.2, spans=3))
+    assert {part.name: part.number for part in shedding.MACHINE.parts(spans)}["steady of the cam shaft"] == 2
+
+
+def test_work_of_a_row_is_that_of_lifting_both_parities() -> None:
+    """Opposed cams without tension: each parity is lifted while the other lies, and pushes back when it falls."""
+    made = shedding.design(shedding.SheddingParams())
+    (work,) = shedding.MACHINE.work(made)
+    assert work.per == "row"
+    assert work.energy == pytest.approx(600 * 10 * 0.06, rel=1e-4)
+    stiff = shedding.design(shedding.SheddingParams(tension=15.0, half_span=0.17, warp_stiffness=1050.0))
+    angle = np.linspace(0.0, 2 * math.pi, 20001)
+    wanted = np.trapezoid(np.maximum(stiff.shed.torque(angle), 0.0), angle)
+    assert shedding.MACHINE.work(stiff)[0].energy == pytest.approx(wanted, rel=1e-5)
+
+
+def test_fitted_cylinder_is_the_lightest_that_keeps_the_limits() -> None:
+    found = warp_tension.MACHINE.fit(task(width="3m", length="4m"))
+    lighter = [
+        one for one in STOCK_TUBES if one.area < math.pi * (found.outer_radius**2 - found.inner_radius**2) - 1e-9
+    ]
+    assert lighter
+    assert keeps_limits(found, found.inner_radius, found.outer_radius)
+    assert not any(keeps_limits(found, one.inner_radius, one.outer_radius) for one in lighter)
+    assert (found.width, found.carpet_length) == (pytest.approx(3.1), 4.0)
+
+
+def test_a_tube_that_the_user_set_stays() -> None:
+    found = warp_tension.MACHINE.fit(task(**{"warp-tension.tube": "168.3x10"}))
+    assert (found.tube, found.outer_radius) == ("168.3x10", None)
+
+
+def test_no_tube_for_too_wide_a_loom() -> None:
+    with pytest.raises(LoomError, match=r"no stock tube carries 0.7438 kN/m of warps over 12.1 m"):
+        warp_tension.MACHINE.fit(task(width="12m"))
+
+
+def test_parts_and_work_of_the_cylinders() -> None:
+    made = warp_tension.design(warp_tension.WarpTensionParams())
+    parts = {part.name: part for part in warp_tension.MACHINE.parts(made)}
+    assert parts["cylinder"].number == 2
+    assert parts["cylinder"].mass == pytest.approx(made.mass)
+    assert {name: part.number for name, part in parts.items() if name.startswith("bearing")} == {
+        "bearing of the upper": 2,
+        "bearing of the lower": 2,
+        "bearing of the spacer": 2,
+    }
+    assert [(part.name, part.number) for part in parts.values() if part.drives] == [("motor of a cylinder", 3)]
+    (work,) = warp_tension.MACHINE.work(made)
+    assert (work.name, work.per) == ("take-up", "carpet")
+    assert work.energy == pytest.approx(600 * 15 * 1.8 / 0.45)
