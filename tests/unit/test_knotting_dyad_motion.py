@@ -154,11 +154,11 @@ def test_tighter_limits_take_longer_and_grips_without_time_are_no_parts() -> Non
 def test_servos_are_strong_and_quick_enough_with_their_own_rotors() -> None:
     params, head, motion = made((("gear_ratio", "5"), ("rotor_inertia", "1e-5kg*m^2")))
     for at, drive in enumerate(motion.joints):
-        assert drive.servo is not None
-        assert drive.reducer.ratio == 5
+        assert drive.motor is not None
+        assert drive.gear_ratio == 5
         assert drive.servo_speed == pytest.approx(5 * drive.speed_max)
-        assert drive.servo.speed >= drive.servo_speed
-        assert drive.servo.torque >= max(drive.servo_torque_rms, drive.servo_torque_max / params.servo_overload)
+        assert drive.motor.speed >= drive.servo_speed
+        assert drive.motor.torque >= max(drive.servo_torque_rms, drive.servo_torque_max / params.servo_overload)
         arms = motion.cycle.arms
         expected = max(
             float(
@@ -171,7 +171,7 @@ def test_servos_are_strong_and_quick_enough_with_their_own_rotors() -> None:
         )
         assert drive.servo_torque_max == pytest.approx(expected, rel=1e-12)
     heavy = dataclasses.replace(params, gripper_mass=9.0, gear_ratio=None)
-    stronger = drives_of(heavy, head, motion.cycle)[1][0].servo
+    stronger = drives_of(heavy, head, motion.cycle)[1][0].motor
     assert stronger is None or stronger.power > 100
 
 

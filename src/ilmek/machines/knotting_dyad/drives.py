@@ -8,7 +8,7 @@ Behind gears of ratio i and efficiency e a servo of rotor inertia J gives     M 
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict
 from functools import lru_cache
 
 import numpy as np
@@ -26,8 +26,8 @@ from ilmek.linkage.structure import plan
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import ArmMotion, KnotCycle, cycle_of, drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.records import computed, record
-from ilmek.report import Json
+from ilmek.records import computed, record, result
+from ilmek.report import Json, results_of
 
 RATIOS = (1.0, 3.0, 4.0, 5.0, 7.0, 10.0, 16.0, 20.0, 25.0, 35.0, 50.0, 70.0, 100.0)
 """Gears to choose from: none, and the usual planetary ones of one and two stages."""
@@ -43,42 +43,22 @@ class ArmForces:
     forces: Forces
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class JointDrive:
-    """A drive, for the worse of both arms.
+    """A drive, for the worse of both arms: `motor` is the smallest class that is enough, None where none is."""
 
-    torque_max, torque_rms, speed_max, power_max   at the joint [N m, rad/s, W]
-    reducer                                        its gears
-    servo_torque_max, servo_torque_rms, servo_speed  with the rotor's own inertia, at the servo
-    servo                                          smallest class that is enough; None where none is
-    """
+    joint: str = result("", "link that it turns")
+    torque_max: float = result("mN*m", "greatest torque at the joint")
+    torque_rms: float = result("mN*m", "root mean square of it over the cycle")
+    speed_max: float = result("rad/s", "greatest speed of the joint")
+    power_max: float = result("W", "greatest power at the joint")
+    gear_ratio: float = result("1", "ratio of its gears")
+    servo_torque_max: float = result("mN*m", "greatest torque of the servo, with its own rotor")
+    servo_torque_rms: float = result("mN*m", "root mean square of it over the cycle")
+    servo_speed: float = result("rad/s", "greatest speed of the servo")
+    motor: Motor | None
 
-    joint: str
-    torque_max: float
-    torque_rms: float
-    speed_max: float
-    power_max: float
-    reducer: Reducer
-    servo_torque_max: float
-    servo_torque_rms: float
-    servo_speed: float
-    servo: Motor | None
-
-    @property
-    def as_json(self) -> dict[str, Json]:
-        """The drive as plain data, SI."""
-        return {
-            "joint": self.joint,
-            "torque_max": self.torque_max,
-            "torque_rms": self.torque_rms,
-            "speed_max": self.speed_max,
-            "power_max": self.power_max,
-            "gear_ratio": self.reducer.ratio,
-            "servo_torque_max": self.servo_torque_max,
-            "servo_torque_rms": self.servo_torque_rms,
-            "servo_speed": self.servo_speed,
-            "servo": self.servo.name if self.servo else None,
-        }
+    servo = computed("", "class of the servo; null: none is enough", lambda it: it.motor and it.motor.name)
 
 
 @record
@@ -102,20 +82,17 @@ class HeadMotion:
     drives = computed(
         "",
         "of first and second link, for the worse arm: at the joint and at its servo, SI",
-        lambda it: [one.as_json for one in it.joints],
+        lambda it: [{one.name: one.value for one in results_of(joint)} for joint in it.joints],
     )
 
     @computed("", "servo class that is enough for every joint; null where a joint has none")
     def servo(self) -> str | None:
-        servos = [joint.servo for joint in self.joints if joint.servo]
-        return max(servos, key=lambda one: one.power).name if len(servos) == len(self.joints) else None
+        motors = [joint.motor for joint in self.joints if joint.motor]
+        return max(motors, key=lambda one: one.power).name if len(motors) == len(self.joints) else None
 
     @computed("", "phases and grips, one after the other [s]", name="cycle")
     def parts(self) -> Json:
-        return [
-            {"name": part.name, "start": part.start, "end": part.end, "grippers": list(part.grippers)}
-            for part in self.cycle.parts
-        ]
+        return [asdict(part) for part in self.cycle.parts]
 
     @property
     def power_error(self) -> float:
@@ -217,7 +194,7 @@ def _drive(params: KnottingDyadParams, joint: str, load: _Load) -> JointDrive:
     """The drive of a joint: the smallest servo, behind the first gears with which it is enough."""
     ratios = RATIOS if params.gear_ratio is None else (params.gear_ratio,)
     found = [_behind(params, joint, load, Reducer(ratio, params.gear_efficiency)) for ratio in ratios]
-    return min(found, key=lambda one: one.servo.power if one.servo else math.inf)
+    return min(found, key=lambda one: one.motor.power if one.motor else math.inf)
 
 
 def _behind(params: KnottingDyadParams, joint: str, load: _Load, reducer: Reducer) -> JointDrive:
@@ -233,11 +210,11 @@ def _behind(params: KnottingDyadParams, joint: str, load: _Load, reducer: Reduce
         torque_rms=_rms(load.time, load.torque),
         speed_max=speed,
         power_max=_most([torque * rate for torque, rate in zip(load.torque, load.speed, strict=True)]),
-        reducer=reducer,
+        gear_ratio=reducer.ratio,
         servo_torque_max=most,
         servo_torque_rms=lasting,
         servo_speed=reducer.ratio * speed,
-        servo=smallest_motor(max(lasting, most / params.servo_overload), reducer.ratio * speed, "servo"),
+        motor=smallest_motor(max(lasting, most / params.servo_overload), reducer.ratio * speed, "servo"),
     )
 
 

@@ -7,6 +7,8 @@ warps, x from the clamp of the length L, by
     y = F x² (3 L - x) / 6 E I,      I = breadth d³/12                            [cantilever with a force at its end]
 """
 
+from dataclasses import asdict
+
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS
@@ -69,16 +71,7 @@ class Head:
 
     @computed("", "of a cycle: s of the arms at begin and end, the centre gripper's height [m], carriers of the ends")
     def phases(self) -> Json:
-        return [
-            {
-                "name": one.name,
-                "left": list(one.left),
-                "right": list(one.right),
-                "centre": list(one.centre),
-                "carries": list(one.carries),
-            }
-            for one in self.sequence
-        ]
+        return [asdict(one) for one in self.sequence]
 
     @computed("", "of the left arm along its path, and their derivatives by s [rad]")
     def servo_angles(self) -> Json:

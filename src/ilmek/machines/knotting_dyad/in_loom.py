@@ -60,13 +60,13 @@ def parts(dyad: KnottingDyad) -> tuple[Part, ...]:
             for name, length, link in links
         ),
         *(
-            motor_part(f"servo of the {one.joint}", one.servo, one.servo_torque_max, one.servo_speed, 2)
+            motor_part(f"servo of the {one.joint}", one.motor, one.servo_torque_max, one.servo_speed, 2)
             for one in motion.joints
         ),
         *(
-            reducer_part(f"reducer of the {one.joint}", one.reducer.ratio, one.servo, 2)
+            reducer_part(f"reducer of the {one.joint}", one.gear_ratio, one.motor, 2)
             for one in motion.joints
-            if one.reducer.ratio != 1
+            if one.gear_ratio != 1
         ),
         Part("axis of the centre gripper", 1, "straight", "", "linear axis", length=dyad.head.centre_stroke),
     )

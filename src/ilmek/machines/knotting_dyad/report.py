@@ -130,7 +130,7 @@ def _motion_warnings(motion: HeadMotion) -> tuple[str, ...]:
         f"no servo of the catalogue gives the {joint.joint} {format_quantity(joint.torque_max, 'mN*m')} at "
         f"{format_quantity(joint.speed_max, 'rad/s')}, behind the gears that it may have"
         for joint in motion.joints
-        if joint.servo is None
+        if joint.motor is None
     )
 
 
@@ -223,9 +223,9 @@ def _motion_tables(motion: HeadMotion) -> tuple[Table, Table]:
                 one.torque_max,
                 one.torque_rms,
                 one.speed_max,
-                one.reducer.ratio,
+                one.gear_ratio,
                 one.servo_torque_max,
-                one.servo.name if one.servo else "none is enough",
+                one.servo or "none is enough",
             )
             for one in motion.joints
         ),

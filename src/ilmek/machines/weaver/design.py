@@ -59,7 +59,7 @@ class Weaver:
 
     shortest = computed(
         "s",
-        "the shortest that speeds and accelerations allow",
+        "shortest cycle that speeds and accelerations allow",
         lambda it: it.peaks[it.limiting].shortest,
         name="cycle_time_shortest",
     )

@@ -60,7 +60,7 @@ class Grippers:
     arm: float = result("mm", "a side gripper's arm, from its rod to the yarn", name="gripper_arm")
     opening: float
     crossing: float = result("mm", "travel of the side grippers along the screw")
-    turn: float = result("deg", "rotation of them by the screw", name="crossing_turn")
+    turn: float = result("deg", "rotation of the side grippers by the screw", name="crossing_turn")
     depth: float = result("mm", "centre gripper's tip behind the warps", name="centre_depth")
     stroke: float
 

@@ -19,7 +19,7 @@ or back keep their shares of the angle that they take together.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import NamedTuple
+from typing import TypeAlias
 
 from ilmek.errors import ParameterError
 from ilmek.params import Params, kind
@@ -33,38 +33,25 @@ ROUNDING = 1e-9
 """Angles this near to each other are the same [rad]."""
 
 
-class StepMotion(NamedTuple):
-    """A motion, or an instant, at shares of a step, 1 to 4."""
-
-    name: str
-    step: int
-    begin: float
-    end: float
-
+StepMotion: TypeAlias = tuple[str, int, float, float]
+"""Name of a motion or an instant, its step, 1 to 4, and the shares of the step at which it begins and ends."""
 
 MOTIONS: Mapping[str, tuple[tuple[StepMotion, ...], tuple[StepMotion, ...]]] = {
-    SIDE_GRASP: ((StepMotion("close", 1, 0.905, 1.0),), (StepMotion("open", 3, 0.85, 0.985),)),
+    SIDE_GRASP: ((("close", 1, 0.905, 1.0),), (("open", 3, 0.85, 0.985),)),
     SIDE_MOTION: (
-        (
-            StepMotion("pull back", 2, 0.02, 0.215),
-            StepMotion("open warps", 2, 0.62, 1.0),
-            StepMotion("cross", 3, 0.0, 0.26),
-        ),
-        (StepMotion("turn back", 4, 0.015, 0.24), StepMotion("return", 4, 0.35, 0.64)),
+        (("pull back", 2, 0.02, 0.215), ("open warps", 2, 0.62, 1.0), ("cross", 3, 0.0, 0.26)),
+        (("turn back", 4, 0.015, 0.24), ("return", 4, 0.35, 0.64)),
     ),
-    CENTRE_GRASP: ((StepMotion("close", 3, 0.695, 0.83),), (StepMotion("open", 4, 0.685, 0.80),)),
-    CENTRE_MOTION: ((StepMotion("forward", 3, 0.275, 0.68),), (StepMotion("return", 4, 0.015, 0.335),)),
+    CENTRE_GRASP: ((("close", 3, 0.695, 0.83),), (("open", 4, 0.685, 0.80),)),
+    CENTRE_MOTION: ((("forward", 3, 0.275, 0.68),), (("return", 4, 0.015, 0.335),)),
     HANDLER: (
         (
-            StepMotion("to tube", 1, 0.0, 0.27),
-            StepMotion("grasp", 1, 0.285, 0.285),
-            StepMotion("draw", 1, 0.30, 0.60),
-            StepMotion("cut", 1, 0.62, 0.62),
-            StepMotion("present", 1, 0.65, 0.89),
+            *(("to tube", 1, 0.0, 0.27), ("grasp", 1, 0.285, 0.285), ("draw", 1, 0.30, 0.60)),
+            *(("cut", 1, 0.62, 0.62), ("present", 1, 0.65, 0.89)),
         ),
-        (StepMotion("home", 2, 0.23, 0.605),),
+        (("home", 2, 0.23, 0.605),),
     ),
-    SLEY: ((StepMotion("down", 4, 0.35, 0.67),), (StepMotion("up", 4, 0.685, 1.0),)),
+    SLEY: ((("down", 4, 0.35, 0.67),), (("up", 4, 0.685, 1.0),)),
 }
 """Of each track its motions forward, and its motions back."""
 
@@ -110,34 +97,28 @@ class ToolAngles(Params):
 
 def motion_angles(track: str, steps: CycleSteps, angles: ToolAngles) -> dict[str, tuple[float, float]]:
     """Begin and end of each motion of a track [rad], and of its instants, by name."""
-    forward, back = MOTIONS[track]
-    return {
-        **_placed(forward, steps, angles.start, angles.rise),
-        **_placed(back, steps, angles.return_start, angles.fall),
-    }
-
-
-def _placed(
-    motions: tuple[StepMotion, ...], steps: CycleSteps, start: float | None, span: float | None
-) -> dict[str, tuple[float, float]]:
-    usual = {one.name: (steps.angle(one.step, one.begin), steps.angle(one.step, one.end)) for one in motions}
-    if start is None and span is None:
-        return usual
-    first, last = usual[motions[0].name][0], usual[motions[-1].name][1]
-    begin = first if start is None else start
-    scale = 1.0 if span is None else span / (last - first)
-    return {
-        name: (begin + scale * (one - first), begin + scale * (then - first)) for name, (one, then) in usual.items()
-    }
+    found: dict[str, tuple[float, float]] = {}
+    starts, spans = (angles.start, angles.return_start), (angles.rise, angles.fall)
+    for motions, start, span in zip(MOTIONS[track], starts, spans, strict=True):
+        usual = {name: (steps.angle(step, one), steps.angle(step, then)) for name, step, one, then in motions}
+        if start is None and span is None:
+            found |= usual
+            continue
+        first, last = usual[motions[0][0]][0], usual[motions[-1][0]][1]
+        begin, scale = first if start is None else start, 1.0 if span is None else span / (last - first)
+        found |= {
+            name: (begin + scale * (one - first), begin + scale * (then - first)) for name, (one, then) in usual.items()
+        }
+    return found
 
 
 def require_order(tool: str, track: str, steps: CycleSteps, angles: ToolAngles) -> None:
     """Raise ParameterError, naming the angles set, where a tool does not move forward and then back within a turn."""
     if not angles.given:
         return
-    forward, back = MOTIONS[track]
+    (*_, (forward, *_)), ((back, *_), *_) = MOTIONS[track]
     at = motion_angles(track, steps, angles)
-    end, begin, last = at[forward[-1].name][1], at[back[0].name][0], at[back[-1].name][1]
+    end, begin, last = at[forward][1], at[back][0], list(at.values())[-1][1]
     given = ", ".join(f"{tool}.{name}={format_quantity(value, 'deg')}" for name, value in angles.given.items())
     shown = [format_quantity(angle, "deg") for angle in (end, begin, last)]
     if begin < end - ROUNDING:
