@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from ilmek.cli import main
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Component
-from ilmek.params import Parameter, declared
+from ilmek.params import Parameter, listed
 from ilmek.units import format_quantity, printed_unit
 from ilmek.verification import PAPERS, TITLES, reproduce
 from ilmek.verification.wording import HEADINGS, row, summary
@@ -65,7 +65,7 @@ def machine_section(machine: Component) -> str:
     """One machine: its parameters and, from a run of its defaults, its results and checks."""
     parameters = [
         (names(p), default(p), printed_unit(p.unit) or "–", p.allowed().removeprefix("allowed: "), said(p))
-        for p in declared(machine.params)
+        for p in listed(machine.params)
     ]
     report = machine.report_for({})
     results = [(f"`{r.name}`", printed_unit(r.unit) or "–", r.meaning) for r in report.results]

@@ -34,7 +34,7 @@ def machine_list() -> dict[str, str]:
 def machine_form(name: str) -> MachineForm:
     """The parameters of a machine. Raises ParameterError for an unknown name."""
     from ilmek.machines.catalogue import find_machine
-    from ilmek.params import declared
+    from ilmek.params import listed
 
     machine = find_machine(name)
-    return MachineForm(machine.name, machine.summary, tuple(declared(machine.params)))
+    return MachineForm(machine.name, machine.summary, listed(machine.params))

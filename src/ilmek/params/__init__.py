@@ -14,7 +14,7 @@ their module, because fields are often named like them (`length`, `speed`).
 from ilmek.params import kind
 from ilmek.params.kind import nested, param
 from ilmek.params.parameter import Parameter, Setting, Value
-from ilmek.params.record import Overrides, Params, declared, overrides, reachable
+from ilmek.params.record import Overrides, Params, declared, listed, overrides, reachable
 
 __all__ = [
     "Overrides",
@@ -24,6 +24,7 @@ __all__ = [
     "Value",
     "declared",
     "kind",
+    "listed",
     "nested",
     "overrides",
     "param",

@@ -184,6 +184,13 @@ def declared(cls: type[Params]) -> tuple[Parameter, ...]:
     return _declared(known)
 
 
+def listed(cls: type[Params]) -> tuple[Parameter, ...]:
+    """The parameters declared by a class and by the records nested in it, these with their dotted names."""
+    nested = ((one.name, one.metadata["nested"]) for one in fields(cls) if "nested" in one.metadata)
+    below = (replace(one, name=f"{head}.{one.name}") for head, inner in nested for one in listed(inner))
+    return (*declared(cls), *below)
+
+
 def reachable(cls: type[Params]) -> dict[str, Parameter]:
     """Every parameter that can be set, by name or dotted name: own, nested, and of the machines it overrides."""
     return dict(_reachable(cls))

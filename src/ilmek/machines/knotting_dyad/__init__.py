@@ -8,11 +8,11 @@ thesis, 2.1.3, by all real roots at once: none to three arms. Four points that a
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.knotting_dyad.design import KnottingDyad, design
-from ilmek.machines.knotting_dyad.in_loom import params_at, params_for, parts, work
+from ilmek.machines.knotting_dyad.in_loom import params_for, parts, work
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.report import DyadAnalysis, analyse, checks, figures, tables, warnings
 
-__all__ = ["MACHINE", "KnottingDyad", "KnottingDyadParams", "design", "params_at"]
+__all__ = ["MACHINE", "KnottingDyad", "KnottingDyadParams", "design"]
 
 MACHINE = Component(
     name="knotting-dyad",

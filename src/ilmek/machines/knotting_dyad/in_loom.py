@@ -30,15 +30,11 @@ CLOSEST = 0.9
 
 def params_for(task: LoomTask) -> KnottingDyadParams:
     """The parameters of the arms of a loom. Raises ParameterError for a pitch out of the bounds of its lengths."""
-    return params_at(task.params.pitch, task.params.knot)
-
-
-def params_at(pitch: float, knot: str) -> KnottingDyadParams:
-    """The parameters of arms that tie a knot on warps of a pitch [m]. Raises ParameterError as `params_for`."""
+    pitch = task.params.pitch
     warp = min(WARP * math.sqrt(pitch / PITCH), CLOSEST * pitch)
     gap = pitch - warp
     return KnottingDyadParams(
-        knot=knot,
+        knot=task.params.knot,
         warp_pitch=pitch,
         warp_diameter=warp,
         needle_diameter=min(NEEDLE, NEEDLE_SHARE * gap),
