@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design
+from ilmek.machines.knotting_four_bar.figures import sides_drawing
 from ilmek.machines.knotting_four_bar.sides import KnottingSides, hands
-from ilmek.machines.knotting_four_bar.sides_figures import drawing
 from ilmek.report import Drawing, Stroke
 from ilmek.units import deg, mm, turn
 from ilmek.viz.svg import svg
@@ -42,7 +42,7 @@ def figure(made: KnottingFourBar, sides: KnottingSides, knot: TwoHandKnot) -> Dr
     middle = knot.warps.real + 1j * float(np.mean([knot.yarn.imag.min(), knot.yarn.imag.max()]))
     ring = THICK / 2 * np.exp(1j * turn * np.arange(48) / 48)
     warps = (Stroke(warp + ring, "outline", closed=True, filled=True) for warp in middle)
-    shown = drawing(made, sides)
+    shown = sides_drawing(made, sides)
     strokes = tuple(one for one in shown.strokes if one.role != "path")
     yarn = Stroke(knot.yarn, "yarn", "yarn")
     return dataclasses.replace(shown, title=f"Both sides: {knot.name}", strokes=(*strokes, yarn, *warps))

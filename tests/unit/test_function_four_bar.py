@@ -11,7 +11,7 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.function_four_bar import MACHINE
-from ilmek.machines.function_four_bar.functions import NAMED, named
+from ilmek.machines.function_four_bar.params import NAMED, named
 from ilmek.report import Animation, Plot, Report
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.units import deg

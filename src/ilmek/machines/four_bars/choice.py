@@ -14,6 +14,9 @@ from ilmek.synthesis.candidate import Candidate
 from ilmek.synthesis.filters import REASONS, Filters, defects
 from ilmek.synthesis.four_bar import FourBar
 
+OF_POSITIONS = ("crank_angle", "circuit", "point_error", "coupler_error", "rocker_error")
+"""What a solution lists of each position."""
+
 PINS = ("a0", "b0", "a", "b", "tracer")
 
 NAMED = (
@@ -60,12 +63,8 @@ class FourBarOption:
         return {
             **dimensions(one.four_bar),
             "crank_turns": one.crank_turns,
-            "crank_angles": [position.crank_angle for position in positions],
-            "circuits": [position.circuit for position in positions],
             "branches": [position.branch for position in positions],
-            "point_errors": [position.point_error for position in positions],
-            "coupler_errors": [position.coupler_error for position in positions],
-            "rocker_errors": [position.rocker_error for position in positions],
+            **{f"{name}s": [getattr(position, name) for position in positions] for name in OF_POSITIONS},
             "order": one.order,
             "transmission": one.transmission,
             "transmission_min": one.least_transmission,
@@ -88,14 +87,14 @@ def dimensions(four_bar: FourBar) -> dict[str, Json]:
     return {**four_bar.lengths._asdict(), **pins, "branch": four_bar.branch, "grashof": four_bar.grashof.kind}
 
 
-def of_best(unit: str, doc: str, value: Callable[[FourBarOption], Any]) -> Any:
+def of_best(unit: str, doc: str, value: Callable[[Candidate], Any]) -> Any:
     """Declare a result of the solution that is drawn, of a record with `best`; left out where there is none."""
-    return computed(unit, doc, lambda it: None if it.best is None else value(it.best), optional=True)
+    return computed(unit, doc, lambda it: None if it.best is None else value(it.best.candidate), optional=True)
 
 
 def detail_of_best(unit: str, doc: str, name: str) -> Any:
     """Declare a result that the method of synthesis reports of the solution that is drawn, by its name in `details`."""
-    return of_best(unit, doc, lambda best: best.details.get(name))
+    return computed(unit, doc, lambda it: None if it.best is None else it.best.details.get(name), optional=True)
 
 
 def solutions(extra: str = "") -> Any:
@@ -137,15 +136,13 @@ class FourBarSelection:
         """The filters that four-bars failed, with the number of each."""
         return ", ".join(f"{REASONS[name]} {count}" for name, count in self.counts.items())
 
-    ground = of_best("mm", "of the solution that is drawn: A0 to B0", lambda one: one.candidate.four_bar.lengths.ground)
-    crank = of_best("mm", "A0 to A, driven", lambda one: one.candidate.four_bar.lengths.crank)
-    coupler = of_best("mm", "A to B", lambda one: one.candidate.four_bar.lengths.coupler)
-    rocker = of_best("mm", "B0 to B", lambda one: one.candidate.four_bar.lengths.rocker)
-    grashof = of_best("", "class of the four-bar", lambda one: one.candidate.grashof.kind)
-    transmission_min = of_best(
-        "deg", "least angle between coupler and rocker", lambda one: one.candidate.least_transmission
-    )
-    size = of_best("mm", "greatest extent over its motion", lambda one: one.candidate.size)
+    ground = of_best("mm", "of the solution that is drawn: A0 to B0", lambda one: one.four_bar.lengths.ground)
+    crank = of_best("mm", "A0 to A, driven", lambda one: one.four_bar.lengths.crank)
+    coupler = of_best("mm", "A to B", lambda one: one.four_bar.lengths.coupler)
+    rocker = of_best("mm", "B0 to B", lambda one: one.four_bar.lengths.rocker)
+    grashof = of_best("", "class of the four-bar", lambda one: one.grashof.kind)
+    transmission_min = of_best("deg", "least angle between coupler and rocker", lambda one: one.least_transmission)
+    size = of_best("mm", "greatest extent over its motion", lambda one: one.size)
     chosen = computed("", "number of the solution that is drawn, from 1", lambda it: it.number)
     removed_four_bars = computed(
         "",

@@ -11,7 +11,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import ParameterError
-from ilmek.linkage.quality import Grashof, grashof, input_range, transmission_angle
+from ilmek.linkage.quality import Grashof, grashof, input_range, least_transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.knotting_four_bar.model import (
@@ -93,8 +93,7 @@ class KnottingFourBar:
 
     @computed("deg", "acute angle of coupler and rocker at crank_angle, with poses least over the working range")
     def transmission_angle(self) -> float:
-        angle = transmission_angle(self.moving.motion if self.working else self.at.motion, "O2'")
-        return float(np.min(np.minimum(angle, math.pi - angle)))
+        return least_transmission_angle(self.moving.motion if self.working else self.at.motion, "O2'")
 
     drive_torque_max = computed(
         "N*m",

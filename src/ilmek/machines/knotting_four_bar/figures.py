@@ -1,31 +1,37 @@
-"""The knotting four-bar's figures: to scale at its pose, the one to use instead, and curves over the crank's range."""
+"""The knotting four-bar's figures: to scale at its pose, the one to use instead, both sides, and curves."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.attached import attached
+from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
 from ilmek.machines.animation import animated, frames
-from ilmek.machines.knotting_four_bar import sides_figures
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.model import evaluate
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
+from ilmek.machines.knotting_four_bar.sides import BODIES, KnottingSides, hands, other, outlines
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
 
 POINTS = {"O1": "crank", "O1'": "rocker", "O2": "crank", "O2'": "coupler", "H": "coupler"}
 """Points, and the bodies that they are fixed to."""
 
+CIRCLE = np.exp(1j * turn * np.arange(97) / 96)
+
 
 def figures(design: KnottingFourBar) -> tuple[Figure, ...]:
     """The mechanism to scale and in motion, the one to use instead likewise, both sides, and four plots."""
-    sides = () if design.sides is None else sides_figures.figures(design, design.sides)
+    sides: tuple[Figure, ...] = ()
+    if design.sides is not None:
+        sides = (sides_drawing(design, design.sides), _sides_moving(design, design.sides), *_sides_plots(design.sides))
     return (*_drawings(design), *sides, *_plots(design))
 
 
@@ -117,31 +123,33 @@ def _animated(params: KnottingFourBarParams, planned: Plan, at: FloatArray, stil
     return animated(state.motion, at, still, traces=traces, names=_names(params), start=start, readings=readings)
 
 
-def _positions(motion: Motion) -> dict[str, ComplexArray]:
-    """All points over the samples [m]."""
+def _positions(motion: Motion, named: Callable[[str], str] = str) -> dict[str, ComplexArray]:
+    """All points of a side over the samples [m]; named: the names of its bodies and points."""
     local = motion.plan.mechanism.point
-    return {point: np.asarray(attached(motion, body, local(body, point)).position) for point, body in POINTS.items()}
+    side = {point: (named(body), named(point)) for point, body in POINTS.items()}
+    return {point: np.asarray(attached(motion, one[0], local(*one)).position) for point, one in side.items()}
 
 
-def _poses(motion: Motion) -> list[dict[str, complex]]:
-    """All points at each sample [m]."""
-    points = _positions(motion)
+def _poses(motion: Motion, named: Callable[[str], str] = str) -> list[dict[str, complex]]:
+    """All points of a side at each sample [m]."""
+    points = _positions(motion, named)
     return [dict(zip(points, map(complex, pose), strict=True)) for pose in zip(*points.values(), strict=True)]
 
 
 def _names(params: KnottingFourBarParams) -> dict[str, str]:
-    names = ("ground", "crank", "coupler", "rocker")
-    return {name: f"{name} {format_quantity(getattr(params, name), 'mm')}" for name in names}
+    return {name: f"{name} {format_quantity(getattr(params, name), 'mm')}" for name, _, _ in LINKS}
 
 
-def _links(pose: Mapping[str, complex], names: Mapping[str, str]) -> tuple[Stroke, ...]:
-    return (
-        Stroke(np.array([pose["O1"], pose["O1'"]]), "ground", names["ground"]),
-        Stroke(np.array([pose["O1'"], pose["O2'"]]), "link", names["rocker"]),
-        Stroke(np.array([pose["O2"], pose["O2'"]]), "link", names["coupler"]),
-        Stroke(np.array([pose["O1"], pose["O2"]]), "link", names["crank"]),
-        Stroke(np.array([pose["O2"], pose["H"]]), "outline"),
+LINKS = (("ground", "O1", "O1'"), ("rocker", "O1'", "O2'"), ("coupler", "O2", "O2'"), ("crank", "O1", "O2"))
+
+
+def _links(pose: Mapping[str, complex], names: Mapping[str, str] = MappingProxyType({})) -> tuple[Stroke, ...]:
+    """The links with their names, and the arm to the hand."""
+    lines = (
+        Stroke(np.array([pose[a], pose[b]]), "ground" if link == "ground" else "link", names.get(link, ""))
+        for link, a, b in LINKS
     )
+    return (*lines, Stroke(np.array([pose["O2"], pose["H"]]), "outline"))
 
 
 def _dots(pose: Mapping[str, complex]) -> tuple[Dot, ...]:
@@ -178,3 +186,74 @@ def _plot(design: KnottingFourBar, name: str, title: str, y: Axis, curves: Mappi
         marks = (Mark(reported, "crank_angle"),)
     note = "Without the edges at the dead points." if design.range and not design.working else ""
     return Plot(name, title, Axis("crank angle", "deg"), y, series, marks, note=note)
+
+
+def sides_drawing(design: KnottingFourBar, sides: KnottingSides) -> Drawing:
+    """Both sides to scale where the hands are nearest to one another, their gears and paths."""
+    motion = solve(sides.plan, np.array([sides.knot])).require()
+    first_path, second_path = hands(sides.moving.motion)
+    paths = Stroke(first_path, "path", "path of the hand"), Stroke(second_path, "path")
+    first, second = _poses(motion)[0], _poses(motion, other)[0]
+    links = [stroke for pose in (first, second) for stroke in _links(pose)]
+    dots = (
+        *(Dot(pose[pin], pin + mark, "pivot") for pose, mark in ((first, ""), (second, "*")) for pin in ("O1", "O1'")),
+        *(Dot(pose[pin], "") for pose in (first, second) for pin in ("O2", "O2'")),
+        *(Dot(pose["H"], label, "point") for pose, label in ((first, "H"), (second, "H*"))),
+    )
+    note = (
+        f"At {format_quantity(sides.knot, 'deg')} of the first crank; dashed: pitch circles of the gears, "
+        f"{sides.gears.teeth} teeth each, module {format_quantity(sides.gears.module, 'mm')}, and the mirror."
+    )
+    strokes = (*_gears(sides), *paths, *links, *_grippers(design, sides, motion))
+    return Drawing("knotting-sides", "Both sides to scale, the hands nearest to one another", strokes, dots, note=note)
+
+
+def _sides_moving(design: KnottingFourBar, sides: KnottingSides) -> Animation:
+    """Both sides over the motion of the crank."""
+    angles = sides.moving.angle
+    at = frames(angles[0], angles[-1])
+    motion = solve(sides.plan, at).require()
+    readings = (
+        Reading("motor torque", np.interp(at, angles, sides.moving.torque), "N*m"),
+        Reading("distance of the hands", np.interp(at, angles, sides.gap), "mm"),
+    )
+    note = "The second crank is driven by the first through equal gears, whose pitch circles are dashed."
+    still = Drawing("knotting-sides-moving", "Both sides in motion", _gears(sides), note=note)
+    names = {other(pin): f"{pin}*" for pin in POINTS} | {other(body): "" for body in BODIES}
+    traces = (("coupler", "H"), (other("coupler"), other("H")))
+    start = float(design.crank_angle)
+    return animated(motion, at, still, traces=traces, names=names, start=start, readings=readings)
+
+
+def _grippers(design: KnottingFourBar, sides: KnottingSides, motion: Motion) -> tuple[Stroke, ...]:
+    """Outlines of holders and grippers."""
+    shapes = outlines(design.params, sides.plan.mechanism, "coupler").outlines[1:]
+    found: list[Stroke] = []
+    for body in ("coupler", other("coupler")):
+        origin, along = complex(motion.origin(body)[0]), complex(motion.direction(body)[0])
+        found += [Stroke(origin + along * np.asarray(shape.corners), "outline", closed=True) for shape in shapes]
+    return tuple(found)
+
+
+def _gears(sides: KnottingSides) -> tuple[Stroke, ...]:
+    """Pitch circles and the mirror's line."""
+    mechanism, radius = sides.plan.mechanism, sides.gears.pitch_radius
+    centres = [mechanism.point(GROUND, name) for name in ("O1", other("O1"))]
+    middle = sides.mirror + 1j * centres[0].imag
+    line = middle + np.array([-1j, 1j]) * radius
+    return (*(Stroke(centre + radius * CIRCLE, "construction") for centre in centres), Stroke(line, "construction"))
+
+
+def _sides_plots(sides: KnottingSides) -> tuple[Plot, Plot]:
+    """Torque of the motor for both sides and for each alone, and distance of the hands."""
+    state, x = sides.moving, Axis("crank angle", "deg")
+    torques = (
+        Series("motor, both sides", state.angle, state.torque),
+        Series("one side alone", state.angle, state.alone[0], dashed=True),
+    )
+    gap = (Series("from hand to hand", state.angle, sides.gap),)
+    nearest = (Mark(sides.knot, "nearest"),)
+    return (
+        Plot("knotting-sides-torque", "Torque on the first crank", x, Axis("torque", "N*m"), torques),
+        Plot("knotting-sides-distance", "Distance of the hands", x, Axis("distance", "mm"), gap, nearest),
+    )

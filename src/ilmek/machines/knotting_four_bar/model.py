@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.inertia import Inertia, bar, bar_mass, bar_moment, combined
+from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, PointForce
 from ilmek.elements.motors import Motor, Reducer, geared_motor
@@ -57,13 +57,11 @@ class KnottingState:
     def first_as_json(self) -> dict[str, Json]:
         """The first sample by the report's symbols [SI]: motion of coupler (2) and rocker (3), torque, pin forces."""
         motion, forces = self.motion, {pin: complex(force[0]) for pin, force in self.pins.items()}
+        links = {"2": "coupler", "3": "rocker"}
         return {
-            "theta2": float(motion.angle("coupler")[0]) % turn,
-            "theta3": float(motion.angle("rocker")[0]) % turn,
-            "omega2": float(motion.omega("coupler")[0]),
-            "omega3": float(motion.omega("rocker")[0]),
-            "alpha2": float(motion.alpha("coupler")[0]),
-            "alpha3": float(motion.alpha("rocker")[0]),
+            **{f"theta{link}": float(motion.angle(body)[0]) % turn for link, body in links.items()},
+            **{f"omega{link}": float(motion.omega(body)[0]) for link, body in links.items()},
+            **{f"alpha{link}": float(motion.alpha(body)[0]) for link, body in links.items()},
             "drive_torque": float(self.torque[0]),
             "pin_forces": {pin: abs(force) for pin, force in forces.items()},
             "pin_force_vectors": {pin: [force.real, force.imag] for pin, force in forces.items()},
@@ -145,19 +143,32 @@ def mechanism(params: KnottingFourBarParams, ground_angle: float, origin: comple
     )
 
 
+def coupler_ends(params: KnottingFourBarParams) -> tuple[float, float]:
+    """Ends of the coupler's bar on its line from O2 towards O2' [m]: it reaches from pin to pin and to the hand."""
+    return min(0.0, params.hand), max(params.coupler, params.hand)
+
+
+def tool(params: KnottingFourBarParams) -> dict[str, tuple[float, float, float]]:
+    """Holder and gripper beyond the coupler's end on the hand's side: start and end on its line, width [m]."""
+    end, outward = (coupler_ends(params)[1], 1) if params.hand > 0 else (coupler_ends(params)[0], -1)
+    middle = end + outward * params.holder_length
+    tip = middle + outward * params.gripper_length
+    return {"holder": (end, middle, params.holder_width), "gripper": (middle, tip, params.gripper_width)}
+
+
 def parts(params: KnottingFourBarParams) -> dict[str, Inertia]:
-    """The bars of the links, and holder and gripper beyond the coupler's end on the hand's side."""
-    near, far = min(0.0, params.hand), max(params.coupler, params.hand)
-    end, outward = (far, 1) if params.hand > 0 else (near, -1)
-    holder = end + outward * params.holder_length / 2
-    gripper = end + outward * (params.holder_length + params.gripper_length / 2)
-    return {
-        "crank": _bar(params, 0.0, params.crank),
-        "coupler bar": _bar(params, near, far),
-        "holder": _block(params, holder, params.holder_length, params.holder_width),
-        "gripper": _block(params, gripper, params.gripper_length, params.gripper_width),
-        "rocker": _bar(params, 0.0, params.rocker),
+    """The bars of the links, and holder and gripper."""
+    bars = {
+        "crank": (0.0, params.crank, params.width),
+        "coupler bar": (*coupler_ends(params), params.width),
+        **tool(params),
+        "rocker": (0.0, params.rocker, params.width),
     }
+    masses = {
+        name: float(bar_mass(abs(end - start), width, params.thickness, params.density))
+        for name, (start, end, width) in bars.items()
+    }
+    return {name: bar(start, end, mass=masses[name], width=width) for name, (start, end, width) in bars.items()}
 
 
 def inertias(params: KnottingFourBarParams) -> dict[str, Inertia]:
@@ -165,16 +176,6 @@ def inertias(params: KnottingFourBarParams) -> dict[str, Inertia]:
     made = parts(params)
     hand = combined(made["coupler bar"], made["holder"], made["gripper"])
     return {"crank": made["crank"], "coupler": hand, "rocker": made["rocker"]}
-
-
-def _bar(params: KnottingFourBarParams, start: float, end: float) -> Inertia:
-    mass = float(bar_mass(end - start, params.width, params.thickness, params.density))
-    return bar(start, end, mass=mass, width=params.width)
-
-
-def _block(params: KnottingFourBarParams, middle: float, length: float, width: float) -> Inertia:
-    mass = float(bar_mass(length, width, params.thickness, params.density))
-    return Inertia(mass, complex(middle), float(bar_moment(mass, length, width)))
 
 
 def evaluate(

@@ -8,6 +8,7 @@ rocker.
 import numpy as np
 
 from ilmek.arrays import ComplexArray, Float, FloatArray
+from ilmek.linkage.quality import least_transmission_angle
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.knotting_four_bar.model import KnottingState, drive_for, evaluate, mechanism
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, params_of
@@ -77,15 +78,13 @@ class PosedFourBar:
 
     def to_use_instead(self) -> Json:
         """Parameters to set, crank and torque at the poses, gears and servo for the greatest torque there [SI]."""
-        params, motion = self.params, self.state.motion
-        drive = drive_for(params, self.state.torque_max)
-        sines = np.abs(np.sin(motion.angle("coupler") - motion.angle("rocker")))
+        drive = drive_for(self.params, self.state.torque_max)
         names = ("ground", "crank", "coupler", "rocker", "hand", "ground_angle", "branch")
         return {
-            **{name: getattr(params, name) for name in names},
+            **{name: getattr(self.params, name) for name in names},
             "crank_angles": self.crank_angles.tolist(),
             "drive_torques": self.state.torque.tolist(),
-            "transmission_angle_min": float(np.min(np.arcsin(sines))),
+            "transmission_angle_min": least_transmission_angle(self.state.motion, "O2'"),
             "gear_ratio": drive.gear_ratio,
             "servo": drive.servo_name,
         }

@@ -23,7 +23,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.knotting_four_bar.model import inertias
+from ilmek.machines.knotting_four_bar.model import inertias, tool
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.plane.outlines import Outline
 from ilmek.plane.vectors import unit
@@ -96,13 +96,9 @@ class KnottingSides:
     )
     def gear_data(self) -> Json:
         gears = self.gears
+        names = ("module", "teeth", "width", "pitch_radius", "pressure_angle", "profile_shift")
         return {
-            "module": gears.module,
-            "teeth": gears.teeth,
-            "width": gears.width,
-            "pitch_radius": gears.pitch_radius,
-            "pressure_angle": gears.pressure_angle,
-            "profile_shift": gears.profile_shift,
+            **{name: getattr(gears, name) for name in names},
             "tooth_force_max": self.tooth,
             "separating_force_max": gears.separating(self.tooth),
             "bending_stress": gears.bending(self.tooth),
@@ -196,16 +192,15 @@ def both_sides(params: KnottingFourBarParams, one: Plan, angles: FloatArray) -> 
     """
     motion = solve(one, angles).require()
     start = one.mechanism.point(GROUND, "O1")
-    reaches = {facing: _reach(params, motion, start, facing) for facing in (+1, -1)}
-    facing = max((+1, -1), key=lambda side: _hand(motion, start, side))
-    least = 2 * reaches[facing] + params.side_clearance
+    hand = motion.point("coupler", "H").position.real
+    facing = max((+1, -1), key=lambda side: float(np.max(side * (hand - start.real))))
+    least = 2 * _reach(params, motion, start, facing) + params.side_clearance
     runs = CrankMotion(angles, params.speed, params.acceleration), CrankMotion(angles, 0.0, 0.0)
     gears = _gears(params, least, max(float(np.max(np.abs(_alone(params, one, run)))) for run in runs))
     mirror = start.real + facing * gears.distance / 2
     planned, image = plan(coupled(one.mechanism, mirror)), plan(mirrored(one.mechanism, mirror))
     geared = [dataclasses.replace(run, disc=wheel(params, gears)) for run in runs]
     moving, standing = (_moved(params, (one, image), planned, run) for run in geared)
-    hand = facing * motion.point("coupler", "H").position.real
     return KnottingSides(
         mirror=mirror,
         facing=facing,
@@ -214,7 +209,7 @@ def both_sides(params: KnottingFourBarParams, one: Plan, angles: FloatArray) -> 
         plan=planned,
         moving=moving,
         standing=standing,
-        knot=float(angles[int(np.argmax(hand))]),
+        knot=float(angles[int(np.argmax(facing * hand))]),
     )
 
 
@@ -267,24 +262,13 @@ def wheel(params: KnottingFourBarParams, gears: EqualGears) -> Inertia:
 
 def outlines(params: KnottingFourBarParams, mechanism: Mechanism, body: str) -> OutlinedBody:
     """A body of the first side as seen in the plane of motion: its bar, on the coupler holder and gripper too."""
-    points = list(mechanism.body(body).points.values())
-    shapes = [Outline(tuple(points), params.width / 2)]
+    shapes = [Outline(tuple(mechanism.body(body).points.values()), params.width / 2)]
     if body == "coupler":
-        outward = 1 if params.hand > 0 else -1
-        end = max(0.0, params.coupler, params.hand) if outward > 0 else min(0.0, params.hand)
-        for length, width in (
-            (params.holder_length, params.holder_width),
-            (params.gripper_length, params.gripper_width),
-        ):
-            far = end + outward * length
-            shapes.append(Outline(tuple(complex(x, side * width / 2) for x in (end, far) for side in (+1, -1))))
-            end = far
+        shapes += [
+            Outline(tuple(complex(x, side * width / 2) for x in (start, end) for side in (+1, -1)))
+            for start, end, width in tool(params).values()
+        ]
     return OutlinedBody(body, tuple(shapes))
-
-
-def _hand(motion: Motion, start: complex, facing: int) -> float:
-    """Greatest distance of the hand from the crank's pivot to one side [m]."""
-    return float(np.max(facing * (motion.point("coupler", "H").position.real - start.real)))
 
 
 def _reach(params: KnottingFourBarParams, motion: Motion, start: complex, facing: int) -> float:

@@ -47,9 +47,9 @@ class MotionFourBar(FourBarDesign):
     judged_links: int = result("", "links that these pairs were chosen from")
 
     point_error = of_best(
-        "mm", "greatest distance from a pose's point, from the solution's motion", lambda one: one.candidate.point_error
+        "mm", "greatest distance from a pose's point, from the solution's motion", lambda one: one.point_error
     )
-    angle_error = of_best("deg", "greatest difference from a pose's angle", lambda one: one.candidate.angle_error)
+    angle_error = of_best("deg", "greatest difference from a pose's angle", lambda one: one.angle_error)
     solutions = solutions()
     links = computed(
         "",

@@ -16,22 +16,14 @@ LINE = "(20mm,20mm) (20mm,25mm) (20mm,30mm) (20mm,35mm) (20mm,40mm) (20mm,45mm)"
 
 EITHER = "either"
 
-NAMED = {
-    "ground": "ground",
-    "crank": "crank",
-    "coupler": "coupler",
-    "rocker": "rocker",
-    "tracer_along": "along",
-    "tracer_across": "across",
-    "pivot_x": "x",
-    "pivot_y": "y",
-    "turn": "turn",
-    "start": "start",
-}
-"""Bounds: their parameters, and their names in `PathTask.bounds`."""
-
 ANGLES = ("turn", "start")
 LENGTHS = ("ground", "crank", "coupler", "rocker")
+
+NAMED = {
+    **{name: name for name in (*LENGTHS, *ANGLES)},
+    "tracer_along": "along", "tracer_across": "across", "pivot_x": "x", "pivot_y": "y",
+}
+"""Bounds: their parameters, and their names in `PathTask.bounds`."""
 
 EXACT = (3, 4, 5)
 """Timed points that are met exactly."""
