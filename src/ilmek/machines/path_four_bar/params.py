@@ -21,7 +21,10 @@ LENGTHS = ("ground", "crank", "coupler", "rocker")
 
 NAMED = {
     **{name: name for name in (*LENGTHS, *ANGLES)},
-    "tracer_along": "along", "tracer_across": "across", "pivot_x": "x", "pivot_y": "y",
+    "tracer_along": "along",
+    "tracer_across": "across",
+    "pivot_x": "x",
+    "pivot_y": "y",
 }
 """Bounds: their parameters, and their names in `PathTask.bounds`."""
 

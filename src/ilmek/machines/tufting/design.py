@@ -65,8 +65,8 @@ class Tufting:
                      signs of main_torque and driven_torque [N m]
     breaks           crank angles [rad] at which the friction jumps
     state            over one turn, both ends included; at breaks twice, with both limits
-    peaks            greatest magnitudes over the turn: main_torque, driven_torque, joints, needle_velocity and
-                     needle_acceleration, and of all bars together total_torque and bearing
+    peaks            greatest values over the turn: magnitudes of main_torque, driven_torque, joints, needle_velocity
+                     and needle_acceleration; total_torque and bearing of all bars together
     work             over a turn [J]: drive, friction (in the backing), and sums for the rms torques [N² m² rad]
     at               at the given crank angle, if any
     """
@@ -179,7 +179,7 @@ def design(params: TuftingParams) -> Tufting:
         ranges={**ranges, **torques},
         breaks=breaks,
         state=evaluated(*turn_with(breaks)),
-        peaks={**_magnitudes(top), **quality, **shaft},
+        peaks={**top, **quality, **shaft},
         work={name: math.fsum(parts) for name, parts in work.items()},
         at=None if params.crank_angle is None else evaluated(np.array([params.crank_angle])),
         stroke=stroke,
@@ -260,23 +260,14 @@ def _all_breaks(params: TuftingParams, breaks: tuple[float, ...]) -> list[float]
 
 
 def _curves(state: TuftingState) -> dict[str, FloatArray]:
-    """Torques with both signs, magnitudes of joint forces; the driven shaft's force on rocker and arm besides C."""
+    """Torques with both signs; magnitudes of torques and forces, the driven shaft's on rocker and arm besides C."""
     forces = {
         **{name: state.joints[name] for name in JOINTS},
         "C on rocker": state.joints["C"] - state.joints["shaft"],
         "C on arm": state.joints["shaft"],
     }
     torques = {"main_torque": state.main_torque, "driven_torque": state.driven_torque}
-    return {**_both_ends(torques), **{name: np.abs(force) for name, force in forces.items()}}
-
-
-def _magnitudes(top: Mapping[str, Extremum]) -> dict[str, Extremum]:
-    """The greatest magnitudes: of a torque the greater of its two ends."""
-    joints = {name: peak for name, peak in top.items() if not name.endswith((" least", " greatest"))}
-    torques = {
-        name: max((top[f"{name} least"], top[f"{name} greatest"]), key=lambda peak: peak.value) for name in TORQUES
-    }
-    return {**torques, **joints}
+    return {**_both_ends(torques), **{name: np.abs(values) for name, values in {**torques, **forces}.items()}}
 
 
 def _shaft(
