@@ -30,6 +30,8 @@ def command(name: str | None, json_to: str | None) -> None:
     if not give_json(json_to, form.as_json()):
         console().print(f"{form.machine}: {form.summary}")
         show_table(("parameter", "default", "unit", "allowed", "meaning"), [_row(p) for p in form.parameters])
+        if form.machines:
+            console().print(f"and every parameter of {', '.join(form.machines)}, as {form.machines[0]}.NAME=VALUE")
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str, str]:
