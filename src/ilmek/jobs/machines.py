@@ -14,16 +14,25 @@ FIELDS = ("name", "default", "unit", "above", "at_least", "below", "at_most", "c
 
 @dataclass(frozen=True, slots=True)
 class MachineForm:
-    """The declared parameters of a machine."""
+    """The declared parameters of a machine, nested ones by dotted names.
+
+    machines  whose parameters can be set too, as `shedding.law`
+    """
 
     machine: str
     summary: str
     parameters: "tuple[Parameter, ...]"
+    machines: tuple[str, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """The parameters as plain data: default and bounds in SI, and the unit they are shown in."""
         parameters = [{name: getattr(parameter, name) for name in FIELDS} for parameter in self.parameters]
-        return {"machine": self.machine, "summary": self.summary, "parameters": parameters}
+        return {
+            "machine": self.machine,
+            "summary": self.summary,
+            "parameters": parameters,
+            "machines": list(self.machines),
+        }
 
 
 def machine_list() -> dict[str, str]:
@@ -34,7 +43,7 @@ def machine_list() -> dict[str, str]:
 def machine_form(name: str) -> MachineForm:
     """The parameters of a machine. Raises ParameterError for an unknown name."""
     from ilmek.machines.catalogue import find_machine
-    from ilmek.params import listed
+    from ilmek.params import listed, overridden
 
     machine = find_machine(name)
-    return MachineForm(machine.name, machine.summary, listed(machine.params))
+    return MachineForm(machine.name, machine.summary, listed(machine.params), overridden(machine.params))

@@ -14,7 +14,7 @@ their module, because fields are often named like them (`length`, `speed`).
 from ilmek.params import kind
 from ilmek.params.kind import nested, param
 from ilmek.params.parameter import Parameter, Setting, Value
-from ilmek.params.record import Overrides, Params, declared, listed, overrides, reachable
+from ilmek.params.record import Overrides, Params, declared, listed, overridden, overrides, reachable
 
 __all__ = [
     "Overrides",
@@ -26,6 +26,7 @@ __all__ = [
     "kind",
     "listed",
     "nested",
+    "overridden",
     "overrides",
     "param",
     "reachable",

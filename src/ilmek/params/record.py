@@ -184,28 +184,37 @@ def declared(cls: type[Params]) -> tuple[Parameter, ...]:
     return _declared(known)
 
 
+def reachable(cls: type[Params], *, machines: bool = True) -> dict[str, Parameter]:
+    """Every parameter that can be set, by name or dotted name: own, nested, and of the machines that it overrides.
+
+    machines  False: without those of the machines
+    """
+    return dict(_reachable(cls, machines))
+
+
 def listed(cls: type[Params]) -> tuple[Parameter, ...]:
-    """The parameters declared by a class and by the records nested in it, these with their dotted names."""
-    nested = ((one.name, one.metadata["nested"]) for one in fields(cls) if "nested" in one.metadata)
-    below = (replace(one, name=f"{head}.{one.name}") for head, inner in nested for one in listed(inner))
-    return (*declared(cls), *below)
+    """The parameters of a class and of the records nested in it, with dotted names."""
+    return tuple(replace(one, name=name) for name, one in reachable(cls, machines=False).items())
 
 
-def reachable(cls: type[Params]) -> dict[str, Parameter]:
-    """Every parameter that can be set, by name or dotted name: own, nested, and of the machines it overrides."""
-    return dict(_reachable(cls))
+def overridden(cls: type[Params]) -> tuple[str, ...]:
+    """The machines whose parameters can be set by dotted names."""
+    return tuple(name for one in fields(cls) if "overrides" in one.metadata for name in one.metadata["overrides"]())
 
 
-def _reachable(cls: type[Params]) -> Iterator[tuple[str, Parameter]]:
-    yield from ((parameter.name, parameter) for parameter in declared(cls))
-    for one in fields(cls):
+def _reachable(cls: type[Params], machines: bool) -> Iterator[tuple[str, Parameter]]:
+    own = {parameter.name: parameter for parameter in declared(cls)}
+    ordered: Any = cls  # as in `declared`
+    for one in _ordered(ordered):
         inner: Mapping[str, type[Params]] = {}
         if "nested" in one.metadata:
             inner = {one.name: one.metadata["nested"]}
         elif "overrides" in one.metadata:
-            inner = one.metadata["overrides"]()
+            inner = one.metadata["overrides"]() if machines else {}
+        else:
+            yield one.name, own[one.name]
         for head, below in inner.items():
-            yield from ((f"{head}.{name}", parameter) for name, parameter in _reachable(below))
+            yield from ((f"{head}.{name}", parameter) for name, parameter in _reachable(below, machines))
 
 
 @cache
