@@ -28,7 +28,7 @@ def made(**settings):
 
 
 def numbers(found: CamDesign) -> dict:
-    return {result.name: result.value for result in results_of(analyse(found))}
+    return {result.name: result.value for result in results_of(*MACHINE.results(analyse(found)))}
 
 
 def results(**settings):

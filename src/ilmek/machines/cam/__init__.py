@@ -5,9 +5,11 @@ flat-faced and spherical followers.
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.cam.analysis import CamAnalysis, analyse
+from ilmek.machines.cam.analysis import CamAnalysis, analyse, results
+from ilmek.machines.cam.compliant_follower import CompliantFollower
 from ilmek.machines.cam.design import CamDesign, design
 from ilmek.machines.cam.figures import figures
+from ilmek.machines.cam.forces import CamExtremes
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.parts import cam_tables, plates
 from ilmek.machines.cam.report import checks, tables, warnings
@@ -22,7 +24,8 @@ MACHINE = Component(
     params=CamParams,
     design=design,
     analysis=analyse,
-    reported=(CamAnalysis,),
+    results=results,
+    reported=(CamDesign, CamAnalysis, CamExtremes, CompliantFollower),
     checks=checks,
     tables=tables,
     figures=figures,

@@ -42,11 +42,11 @@ class CamAnalysis:
     compliant  the follower on its linkage; None where that is rigid
     """
 
-    design: CamDesign = group()
+    design: CamDesign
     on_rise: Extremum
     motion: SlidePeaks | ArmPeaks = group()
     least: Extremum
-    compliant: CompliantFollower | None = group()
+    compliant: CompliantFollower | None
 
     pressure_angle_max = computed("deg", "largest pressure angle on the rise", lambda it: it.on_rise.value)
     pressure_angle_at = computed("deg", "cam angle of the same", lambda it: it.on_rise.at)
@@ -113,6 +113,11 @@ def analyse(design: CamDesign) -> CamAnalysis:
         infimum(lambda q: design.state(q).force, design.cam.knots),
     )
     return CamAnalysis(design, rise, _motion(design), least, compliant_follower(design))
+
+
+def results(found: CamAnalysis) -> tuple[object, ...]:
+    """The records whose results are reported: size and parts, motion, forces, vibration."""
+    return found.design, found, found.design.extremes, found.compliant
 
 
 def pressure_angle_on(design: CamDesign, knots: FloatArray) -> Extremum:

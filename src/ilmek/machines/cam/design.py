@@ -26,7 +26,7 @@ from ilmek.machines.cam.hub import Hub, bore_for, hub_for
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.rollers import ROLLERS, Roller, RollerDuty, find_roller
 from ilmek.machines.cam.shape import CamShape, CamSize, cam_of, cams_of, part_knots, programme_of, roller_width, size_of
-from ilmek.records import computed, group, record, result
+from ilmek.records import computed, record, result
 from ilmek.report import Json
 
 ROOM = 0.8
@@ -46,7 +46,7 @@ class CamDesign:
     duty: RollerDuty | None
     hub: Hub
     lift_off: LiftOff
-    extremes: CamExtremes = group()
+    extremes: CamExtremes
     area: float
     face_width: float = result("mm", "thickness of the cam")
     pressure_limit: float = result("MPa", "allowed Hertz pressure", name="hertz_pressure_limit")

@@ -10,12 +10,13 @@ time, so that 600 x 10 N never act together.
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
-from ilmek.machines.shedding.analysis import SheddingAnalysis, analyse
-from ilmek.machines.shedding.design import SheddingDesign, design
+from ilmek.machines.shedding.analysis import SheddingAnalysis, analyse, results
+from ilmek.machines.shedding.design import CamStack, SheddingDesign, SheddingDrive, design
 from ilmek.machines.shedding.figures import figures
 from ilmek.machines.shedding.in_loom import fit, parts, work
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.report import checks, tables, warnings
+from ilmek.machines.shedding.shaft import Shaft
 from ilmek.machines.shedding.workshop import cam_tables, plates
 
 __all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design"]
@@ -27,7 +28,8 @@ MACHINE = Component(
     params=SheddingParams,
     design=design,
     analysis=analyse,
-    reported=(SheddingAnalysis,),
+    results=results,
+    reported=(SheddingDesign, CamStack, Shaft, SheddingDrive, SheddingAnalysis),
     checks=checks,
     tables=tables,
     figures=figures,

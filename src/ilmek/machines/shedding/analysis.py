@@ -7,7 +7,7 @@ import numpy as np
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.phases import Shed, flattest, shed_of
 from ilmek.machines.shedding.warp import bridged, draped, nose_radius, shed_warp, warp_force
-from ilmek.records import computed, group, record
+from ilmek.records import computed, record
 from ilmek.report import Json
 from ilmek.weaving.draping import Bridges, DrapedWarp
 from ilmek.weaving.shed import ShedWarp
@@ -24,7 +24,7 @@ class SheddingAnalysis:
     bridges             hollows of the cam that a taut yarn bridges; None where there is none
     """
 
-    design: SheddingDesign = group()
+    design: SheddingDesign
     together: Shed
     flattest: Shed
     warp: ShedWarp | None
@@ -79,3 +79,9 @@ def analyse(design: SheddingDesign) -> SheddingAnalysis:
     params, even, cam = design.params, design.even, design.cam
     flat = design.shed if params.phase == "flattest" else flattest(params, even)
     return SheddingAnalysis(design, shed_of(params, even), flat, shed_warp(params), draped(params, cam), bridged(cam))
+
+
+def results(found: SheddingAnalysis) -> tuple[object, ...]:
+    """The records whose results are reported: cams and shed, stack, shaft, drive, warps."""
+    design = found.design
+    return design, design.stack, design.shaft, design.drive, found

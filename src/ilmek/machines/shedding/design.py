@@ -29,7 +29,7 @@ from ilmek.machines.shedding.phases import Shed, chosen_shed
 from ilmek.machines.shedding.shaft import Shaft, shaft_for
 from ilmek.machines.shedding.warp import lifting_work
 from ilmek.num.piecewise import Extremum, supremum
-from ilmek.records import computed, group, record, result
+from ilmek.records import computed, record, result
 from ilmek.report import Json
 
 
@@ -91,9 +91,9 @@ class SheddingDesign:
     odd: CamProgramme
     shed: Shed
     across_max: Extremum
-    stack: CamStack = group()
-    shaft: Shaft = group()
-    drive: SheddingDrive = group()
+    stack: CamStack
+    shaft: Shaft
+    drive: SheddingDrive
     shuttle_window: tuple[float, float]
 
     prime_radius = computed("mm", "prime radius of the cam, Rp", lambda it: it.cam.prime_radius)
