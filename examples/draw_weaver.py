@@ -8,8 +8,8 @@ from pathlib import Path
 from ilmek.machines import warp_tension, weaver
 from ilmek.machines.warp_tension.analysis import analyse
 from ilmek.machines.warp_tension.figures import side_view
-from ilmek.machines.weaver.cam_report import cams_drawing
 from ilmek.machines.weaver.plan_view import plan_view
+from ilmek.machines.weaver.report import cams_drawing
 from ilmek.report import Drawing
 from ilmek.units import mm
 from ilmek.viz.svg import svg

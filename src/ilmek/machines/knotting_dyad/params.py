@@ -46,29 +46,23 @@ class KnottingDyadParams(Params):
     )
     pivot_room: float = _size(40 * mm, "least distance between the pivots of both arms, for their motors", at_most=2)
     bend_limit: float = kind.angle(
-        30 * deg, at_least=1 * deg, below=90 * deg, doc="least angle between the links, off straight"
+        30 * deg, at_least=1 * deg, below=90 * deg, doc="least angle of the links off straight"
     )
-    points: str | None = kind.text(
-        None, doc="four points to go through instead of the knot's, like (12mm,4mm) (18.5mm,9.5mm) …"
-    )
-    angles: str | None = kind.text(
-        None, doc="angles of the first link at these points, like 20deg 65deg …", symbol="θ1"
-    )
+    points: str | None = kind.text(None, doc="four points instead of the knot's, like (12mm,4mm) (18.5mm,9.5mm) …")
+    angles: str | None = kind.text(None, doc="angles of the first link at these points: 20deg 65deg …", symbol="θ1")
     link_limit: float = _size(150 * mm, "longest link that the machine has room for", at_most=5.0)
     joint_speed: float = kind.angular_speed(40.0, unit="rad/s", above=0.0, at_most=1e9, doc="greatest speed of a joint")
     joint_acceleration: float = kind.angular_acceleration(
         2e3, above=0.0, at_most=1e9, doc="greatest acceleration of a joint"
     )
     joint_jerk: float = kind.angular_jerk(2e5, above=0.0, at_most=1e9, doc="greatest jerk of a joint")
-    centre_speed: float = kind.speed(2.0, above=0.0, at_most=1e9, doc="greatest speed of a centre gripper")
+    centre_speed: float = kind.speed(2.0, above=0.0, at_most=1e9, doc="greatest speed of the centre gripper")
     centre_acceleration: float = kind.acceleration(
-        50.0, above=0.0, at_most=1e9, doc="greatest acceleration of a centre gripper"
+        50.0, above=0.0, at_most=1e9, doc="greatest acceleration of the same"
     )
-    centre_jerk: float = kind.jerk(5e3, above=0.0, at_most=1e9, doc="greatest jerk of a centre gripper")
-    grasp_time: float = kind.time(20 * ms, unit="ms", at_least=0.0, at_most=10.0, doc="for a gripper to take an end")
-    release_time: float = kind.time(
-        10 * ms, unit="ms", at_least=0.0, at_most=10.0, doc="for a gripper to release an end"
-    )
+    centre_jerk: float = kind.jerk(5e3, above=0.0, at_most=1e9, doc="greatest jerk of the same")
+    grasp_time: float = kind.time(20 * ms, unit="ms", at_least=0.0, at_most=10.0, doc="time of a grasp")
+    release_time: float = kind.time(10 * ms, unit="ms", at_least=0.0, at_most=10.0, doc="time of a release")
     elbow_drive: str = kind.choice(
         "belt", ("belt", "direct"), doc="second link by a belt from the pivot, or by a servo in the elbow"
     )
@@ -77,12 +71,8 @@ class KnottingDyadParams(Params):
     )
     link_thickness: float = _size(3 * mm, "thickness of the links, across their plane")
     density: float = kind.density(2700.0, above=0.0, at_most=1e5, doc="density of the links; aluminium")
-    gripper_mass: float = kind.mass(
-        2 * g, unit="g", at_least=0.0, at_most=10.0, doc="mass of the gripper in an arm's tip"
-    )
-    yarn_pull: float = kind.force(
-        0.5, at_least=0.0, at_most=1e4, doc="force of the yarn on a tip that leads it, against its motion"
-    )
+    gripper_mass: float = kind.mass(2 * g, unit="g", at_least=0.0, at_most=10.0, doc="mass of an arm's gripper")
+    yarn_pull: float = kind.force(0.5, at_least=0.0, at_most=1e4, doc="force of the yarn against the tip that leads it")
     gravity: float = kind.acceleration(
         9.81, at_least=0.0, at_most=1e3, doc="gravity, in the section's plane and away from the pile; 0: horizontal"
     )
@@ -93,9 +83,7 @@ class KnottingDyadParams(Params):
         doc="turns of a servo for one of its joint; default: the least with which the smallest servo is enough",
     )
     gear_efficiency: float = kind.ratio(0.9, above=0.0, at_most=1.0, doc="efficiency of the gears", symbol="η")
-    rotor_inertia: float = kind.inertia(
-        5e-6, at_least=0.0, at_most=1.0, doc="of a servo's rotor; 100 W classes have about 5e-6"
-    )
+    rotor_inertia: float = kind.inertia(5e-6, at_least=0.0, at_most=1.0, doc="of the rotor; 100 W servos: about 5e-6")
     servo_overload: float = kind.ratio(
         3.0, at_least=1.0, at_most=10.0, doc="short peaks of torque that a servo bears, over its continuous torque"
     )

@@ -8,14 +8,13 @@ from dataclasses import replace
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
-from ilmek.machines.weaver.cam_report import cam_tables, plates
 from ilmek.machines.weaver.cyclogram import relations
 from ilmek.machines.weaver.design import Weaver, design
 from ilmek.machines.weaver.in_loom import params_for, parts, work
 from ilmek.machines.weaver.limits import head_mass, mass_of
 from ilmek.machines.weaver.moves import step_time, travel_time
 from ilmek.machines.weaver.params import WeaverParams
-from ilmek.machines.weaver.report import WeaverAnalysis, analyse, checks, figures, tables, warnings
+from ilmek.machines.weaver.report import WeaverAnalysis, analyse, cam_tables, checks, figures, plates, tables, warnings
 from ilmek.timing.cyclogram import Cyclogram
 
 __all__ = [

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.carpet.pile import PileParams, knot_length
@@ -41,13 +42,23 @@ TOOLS = {
 """Of each track the parameters of its tool."""
 
 
+def _speed(default: float, doc: str) -> Any:
+    return kind.speed(default, at_least=1e-3, at_most=100.0, doc=doc)
+
+
+def _acceleration(default: float, doc: str) -> Any:
+    return kind.acceleration(default, at_least=1e-3, at_most=1e5, doc=doc)
+
+
+def _jerk(default: float, doc: str) -> Any:
+    return kind.jerk(default, at_least=1e-3, at_most=1e9, doc=doc)
+
+
 @dataclass(frozen=True, slots=True)
 class WeaverParams(Params):
     """The knot, the head's timing and dimensions, and the limits of what moves."""
 
-    cycle: float = kind.time(
-        2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot; longer where limits demand it"
-    )
+    cycle: float = kind.time(2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot; longer by the limits")
     optimise: bool = kind.flag(False, doc="stretch and overlap the motions within their order for least accelerations")
     law: str = kind.choice("modified-sine", SMOOTH_LAWS, doc="law of all motions")
     prepare_end: float = kind.angle(104 * deg, above=0.0, below=turn, doc="cam angle at which the pile is ready")
@@ -89,16 +100,12 @@ class WeaverParams(Params):
     warp_diameter: float | None = kind.length(
         None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual wool warp"
     )
-    speed_limit: float = kind.speed(
-        1.0, at_least=1e-3, at_most=100.0, doc="allowed speed of grippers, sley and handler's tip"
-    )
-    acceleration_limit: float = kind.acceleration(
-        20.0, at_least=1e-3, at_most=1e5, doc="allowed acceleration of the same"
-    )
+    speed_limit: float = _speed(1.0, "allowed speed of grippers, sley and handler's tip")
+    acceleration_limit: float = _acceleration(20.0, "allowed acceleration of the same")
     tool_mass: float = kind.mass(0.15, at_least=0.0, at_most=100.0, doc="mass that each cam moves")
     lever: float = kind.ratio(2.0, above=0.05, at_most=20.0, doc="motion of a tool over its cam's follower")
     pinion: float = kind.length(
-        6 * mm, at_least=1e-3, at_most=0.1, doc="radius of the handler's pinion on the rack of its cam"
+        6 * mm, at_least=1e-3, at_most=0.1, doc="radius of the handler's pinion on its cam's rack"
     )
     closure: str = kind.choice("spring", ("spring", "groove"), doc="what holds the followers to their cams")
     contact_force: float = kind.force(5.0, at_least=0.0, at_most=1e4, doc="least force of a sprung roller")
@@ -114,31 +121,21 @@ class WeaverParams(Params):
         None, at_least=0.1, at_most=500.0, doc="mass of the head on its carriage; default: as designed"
     )
     cam_room: float = kind.length(250 * mm, at_least=0.02, at_most=2.0, doc="room for a cam's diameter in the head")
-    knot_pitch: float = kind.length(
-        4 * mm, at_least=1 / FINEST, at_most=1 / COARSEST, doc="distance of neighbouring knots"
-    )
+    knot_pitch: float = kind.length(4 * mm, at_least=1 / FINEST, at_most=1 / COARSEST, doc="distance of two knots")
     row_pitch: float | None = kind.length(
         None, at_least=1 / FINEST, at_most=1 / COARSEST, doc="distance of rows; default: as of the knots"
     )
-    carriage_speed: float = kind.speed(0.25, at_least=1e-3, at_most=100.0, doc="speed of the head along the row")
-    carriage_acceleration: float = kind.acceleration(
-        2.0, at_least=1e-3, at_most=1e5, doc="acceleration of the head along the row"
-    )
-    carriage_jerk: float = kind.jerk(100.0, at_least=1e-3, at_most=1e9, doc="jerk of the head along the row")
-    cutter_acceleration: float = kind.acceleration(
-        50.0, at_least=1e-3, at_most=1e5, doc="acceleration of the cutter's blade"
-    )
+    carriage_speed: float = _speed(0.25, "speed of the head along the row")
+    carriage_acceleration: float = _acceleration(2.0, "acceleration of the head along the row")
+    carriage_jerk: float = _jerk(100.0, "jerk of the head along the row")
+    cutter_acceleration: float = _acceleration(50.0, "acceleration of the cutter's blade")
     tubes: int = kind.count(16, at_least=1, at_most=255, doc="yarn tubes, one for each colour")
     tube_pitch: float = kind.length(12 * mm, at_least=1e-6, at_most=1.0, doc="distance of neighbouring tubes")
-    selector_speed: float = kind.speed(0.2, at_least=1e-3, at_most=100.0, doc="speed of the colour selector")
-    selector_acceleration: float = kind.acceleration(
-        1.0, at_least=1e-3, at_most=1e5, doc="acceleration of the colour selector"
-    )
-    selector_jerk: float = kind.jerk(50.0, at_least=1e-3, at_most=1e9, doc="jerk of the colour selector")
+    selector_speed: float = _speed(0.2, "speed of the colour selector")
+    selector_acceleration: float = _acceleration(1.0, "acceleration of the colour selector")
+    selector_jerk: float = _jerk(50.0, "jerk of the colour selector")
     tube_mass: float = kind.mass(0.02, at_least=0.0, at_most=10.0, doc="a yarn tube with its share of the slide")
-    selector_pulley: float = kind.length(
-        10 * mm, at_least=1e-3, at_most=0.2, doc="pitch radius of the pulley that draws the tubes"
-    )
+    selector_pulley: float = kind.length(10 * mm, at_least=1e-3, at_most=0.2, doc="pitch radius of the tubes' pulley")
 
     def check_together(self) -> None:
         """The steps of the turn and the motions of a tool follow each other; the opener makes room for a gripper."""
