@@ -76,3 +76,16 @@ def test_guesses_degrees_typed_as_radians() -> None:
 
 def test_beta_may_be_repeated_where_it_is_forced() -> None:
     assert member(30 * deg, 210 * deg, 75 * deg) == member(30 * deg, 210 * deg)
+
+
+@pytest.mark.parametrize("swing", [0.2, 0.5, 1.0])
+@pytest.mark.parametrize("limit", [0.1, 0.3, 0.5, 0.8])
+def test_the_selected_ratio_is_the_limit_or_has_the_transmission_angle_required(swing: float, limit: float) -> None:
+    """50 degrees, and 40 degrees where no ratio has 50: the least transmission angle falls above the selected ratio."""
+    ratio = select_ratio(swing, CENTRIC, limit)
+    least = float(transmission_angle_min(links_of_ratio(swing, CENTRIC, ratio)))
+    if ratio == limit:
+        assert least >= math.radians(50)
+    else:
+        assert least == pytest.approx(math.radians(50), abs=1e-9)
+        assert ratio < limit

@@ -19,6 +19,9 @@ from ilmek.errors import ParameterError
 from ilmek.io.dxf import write_dxf
 from ilmek.machines import SUMMARIES
 from ilmek.machines.catalogue import find_machine
+from ilmek.machines.hammer import HammerParams
+from ilmek.machines.knotting_dyad import KnottingDyadParams
+from ilmek.machines.knotting_dyad.motion import drive_angles
 from ilmek.params import declared
 from ilmek.plane.contours import circle
 from ilmek.report import Plate, Report
@@ -153,6 +156,34 @@ def test_an_axial_load_never_makes_the_equivalent_load_less_than_the_radial_load
     radial = axial / 0.1901
     assert equivalent_load(bearing, radial, axial) == radial
     assert equivalent_load(bearing, axial, axial) == pytest.approx((0.56 + 2.30) * axial)
+
+
+def test_plates_and_cam_tables_of_the_shedding_fit_the_shaft_and_its_turn() -> None:
+    """Every plate has a square hole for the shaft's bar; the even and the odd table take a turn at 5 rpm."""
+    found = report("shedding")
+    for plate in found.plates:
+        (corners,) = (np.asarray(one) for one in plate.cutouts)
+        sides = np.roll(corners, -1) - corners
+        np.testing.assert_allclose(np.abs(sides), results("shedding")["shaft_bar"], rtol=1e-12)
+        np.testing.assert_allclose(sides[1:], 1j * sides[:-1], rtol=1e-12)
+        assert abs(corners.mean()) < 1e-15
+    assert [table.period for table in found.cam_tables] == pytest.approx([12.0, 12.0])
+
+
+@pytest.mark.parametrize(("drive", "share"), [("comb", 0.0), ("linkage", 0.5)])
+def test_the_supports_of_a_comb_stand_at_its_ends_and_those_on_crank_rockers_in_their_shares(
+    drive: str, share: float
+) -> None:
+    params = find_machine("hammer").params.read({"drive": drive, "supports": "3"})
+    assert isinstance(params, HammerParams)
+    assert params.inset == pytest.approx(share * params.width / 3)
+
+
+@pytest.mark.parametrize(("drive", "expected"), [("belt", (0.7, 1.9)), ("direct", (0.7, 1.2))])
+def test_the_drives_of_an_arm_turn_by_the_links_angles_or_the_elbows(drive: str, expected: tuple[float, float]) -> None:
+    params = find_machine("knotting-dyad").params.read({"elbow_drive": drive})
+    assert isinstance(params, KnottingDyadParams)
+    assert tuple(np.array([0.7, 1.9]) @ drive_angles(params).T) == pytest.approx(expected)
 
 
 def test_a_bored_plate_without_holes_has_a_cross_at_its_centre(tmp_path: Path) -> None:
