@@ -45,7 +45,6 @@ class KnottingFourBar:
 
     params        in force: with poses, the links that follow from them
     posed         the four-bar through the poses; None without
-    origin        its pivot O1 [m], complex; off 0 only with poses
     crank_angle   to report [rad]
     working       crank angles from the first pose to the last, the lesser first [rad]; None without poses
     at            at the crank angle to report
@@ -60,7 +59,6 @@ class KnottingFourBar:
 
     params: KnottingFourBarParams
     posed: PosedFourBar | None = group()
-    origin: complex
     crank_angle: float
     plan: Plan
     ground_angle: float = result("deg", "direction of the ground link, O1 to O1'")
@@ -173,11 +171,10 @@ def design(params: KnottingFourBarParams) -> KnottingFourBar:
     here, static = evaluated(at, params.speed, params.acceleration), evaluated(at, 0.0)
     moving, standing = evaluated(angles, params.speed, params.acceleration), evaluated(angles, 0.0)
     load = max(state.torque_max for state in ((moving, standing) if working else (here, static)))
-    sides = both_sides(params, planned, angles) if params.sides > 1 else None
+    sides = both_sides(params, planned, moving, standing) if params.sides > 1 else None
     return KnottingFourBar(
         params=params,
         posed=posed,
-        origin=posed.synthesis.crank.pivot if posed else 0j,
         crank_angle=angle,
         plan=planned,
         ground_angle=ground_angle % turn,

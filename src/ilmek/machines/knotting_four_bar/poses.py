@@ -117,7 +117,9 @@ class Synthesis:
 
     def four_bar_as_json(self, one: PoseFourBar) -> dict[str, Json]:
         """A four-bar of two arms."""
-        candidate = one.candidate
+        candidate, poses = one.candidate, self.poses
+        # Of the coupler against the other arm's first link.
+        angles = self.dyads[one.rocker].first_angles(poses.points, poses.angles) - poses.angles
         drawn, along = candidate.four_bar, candidate.four_bar.tracer_on_coupler
         return {
             "driven": one.crank + 1,
@@ -133,7 +135,7 @@ class Synthesis:
             "one_circuit": candidate.one_circuit,
             "one_branch": candidate.one_branch,
             "transmission_angle_min": candidate.least_transmission,
-            "transmission_sines": sines(self.poses, self.dyads[one.rocker]).tolist(),
+            "transmission_sines": np.abs(np.sin(angles)).tolist(),
             "link_ratio": candidate.link_ratio,
             "size": candidate.size,
             "kept": not one.defects,
@@ -162,7 +164,7 @@ class Synthesis:
         return turned_through(self.best.candidate)
 
     def residuals(self, dyad: TwoLinkArm) -> FloatArray:
-        """By how much an arm misses the poses [m]."""
+        """Distances of an arm's end from the poses [m]."""
         points, angles = self.poses.points, self.poses.angles
         return np.asarray(np.abs(dyad.place(dyad.first_angles(points, angles), angles) - points))
 
@@ -264,11 +266,6 @@ def turned_through(candidate: Candidate) -> Float[np.ndarray, "3"]:
     return np.asarray(angles - turn * np.floor(angles[-1] / turn))
 
 
-def sines(poses: HandPoses, arm: TwoLinkArm) -> Float[np.ndarray, "3"]:
-    """Sine of the angle between the coupler and an arm's first link at the poses: of the transmission angle there."""
-    return np.asarray(np.abs(np.sin(arm.first_angles(poses.points, poses.angles) - poses.angles)))
-
-
 def _choices(poses: HandPoses, dyads: tuple[TwoLinkArm, ...], filters: Filters | None = None) -> list[PoseFourBar]:
     """Every pair of arms as a four-bar, with either of them driven."""
     task = PrecisionTask(points=poses.points, coupler=poses.angles)
@@ -292,11 +289,11 @@ def _joined(poses: HandPoses, crank: TwoLinkArm, rocker: TwoLinkArm) -> FourBar 
 
 def _too_few(poses: HandPoses, ground_angle: float, roots: PoseArms) -> ParameterError:
     count = int(np.sum(roots.found == RootKind.ARM))
-    said = dict.fromkeys(RootKind(int(one)).words for one in roots.found if one != RootKind.ARM)
+    kinds = dict.fromkeys(RootKind(int(one)).words for one in roots.found if one != RootKind.ARM)
     arms = ("no real arm takes", "only one real arm takes")[count]
     return ParameterError(
         f"{arms} the three poses with its pivot on the ray at {format_quantity(ground_angle, 'deg')} "
-        f"(of two roots, {'the other' if count else 'both'}: {'; '.join(said)})",
+        f"(of two roots, {'the other' if count else 'both'}: {'; '.join(kinds)})",
         allowed="a four-bar takes two",
         do=_rays_with_two(poses),
     )
@@ -318,12 +315,12 @@ def _rays_with_two(poses: HandPoses) -> str:
 
 
 def _only_defective(poses: HandPoses, ground_angle: float, choices: tuple[PoseFourBar, ...]) -> ParameterError:
-    said = "; ".join(f"driven at arm {one.crank + 1}: {' and '.join(one.defects.values())}" for one in choices)
+    reasons = "; ".join(f"driven at arm {one.crank + 1}: {' and '.join(one.defects.values())}" for one in choices)
     best = best_ray(poses)
     other = "move or turn a pose" if best is None else f"ground_angle={np.degrees(best):g}deg has one"
     return ParameterError(
         f"with the ground ray at {format_quantity(ground_angle, 'deg')} no four-bar goes through the three poses "
-        f"({said or 'both arms are one'})",
+        f"({reasons or 'both arms are one'})",
         allowed="all poses on one branch, in order",
         do=other,
     )

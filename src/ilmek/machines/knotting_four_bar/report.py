@@ -6,7 +6,7 @@ from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
 from ilmek.machines.knotting_four_bar.sides import SidesAnalysis, analyse_sides
 from ilmek.records import group, record
-from ilmek.report import Check, Column, Table, at_least, at_most, columns
+from ilmek.report import Check, Table, at_least, at_most, columns
 from ilmek.units import deg, format_quantity, turn
 
 BALANCE = 1e-9
@@ -182,21 +182,15 @@ def _force_table(design: KnottingFourBar) -> Table:
         ]
     torques = design.drive_torque_static, design.drive_torque_dynamic, float(design.at.torque[0])
     # The quantities have no common unit: it stands beside each.
-    heads = (
-        *columns("quantity"),
-        *(Column(head, digits=7) for head in ("at rest", "for each (rad/s)²")),
-        Column("at speed"),
-    )
+    heads = columns("quantity", "at rest [] 7", "for each (rad/s)² [] 7", "at speed")
     title = "Forces at the crank angle: at rest + speed² times the dynamic part"
     return Table("knotting-forces", title, heads, (*rows, ("M1, on the crank [N·m]", *torques)))
 
 
 def _part_table(design: KnottingFourBar) -> Table:
-    heads = (*columns("part", "mass [g]", "centre from first pin [mm]"), Column("J about it [g·mm²]"))
+    heads = columns("part", "mass [g]", "centre from first pin [mm]", "J about it [g*mm^2]")
     named = {**design.parts, "coupler with holder and gripper": design.inertias["coupler"]}
-    rows = tuple(
-        (name, inertia.mass, complex(inertia.centre).real, inertia.moment * 1e9) for name, inertia in named.items()
-    )
+    rows = tuple((name, inertia.mass, complex(inertia.centre).real, inertia.moment) for name, inertia in named.items())
     return Table("knotting-parts", "Masses and moments of inertia", heads, rows)
 
 

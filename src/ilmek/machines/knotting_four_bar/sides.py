@@ -4,9 +4,9 @@ The mirror is an upright line half way between the pivots of the two cranks, so 
 at one time. It is one mechanism of one degree of freedom: the first crank drives the second through the gears' teeth.
 """
 
-import dataclasses
 import math
 from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.knotting_four_bar.model import inertias, tool
+from ilmek.machines.knotting_four_bar.model import KnottingState, inertias, tool
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.plane.outlines import Outline
 from ilmek.plane.vectors import unit
@@ -57,7 +57,7 @@ class Coupled:
 
     @property
     def torque_error(self) -> float:
-        """Motor torque against that of both sides alone, over the greatest; the second crank turns the other way."""
+        """Motor torque against that of both sides alone, over the greatest; the cranks turn in opposite directions."""
         missed = self.torque - (self.alone[0] - self.alone[1])
         return float(np.max(np.abs(missed)) / max(float(np.max(np.abs(self.torque))), 1e-300))
 
@@ -164,51 +164,35 @@ def analyse_sides(params: KnottingFourBarParams, sides: KnottingSides, onward: s
     )
 
 
-@record
-class CrankMotion:
-    """Motion of the first crank: angles [rad], speed [rad/s], acceleration [rad/s²]; the gear on it, if any."""
-
-    angles: FloatArray
-    speed: float
-    acceleration: float
-    disc: Inertia | None = None
-
-    def inertias(self, params: KnottingFourBarParams) -> dict[str, Inertia]:
-        """The moving bodies of one side, its gear on its crank."""
-        bodies = inertias(params)
-        return bodies if self.disc is None else {**bodies, "crank": combined(bodies["crank"], self.disc)}
-
-
 def hands(motion: Motion) -> tuple[ComplexArray, ComplexArray]:
     """Positions of both hands over the samples [m]."""
     first, second = motion.point("coupler", "H"), motion.point(other("coupler"), other("H"))
     return np.asarray(first.position), np.asarray(second.position)
 
 
-def both_sides(params: KnottingFourBarParams, one: Plan, angles: FloatArray) -> KnottingSides:
-    """The mirrored side beside the first over its crank angles [rad], and the gears between them.
+def both_sides(
+    params: KnottingFourBarParams, one: Plan, moving: KnottingState, standing: KnottingState
+) -> KnottingSides:
+    """The mirrored side beside the first one and its states, and the gears between them.
 
     Raises ParameterError where the axes are too close for gears.
     """
-    motion = solve(one, angles).require()
-    start = one.mechanism.point(GROUND, "O1")
-    hand = motion.point("coupler", "H").position.real
+    angles, start = moving.angle, one.mechanism.point(GROUND, "O1")
+    hand = moving.motion.point("coupler", "H").position.real
     facing = max((+1, -1), key=lambda side: float(np.max(side * (hand - start.real))))
-    least = 2 * _reach(params, motion, start, facing) + params.side_clearance
-    runs = CrankMotion(angles, params.speed, params.acceleration), CrankMotion(angles, 0.0, 0.0)
-    gears = _gears(params, least, max(float(np.max(np.abs(_alone(params, one, run)))) for run in runs))
+    least = 2 * _reach(params, moving.motion, start, facing) + params.side_clearance
+    gears = _gears(params, least, max(moving.torque_max, standing.torque_max))
     mirror = start.real + facing * gears.distance / 2
-    planned, image = plan(coupled(one.mechanism, mirror)), plan(mirrored(one.mechanism, mirror))
-    geared = [dataclasses.replace(run, disc=wheel(params, gears)) for run in runs]
-    moving, standing = (_moved(params, (one, image), planned, run) for run in geared)
+    image, planned = plan(mirrored(one.mechanism, mirror)), plan(coupled(one.mechanism, mirror))
+    run = partial(_coupled_run, params, (one, image, planned), wheel(params, gears), angles)
     return KnottingSides(
         mirror=mirror,
         facing=facing,
         gears=gears,
         least_distance=least,
         plan=planned,
-        moving=moving,
-        standing=standing,
+        moving=run(speed=params.speed, acceleration=params.acceleration),
+        standing=run(speed=0.0, acceleration=0.0),
         knot=float(angles[int(np.argmax(facing * hand))]),
     )
 
@@ -296,33 +280,32 @@ def _gears(params: KnottingFourBarParams, least: float, torque: float) -> EqualG
         raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
 
 
-def _alone(params: KnottingFourBarParams, one: Plan, run: CrankMotion) -> FloatArray:
-    """Torque on the crank of one side by itself [N m]; the second one's input turns in the other direction."""
-    second = one.mechanism.inputs[0].name != "crank"
-    name = other if second else str
-    angles, sense = (math.pi - run.angles, -1) if second else (run.angles, 1)
-    motion = solve(one, angles, sense * run.speed, sense * run.acceleration).require()
-    bodies = {name(body): inertia for body, inertia in run.inertias(params).items()}
-    return inverse(motion, bodies, _loads(params, second=second)).effort(name("crank"))
-
-
-def _loads(params: KnottingFourBarParams, *, second: bool) -> tuple[Gravity, PointForce]:
-    """Weight, and the yarn's force on the hand: mirrored on the second side."""
-    force = params.grip_force * complex(unit(params.grip_angle))
-    weight = Gravity(-1j * params.gravity)
-    if second:
-        return weight, PointForce(other("coupler"), other("H"), -force.conjugate())
-    return weight, PointForce("coupler", "H", force)
-
-
-def _moved(params: KnottingFourBarParams, sides: tuple[Plan, Plan], planned: Plan, run: CrankMotion) -> Coupled:
-    """Both sides coupled, and each alone."""
-    bodies = run.inertias(params)
-    motion = solve(planned, run.angles, run.speed, run.acceleration).require()
-    loads = (*_loads(params, second=False), _loads(params, second=True)[1])
-    forces = inverse(motion, {**bodies, **{other(body): one for body, one in bodies.items()}}, loads)
-    first, second = (_alone(params, side, run) for side in sides)
-    return Coupled(run.angles, motion, forces, forces.effort("crank"), np.abs(forces.tooth(GEARS)), (first, second))
+def _coupled_run(
+    params: KnottingFourBarParams,
+    plans: tuple[Plan, Plan, Plan],
+    disc: Inertia,
+    angles: FloatArray,
+    *,
+    speed: float,
+    acceleration: float,
+) -> Coupled:
+    """Both sides coupled, and each alone; plans of the first side, its mirror image, and both; the gear on a crank."""
+    one, image, both = plans
+    bodies = inertias(params)
+    bodies["crank"] = combined(bodies["crank"], disc)
+    images = {other(body): inertia for body, inertia in bodies.items()}
+    force, weight = params.grip_force * complex(unit(params.grip_angle)), Gravity(-1j * params.gravity)
+    pull, mirrored_pull = (
+        PointForce("coupler", "H", force),
+        PointForce(other("coupler"), other("H"), -force.conjugate()),
+    )
+    first = inverse(solve(one, angles, speed, acceleration).require(), bodies, (weight, pull))
+    # The second crank turns in the other direction.
+    second = inverse(solve(image, math.pi - angles, -speed, -acceleration).require(), images, (weight, mirrored_pull))
+    motion = solve(both, angles, speed, acceleration).require()
+    forces = inverse(motion, {**bodies, **images}, (weight, pull, mirrored_pull))
+    alone = first.effort("crank"), second.effort(other("crank"))
+    return Coupled(angles, motion, forces, forces.effort("crank"), np.abs(forces.tooth(GEARS)), alone)
 
 
 def clearances(params: KnottingFourBarParams, sides: KnottingSides) -> dict[str, Clearance]:
