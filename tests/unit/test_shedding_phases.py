@@ -28,6 +28,12 @@ def test_groups_of_the_harmonic_cam_add_as_vectors(groups, spread) -> None:
     assert max(shed.peaks()[0].value, -shed.peaks()[1].value) == pytest.approx(wanted, rel=1e-6)
 
 
+@pytest.mark.parametrize("groups", [1, 3])
+def test_every_warp_has_its_cam_where_their_number_is_odd(groups) -> None:
+    shed = made(warps=401, phase="staggered", stagger_groups=groups).shed
+    assert (sum(shed.even.numbers), sum(shed.odd.numbers)) == (200, 201)
+
+
 def test_two_halves_give_the_cosine_of_their_spread() -> None:
     assert made(phase="staggered", stagger=40 * deg).drive.torque_max.value == pytest.approx(180 * math.cos(40 * deg))
 

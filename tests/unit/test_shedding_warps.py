@@ -58,6 +58,13 @@ def test_a_warp_of_cotton_gains_tension_in_the_shed() -> None:
     assert answer(compensation=1.0, **ELASTIC).checks[-1].value == 0.0
 
 
+def test_the_cylinder_takes_up_its_share_of_the_elongation() -> None:
+    stiff, eased = answer(**ELASTIC), answer(compensation=0.25, **ELASTIC)
+    assert result(eased, "warp_lengthening") == result(stiff, "warp_lengthening")
+    assert result(eased, "warp_tension_max") - 15 == pytest.approx(0.75 * (result(stiff, "warp_tension_max") - 15))
+    assert result(eased, "warp_strain") == pytest.approx(0.75 * result(stiff, "warp_strain"))
+
+
 def test_a_short_warp_that_nothing_gives_way_for_is_strained_too_far() -> None:
     report = answer(tension=15.0, front_span=0.17, back_span=0.17, warp_stiffness=1800.0)
     assert [check.name for check in report.failed] == ["strain of a lifted warp"]

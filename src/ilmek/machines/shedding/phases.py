@@ -36,7 +36,7 @@ class Parity:
     programmes: tuple[CamProgramme, ...]
     numbers: tuple[int, ...]
 
-    def courses(self, angle: FloatArray) -> tuple[FollowerMotion, ...]:
+    def motions(self, angle: FloatArray) -> tuple[FollowerMotion, ...]:
         """Motions of the groups."""
         return tuple(programme.at(angle) for programme in self.programmes)
 
@@ -68,7 +68,7 @@ class Shed:
     def _moving(self, angle: FloatArray) -> Iterator[tuple[int, FollowerMotion]]:
         """Number of cams and motion of each group of both parities."""
         for parity in (self.even, self.odd):
-            yield from zip(parity.numbers, parity.courses(angle), strict=True)
+            yield from zip(parity.numbers, parity.motions(angle), strict=True)
 
     def torque(self, angle: FloatArray) -> FloatArray:
         """Torque of the warps on the shaft [N m], quasi-static."""
@@ -92,15 +92,15 @@ class Shed:
 
     def opening(self, angle: FloatArray) -> FloatArray:
         """Distance [m] of the least lifted even warp over the most lifted odd one; negative in the odd shed."""
-        even, odd = ([at.s for at in parity.courses(angle)] for parity in (self.even, self.odd))
+        even, odd = ([at.s for at in parity.motions(angle)] for parity in (self.even, self.odd))
         up = np.min(even, axis=0) - np.max(odd, axis=0)
         down = np.min(odd, axis=0) - np.max(even, axis=0)
         return np.asarray(np.where(up >= down, np.maximum(up, 0.0), -np.maximum(down, 0.0)))
 
     def room(self, angle: FloatArray) -> FloatArray:
         """Height of the even shed above the shuttle [m]; negative where the shuttle does not fit."""
-        lowest = np.min([at.s for at in self.even.courses(angle)], axis=0)
-        highest = np.max([at.s for at in self.odd.courses(angle)], axis=0)
+        lowest = np.min([at.s for at in self.even.motions(angle)], axis=0)
+        highest = np.max([at.s for at in self.odd.motions(angle)], axis=0)
         return np.asarray(lowest - highest - self.params.shuttle_height)
 
     def window(self) -> tuple[float, float]:
