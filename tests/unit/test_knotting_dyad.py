@@ -37,7 +37,7 @@ def test_given_points_are_met_by_every_solution_by_the_names_that_are_promised()
     assert MACHINES["knotting-dyad"] is MACHINE
 
 
-def test_points_on_a_circle_are_told_and_fail_where_no_other_arm_is() -> None:
+def test_points_on_a_circle_are_reported_and_fail_where_no_other_arm_is() -> None:
     said = answer(points=CIRCLE, angles="0 100deg 170deg 300deg")
     results = said.as_json()["results"]
     assert any("first link has no length" in kind for kind in results["roots"])

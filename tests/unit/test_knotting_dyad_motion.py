@@ -101,7 +101,7 @@ def test_limits_hold_at_the_drives_and_some_are_reached(settings: Settings) -> N
 
 
 @pytest.mark.parametrize("settings", [(), ASYMMETRIC], ids=["symmetric", "asymmetric"])
-def test_the_cycle_goes_round_without_a_jump_and_follows_the_ways(settings: Settings) -> None:
+def test_the_cycle_goes_round_without_a_jump_and_follows_the_paths(settings: Settings) -> None:
     params, head, motion = made(settings)
     cycle = motion.cycle
     assert cycle.time[0] == 0.0
@@ -175,7 +175,7 @@ def test_servos_are_strong_and_quick_enough_with_their_own_rotors() -> None:
     assert stronger is None or stronger.power > 100
 
 
-def test_no_servo_is_said_and_results_have_the_promised_names() -> None:
+def test_no_servo_is_reported_and_results_have_the_promised_names() -> None:
     params, _, motion = made((("gear_ratio", "9000"),))
     assert len([warning for warning in MACHINE.report(design(params)).warnings if "no servo" in warning]) == 2
     values = {result.name: result.value for result in results_of(motion)}

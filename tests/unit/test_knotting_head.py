@@ -106,7 +106,7 @@ def test_the_right_arms_way_is_the_mirror_image() -> None:
 
 
 @pytest.mark.parametrize("settings", SECTIONS[:4])
-def test_no_sampled_distance_is_less_than_the_least_that_is_told(settings: dict[str, str]) -> None:
+def test_no_sampled_distance_is_less_than_the_least_that_is_reported(settings: dict[str, str]) -> None:
     found, rng = head(**settings), np.random.default_rng(7)
     told = {one.name: one for one in found.least}
     s, t = rng.uniform(0, 1, (2, 4000))
@@ -164,7 +164,7 @@ def test_the_carriers_of_the_other_side_tie_the_mirrored_knot() -> None:
     assert tied.knot != found.knot
 
 
-def test_a_hand_over_at_two_places_is_told_with_the_distance() -> None:
+def test_a_hand_over_at_two_positions_is_reported_with_the_distance() -> None:
     found = head()
     early = _carried(found.sequence, 0, CENTRE, LEFT, CENTRE, "", "", "", "")
     assert "first end is 14 mm from the left gripper" not in tied_by(found.section, found.arm, found.sequence).words
@@ -172,7 +172,7 @@ def test_a_hand_over_at_two_places_is_told_with_the_distance() -> None:
     assert words.startswith("no knot: at 'centre gripper to the left arm' the first end is ")
 
 
-def test_a_needle_that_just_passes_the_warps_is_told_apart_from_one_that_does_not() -> None:
+def test_a_needle_that_just_passes_the_warps_is_distinguished_from_one_that_does_not() -> None:
     """A long way past warps that leave it 0.02 mm: coarse samples do not tell on which side it passes."""
     fine = dict(warp_pitch="0.54mm", warp_diameter="0.43mm", needle_diameter="0.05mm", clearance="0mm", depth="2.4mm")
     found = head(**fine, leg="33mm")
@@ -204,7 +204,7 @@ def test_the_needle_bends_as_the_curvature_of_a_clamped_bar_adds_up() -> None:
     assert found.bent == pytest.approx(most, rel=1e-2)
 
 
-def test_a_thin_needle_bends_into_the_warps_and_is_told() -> None:
+def test_a_thin_needle_bends_into_the_warps_and_is_reported() -> None:
     found = MACHINE.report(made(needle_diameter="0.1mm"))
     assert [check.name for check in found.failed] == ["needle bent aside by the yarn"]
     assert "the yarn bends the needle" in found.warnings[0]

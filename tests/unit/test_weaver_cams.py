@@ -104,7 +104,7 @@ def test_five_cams_on_the_shaft_and_the_sleys_on_a_geared_one() -> None:
 
 
 @pytest.mark.parametrize("faster", [0.999, 1.001])
-def test_the_limits_of_the_cycle_are_where_they_are_said(faster: float) -> None:
+def test_the_limits_of_the_cycle_are_where_they_are_stated(faster: float) -> None:
     """Designed for a cycle a little shorter or longer than a limit, the head breaks or keeps it."""
     found = cycle_limits(usual())
     assert max(found, key=lambda name: found[name]) == "tools"

@@ -48,7 +48,7 @@ def test_the_yarn_drawn_is_the_yarn_bills() -> None:
     assert results["cut_waste"] == pytest.approx(0.004, rel=1e-9)
 
 
-def test_short_yarn_of_a_fine_carpet_is_drawn_longer_and_told() -> None:
+def test_short_yarn_of_a_fine_carpet_is_drawn_longer_and_reported() -> None:
     made = MACHINE.report(design(WeaverParams(knot_pitch=0.0005, pile_height=0.003)))
     results = made.as_json()["results"]
     assert results["yarn_drawn"] > results["yarn_billed"] + 0.005

@@ -1,7 +1,7 @@
-"""The arm for a section: of all whose needle goes through the gap's middle to the hand-over, the one that is easiest.
+"""The arm for a section: of all whose needle passes the gap's middle to the hand-over, the one of least effort.
 
-Such an arm has three freedoms: the second link a2, the needle's tilt phi0 at rest, and the distance t of the pivot from
-the middle of the elbow's two places, on their perpendicular bisector:
+Such an arm has three free parameters: the second link a2, the needle's tilt phi0 at rest, and the distance t of the
+pivot from the middle of the elbow's two positions, on their perpendicular bisector:
 
     E0 = G + (a2 - rho0) i e^{i phi0},   E1 = G + (a2 - rho1) i e^{i phi1},   O = (E0 + E1)/2 + t i (E1 - E0)/|E1 - E0|
 
@@ -29,7 +29,7 @@ GRID, ZOOM, ROUNDS, SHRINK = (20, 21, 40), 9, 8, 0.45
 """Values of a2, phi0 and t at first; then of each, how often, and by how much the grid shrinks."""
 
 SAMPLES = 17
-"""Places of the way at which tilt and sides are looked at."""
+"""Positions on the path at which tilt and sides are checked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ def best_arm(params: KnottingDyadParams, section: WarpSection) -> Arm:
 def _refined(
     params: KnottingDyadParams, section: WarpSection, centre: Float[np.ndarray, "3"], steps: FloatArray, sign: float
 ) -> Arm:
-    """The best of ever finer grids about a place that fits."""
+    """The best of ever finer grids about a set of parameters that fits."""
     spread = np.linspace(-1.0, 1.0, ZOOM)
     cube = np.stack([axis.ravel() for axis in np.meshgrid(spread, spread, spread, indexing="ij")], axis=-1)
     for _ in range(ROUNDS):

@@ -1,11 +1,11 @@
 """The head's cams: a plate cam for every track, as small as the pressure angle allows, its loads, the shaft's drive.
 
 A lever, or for the handler a rack and pinion, stands between a cam's follower and its tool: the follower moves s = x/i,
-and the tool's mass m counts i² m there. The handler turns one way only: its rack drives it forward through a freewheel,
-a brake keeps it from running on, and the rack goes back while it stands. With w the speed of the cam shaft the follower
-needs
+and the tool's mass m counts i² m there. The handler turns in one direction only: its rack drives it forward through a
+freewheel, a brake keeps it from running on, and the rack returns while it stands. With w the speed of the cam shaft the
+follower needs
 
-    F = m w² s'' + b + k s + P + load        b of the brake while the handler goes forward: sup m w² |s''|
+    F = m w² s'' + b + k s + P + load        b of the brake while the handler turns forward: sup m w² |s''|
 
 and presses with N = F / cos(mu) on the cam, at the torque F s'. The spring is the weakest of those whose force doubles
 over the lift that holds the follower at 1.2 times the speed; a groove needs none. Prime circle and forces are the
@@ -54,7 +54,7 @@ WALL = 5 * mm
 
 _FIT = 1e-9
 _REST = 0.03
-"""Share of the rest of the turn for which the rack stands before and after it goes back."""
+"""Share of the rest of the turn for which the rack stands before and after its return."""
 
 
 @record
@@ -144,7 +144,7 @@ def cams_for(params: WeaverParams, cyclogram: Cyclogram, handler_radius: float) 
 
 
 def programme_of(track: Track, ratio: float) -> CamProgramme:
-    """The follower's programme over the turn, from its lowest position on; a tool that turns on has its rack go back.
+    """The follower's programme over the turn, from its lowest position on; the rack of a tool that turns on returns.
 
     ratio  the tool's motion over the follower's
     """

@@ -6,13 +6,13 @@ across it, of length rho, at whose end the yarn is held. The rods stand at -+a, 
 
     a = g/2 + D/2 + t/2 + e             D warp's diameter, t thickness of rod and arm, e clearance
 
-and the cam's travel p beyond the opened warps goes through a screw guide: linear and turning, tau = turn p / crossing.
+and the cam's travel p beyond the opened warps moves a screw guide: linear and turning, tau = turn p / crossing.
 The left tip (the right one is its mirror image) is at
 
     x = -(a + rho cos tau),     y = y0 - p,     z = -+h/2 + rho sin tau,     y0 = D/2 + t/2 + e
 
 so it goes round its warp from outside. h = t + e keeps the two arms one above the other where the ends cross; both turn
-the same way up, so that the knot forms at the height of the centre gripper. At the beginning the yarn lies straight
+upwards, so that the knot forms at the height of the centre gripper. At the beginning the yarn lies straight
 between the tips, sqrt(4 (a + rho)² + h²): the yarn drawn less its two tails, which gives rho. At the end the tips are c
 past the middle: cos turn = -(a + c)/rho. There each end of the yarn comes from behind its warp, from -g/2 - i r,
 r = (D + d)/2, d the yarn's diameter, and crosses the middle at the depth r + k (Y - r), k = g / (g + 2 c), Y = -y. The

@@ -70,11 +70,11 @@ def led_between(cyclogram: Cyclogram) -> tuple[float, float, float]:
 
 
 def _order(cyclogram: Cyclogram, grippers: Grippers) -> str:
-    """What is wrong with the order of grasp, release and warps; "" where nothing is."""
+    """Error in the order of grasp, release and warps; "" where there is none."""
     taken, released = led_between(cyclogram)[1], cyclogram.track(SIDE_GRASP).segment("open").start
     if released < taken:
         shown = [format_quantity(angle, "deg") for angle in (released, taken)]
-        return f"the side grippers let the pile go at {shown[0]}, before the centre gripper holds it at {shown[1]}"
+        return f"the side grippers release the pile at {shown[0]}, before the centre gripper holds it at {shown[1]}"
     angle = np.linspace(0.0, 2 * np.pi, 1441)
     side = sample(cyclogram.track(SIDE_MOTION), angle).position
     centre = grippers.centre(sample(cyclogram.track(CENTRE_MOTION), angle).position)

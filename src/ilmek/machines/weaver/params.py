@@ -56,7 +56,7 @@ def _jerk(default: float, doc: str) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class WeaverParams(Params):
-    """The knot, the head's timing and dimensions, and the limits of what moves."""
+    """The knot, the head's timing and dimensions, and the limits of its motions."""
 
     cycle: float = kind.time(2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot; longer by the limits")
     optimise: bool = kind.flag(False, doc="stretch and overlap the motions within their order for least accelerations")
