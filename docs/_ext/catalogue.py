@@ -16,6 +16,7 @@ from ilmek.cli import main
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Component
 from ilmek.params import Parameter, listed
+from ilmek.records import declared_results
 from ilmek.units import format_quantity, printed_unit
 from ilmek.verification import PAPERS, TITLES, reproduce
 from ilmek.verification.wording import HEADINGS, row, summary
@@ -68,7 +69,7 @@ def machine_section(machine: Component) -> str:
         for p in listed(machine.params)
     ]
     report = machine.report_for({})
-    results = [(f"`{r.name}`", printed_unit(r.unit) or "–", r.meaning) for r in report.results]
+    results = [(f"`{r.name}`", printed_unit(r.unit) or "–", r.meaning) for r in declared_results(*machine.reported)]
     checks = [(c.name, c.relation, format_quantity(c.limit, c.unit), c.source) for c in report.all_checks]
     return "\n\n".join(
         (
