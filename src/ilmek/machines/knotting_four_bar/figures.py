@@ -1,6 +1,7 @@
 """The knotting four-bar's figures: to scale at its pose, the one to use instead, both sides, and curves."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from types import MappingProxyType
 
 import numpy as np
@@ -13,12 +14,14 @@ from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
 from ilmek.machines.animation import animated, frames
+from ilmek.machines.crank_figures import crank_plot
+from ilmek.machines.four_bars.figures import numbered
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.model import evaluate
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
 from ilmek.machines.knotting_four_bar.sides import BODIES, KnottingSides, hands, other, outlines
-from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
+from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Stroke
 from ilmek.units import format_quantity, turn
 
 POINTS = {"O1": "crank", "O1'": "rocker", "O2": "crank", "O2'": "coupler", "H": "coupler"}
@@ -90,7 +93,7 @@ def _moving(design: KnottingFourBar) -> Animation:
     dots: tuple[Dot, ...] = ()
     if design.posed:
         note = f"From the first pose to the last and back. {note}"
-        dots = _numbered(design.posed.synthesis.poses.points)
+        dots = numbered(design.posed.synthesis.poses.points)
     elif design.range:
         note = f"From one dead point nearly to the other. {note}"
     still = Drawing("knotting-four-bar-moving", "Knotting four-bar in motion", (), dots, note=note)
@@ -100,17 +103,11 @@ def _moving(design: KnottingFourBar) -> Animation:
 def _instead_moving(made: PosedFourBar) -> Animation:
     """The four-bar of both arms from its first pose to its last, and the three positions of its hand."""
     first, last = sorted(made.crank_angles[[0, -1]])
-    title, note = (
-        "Four-bar through the report's three poses, in motion",
-        "1, 2, 3: the positions that the hand H passes.",
-    )
-    dots = _numbered(made.synthesis.poses.points)
+    title = "Four-bar through the report's three poses, in motion"
+    note = "1, 2, 3: the positions that the hand H passes."
+    dots = numbered(made.synthesis.poses.points)
     still = Drawing("knotting-four-bar-instead-moving", title, (), dots, note=note)
     return _animated(made.params, made.plan, frames(first, last), still, float(made.crank_angles[0]))
-
-
-def _numbered(points: ComplexArray) -> tuple[Dot, ...]:
-    return tuple(Dot(complex(point), f"{at}", "point") for at, point in enumerate(points, 1))
 
 
 def _animated(params: KnottingFourBarParams, planned: Plan, at: FloatArray, still: Drawing, start: float) -> Animation:
@@ -159,33 +156,25 @@ def _dots(pose: Mapping[str, complex]) -> tuple[Dot, ...]:
 
 def _plots(design: KnottingFourBar) -> tuple[Plot, ...]:
     """Angles of coupler and rocker, transmission angle, torque, and forces in the pins."""
-    state = design.moving
+    state, reported = design.moving, design.crank_angle
+    marks: tuple[Mark, ...] = ()
+    if design.posed:
+        marks = tuple(Mark(float(at), f"pose {k}") for k, at in enumerate(design.posed.crank_angles, 1))
+    elif state.angle[0] <= reported <= state.angle[-1]:
+        marks = (Mark(reported, "crank_angle"),)
+    note = "Without the edges at the dead points." if design.range and not design.working else ""
+    plot = partial(crank_plot, angle=state.angle, marks=marks, note=note)
     angle = transmission_angle(state.motion, "O2'")
     angles = {"coupler": state.motion.angle("coupler"), "rocker": state.motion.angle("rocker")}
     acute = {"acute angle between coupler and rocker": np.minimum(angle, np.pi - angle)}
     pins = {pin: np.abs(force) for pin, force in state.pins.items()}
     torque = {"drive": state.torque}
     return (
-        _plot(design, "knotting-angles", "Angles of coupler and rocker", Axis("angle", "deg"), angles),
-        _plot(design, "knotting-transmission", "Transmission angle", Axis("angle", "deg"), acute),
-        _plot(design, "knotting-drive-torque", "Torque of the drive on the crank", Axis("torque", "N*m"), torque),
-        _plot(design, "knotting-pin-forces", "Forces in the pins", Axis("force", "N"), pins),
+        plot("knotting-angles", "Angles of coupler and rocker", Axis("angle", "deg"), curves=angles),
+        plot("knotting-transmission", "Transmission angle", Axis("angle", "deg"), curves=acute),
+        plot("knotting-drive-torque", "Torque of the drive on the crank", Axis("torque", "N*m"), curves=torque),
+        plot("knotting-pin-forces", "Forces in the pins", Axis("force", "N"), curves=pins),
     )
-
-
-def _plot(design: KnottingFourBar, name: str, title: str, y: Axis, curves: Mapping[str, FloatArray]) -> Plot:
-    angles, reported = design.moving.angle, design.crank_angle
-    series = tuple(
-        Series(label, angles, values, dashed=at > 0 and len(curves) == 2)
-        for at, (label, values) in enumerate(curves.items())
-    )
-    marks: tuple[Mark, ...] = ()
-    if design.posed:
-        marks = tuple(Mark(float(at), f"pose {k}") for k, at in enumerate(design.posed.crank_angles, 1))
-    elif angles[0] <= reported <= angles[-1]:
-        marks = (Mark(reported, "crank_angle"),)
-    note = "Without the edges at the dead points." if design.range and not design.working else ""
-    return Plot(name, title, Axis("crank angle", "deg"), y, series, marks, note=note)
 
 
 def sides_drawing(design: KnottingFourBar, sides: KnottingSides) -> Drawing:
@@ -246,14 +235,13 @@ def _gears(sides: KnottingSides) -> tuple[Stroke, ...]:
 
 def _sides_plots(sides: KnottingSides) -> tuple[Plot, Plot]:
     """Torque of the motor for both sides and for each alone, and distance of the hands."""
-    state, x = sides.moving, Axis("crank angle", "deg")
-    torques = (
-        Series("motor, both sides", state.angle, state.torque),
-        Series("one side alone", state.angle, state.alone[0], dashed=True),
-    )
-    gap = (Series("from hand to hand", state.angle, sides.gap),)
-    nearest = (Mark(sides.knot, "nearest"),)
+    state, nearest = sides.moving, (Mark(sides.knot, "nearest"),)
+    torque, gap = Axis("torque", "N*m"), Axis("distance", "mm")
+    torques = {"motor, both sides": state.torque, "one side alone": state.alone[0]}
+    gaps = {"from hand to hand": sides.gap}
     return (
-        Plot("knotting-sides-torque", "Torque on the first crank", x, Axis("torque", "N*m"), torques),
-        Plot("knotting-sides-distance", "Distance of the hands", x, Axis("distance", "mm"), gap, nearest),
+        crank_plot("knotting-sides-torque", "Torque on the first crank", torque, angle=state.angle, curves=torques),
+        crank_plot(
+            "knotting-sides-distance", "Distance of the hands", gap, angle=state.angle, curves=gaps, marks=nearest
+        ),
     )

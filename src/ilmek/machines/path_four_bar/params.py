@@ -112,15 +112,11 @@ class PathFourBarParams(FourBarTaskParams):
 
     def limits(self) -> dict[str, Bounds]:
         """Bounds that are set, by the names of `PathTask.bounds` [m, rad]."""
+        units, least = dict.fromkeys(ANGLES, "deg"), dict.fromkeys(LENGTHS, 0.0)
         return {
-            name: read_bounds(
-                parameter,
-                text,
-                "deg" if parameter in ANGLES else "mm",
-                least=0.0 if parameter in LENGTHS else -math.inf,
-            )
+            name: read_bounds(parameter, given, units.get(parameter, "mm"), least=least.get(parameter, -math.inf))
             for parameter, name in NAMED.items()
-            if (text := getattr(self, parameter)) is not None
+            if (given := getattr(self, parameter)) is not None
         }
 
 
