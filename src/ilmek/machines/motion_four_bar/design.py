@@ -152,8 +152,8 @@ def _grid(points: ComplexArray, ranges: tuple[Bounds, Bounds]) -> ComplexArray:
     """Pivots around the poses, within the given bounds."""
     reach = WIDE * (float(np.ptp(points.real)) + float(np.ptp(points.imag)) or 1.0)
     sides = [
-        np.linspace(max(least, min(most, values.min() - reach)), min(most, max(least, values.max() + reach)), GRID)
-        for values, (least, most) in zip((points.real, points.imag), ranges, strict=True)
+        np.linspace(*np.clip([values.min() - reach, values.max() + reach], *bounds), GRID)
+        for values, bounds in zip((points.real, points.imag), ranges, strict=True)
     ]
     return np.unique(np.add.outer(sides[0], 1j * sides[1]))
 
@@ -165,5 +165,5 @@ def _inside(pivot: complex, ranges: tuple[Bounds, Bounds]) -> bool:
 
 def _numbers(guides: Sequence[Guide], crank: Guide, rocker: Guide) -> str:
     """The links of a four-bar by their numbers."""
-    numbers = [next(at for at, one in enumerate(guides, 1) if one is wanted) for wanted in (crank, rocker)]
+    numbers = [next(at for at, one in enumerate(guides, 1) if one is link) for link in (crank, rocker)]
     return "links {} (crank) and {}".format(*numbers)

@@ -111,9 +111,9 @@ def _flags(design: MotionFourBar) -> tuple[Stroke, ...]:
 def _within(design: MotionFourBar, branch: CurveBranch, label: str) -> Iterator[Stroke]:
     """The parts of a branch that lie in the window."""
     middle = complex(np.mean(design.poses.points))
-    places = np.append(branch.places, branch.places[:1]) if branch.closed else branch.places
-    inside = np.abs(places - middle) < WINDOW * design.extent
+    points = np.append(branch.places, branch.places[:1]) if branch.closed else branch.places
+    inside = np.abs(points - middle) < WINDOW * design.extent
     cuts = np.flatnonzero(np.diff(inside.astype(int))) + 1
-    for part, kept in zip(np.split(places, cuts), np.split(inside, cuts), strict=True):
+    for part, kept in zip(np.split(points, cuts), np.split(inside, cuts), strict=True):
         if len(part) > 1 and kept[0]:
             yield Stroke(part, "path", label)
