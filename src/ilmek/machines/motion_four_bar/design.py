@@ -151,10 +151,11 @@ def _unused(guides: Sequence[Guide], inside: Sequence[Guide], few: bool, paired:
 def _grid(points: ComplexArray, ranges: tuple[Bounds, Bounds]) -> ComplexArray:
     """Pivots around the poses, within the given bounds."""
     reach = WIDE * (float(np.ptp(points.real)) + float(np.ptp(points.imag)) or 1.0)
-    sides = [
-        np.linspace(*np.clip([values.min() - reach, values.max() + reach], *bounds), GRID)
+    ends = (
+        np.clip([values.min() - reach, values.max() + reach], *bounds)
         for values, bounds in zip((points.real, points.imag), ranges, strict=True)
-    ]
+    )
+    sides = [np.linspace(start, stop, GRID) for start, stop in ends]
     return np.unique(np.add.outer(sides[0], 1j * sides[1]))
 
 
