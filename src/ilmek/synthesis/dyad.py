@@ -152,7 +152,7 @@ def arms_through_poses(
     q = (moved + aside[..., None]) / size[..., None]
     roots = roots2(*_pose_pencil(q, moved / size[..., None], e0[..., None], e2))
     found = _told_poses(roots, usable)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         along, second = roots.numerator / roots.denominator, roots.vectors[..., 0] / roots.vectors[..., 1]
     far = np.isin(found, (RootKind.FAR_PIVOT, RootKind.FAR_BOTH))
     none = np.isin(found, (RootKind.COMPLEX, RootKind.FAMILY))

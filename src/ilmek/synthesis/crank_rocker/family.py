@@ -13,6 +13,7 @@ from ilmek.synthesis.crank_rocker.dead_centres import (
     LinkRatios,
     OpenInterval,
     beta_of_ratio,
+    dead_centres,
     grashof_margin,
     links_of_ratio,
     ratio_limits,
@@ -104,10 +105,11 @@ def link_ratio(links: LinkRatios) -> RealField:
 def size(links: LinkRatios, beta: RealField, reach: RealField | None = None) -> RealField:
     """Greatest distance of places that its points get to, in ground links.
 
-        max(1 + a,  2 a + b,  a + |1 + r e^{i angle(AB at the beat)}|,  c,  r)
+        max(1 + a,  2 a + b,  a + |1 + r e^{i angle(AB at the beat)}|,  c,  r,  2 max(c, r) sin(swing / 2))
 
     reach  r: of the rocker's far end E from A, on the line A-B; unsaid: B
-    From the crank's circle to A, to B and to E where they are farthest from D; from A to B and to E.      [derived]
+    From the crank's circle to A, to B and to E where they are farthest from D; from A to B and to E;
+    from end to end of the stroke of B and of E, which is longer than c and r for swings above 60 degrees.     [derived]
 
     >>> float(size(LinkRatios(0.25, 0.5, 0.75), 0.7))
     1.25
@@ -115,6 +117,7 @@ def size(links: LinkRatios, beta: RealField, reach: RealField | None = None) -> 
     crank, coupler, rocker = links
     reach = rocker if reach is None else reach
     along = ((crank + coupler) * np.exp(1j * np.asarray(beta)) - 1) / rocker
-    places = (1 + crank, 2 * crank + coupler, crank + np.abs(1 + reach * along), rocker, reach)
+    stroke = 2 * np.maximum(rocker, reach) * np.sin(np.abs(dead_centres(links).swing) / 2)
+    places = (1 + crank, 2 * crank + coupler, crank + np.abs(1 + reach * along), rocker, reach, stroke)
     greatest: RealField = np.max(np.stack(np.broadcast_arrays(*places)), axis=0)
     return greatest
