@@ -57,7 +57,7 @@ class FourBarOption:
     made: str
     details: Mapping[str, Json] = field(default_factory=dict)
 
-    def as_json(self) -> dict[str, Json]:
+    def as_json(self) -> dict[str, Any]:
         """The solution, SI and radians: see NAMED."""
         one, positions = self.candidate, self.candidate.positions
         return {
@@ -74,14 +74,14 @@ class FourBarOption:
             **self.details,
         }
 
-    def removed_as_json(self, reasons: Mapping[str, str]) -> dict[str, Json]:
+    def removed_as_json(self, reasons: Mapping[str, str]) -> dict[str, Any]:
         """A removed four-bar: links, pins, how it was found, reasons by filter."""
         four_bar = self.candidate.four_bar
         pins = {name: getattr(four_bar, name) for name in PINS}
         return {**four_bar.lengths._asdict(), **pins, "made": self.made, "reasons": reasons}
 
 
-def dimensions(four_bar: FourBar) -> dict[str, Json]:
+def dimensions(four_bar: FourBar) -> dict[str, Any]:
     """Links [m], pins and tracer as drawn [m], branch and class of a four-bar, by the names of the JSON."""
     pins = {name: getattr(four_bar, name) for name in (*PINS, "tracer_on_coupler")}
     return {**four_bar.lengths._asdict(), **pins, "branch": four_bar.branch, "grashof": four_bar.grashof.kind}
