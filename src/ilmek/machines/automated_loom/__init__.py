@@ -11,10 +11,19 @@ from dataclasses import replace
 from ilmek.machines import SUMMARIES
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign, design
+from ilmek.machines.automated_loom.energy import Energy
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
-from ilmek.machines.automated_loom.production_time import Production, estimated_time, production_time, programme_for
-from ilmek.machines.automated_loom.report import LoomAnalysis, analyse, cam_tables, checks, tables, warnings
+from ilmek.machines.automated_loom.parts import PartsList
+from ilmek.machines.automated_loom.production_time import (
+    Production,
+    TimeShares,
+    estimated_time,
+    production_time,
+    programme_for,
+)
+from ilmek.machines.automated_loom.report import LoomAnalysis, analyse, cam_tables, checks, results, tables, warnings
+from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component
 from ilmek.timing.cyclogram import Cyclogram
 
@@ -45,7 +54,8 @@ MACHINE = Component(
     params=AutomatedLoomParams,
     design=design,
     analysis=analyse,
-    reported=(LoomAnalysis,),
+    results=results,
+    reported=(LoomAnalysis, TimeShares, BeatDrive, Energy, PartsList),
     checks=checks,
     tables=tables,
     figures=lambda found: figures(found.loom),

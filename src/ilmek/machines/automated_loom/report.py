@@ -1,6 +1,7 @@
 """What is reported of an automated loom beside its machines: time, beat, parts, energy, checks of the whole."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from ilmek.machines.automated_loom.frame import BOW_LIMIT, BUCKLING_SAFETY, STEE
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom, price_of
 from ilmek.machines.automated_loom.production_time import TimeShares, estimated_time, time_shares
 from ilmek.machines.beat import BeatDrive
-from ilmek.records import computed, group, record, result
+from ilmek.records import computed, record
 from ilmek.report import CamTable, Check, Json, Table, at_least, at_most, columns
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
@@ -29,18 +30,22 @@ class LoomAnalysis:
     """A loom with its weaving time, parts, energy and beat."""
 
     loom: LoomDesign
-    time: float = result("h", "the carpet, estimated; a programme gives it exactly", name="weaving_time")
-    shares: TimeShares = group()
-    listed: PartsList = group()
-    energy: Energy = group()
-    beat: BeatDrive = group()
+    time: float
+    shares: TimeShares
+    listed: PartsList
+    energy: Energy
+    beat: BeatDrive
 
+    weaving_time = computed("h", "the carpet, estimated; a programme gives it exactly", lambda it: it.time)
+    row_time = computed("s", "a row with its knots, estimated", lambda it: it.time / it.loom.rows)
+    knots_per_minute = computed("1", "of all heads, wefts included, estimated", lambda it: 60 * it.knots / it.time)
     cycle_time_knot = computed("s", "time of a knot of one head", lambda it: it.loom.times.knot)
     cycle_time_row = computed(
         "s", "wefts and beats of a row: a turn of the shedding cams, without knots", lambda it: it.loom.times.weft
     )
-    row_time = computed("s", "a row with its knots, estimated", lambda it: it.time / it.loom.rows)
-    knots_per_minute = computed("1", "of all heads, wefts included, estimated", lambda it: 60 * it.knots / it.time)
+    colour_change_time = computed(
+        "s", "mean time to bring another yarn in line", lambda it: it.loom.times.colour_change
+    )
     heads = computed("1", "knotting heads", lambda it: it.loom.heads)
     heads_max = computed("1", "the most that can share a row without meeting", lambda it: it.loom.heads_max)
     rows = computed("1", "rows of knots", lambda it: it.loom.rows)
@@ -49,9 +54,6 @@ class LoomAnalysis:
     warps = computed("1", "warps: two for each knot of a row", lambda it: it.loom.warps)
     warp_pitch = computed("mm", "distance of two warps", lambda it: it.loom.params.pitch)
     tension = computed("N", "tension of a warp", lambda it: it.loom.warp_tension.params.tension)
-    colour_change_time = computed(
-        "s", "mean time to bring another yarn in line", lambda it: it.loom.times.colour_change
-    )
 
     @computed("mm", "stock tube of the warp cylinders")
     def tube(self) -> Json:
@@ -63,6 +65,11 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
     """Time, parts and energy of a loom."""
     listed = parts_of_loom(loom)
     return LoomAnalysis(loom, estimated_time(loom), time_shares(loom), listed, energy_of(loom, listed.axes), loom.beat)
+
+
+def results(found: LoomAnalysis) -> tuple[Any, ...]:
+    """The records whose results are reported, in order."""
+    return (found, found.shares, found.beat, found.energy, found.listed)
 
 
 def checks(found: LoomAnalysis) -> tuple[Check, ...]:
