@@ -9,12 +9,12 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
+from ilmek.dynamics.animation import animated, frames
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.machines.animation import animated, frames
 from ilmek.machines.catalogue import MACHINES
 from ilmek.report import Animation, Drawing, Reading, Report
 from ilmek.viz.moving_names import steadiest

@@ -11,7 +11,7 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.motion_four_bar import MACHINE
-from ilmek.machines.text_lists import read_poses
+from ilmek.params.text_lists import read_poses
 from ilmek.plane.vectors import cross
 from ilmek.report import Animation, Report
 from ilmek.synthesis.burmester.curve import burmester_curve

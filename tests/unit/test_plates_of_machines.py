@@ -2,9 +2,9 @@
 
 import pytest
 
+from ilmek.elements.plates import link_plates
 from ilmek.io.plate_shape import plate_shape
 from ilmek.machines.catalogue import MACHINES
-from ilmek.machines.plates import link_plates
 from ilmek.plane.contours import area
 from ilmek.report import Report
 

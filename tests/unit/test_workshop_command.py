@@ -11,11 +11,11 @@ import pytest
 from click.testing import CliRunner
 
 from ilmek.cli import main
+from ilmek.elements.plates import link_plate
 from ilmek.errors import OutputError, ParameterError
 from ilmek.io.cam_tables import FORMATS
 from ilmek.jobs.workshop import Tolerance, read_tolerance, write_workshop
 from ilmek.machines.component import Component
-from ilmek.machines.plates import link_plate
 from ilmek.params import Params, param
 from ilmek.report import CamTable, Plate, Report
 

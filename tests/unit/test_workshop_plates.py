@@ -12,9 +12,9 @@ from ezdxf.path import make_path
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam, area
 from ilmek.cams.programme import CamProgramme, dwell, fall, rise
+from ilmek.elements.plates import link_plate, round_bore, square_bore, zero_mark
 from ilmek.errors import OutputError, ParameterError
 from ilmek.io.dxf import LAYERS, read_dxf, write_dxf
-from ilmek.machines.plates import link_plate, round_bore, square_bore, zero_mark
 from ilmek.report import Hole, Plate
 
 CAM = PlateCam(

@@ -11,7 +11,7 @@ from ilmek.errors import CarpetError
 from ilmek.io.output import check_file
 from ilmek.jobs.knot import KnotRequest, knot_of
 from ilmek.jobs.page import write_page
-from ilmek.machines.text_lists import read_points
+from ilmek.params.text_lists import read_points
 from ilmek.units import parse_quantity
 
 EXAMPLES = """\b

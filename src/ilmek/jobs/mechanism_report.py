@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray
+from ilmek.dynamics.animation import FRAMES, animated
 from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism import MechanismRun
 from ilmek.linkage.body_motion import PointMotion
@@ -12,7 +13,6 @@ from ilmek.linkage.mobility import mobility
 from ilmek.linkage.model import GROUND, Pin, Rotation, degrees_of_freedom
 from ilmek.linkage.motion import Status
 from ilmek.linkage.solve import solve
-from ilmek.machines.animation import FRAMES, animated
 from ilmek.report import Axis, Column, Drawing, Figure, Plot, Report, Result, Series, Table
 from ilmek.units import turn
 

@@ -1,11 +1,8 @@
 """The loom's frame: two columns that bear the warps' pull, and beams across: heads' rail, top, bottom.
 
 Columns: the cylinders at their ends are drawn together by all warps, half of the pull on each column, off its axis by
-the radius e of the cylinder; half the weight of what the frame carries comes on top, P in all, as if at e too.
-Eccentric compression of a column of height h, pinned at both ends [Timoshenko and Gere,
-Theory of Elastic Stability, 1.13, the secant formula], with q = h/2 sqrt(P/(E I)):
-
-    stress = P/A + P e c / (I cos q),   bow = e (1/cos q - 1),   buckling at P = pi^2 E I / h^2
+the radius e of the cylinder; half the weight of what the frame carries comes on top, P in all, as if at e too
+[`elements.columns`].
 
 The rail: each span between columns and posts simply supported, its own weight and as many heads as find room side by
 side in its middle, which is the worst they can do.
@@ -18,70 +15,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.elements.beam import uniform
-from ilmek.elements.materials import GRAVITY, MATERIALS
+from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, eccentric, euler
+from ilmek.elements.materials import GRAVITY
 from ilmek.errors import LoomError
 from ilmek.records import computed, record, result
-from ilmek.units import format_quantity, mm
-
-STEEL = MATERIALS["structural steel"]
-
-SECTIONS = tuple(
-    (side * mm, wall * mm)
-    for side, wall in (
-        (40, 3),
-        (50, 3),
-        (60, 4),
-        (80, 4),
-        (80, 6),
-        (100, 5),
-        (100, 8),
-        (120, 6),
-        (120, 10),
-        (150, 8),
-        (180, 8),
-        (200, 10),
-        (250, 12),
-        (300, 12),
-        (350, 16),
-        (400, 16),
-    )
-)
-"""Sides and walls of square hollow sections [m]: a choice from EN 10219-2 and EN 10210-2."""
+from ilmek.units import mm
 
 STRESS_SAFETY, BUCKLING_SAFETY = 2.0, 4.0
-"""Against yield, and against Euler's load; judgements of ours."""
+"""Against yield, and against Euler's load; assumed by this project."""
 
 BOW_LIMIT = 1 * mm
 """Of a column [m]: as much as the thesis allows the cylinders that it holds [3.1]."""
-
-
-@dataclass(frozen=True, slots=True)
-class HollowSquare:
-    """A square hollow section with sharp corners: side and wall [m]."""
-
-    side: float
-    wall: float
-
-    @property
-    def area(self) -> float:
-        """Area [m^2]."""
-        return self.side**2 - (self.side - 2 * self.wall) ** 2
-
-    @property
-    def inertia(self) -> float:
-        """Second moment of area [m^4]."""
-        hollow = uniform.square_inertia(self.side) - uniform.square_inertia(self.side - 2 * self.wall)
-        return float(hollow)
-
-    @property
-    def line_mass(self) -> float:
-        """Mass per length [kg/m]."""
-        return self.area * STEEL.density
-
-    @property
-    def name(self) -> str:
-        """Like `100 x 5 mm`."""
-        return f"{format_quantity(self.side / mm, '')} x {format_quantity(self.wall, 'mm')}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,20 +97,6 @@ def frame_for(task: FrameTask) -> LoomFrame:
     return LoomFrame(
         task, column, rail, stress, bow, euler(task.height, column) / task.force, rail_sag(task, rail), mass
     )
-
-
-def eccentric(force: float, lever: float, height: float, section: HollowSquare) -> tuple[float, float]:
-    """Greatest stress [Pa] and bow [m] of a column under a force [N] off its axis; inf from Euler's load on."""
-    q = height / 2 * math.sqrt(force / (STEEL.modulus * section.inertia))
-    if q >= math.pi / 2:
-        return math.inf, math.inf
-    bending = force * lever * section.side / 2 / (section.inertia * math.cos(q))
-    return force / section.area + bending, lever * (1 / math.cos(q) - 1)
-
-
-def euler(height: float, section: HollowSquare) -> float:
-    """Load at which a column pinned at both ends buckles [N]: pi^2 E I / h^2."""
-    return math.pi**2 * STEEL.modulus * section.inertia / height**2
 
 
 def rail_sag(task: FrameTask, section: HollowSquare) -> float:

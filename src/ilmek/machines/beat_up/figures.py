@@ -5,12 +5,12 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.dynamics.animation import animated, frames
+from ilmek.dynamics.crank_figures import crank_plot, points_at
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
-from ilmek.machines.animation import animated, frames
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.running import MotorRun
-from ilmek.machines.crank_figures import crank_plot, points_at
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
 

@@ -8,11 +8,11 @@ import math
 
 import numpy as np
 
+from ilmek.elements.drive_parts import motor_part
 from ilmek.elements.motors import smallest_motor
 from ilmek.machines.beat import Beat, BeatDrive
 from ilmek.machines.beat_up.design import BeatUp, design
 from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.machines.drives import motor_part
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
 from ilmek.report import Part, Work

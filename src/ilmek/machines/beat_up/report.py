@@ -2,6 +2,7 @@
 
 import math
 
+from ilmek.elements.plates import link_plates
 from ilmek.machines.beat_up.design import PINS, BeatUp
 from ilmek.machines.beat_up.family import QUANTITIES, FamilyResult, limits
 from ilmek.machines.beat_up.family_figures import family_figures
@@ -9,7 +10,6 @@ from ilmek.machines.beat_up.figures import figures_of
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.running import REACHED, LastTurn, MotorRun, motor_run
 from ilmek.machines.beat_up.shaking import Balance
-from ilmek.machines.plates import link_plates
 from ilmek.records import record
 from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group
 from ilmek.synthesis.crank_rocker.dead_centres import grashof_margin

@@ -5,7 +5,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.programme import TURN
 from ilmek.cams.trace import CamTrace
-from ilmek.machines.animation import frames
+from ilmek.dynamics.animation import frames
 from ilmek.machines.cam import developed_cams
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.parts import cutouts, rim_radius, zero_mark

@@ -10,8 +10,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.programme import TURN
+from ilmek.dynamics.animation import FRAMES
 from ilmek.elements.materials import MATERIALS
-from ilmek.machines.animation import FRAMES
 from ilmek.machines.cam.design import CamDesign
 from ilmek.num.piecewise import integral
 from ilmek.report import Animation, Axis, Drawing, MovingStroke, Plate, Reading, Stroke

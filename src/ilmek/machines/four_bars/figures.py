@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.dynamics.animation import animated, frames
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.machines.animation import animated, frames
 from ilmek.report import Animation, Dot, Drawing, Figure, Stroke
 from ilmek.synthesis.candidate import Candidate
 from ilmek.synthesis.circuit_loops import circuit_loops

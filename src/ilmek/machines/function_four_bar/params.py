@@ -13,8 +13,8 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 from ilmek.machines.four_bars.choice import FourBarTaskParams
-from ilmek.machines.text_lists import read_pairs
 from ilmek.params import kind
+from ilmek.params.text_lists import read_pairs
 from ilmek.synthesis.freudenstein import POINTS
 from ilmek.synthesis.function import Function, function_of_samples
 from ilmek.units import deg, mm, turn

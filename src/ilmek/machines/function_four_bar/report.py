@@ -4,9 +4,9 @@ import dataclasses
 
 import numpy as np
 
+from ilmek.dynamics.animation import animated, frames
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.machines.animation import animated, frames
 from ilmek.machines.four_bars import report as shared
 from ilmek.machines.four_bars.choice import FourBarOption, finite
 from ilmek.machines.four_bars.figures import drawn

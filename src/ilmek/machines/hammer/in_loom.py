@@ -11,10 +11,10 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.cams.laws import LAWS
+from ilmek.elements.drive_parts import motor_part, reducer_part
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines.beat import Beat, BeatDrive
 from ilmek.machines.beat_up import in_loom as crank_rockers
-from ilmek.machines.drives import motor_part, reducer_part
 from ilmek.machines.hammer.design import Hammer, design
 from ilmek.machines.hammer.params import STEEL, HammerParams
 from ilmek.machines.loom_task import LoomTask

@@ -11,7 +11,7 @@ from ilmek.machines.knotting_dyad.head import Head, head_of
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.search import best_arm
 from ilmek.machines.knotting_dyad.section import section_of
-from ilmek.machines.text_lists import read_angles, read_points
+from ilmek.params.text_lists import read_angles, read_points
 from ilmek.records import computed, record
 from ilmek.report import Json
 from ilmek.synthesis.dyad import PointArms, RootKind, TwoLinkArm, arms_through_points, dyads_through_points

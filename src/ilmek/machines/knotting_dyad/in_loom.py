@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from ilmek.machines.drives import motor_part, reducer_part
+from ilmek.elements.drive_parts import motor_part, reducer_part
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import head_motion, links_of
 from ilmek.machines.knotting_dyad.motion import drive_angles

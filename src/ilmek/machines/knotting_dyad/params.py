@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ilmek.errors import ParameterError
-from ilmek.machines.text_lists import read_angles, read_points
 from ilmek.params import Params, kind
+from ilmek.params.text_lists import read_angles, read_points
 from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.units import deg, format_quantity, g, mm, ms
 

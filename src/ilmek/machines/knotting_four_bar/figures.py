@@ -7,14 +7,14 @@ from types import MappingProxyType
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.dynamics.animation import animated, frames
 from ilmek.dynamics.attached import attached
+from ilmek.dynamics.crank_figures import crank_plot
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
-from ilmek.machines.animation import animated, frames
-from ilmek.machines.crank_figures import crank_plot
 from ilmek.machines.four_bars.figures import numbered
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.model import evaluate

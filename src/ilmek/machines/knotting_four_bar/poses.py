@@ -11,7 +11,7 @@ import numpy as np
 
 from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.errors import MechanismError, ParameterError
-from ilmek.machines.text_lists import read_poses
+from ilmek.params.text_lists import read_poses
 from ilmek.plane.vectors import unit
 from ilmek.records import computed, record
 from ilmek.report import Json

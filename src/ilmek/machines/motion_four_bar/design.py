@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.machines.four_bars.choice import FourBarDesign, FourBarOption, choose, of_best, solutions
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
-from ilmek.machines.text_lists import BodyPoses, Bounds
+from ilmek.params.text_lists import BodyPoses, Bounds
 from ilmek.records import computed, record, result
 from ilmek.report import Json
 from ilmek.synthesis.burmester.curve import BurmesterCurve, CurveBranch, burmester_curve

@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from ilmek.machines.drives import motor_part, positive_work, reducer_part
+from ilmek.elements.drive_parts import motor_part, positive_work, reducer_part
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding.design import SheddingDesign, design
 from ilmek.machines.shedding.params import SheddingParams

@@ -8,7 +8,7 @@ from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, jumps
 from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.elements import shafts
-from ilmek.machines.drives import no_motor
+from ilmek.elements.drive_parts import no_motor
 from ilmek.machines.shedding.analysis import SheddingAnalysis
 from ilmek.machines.shedding.design import SheddingDesign, lifting
 from ilmek.machines.shedding.phases import Shed, required_window, shed_of

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.dynamics.animation import animated, frames
+from ilmek.dynamics.crank_figures import CRANK, crank_plot, points_at
 from ilmek.linkage.quality import transmission_angle
-from ilmek.machines.animation import animated, frames
-from ilmek.machines.crank_figures import CRANK, crank_plot, points_at
 from ilmek.machines.tufting.design import JOINTS, Tufting, pressure_angle
 from ilmek.machines.tufting.model import evaluate, move
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke

@@ -1,6 +1,6 @@
 """What is reported of a needle mechanism: checks, tables, warnings and plates."""
 
-from ilmek.machines.plates import link_plates
+from ilmek.elements.plates import link_plates
 from ilmek.machines.tufting.design import JOINTS, LINKS, Tufting
 from ilmek.machines.tufting.model import inertias
 from ilmek.report import Check, Plate, Table, at_least, at_most, columns

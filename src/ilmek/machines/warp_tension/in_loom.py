@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
+from ilmek.elements.drive_parts import motor_part, reducer_part
 from ilmek.elements.tubes import Tube, find_tube
 from ilmek.errors import LoomError
-from ilmek.machines.drives import motor_part, reducer_part
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders
 from ilmek.machines.warp_tension.design import WarpTensionDesign, tubes_within_limits

@@ -2,8 +2,8 @@
 
 from ilmek.elements.beam import uniform
 from ilmek.elements.bearings import BEARINGS, bearings_for, slope_limit
+from ilmek.elements.drive_parts import no_motor
 from ilmek.elements.tubes import TUBES
-from ilmek.machines.drives import no_motor
 from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis
 from ilmek.machines.warp_tension.cylinders import STATIC_SAFETY, STUB, STUB_SAFETY, Cylinder
 from ilmek.machines.warp_tension.design import WarpTensionDesign, outer_radii_min, tubes_within_limits

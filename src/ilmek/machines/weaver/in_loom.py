@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from ilmek.machines.drives import belt_motor_part, motor_part, positive_work, reducer_part
+from ilmek.elements.drive_parts import belt_motor_part, motor_part, positive_work, reducer_part
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver.cams import torque_at
 from ilmek.machines.weaver.design import Weaver

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from ilmek.elements.plates import round_bore, zero_mark
 from ilmek.machines.electronic_cam import cam_table
-from ilmek.machines.plates import round_bore, zero_mark
 from ilmek.machines.weaver.cams import PRESSURE_LIMIT, STEEL, CamShaftDrive, HeadCam, stack_width
 from ilmek.machines.weaver.cyclogram import relations
 from ilmek.machines.weaver.design import HAND_KNOT, Weaver

@@ -12,9 +12,9 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.attached import attached
+from ilmek.dynamics.crank_figures import CRANK
 from ilmek.linkage.model import GROUND, Pin, Slide
 from ilmek.linkage.motion import Motion
-from ilmek.machines.crank_figures import CRANK
 from ilmek.plane.vectors import cross, dot, unit
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import turn

@@ -1,0 +1,83 @@
+"""Square hollow sections, and columns of them under eccentric compression.
+
+A column of height h, pinned at both ends, under P at the lever e off its axis, with q = h/2 sqrt(P/(E I)):
+
+    stress = P/A + P e c / (I cos q),   bow = e (1/cos q - 1),   buckling at P = pi^2 E I / h^2
+
+[Timoshenko and Gere, Theory of Elastic Stability, 1.13, the secant formula]
+"""
+
+import math
+from dataclasses import dataclass
+
+from ilmek.elements.beam import uniform
+from ilmek.elements.materials import MATERIALS
+from ilmek.units import format_quantity, mm
+
+STEEL = MATERIALS["structural steel"]
+
+SECTIONS = tuple(
+    (side * mm, wall * mm)
+    for side, wall in (
+        (40, 3),
+        (50, 3),
+        (60, 4),
+        (80, 4),
+        (80, 6),
+        (100, 5),
+        (100, 8),
+        (120, 6),
+        (120, 10),
+        (150, 8),
+        (180, 8),
+        (200, 10),
+        (250, 12),
+        (300, 12),
+        (350, 16),
+        (400, 16),
+    )
+)
+"""Sides and walls of square hollow sections [m]: a choice from EN 10219-2 and EN 10210-2."""
+
+
+@dataclass(frozen=True, slots=True)
+class HollowSquare:
+    """A square hollow section with sharp corners: side and wall [m]."""
+
+    side: float
+    wall: float
+
+    @property
+    def area(self) -> float:
+        """Area [m^2]."""
+        return self.side**2 - (self.side - 2 * self.wall) ** 2
+
+    @property
+    def inertia(self) -> float:
+        """Second moment of area [m^4]."""
+        hollow = uniform.square_inertia(self.side) - uniform.square_inertia(self.side - 2 * self.wall)
+        return float(hollow)
+
+    @property
+    def line_mass(self) -> float:
+        """Mass per length [kg/m]."""
+        return self.area * STEEL.density
+
+    @property
+    def name(self) -> str:
+        """Like `100 x 5 mm`."""
+        return f"{format_quantity(self.side / mm, '')} x {format_quantity(self.wall, 'mm')}"
+
+
+def eccentric(force: float, lever: float, height: float, section: HollowSquare) -> tuple[float, float]:
+    """Greatest stress [Pa] and bow [m] of a column under a force [N] off its axis; inf from Euler's load on."""
+    q = height / 2 * math.sqrt(force / (STEEL.modulus * section.inertia))
+    if q >= math.pi / 2:
+        return math.inf, math.inf
+    bending = force * lever * section.side / 2 / (section.inertia * math.cos(q))
+    return force / section.area + bending, lever * (1 / math.cos(q) - 1)
+
+
+def euler(height: float, section: HollowSquare) -> float:
+    """Load at which a column pinned at both ends buckles [N]: pi^2 E I / h^2."""
+    return math.pi**2 * STEEL.modulus * section.inertia / height**2
