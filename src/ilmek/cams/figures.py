@@ -1,13 +1,15 @@
-"""What a cam looks like: motion diagrams, profile to scale, pressure angle and curvature over the turn."""
+"""Figures of a cam: motion diagrams, profile to scale, pressure angle and curvature over the turn."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.programme import TURN, CamProgramme
+from ilmek.cams.programme import TURN, CamProgramme, jumps
 from ilmek.cams.trace import CamRole
+from ilmek.num.piecewise import Curve
 from ilmek.report import Axis, Dot, Drawing, Mark, Plot, Series, Stroke
 from ilmek.units import format_quantity
 
@@ -20,6 +22,33 @@ def sample_angles(*programmes: CamProgramme, count: int = 361) -> FloatArray:
     knots = np.mod(np.concatenate([programme.knots for programme in programmes]), TURN)
     sides = np.clip(np.concatenate([knots - _BESIDE, knots + _BESIDE]), 0.0, TURN)
     return np.unique(np.concatenate([np.linspace(0.0, TURN, count), sides]))
+
+
+def turn_plot(
+    title: str,
+    axis: Axis,
+    curves: Mapping[str, Curve],
+    *programmes: CamProgramme,
+    name: str,
+    levels: Mapping[str, float] = MappingProxyType({}),
+    dashed: Collection[str] = (),
+    mark: Mark | None = None,
+    note: str = "",
+) -> Plot:
+    """Curves over the cam angle by their labels, some of them dashed, and levels as dashed lines.
+
+    programmes  whose knots are shown, besides even steps over the turn
+    """
+    angle, ends = sample_angles(*programmes), np.array([0.0, TURN])
+    drawn = [Series(label, angle, curve(angle), dashed=label in dashed) for label, curve in curves.items()]
+    drawn += [Series(label, ends, np.full(2, level), dashed=True) for label, level in levels.items()]
+    return Plot(name, title, _ANGLE, axis, tuple(drawn), (mark,) if mark else (), note)
+
+
+def jump_note(programme: CamProgramme, of: str = "") -> str:
+    """The jumps of the acceleration as a note; `of`: words before it, `even warps: `."""
+    found = ", ".join(f"{jump.place} at {format_quantity(jump.angle, 'deg')}" for jump in jumps(programme))
+    return f"{of}the acceleration jumps {found}" if found else "the acceleration has no jump"
 
 
 def motion_plots(
@@ -55,20 +84,17 @@ def motion_plots(
 
 def pressure_plot(cam: CamRole, limit: float, at: float) -> Plot:
     """Pressure angle over the turn between +-limit [rad]; `at` [rad] marks the largest."""
-    angle = sample_angles(cam.programme)
-    bounds = tuple(Series(name, np.array([0.0, TURN]), np.full(2, y), True) for name, y in _bounds(limit))
-    series = (Series("pressure angle", angle, cam.trace(angle).pressure_angle), *bounds)
-    axis = Axis("pressure angle", "deg")
-    return Plot("pressure-angle", "Pressure angle", _ANGLE, axis, series, (Mark(at, "largest"),))
+    levels, axis = {"limit": limit, "limit on the return": -limit}, Axis("pressure angle", "deg")
+    curve, mark = {"pressure angle": lambda angle: cam.trace(angle).pressure_angle}, Mark(at, "largest")
+    return turn_plot("Pressure angle", axis, curve, cam.programme, name="pressure-angle", levels=levels, mark=mark)
 
 
 def curvature_plot(cam: CamRole, at: float) -> Plot:
-    """Curvature of the pitch curve over the turn; `at` [rad] marks the sharpest convex place."""
-    angle = sample_angles(cam.programme)
-    series = (Series("pitch curve", angle, cam.trace(angle).curvature),)
-    note = "positive: convex; the radius of curvature is the reciprocal"
+    """Curvature of the pitch curve over the turn; `at` [rad] marks its largest convex value."""
+    curve, mark = {"pitch curve": lambda angle: cam.trace(angle).curvature}, Mark(at, "sharpest")
+    note, axis = "positive: convex; the radius of curvature is the reciprocal", Axis("curvature", "1/m")
     title = "Curvature of the pitch curve"
-    return Plot("curvature", title, _ANGLE, Axis("curvature", "1/m"), series, (Mark(at, "sharpest"),), note)
+    return turn_plot(title, axis, curve, cam.programme, name="curvature", mark=mark, note=note)
 
 
 def cam_drawing(cam: CamRole, bore_side: float, guide_radius: float) -> Drawing:
@@ -93,10 +119,6 @@ def cam_drawing(cam: CamRole, bore_side: float, guide_radius: float) -> Drawing:
     )
     note = "turns counter-clockwise; the warp lies on the right when the cam angle is 0"
     return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "", "point"),), note=note)
-
-
-def _bounds(limit: float) -> tuple[tuple[str, float], ...]:
-    return ("limit", limit), ("limit on the return", -limit)
 
 
 def _to_the_tip(cam: CamRole, angle: FloatArray) -> ComplexArray:

@@ -1,8 +1,6 @@
 """The cam's figures: to scale and in motion, its diagrams over the turn, its forces."""
 
-from collections.abc import Mapping
 from dataclasses import replace
-from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
@@ -18,10 +16,9 @@ from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.parts import cutouts, rim_radius, zero_mark
 from ilmek.num.piecewise import Curve, supremum
 from ilmek.plane import contours
-from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Series, Stroke
+from ilmek.report import Axis, Dot, Drawing, Figure, Mark, Plot, Stroke
 from ilmek.units import format_quantity, mm
 
-ANGLE = Axis("cam angle", "deg")
 _CIRCLE = np.exp(1j * np.linspace(0.0, TURN, 361))
 
 CHORD = 0.02 * mm
@@ -35,7 +32,7 @@ def figures(found: CamAnalysis) -> tuple[Figure, ...]:
     widest = supremum(lambda angle: np.abs(cam.trace(angle).pressure_angle), cam.knots)
     motion = {"follower": design.programme}
     plots = (
-        *cam_figures.motion_plots(motion, params.speed, _marks(design), _jump_note(design), unit),
+        *cam_figures.motion_plots(motion, params.speed, _marks(design), cam_figures.jump_note(design.programme), unit),
         _jerk_plot(design),
         *(() if cam.flat and widest.value == 0 else (_pressure_angle_plot(design, widest.at),)),
         cam_figures.curvature_plot(cam, design.curvature_at),
@@ -108,15 +105,11 @@ def _marks(design: CamDesign) -> tuple[Mark, ...]:
     return tuple(Mark(float(edge), part.name) for edge, part in zip(programme.edges, programme.segments, strict=False))
 
 
-def _jump_note(design: CamDesign) -> str:
-    found = ", ".join(f"{jump.place} at {format_quantity(jump.angle, 'deg')}" for jump in jumps(design.programme))
-    return f"the acceleration jumps {found}" if found else "the acceleration has no jump"
-
-
 def _jerk_plot(design: CamDesign) -> Plot:
     jerk = {"follower": lambda angle: design.params.speed**3 * design.programme.at(angle).ddds}
     note = "between jumps of the acceleration, where it is infinite" if jumps(design.programme) else ""
-    return _plot(design, "jerk", "Jerk over the cam angle", Axis("jerk", f"{_unit(design)}/s^3"), jerk, note=note)
+    axis, title = Axis("jerk", f"{_unit(design)}/s^3"), "Jerk over the cam angle"
+    return cam_figures.turn_plot(title, axis, jerk, design.programme, name="jerk", note=note)
 
 
 def _pressure_angle_plot(design: CamDesign, at: float) -> Plot:
@@ -126,7 +119,10 @@ def _pressure_angle_plot(design: CamDesign, at: float) -> Plot:
     if limit is not None and design.params.led:
         levels["limit on the fall"] = -limit
     curve = {"pressure angle": lambda angle: design.cam.trace(angle).pressure_angle}
-    return _plot(design, "pressure-angle", "Pressure angle", axis, curve, levels=levels, mark=Mark(at, "largest"))
+    mark = Mark(at, "largest")
+    return cam_figures.turn_plot(
+        "Pressure angle", axis, curve, design.programme, name="pressure-angle", levels=levels, mark=mark
+    )
 
 
 def _force_plots(design: CamDesign) -> tuple[Plot, ...]:
@@ -142,33 +138,23 @@ def _force_plots(design: CamDesign) -> tuple[Plot, ...]:
         note = "the follower stays on the cam as long as the force is above 0"
     mark = Mark(extremes.normal.at, format_quantity(extremes.normal.value, "N"))
     title, newton = "Force between cam and follower", Axis("force", "N")
-    force = _plot(design, "contact-force", title, newton, forces, mark=mark, note=note)
+    over = design.programme
+    force = cam_figures.turn_plot(
+        title, newton, forces, over, name="contact-force", dashed=("spring",), mark=mark, note=note
+    )
     mark = Mark(extremes.torque.at, format_quantity(extremes.torque.value, "N*m"))
     note = "positive: the shaft drives the cam; negative: the follower drives it"
     curve, level = {"torque": lambda angle: design.state(angle).torque}, {"root mean square": extremes.torque_rms}
     axis = Axis("torque", "N*m")
-    torque = _plot(design, "torque", "Torque of the shaft", axis, curve, levels=level, mark=mark, note=note)
+    title = "Torque of the shaft"
+    torque = cam_figures.turn_plot(title, axis, curve, over, name="torque", levels=level, mark=mark, note=note)
     if extremes.pressure is None:
         return force, torque
     title, axis = "Pressure between cam and follower", Axis("pressure", "MPa")
     mark = Mark(extremes.pressure.at, "largest")
     curve, level = {"Hertz pressure": design.hertz}, {"limit": design.pressure_limit}
-    return force, torque, _plot(design, "hertz-pressure", title, axis, curve, levels=level, mark=mark)
-
-
-def _plot(
-    design: CamDesign,
-    name: str,
-    title: str,
-    axis: Axis,
-    curves: Mapping[str, Curve],
-    *,
-    levels: Mapping[str, float] = MappingProxyType({}),
-    mark: Mark | None = None,
-    note: str = "",
-) -> Plot:
-    """Curves over the turn, and levels as dashed lines."""
-    angle, ends = cam_figures.sample_angles(design.programme), np.array([0.0, TURN])
-    drawn = [Series(label, angle, curve(angle), dashed=label == "spring") for label, curve in curves.items()]
-    drawn += [Series(label, ends, np.full(2, level), dashed=True) for label, level in levels.items()]
-    return Plot(name, title, ANGLE, axis, tuple(drawn), (mark,) if mark else (), note)
+    return (
+        force,
+        torque,
+        cam_figures.turn_plot(title, axis, curve, over, name="hertz-pressure", levels=level, mark=mark),
+    )

@@ -2,11 +2,8 @@
 
 from dataclasses import replace
 
-import numpy as np
-
 from ilmek.cams import figures as cam_figures
 from ilmek.cams.limits import convex_radius_min
-from ilmek.cams.programme import TURN, jumps
 from ilmek.elements.beam import uniform
 from ilmek.elements.figures import deflection_plot
 from ilmek.machines.shedding.analysis import SheddingAnalysis
@@ -25,7 +22,9 @@ def figures(found: SheddingAnalysis) -> tuple[Figure, ...]:
     inertia = float(uniform.square_inertia(shaft.bar))
     drawn: tuple[Drawing | Plot, ...] = (
         cam_figures.cam_drawing(cam, shaft.bar, design.stack.guide_radius),
-        *cam_figures.motion_plots(programmes, params.speed, _shuttle_marks(design), _jump_note(design)),
+        *cam_figures.motion_plots(
+            programmes, params.speed, _shuttle_marks(design), cam_figures.jump_note(design.even, "even warps: ")
+        ),
         cam_figures.pressure_plot(cam, params.pressure_angle_limit, design.pressure_angle_at),
         cam_figures.curvature_plot(cam, convex_radius_min(cam).at),
         _torque_plot(design),
@@ -38,30 +37,26 @@ def figures(found: SheddingAnalysis) -> tuple[Figure, ...]:
 
 def _torque_plot(design: SheddingDesign) -> Plot:
     """Torque of the warps on the shaft over the turn, and its rms."""
-    angle, drive = cam_figures.sample_angles(design.even, design.odd), design.drive
-    series = (
-        Series("torque", angle, design.shed.torque(angle)),
-        Series("root mean square", np.array([0.0, TURN]), np.full(2, drive.torque_rms), dashed=True),
-    )
-    mark = Mark(drive.torque_max.at, format_quantity(drive.torque_max.value, "Nm"))
+    most, curve, levels = design.drive.torque_max, design.shed.torque, {"root mean square": design.drive.torque_rms}
+    mark = Mark(most.at, format_quantity(most.value, "Nm"))
     note = "positive: the shaft lifts the warps; negative: the warps drive the shaft"
-    return Plot("torque", "Torque of the warps on the shaft", ANGLE, TORQUE, series, (mark,), note)
+    curves, both = {"torque": curve}, (design.even, design.odd)
+    title = "Torque of the warps on the shaft"
+    return cam_figures.turn_plot(title, TORQUE, curves, *both, name="torque", levels=levels, mark=mark, note=note)
 
 
 def _stagger_plot(found: SheddingAnalysis) -> Plot:
     """Torque of cams all at once beside that of the flattest phases, or of those chosen."""
     design = found.design
     other = design.shed if design.params.phase == "staggered" else found.flattest
-    angle = cam_figures.sample_angles(*other.even.programmes, *other.odd.programmes, design.even)
     spread = format_quantity(other.spread, "deg")
     name = f"{other.groups} groups over {spread}" if other.groups > 1 else "nothing is flatter"
-    series = (
-        Series("all at once", angle, found.together.torque(angle)),
-        Series(name, angle, other.torque(angle), dashed=True),
-    )
+    curves = {"all at once": found.together.torque, name: other.torque}
+    programmes = (*other.even.programmes, *other.odd.programmes, design.even)
     first, last = other.window()
     note = f"the shed is open for the shuttle for {format_quantity(last - first, 'deg')} with {name}"
-    return Plot("stagger", "Torque of cams all at once and one after another", ANGLE, TORQUE, series, note=note)
+    title = "Torque of cams all at once and one after another"
+    return cam_figures.turn_plot(title, TORQUE, curves, *programmes, name="stagger", dashed=(name,), note=note)
 
 
 def _tension_plots(found: SheddingAnalysis) -> tuple[Plot, ...]:
@@ -90,9 +85,3 @@ def _shuttle_marks(design: SheddingDesign) -> tuple[Mark, ...]:
     """When the shuttle may enter and must have left the even shed; none where the shed is too low for it."""
     first, last = design.shuttle_window
     return (Mark(first, "shuttle in"), Mark(last, "shuttle out")) if last > first else ()
-
-
-def _jump_note(design: SheddingDesign) -> str:
-    """The jumps of the acceleration of the even warps, as a phrase."""
-    found = ", ".join(f"{jump.place} at {format_quantity(jump.angle, 'deg')}" for jump in jumps(design.even))
-    return f"even warps: the acceleration jumps {found}" if found else "the acceleration has no jump"
