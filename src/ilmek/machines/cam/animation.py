@@ -10,7 +10,7 @@ from ilmek.machines.cam import developed_cams
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.parts import cutouts, rim_radius, zero_mark
 from ilmek.plane import contours
-from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
+from ilmek.report import Animation, Dot, MovingDot, MovingStroke, Stroke
 from ilmek.units import mm
 
 OUTLINE = 361
@@ -24,8 +24,8 @@ def moving(design: CamDesign) -> Animation:
     at = frames()
     up = _up(design)
     turned = up * np.exp(1j * at)[:, None]
-    state = design.state(at)
-    centre = up * state.trace.pitch * np.exp(1j * at)
+    trace = design.cam.trace(at)
+    centre = up * trace.pitch * np.exp(1j * at)
     surface = design.cam.trace(np.linspace(0.0, TURN, OUTLINE)).surface[:-1]
     bores = [contours.along(hole, CHORD) for hole in cutouts(design, design.cam)]
     strokes = (
@@ -33,21 +33,13 @@ def moving(design: CamDesign) -> Animation:
         *(MovingStroke(turned * edge, "outline", closed=True) for edge in _more_edges(design)),
         *(MovingStroke(turned * bore, "outline", closed=True) for bore in bores),
         MovingStroke(turned * zero_mark(design), "outline"),
-        *_follower(design, state.trace, centre),
+        *_follower(design, trace, centre),
         *_second_follower(design, at),
     )
-    readings = (
-        Reading("lift", state.trace.course.s * design.params.per_unit, "mm"),
-        Reading("pressure angle", state.trace.pressure_angle, "deg"),
-        Reading("contact force", state.normal, "N"),
-        Reading("torque", state.torque, "N*m"),
-    )
-    period = TURN / design.params.speed if design.params.speed > 0 else None
-    touched = MovingDot(up * state.trace.surface * np.exp(1j * at), "", "point")
+    touched = MovingDot(up * trace.surface * np.exp(1j * at), "", "point")
     dots = (Dot(0j, "", "pivot"), *((Dot(_pivot(design), "", "pivot"),) if _swings(design) else ()))
     guide = () if _swings(design) else _guide(design, centre)
-    drawing = Drawing("cam-moving", "Cam in motion", guide, dots)
-    return Animation(drawing, Axis("cam angle", "deg"), at, strokes, (touched,), True, 0, period, readings)
+    return developed_cams.animated(design, at, strokes, guide, dots, (touched,))
 
 
 def _more_edges(design: CamDesign) -> tuple[ComplexArray, ...]:

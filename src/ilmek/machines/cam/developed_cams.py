@@ -14,7 +14,7 @@ from ilmek.dynamics.animation import FRAMES
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.design import CamDesign
 from ilmek.num.piecewise import integral
-from ilmek.report import Animation, Axis, Drawing, MovingStroke, Plate, Reading, Stroke
+from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Plate, Reading, Stroke
 from ilmek.units import format_quantity
 
 POINTS = 721
@@ -54,28 +54,42 @@ def moving(design: CamDesign) -> Animation:
     along = np.linspace(0.0, end, POINTS // 3) if wedge else np.linspace(-0.75 * TURN, 1.75 * TURN, POINTS)
     trace = cam.trace(along)
     shift = -cam.prime_radius * at[:, None]
-    state = design.state(at)
     low, _ = _edges(design)
     curves = [trace.surface, *([trace.parallel(cam.roller_radius)] if design.params.led else [])]
     if wedge:
         ends = np.array([cam.prime_radius * end + 1j * low, 1j * low])
         curves = [np.concatenate([trace.surface, -1j * ends])]
-    centre = 1j * state.trace.course.s
+    centre = 1j * design.programme.at(at).s
     stem = centre[:, None] + 1j * np.array([0.0, 2.5 * design.params.lift + 2 * cam.roller_radius])
     strokes = (
         *(MovingStroke(shift + 1j * curve, "outline", closed=wedge) for curve in curves),
         MovingStroke(centre[:, None] + cam.roller_radius * _CIRCLE[:-1], "outline", closed=True),
         MovingStroke(stem, "link", design.params.follower),
     )
+    return animated(design, at, strokes, _guide(design), turns=not wedge)
+
+
+def animated(  # noqa: PLR0917
+    design: CamDesign,
+    at: FloatArray,
+    strokes: tuple[MovingStroke, ...],
+    guide: tuple[Stroke, ...],
+    dots: tuple[Dot, ...] = (),
+    touched: tuple[MovingDot, ...] = (),
+    *,
+    turns: bool = True,
+) -> Animation:
+    """Strokes at cam angles, with the readings of a cam; `guide`, `dots`: at rest, `touched`: the point of contact."""
+    state = design.state(at)
     readings = (
-        Reading("lift", state.trace.course.s, "mm"),
+        Reading("lift", state.trace.course.s * design.params.per_unit, "mm"),
         Reading("pressure angle", state.trace.pressure_angle, "deg"),
         Reading("contact force", state.normal, "N"),
         Reading("torque", state.torque, "N*m"),
     )
     period = TURN / design.params.speed if design.params.speed > 0 else None
-    still = Drawing("cam-moving", "Cam in motion", _guide(design))
-    return Animation(still, Axis("cam angle", "deg"), at, strokes, (), not wedge, 0, period, readings)
+    still = Drawing("cam-moving", "Cam in motion", guide, dots)
+    return Animation(still, Axis("cam angle", "deg"), at, strokes, touched, turns, 0, period, readings)
 
 
 def plate(design: CamDesign, title: str) -> Plate:
