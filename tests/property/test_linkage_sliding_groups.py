@@ -102,7 +102,7 @@ def worst_gap(motion: Motion) -> float:
 def check(mechanism: Mechanism, kind: str) -> None:
     """All the laws at once for a mechanism whose last group is of that kind."""
     solving = plan(mechanism)
-    assert solving.steps[-1].words.endswith(f": {kind}")
+    assert solving.steps[-1].description.endswith(f": {kind}")
     motion = solve(solving, TURN, 1.0).require()
     assert worst_gap(motion) <= 1e-12
     for body in mechanism.moving:

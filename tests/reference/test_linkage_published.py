@@ -69,7 +69,7 @@ def needle() -> Mechanism:
 def test_tufting_needle_ranges():
     """Xu et al.: ranges of theta2, theta3, theta5 and stroke under figure 7 (theta4's -7.89 is a misprint of -7.68)."""
     steps = plan(needle()).steps
-    assert [step.words.rsplit(": ", 1)[-1] for step in steps[1:]] == ["RRR", "RRP"]
+    assert [step.description.rsplit(": ", 1)[-1] for step in steps[1:]] == ["RRR", "RRP"]
     motion = solve(plan(needle()), TURN, 160 * 2 * np.pi / 60).require()
     for body, low, high in (("l2", 101.7089, 114.2518), ("l3", 184.3222, 199.3870), ("l5", 257.9753, 258.5218)):
         angle = np.degrees(motion.angle(body)) % 360

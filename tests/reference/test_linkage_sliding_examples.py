@@ -117,8 +117,8 @@ def test_slide_offset_larger_than_the_pins_distance_cannot_close_and_says_so():
     broken = on_crank({"B": -0.25j}, {"A": 0.1}, bodies, joints, branches={"slot": 1}, name="quick return")
     motion = solve(plan(broken), np.array([np.pi / 2, -np.pi / 2]), SPEED)
     assert list(motion.status) == [Status.OK, Status.CANNOT_CLOSE]
-    said = "cannot close for crank -90.0°: the pins that lever and block hang on come within 150 mm, slide slot keeps"
-    with pytest.raises(MechanismError, match=f"{said} them 200 mm apart; make the offset of slide slot less by 50 mm"):
+    said = "cannot close for crank -90.0°: the known pins of lever and block come within 150 mm, slide slot requires"
+    with pytest.raises(MechanismError, match=f"{said} a distance of 200 mm; reduce the offset of slide slot by 50 mm"):
         motion.require()
 
 

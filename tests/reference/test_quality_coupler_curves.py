@@ -47,7 +47,7 @@ def test_roberts_linkage_draws_its_line_between_the_pivots():
     mechanism = four_bar(2.0, 1.2, 1.0, 1.2, branch=+1, points={"coupler": {"P": apex}})
     moved = one_input(plan(mechanism))
     seen = [coupler_curve(one, "coupler", "P") for one in circuits(moved)]
-    z = np.concatenate([np.asarray(one.at(np.linspace(0, one.way.breaks[-1], 2001)).position) for one in seen])
+    z = np.concatenate([np.asarray(one.at(np.linspace(0, one.path.breaks[-1], 2001)).position) for one in seen])
     assert max(np.abs(z - x).min() for x in (0.0, 1.0, 2.0)) < 5e-3
     best = max((one for curve in seen for one in curve.straights(0.008, least=1.5)), key=lambda one: one.length)
     assert abs(best.middle - 1) < 0.05
@@ -67,7 +67,7 @@ def test_double_points_lie_on_the_circle_of_the_foci(local):
     apex = local / LOOP[2] * LOOP[0]
     centre = 0.5 + 1j * (abs(apex) ** 2 - apex.real) / (2 * apex.imag)
     for one in found:
-        u, v = curve.at(np.array(one.places)).position
+        u, v = curve.at(np.array(one.parameters)).position
         assert abs(u - v) < 1e-12
         assert one.angle > 0
         assert abs(one.position - centre) == pytest.approx(abs(centre), rel=1e-10)
@@ -94,7 +94,7 @@ def test_a_point_on_the_moving_centrode_has_a_cusp():
     curve = path(LOOP, local)
     (cusp,) = curve.cusps()
     assert cusp.input == pytest.approx(where, abs=1e-9)
-    assert abs(curve.at(np.array([cusp.place])).velocity[0]) < 1e-9
+    assert abs(curve.at(np.array([cusp.parameter])).velocity[0]) < 1e-9
     assert path(LOOP, local + 1e-4).cusps() == ()
 
 
@@ -116,7 +116,7 @@ def test_inflections_have_no_curvature_and_part_left_from_right():
     curve = path(LOOP, 1.2 + 0.4j)
     found = curve.inflections()
     assert len(found) >= 2
-    places = np.array([one.place for one in found])
+    places = np.array([one.parameter for one in found])
     assert np.abs(curve.curvature(places)).max() < 1e-9
     assert (curve.curvature(places - 1e-4) * curve.curvature(places + 1e-4) < 0).all()
 

@@ -72,10 +72,10 @@ def test_two_sided_mechanism_is_one_model_with_one_input():
     mechanism = geared_five_bar()
     assert degrees_of_freedom(mechanism) == 1
     planned = plan(mechanism)
-    assert [step.words for step in planned.steps] == [
+    assert [step.description for step in planned.steps] == [
         "left turned by the input on ground",
         "right driven by left through mesh",
-        "one and two joined at C (branch +1), hung on left and right: RRR",
+        "one and two joined at C (branch +1), attached to left and right: RRR",
     ]
     motion = solve(planned, TURN, 2.0, 3.0).require()
     np.testing.assert_allclose(motion.point("two", "C").position.real, 0.5, atol=1e-14)  # the mirror line
@@ -119,7 +119,7 @@ def test_rack_and_pinion_drive_one_another(driven):
 def test_a_wheel_follows_a_rocker(ratio):
     mechanism = wheel_on(four_bar(0.3, 0.06, 0.2, 0.23, branch=1), "rocker", ratio, 1.6)
     planned = plan(mechanism)
-    assert planned.steps[-1].words == "wheel driven by rocker through teeth"
+    assert planned.steps[-1].description == "wheel driven by rocker through teeth"
     motion = solve(planned, TURN, 1.0).require()
     np.testing.assert_allclose(
         motion.direction("wheel"), np.exp(1j * ratio * (motion.angle("rocker") - 1.6)), atol=1e-13
@@ -201,7 +201,7 @@ def mesh(**changes) -> Coupling:
         (mesh(first=("left", "Q")), "body 'left' of geared five-bar has no point 'Q'"),
         (mesh(second=("left", "A0")), "joins left, left, ground; three different bodies"),
         (mesh(carrier="arm"), "has no body 'arm'"),
-        (mesh(kind="rack"), "wants a slide 'B0' of 'right' on 'ground'; it is a pin of ground, right"),
+        (mesh(kind="rack"), "requires a slide 'B0' of 'right' on 'ground'; it is a pin of ground, right"),
     ],
 )
 def test_bad_couplings_are_refused_in_words(coupling, said):
@@ -216,6 +216,6 @@ def test_a_coupling_too_many_is_named():
     mechanism = geared_five_bar()
     twice = dataclasses.replace(mechanism.couplings[0], name="again", ratio=-2.0)
     with pytest.raises(
-        MechanismError, match="over-constrained at right; joints B0 and couplings mesh, again hold it once"
+        MechanismError, match="over-constrained at right; joints B0 and couplings mesh, again over-constrain it once"
     ):
         plan(dataclasses.replace(mechanism, couplings=(*mechanism.couplings, twice)))

@@ -145,7 +145,7 @@ def test_a_run_that_comes_to_a_dead_centre_stops_there_with_time_state_and_reaso
     assert abs(run.end.state.position - math.pi) < 2e-6
     assert run.end.state.time == pytest.approx((math.pi - 3.0) / 10, rel=1e-3)
     assert run.end.state.speed == pytest.approx(10.0, rel=1e-2)
-    assert run.end.reason == "four-bar stands at a dead centre for crank 180.0°"
+    assert run.end.reason == "four-bar is at a dead centre for crank 180.0°"
 
 
 def test_a_motor_too_weak_is_told_so() -> None:

@@ -78,7 +78,7 @@ def two_motors() -> Mechanism:
 def press(guided_by_lever: bool = True) -> Mechanism:
     """A block on the crank's pin leads a lever (RPR); sliders on lever and ground cross (PRP); a cross slide (RPP).
 
-    The last is hung on the ground slider and slides on the crank. All lines are offset and turned.
+    The last is attached to the ground slider and slides on the crank. All lines are offset and turned.
     """
     lever = ("slot", "lever", "block") if guided_by_lever else ("slot", "block", "lever")
     return Mechanism(

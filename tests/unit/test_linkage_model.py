@@ -40,15 +40,21 @@ def refused(bodies=BODIES, joints=PINS, inputs=DRIVE, branches=(("B", 1),)):
         (dict(bodies=(*BODIES, Body("spare", {}))), "no joint of mechanism holds body 'spare'"),
         (
             dict(joints=PINS[:3]),
-            "under-constrained at coupler, rocker; 2 bodies and the 2 joints A, B have 3·2 - 2·2 = 2 freedoms",
+            (
+                "under-constrained at coupler, rocker; "
+                "2 bodies and the 2 joints A, B have 3·2 - 2·2 = 2 degrees of freedom"
+            ),
         ),
         (
             dict(inputs=()),
-            "at crank, coupler, rocker; 3 bodies and the 4 joints A0, A, B, B0 have 3·3 - 2·4 = 1 freedom, and 0",
+            (
+                "at crank, coupler, rocker; "
+                "3 bodies and the 4 joints A0, A, B, B0 have 3·3 - 2·4 = 1 degree of freedom, and 0"
+            ),
         ),
         (
             dict(inputs=(*DRIVE, Rotation("rocker", "B0"))),
-            "once too often: the inputs crank, rocker drive 1 freedom; take 1 of the inputs away",
+            "once: the inputs crank, rocker drive 1 degree of freedom; remove 1 of the inputs",
         ),
         (dict(inputs=(*DRIVE, Rotation("ground", "A0"))), "two inputs of mechanism drive joint 'A0'"),
         (dict(inputs=(Rotation("rocker", "A0"),)), "that pin joins ground and crank"),
@@ -98,7 +104,7 @@ def test_part_held_too_often_while_another_is_loose_is_named():
     assert "over-constrained at plate" in refused(bodies, joints, inputs, ())
 
 
-def test_freedom_is_counted_before_inputs():
+def test_degrees_of_freedom_are_counted_before_inputs():
     assert degrees_of_freedom(four_bar(0.3, 0.06, 0.2, 0.23, branch=1)) == 1
 
 

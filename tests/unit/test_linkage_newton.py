@@ -50,7 +50,7 @@ def test_quick_return_lever_points_at_the_crank_pin():
 
 
 def test_plan_says_in_words_what_is_left_to_newton():
-    assert [step.words for step in plan(quick_return()).steps] == [
+    assert [step.description for step in plan(quick_return()).steps] == [
         "crank turned by the input on ground",
         "block, lever with joints A, slot, O: Newton's method on the loop equations",
     ]

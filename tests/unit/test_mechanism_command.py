@@ -91,7 +91,7 @@ def test_every_example_makes_a_page_with_a_moving_figure(path: Path, tmp_path: P
     page = tmp_path / "page.html"
     shown = run(str(path), "--report", str(page), *(["--over", "-40deg..40deg"] if path.stem == "peaucellier" else []))
     assert "freedoms: 1" in shown
-    assert "mobility: 1 freedom by count, and by rank" in shown
+    assert "mobility: 1 degree of freedom by count and by rank" in shown
     assert "in motion" in page.read_text(encoding="utf-8")
 
 

@@ -120,7 +120,7 @@ def test_a_mistake_is_told_with_its_line_and_key(before, after, said):
 
 PLANLESS = {
     "no branch": ("B = 1\n", "", "line 17, joints.B: four-bar has no branch for the free pin 'B'"),
-    "two inputs": ('A0 = "crank"', 'A0 = "crank"\nB0 = "rocker"', "the inputs crank, rocker drive 1 freedom"),
+    "two inputs": ('A0 = "crank"', 'A0 = "crank"\nB0 = "rocker"', "the inputs crank, rocker drive 1 degree of freedom"),
     "no input": ('A0 = "crank"', "", "line 5, bodies.crank: four-bar is under-constrained at crank, coupler, rocker"),
     "zero dyad link": (
         'B = ["20cm", 0]',

@@ -131,15 +131,15 @@ def test_a_driven_slider_reads_the_same_ratio_the_other_way_round():
 
 def test_a_ternary_links_transmission_angle_is_taken_from_the_point_said():
     motion = solve(plan(mechanisms.watt_six_bar()), TURN).require()
-    said = transmission_angle(motion, "D", taken_from=("C", "D0"))
+    said = transmission_angle(motion, "D", from_points=("C", "D0"))
     np.testing.assert_array_equal(said, transmission_angle(motion, "D"))
-    other = transmission_angle(motion, "B", taken_from=("A", "C"))
+    other = transmission_angle(motion, "B", from_points=("A", "C"))
     assert np.abs(other - transmission_angle(motion, "B")).max() > 0.1
 
 
 def test_what_has_no_centre_or_pressure_angle_is_refused():
     motion = solve(plan(mechanisms.quick_return()), 0.3)
-    with pytest.raises(MechanismError, match="stands still: it has no instant centres; solve it with speed=1"):
+    with pytest.raises(MechanismError, match="is at rest: it has no instant centres; solve it with speed=1"):
         instant_centres(motion)
     with pytest.raises(MechanismError, match="'crank' against itself"):
         instant_centre(motion, "crank", "crank")

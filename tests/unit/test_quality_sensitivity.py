@@ -12,7 +12,7 @@ from ilmek.linkage.extremes import dwells, extreme_derivatives, extremes, rate_e
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import Body
 from ilmek.linkage.one_input import one_input
-from ilmek.linkage.outputs import Coordinate, RelativeAngle, Travel, followed
+from ilmek.linkage.outputs import Coordinate, RelativeAngle, Travel, output_history
 from ilmek.linkage.quality import dead_centres
 from ilmek.linkage.sensitivity import derivatives, spread
 from ilmek.linkage.solve import solve
@@ -61,7 +61,7 @@ def test_all_dimensions_changed_at_once_act_as_their_derivatives_say(mechanism, 
         def courses(by, shares=shares):
             varied = changed(mechanism, zip(every, by * shares, strict=True))
             moved = solve(plan(varied), angle, speed).require()
-            followers = [followed(moved, output) for output in outputs]
+            followers = [output_history(moved, output) for output in outputs]
             return np.array([[one.value, one.rate] for one in followers])
 
         exact = np.array([[shares @ one.value, shares @ one.rate] for one in found])
@@ -75,7 +75,7 @@ def test_lengths_times_derivatives_give_lengths_once_and_angles_never(mechanism,
     motion = solve(plan(mechanism), np.linspace(0, 6, 50), 1.0).require()
     sizes = np.array([one.value(mechanism) for one in lengths])
     for output in outputs:
-        course, found = followed(motion, output), derivatives(motion, output, lengths)
+        course, found = output_history(motion, output), derivatives(motion, output, lengths)
         degree = 0 if isinstance(output, RelativeAngle) else 1
         np.testing.assert_allclose(sizes @ found.value, degree * course.value, atol=1e-12)
         np.testing.assert_allclose(sizes @ found.rate, degree * course.rate, atol=1e-11)
@@ -89,7 +89,9 @@ def test_two_inputs_are_held_alike():
     found = derivatives(motion, output, [arm])
 
     def courses(by):
-        course = followed(solve(plan(changed(mechanism, [(arm, by)])), held, {"left": 1.0, "right": -2.0}), output)
+        course = output_history(
+            solve(plan(changed(mechanism, [(arm, by)])), held, {"left": 1.0, "right": -2.0}), output
+        )
         return np.array([course.value, course.rate])
 
     np.testing.assert_allclose([found.value[0], found.rate[0]], difference(courses), atol=1e-10)
@@ -122,7 +124,7 @@ def test_greatest_speed_scales_with_the_drawing():
     fastest = max(found, key=lambda one: abs(one.value))
     grown = rate_extreme_derivatives(moved, output, fastest, lengths)
     assert np.dot(grown, [one.value(mechanism) for one in lengths]) == pytest.approx(fastest.value, rel=1e-12)
-    course = followed(moved.motion(np.linspace(0, 2 * np.pi, 20001)), output)
+    course = output_history(moved.motion(np.linspace(0, 2 * np.pi, 20001)), output)
     assert np.abs(course.rate).max() <= abs(fastest.value) * (1 + 1e-13)
     assert np.abs(course.rate).max() == pytest.approx(abs(fastest.value), rel=1e-6)
     assert fastest.greatest == (fastest.value > 0)

@@ -111,7 +111,7 @@ def pose_block(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
     """Poses of the mechanism at the samples of a motion; inertias: body -> inertia [kg, m, kg m²]."""
     bodies: dict[str, BodyMotion] = {GROUND: STILL}
     for step in motion.plan.steps:
-        bodies.update(step.place(bodies, {body: motion.columns[body] for body in step.bodies}))
+        bodies.update(step.locate(bodies, {body: motion.columns[body] for body in step.bodies}))
     mechanism = motion.plan.mechanism
     centres = {body: bodies[body].carry(inertia.centre) for body, inertia in inertias.items()}
     return PoseBlock(

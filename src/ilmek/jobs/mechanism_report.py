@@ -48,7 +48,7 @@ def report(run: MechanismRun) -> Report:
         Result("inputs", [entry.name for entry in mechanism.inputs], "", "what is driven"),
         Result(
             "groups",
-            [step.words for step in run.plan.steps],
+            [step.description for step in run.plan.steps],
             "",
             "the groups it falls apart into, in the order in which they are solved",
         ),
@@ -76,7 +76,7 @@ def _warnings(run: MechanismRun) -> tuple[str, ...]:
 
 def _mobility(run: MechanismRun) -> str:
     first = int(np.flatnonzero(run.motion.status == Status.OK)[0])
-    return mobility(run.plan.mechanism, run.motion.pose(first)).words
+    return mobility(run.plan.mechanism, run.motion.pose(first)).description
 
 
 def _points_table(run: MechanismRun) -> Table:

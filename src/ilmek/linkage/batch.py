@@ -1,13 +1,13 @@
-"""Large batches and searches: the same motions as `solve` gives, by compiled code.
+"""Large batches and searches: the motions of `solve`, by compiled code.
 
-`solve_batch` answers as `solve` does, for one mechanism at very many samples. `sweep` moves very many mechanisms of one
-plan, whose points are arrays, over one course of the inputs: the inner loop of a search for dimensions.
+`solve_batch` has the results of `solve`, for one mechanism at very many samples. `sweep` moves very many variants of
+one plan, whose points are arrays, over one motion of the inputs: the inner loop of a search for dimensions.
 
 Importing this module imports the compiler (a quarter of a second; the kernels themselves are kept on disk after their
-first run), which is worth it from about 10^5 samples on; nothing else of the package imports it. So the choice between
-the two executors is the caller's and never the batch's: results do not change in their last digit with its length.
+first run), which pays from about 10^5 samples on; no other module of the package imports it. So the caller
+chooses between the two executors, and the last digits of results do not depend on the length of the batch.
 
-Driven bodies and all dyads with closed forms are compiled; `solve_batch` leaves plans with other groups to `solve`.
+Driven bodies and all dyads with closed forms are compiled; `solve_batch` uses `solve` for plans with other groups.
 
 >>> from ilmek.linkage.fourbar import four_bar
 >>> from ilmek.linkage.structure import plan
@@ -31,7 +31,7 @@ from ilmek.linkage.groups.shift import DrivenSlider
 from ilmek.linkage.groups.turn import DrivenCrank
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
-from ilmek.linkage.solve import Courses, drives_of, solve
+from ilmek.linkage.solve import InputValues, drives_of, solve
 from ilmek.linkage.structure import Plan
 from ilmek.linkage.tape import ALPHA, DIRECTION, OMEGA, Dimensions, Tape, is_compiled, tape
 
@@ -49,11 +49,11 @@ class BodyRotation:
 class Sweep:
     """The motions of many variants of one mechanism.
 
-    bodies  the bodies asked for, by name              points  those asked for, by (body, point): (variants, samples)
+    bodies  the requested bodies, by name        points  the requested points, by (body, point): (variants, samples)
     status  Status of each variant and sample (int8)
-    margin  how far from a dead centre, over the samples and dyads the worst: 0 there. Sine of the transmission angle
-            (RRR, RRP), way along the slide by the mechanism's size (RPR), sine of the lines' angle (PRP). Samples that
-            cannot close are left out, see `status`
+    margin  least distance from a dead centre over the samples and dyads, 0 at a dead centre: sine of the transmission
+            angle (RRR, RRP), distance along the slide relative to the mechanism's size (RPR), sine of the angle between
+            the lines (PRP). Open samples do not count, see `status`
     """
 
     bodies: Mapping[str, BodyRotation]
@@ -62,17 +62,17 @@ class Sweep:
     margin: Float[np.ndarray, " variants"]
 
 
-def solve_batch(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Courses = 0.0) -> Motion:
+def solve_batch(plan: Plan, angle: InputValues, speed: InputValues = 0.0, acceleration: InputValues = 0.0) -> Motion:
     """Motion of the mechanism for a large batch of input values: `solve`, by compiled code.
 
-    Arguments, answer and errors are those of `solve`; the numbers agree with its to 1e-13 of their size, and to what
-    rounding of the angle itself does beyond 1e6 rad.
+    Arguments, result and errors are those of `solve`. The numbers agree to 1e-13 of their magnitude; beyond 1e6 rad to
+    the rounding of the angle.
     """
     if not is_compiled(plan):
         return solve(plan, angle, speed, acceleration)
     drives = drives_of(plan, angle, speed, acceleration)
     written = tape(plan, {}, {})
-    kept = [_kept(written, step, body) for step in plan.steps for body in step.bodies]
+    kept = [_rows_kept(written, step, body) for step in plan.steps for body in step.bodies]
     pairs, singles = ([row for rows in kept for row in rows[which]] for which in (0, 1))
     answer = _run(written, drives, (pairs, singles))
     columns = {body: _columns(written, step, body, drives, answer) for step in plan.steps for body in step.bodies}
@@ -82,23 +82,23 @@ def solve_batch(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: 
 def sweep(
     plan: Plan,
     dimensions: Dimensions,
-    angle: Courses,
-    speed: Courses = 0.0,
-    acceleration: Courses = 0.0,
+    angle: InputValues,
+    speed: InputValues = 0.0,
+    acceleration: InputValues = 0.0,
     *,
     branches: Mapping[str, RealField] | None = None,
     bodies: Iterable[str] = (),
     points: Iterable[tuple[str, str]] = (),
 ) -> Sweep:
-    """Motion of many variants of a mechanism over one course of its inputs.
+    """Motion of many variants of a mechanism over one motion of its inputs.
 
-    dimensions  (body, point) -> the point's place in the body's frame [m] in each variant: arrays of one length, or
-                numbers; points left out stand as in the plan's mechanism, and so do the angles of its slides
-    branches    free pin's name -> +1 or -1 in each variant; likewise
-    bodies, points  what is wanted of the motion, see `Sweep`
-    The inputs' courses are those of `solve`.
+    dimensions  (body, point) -> position of the point in the body's frame [m] in each variant: arrays of one length,
+                or numbers; default: the points of the plan's mechanism. The angles of its slides do not vary
+    branches    free pin's name -> +1 or -1 in each variant; default: the branches of the plan's mechanism
+    bodies, points  the requested results, see `Sweep`
+    angle, speed, acceleration  as for `solve`
 
-    Raises MechanismError for what the mechanism does not have, lengths that differ, places that are not finite, links
+    Raises MechanismError for unknown names, arrays of different lengths, positions that are not finite, links
     of zero length, a plan with a group that is not compiled, and as `solve`.
     """
     drives, bodies, points = drives_of(plan, angle, speed, acceleration), tuple(bodies), tuple(points)
@@ -126,7 +126,7 @@ def sweep(
 
 @dataclass(frozen=True, slots=True)
 class _Answer:
-    """The rows wanted, by their numbers, each (variants, samples); no margin where none is wanted."""
+    """The requested rows by index, each (variants, samples); an empty margin where it is not requested."""
 
     pairs: Mapping[int, int]
     singles: Mapping[int, int]
@@ -145,18 +145,18 @@ class _Answer:
 def _run(
     written: Tape,
     drives: Mapping[str, InputMotion],
-    wanted: tuple[list[int], list[int]],
+    requested: tuple[list[int], list[int]],
     variants: int = 1,
     *,
     judged: bool = False,
 ) -> _Answer:
     """The tape run for all variants and samples."""
-    pairs, singles = ({row: k for k, row in enumerate(dict.fromkeys(rows))} for rows in wanted)
-    courses = list(drives.values())
-    values = courses[0].value if len(courses) == 1 else np.stack([np.asarray(one.value) for one in courses])
-    values = np.ascontiguousarray(values, dtype=float).reshape(len(courses), -1)
-    fields = [np.atleast_1d(rate) for one in courses for rate in (one.speed, one.acceleration)]
-    rates = np.stack(np.broadcast_arrays(*fields)).astype(float).reshape(len(courses), 2, -1)
+    pairs, singles = ({row: k for k, row in enumerate(dict.fromkeys(rows))} for rows in requested)
+    inputs = list(drives.values())
+    values = inputs[0].value if len(inputs) == 1 else np.stack([np.asarray(one.value) for one in inputs])
+    values = np.ascontiguousarray(values, dtype=float).reshape(len(inputs), -1)
+    fields = [np.atleast_1d(rate) for one in inputs for rate in (one.speed, one.acceleration)]
+    rates = np.stack(np.broadcast_arrays(*fields)).astype(float).reshape(len(inputs), 2, -1)
     samples = values.shape[1]
     answer = _Answer(
         pairs,
@@ -181,7 +181,7 @@ def _run(
     return answer
 
 
-def _kept(written: Tape, step: Step, body: str) -> tuple[list[int], list[int]]:
+def _rows_kept(written: Tape, step: Step, body: str) -> tuple[list[int], list[int]]:
     """The rows of a body's columns, complex and real, that are not the inputs' own."""
     row = written.rows[body]
     if isinstance(step, DrivenSlider):
@@ -192,11 +192,11 @@ def _kept(written: Tape, step: Step, body: str) -> tuple[list[int], list[int]]:
 
 
 def _columns(written: Tape, step: Step, body: str, drives: Mapping[str, InputMotion], answer: _Answer) -> Columns:
-    """A body's columns, as its step would give them."""
+    """A body's columns, equal to those of its step."""
     if isinstance(step, DrivenSlider):
         drive = drives[step.entry]
         return drive.value, drive.speed, drive.acceleration
-    pairs, singles = _kept(written, step, body)
+    pairs, singles = _rows_kept(written, step, body)
     columns = (*(answer.pair(row)[0] for row in pairs), *(answer.single(row)[0] for row in singles))
     if isinstance(step, DrivenCrank) and _is_free(step):
         drive = drives[step.entry]
@@ -210,10 +210,10 @@ def _is_free(step: Step) -> bool:
 
 
 def _variants(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField]) -> int:
-    """The one length of all arrays, everything checked."""
-    for (body, point), places in dimensions.items():
+    """Common length of all arrays, checked."""
+    for (body, point), positions in dimensions.items():
         plan.mechanism.point(body, point)
-        if not np.isfinite(places).all():
+        if not np.isfinite(positions).all():
             raise MechanismError(f"point {point!r} of body {body!r} is not finite in every variant")
     for pin, signs in branches.items():
         plan.mechanism.joint(pin)
@@ -221,6 +221,8 @@ def _variants(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealFie
             raise MechanismError(f"branch of {pin!r} is not +1 or -1 in every variant", allowed="+1 or -1")
     shapes = {np.shape(one) for one in (*dimensions.values(), *branches.values()) if np.ndim(one)} or {(1,)}
     if len(shapes) > 1 or len(min(shapes)) != 1:
-        said = " and ".join(str(shape) for shape in sorted(shapes))
-        raise MechanismError(f"dimensions have arrays of shapes {said}", allowed="one-dimensional arrays of one length")
+        listed = " and ".join(str(shape) for shape in sorted(shapes))
+        raise MechanismError(
+            f"dimensions have arrays of shapes {listed}", allowed="one-dimensional arrays of one length"
+        )
     return int(min(shapes)[0])

@@ -2,8 +2,8 @@
 
     p''' = a''' + (i (beta - w^3) - 3 w alpha) r,    beta = alpha'
 
-with a the motion of the body's anchor and r the arm from it: the acceleration's equation differentiated once more. Only
-motions of which it is asked have it.
+with a the motion of the body's anchor and r the arm from it: the acceleration's equation differentiated once more. It
+is computed on request only.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ def carried_jerk(
     return jerk + (1j * (beta - omega * omega * omega) - 3 * omega * alpha) * arm
 
 
-def slid_jerk(  # noqa: PLR0917 - a leaf takes its symbols in the equation's order
+def slid_jerk(  # noqa: PLR0917 - arguments in the order of the equation
     e: ComplexField,
     omega: RealField,
     alpha: RealField,
@@ -33,7 +33,7 @@ def slid_jerk(  # noqa: PLR0917 - a leaf takes its symbols in the equation's ord
     dds: ComplexField,
     ddds: ComplexField,
 ) -> ComplexField:
-    """Third rate of the way s e [m/s^3] along a direction e that turns at w; s may be complex: a way in e's frame.
+    """Third rate [m/s^3] of the displacement s e along a direction e that turns at w; s [m] may be complex.
 
     (s e)''' = (s''' - 3 w^2 s' - 3 w alpha s + i (beta s + 3 alpha s' + 3 w s'' - w^3 s)) e
     >>> slid_jerk(1j, 3.0, 4.0, 0.0, 2.0, 5.0, 7.0, 1.0)
@@ -52,14 +52,14 @@ class BodyJerk:
     beta: RealField
 
     def carry(self, local: complex) -> ComplexField:
-        """Jerk of the point that stands at `local` [m] in the body's frame."""
+        """Jerk [m/s^3] of the point at `local` [m] in the body's frame."""
         arm = local - self.motion.at
         return self.anchor if arm == 0 else self.reach(self.motion.direction * arm)
 
     def reach(self, arm: ComplexField) -> ComplexField:
-        """Jerk of the body's point that stands at `arm` [m] from the anchor, in the world's directions."""
+        """Jerk [m/s^3] of the body's point at `arm` [m] from the anchor, in world directions."""
         return carried_jerk(self.anchor, arm, self.motion.omega, self.motion.alpha, self.beta)
 
 
 STILL_JERK = BodyJerk(STILL, 0j, 0.0)
-"""The ground's."""
+"""Jerk of the ground: zero."""

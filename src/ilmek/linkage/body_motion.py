@@ -33,7 +33,7 @@ def carried_acceleration(
 
 @dataclass(frozen=True, slots=True)
 class PointMotion:
-    """A point's position [m], velocity [m/s] and acceleration [m/s^2]: complex, one value or one a sample."""
+    """A point's position [m], velocity [m/s] and acceleration [m/s^2]: complex, one value or one per sample."""
 
     position: ComplexField
     velocity: ComplexField
@@ -42,9 +42,9 @@ class PointMotion:
 
 @dataclass(frozen=True, slots=True)
 class BodyMotion:
-    """A body's motion: that of one point, the anchor, and the turning.
+    """A body's motion: the motion of one point, the anchor, and the rotation.
 
-    anchor     motion of the anchor             at     the anchor's place in the body's frame [m]
+    anchor     motion of the anchor             at     position of the anchor in the body's frame [m]
     direction  unit complex e^{i theta}         omega  [rad/s]         alpha  [rad/s^2]
     """
 
@@ -55,12 +55,12 @@ class BodyMotion:
     alpha: RealField
 
     def carry(self, local: complex) -> PointMotion:
-        """Motion of the point that stands at `local` [m] in the body's frame."""
+        """Motion of the point at `local` [m] in the body's frame."""
         arm = local - self.at
         return self.anchor if arm == 0 else self.reach(self.direction * arm)
 
     def reach(self, arm: ComplexField) -> PointMotion:
-        """Motion of the body's point that stands at `arm` [m] from the anchor, in the world's directions."""
+        """Motion of the body's point at `arm` [m] from the anchor, in world directions."""
         return PointMotion(
             self.anchor.position + arm,
             carried_velocity(self.anchor.velocity, arm, self.omega),

@@ -1,10 +1,9 @@
-"""Circuits and branches: all ways in which a mechanism goes together, and how far its input can move in each.
+"""Circuits and branches: all assemblies of a mechanism, and the range of its input in each.
 
-A circuit is a connected part of the configuration curve (see `configuration`): what can be reached without taking the
-mechanism apart. Where its input turns back (a dead centre of the input, links in line) one branch ends and another
-begins. The curve is followed through these points by its length, so that the ends of the input's range are found as
-simple roots, to rounding. Every assembly that the closed forms give, and that which a pose gives to Newton's method,
-is on one of the circuits.
+A circuit is a connected part of the configuration curve (see `configuration`): the configurations within reach without
+disassembly. Where the input reverses (a dead centre of the input, links in line) one branch ends and another begins.
+The curve is followed through these points by its length, so that the ends of the input's range are simple roots, found
+to rounding. Every assembly of the closed forms, and the assembly of a pose for Newton's method, is on one circuit.
 [Chase, Mirth: Circuits and Branches of Single-Degree-of-Freedom Planar Linkages, 1993: the definitions.]
 """
 
@@ -20,19 +19,19 @@ from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.configuration import Configurations, FreeInput, freed
 from ilmek.linkage.model import Mechanism
 from ilmek.linkage.one_input import OneInput
-from ilmek.linkage.outputs import Output, followed_bodies
+from ilmek.linkage.outputs import Output, output_history_of_bodies
 from ilmek.linkage.structure import plan
 from ilmek.linkage.tracing import ConfigurationCurve, trace
 from ilmek.num.piecewise import roots
 
 SEEDS = 180
-"""Values of the input, over a turn or the mechanism's reach, at which assemblies are looked for."""
+"""Values of the input, over a turn or the mechanism's reach, at which assemblies are sought."""
 
 ASIDE = 0.382
-"""Where within a run of them the tracing starts: not in the middle, which crossings of curves like for symmetry."""
+"""Start of the tracing within a run of closing values; not the middle, where symmetric curves often cross."""
 
 SAME = 1e-6
-"""Distance of two configurations, of the mechanism's size, below which they are one."""
+"""Greatest distance of equal configurations, relative to the mechanism's size."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +39,7 @@ class Branch:
     """A part of a circuit between two dead centres of the input.
 
     start, stop  least and greatest value of the input [rad, m], start within (-pi, pi]; a turn apart if it turns fully
-    branches     signs of the closed forms along it, as a Mechanism takes them; {} where none of them gives it
+    branches     signs of the closed forms along it, in the form of `Mechanism.branches`; {} where no closed form has it
     full         the input turns fully: the branch has no ends
     """
 
@@ -52,11 +51,11 @@ class Branch:
 
 @dataclass(frozen=True, slots=True)
 class Circuit:
-    """A closed way through configurations: its branches in the order in which they are passed; a `ConfigurationPath`.
+    """A closed path of configurations with its branches in order; a `ConfigurationPath`.
 
-    dead_centres  values of the input [rad, m] at which it turns back, in order      turns  of the input, all round
-    crossings     values of the input at which another circuit is crossed: a change point, the motion uncertain there
-    closed        False where the way runs out of the mechanism's reach, or beyond the steps allowed
+    dead_centres  values of the input [rad, m] at which it reverses, in order      turns  of the input per circuit
+    crossings     values of the input at which another circuit crosses: a change point, where the motion is uncertain
+    closed        False where the path leaves the mechanism's reach, or exceeds the allowed number of steps
     """
 
     branches: tuple[Branch, ...]
@@ -68,53 +67,53 @@ class Circuit:
 
     @property
     def closed(self) -> bool:
-        """Whether the way comes back to where it began."""
+        """Whether the path returns to its start."""
         return self.trace.closed
 
     @property
     def mechanism(self) -> Mechanism:
-        """What moves."""
+        """The mechanism."""
         return self.freed.moved.plan.mechanism
 
     @property
     def breaks(self) -> Float[np.ndarray, " breaks"]:
-        """Places of the nodes, from 0 to the length of the whole by its chords [m, scaled turns among them]."""
+        """Path lengths of the nodes from 0 to the whole, by chords [m]; rotations are scaled to lengths."""
         return self.trace.lengths
 
     @property
     def stop(self) -> float:
-        """The last place."""
+        """Length of the whole path [m]."""
         return float(self.trace.lengths[-1])
 
     def bodies(self, lengths: FloatArray) -> Mapping[str, BodyMotion]:
-        """Every body at places along the circuit, with its rates by the place."""
+        """Every body at path lengths [m], with its rates by the path length."""
         return self.freed.moving(*self.trace.at(lengths))
 
     def inputs(self, lengths: FloatArray) -> FloatArray:
-        """Values of the input at places along the circuit [rad, m]."""
+        """Values of the input [rad, m] at path lengths [m]."""
         return self.trace.at(lengths)[0].inputs
 
     def toggles(self, output: Output) -> tuple[tuple[float, float], ...]:
-        """Where an output turns back along the circuit: (input, output) at each, in order; its limit positions.
+        """Limit positions of an output along the circuit: (input, output) [rad, m] of each, in order.
 
-        Unlike `extremes` it sees those on all branches, and those at the dead centres of the input.
+        Unlike `extremes`, on all branches and at the dead centres of the input too.
         """
 
         def rate(lengths: FloatArray) -> FloatArray:
-            return followed_bodies(self.mechanism, self.bodies(lengths), output).rate
+            return output_history_of_bodies(self.mechanism, self.bodies(lengths), output).rate
 
         at = roots(rate, self.trace.lengths)
         if not len(at):
             return ()
-        reached = followed_bodies(self.mechanism, self.bodies(at), output).value
+        reached = output_history_of_bodies(self.mechanism, self.bodies(at), output).value
         return tuple(zip(self.inputs(at).tolist(), reached.tolist(), strict=True))
 
 
 def circuits(moved: OneInput, *, seeds: int = SEEDS) -> tuple[Circuit, ...]:
-    """All circuits of a mechanism over one of its inputs; none where it closes nowhere.
+    """All circuits of a mechanism over one of its inputs; () where it closes nowhere.
 
-    Every combination of the closed forms' signs is tried at `seeds` values of the input; a circuit whose whole range
-    lies between two of these is not seen. Groups left to Newton's method are followed from the pose given only.
+    Every combination of the closed forms' signs is tried at `seeds` values of the input; a circuit with its whole range
+    between two of these is not found. Groups for Newton's method are followed from the mechanism's pose only.
 
     >>> import math
     >>> from ilmek.linkage.fourbar import four_bar
@@ -124,18 +123,18 @@ def circuits(moved: OneInput, *, seeds: int = SEEDS) -> tuple[Circuit, ...]:
     (1, [117.226, -117.226])
     """
     found: list[Circuit] = []
-    ways = list(_assemblies(moved))
-    for way in ways:
-        for seed in _seeds(way, seeds):
+    assemblies = list(_assemblies(moved))
+    for assembly in assemblies:
+        for seed in _seeds(assembly, seeds):
             if not any(_passes(circuit, seed) for circuit in found):
-                found.append(_circuit(way, seed, ways))
+                found.append(_circuit(assembly, seed, assemblies))
     return tuple(found)
 
 
 def assembly_ranges(moved: OneInput, *, seeds: int = SEEDS) -> tuple[tuple[float, float], ...]:
-    """Intervals of the input in which the mechanism closes with the branches that it has, ascending; (-pi, pi) if all.
+    """Intervals of the input [rad, m] in which the mechanism closes with its branches, ascending; (-pi, pi) if all.
 
-    The ends are dead centres of the input, exact to rounding. See `circuits` for what is looked at.
+    The ends are dead centres of the input, exact to rounding. See `circuits` for the limits of the search.
 
     >>> from ilmek.linkage.fourbar import four_bar
     >>> from ilmek.linkage.one_input import one_input
@@ -152,40 +151,40 @@ def _assemblies(moved: OneInput) -> Iterator[OneInput]:
     mechanism = moved.plan.mechanism
     for signs in product((+1, -1), repeat=len(mechanism.branches)):
         branches = dict(zip(mechanism.branches, signs, strict=True))
-        yield OneInput(plan(dataclasses.replace(mechanism, branches=branches)), moved.name, moved.held)
+        yield OneInput(plan(dataclasses.replace(mechanism, branches=branches)), moved.name, moved.locked)
 
 
-def _seeds(way: OneInput, count: int) -> Iterator[Configurations]:
-    """One configuration of each run of input values at which an assembly closes."""
-    free = freed(way)
-    if way.turns:
+def _seeds(assembly: OneInput, count: int) -> Iterator[Configurations]:
+    """One configuration in each run of input values at which an assembly closes."""
+    free = freed(assembly)
+    if assembly.turns:
         values = -np.pi + (np.arange(count) + 0.5) * (2 * np.pi / count)
     else:
-        reach = sum(abs(point) for body in way.plan.mechanism.bodies for point in body.points.values())
+        reach = sum(abs(point) for body in assembly.plan.mechanism.bodies for point in body.points.values())
         values = np.linspace(-reach, reach, 4 * count)
-    (closing,) = np.nonzero(way.motion(values).status == 0)
+    (closing,) = np.nonzero(assembly.motion(values).status == 0)
     runs = np.split(closing, np.flatnonzero(np.diff(closing) > 1) + 1) if len(closing) else []
     for run in runs:
         yield free.posed(values[run[int(ASIDE * len(run)) :][:1]])
 
 
 def _passes(circuit: Circuit, seed: Configurations) -> bool:
-    """Whether a configuration lies on a circuit: from the circuit's nearest node, it is where the curve leads."""
+    """Whether a configuration lies on a circuit: on the curve near the circuit's nearest node."""
     free, line = circuit.freed, circuit.trace
     everywhere = Configurations(*(np.broadcast_to(part, shape) for part, shape in _spread(seed, len(line.at_nodes))))
     apart = free.between(line.at_nodes, everywhere)
     node = int(np.argmin(np.max(np.abs(apart), axis=1)))
-    place = line.lengths[node] + np.sum(apart[node] * line.tangents[node]) * _stretch(line.tangents[node])
-    near, *_ = line.at(np.clip(np.array([place]), line.lengths[0], line.lengths[-1]))
-    for _ in range(4):  # the place along the curve by its shadow on the tangent
-        t = free.tangents(near, line.tangents[node][None])
-        place += float(np.sum(free.between(near, seed) * t) * _stretch(t[0]))
-        near, *_ = line.at(np.clip(np.array([place]), line.lengths[0], line.lengths[-1]))
-    return bool(np.max(np.abs(free.between(near, seed))) <= SAME * free.size)
+    length = line.lengths[node] + np.sum(apart[node] * line.tangents[node]) * _stretch(line.tangents[node])
+    nearest, *_ = line.at(np.clip(np.array([length]), line.lengths[0], line.lengths[-1]))
+    for _ in range(4):  # the path length by projection on the tangent
+        t = free.tangents(nearest, line.tangents[node][None])
+        length += float(np.sum(free.between(nearest, seed) * t) * _stretch(t[0]))
+        nearest, *_ = line.at(np.clip(np.array([length]), line.lengths[0], line.lengths[-1]))
+    return bool(np.max(np.abs(free.between(nearest, seed))) <= SAME * free.size)
 
 
 def _stretch(tangent: FloatArray) -> float:
-    """Length along the curve for a way measured without the input's part."""
+    """Ratio of the length along the curve to the length without the input's component."""
     return float(1 / max(np.sum(tangent[:-1] ** 2), 1e-12))
 
 
@@ -194,16 +193,16 @@ def _spread(seed: Configurations, rows: int) -> list[tuple[np.ndarray, tuple[int
     return [(part, (rows, *part.shape[1:])) for part in parts]
 
 
-def _circuit(way: OneInput, seed: Configurations, ways: list[OneInput]) -> Circuit:
+def _circuit(assembly: OneInput, seed: Configurations, assemblies: list[OneInput]) -> Circuit:
     """The circuit through a configuration."""
-    free = freed(way)
+    free = freed(assembly)
     line = trace(free, seed)
     folds = line.folds()
-    turns = round(float(line.at_nodes.inputs[-1] - line.at_nodes.inputs[0]) / (2 * np.pi)) if way.turns else 0
+    turns = round(float(line.at_nodes.inputs[-1] - line.at_nodes.inputs[0]) / (2 * np.pi)) if assembly.turns else 0
     inputs = line.at(folds)[0].inputs if len(folds) else np.empty(0)
-    parts = _parts(free, line, folds, inputs, ways)
-    shown = tuple(_principal(value, way.turns) for value in inputs)
-    crossings = tuple(_principal(value, way.turns) for value in line.crossings)
+    parts = _parts(free, line, folds, inputs, assemblies)
+    shown = tuple(_principal(value, assembly.turns) for value in inputs)
+    crossings = tuple(_principal(value, assembly.turns) for value in line.crossings)
     return Circuit(parts, shown, crossings, abs(turns), free, line)
 
 
@@ -212,15 +211,15 @@ def _parts(
     line: ConfigurationCurve,
     folds: Float[np.ndarray, " folds"],
     inputs: FloatArray,
-    ways: list[OneInput],
+    assemblies: list[OneInput],
 ) -> tuple[Branch, ...]:
-    """The branches between the folds; the whole, where there are none."""
+    """The branches between the folds; one branch without folds."""
     end = float(line.lengths[-1])
     if not len(folds):
         first, last = float(line.at_nodes.inputs[0]), float(line.at_nodes.inputs[-1])
         if free.moved.turns and line.closed:
             first, last = -np.pi, np.pi
-        label = _label(free, line.at(np.array([0.5 * end]))[0], ways)
+        label = _label(free, line.at(np.array([0.5 * end]))[0], assemblies)
         return (Branch(min(first, last), max(first, last), label, full=line.closed),)
     if line.closed:
         turned = line.at_nodes.inputs[-1] - line.at_nodes.inputs[0]
@@ -228,22 +227,22 @@ def _parts(
     else:
         bounds = np.concatenate([[0.0], folds, [end]])
         values = line.at(bounds)[0].inputs
-    middles = 0.5 * (bounds[:-1] + bounds[1:])  # beyond the end: taken round
+    middles = 0.5 * (bounds[:-1] + bounds[1:])  # beyond the end: periodic
     found = []
     for k, middle in enumerate(middles):
         low, high = sorted((float(values[k]), float(values[k + 1])))
         shift = _principal(low, free.moved.turns) - low
-        label = _label(free, line.at(np.array([middle]))[0], ways)
+        label = _label(free, line.at(np.array([middle]))[0], assemblies)
         found.append(Branch(low + shift, high + shift, label))
     return tuple(found)
 
 
-def _label(free: FreeInput, at: Configurations, ways: list[OneInput]) -> Mapping[str, int]:
-    """The signs under which the closed forms give a configuration."""
-    for way in ways:
-        given = freed(way).posed(at.inputs)
+def _label(free: FreeInput, at: Configurations, assemblies: list[OneInput]) -> Mapping[str, int]:
+    """The signs of the closed forms of a configuration; {} for none."""
+    for assembly in assemblies:
+        given = freed(assembly).posed(at.inputs)
         if np.max(np.abs(free.between(at, given))) <= SAME * free.size:
-            return dict(way.plan.mechanism.branches)
+            return dict(assembly.plan.mechanism.branches)
     return {}
 
 

@@ -1,7 +1,7 @@
-"""Clearance: the least distance of two bodies over a mechanism's way, and where they run into each other.
+"""Clearance: the least distance of two bodies over a mechanism's path, and their interference.
 
-Bodies are given by convex outlines with round edges; a hollow one by several. Local minima are found between samples
-and polished; where the clearance is below zero, the ends of the interference are roots, polished to rounding.
+Bodies are given by convex outlines with round edges; concave bodies by several. Local minima are bracketed by samples
+and refined. Where the clearance is below zero, the ends of the interference are roots, refined to rounding.
 """
 
 from collections.abc import Callable, Mapping
@@ -18,21 +18,21 @@ from ilmek.num.brackets import bracketed_minima, bracketed_roots
 from ilmek.plane.outlines import Outline, between, nearest
 
 BETWEEN = 8
-"""Samples between neighbouring breaks of the way."""
+"""Samples between neighbouring breaks of the path."""
 
 
 @dataclass(frozen=True, slots=True)
 class Clearance:
-    """The least clearance of two bodies over a way.
+    """The least clearance of two bodies over a path.
 
-    least          distance [m]; below 0 the bodies overlap, and have to be moved by so much to part
-    place, input   where: on the way, and the input's value there [rad, m]
-    points         the nearest points in the world [m], on the first body and on the second; NaN where they overlap
-    interference   input's values at the ends of each stretch in which they overlap, in the order of the way
+    least             distance [m]; below 0 the penetration depth of overlapping bodies
+    parameter, input  of the minimum: parameter of the path, and value of the input [rad, m]
+    points            the nearest points in the world [m], on the first body and on the second; NaN for overlap
+    interference      values of the input [rad, m] at the ends of each interval of overlap, in the order of the path
     """
 
     least: float
-    place: float
+    parameter: float
     input: float
     points: tuple[complex, complex]
     interference: tuple[tuple[float, float], ...]
@@ -40,14 +40,14 @@ class Clearance:
 
 @dataclass(frozen=True, slots=True)
 class OutlinedBody:
-    """A body with its outlines, in its frame."""
+    """A body with its outlines [m] in the body's frame."""
 
     body: str
     outlines: tuple[Outline, ...]
 
 
 def outlined(mechanism: Mechanism, body: str, radius: float) -> OutlinedBody:
-    """A body as the hull of its points with a round edge of the radius [m]: a link by its pins and half its width.
+    """A body as the hull of its points with round edges of a radius [m]: for a link its pins and half its width.
 
     Raises MechanismError for an unknown body, or one without points.
     """
@@ -58,26 +58,26 @@ def outlined(mechanism: Mechanism, body: str, radius: float) -> OutlinedBody:
 
 
 def distances(
-    way: ConfigurationPath, first: OutlinedBody, second: OutlinedBody, places: FloatArray
-) -> Float[np.ndarray, " places"]:
-    """Distance of two bodies at places of a way [m], below 0 where they overlap."""
-    bodies = way.bodies(places)
+    path: ConfigurationPath, first: OutlinedBody, second: OutlinedBody, parameters: FloatArray
+) -> Float[np.ndarray, " parameters"]:
+    """Distance of two bodies [m] at parameters of a path, (parameters,); below 0 for overlap."""
+    bodies = path.bodies(parameters)
     pairs = []
     for one in first.outlines:
         for other in second.outlines:
             corners = [
-                _corners(bodies, placed.body, outline, len(places))
+                _corners(bodies, placed.body, outline, len(parameters))
                 for placed, outline in ((first, one), (second, other))
             ]
             pairs.append(between(corners[0], corners[1]) - one.radius - other.radius)
-    least: Float[np.ndarray, " places"] = np.min(np.stack(pairs), axis=0)
+    least: Float[np.ndarray, " parameters"] = np.min(np.stack(pairs), axis=0)
     return least
 
 
-def clearance(way: ConfigurationPath, first: OutlinedBody, second: OutlinedBody) -> Clearance:
-    """The least clearance of two bodies over a way, and the stretches in which they overlap.
+def clearance(path: ConfigurationPath, first: OutlinedBody, second: OutlinedBody) -> Clearance:
+    """The least clearance of two bodies over a path, and the intervals of overlap.
 
-    Raises MechanismError for an unknown body, or one and the same.
+    Raises MechanismError for an unknown body, or the same body twice.
 
     >>> from ilmek.linkage.fourbar import four_bar
     >>> from ilmek.linkage.one_input import one_input
@@ -92,27 +92,27 @@ def clearance(way: ConfigurationPath, first: OutlinedBody, second: OutlinedBody)
     if first.body == second.body:
         raise MechanismError(f"clearance of {first.body!r} from itself", do="name two bodies")
     for placed in (first, second):
-        way.mechanism.body(placed.body)
+        path.mechanism.body(placed.body)
 
-    def apart(places: FloatArray) -> FloatArray:
-        return distances(way, first, second, places)
+    def apart(parameters: FloatArray) -> FloatArray:
+        return distances(path, first, second, parameters)
 
-    places = spaced(way.breaks, BETWEEN)
-    low = _minima(apart, places, closed=way.closed)
-    every = np.unique(np.concatenate([places, low]))
+    parameters = spaced(path.breaks, BETWEEN)
+    low = _minima(apart, parameters, closed=path.closed)
+    every = np.unique(np.concatenate([parameters, low]))
     values = apart(every)
     least = int(np.argmin(values))
-    place = every[least : least + 1]
-    points = _nearest(way, first, second, place) if values[least] > 0 else (complex("nan"), complex("nan"))
-    ends = _interference(apart, every, values, closed=way.closed)
-    stretches = tuple((float(a), float(b)) for a, b in way.inputs(ends.ravel()).reshape(-1, 2)) if len(ends) else ()
-    return Clearance(float(values[least]), float(place[0]), float(way.inputs(place)[0]), points, stretches)
+    parameter = every[least : least + 1]
+    points = _nearest(path, first, second, parameter) if values[least] > 0 else (complex("nan"), complex("nan"))
+    ends = _interference(apart, every, values, closed=path.closed)
+    stretches = tuple((float(a), float(b)) for a, b in path.inputs(ends.ravel()).reshape(-1, 2)) if len(ends) else ()
+    return Clearance(float(values[least]), float(parameter[0]), float(path.inputs(parameter)[0]), points, stretches)
 
 
 def _corners(
     bodies: Mapping[str, BodyMotion], body: str, outline: Outline, count: int
 ) -> Complex[np.ndarray, "count corners"]:
-    """An outline's corners in the world."""
+    """An outline's corners in the world [m]."""
     motion = bodies[body]
     origin, direction = motion.carry(0j).position, motion.direction
     placed = (
@@ -122,45 +122,45 @@ def _corners(
 
 
 def _minima(
-    apart: Callable[[FloatArray], FloatArray], places: FloatArray, *, closed: bool
+    apart: Callable[[FloatArray], FloatArray], parameters: FloatArray, *, closed: bool
 ) -> Float[np.ndarray, " minima"]:
-    """Local minima between samples, by golden sections all at once; at an open way's ends there are samples."""
-    value = apart(places)
+    """Local minima between samples, by simultaneous golden sections; the ends of an open path are samples."""
+    value = apart(parameters)
     inner = np.flatnonzero((value[1:-1] <= value[:-2]) & (value[1:-1] <= value[2:])) + 1
-    low, high = places[inner - 1], places[inner + 1]
+    low, high = parameters[inner - 1], parameters[inner + 1]
     if closed and value[0] <= value[1] and value[0] <= value[-2]:
-        low, high = np.append(low, places[0]), np.append(high, places[1])
-        low, high = np.append(low, places[-2]), np.append(high, places[-1])
+        low, high = np.append(low, parameters[0]), np.append(high, parameters[1])
+        low, high = np.append(low, parameters[-2]), np.append(high, parameters[-1])
     if not len(low):
         return np.empty(0)
     return bracketed_minima(apart, low, high)[0]
 
 
 def _interference(
-    apart: Callable[[FloatArray], FloatArray], places: FloatArray, values: FloatArray, *, closed: bool
+    apart: Callable[[FloatArray], FloatArray], parameters: FloatArray, values: FloatArray, *, closed: bool
 ) -> Float[np.ndarray, "stretches 2"]:
-    """Places at which each stretch of overlap begins and ends; on a closed way one may run past its end."""
+    """Parameters at the ends of each interval of overlap; on a closed path one may extend past the end."""
     inside = values < 0
     if inside.all() or not inside.any():
-        return np.array([[places[0], places[-1]]]) if inside.any() else np.empty((0, 2))
+        return np.array([[parameters[0], parameters[-1]]]) if inside.any() else np.empty((0, 2))
     entering, leaving = np.flatnonzero(~inside[:-1] & inside[1:]), np.flatnonzero(inside[:-1] & ~inside[1:])
     starts, stops = (
-        bracketed_roots(apart, places[k], places[k + 1]) if len(k) else np.empty(0) for k in (entering, leaving)
+        bracketed_roots(apart, parameters[k], parameters[k + 1]) if len(k) else np.empty(0) for k in (entering, leaving)
     )
     if inside[0] and not (closed and inside[-1]):
-        starts = np.append(places[0], starts)
+        starts = np.append(parameters[0], starts)
     if inside[-1] and not (closed and inside[0]):
-        stops = np.append(stops, places[-1])
+        stops = np.append(stops, parameters[-1])
     if closed and inside[0] and inside[-1]:
         starts = np.roll(starts, 1)
     return np.stack([starts, stops], axis=1)
 
 
 def _nearest(
-    way: ConfigurationPath, first: OutlinedBody, second: OutlinedBody, place: FloatArray
+    path: ConfigurationPath, first: OutlinedBody, second: OutlinedBody, parameter: FloatArray
 ) -> tuple[complex, complex]:
     """The nearest points on both bodies."""
-    bodies = way.bodies(place)
+    bodies = path.bodies(parameter)
     found = []
     for one in first.outlines:
         for other in second.outlines:

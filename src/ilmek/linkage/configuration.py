@@ -1,10 +1,10 @@
-"""All configurations of a mechanism with one input set free: a curve, smooth where the input turns back too.
+"""All configurations of a mechanism with one free input: a curve, smooth also where the input reverses.
 
     F(x, q) = 0        A t = [F_x  F_q] t = 0        t: the unit tangent, in lengths (angles times the size)
 
-Along its length the curve has no dead centres: those of the input are where t has no part along q. Where A loses rank
-two curves cross, and the mechanism may leave by either [Allgower, Georg: Numerical Continuation Methods, chapters 2
-and 8].
+The curve has no dead centres along its length: at those of the input the component of t along q is zero. Where A loses
+rank two curves cross, and the mechanism may continue on either [Allgower, Georg: Numerical Continuation Methods,
+chapters 2 and 8].
 """
 
 from dataclasses import dataclass
@@ -22,15 +22,15 @@ from ilmek.linkage.one_input import OneInput
 from ilmek.num.linear import solve_many
 
 CORRECTIONS = 12
-"""Newton steps on the way back to the curve; from a step of a few hundredths of the size three are enough."""
+"""Maximum of Newton steps back to the curve; three suffice for a step of a few hundredths of the size."""
 
 LAST = 1e-9
-"""Last correction, of the mechanism's size; by quadratic convergence it leaves an error at rounding."""
+"""Last correction relative to the mechanism's size; by quadratic convergence the error is at rounding."""
 
 
 @dataclass(frozen=True, slots=True)
 class Configurations:
-    """Poses of all moving bodies and the free input's value, one row each: origins [m], unit directions, [rad or m]."""
+    """Configurations, one per row: origins [m] and unit directions of the moving bodies, free input [rad or m]."""
 
     origins: Complex[np.ndarray, "rows bodies"]
     directions: Complex[np.ndarray, "rows bodies"]
@@ -45,7 +45,7 @@ class Configurations:
 
 @dataclass(frozen=True, slots=True)
 class FreeInput:
-    """A mechanism one of whose inputs is free, the others held; a step of it is a row of 3 a body, then the input."""
+    """A mechanism with one free input, the others locked; a step is a row of 3 numbers per body, then the input."""
 
     moved: OneInput
     loops: Loops
@@ -57,11 +57,11 @@ class FreeInput:
 
     @property
     def per_input(self) -> float:
-        """What the input is multiplied by to be a length."""
+        """Factor from the input to a length."""
         return self.size if self.moved.turns else 1.0
 
     def posed(self, values: FloatArray) -> Configurations:
-        """The configurations in which the plan itself puts the mechanism at values of the input."""
+        """The configurations of the plan at values of the input [rad, m], (rows,)."""
         motion = self.moved.motion(values)
         names = self.moved.plan.mechanism.moving
         origins = np.stack([motion.origin(name) for name in names], axis=-1)
@@ -77,13 +77,13 @@ class FreeInput:
         return {GROUND: STILL, **bodies}
 
     def stepped(self, at: Configurations, step: FloatArray) -> Configurations:
-        """The configurations a step away, off the curve unless corrected."""
+        """The configurations one step away, off the curve until corrected."""
         shift, turn = step[:, 0:-1:3] + 1j * step[:, 1:-1:3], step[:, 2:-1:3] / self.size
         inputs = at.inputs + step[:, -1] / self.per_input
         return Configurations(at.origins + shift, at.directions * np.exp(1j * turn), inputs)
 
     def between(self, first: Configurations, second: Configurations) -> FloatArray:
-        """The step from the first to the second, without the input's part."""
+        """The step from the first to the second, with 0 for the input."""
         shift = second.origins - first.origins
         turn = np.angle(second.directions * np.conj(first.directions)) * self.size
         step = np.stack([shift.real, shift.imag, turn], axis=-1).reshape(len(first), -1)
@@ -91,19 +91,19 @@ class FreeInput:
 
     def slope(self, at: Configurations) -> tuple[FloatArray, FloatArray]:
         """A = [F_x F_q] and F, row by row."""
-        held = self._equations(at)
+        equations = self._equations(at)
         rows = (len(at),)
-        by_input = np.zeros((*rows, len(held), 1))
-        by_input[:, self._driven, 0] = -self.loops.unit(held[self._driven]) / self.per_input
-        matrix = np.concatenate([self.loops.matrix(held, rows), by_input], axis=-1)
-        return matrix, self.loops.column(held, [one.value for one in held], rows)
+        by_input = np.zeros((*rows, len(equations), 1))
+        by_input[:, self._driven, 0] = -self.loops.unit(equations[self._driven]) / self.per_input
+        matrix = np.concatenate([self.loops.matrix(equations, rows), by_input], axis=-1)
+        return matrix, self.loops.column(equations, [one.value for one in equations], rows)
 
     def tangents(self, at: Configurations, along: FloatArray) -> FloatArray:
-        """Unit tangents, on the side of `along`; NaN where the configuration is."""
+        """Unit tangents with a positive component along `along`; NaN for NaN configurations."""
         return self.oriented(at, along)[0]
 
     def oriented(self, at: Configurations, along: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Unit tangents t, and the sign of det [A; t]: it changes only where curves cross."""
+        """Unit tangents t, and the sign of det [A; t]: it changes at crossings of curves only."""
         matrix = self.slope(at)[0]
         usable = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(at.inputs)
         matrix = np.where(usable[:, None, None], matrix, 0.0)
@@ -112,7 +112,7 @@ class FreeInput:
         return t, np.linalg.slogdet(np.concatenate([matrix, np.nan_to_num(t)[:, None, :]], axis=1))[0]
 
     def corrected(self, at: Configurations, across: FloatArray) -> Configurations:
-        """Back on the curve, square to the directions `across`; NaN where Newton's method does not get there."""
+        """Corrected to the curve, normal to the directions `across`; NaN where Newton's method does not converge."""
         last = np.full(len(at), np.inf)
         for _ in range(CORRECTIONS):
             matrix, value = self.slope(at)
@@ -125,11 +125,11 @@ class FreeInput:
         return at
 
     def moving(self, at: Configurations, tangents: FloatArray, across: FloatArray) -> dict[str, BodyMotion]:
-        """Every body with its first and second rates by the way along the directions `across`, a coordinate."""
+        """Every body with first and second rates by the coordinate along the directions `across`."""
         still = self.bodies(at)
         first = tangents / np.sum(tangents * across, axis=1)[:, None]
         rates = self.loops.moves(first[:, :-1])
-        bias = self.loops.column(held := self._equations(at, first), [one.bias for one in held], (len(at),))
+        bias = self.loops.column(equations := self._equations(at, first), [one.bias for one in equations], (len(at),))
         square = np.concatenate([self.slope(at)[0], across[:, None, :]], axis=1)
         seconds = self.loops.moves(solve_many(square, np.concatenate([-bias, np.zeros((len(at), 1))], axis=1))[:, :-1])
         moved = {}
@@ -141,12 +141,12 @@ class FreeInput:
 
     @property
     def _driven(self) -> int:
-        """The free input's equation, by its place among all."""
+        """Index of the free input's equation."""
         names = [entry.name for entry in self.moved.plan.mechanism.inputs]
         return names.index(self.moved.name) - len(names) + len(self.loops.joints)
 
     def _equations(self, at: Configurations, tangents: FloatArray | None = None) -> list[Equation]:
-        drives = {name: InputMotion(value, 0.0, 0.0) for name, value in self.moved.held.items()}
+        drives = {name: InputMotion(value, 0.0, 0.0) for name, value in self.moved.locked.items()}
         drives[self.moved.name] = InputMotion(at.inputs, 0.0, 0.0)
         bodies = self.bodies(at)
         if tangents is not None:
@@ -155,5 +155,5 @@ class FreeInput:
 
 
 def freed(moved: OneInput) -> FreeInput:
-    """The mechanism with the input that moves set free."""
+    """The mechanism with a free moving input."""
     return FreeInput(moved, loops(moved.plan.mechanism))

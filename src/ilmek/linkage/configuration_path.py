@@ -1,7 +1,7 @@
-"""The way on which a mechanism is looked at: along one of its inputs, or round a circuit through its dead centres.
+"""Paths of configurations: along one input of a mechanism, or along a circuit through its dead centres.
 
-Whatever is found on a way (crossings of a path, the least clearance) is found at places of it, numbers between start
-and stop, and said with the input's value there.
+Results along a path (crossings of a coupler curve, the least clearance) are reported with the parameter of the path, a
+number between start and stop, and the value of the input.
 """
 
 from collections.abc import Mapping
@@ -19,11 +19,11 @@ from ilmek.linkage.one_input import OneInput
 
 @runtime_checkable
 class ConfigurationPath(Protocol):
-    """A way of a mechanism; `circuits.Circuit` is one too."""
+    """A path of configurations of a mechanism: `InputPath`, `circuits.Circuit`."""
 
     @property
     def mechanism(self) -> Mechanism:
-        """What moves."""
+        """The mechanism."""
 
     @property
     def closed(self) -> bool:
@@ -31,20 +31,20 @@ class ConfigurationPath(Protocol):
 
     @property
     def breaks(self) -> Float[np.ndarray, " breaks"]:
-        """Places from start to stop, between which all is smooth."""
+        """Parameters from start to stop; the motion is smooth between them."""
 
-    def bodies(self, places: FloatArray) -> Mapping[str, BodyMotion]:
-        """Every body, with its first and second rates by the place."""
+    def bodies(self, parameters: FloatArray) -> Mapping[str, BodyMotion]:
+        """Every body at the parameters, with first and second rates by the parameter."""
 
-    def inputs(self, places: FloatArray) -> FloatArray:
-        """Values of the input there [rad, m]."""
+    def inputs(self, parameters: FloatArray) -> FloatArray:
+        """Values of the input [rad, m] at the parameters."""
 
 
 @dataclass(frozen=True, slots=True)
 class InputPath:
-    """The way from one value of the input to another [rad, m]; places are the values. Closed if they are a turn apart.
+    """The path from one value of the input to another [rad, m], its own parameter. Closed over one turn.
 
-    Raises MechanismError where the mechanism does not close all along, or start is not below stop.
+    Raises MechanismError where the mechanism does not close everywhere, or start is not below stop.
     """
 
     moved: OneInput
@@ -58,7 +58,7 @@ class InputPath:
 
     @property
     def mechanism(self) -> Mechanism:
-        """What moves."""
+        """The mechanism."""
         return self.moved.plan.mechanism
 
     @property
@@ -68,21 +68,21 @@ class InputPath:
 
     @property
     def breaks(self) -> Float[np.ndarray, " breaks"]:
-        """The way in 64 parts."""
+        """The ends of 64 equal parts."""
         return np.linspace(self.start, self.stop, 65)
 
-    def bodies(self, places: FloatArray) -> Mapping[str, BodyMotion]:
+    def bodies(self, parameters: FloatArray) -> Mapping[str, BodyMotion]:
         """Every body, with its rates by the input."""
-        motion = self.moved.motion(places)
+        motion = self.moved.motion(parameters)
         return {body.name: motion.body(body.name) for body in self.mechanism.bodies}
 
-    def inputs(self, places: FloatArray) -> FloatArray:
-        """The places themselves."""
-        return np.asarray(places, dtype=float)
+    def inputs(self, parameters: FloatArray) -> FloatArray:
+        """The parameters themselves."""
+        return np.asarray(parameters, dtype=float)
 
 
-def spaced(breaks: Float[np.ndarray, " breaks"], between: int) -> Float[np.ndarray, " places"]:
-    """The breaks, and evenly between neighbouring ones so many steps.
+def spaced(breaks: Float[np.ndarray, " breaks"], between: int) -> Float[np.ndarray, " parameters"]:
+    """The breaks, with each interval divided into equal steps.
 
     >>> spaced(np.array([0.0, 1.0, 3.0]), 2)
     array([0. , 0.5, 1. , 2. , 3. ])

@@ -1,8 +1,8 @@
-"""A mechanism's dimensions: what a drawing puts a number and a tolerance on.
+"""A mechanism's dimensions: the lengths and angles that have a tolerance on a drawing.
 
-A dimension, changed, acts on the equations of its joint as a small displacement of a body would, but of that body as
-this joint alone sees it. A point moved by d in its body's frame: the body shifted by d. So the derivative of any
-equation by any dimension is that equation's derivative by a pose, and needs no formula of its own.
+A change of a dimension acts on the equations of its joint like a small displacement of a body, in these equations only:
+a point moved by d in its body's frame is a body shifted by d. So the derivative of an equation by a dimension is its
+derivative by a pose, and needs no formula of its own.
 """
 
 from collections.abc import Mapping
@@ -16,7 +16,7 @@ from ilmek.plane.vectors import unit
 
 
 class BodyShift(NamedTuple):
-    """A displacement in a body's own frame, a unit change of a dimension: shift [m], turn about the origin [rad]."""
+    """A displacement in a body's own frame per unit of a dimension: shift [m], turn about the origin [rad]."""
 
     shift: ComplexField
     turn: RealField = 0.0
@@ -25,15 +25,15 @@ class BodyShift(NamedTuple):
 NONE = BodyShift(0j)
 """No displacement."""
 
-Nudges: TypeAlias = Mapping[tuple[str, str], BodyShift]
-"""(joint or point, body) -> how that joint sees the body displaced."""
+BodyShifts: TypeAlias = Mapping[tuple[str, str], BodyShift]
+"""(joint or point, body) -> displacement of the body in the equations of that joint."""
 
 
 @dataclass(frozen=True, slots=True)
 class BodyPoint:
-    """Where a point stands in its body [m], measured in the direction `along` [rad] of the body's frame.
+    """Coordinate of a point in its body's frame [m] in the direction `along` [rad].
 
-    A link's length is its far point's place along the link.
+    A link's length is the coordinate of its far point along the link.
     """
 
     body: str
@@ -42,10 +42,10 @@ class BodyPoint:
 
     @property
     def length(self) -> bool:
-        """A length."""
+        """Whether it is a length: True."""
         return True
 
-    def nudges(self, mechanism: Mechanism) -> Nudges:
+    def shifts(self, mechanism: Mechanism) -> BodyShifts:
         """The body shifted. Raises MechanismError for an unknown body or point."""
         mechanism.point(self.body, self.point)
         return {(self.point, self.body): BodyShift(unit(self.along))}
@@ -66,7 +66,7 @@ class LineDirection:
         """An angle."""
         return False
 
-    def nudges(self, mechanism: Mechanism) -> Nudges:
+    def shifts(self, mechanism: Mechanism) -> BodyShifts:
         """Guide and body turned together, each about its own point of the slide."""
         slide = _slide(mechanism, self.slide)
         return {(slide.name, body): _about(mechanism.point(body, slide.name), 1.0) for body in slide.bodies}
@@ -78,7 +78,7 @@ class LineDirection:
 
 @dataclass(frozen=True, slots=True)
 class FixedAngle:
-    """The angle [rad] at which a slide holds its body against its guide: `Slide.turned`."""
+    """The fixed angle [rad] of a slide's body against its guide: `Slide.turned`."""
 
     slide: str
 
@@ -87,7 +87,7 @@ class FixedAngle:
         """An angle."""
         return False
 
-    def nudges(self, mechanism: Mechanism) -> Nudges:
+    def shifts(self, mechanism: Mechanism) -> BodyShifts:
         """The body turned back about its point of the slide."""
         slide = _slide(mechanism, self.slide)
         return {(slide.name, slide.body): _about(mechanism.point(slide.body, slide.name), -1.0)}
@@ -101,22 +101,22 @@ Dimension: TypeAlias = BodyPoint | LineDirection | FixedAngle
 
 
 def dimensions(mechanism: Mechanism) -> tuple[Dimension, ...]:
-    """All of them: x and y of every point of every body, direction and fixed angle of every slide.
+    """All dimensions: x and y of every point of every body, direction and fixed angle of every slide.
 
-    They are more than a drawing needs: those that only move a body's frame in the body cancel one another.
+    They are more than a drawing needs: dimensions that only move a body's frame in the body cancel.
     """
-    places = [
+    coordinates = [
         BodyPoint(body.name, point, along)
         for body in mechanism.bodies
         for point in body.points
         for along in (0.0, QUARTER)
     ]
     slides = [joint.name for joint in mechanism.joints if isinstance(joint, Slide)]
-    return (*places, *(kind(slide) for slide in slides for kind in (LineDirection, FixedAngle)))
+    return (*coordinates, *(kind(slide) for slide in slides for kind in (LineDirection, FixedAngle)))
 
 
 QUARTER = 1.5707963267948966
-"""A quarter turn [rad]: along y."""
+"""Direction of y [rad]."""
 
 
 def _about(centre: complex, turn: float) -> BodyShift:

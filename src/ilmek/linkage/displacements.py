@@ -1,4 +1,4 @@
-"""Displacements and rates of the bodies of a mechanism, and what equations make of them."""
+"""Displacements and rates of the bodies of a mechanism, and their effect on loop equations."""
 
 from collections.abc import Mapping
 from typing import TypeAlias
@@ -11,11 +11,11 @@ from ilmek.linkage.equations import Row
 from ilmek.linkage.groups.group import Known
 
 Moves: TypeAlias = Mapping[str, tuple[ComplexField, RealField]]
-"""Body -> shift of its origin [m] and turn [rad], or their rates; a body not named does not move."""
+"""Body -> shift of its origin [m] and turn [rad], or their rates; default of a body: zero."""
 
 
 def contracted(row: Row, moves: Moves) -> RealField:
-    """An equation's change, or rate: the sum of its derivatives times the bodies' moves.
+    """Change or rate of an equation: the sum of its derivatives times the bodies' displacements.
 
     >>> contracted({"crank": (1, 0, 0.5)}, {"crank": (2 + 3j, 4.0)})
     4.0
@@ -28,7 +28,7 @@ def contracted(row: Row, moves: Moves) -> RealField:
 
 
 def added(first: Moves, second: Moves) -> Moves:
-    """Both moves together."""
+    """Sum of two displacements."""
     both = dict(first)
     for body, (shift, turn) in second.items():
         other = first.get(body, (0j, 0.0))
@@ -50,14 +50,14 @@ def largest(moves: Moves, scale: float) -> RealField:
 
 
 def at_origins(bodies: Known) -> dict[str, BodyMotion]:
-    """The same motions, each anchored at the origin of its body's frame, as loop equations want them."""
+    """The same motions, each anchored at the origin of its body's frame, as loop equations require."""
     return {
         name: BodyMotion(body.carry(0j), 0j, body.direction, body.omega, body.alpha) for name, body in bodies.items()
     }
 
 
 def moving(bodies: Known, rates: Moves) -> dict[str, BodyMotion]:
-    """The bodies, anchored at their origins, in their poses and moving at the rates given, without acceleration."""
+    """The bodies, anchored at their origins, in their poses at given rates, without acceleration."""
     moved = {}
     for name, body in bodies.items():
         velocity, omega = rates.get(name, (0j, 0.0))

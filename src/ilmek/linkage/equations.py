@@ -5,8 +5,9 @@ An equation c(poses, t) = 0 is differentiated twice along the motion:
     c'  = sum over bodies (J_x x' + J_y y' + J_theta theta') - input's rate                  = 0
     c'' = the same sum over accelerations + bias(poses, velocities) - input's second rate    = 0
 
-A pose is the world position of a body's origin (x + i y) and its direction. Angles are held by the sine of their
-error: near the solution it is the error itself [Nikravesh, Computer-Aided Analysis of Mechanical Systems, chapter 3].
+A pose is the world position of a body's origin (x + i y) and its direction. The error of an angle
+is its sine, which near the solution is the error itself [Nikravesh, Computer-Aided Analysis of Mechanical Systems,
+chapter 3].
 """
 
 from dataclasses import dataclass
@@ -22,12 +23,13 @@ from ilmek.linkage.model import Coupling, Joint, Mechanism, Pin, Rotation, Slide
 from ilmek.plane.vectors import dot
 
 Row: TypeAlias = dict[str, tuple[RealField, RealField, RealField]]
-"""Derivatives of one equation by x, y [1/m], theta [1/rad] of each body that it holds."""
+"""Derivatives of one equation by x, y [1/m] and theta [1/rad] of each body in it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Equation:
-    """One scalar equation at the present poses: value, derivatives, bias, and what its input demands of it.
+    """One scalar loop equation in the present poses: value, derivatives, bias, and the first to third rates of its
+    input.
 
     length  1 if its value is a length, 0 if it is an angle
     """
@@ -60,40 +62,40 @@ def slide_equations(mechanism: Mechanism, slide: Slide, bodies: Known) -> list[E
 
 
 def displacement_equation(mechanism: Mechanism, slide: Slide, drive: InputMotion, bodies: Known) -> Equation:
-    """D . f - s = 0: the driven slide."""
+    """D . f - s = 0 of a driven slide; s [m] is the input."""
     along = _along(mechanism, slide, bodies, 1)
     return Equation(along.value - drive.value, along.row, along.bias, drive.speed, drive.acceleration, drive.jerk)
 
 
 def rotation_equation(mechanism: Mechanism, entry: Rotation, drive: InputMotion, bodies: Known) -> Equation:
-    """theta_body - theta_carrier - input = 0: the driven pin."""
+    """theta_body - theta_carrier - input = 0 [rad] of a driven pin."""
     first, second = mechanism.joint(entry.about).bodies
     carrier = second if entry.body == first else first
-    held = _angle(entry.body, carrier, drive.value, bodies)
-    return Equation(held.value, held.row, held.bias, drive.speed, drive.acceleration, drive.jerk, length=0)
+    equation = _angle(entry.body, carrier, drive.value, bodies)
+    return Equation(equation.value, equation.row, equation.bias, drive.speed, drive.acceleration, drive.jerk, length=0)
 
 
 def coupling_equation(mechanism: Mechanism, coupling: Coupling, near: RealField, bodies: Known) -> Equation:
-    """q_second - second_at - ratio (q_first - first_at) = 0; near: q_first [rad] within half a turn."""
+    """q_second - second_at - ratio (q_first - first_at) = 0; near: q_first [rad] to within half a turn."""
     (first, _), (second, point) = coupling.first, coupling.second
     turned = angle_near(bodies[first].direction, bodies[coupling.carrier].direction, near) - coupling.first_at
-    wanted = coupling.second_at + coupling.ratio * turned
+    required = coupling.second_at + coupling.ratio * turned
     joint = mechanism.joint(point) if coupling.kind == "rack" else None
     share: RealField = 1.0
     if isinstance(joint, Slide):
-        held = _along(mechanism, joint, bodies, 1)
-        value, length = held.value - wanted, 1
+        equation = _along(mechanism, joint, bodies, 1)
+        value, length = equation.value - required, 1
     else:
-        held = _angle(second, coupling.carrier, wanted, bodies)
-        share, value, length = held.row[second][2], held.value, 0
-    row, geared = dict(held.row), share * coupling.ratio
+        equation = _angle(second, coupling.carrier, required, bodies)
+        share, value, length = equation.row[second][2], equation.value, 0
+    row, geared = dict(equation.row), share * coupling.ratio
     x, y, spin = row[coupling.carrier]
     row |= {first: (0, 0, -geared), coupling.carrier: (x, y, spin + geared)}
-    return Equation(value, row, held.bias if length else 0.0, length=length)
+    return Equation(value, row, equation.bias if length else 0.0, length=length)
 
 
 def third_biases(group: Group, bodies: Known) -> list[RealField]:
-    """What is left of each third rate where no body has a jerk; in the order of joints, inputs, couplings."""
+    """Bias of the third rates: their values at zero jerks of the bodies; in the order of joints, inputs, couplings."""
     mechanism = group.mechanism
     biases: list[RealField] = []
     for joint in group.joints:
@@ -114,7 +116,7 @@ def _arm_jerk(body: BodyMotion, local: complex) -> ComplexField:
 
 
 def _along_third(mechanism: Mechanism, slide: Slide, bodies: Known, quarter: complex) -> RealField:
-    """Third rate of D . f where no body has a jerk: the product rule of D and f, thrice."""
+    """Third rate of D . f at zero jerks of the bodies: the product rule of D and f, three times."""
     body, guide = bodies[slide.body], bodies[slide.guide]
     p, q = body.carry(mechanism.point(slide.body, slide.name)), guide.carry(mechanism.point(slide.guide, slide.name))
     f, w = guide.direction * np.exp(1j * slide.along) * quarter, guide.omega
@@ -135,7 +137,7 @@ def angle_near(direction: ComplexField, against: ComplexField, near: RealField) 
 
 
 def travel(mechanism: Mechanism, slide: Slide, bodies: Known) -> RealField:
-    """Displacement s [m] of a slide in the present poses."""
+    """Displacement s = D . f [m] of a slide in the present poses."""
     return _along(mechanism, slide, bodies, 1).value
 
 
@@ -153,15 +155,15 @@ def _along(mechanism: Mechanism, slide: Slide, bodies: Known, quarter: complex) 
     r = body.direction * mechanism.point(slide.body, slide.name)
     s = guide.direction * mechanism.point(slide.guide, slide.name)
     f = guide.direction * np.exp(1j * slide.along) * quarter
-    apart = body.anchor.position + r - guide.anchor.position - s
+    separation = body.anchor.position + r - guide.anchor.position - s
     parting = _velocity(body, r) - _velocity(guide, s)
     spin = guide.omega
-    bias = dot(f, spin**2 * s - body.omega**2 * r) + 2 * dot(1j * spin * f, parting) - spin**2 * dot(f, apart)
+    bias = dot(f, spin**2 * s - body.omega**2 * r) + 2 * dot(1j * spin * f, parting) - spin**2 * dot(f, separation)
     row: Row = {
         slide.body: (f.real, f.imag, dot(f, 1j * r)),
-        slide.guide: (-f.real, -f.imag, dot(1j * f, apart) - dot(f, 1j * s)),
+        slide.guide: (-f.real, -f.imag, dot(1j * f, separation) - dot(f, 1j * s)),
     }
-    return Equation(dot(f, apart), row, bias)
+    return Equation(dot(f, separation), row, bias)
 
 
 def _angle(body: str, against: str, angle: RealField, bodies: Known) -> Equation:

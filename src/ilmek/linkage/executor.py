@@ -24,7 +24,7 @@ misfit, too_short, too_near = compiled(rrr_group.misfit), compiled(rrp_group.sho
 
 @compiled
 def _best(code: int, numbers: ComplexArray) -> tuple[float, float]:
-    """The margin at best and the largest length of a dyad, as its step has them."""
+    """Greatest possible margin and largest length of a dyad, equal to those of its step."""
     a, b = numbers[0].real, numbers[1].real
     if code == RRR:
         return a * b, max(a, b)
@@ -37,7 +37,7 @@ def _best(code: int, numbers: ComplexArray) -> tuple[float, float]:
 
 @compiled
 def _gap(code: int, dyad: FloatArray, guide: FloatArray, numbers: ComplexArray, i: int) -> float:
-    """By how much a dyad without a real margin fails to close in sample i; lines that do not cross are parallel."""
+    """Gap [m] of a dyad without a real margin in sample i; NaN for lines that do not cross."""
     A, a, b = pair(dyad, i), numbers[0].real, numbers[1].real
     if code == RRR:
         return float(misfit(A, pair(dyad, SECOND * BLOCK + i), a, b))
@@ -50,7 +50,7 @@ def _gap(code: int, dyad: FloatArray, guide: FloatArray, numbers: ComplexArray, 
 
 @compiled
 def _doubtful(margin: FloatArray, count: int, least: float) -> int:
-    """How many samples are near a dead centre or lost."""
+    """Number of samples near a dead centre or open."""
     found = 0
     for i in range(count):
         found += not abs(margin[i]) > least  # true of a NaN
@@ -59,7 +59,7 @@ def _doubtful(margin: FloatArray, count: int, least: float) -> int:
 
 @compiled
 def _judge(code: int, dyad: FloatArray, guide: FloatArray, count: int, numbers: ComplexArray, status: Statuses) -> None:
-    """What `status.judge` says of a dyad's samples that were still OK."""
+    """Set the status of a dyad's samples that are still OK, as `status.judge` does."""
     best, size = _best(code, numbers)
     if _doubtful(dyad[MARGIN * BLOCK :], count, DEAD * best) == 0:
         return
@@ -67,13 +67,13 @@ def _judge(code: int, dyad: FloatArray, guide: FloatArray, count: int, numbers: 
         margin = dyad[MARGIN * BLOCK + i]
         if status[i] != OK or abs(margin) > DEAD * best:
             continue
-        lost = math.isnan(margin) and not abs(_gap(code, dyad, guide, numbers, i)) <= TOUCHING * size
-        status[i] = CANNOT_CLOSE if lost else DEAD_CENTRE
+        open_chain = math.isnan(margin) and not abs(_gap(code, dyad, guide, numbers, i)) <= TOUCHING * size
+        status[i] = CANNOT_CLOSE if open_chain else DEAD_CENTRE
 
 
 @compiled
 def _least(margin: FloatArray, count: int, best: float, least: float) -> float:
-    """The least margin, of the best there is, so far."""
+    """Running minimum of the margin relative to the best."""
     for i in range(count):
         least = min(least, abs(margin[i]) / best)
     return least
@@ -111,7 +111,7 @@ def _can_fail(kind: int) -> bool:
 
 @compiled
 def _drive(rows: FloatArray, values: FloatArray, rates: FloatArray, start: int, count: int) -> None:
-    """The inputs' rows for the samples from `start` on; rates of one sample hold for all."""
+    """The inputs' rows for the samples from `start` on; rates of one sample apply to all."""
     for k in range(len(values)):
         to, value = rows[(BODY + DRIVE * k) * BLOCK :], values[k, start : start + count]
         for i in range(min(count, BLOCK)):
@@ -137,7 +137,7 @@ def _copy_out(
     start: int,
     count: int,
 ) -> None:
-    """The rows wanted into the answer's arrays, from sample `start` on."""
+    """Copy the requested rows to the result arrays, from sample `start` on."""
     for k in range(len(pairs)):
         to, row = points[k, start : start + count], rows[pairs[k] * BLOCK :]
         for i in range(min(count, BLOCK)):
@@ -166,10 +166,10 @@ def run(
 
     height   rows in all                                codes, numbers  the tape, see `tape.Tape.stack`
     values   (inputs, samples)                          rates   (inputs, 2, samples or 1)
-    pairs    rows wanted as complex fields              points  (variants, pairs, samples), written
-    singles  rows wanted as real fields                 reals   (variants, singles, samples), written
+    pairs    rows requested as complex fields           points  (variants, pairs, samples), written
+    singles  rows requested as real fields              reals   (variants, singles, samples), written
     status   (variants, samples), written; zero before
-    margin   (variants,), the least margin of all dyads, written; infinite before; of no length where not wanted
+    margin   (variants,), the least margin of all dyads, written; infinite before; empty if not requested
     """
     rows = np.zeros(height * BLOCK)
     for i in range(BLOCK):

@@ -1,9 +1,9 @@
-"""Where an output turns back, or its speed is greatest: dead centres and toggle positions of any mechanism.
+"""Extremes of an output and of its rate: dead centres and toggle positions of any mechanism.
 
     y' = 0 (extremes of the value)        y'' = 0 (extremes of the rate)        rates by the input
 
-Found between samples by their signs and polished to rounding. Two roots of y' between neighbouring samples are not
-missed: the roots of y'' are made samples too.
+Roots are bracketed by samples and refined to rounding. The roots of y'' are samples for y' too, so that two roots of y'
+between neighbouring samples are found.
 """
 
 from collections.abc import Callable, Sequence
@@ -15,7 +15,7 @@ from ilmek.arrays import Bool, Float
 from ilmek.errors import MechanismError
 from ilmek.linkage.dimensions import Dimension
 from ilmek.linkage.one_input import OneInput
-from ilmek.linkage.outputs import Output, OutputHistory, followed
+from ilmek.linkage.outputs import Output, OutputHistory, output_history
 from ilmek.linkage.sensitivity import derivatives
 from ilmek.num.brackets import bracketed_roots
 from ilmek.num.piecewise import roots
@@ -25,8 +25,8 @@ from ilmek.num.piecewise import roots
 class OutputExtreme:
     """A local extreme of an output.
 
-    input     value of the input there [rad, m]         value   of the output, or of its rate by the input
-    greatest  a local greatest value; else a least one
+    input     value of the input [rad, m]         value   of the output, or of its rate by the input
+    greatest  True for a local maximum, False for a minimum
     """
 
     input: float
@@ -36,7 +36,7 @@ class OutputExtreme:
 
 @dataclass(frozen=True, slots=True)
 class ExtremeDerivatives:
-    """Derivatives by each dimension of an extreme's value, and of the input at which it stands."""
+    """Derivatives of an extreme's value, and of its input, by each dimension."""
 
     dimensions: tuple[Dimension, ...]
     value: Float[np.ndarray, " dimensions"]
@@ -48,7 +48,7 @@ def extremes(
 ) -> tuple[OutputExtreme, ...]:
     """Local extremes of an output for inputs between start and stop, in order: the output's dead centres.
 
-    Samples that do not close are left out; see `circuits` for what happens at the ends of the input's range.
+    Open samples do not count; see `circuits` for the ends of the input's range.
     Raises MechanismError where start is not below stop.
 
     >>> from ilmek.linkage.fourbar import slider_crank
@@ -64,16 +64,16 @@ def extremes(
     at = _roots(moved, output, nodes, _rate)
     if not len(at):
         return ()
-    there = followed(moved.motion(at), output)
+    history = output_history(moved.motion(at), output)
     return tuple(
         OutputExtreme(float(q), float(y), bool(yy < 0))
-        for q, y, yy in zip(at, there.value, there.second_rate, strict=True)
+        for q, y, yy in zip(at, history.value, history.second_rate, strict=True)
     )
 
 
 @dataclass(frozen=True, slots=True)
 class Dwell:
-    """A stretch of the input [rad, m] in which an output stays within a tolerance of its value at an extreme."""
+    """An interval of the input [rad, m] with the output within a tolerance of its value at an extreme."""
 
     start: float
     stop: float
@@ -83,10 +83,11 @@ class Dwell:
 def dwells(
     moved: OneInput, output: Output, tolerance: float, start: float, stop: float, *, samples: int = 720
 ) -> tuple[Dwell, ...]:
-    """Dwells of an output for inputs between start and stop, the longest first: about each extreme, ends polished.
+    """Dwells of an output for inputs between start and stop, the longest first: about each extreme, with refined ends.
 
-    tolerance  [m or rad], to either side. Of dwells about neighbouring extremes that overlap the longest is told; one
-               that goes on beyond start or stop, or the input's range, ends there.
+    tolerance  greatest deviation [m or rad] to either side
+    Of overlapping dwells about neighbouring extremes the longest is reported. A dwell ends at start, stop or the end of
+    the input's range at the latest.
     Raises MechanismError for a tolerance that is not above zero, or a start not below stop.
 
     >>> from ilmek.linkage.fourbar import slider_crank
@@ -101,12 +102,12 @@ def dwells(
         raise MechanismError(f"dwell within {tolerance}", allowed="a tolerance above 0")
     peaks = extremes(moved, output, start, stop, samples=samples)
     nodes = np.unique(np.concatenate([_nodes(start, stop, samples), [peak.input for peak in peaks]]))
-    value = followed(moved.motion(nodes), output).value
+    value = output_history(moved.motion(nodes), output).value
     found: list[Dwell] = []
     for peak in peaks:
         at = int(np.searchsorted(nodes, peak.input))
-        near = np.abs(value - value[at]) <= tolerance
-        after, before = _run(near[at:]), _run(near[at::-1])
+        within = np.abs(value - value[at]) <= tolerance
+        after, before = _run(within[at:]), _run(within[at::-1])
         ends = nodes[at - before], nodes[at + after]
         beyond = nodes[max(at - before - 1, 0)], nodes[min(at + after + 1, len(nodes) - 1)]
         low, high = (
@@ -124,29 +125,29 @@ def dwells(
 def rate_extremes(
     moved: OneInput, output: Output, start: float, stop: float, *, samples: int = 720
 ) -> tuple[OutputExtreme, ...]:
-    """Local extremes of an output's rate by the input, in order; else as `extremes`."""
+    """Local extremes of an output's rate by the input, in order; arguments and errors as `extremes`."""
     nodes = _nodes(start, stop, samples)
     at = _roots(moved, output, nodes, _second_rate)
     if not len(at):
         return ()
-    there = followed(moved.motion(at), output)
+    history = output_history(moved.motion(at), output)
     step = 0.25 * (stop - start) / samples
-    before = followed(moved.motion(at - step), output).second_rate
+    before = output_history(moved.motion(at - step), output).second_rate
     return tuple(
-        OutputExtreme(float(q), float(y), bool(yy > 0)) for q, y, yy in zip(at, there.rate, before, strict=True)
+        OutputExtreme(float(q), float(y), bool(yy > 0)) for q, y, yy in zip(at, history.rate, before, strict=True)
     )
 
 
 def extreme_derivatives(
     moved: OneInput, output: Output, extreme: OutputExtreme, dimensions: Sequence[Dimension]
 ) -> ExtremeDerivatives:
-    """Exact derivatives of a local extreme of an output, of its value and its input, by dimensions.
+    """Exact derivatives of a local extreme of an output, of its value and its input, by dimensions p.
 
-    value: that of y at the extreme's input held fast;   input: -(dy'/dp) / y''
+    value: dy/dp at the fixed input of the extreme;   input: -(dy'/dp) / y''
     """
     motion = moved.motion(np.array([extreme.input])).require()
     found = derivatives(motion, output, dimensions)
-    curvature = followed(motion, output).second_rate
+    curvature = output_history(motion, output).second_rate
     return ExtremeDerivatives(tuple(dimensions), found.value[:, 0], (-found.rate / curvature)[:, 0])
 
 
@@ -165,37 +166,37 @@ def _nodes(start: float, stop: float, samples: int) -> Float[np.ndarray, " nodes
     return np.linspace(start, stop, samples + 1)
 
 
-def _rate(course: OutputHistory) -> Float[np.ndarray, " samples"]:
-    return course.rate
+def _rate(history: OutputHistory) -> Float[np.ndarray, " samples"]:
+    return history.rate
 
 
-def _second_rate(course: OutputHistory) -> Float[np.ndarray, " samples"]:
-    return course.second_rate
+def _second_rate(history: OutputHistory) -> Float[np.ndarray, " samples"]:
+    return history.second_rate
 
 
 def _roots(
     moved: OneInput, output: Output, nodes: Float[np.ndarray, " nodes"], part: Callable[[OutputHistory], np.ndarray]
 ) -> Float[np.ndarray, " roots"]:
-    """Inputs between neighbouring nodes at which a part of the output's course changes its sign, polished."""
+    """Inputs between neighbouring nodes at which a part of the output history changes its sign, refined."""
 
     def f(values: np.ndarray) -> np.ndarray:
-        return part(followed(moved.motion(values), output))
+        return part(output_history(moved.motion(values), output))
 
     return roots(f, nodes)
 
 
-def _run(near: Bool[np.ndarray, " nodes"]) -> int:
-    """How many nodes after the first are near without a break."""
-    return int(np.argmin(near)) - 1 if not near.all() else len(near) - 1
+def _run(within: Bool[np.ndarray, " nodes"]) -> int:
+    """Number of consecutive nodes within the tolerance after the first."""
+    return int(np.argmin(within)) - 1 if not within.all() else len(within) - 1
 
 
 def _leaving(  # noqa: PLR0917
     moved: OneInput, output: Output, value: float, tolerance: float, inside: float, outside: float
 ) -> float:
-    """Where between two inputs an output comes to differ from a value by the tolerance; the first, if it does not."""
+    """Input at which an output leaves the tolerance about a value, between two inputs; the first if it does not."""
 
     def f(inputs: np.ndarray) -> np.ndarray:
-        apart = followed(moved.motion(inputs), output).value - value
+        apart = output_history(moved.motion(inputs), output).value - value
         return np.abs(apart) - tolerance
 
     found = float(bracketed_roots(f, np.array([inside]), np.array([outside]))[0])

@@ -1,4 +1,4 @@
-"""Where a motion fails, in words: at which input values, by how much, and what to do."""
+"""Errors of motions that cannot be solved: the failing range of the input, the gap, and a remedy."""
 
 from collections.abc import Mapping
 
@@ -15,7 +15,7 @@ from ilmek.linkage.structure import Plan
 from ilmek.units import deg, mm
 
 SHOWN = 3
-"""Ranges written out in a message; further ones are counted."""
+"""Number of ranges listed in a message; further ranges are counted."""
 
 
 def first_fault(plan: Plan, drives: Mapping[str, InputMotion], status: Int8[np.ndarray, " samples"]) -> MechanismError:
@@ -31,24 +31,24 @@ def first_fault(plan: Plan, drives: Mapping[str, InputMotion], status: Int8[np.n
             judge(step, known, solved, found)
             if found.any():
                 nowhere = len(found) == len(bad) > 1 and found.all()
-                said = _where(moving, drives, bad, found), "" if nowhere else " or ".join(one.name for one in moving)
-                return _error(plan, step, said, known, Status(found.max()))
-            known.update(step.place(known, solved.columns))
+                where = _where(moving, drives, bad, found), "" if nowhere else " or ".join(one.name for one in moving)
+                return _error(plan, step, where, known, Status(found.max()))
+            known.update(step.locate(known, solved.columns))
     raise AssertionError("a sample that failed fails again")
 
 
 def _moving(plan: Plan, drives: Mapping[str, InputMotion]) -> tuple[Input, ...]:
-    """The inputs whose value varies over the samples; all, where none does. The others are held, and not to blame."""
+    """The inputs whose value varies over the samples; all, if none varies."""
     varied = tuple(entry for entry in plan.mechanism.inputs if np.ptp(np.asarray(drives[entry.name].value)) > 0)
     return varied or plan.mechanism.inputs
 
 
-def _error(plan: Plan, step: Step, said: tuple[str, str], known: Known, status: Status) -> MechanismError:
-    """The error, from where it fails and the names of the inputs to limit; "" where no limit would help."""
-    (where, limit), name, bodies = said, plan.mechanism.name, " and ".join(step.bodies)
+def _error(plan: Plan, step: Step, failing: tuple[str, str], known: Known, status: Status) -> MechanismError:
+    """The error from the failing range and the names of the inputs to limit ("" where no limit helps)."""
+    (where, limit), name, bodies = failing, plan.mechanism.name, " and ".join(step.bodies)
     if status is Status.DEAD_CENTRE:
         return MechanismError(
-            f"{name} stands at a dead centre for {where}",
+            f"{name} is at a dead centre for {where}",
             allowed=f"{bodies} are in line there and have no definite velocity",
             do="drive another body or keep away from it",
         )
@@ -82,8 +82,8 @@ def _where(
 
 def _ranges(value: Float[np.ndarray, " failing"], runs: list[np.ndarray], angle: bool) -> str:
     unit, sign = (deg, "°") if angle else (mm, " mm")
-    said = []
+    ranges = []
     for run in runs[:SHOWN]:
         first, last = (f"{value[at] / unit:.1f}{sign}" for at in (run[0], run[-1]))
-        said.append(first if first == last else f"{first}..{last}")
-    return ", ".join(said) + (f" and {len(runs) - SHOWN} further ranges" if len(runs) > SHOWN else "")
+        ranges.append(first if first == last else f"{first}..{last}")
+    return ", ".join(ranges) + (f" and {len(runs) - SHOWN} further ranges" if len(runs) > SHOWN else "")

@@ -1,6 +1,6 @@
-"""The two everyday mechanisms, ready to plan: four-bar and slider-crank.
+"""The two common mechanisms, four-bar and slider-crank.
 
-Both stand with the crank's pivot at the origin. Names are those of the drawing:
+The crank's pivot is at the origin. Names of points and links:
 
     four-bar        crank A0-A, coupler A-B, rocker B0-B, ground A0-B0 along x
     slider-crank    crank A0-A, rod A-B, slider at B on a line parallel to x, `offset` above the crank's pivot
@@ -68,7 +68,7 @@ def slider_crank(
     """Slider-crank driven by its crank: link lengths and offset of the slider's line [m].
 
     The line is y = offset; its own point is (0, offset), so that the slide's s is the x of pin B.
-    branch  +1: the slider on the side of +x of the foot of A on the line, -1: on the other
+    branch  +1: the slider is at greater x than pin A, -1: at smaller x
     points  further points by body: crank (origin A0, x to A), rod (origin A, x to B), slider (origin B, x along)
 
     Raises MechanismError for a length that is not above zero.

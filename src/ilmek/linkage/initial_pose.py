@@ -1,9 +1,9 @@
-"""Where Newton's method starts: followed from the mechanism's pose, never guessed.
+"""Start of Newton's method: followed from the mechanism's pose, never guessed.
 
-A group without a closed form has as many ways to close as its equations have roots. Which one is meant is said by the
-mechanism's `pose`. From the inputs in that pose the inputs are moved evenly to those wanted, in steps small enough to
-stay on the same way; each step starts from the last one's motion carried on. So a sample's answer depends on the pose
-and on its own inputs, not on the samples before it.
+A group without a closed form has as many assemblies as its equations have roots. The mechanism's `pose` selects one.
+The inputs move evenly from their values in that pose to the required ones, in steps small enough to stay in the same
+assembly; each step starts from the extrapolated motion of the last one. So the result of a sample depends on the pose
+and its own inputs, not on the samples before it.
 """
 
 import cmath
@@ -21,35 +21,35 @@ from ilmek.linkage.structure import Plan
 from ilmek.units import deg
 
 TURN = 5 * deg
-"""Longest step of a rotating input on the way from the pose."""
+"""Longest step of a rotating input on the path from the pose [rad]."""
 
 SHIFT = 0.02
-"""Longest step of a sliding input on the way from the pose, of the mechanism's size."""
+"""Longest step of a sliding input on the path from the pose, relative to the mechanism's size."""
 
 
 def starts(plan: Plan, drives: Mapping[str, InputMotion]) -> dict[str, BodyMotion]:
-    """A motion near the answer for every body that is left to Newton's method, at each sample."""
+    """Start of Newton's method for each body of a group without a closed form, at each sample; else {}."""
     blocks = [step for step in plan.steps if isinstance(step, GeneralGroup)]
     if not blocks:
         return {}
     reference = _inputs_in_pose(plan)
-    wanted = {name: np.atleast_1d(np.asarray(drive.value, dtype=float)) for name, drive in drives.items()}
+    targets = {name: np.atleast_1d(np.asarray(drive.value, dtype=float)) for name, drive in drives.items()}
     stride = {
         entry.name: TURN if isinstance(entry, Rotation) else SHIFT * blocks[0].scale for entry in plan.mechanism.inputs
     }
-    if len(wanted) > 1:
-        return _follow(plan, reference, wanted, _count(reference, wanted, stride))[-1]
-    (name,) = wanted
-    ends = np.array([min(wanted[name].min(), reference[name]), max(wanted[name].max(), reference[name])])
+    if len(targets) > 1:
+        return _follow(plan, reference, targets, _count(reference, targets, stride))[-1]
+    (name,) = targets
+    ends = np.array([min(targets[name].min(), reference[name]), max(targets[name].max(), reference[name])])
     count = _count(reference, {name: ends}, stride)
-    way = _follow(plan, reference, {name: ends}, count)
-    return _nearest(way, reference[name], ends, wanted[name])
+    path = _follow(plan, reference, {name: ends}, count)
+    return _nearest(path, reference[name], ends, targets[name])
 
 
 def _inputs_in_pose(plan: Plan) -> dict[str, float]:
     """The inputs' values in the mechanism's pose."""
     mechanism = plan.mechanism
-    bodies = drawn(plan.mechanism)
+    bodies = bodies_in_pose(plan.mechanism)
     values: dict[str, float] = {}
     for entry in mechanism.inputs:
         joint = mechanism.joint(entry.joint)
@@ -60,8 +60,8 @@ def _inputs_in_pose(plan: Plan) -> dict[str, float]:
     return values
 
 
-def drawn(mechanism: Mechanism) -> dict[str, BodyMotion]:
-    """Every body at rest in the mechanism's pose; as drawn in place where none is given."""
+def bodies_in_pose(mechanism: Mechanism) -> dict[str, BodyMotion]:
+    """All bodies at rest in the mechanism's pose; default: each body's frame coincides with the world."""
     bodies = {}
     for body in mechanism.moving:
         origin, angle = mechanism.pose.get(body, (0j, 0.0))
@@ -71,41 +71,41 @@ def drawn(mechanism: Mechanism) -> dict[str, BodyMotion]:
 
 def _count(
     reference: Mapping[str, float],
-    wanted: Mapping[str, Float[np.ndarray, " samples"]],
+    targets: Mapping[str, Float[np.ndarray, " samples"]],
     stride: Mapping[str, float],
 ) -> int:
-    """Steps needed to come from the pose to the farthest of the inputs wanted."""
-    far = max(float(np.max(np.abs(value - reference[name]))) / stride[name] for name, value in wanted.items())
+    """Number of steps from the pose to the farthest target."""
+    far = max(float(np.max(np.abs(value - reference[name]))) / stride[name] for name, value in targets.items())
     return max(1, int(np.ceil(far)))
 
 
 def _follow(
     plan: Plan,
     reference: Mapping[str, float],
-    wanted: Mapping[str, Float[np.ndarray, " samples"]],
+    targets: Mapping[str, Float[np.ndarray, " samples"]],
     count: int,
 ) -> list[dict[str, BodyMotion]]:
-    """The bodies of the blocks at each of `count` even steps from the pose to the inputs wanted, the pose first."""
+    """The bodies of the general groups at each of `count` even steps from the pose to the targets, the pose first."""
     blocks = {body for step in plan.steps if isinstance(step, GeneralGroup) for body in step.bodies}
-    near = {body: motion for body, motion in drawn(plan.mechanism).items() if body in blocks}
-    way = []
+    near = {body: motion for body, motion in bodies_in_pose(plan.mechanism).items() if body in blocks}
+    path = []
     for k in range(count + 1):
         drives = {
             name: InputMotion(
                 reference[name] + (value - reference[name]) * (k / count), (value - reference[name]) / count, 0.0
             )
-            for name, value in wanted.items()
+            for name, value in targets.items()
         }
         known: dict[str, BodyMotion] = {GROUND: STILL, **near}
         for step in plan.steps:
-            known.update(step.place(known, step.solve(known, drives).columns))
-        way.append({body: known[body] for body in blocks})
+            known.update(step.locate(known, step.solve(known, drives).columns))
+        path.append({body: known[body] for body in blocks})
         near = {body: _carried_on(known[body], 1.0) for body in blocks}
-    return way
+    return path
 
 
 def _carried_on(body: BodyMotion, steps: float | Float[np.ndarray, " samples"]) -> BodyMotion:
-    """The body `steps` steps later, if it went on as it does (to second order)."""
+    """The body extrapolated by a number of steps, to second order."""
     anchor, half = body.anchor, 0.5 * steps * steps
     position = anchor.position + anchor.velocity * steps + anchor.acceleration * half
     direction = body.direction * np.exp(1j * (body.omega * steps + body.alpha * half))
@@ -113,17 +113,17 @@ def _carried_on(body: BodyMotion, steps: float | Float[np.ndarray, " samples"]) 
 
 
 def _nearest(
-    way: list[dict[str, BodyMotion]],
+    path: list[dict[str, BodyMotion]],
     reference: float,
     ends: Float[np.ndarray, " 2"],
-    wanted: Float[np.ndarray, " samples"],
+    targets: Float[np.ndarray, " samples"],
 ) -> dict[str, BodyMotion]:
-    """For one input: each sample's nearest step on the way down (side 0) or up (side 1), carried on to the sample."""
-    side = (wanted > reference).astype(int)
-    stride = (ends - reference)[side] / (len(way) - 1)
-    place = np.where(stride == 0, 0.0, (wanted - reference) / np.where(stride == 0, 1.0, stride))
-    step = np.clip(np.rint(place).astype(int), 0, len(way) - 1)
-    return {body: _carried_on(_picked([one[body] for one in way], step, side), place - step) for body in way[0]}
+    """For one input: the nearest step to each sample, downwards (side 0) or upwards (side 1), extrapolated to it."""
+    side = (targets > reference).astype(int)
+    stride = (ends - reference)[side] / (len(path) - 1)
+    position = np.where(stride == 0, 0.0, (targets - reference) / np.where(stride == 0, 1.0, stride))
+    step = np.clip(np.rint(position).astype(int), 0, len(path) - 1)
+    return {body: _carried_on(_picked([one[body] for one in path], step, side), position - step) for body in path[0]}
 
 
 def _picked(

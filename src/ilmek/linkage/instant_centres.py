@@ -1,9 +1,9 @@
-"""Instant centres: where two bodies move alike, for every pair of bodies of any mechanism, and the centrodes.
+"""Instant centres of every pair of bodies of any mechanism, and the centrodes.
 
     v_i(z) = V_i + i w_i z    (V_i: velocity of the body's point at the world's origin)
     v_i(z) = v_j(z)    ->     z = i (V_i - V_j) / (w_i - w_j)
 
-at infinity, square to V_i - V_j, where the bodies turn alike. Any three bodies have their three centres on one line
+at infinity, normal to V_i - V_j, for equal angular velocities. The three centres of any three bodies are on one line
 [Aronhold, Kennedy; Norton, Design of Machinery, sections 6.3 to 6.5]. Only the ratio of velocities counts: any speed
 of the input but zero will do.
 """
@@ -20,14 +20,14 @@ from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
 
 PARALLEL = 1e-12
-"""Difference of angular velocities, times the mechanism's size, against that of velocities: below it none."""
+"""Greatest zero of the difference of angular velocities, times the mechanism's size, against that of velocities."""
 
 
 @dataclass(frozen=True, slots=True)
 class InstantCentre:
     """The instant centre of two bodies at each sample.
 
-    position   in the world [m]; NaN where it is at infinity, or the bodies do not move against each other at all
+    position   in the world [m]; NaN where it is at infinity, or the bodies have no relative motion
     far        whether it is at infinity        direction  unit complex towards it if so, up to sign; else NaN
     """
 
@@ -38,9 +38,9 @@ class InstantCentre:
 
 @dataclass(frozen=True, slots=True)
 class Centrodes:
-    """Paths of the instant centre of a moving body: in the frame of the one it moves against, and in its own.
+    """Paths [m] of the instant centre of a moving body: in the frame of the reference body, and in its own.
 
-    The second rolls on the first without sliding, and carries the body with it. [m], one point a sample.
+    The second rolls on the first without sliding and carries the body. One point per sample.
     """
 
     fixed: Complex[np.ndarray, " samples"]
@@ -50,7 +50,7 @@ class Centrodes:
 def instant_centre(motion: Motion, first: str, second: str = GROUND) -> InstantCentre:
     """The instant centre of two bodies over a motion.
 
-    Raises MechanismError for an unknown body, one body given twice, or a motion whose inputs all stand still.
+    Raises MechanismError for an unknown body, one body given twice, or a motion with all inputs at rest.
 
     >>> from ilmek.linkage.fourbar import four_bar
     >>> from ilmek.linkage.solve import solve
@@ -79,14 +79,14 @@ def instant_centre(motion: Motion, first: str, second: str = GROUND) -> InstantC
 def instant_centres(motion: Motion) -> Mapping[tuple[str, str], InstantCentre]:
     """All n (n - 1) / 2 instant centres of a mechanism of n bodies, the ground among them, by the pair's names.
 
-    The pairs are in the mechanism's order of bodies. Raises MechanismError where all inputs stand still.
+    The pairs are in the mechanism's order of bodies. Raises MechanismError where all inputs are at rest.
     """
     names = [body.name for body in motion.plan.mechanism.bodies]
     return {(first, second): instant_centre(motion, first, second) for first, second in combinations(names, 2)}
 
 
 def centrodes(motion: Motion, body: str, against: str = GROUND) -> Centrodes:
-    """The fixed and the moving centrode of a body against another, one point a sample; NaN at infinity.
+    """The fixed and the moving centrode of a body against another, one point per sample; NaN at infinity.
 
     Raises MechanismError as `instant_centre`.
     """
@@ -102,5 +102,5 @@ def _check(motion: Motion, first: str, second: str) -> None:
         raise MechanismError(f"body {first!r} against itself has no instant centre", do="name two bodies")
     if all(not np.any(drive.speed) for drive in motion.drives.values()):
         raise MechanismError(
-            f"{mechanism.name} stands still: it has no instant centres", do="solve it with speed=1 of an input"
+            f"{mechanism.name} is at rest: it has no instant centres", do="solve it with speed=1 of an input"
         )

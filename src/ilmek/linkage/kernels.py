@@ -3,7 +3,7 @@
 
 All rows lie in one array, those of a body one after the other, `BLOCK` samples each: the compiler sees that no row
 overlaps another, and works on several samples at once (measured for an RRR dyad: 3 ns a state, 17 ns one by one).
-`min(count, BLOCK)` shows it that no place lies before the array's beginning, where Python counts from the end.
+`min(count, BLOCK)` shows it that no index is negative, where Python counts from the end.
 """
 
 from ilmek.arrays import ComplexField, FloatArray
@@ -27,33 +27,33 @@ slid_velocity = compiled(shift.slid_velocity)
 slid_acceleration = compiled(shift.slid_acceleration)
 sincos = compiled(trigonometry.sincos)
 rrr_position, rrr_turning = compiled(rrr_group.position), compiled(rrr_group.turning)
-rrr_parting = compiled(rrr_group.parting)
+rrr_acceleration = compiled(rrr_group.relative_acceleration)
 first_rate, second_rate = compiled(rrr_group.first_rate), compiled(rrr_group.second_rate)
 rrp_position, rrp_turning = compiled(rrp_group.position), compiled(rrp_group.turning)
-rrp_parting = compiled(rrp_group.parting)
+rrp_acceleration = compiled(rrp_group.relative_acceleration)
 link_rate, slider_rate = compiled(rrp_group.link_rate), compiled(rrp_group.slider_rate)
-way, heading = compiled(rpr_group.sliding_distance), compiled(rpr_group.heading)
-turn_rate, way_rate = compiled(rpr_group.turn_rate), compiled(rpr_group.sliding_speed)
-rpr_parting = compiled(rpr_group.parting)
+sliding_distance, heading = compiled(rpr_group.sliding_distance), compiled(rpr_group.heading)
+turn_rate, sliding_speed = compiled(rpr_group.turn_rate), compiled(rpr_group.sliding_speed)
+rpr_acceleration = compiled(rpr_group.relative_acceleration)
 gain = compiled(rpp_group.gain)
 
 
 @compiled
 def pair(rows: FloatArray, at: int) -> complex:
-    """A complex field's sample: its real part at the place `at`, its imaginary part a row further on."""
+    """Read a complex sample: the real part at index `at`, the imaginary part one row further on."""
     return complex(rows[at], rows[at + BLOCK])
 
 
 @compiled
 def put(rows: FloatArray, at: int, value: ComplexField) -> None:
-    """Write it there."""
+    """Write a complex sample; see `pair`."""
     rows[at] = value.real
     rows[at + BLOCK] = value.imag
 
 
 @compiled
 def carry(point: FloatArray, body: FloatArray, count: int, local: complex) -> None:
-    """Motion of a body's point into six rows."""
+    """Write the motion of a body's point to six rows."""
     for i in range(min(count, BLOCK)):
         arm, omega, alpha = pair(body, 6 * BLOCK + i) * local, body[8 * BLOCK + i], body[9 * BLOCK + i]
         put(point, i, pair(body, i) + arm)
@@ -63,7 +63,7 @@ def carry(point: FloatArray, body: FloatArray, count: int, local: complex) -> No
 
 @compiled
 def turn(body: FloatArray, carrier: FloatArray, drive: FloatArray, count: int, sign: float) -> None:
-    """Direction and rates of a driven body; its anchor stands already."""
+    """Direction and rates of a driven body; its anchor is already written."""
     for i in range(min(count, BLOCK)):
         sine, cosine = sincos(sign * drive[i])
         put(body, 6 * BLOCK + i, pair(carrier, 6 * BLOCK + i) * complex(cosine, sine))
@@ -73,7 +73,7 @@ def turn(body: FloatArray, carrier: FloatArray, drive: FloatArray, count: int, s
 
 @compiled
 def rrr(dyad: FloatArray, count: int, a: float, b: float, branch: float, per_a: complex, per_b: complex) -> None:
-    """Directions, rates and margin of two links, whose known pins' motions stand already."""
+    """Directions, rates and margin of two links, whose known pins are already written."""
     for i in range(min(count, BLOCK)):
         A, B = pair(dyad, i), pair(dyad, 10 * BLOCK + i)
         C = rrr_position(A, B, a, b, branch)
@@ -81,7 +81,7 @@ def rrr(dyad: FloatArray, count: int, a: float, b: float, branch: float, per_a: 
         sine = rrr_turning(u, v)
         r: ComplexField = pair(dyad, 12 * BLOCK + i) - pair(dyad, 2 * BLOCK + i)
         wa, wb = first_rate(v, r, sine), second_rate(u, r, sine)
-        r = rrr_parting(pair(dyad, 4 * BLOCK + i), pair(dyad, 14 * BLOCK + i), u, v, wa, wb)
+        r = rrr_acceleration(pair(dyad, 4 * BLOCK + i), pair(dyad, 14 * BLOCK + i), u, v, wa, wb)
         put(dyad, 6 * BLOCK + i, u * per_a)
         put(dyad, 16 * BLOCK + i, v * per_b)
         dyad[8 * BLOCK + i] = wa
@@ -95,7 +95,7 @@ def rrr(dyad: FloatArray, count: int, a: float, b: float, branch: float, per_a: 
 def rrp(
     dyad: FloatArray, guide: FloatArray, count: int, a: float, branch: float, per_arm: complex, lead: complex
 ) -> None:
-    """Direction and rates of the link, margin, travel and rates of the slider; pin and line's zero stand already."""
+    """Direction and rates of the link, margin, travel and rates of the slider; pin and zero are already written."""
     for i in range(min(count, BLOCK)):
         e, w, alpha = pair(guide, 6 * BLOCK + i) * lead, guide[8 * BLOCK + i], guide[9 * BLOCK + i]
         A, Q = pair(dyad, i), pair(dyad, 21 * BLOCK + i)
@@ -105,7 +105,7 @@ def rrp(
         r = pair(dyad, 23 * BLOCK + i) + slid_velocity(e, w, s, 0.0) - pair(dyad, 2 * BLOCK + i)
         wa, ds = link_rate(e, r, cosine), slider_rate(u, r, cosine)
         C2 = pair(dyad, 25 * BLOCK + i) + slid_acceleration(e, w, alpha, s, ds, 0.0)
-        r = rrp_parting(pair(dyad, 4 * BLOCK + i), C2, u, wa)
+        r = rrp_acceleration(pair(dyad, 4 * BLOCK + i), C2, u, wa)
         put(dyad, 6 * BLOCK + i, u * per_arm)
         dyad[8 * BLOCK + i] = wa
         dyad[9 * BLOCK + i] = link_rate(e, r, cosine)
@@ -117,7 +117,7 @@ def rrp(
 
 @compiled
 def slip(body: FloatArray, guide: FloatArray, travel: FloatArray, count: int, lead: complex, twist: complex) -> None:
-    """A slider: its anchor, the line's root as yet, moved along the line; its direction and rates."""
+    """A slider: its anchor moved from the root along the line; its direction and rates."""
     for i in range(min(count, BLOCK)):
         direction, w, alpha = pair(guide, 6 * BLOCK + i), guide[8 * BLOCK + i], guide[9 * BLOCK + i]
         s, ds, dds, e = travel[i], travel[BLOCK + i], travel[2 * BLOCK + i], direction * lead
@@ -131,14 +131,14 @@ def slip(body: FloatArray, guide: FloatArray, travel: FloatArray, count: int, le
 
 @compiled
 def rpr(dyad: FloatArray, count: int, o: float, branch: float, per_lead: complex, twist: complex) -> None:
-    """Directions, rates and margin of two bodies that slide on one another; their known pins' motions stand already."""
+    """Directions, rates and margin of two bodies that slide on one another; the known pins are already written."""
     for i in range(min(count, BLOCK)):
         d = pair(dyad, 10 * BLOCK + i) - pair(dyad, i)
-        t = way(d, o, branch)
+        t = sliding_distance(d, o, branch)
         e = heading(d, o, t)
         r: ComplexField = pair(dyad, 12 * BLOCK + i) - pair(dyad, 2 * BLOCK + i)
         w = turn_rate(e, r, t)
-        r = rpr_parting(pair(dyad, 14 * BLOCK + i) - pair(dyad, 4 * BLOCK + i), d, e, w, way_rate(e, r, w, o))
+        r = rpr_acceleration(pair(dyad, 14 * BLOCK + i) - pair(dyad, 4 * BLOCK + i), d, e, w, sliding_speed(e, r, w, o))
         alpha = turn_rate(e, r, t)
         direction = e * per_lead
         put(dyad, 6 * BLOCK + i, direction)
@@ -151,7 +151,7 @@ def rpr(dyad: FloatArray, count: int, o: float, branch: float, per_lead: complex
 
 @compiled
 def prp(dyad: FloatArray, one: FloatArray, two: FloatArray, count: int, lead: complex, other_lead: complex) -> None:
-    """Travels and rates of two sliders pinned to one another, and the margin; their lines' zeros stand already."""
+    """Travels and rates of two sliders pinned to one another, and the margin; the lines' zeros are already written."""
     for i in range(min(count, BLOCK)):
         e, w, alpha = pair(one, 6 * BLOCK + i) * lead, one[8 * BLOCK + i], one[9 * BLOCK + i]
         f, v, beta = pair(two, 6 * BLOCK + i) * other_lead, two[8 * BLOCK + i], two[9 * BLOCK + i]
@@ -177,7 +177,7 @@ def prp(dyad: FloatArray, one: FloatArray, two: FloatArray, count: int, lead: co
 
 @compiled
 def rpp(dyad: FloatArray, guide: FloatArray, count: int, lead: complex, second_lead: complex, twist: complex) -> None:
-    """Direction and rates of the link, travel and rates of the slider; known pin and its zero stand already."""
+    """Direction and rates of the link, travel and rates of the slider; known pin and its zero are already written."""
     for i in range(min(count, BLOCK)):
         direction, w, alpha = pair(guide, 6 * BLOCK + i), guide[8 * BLOCK + i], guide[9 * BLOCK + i]
         e, f = direction * lead, direction * second_lead

@@ -1,6 +1,6 @@
-"""What a planar mechanism is: rigid bodies, the joints between them, and what drives it.
+"""Definition of a planar mechanism: rigid bodies, joints and inputs.
 
-A mechanism is data. `structure.plan` finds the order in which it can be solved, `solve.solve` moves it.
+A mechanism is data. `structure.plan` finds the order of solution, `solve.solve` computes the motion.
 
 >>> from ilmek.linkage.fourbar import four_bar
 >>> mechanism = four_bar(0.300, 0.060, 0.200, 0.230, branch=+1)
@@ -48,8 +48,8 @@ class Body:
 class Pin:
     """A turning joint: two bodies at the point that both carry under the pin's name.
 
-    The order matters for the branch of a group whose free pin this is: +1 puts the pin on the left of the line from
-    the known pin of `first` to the known pin of `second`.
+    The order of the bodies defines the branch of a group with this pin as its free pin: with +1 the pin is on the left
+    of the line from the known pin of `first` to the known pin of `second`.
     """
 
     name: str
@@ -58,13 +58,13 @@ class Pin:
 
     @property
     def bodies(self) -> tuple[str, str]:
-        """The two bodies it joins."""
+        """The two joined bodies."""
         return self.first, self.second
 
 
 @dataclass(frozen=True, slots=True)
 class Slide:
-    """A sliding joint: a point of `body` moves along a line of `guide`, the angle between the two is fixed.
+    """A sliding joint: a point of `body` moves along a line of `guide`; the angle between the bodies is fixed.
 
     The line goes through the guide's point of the slide's name, in direction `along` [rad] of the guide's frame; the
     body's point of the slide's name lies on it, `s` metres from the guide's point. The body stands turned by `turned`
@@ -79,7 +79,7 @@ class Slide:
 
     @property
     def bodies(self) -> tuple[str, str]:
-        """The two bodies it joins: the sliding one and the guide."""
+        """The two joined bodies: the sliding body and the guide."""
         return self.body, self.guide
 
 
@@ -95,7 +95,7 @@ class Rotation:
 
     @property
     def name(self) -> str:
-        """The name under which `solve` takes its values: the body's."""
+        """Name of the input in `solve`: the name of the body."""
         return self.body
 
     @property
@@ -112,7 +112,7 @@ class Displacement:
 
     @property
     def name(self) -> str:
-        """The name under which `solve` takes its values: the slide's."""
+        """Name of the input in `solve`: the name of the slide."""
         return self.slide
 
     @property
@@ -131,12 +131,12 @@ class Coupling:
     first    body and its point in the middle of the wheel; q is its angle against the carrier [rad]
     second   the same of the other wheel; for a rack the sliding body and its slide, q the slide's displacement s [m]
     ratio    gears outside one another -z1/z2, one inside the other z1/z2; an open belt r1/r2, a crossed one -r1/r2;
-             rack: way for a radian of the pinion [m/rad], its pitch radius with a sign
-    first_at, second_at   both as assembled: which teeth meet is said, never guessed
-    carrier  the body that both are hung on; it may move (planetary gears); for a rack the slide's guide
+             rack: travel per radian of the pinion [m/rad], the signed pitch radius
+    first_at, second_at   both q in the assembled position: the mesh is given, never assumed
+    carrier  the body that carries both wheels; it may move (planetary gears); for a rack the slide's guide
 
-    Nothing is lost between inputs and wheels: angles that inputs and ratios alone determine count full turns. Any other
-    `first` (or `second`) is taken within half a turn of `first_at` (`second_at`).
+    Angles determined by inputs and ratios alone count full turns. Any other angle of `first` (or `second`) is assumed
+    to be within half a turn of `first_at` (`second_at`).
     """
 
     name: str
@@ -164,20 +164,20 @@ Named = TypeVar("Named", Body, Pin | Slide)
 
 @dataclass(frozen=True, slots=True)
 class Mechanism:
-    """Bodies, joints, inputs, and the way each group is put together.
+    """Bodies, joints, inputs, and the assembly branch of each group.
 
-    branches  free pin's (or slide's) name -> +1 or -1. A group of two links hung on known pins closes in two ways; see
+    branches  free pin's (or slide's) name -> +1 or -1. A group of two links between known pins has two branches; see
               `Pin` (two links: side of the line between the known pins), `groups.rrp` (link and slider: further along
               the line, or less far) and `groups.rpr` (two bodies that slide on one another: by the slide's name, the
               sliding body's pin ahead of the guide's pin along the slide, or behind).
-    name      said in messages
+    name      name in messages
     pose      body -> (origin [m], angle [rad]) in some assembled position, roughly; needed only by groups without a
-              closed form, which Newton's method follows from there. A body not named is taken as drawn in place.
+              closed form: the start of Newton's method. Default of a body: its frame coincides with the world.
     couplings  gears, belts, racks
 
     Raises MechanismError for a name used twice or unknown, a body that no joint holds, a link of zero length, a
-    branch that is neither +1 nor -1, a pose that is not finite. Whether joints and inputs leave exactly no freedom is
-    for `structure.plan` to say: a mechanism that is held too often can be looked at too (`mobility`).
+    branch that is neither +1 nor -1, a pose that is not finite. The degrees of freedom are checked by `structure.plan`,
+    so that an over-constrained mechanism can be examined too (`mobility`).
     """
 
     bodies: tuple[Body, ...]
@@ -218,7 +218,7 @@ class Mechanism:
 
 
 def degrees_of_freedom(mechanism: Mechanism) -> int:
-    """Freedoms by count, the inputs left free: 3 a moving body less 2 a joint, 1 a coupling [Gruebler's count]."""
+    """Degrees of freedom with free inputs, 3 bodies - 2 joints - couplings [Gruebler's criterion]."""
     return 3 * len(mechanism.moving) - 2 * len(mechanism.joints) - len(mechanism.couplings)
 
 
@@ -243,7 +243,7 @@ def _check(mechanism: Mechanism) -> None:
             _check_input(mechanism, entry)
     for name in mechanism.moving:
         with _about("bodies", name):
-            _check_held(mechanism, name)
+            _check_joined(mechanism, name)
     for name, branch in mechanism.branches.items():
         with _about("branches", name):
             _check_branch(mechanism, name, branch)
@@ -254,7 +254,7 @@ def _check(mechanism: Mechanism) -> None:
 
 @contextmanager
 def _about(*path: str) -> Iterator[None]:
-    """While inside, an error that does not say which entry it is about is about this one."""
+    """Attribute errors without an entry of their own to this entry."""
     try:
         yield
     except MechanismError as error:
@@ -286,33 +286,35 @@ def _check_joint(mechanism: Mechanism, joint: Joint) -> None:
 
 
 def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
-    said = f"coupling {coupling.name!r} of {mechanism.name}"
+    subject = f"coupling {coupling.name!r} of {mechanism.name}"
     if coupling.kind not in KINDS:
-        raise MechanismError(f"{said} is of kind {coupling.kind!r}", allowed=", ".join(KINDS))
+        raise MechanismError(f"{subject} is of kind {coupling.kind!r}", allowed=", ".join(KINDS))
     if len(set(coupling.bodies)) < 3:
-        raise MechanismError(f"{said} joins {', '.join(coupling.bodies)}", allowed="three different bodies")
+        raise MechanismError(f"{subject} joins {', '.join(coupling.bodies)}", allowed="three different bodies")
     for body, point in (coupling.first, coupling.second):
         mechanism.point(body, point)
     mechanism.body(coupling.carrier)
     numbers = (coupling.ratio, coupling.first_at, coupling.second_at)
     if not all(math.isfinite(number) for number in numbers) or coupling.ratio == 0:
-        given = f"{said} has ratio {coupling.ratio:g}, assembled at {coupling.first_at:g} and {coupling.second_at:g}"
+        given = f"{subject} has ratio {coupling.ratio:g}, assembled at {coupling.first_at:g} and {coupling.second_at:g}"
         raise MechanismError(given, allowed="finite numbers, the ratio not 0")
     if coupling.kind == "rack":
         slide = mechanism.joint(coupling.second[1])
         if not isinstance(slide, Slide) or slide.bodies != (coupling.second[0], coupling.carrier):
-            given = f"{said} wants a slide {coupling.second[1]!r} of {coupling.second[0]!r} on {coupling.carrier!r}"
+            given = (
+                f"{subject} requires a slide {coupling.second[1]!r} of {coupling.second[0]!r} on {coupling.carrier!r}"
+            )
             raise MechanismError(given, allowed=f"it is a {type(slide).__name__.lower()} of {', '.join(slide.bodies)}")
 
 
 def _check_input(mechanism: Mechanism, entry: Input) -> None:
     joint = mechanism.joint(entry.joint)
-    wanted = Pin if isinstance(entry, Rotation) else Slide
-    if not isinstance(joint, wanted):
+    required = Pin if isinstance(entry, Rotation) else Slide
+    if not isinstance(joint, required):
         raise MechanismError(
             f"{type(entry).__name__.lower()} {entry.name!r} of {mechanism.name} drives {joint.name!r}, "
             f"a {type(joint).__name__.lower()}",
-            allowed=f"a {type(entry).__name__.lower()} needs a {wanted.__name__.lower()}",
+            allowed=f"a {type(entry).__name__.lower()} needs a {required.__name__.lower()}",
         )
     if isinstance(entry, Rotation) and entry.body not in joint.bodies:
         raise MechanismError(
@@ -322,12 +324,12 @@ def _check_input(mechanism: Mechanism, entry: Input) -> None:
         raise MechanismError(f"two inputs of {mechanism.name} drive joint {joint.name!r}", do="leave one of them")
 
 
-def _check_held(mechanism: Mechanism, body: str) -> None:
+def _check_joined(mechanism: Mechanism, body: str) -> None:
     joints = [joint for joint in mechanism.joints if body in joint.bodies]
     if not joints:
         raise MechanismError(f"no joint of {mechanism.name} holds body {body!r}", do="join it or leave it out")
-    places = {mechanism.point(body, joint.name) for joint in joints}
-    if len(joints) > 1 and len(places) == 1 and all(isinstance(joint, Pin) for joint in joints):
+    positions = {mechanism.point(body, joint.name) for joint in joints}
+    if len(joints) > 1 and len(positions) == 1 and all(isinstance(joint, Pin) for joint in joints):
         pins = " and ".join(joint.name for joint in joints)
         raise MechanismError(f"link {body!r} has zero length: its pins {pins} coincide", do="give it a length above 0")
 

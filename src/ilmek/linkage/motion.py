@@ -1,4 +1,4 @@
-"""What `solve` answers: the motion of every body, sample by sample, and whether it could be had."""
+"""The result of `solve`: the motion of every body at each sample, and the status of the sample."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -25,10 +25,10 @@ Points: TypeAlias = Complex[np.ndarray, " samples"]
 class Motion:
     """The motion of a mechanism over a batch of samples.
 
-    Only directions and rates are kept; points and origins are computed when asked for. Every answer is an array over
-    the samples, and may be a read-only view.
+    Only directions and rates are kept; points and origins are computed on request. Every result is an array over the
+    samples, and may be a read-only view. NaN where a sample is not solved.
 
-    status  Status of each sample (int8)        drives  the inputs' courses by name
+    status  Status of each sample (int8)        drives  the inputs' motions by name
     """
 
     plan: Plan
@@ -45,14 +45,14 @@ class Motion:
         return not self.status.any()
 
     def body(self, name: str) -> BodyMotion:
-        """A body's motion, its constants left as plain numbers."""
+        """A body's motion, constants as plain numbers. Raises MechanismError for an unknown body."""
         if name == GROUND:
             return STILL
         self.plan.mechanism.body(name)
         step = self.plan.step_of(name)
         known = {parent: self.body(parent) for parent in step.parents}
         with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
-            return step.place(known, {body: self.columns[body] for body in step.bodies})[name]
+            return step.locate(known, {body: self.columns[body] for body in step.bodies})[name]
 
     def point(self, body: str, point: str) -> PointMotion:
         """Motion of a body's named point: position [m], velocity [m/s], acceleration [m/s^2]."""
@@ -71,7 +71,7 @@ class Motion:
         return self._points(self._carried(body, 0j).acceleration)
 
     def pose(self, sample: int = 0) -> dict[str, tuple[complex, float]]:
-        """Body -> (origin [m], angle [rad]) at one sample: what a mechanism's `pose` wants."""
+        """Body -> (origin [m], angle [rad]) at one sample, in the form of a mechanism's `pose`."""
         return {
             body: (complex(self.origin(body)[sample]), float(np.angle(self.direction(body)[sample])))
             for body in self.plan.mechanism.moving
@@ -84,7 +84,7 @@ class Motion:
     def angle(self, body: str) -> Reals:
         """Angle of a body's frame against the world's x [rad], unwrapped along the samples, the first in (-pi, pi].
 
-        Samples more than half a turn apart cannot be told from fewer turns.
+        Steps of more than half a turn between samples are ambiguous.
         """
         return np.asarray(np.unwrap(np.angle(self.direction(body))))
 
@@ -97,30 +97,30 @@ class Motion:
         return self._reals(self.body(body).alpha)
 
     def jerk(self, body: str) -> Reals:
-        """Third rate of a body's angle [rad/s^3], computed when it is asked for."""
+        """Third rate of a body's angle [rad/s^3]."""
         return self._reals(self._jerk(body).beta)
 
     def point_jerk(self, body: str, point: str) -> Points:
-        """Jerk of a body's named point [m/s^3], computed when it is asked for."""
+        """Jerk of a body's named point [m/s^3]."""
         local = self.plan.mechanism.point(body, point)
         return self._points(self._jerk(body).carry(local))
 
     def _jerk(self, name: str) -> BodyJerk:
-        """A body's motion with its jerk, from those that it hangs on."""
+        """A body's motion with its jerk, from those of the bodies to which it is attached."""
         if name == GROUND:
             return STILL_JERK
         self.plan.mechanism.body(name)
         step = self.plan.step_of(name)
         known = {parent: self._jerk(parent) for parent in step.parents}
         columns = {body: self.columns[body] for body in step.bodies}
-        placed = step.place({parent: one.motion for parent, one in known.items()}, columns)
+        located = step.locate({parent: one.motion for parent, one in known.items()}, columns)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            return step.jerk(known, placed, columns, self.drives)[name]
+            return step.jerk(known, located, columns, self.drives)[name]
 
     def require(self) -> "Motion":
-        """The motion itself, if every sample could be solved.
+        """The motion itself, if every sample is solved.
 
-        Raises MechanismError that says where along the input it could not, by how much, and what to do.
+        Raises MechanismError with the range of the input that fails, the gap, and a remedy.
         """
         if self.ok:
             return self

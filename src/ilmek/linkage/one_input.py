@@ -1,4 +1,4 @@
-"""A mechanism moved by one of its inputs at unit speed, the others held: what most questions of quality are about."""
+"""A mechanism moved by one of its inputs at unit speed, with the other inputs locked: the basis of quality measures."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -15,11 +15,11 @@ from ilmek.linkage.structure import Plan
 
 @dataclass(frozen=True, slots=True)
 class OneInput:
-    """A plan, the name of the input that moves, and the values [rad, m] at which the others are held."""
+    """A plan, the name of the input that moves, and the values [rad, m] of the other, locked inputs."""
 
     plan: Plan
     name: str
-    held: Mapping[str, float]
+    locked: Mapping[str, float]
 
     @property
     def turns(self) -> bool:
@@ -27,26 +27,28 @@ class OneInput:
         return any(isinstance(entry, Rotation) and entry.name == self.name for entry in self.plan.mechanism.inputs)
 
     def motion(self, values: FloatArray) -> Motion:
-        """The motion at values of the input [rad, m], at unit speed: rates are derivatives by the input."""
-        courses = {name: np.full(np.shape(values), value) for name, value in self.held.items()}
-        return solve(self.plan, courses | {self.name: np.asarray(values, dtype=float)}, {self.name: 1.0})
+        """The motion at values of the input [rad, m], (samples,), at unit speed: rates are derivatives by the input."""
+        others = {name: np.full(np.shape(values), value) for name, value in self.locked.items()}
+        return solve(self.plan, others | {self.name: np.asarray(values, dtype=float)}, {self.name: 1.0})
 
 
-def one_input(plan: Plan, name: str = "", held: Mapping[str, float] | None = None) -> OneInput:
-    """The input `name` moves (the only one, if it is not said), every other stands at its value in `held`.
+def one_input(plan: Plan, name: str = "", locked: Mapping[str, float] | None = None) -> OneInput:
+    """A mechanism with one moving input.
 
-    Raises MechanismError where the name is unknown or needed, or an input's value is missing or unknown.
+    name    the moving input; default: the only one
+    locked  name -> value [rad, m] of every other input
+    Raises MechanismError where the name is unknown or missing, or a locked value is missing or unknown.
     """
     names = [entry.name for entry in plan.mechanism.inputs]
-    held = dict(held or {})
+    locked = dict(locked or {})
     if not name and len(names) == 1:
         name = names[0]
     if name not in names:
         raise MechanismError(f"input {name!r} of {plan.mechanism.name}", allowed=f"one of {', '.join(names)}")
     others = [other for other in names if other != name]
-    if set(held) != set(others):
+    if set(locked) != set(others):
         raise MechanismError(
-            f"held inputs of {plan.mechanism.name}: {', '.join(held) or 'none'}",
+            f"locked inputs of {plan.mechanism.name}: {', '.join(locked) or 'none'}",
             allowed=f"while {name} moves, a value for each of: {', '.join(others) or 'none'}",
         )
-    return OneInput(plan, name, held)
+    return OneInput(plan, name, locked)

@@ -1,14 +1,14 @@
-"""What is asked of a mechanism: a scalar that its bodies' poses determine, with its exact rates.
+"""Outputs of a mechanism: scalar functions of its bodies' poses, with exact rates.
 
     y = y(poses),    y' = sum over bodies (y_x x' + y_y y' + y_theta theta'),    y'' = the same sum of x'' + bias
 
-An output has the form of a loop equation (see `equations`), so that whatever is done with those is done with it.
+An output has the form of a loop equation (see `equations`), so that the same methods apply.
 
 >>> from ilmek.linkage.fourbar import slider_crank
 >>> from ilmek.linkage.solve import solve
 >>> from ilmek.linkage.structure import plan
 >>> motion = solve(plan(slider_crank(0.1, 0.3, branch=+1)), np.array([0.0, np.pi / 2]), 1.0)
->>> followed(motion, Travel("line")).rate.round(6)
+>>> output_history(motion, Travel("line")).rate.round(6)
 array([ 0. , -0.1])
 """
 
@@ -32,8 +32,8 @@ class Output(Protocol):
     """A scalar of a mechanism's poses."""
 
     @property
-    def place(self) -> str:
-        """The point or slide at which it is taken, "" where it is none: dimensions there act on it directly."""
+    def location(self) -> str:
+        """Name of the point or slide whose dimensions act on the output directly; "" for none."""
 
     def equation(self, mechanism: Mechanism, bodies: Known) -> Equation:
         """Its value, derivatives by the bodies' poses and bias; `bodies` are anchored at their origins."""
@@ -47,8 +47,8 @@ class RelativeAngle:
     against: str = GROUND
 
     @property
-    def place(self) -> str:
-        """Nowhere: a body turns as a whole."""
+    def location(self) -> str:
+        """None: a body turns as a whole."""
         return ""
 
     def equation(self, mechanism: Mechanism, bodies: Known) -> Equation:
@@ -68,12 +68,12 @@ class Coordinate:
     along: float = 0.0
 
     @property
-    def place(self) -> str:
+    def location(self) -> str:
         """The point."""
         return self.point
 
     def equation(self, mechanism: Mechanism, bodies: Known) -> Equation:
-        """The share u . (a + r) of the point's place in the unit direction u."""
+        """Coordinate u . (a + r) with the unit direction u."""
         body, u = bodies[self.body], unit(self.along)
         r = body.direction * mechanism.point(self.body, self.point)
         row: Row = {self.body: (u.real, u.imag, dot(u, 1j * r))}
@@ -87,12 +87,12 @@ class Travel:
     slide: str
 
     @property
-    def place(self) -> str:
+    def location(self) -> str:
         """The slide."""
         return self.slide
 
     def equation(self, mechanism: Mechanism, bodies: Known) -> Equation:
-        """D . f, as of a driven slide. Raises MechanismError where the joint is a pin."""
+        """D . f, as for a driven slide. Raises MechanismError where the joint is a pin."""
         joint = mechanism.joint(self.slide)
         if not isinstance(joint, Slide):
             raise MechanismError(f"{self.slide!r} is not a slide", allowed="a travel is that of a slide")
@@ -101,21 +101,21 @@ class Travel:
 
 @dataclass(frozen=True, slots=True)
 class OutputHistory:
-    """An output along a motion: value, rate and second rate, one a sample; an angle's value is unwrapped."""
+    """An output over a motion: value [rad or m], rate and second rate at each sample; an angle is unwrapped."""
 
     value: Float[np.ndarray, " samples"]
     rate: Float[np.ndarray, " samples"]
     second_rate: Float[np.ndarray, " samples"]
 
 
-def followed(motion: Motion, output: Output) -> OutputHistory:
-    """The course of an output over a motion; NaN where the mechanism does not close."""
+def output_history(motion: Motion, output: Output) -> OutputHistory:
+    """Value and rates of an output over a motion; NaN where the mechanism does not close."""
     mechanism = motion.plan.mechanism
-    return followed_bodies(mechanism, {body.name: motion.body(body.name) for body in mechanism.bodies}, output)
+    return output_history_of_bodies(mechanism, {body.name: motion.body(body.name) for body in mechanism.bodies}, output)
 
 
-def followed_bodies(mechanism: Mechanism, bodies: Known, output: Output) -> OutputHistory:
-    """The course of an output over the bodies' motions, all of one length; rates are by what theirs are."""
+def output_history_of_bodies(mechanism: Mechanism, bodies: Known, output: Output) -> OutputHistory:
+    """Value and rates of an output from the bodies' motions, (samples,); rates by the parameter of the motions."""
     bodies = at_origins(bodies)
     equation = output.equation(mechanism, bodies)
     rates = {name: (body.anchor.velocity, body.omega) for name, body in bodies.items()}

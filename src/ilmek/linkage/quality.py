@@ -1,4 +1,4 @@
-"""How good a linkage is: Grashof's class, transmission angle, dead centres, the range in which it closes.
+"""Quality of a linkage: Grashof's class, transmission angle, dead centres, range of the input.
 
 Four-bars are given by their lengths [m], in the order of `four_bar`: ground g, crank a, coupler b, rocker c, with the
 crank's angle against the ground link A0 -> B0.
@@ -26,7 +26,7 @@ _TURNING = {
 
 @dataclass(frozen=True, slots=True)
 class Grashof:
-    """Grashof's verdict on a four-bar.
+    """Grashof's class of a four-bar.
 
     ratio     (shortest + longest) / (sum of the other two): below 1 the shortest link turns fully against the others
     kind      double-crank, crank-rocker, double-rocker, rocker-crank (by the shortest link: ground, crank, coupler,
@@ -118,10 +118,10 @@ def dead_centres(ground: float, crank: float, coupler: float, rocker: float, *, 
 
 
 def transmission_extremes(ground: float, crank: float, coupler: float, rocker: float) -> tuple[float, float]:
-    """Least and greatest angle [rad] between coupler and rocker over all crank angles in which the four-bar closes.
+    """Least and greatest angle [rad] between coupler and rocker over the closing crank angles of a four-bar.
 
     cos mu = (b^2 + c^2 - |A B0|^2) / (2 b c), extreme where |A B0| is: |g - a| at crank angle 0, g + a at pi; 0 or pi
-    where the crank does not get there. What counts is the smaller of the two against 0 and pi.
+    where the crank does not reach these angles. The relevant measure is the smaller distance from 0 or pi.
     Raises MechanismError for a length that is not above zero.
 
     >>> [round(math.degrees(mu), 2) for mu in transmission_extremes(0.300, 0.0597, 0.2007, 0.2308)]
@@ -135,32 +135,32 @@ def transmission_extremes(ground: float, crank: float, coupler: float, rocker: f
 
 
 def transmission_angle(
-    motion: Motion, pin: str, *, taken_from: tuple[str, str] | None = None
+    motion: Motion, pin: str, *, from_points: tuple[str, str] | None = None
 ) -> Float[np.ndarray, " samples"]:
-    """Angle [rad], 0 to pi, at a pin between the two links that it joins, at each sample; NaN where they do not close.
+    """Angle [rad], 0 to pi, between the two links at a pin, at each sample; NaN where they do not close.
 
-    Each link is taken from its other pin to this one: for the free pin of an RRR dyad that is the transmission angle;
-    best at pi/2, dead at 0 and pi.
-    taken_from  a point of each link, in the order in which the pin names them; the other pin that the mechanism names
-                first, if it is not said: say it for links with three pins or more
+    Each link is the line from its other pin to this one. For the free pin of an RRR dyad this is the transmission
+    angle: best at pi/2, a dead centre at 0 and pi.
+    from_points  a point of each link, in the pin's order of bodies; default: the first other pin of each link in the
+                 mechanism's order. Required in practice for links with three pins or more
     Raises MechanismError for an unknown pin or point, a slide, or a link with no other pin.
     """
     joint = motion.plan.mechanism.joint(pin)
     if not isinstance(joint, Pin):
         raise MechanismError(f"{pin!r} is a slide", allowed="a transmission angle is at a pin between two links")
-    starts = taken_from or tuple(_other_pin(motion, body, pin) for body in joint.bodies)
+    starts = from_points or tuple(_other_pin(motion, body, pin) for body in joint.bodies)
     first, second = (_link(motion, body, start, pin) for body, start in zip(joint.bodies, starts, strict=True))
     return np.arctan2(np.abs(cross(first, second)), dot(first, second))
 
 
 def least_transmission_angle(motion: Motion, pin: str) -> float:
-    """Smallest acute transmission angle [rad] over the samples: the least of mu and pi - mu; NaN if one is."""
+    """Smallest acute transmission angle [rad] over the samples: the least of mu and pi - mu; NaN if a sample is NaN."""
     mu = transmission_angle(motion, pin)
     return float(np.min(np.minimum(mu, np.pi - mu)))
 
 
 def _other_pin(motion: Motion, body: str, pin: str) -> str:
-    """The pin of a body, but this one, that its mechanism names first."""
+    """The first other pin of a body in the mechanism's order."""
     mechanism = motion.plan.mechanism
     others = [j.name for j in mechanism.joints if isinstance(j, Pin) and body in j.bodies and j.name != pin]
     if not others:

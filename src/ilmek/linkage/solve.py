@@ -1,7 +1,6 @@
-"""Moving a mechanism: a plan and the course of its inputs give its motion.
+"""The motion of a mechanism from its plan and the motion of its inputs.
 
-The batch is worked off in blocks that stay in the processor's cache, each written into arrays made once.
-Nothing is carried from one sample to the next.
+The batch is computed in blocks that fit the processor's cache. Samples do not depend on one another.
 """
 
 from collections.abc import Mapping
@@ -20,23 +19,25 @@ from ilmek.linkage.status import judge
 from ilmek.linkage.structure import Plan
 
 BLOCK = 16384
-"""Samples worked off at a time: long enough that the calls cost nothing, short enough for the second-level cache."""
+"""Samples per block: enough to make calls cheap, few enough for the second-level cache."""
 
 NEWTON_BLOCK = 1 << 15
-"""The same where a group is left to Newton's method, which first follows the way from the mechanism's pose."""
+"""Samples per block with a group for Newton's method, which first follows the path from the mechanism's pose."""
 
-Courses = RealField | Mapping[str, RealField]
+InputValues = RealField | Mapping[str, RealField]
 """One input's values, or several inputs' by name: a rotation's by its body, a displacement's by its slide."""
 
 
-def solve(plan: Plan, angle: Courses, speed: Courses = 0.0, acceleration: Courses = 0.0, jerk: Courses = 0.0) -> Motion:
+def solve(
+    plan: Plan, angle: InputValues, speed: InputValues = 0.0, acceleration: InputValues = 0.0, jerk: InputValues = 0.0
+) -> Motion:
     """Motion of the mechanism for a batch of input values.
 
     angle         value of the input [rad, or m for a displacement]: a number, or an array over the samples
     speed         its rate [rad/s, m/s], one number or an array over the samples
     acceleration  its second rate [rad/s^2, m/s^2], likewise
-    jerk          its third rate [rad/s^3, m/s^3], likewise; counts only where `Motion.jerk` is asked
-    Where there are several inputs: mappings from the input's name; a rate left out is zero.
+    jerk          its third rate [rad/s^3, m/s^3], likewise; used by `Motion.jerk` only
+    For several inputs: mappings from the input's name; default of a rate: zero.
 
     Never fails for a sample: see `Motion.status` and `Motion.require`. Raises MechanismError for unknown or missing
     inputs, values that are not finite, and arrays that are empty or of different lengths.
@@ -67,34 +68,34 @@ def _block(plan: Plan, drives: Mapping[str, InputMotion], status: np.ndarray) ->
         columns.update(solved.columns)
         judge(step, known, solved, status)
         if step is not last:
-            known.update(step.place(known, solved.columns))
+            known.update(step.locate(known, solved.columns))
     return columns
 
 
 def _room(fields: Columns, samples: int) -> Columns:
-    """Arrays for all samples, where the first block's columns are arrays; else the number itself."""
+    """Arrays for all samples where the first block's columns are arrays; else the constant itself."""
     return tuple(np.empty(samples, field.dtype) if isinstance(field, np.ndarray) else field for field in fields)
 
 
-def _write(room: Columns, fields: Columns, part: slice) -> None:
-    for place, field in zip(room, fields, strict=True):
-        if isinstance(place, np.ndarray):
-            place[part] = field
+def _write(arrays: Columns, fields: Columns, part: slice) -> None:
+    for array, field in zip(arrays, fields, strict=True):
+        if isinstance(array, np.ndarray):
+            array[part] = field
 
 
 def drives_of(
-    plan: Plan, angle: Courses, speed: Courses, acceleration: Courses, jerk: Courses = 0.0
+    plan: Plan, angle: InputValues, speed: InputValues, acceleration: InputValues, jerk: InputValues = 0.0
 ) -> dict[str, InputMotion]:
-    """The inputs' courses by name, checked, their values spread over the samples; for the errors see `solve`."""
+    """The inputs' motions by name, checked, with values broadcast over the samples; errors as `solve`."""
     names = [entry.name for entry in plan.mechanism.inputs]
     values, *rates = (
-        _by_name(names, courses, what)
-        for courses, what in ((angle, "value"), (speed, "speed"), (acceleration, "acceleration"), (jerk, "jerk"))
+        _by_name(names, inputs, what)
+        for inputs, what in ((angle, "value"), (speed, "speed"), (acceleration, "acceleration"), (jerk, "jerk"))
     )
     missing = [name for name in names if name not in values]
     if missing:
         raise MechanismError(f"no value given for input {missing[0]!r} of {plan.mechanism.name}")
-    fields = [course for given in (values, *rates) for course in given.values()]
+    fields = [value for given in (values, *rates) for value in given.values()]
     samples = _samples(fields)
     return {
         name: InputMotion(
@@ -105,34 +106,34 @@ def drives_of(
     }
 
 
-def _by_name(names: list[str], courses: Courses, what: str) -> dict[str, RealField]:
-    """Courses by input name, checked; a lone number or array belongs to the only input, or is zero for all."""
-    if not isinstance(courses, Mapping):
-        if len(names) > 1 and np.any(np.asarray(courses) != 0):
+def _by_name(names: list[str], inputs: InputValues, what: str) -> dict[str, RealField]:
+    """Values by input name, checked; a single number or array belongs to the only input, or is zero for all."""
+    if not isinstance(inputs, Mapping):
+        if len(names) > 1 and np.any(np.asarray(inputs) != 0):
             raise MechanismError(f"one {what} given for the inputs {', '.join(names)}", do="give a mapping by name")
-        courses = dict.fromkeys(names, courses)
-    for name, course in courses.items():
+        inputs = dict.fromkeys(names, inputs)
+    for name, value in inputs.items():
         if name not in names:
             raise MechanismError(f"unknown input {name!r}", allowed=f"the inputs are {', '.join(names)}")
-        if not np.isfinite(course).all():
+        if not np.isfinite(value).all():
             raise MechanismError(f"the {what} of input {name!r} is not finite everywhere")
-    return {name: _real(course) for name, course in courses.items()}
+    return {name: _real(value) for name, value in inputs.items()}
 
 
-def _real(course: RealField) -> RealField:
-    return np.asarray(course, dtype=float) if np.size(course) != 1 else float(np.asarray(course).item())
+def _real(value: RealField) -> RealField:
+    return np.asarray(value, dtype=float) if np.size(value) != 1 else float(np.asarray(value).item())
 
 
-def _spread(course: RealField, samples: int) -> RealField:
-    return np.broadcast_to(course, samples) if np.ndim(course) else course
+def _spread(value: RealField, samples: int) -> RealField:
+    return np.broadcast_to(value, samples) if np.ndim(value) else value
 
 
-def _samples(courses: list[RealField]) -> int:
-    """The one length of all arrays; 1 where there are only numbers."""
-    shapes = {np.shape(course) for course in courses if np.ndim(course)} or {(1,)}
+def _samples(inputs: list[RealField]) -> int:
+    """Common length of all arrays; 1 if there are numbers only."""
+    shapes = {np.shape(value) for value in inputs if np.ndim(value)} or {(1,)}
     if len(shapes) > 1 or len(min(shapes)) != 1:
-        said = " and ".join(str(shape) for shape in sorted(shapes))
-        raise MechanismError(f"inputs have arrays of shapes {said}", allowed="one-dimensional arrays of one length")
+        listed = " and ".join(str(shape) for shape in sorted(shapes))
+        raise MechanismError(f"inputs have arrays of shapes {listed}", allowed="one-dimensional arrays of one length")
     if (samples := int(min(shapes)[0])) == 0:
         raise MechanismError("inputs have no samples", allowed="one or more")
     return samples

@@ -1,4 +1,4 @@
-"""The closed vocabulary of failure, and how a step's answer is judged."""
+"""Status of a sample, and its evaluation from the margin of a step."""
 
 from enum import IntEnum
 
@@ -8,19 +8,19 @@ from ilmek.arrays import Int8
 from ilmek.linkage.groups.group import GroupSolution, Known, Step
 
 DEAD = 2e-6
-"""A margin (sine of the transmission angle) this small leaves rates too few digits: the pose is known to rounding by
-the margin, and rates divide by the margin once more. Just above it the worst of 10^5 random mechanisms keep two."""
+"""Least margin (sine of the transmission angle) with usable rates: the error of the pose is the rounding error divided
+by the margin, and rates divide by it once more. Just above it the worst of 10^5 random mechanisms keep two digits."""
 
 TOUCHING = 1e-12
-"""A gap this small against the links is rounding: the links are in line and just touch."""
+"""Greatest gap, relative to the links, that is attributed to rounding: the links are in line and just reach."""
 
 
 class Status(IntEnum):
-    """What became of a sample.
+    """Status of a sample.
 
     OK             solved
     CANNOT_CLOSE   the links do not reach: no position, NaN
-    DEAD_CENTRE    links in line: a position (NaN if in line to rounding), but no velocity or acceleration to trust
+    DEAD_CENTRE    links in line: a position (NaN if in line to rounding), no reliable velocity or acceleration
     NOT_CONVERGED  Newton's method found no position: NaN
     """
 
@@ -31,7 +31,7 @@ class Status(IntEnum):
 
 
 def judge(step: Step, known: Known, solved: GroupSolution, status: Int8[np.ndarray, " samples"]) -> None:
-    """Write into `status` what a step's margin says of the samples that were still OK."""
+    """Set `status` of the samples that are still OK from the margin of a step."""
     margin, least = solved.margin, DEAD * solved.best
     if margin is None or np.min(margin) > least or np.max(margin) < -least:  # never true with a NaN among them
         return

@@ -1,15 +1,15 @@
-"""The order in which a mechanism can be solved: known bodies grow outward from the ground and the inputs.
+"""The order of solution of a mechanism, outward from the ground and the inputs.
 
-Assur's principle: a mechanism with its inputs held falls apart into groups of bodies that have no freedom of their own
-once what they hang on is known. `plan` always takes the smallest such group next; a group that one of the closed forms
-recognises is solved by it, any other by Newton's method on the same loop equations. Bodies that are held too often, and
-those that nothing holds, are named with their joints.
+Assur's principle: with locked inputs a mechanism consists of groups without a degree of freedom of their own. Each
+group is solved once the bodies to which it is attached are known. `plan` takes the smallest such group next. A group
+with a closed form is solved by it, any other group by Newton's method on its loop equations. Over-constrained and
+under-constrained bodies are reported with their joints.
 
 >>> from ilmek.linkage.fourbar import four_bar
 >>> for step in plan(four_bar(0.300, 0.060, 0.200, 0.230, branch=+1)).steps:
-...     print(step.words)
+...     print(step.description)
 crank turned by the input on ground
-coupler and rocker joined at B (branch +1), hung on crank and ground: RRR
+coupler and rocker joined at B (branch +1), attached to crank and ground: RRR
 """
 
 from collections.abc import Callable, Iterable
@@ -32,7 +32,7 @@ CLOSED_FORMS: tuple[Callable[[Group], Step | None], ...] = (
     geared.recognise,
     follower.recognise,
 )
-"""The groups solved in closed form; a further one is one more row."""
+"""Recognisers of the groups with a closed form, in order of precedence."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Plan:
 
 
 def plan(mechanism: Mechanism, *, closed_forms: bool = True) -> Plan:
-    """The steps that solve `mechanism`; with `closed_forms=False` all groups are left to Newton's method.
+    """The steps that solve `mechanism`; with `closed_forms=False` all undriven groups are solved by Newton's method.
 
     Raises MechanismError where a part is over-constrained or under-constrained, naming its bodies, joints and inputs,
     and where a group lacks its branch.
@@ -63,14 +63,14 @@ def plan(mechanism: Mechanism, *, closed_forms: bool = True) -> Plan:
 
 
 def _next_group(mechanism: Mechanism, known: set[str]) -> Group:
-    """The smallest group without freedom that hangs on known bodies only."""
+    """The smallest group without degrees of freedom that is attached to known bodies only."""
     left = [body for body in mechanism.moving if body not in known]
     for size in range(1, len(left) + 1):
         for bodies in combinations(left, size):
             group = _group(mechanism, bodies, known)
-            if group.freedom < 0:
+            if group.degrees_of_freedom < 0:
                 raise _over_constrained(group)
-            if group.freedom == 0:
+            if group.degrees_of_freedom == 0:
                 return group
     raise _under_constrained(_group(mechanism, left, known))
 
@@ -91,38 +91,42 @@ def _group(mechanism: Mechanism, bodies: Iterable[str], known: set[str]) -> Grou
 
 
 def _over_constrained(group: Group) -> MechanismError:
-    """A group that is held too often: by more inputs than the whole has freedoms, or by joints."""
+    """The error for too many inputs, or too many constraints of joints and couplings."""
     whole = group.mechanism
     free, driven = degrees_of_freedom(whole), [entry.name for entry in whole.inputs]
-    held = f"{_holding(group)} hold it {_times(-group.freedom)} too often"
+    constraints = f"{_constraints(group)} over-constrain it {_times(-group.degrees_of_freedom)}"
     if 1 <= free < len(driven):
-        held += f": the inputs {', '.join(driven)} drive {free} {'freedom' if free == 1 else 'freedoms'}"
-        do = f"take {len(driven) - free} of the inputs away"
+        constraints += f": the inputs {', '.join(driven)} drive {_degrees(free)}"
+        do = f"remove {len(driven) - free} of the inputs"
     else:
-        do = "take one away, or leave out a body that only repeats what others hold"
+        do = "remove one of them, or remove a body with a redundant constraint"
     given = f"{whole.name} is over-constrained at {', '.join(group.bodies)}"
     about = ("couplings", group.couplings[-1].name) if group.couplings else ("joints", group.joints[-1].name)
-    return MechanismError(given, allowed=held, do=do, about=about)
+    return MechanismError(given, allowed=constraints, do=do, about=about)
 
 
-def _holding(group: Group) -> str:
-    held = f"joints {', '.join(joint.name for joint in group.joints)}"
-    return held + (f" and couplings {', '.join(one.name for one in group.couplings)}" if group.couplings else "")
+def _constraints(group: Group) -> str:
+    joints = f"joints {', '.join(joint.name for joint in group.joints)}"
+    return joints + (f" and couplings {', '.join(one.name for one in group.couplings)}" if group.couplings else "")
 
 
 def _times(count: int) -> str:
     return "once" if count == 1 else f"{count} times"
 
 
+def _degrees(count: int) -> str:
+    return f"{count} degree{'' if count == 1 else 's'} of freedom"
+
+
 def _under_constrained(group: Group) -> MechanismError:
-    """Nothing more can be solved: the bodies left, and what holds them."""
-    bodies, joints, slack = len(group.bodies), len(group.joints), group.freedom
+    """The error for the bodies that remain unsolved, with their constraints."""
+    bodies, joints, slack = len(group.bodies), len(group.joints), group.degrees_of_freedom
     free, driven = slack + len(group.inputs), len(group.inputs)
     geared = f" - {len(group.couplings)}" if group.couplings else ""
     return MechanismError(
         f"{group.mechanism.name} is under-constrained at {', '.join(group.bodies)}",
-        allowed=f"{bodies} bodies and the {joints} {_holding(group)} have 3·{bodies} - 2·{joints}{geared} = "
-        f"{free} {'freedom' if free == 1 else 'freedoms'}, and {driven} {'is' if driven == 1 else 'are'} driven",
-        do=f"drive {slack} more of these joints, or join the bodies further",
+        allowed=f"{bodies} bodies and the {joints} {_constraints(group)} have 3·{bodies} - 2·{joints}{geared} = "
+        f"{_degrees(free)}, and {driven} {'is' if driven == 1 else 'are'} driven",
+        do=f"drive {slack} more of these joints, or add joints between the bodies",
         about=("bodies", group.bodies[0]),
     )

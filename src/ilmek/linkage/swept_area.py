@@ -1,9 +1,9 @@
-"""Swept area: all places that a body covers at any time on a mechanism's way, with its outline.
+"""Swept area: the region covered by a body over a path of configurations.
 
-    f(z) = least over the way of the distance of z from the body in its pose, below 0 inside
+    f(z) = least distance of z from the body over the poses of the path, below 0 inside
 
-The least is found between samples of the way and polished, for every z that it matters for. f is a signed distance
-outside and no more than that inside, which is what `plane.regions` needs to bound the error of the area.
+The minimum is bracketed by samples of the path and refined for every z near the outline. f is a signed distance
+outside and an upper bound of it inside, as `plane.regions` requires for the error bound of the area.
 """
 
 from dataclasses import dataclass
@@ -19,24 +19,24 @@ from ilmek.plane.outlines import to_outline
 from ilmek.plane.regions import Region, region
 
 BETWEEN = 2
-"""Samples between neighbouring breaks of the way."""
+"""Samples between neighbouring breaks of the path."""
 
 CHUNK = 1_000_000
-"""Pairs of a point and a pose looked at together."""
+"""Pairs of a point and a pose per batch."""
 
 CANDIDATES = 3
-"""Local minima over the way that are polished for each point: those least at the samples."""
+"""Number of local minima refined for each point: the least at the samples."""
 
 STEPS = 22
-"""Steps of the golden section: a sample's length shrinks by 4e4."""
+"""Steps of the golden section: they reduce an interval by 4e4."""
 
 
-def swept(way: ConfigurationPath, placed: OutlinedBody, *, cells: int = 256) -> Region:
-    """The region that a body covers over a way: area [m^2], bound of its error, outline; see `plane.regions.Region`.
+def swept_region(path: ConfigurationPath, placed: OutlinedBody, *, cells: int = 256) -> Region:
+    """The region covered by a body over a path: area [m^2], error bound, outline; see `plane.regions.Region`.
 
-    cells  small squares across the region's bounding square, a power of 2; twice as many halve the bound, and take
-           twice the time (for 256 about a second); the error itself is some hundred times less than the bound
-    Raises MechanismError for an unknown body, an outline without area, or cells that are no power of 2.
+    cells  squares across the bounding square of the region, a power of 2; twice the number halves the bound and doubles
+           the time (about a second for 256); the error itself is about a hundred times smaller than the bound
+    Raises MechanismError for an unknown body, an outline without area, or cells not a power of 2.
 
     >>> from ilmek.linkage.fourbar import four_bar
     >>> from ilmek.linkage.clearance import outlined
@@ -44,27 +44,27 @@ def swept(way: ConfigurationPath, placed: OutlinedBody, *, cells: int = 256) -> 
     >>> from ilmek.linkage.structure import plan
     >>> from ilmek.linkage.configuration_path import InputPath
     >>> turn = InputPath(one_input(plan(four_bar(0.300, 0.060, 0.200, 0.230, branch=+1))))
-    >>> disc = swept(turn, outlined(turn.mechanism, "crank", 0.010), cells=64)
+    >>> disc = swept_region(turn, outlined(turn.mechanism, "crank", 0.010), cells=64)
     >>> bool(abs(disc.area - np.pi * 0.070**2) < 1e-5), bool(disc.bound < 2e-3)
     (True, True)
     """
-    way.mechanism.body(placed.body)
+    path.mechanism.body(placed.body)
     if cells < 4 or cells & (cells - 1):
         raise MechanismError(f"{cells} cells across", allowed="a power of 2, 4 or more")
     if any(outline.area <= 0 for outline in placed.outlines):
         raise MechanismError(f"an outline of body {placed.body!r} has no area", do="give it a radius")
-    places = spaced(way.breaks, BETWEEN)
-    covered = _Covered(way, placed, places, *_poses(way, placed, places))
+    parameters = spaced(path.breaks, BETWEEN)
+    covered = _Covered(path, placed, parameters, *_poses(path, placed, parameters))
     low, side = covered.box()
     return region(covered.distance, low, side, cells=cells)
 
 
 def _poses(
-    way: ConfigurationPath, placed: OutlinedBody, places: FloatArray
-) -> tuple[Complex[np.ndarray, " places"], Complex[np.ndarray, " places"]]:
-    """Origin and direction of the body at places of the way."""
-    body = way.bodies(places)[placed.body]
-    count = (len(places),)
+    path: ConfigurationPath, placed: OutlinedBody, parameters: FloatArray
+) -> tuple[Complex[np.ndarray, " parameters"], Complex[np.ndarray, " parameters"]]:
+    """Origin [m] and direction of the body at parameters of the path."""
+    body = path.bodies(parameters)[placed.body]
+    count = (len(parameters),)
     return np.broadcast_to(body.carry(0j).position, count) + 0j, np.broadcast_to(body.direction, count) + 0j
 
 
@@ -72,26 +72,26 @@ def _poses(
 class _Covered:
     """A body in all its poses, sampled."""
 
-    way: ConfigurationPath
+    path: ConfigurationPath
     placed: OutlinedBody
-    places: Float[np.ndarray, " places"]
-    origins: Complex[np.ndarray, " places"]
-    directions: Complex[np.ndarray, " places"]
+    parameters: Float[np.ndarray, " parameters"]
+    origins: Complex[np.ndarray, " parameters"]
+    directions: Complex[np.ndarray, " parameters"]
 
     def box(self) -> tuple[complex, float]:
-        """A square about all poses: its lower left corner and side."""
+        """A square around all poses: its lower left corner and side [m]."""
         z, margin = self._corners(), self._slack() + max(outline.radius for outline in self.placed.outlines)
         low = complex(z.real.min(), z.imag.min()) - margin * (1 + 1j)
         side = max(np.ptp(z.real), np.ptp(z.imag)) + 2 * margin
         return low - (0.01 + 0.0113j) * side, 1.0261 * side
 
     def distance(self, points: Complex[np.ndarray, " points"]) -> Float[np.ndarray, " points"]:
-        """Signed distance of points from all that the body covers."""
-        chunks = max(1, len(points) * len(self.places) // CHUNK)
+        """Signed distance [m] of points from the covered region."""
+        chunks = max(1, len(points) * len(self.parameters) // CHUNK)
         return np.concatenate([self._distance(part) for part in np.array_split(points, chunks)])
 
     def _distance(self, points: Complex[np.ndarray, " points"]) -> Float[np.ndarray, " points"]:
-        sampled = self._apart(points[:, None], self.origins, self.directions)
+        sampled = self._body_distance(points[:, None], self.origins, self.directions)
         padded = np.pad(sampled, ((0, 0), (1, 1)), constant_values=np.inf)
         lowest = (sampled <= padded[:, :-2]) & (sampled <= padded[:, 2:])
         ranked = np.argsort(np.where(lowest, sampled, np.inf), axis=1)[:, :CANDIDATES]
@@ -105,24 +105,27 @@ class _Covered:
         return found
 
     def _polished(self, points: Complex[np.ndarray, " points"], at: np.ndarray) -> Float[np.ndarray, " points"]:
-        """The least distance about given samples, by golden sections."""
-        low, high = self.places[np.maximum(at - 1, 0)], self.places[np.minimum(at + 1, len(self.places) - 1)]
+        """The least distance near given samples, by golden sections."""
+        low, high = (
+            self.parameters[np.maximum(at - 1, 0)],
+            self.parameters[np.minimum(at + 1, len(self.parameters) - 1)],
+        )
 
-        def apart(places: FloatArray) -> FloatArray:
-            return self._apart(points, *_poses(self.way, self.placed, places))
+        def apart(parameters: FloatArray) -> FloatArray:
+            return self._body_distance(points, *_poses(self.path, self.placed, parameters))
 
         least: Float[np.ndarray, " points"] = bracketed_minima(apart, low, high, steps=STEPS)[1]
         return least
 
-    def _apart(self, points: np.ndarray, origins: np.ndarray, directions: np.ndarray) -> FloatArray:
+    def _body_distance(self, points: np.ndarray, origins: np.ndarray, directions: np.ndarray) -> FloatArray:
         """Distance of points from the body in given poses."""
         local = (points - origins) * np.conj(directions)
         return np.asarray(np.min(np.stack([to_outline(local, one) for one in self.placed.outlines]), axis=0))
 
-    def _corners(self) -> Complex[np.ndarray, "places corners"]:
+    def _corners(self) -> Complex[np.ndarray, "parameters corners"]:
         corners = np.concatenate([outline.corners for outline in self.placed.outlines])
         return np.asarray(self.origins[:, None] + self.directions[:, None] * corners)
 
     def _slack(self) -> float:
-        """Most that any of the body moves from a sample to the middle of the way to the next, a little over."""
+        """Upper bound [m] of the motion of any point of the body over half an interval."""
         return 0.55 * float(np.max(np.abs(np.diff(self._corners(), axis=0))))

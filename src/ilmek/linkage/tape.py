@@ -1,9 +1,9 @@
-"""A plan written out as a tape of instructions for the compiled executor: integers, and numbers for many variants.
+"""A plan as a tape of instructions for the compiled executor: integer codes, and numbers for many variants.
 
 The executor works in rows of `BLOCK` samples. A body takes ten rows: position, velocity and acceleration of its anchor
-(x and y each), direction (x and y), omega, alpha. An instruction is (code, to, of, also): it fills the rows from `to`
-on, reading the body at row `of`; its numbers, one complex row a variant, come from the points of the mechanism's
-bodies, any of which may be an array over the variants.
+(x and y each), direction (x and y), omega, alpha. An instruction is (code, to, of, also): it writes the rows from `to`
+on and reads the body at row `of`. Its numbers, one complex row per variant, follow from the points of the mechanism's
+bodies. Each point may be an array over the variants.
 """
 
 import functools
@@ -37,19 +37,19 @@ DIRECTION, OMEGA, ALPHA = 6, 8, 9
 """Rows of a body after its anchor's six."""
 
 SECOND, MARGIN, ZERO, TRAVEL, LINE = 10, 20, 21, 27, 9
-"""Rows of a dyad: its second body, its margin; of one with sliders also its line's zero and the travel, speed and gain
-along it; a second line's stand so many rows further on."""
+"""Rows of a dyad: its second body and its margin. With sliders also the zero of the line, and travel, speed and
+acceleration along it. LINE is the distance in rows to the same rows of a second line."""
 
 NUMBERS = 6
-"""Most complex numbers an instruction takes."""
+"""Maximum of complex numbers per instruction."""
 
 Dimensions: TypeAlias = Mapping[tuple[str, str], ComplexField]
-"""(body, point) -> the point's place in the body's frame [m], an array over the variants."""
+"""(body, point) -> position of the point in the body's frame [m], an array over the variants."""
 
 
 @dataclass(slots=True)
 class Tape:
-    """Instructions in order, their numbers, and where each body, its anchor and its columns stand.
+    """Instructions in order, their numbers, and the rows of each body.
 
     rows    body -> its first row           at  body -> its anchor in its frame [m]
     travel  slider -> row of its travel     height  rows in all
@@ -66,26 +66,26 @@ class Tape:
     travel: dict[str, int] = field(default_factory=dict)
 
     def point(self, body: str, point: str) -> ComplexField:
-        """A point in its body's frame [m], one a variant where it varies."""
+        """A point in its body's frame [m]; one value per variant where it varies."""
         return self.dimensions.get((body, point), self.mechanism.point(body, point))
 
     def add(self, code: int, to: int, of: int = 0, also: int = 0, numbers: tuple[ComplexField, ...] = ()) -> None:
-        """One more instruction."""
+        """Append an instruction."""
         self.codes.append((code, to, of, also))
         self.numbers.append(numbers)
 
     def room(self, rows: int) -> int:
-        """The first of so many further rows."""
+        """Reserve a number of rows; the index of the first."""
         self.height += rows
         return self.height - rows
 
     def carry(self, body: str, local: ComplexField, to: int) -> None:
-        """Motion of the place `local` [m] of a body into six rows."""
+        """Write the motion of the point `local` [m] of a body to six rows."""
         self.add(CARRY, to, self.rows[body], numbers=(local - self.at[body],))
 
     @property
     def reach(self) -> RealField:
-        """Largest coordinate of any body's point [m], one a variant where it varies; 1 if all are 0."""
+        """Largest distance of a point from its body's origin [m]; one per variant where it varies; 1 if all are 0."""
         bodies = self.mechanism.bodies
         lengths = [np.abs(self.point(body.name, point)) for body in bodies for point in body.points]
         reach = functools.reduce(np.maximum, lengths)
@@ -101,7 +101,7 @@ class Tape:
 
 
 def tape(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField]) -> Tape:
-    """The plan's steps as instructions; what `dimensions` and `branches` do not name is as the plan has it.
+    """The plan's steps as instructions; default of `dimensions` and `branches`: the values of the plan.
 
     Raises MechanismError for a step that has no compiled form, and a link of zero length.
     """
@@ -111,7 +111,7 @@ def tape(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField]) 
         write = WRITERS.get(type(step))
         if write is None:
             raise MechanismError(
-                f"{step.words}: not among the compiled groups",
+                f"{step.description}: not among the compiled groups",
                 allowed="driven bodies and the dyads that have closed forms",
                 do="use solve",
             )
@@ -140,7 +140,7 @@ def _shift(tape: Tape, step: DrivenSlider, inputs: list[str]) -> None:
 def _dyad(tape: Tape, step: RRRDyad, inputs: list[str]) -> None:  # noqa: ARG001 - all writers are called alike
     to = tape.room(MARGIN + 1)
     arms = []
-    for link, on, pin, row in zip(step.links, step.on, step.hung_at, (to, to + SECOND), strict=True):
+    for link, on, pin, row in zip(step.links, step.on, step.known_pins, (to, to + SECOND), strict=True):
         tape.carry(on, tape.point(on, pin), row)
         tape.rows[link], tape.at[link] = row, tape.point(link, pin)
         arms.append(_arm(tape, link, pin, step.pin))
@@ -201,7 +201,7 @@ def _cross_slide(tape: Tape, step: CrossSlide, inputs: list[str]) -> None:  # no
 
 
 def _line(tape: Tape, names: tuple[str, str, str], track: SlideTrack, zero: int) -> tuple[str, str, str]:
-    """The place of a slider's pin at zero travel, carried by the guide; slider, guide and slide."""
+    """Write the position of a slider's pin at zero travel; slider, guide and slide."""
     slider, guide, pin = names
     slide = _between(tape.mechanism, slider, guide)
     reach = tape.point(slider, pin) - tape.point(slider, slide)
@@ -210,7 +210,7 @@ def _line(tape: Tape, names: tuple[str, str, str], track: SlideTrack, zero: int)
 
 
 def _slip(tape: Tape, names: tuple[str, str, str], track: SlideTrack, to: int, travel: int) -> None:
-    """The body on its guide: its anchor, the slide's point, carried and slid; its direction and rates."""
+    """Write the motion of a body on its guide: anchor, direction and rates."""
     body, guide, slide = names
     tape.carry(guide, tape.point(guide, slide), to)
     tape.add(SLIP, to, tape.rows[guide], travel, (track.lead, track.twist))

@@ -1,6 +1,6 @@
-"""Following a mechanism's configuration curve from one configuration until it closes.
+"""Tracing of a mechanism's configuration curve from one configuration until it closes.
 
-Predictor along the tangent, corrector square to it; the step is fitted to how far the tangent turns.
+Predictor along the tangent, corrector normal to it; the step length follows the rotation of the tangent.
 [Allgower, Georg: Numerical Continuation Methods, chapter 6.]
 """
 
@@ -13,26 +13,26 @@ from ilmek.linkage.configuration import Configurations, FreeInput
 from ilmek.num.brackets import bracketed_roots
 
 TURN = 0.3
-"""Most that the tangent may turn in a step [rad]; a step that turns it less than half is followed by a longer one."""
+"""Greatest rotation of the tangent in a step [rad]; after a step with less than half of it the step grows."""
 
 LONGEST, SHORTEST = 0.4, 1e-7
-"""Bounds of a step, of the mechanism's size."""
+"""Bounds of a step, relative to the mechanism's size."""
 
 ACROSS = 0.01
-"""Step with which a crossing of two curves is passed, of the mechanism's size."""
+"""Step across a crossing of two curves, relative to the mechanism's size."""
 
 STEPS = 20_000
-"""Steps after which a curve is given up as open."""
+"""Number of steps after which a curve counts as open."""
 
 REACH = 100.0
-"""Distance from the origin, of the mechanism's size, at which a curve is taken to run to infinity."""
+"""Distance from the origin, relative to the mechanism's size, beyond which a curve counts as unbounded."""
 
 
 @dataclass(frozen=True, slots=True)
 class ConfigurationCurve:
-    """A configuration curve: nodes on it, their unit tangents, and lengths from the first (measured by the chords).
+    """A configuration curve: nodes on it, their unit tangents, and path lengths from the first [m], by chords.
 
-    crossings  values of the input at which another curve is crossed
+    crossings  values of the input [rad, m] at which another curve crosses
     """
 
     freed: FreeInput
@@ -42,40 +42,40 @@ class ConfigurationCurve:
     closed: bool
     crossings: tuple[float, ...]
 
-    def at(self, places: FloatArray) -> tuple[Configurations, FloatArray, FloatArray]:
-        """Exact configurations at places along the curve, taken round if it is closed.
+    def at(self, lengths: FloatArray) -> tuple[Configurations, FloatArray, FloatArray]:
+        """Exact configurations at path lengths [m], periodic on a closed curve.
 
-        With them, the unit tangents there, and the directions along which the places are measured (the last node's).
+        Also the unit tangents, and the directions in which the lengths are measured (the tangents of the last nodes).
         """
-        places = np.atleast_1d(np.asarray(places, dtype=float))
+        lengths = np.atleast_1d(np.asarray(lengths, dtype=float))
         if self.closed:
-            places = np.where(places == self.lengths[-1], places, np.mod(places, self.lengths[-1]))
-        node = np.clip(np.searchsorted(self.lengths, places, side="right") - 1, 0, len(self.lengths) - 2)
-        return self._from(places, node)
+            lengths = np.where(lengths == self.lengths[-1], lengths, np.mod(lengths, self.lengths[-1]))
+        node = np.clip(np.searchsorted(self.lengths, lengths, side="right") - 1, 0, len(self.lengths) - 2)
+        return self._from(lengths, node)
 
     def folds(self) -> Float[np.ndarray, " folds"]:
-        """Places at which the input turns back: where the tangent has no part along it."""
+        """Path lengths [m] at which the input reverses: the tangent has no component along it."""
         part = self.tangents[:, -1]
         (changed,) = np.nonzero(np.sign(part[:-1]) * np.sign(part[1:]) < 0)
         if not len(changed):
             return np.empty(0)
 
-        def along_input(places: FloatArray) -> FloatArray:
-            along: FloatArray = self._from(places, changed)[1][:, -1]
+        def along_input(lengths: FloatArray) -> FloatArray:
+            along: FloatArray = self._from(lengths, changed)[1][:, -1]
             return along
 
         return bracketed_roots(along_input, self.lengths[changed], self.lengths[changed + 1])
 
-    def _from(self, places: FloatArray, node: np.ndarray) -> tuple[Configurations, FloatArray, FloatArray]:
-        """As `at`, from given nodes."""
+    def _from(self, lengths: FloatArray, node: np.ndarray) -> tuple[Configurations, FloatArray, FloatArray]:
+        """`at` from given nodes."""
         across = self.tangents[node]
-        near = self.freed.stepped(self.at_nodes[node], across * (places - self.lengths[node])[:, None])
+        near = self.freed.stepped(self.at_nodes[node], across * (lengths - self.lengths[node])[:, None])
         found = self.freed.corrected(near, across)
         return found, self.freed.tangents(found, across), across
 
 
 def trace(freed: FreeInput, seed: Configurations) -> ConfigurationCurve:
-    """The curve through a configuration: followed until it closes; else to both ends, where it leaves the reach."""
+    """The curve through a configuration, followed until it closes, or to both ends outside the reach."""
     ahead = np.zeros((1, 3 * len(freed.moved.plan.mechanism.moving) + 1))
     ahead[0, -1] = 1.0
     first = freed.tangents(seed, ahead)
@@ -102,16 +102,16 @@ def _followed(
 ) -> tuple[list[Configurations], list[FloatArray], bool, list[float]]:
     """Nodes and tangents from the seed on, the seed repeated at the end if the curve closes; inputs at crossings.
 
-    A step over which det [A; t] changes its sign has gone from one of two near curves to the other, and is shortened;
-    where the shortest still does, they cross.
+    A step over which det [A; t] changes its sign has jumped to a neighbouring curve and is shortened; if the shortest
+    step still changes it, the curves cross.
     """
     nodes, tangents, crossings = [seed], [first], list[float]()
     began = side = freed.oriented(seed, first)[1]
-    step, gone = 0.2 * LONGEST * freed.size, 0.0
+    step, travelled = 0.2 * LONGEST * freed.size, 0.0
     for _ in range(STEPS):
         at, t = nodes[-1], tangents[-1]
         home = freed.between(at, seed)
-        if gone > 3 * step and side == began and _is_home(home, t, first, step):
+        if travelled > 3 * step and side == began and _is_home(home, t, first, step):
             end = Configurations(seed.origins, seed.directions, at.inputs + _input_left(freed, at, seed))
             return [*nodes, end], [*tangents, first], True, crossings
         new, new_t, new_side = _step(freed, at, t, step)
@@ -125,7 +125,7 @@ def _followed(
             new, new_t, side = _step(freed, at, t, step)
         if not np.isfinite(new_t).all() or np.max(np.abs(new.origins)) > REACH * freed.size:
             break
-        gone += step
+        travelled += step
         nodes.append(new)
         tangents.append(new_t)
         step = min(step * (1.6 if bend < 0.5 * TURN else 1.0), LONGEST * freed.size)
@@ -135,13 +135,13 @@ def _followed(
 def _step(
     freed: FreeInput, at: Configurations, t: FloatArray, step: float
 ) -> tuple[Configurations, FloatArray, FloatArray]:
-    """The configuration a step on, its tangent, and the sign of det [A; t] there."""
+    """The next configuration, its tangent, and its sign of det [A; t]."""
     new = freed.corrected(freed.stepped(at, step * t), t)
     return new, *freed.oriented(new, t)
 
 
 def _is_home(home: FloatArray, t: FloatArray, first: FloatArray, step: float) -> bool:
-    """Whether the seed is the next node: within a step, ahead, on the tangent but for its bend, passed the same way."""
+    """Whether the seed is the next node: within a step, ahead, near the tangent, with the same direction."""
     shadow = float(np.sum(home[:, :-1] * t[:, :-1]))
     own = float(np.sum(t[:, :-1] ** 2))
     aside = float(np.linalg.norm(home[:, :-1] - t[:, :-1] * (shadow / max(own, 1e-12))))
@@ -150,7 +150,7 @@ def _is_home(home: FloatArray, t: FloatArray, first: FloatArray, step: float) ->
 
 
 def _input_left(freed: FreeInput, at: Configurations, seed: Configurations) -> FloatArray:
-    """What the input has still to go to the seed's value, up to whole turns."""
+    """Difference of the input to the seed's value, modulo whole turns."""
     left = seed.inputs - at.inputs
     shortest: FloatArray = (left + np.pi) % (2 * np.pi) - np.pi if freed.moved.turns else left
     return shortest

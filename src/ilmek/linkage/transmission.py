@@ -1,4 +1,4 @@
-"""How well force gets through any mechanism: pressure angle at a slider, velocity ratio, mechanical advantage."""
+"""Force transmission of any mechanism: pressure angle at a slider, velocity ratio, mechanical advantage."""
 
 import numpy as np
 
@@ -7,16 +7,18 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.model import Mechanism, Pin, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.one_input import OneInput
-from ilmek.linkage.outputs import Output, followed
+from ilmek.linkage.outputs import Output, output_history
 from ilmek.plane.vectors import cross, dot, unit
 
 
 def pressure_angle(motion: Motion, slide: str, link: str = "") -> Float[np.ndarray, " samples"]:
-    """Acute angle [rad] between a slide's line and the link that pushes its body; NaN where they do not close.
+    """Acute angle [rad] between a slide's line and the link that drives its body; NaN where they do not close.
 
-    0 is best; at pi/2 the link only presses the body on its guide. For a link with a pin at each end that carries no
-    other load, the force runs along it. The link is the only body pinned to the sliding one with a further pin, or
-    said; it is taken from its first further pin. Raises MechanismError for a pin, or where there is none such or two.
+    0 is best; at pi/2 the link presses the body onto its guide. The force of a link with two pins and no other load is
+    along the link.
+    link  a body pinned to the sliding body, with a further pin; default: the only one. Its direction is that of the
+          line from its first further pin
+    Raises MechanismError for a pin instead of a slide, and for no such link or several.
 
     >>> from ilmek.linkage.fourbar import slider_crank
     >>> from ilmek.linkage.solve import solve
@@ -37,21 +39,22 @@ def pressure_angle(motion: Motion, slide: str, link: str = "") -> Float[np.ndarr
 
 
 def velocity_ratio(moved: OneInput, output: Output, values: FloatArray) -> Float[np.ndarray, " samples"]:
-    """Rate of an output by an input, dy/dq [rad or m by rad or m], at values of the input; NaN where dead or open."""
-    return followed(moved.motion(values), output).rate
+    """Rate dy/dq [rad or m by rad or m] of an output at values of the input; NaN at dead centres and open samples."""
+    return output_history(moved.motion(values), output).rate
 
 
 def mechanical_advantage(moved: OneInput, output: Output, values: FloatArray) -> Float[np.ndarray, " samples"]:
-    """Output's force or torque by the input's, without friction and weight: 1 / velocity ratio, by virtual power.
+    """Ratio of the output's force or torque to the input's, [N or N m by N or N m], without friction and weight.
 
-    Negative where the output runs backwards; infinite at the output's dead centres, where the mechanism is a toggle.
+    1 / velocity ratio, by virtual power. Negative where the output moves backwards; infinite at the output's dead
+    centres, where the mechanism is a toggle.
     """
     with np.errstate(divide="ignore"):
         return 1.0 / velocity_ratio(moved, output, values)
 
 
 def _pushing(mechanism: Mechanism, slide: Slide, link: str) -> tuple[str, str, str]:
-    """The link that pushes a slide's body, its far pin and its pin on the body."""
+    """The link that drives a slide's body, its far pin and its pin on the body."""
     pins = [joint for joint in mechanism.joints if isinstance(joint, Pin)]
     found = []
     for pin in pins:
@@ -64,6 +67,6 @@ def _pushing(mechanism: Mechanism, slide: Slide, link: str) -> tuple[str, str, s
         raise MechanismError(
             f"links with two pins, one of them on {slide.body!r} of {mechanism.name}: {names}",
             allowed="the pressure angle is that of one link",
-            do="say which" if found else "",
+            do="name one of them" if found else "",
         )
     return found[0]

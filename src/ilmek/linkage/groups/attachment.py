@@ -1,4 +1,4 @@
-"""How a body that is driven, by an input or through a coupling, hangs on a known body: by one pin or one slide."""
+"""Attachment of a driven body to a known body, by one pin or one slide."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ class Attachment:
     """A body on one joint.
 
     hinge  the pin in the frame of the body `on` [m]     at  the same in the body's own frame [m]
-    track  the slide in the place of a pin
+    track  the slide; None for a pin
     """
 
     body: str
@@ -27,19 +27,19 @@ class Attachment:
     at: complex = 0j
     track: SlideTrack | None = None
 
-    def place(self, on: BodyMotion, columns: Columns) -> BodyMotion:
+    def locate(self, on: BodyMotion, columns: Columns) -> BodyMotion:
         """The body's motion; columns: direction, omega, alpha; on a slide s, s', s''."""
-        return pinned(on, self.hinge, self.at, columns) if self.track is None else self.track.place(on, columns)
+        return pinned(on, self.hinge, self.at, columns) if self.track is None else self.track.locate(on, columns)
 
-    def jerk(self, on: BodyJerk, placed: BodyMotion, columns: Columns, third: RealField) -> BodyJerk:
+    def jerk(self, on: BodyJerk, located: BodyMotion, columns: Columns, third: RealField) -> BodyJerk:
         """The body's jerk; third: beta in the world, on a slide the third rate of s."""
         if self.track is None:
-            return BodyJerk(placed, on.carry(self.hinge), third)
-        return self.track.jerk(on, placed, columns, third)
+            return BodyJerk(located, on.carry(self.hinge), third)
+        return self.track.jerk(on, located, columns, third)
 
 
 def attach(group: Group, joint: Joint, body: str) -> Attachment:
-    """The body on its joint."""
+    """The attachment of a body by a joint to the other body of the joint."""
     on = group.beyond(joint, body)
     if isinstance(joint, Pin):
         hinge, at = (group.mechanism.point(one, joint.name) for one in (on, body))
@@ -47,8 +47,8 @@ def attach(group: Group, joint: Joint, body: str) -> Attachment:
     return Attachment(body, on, joint.name, track=track(group.mechanism, joint, body))
 
 
-def hangs(group: Group) -> tuple[Attachment, ...] | None:
-    """The bodies of a group in the order in which they hang on one another, one joint each; None where they do not."""
+def find_attachments(group: Group) -> tuple[Attachment, ...] | None:
+    """Attachments of a group's bodies in order, one joint each; None where a body has another number of joints."""
     found: list[Attachment] = []
     done: set[str] = set()
     for _ in group.bodies:
@@ -60,9 +60,9 @@ def hangs(group: Group) -> tuple[Attachment, ...] | None:
     return tuple(found) if len(found) == len(group.bodies) == len(group.joints) else None
 
 
-def locate_all(hung_on: tuple[Attachment, ...], known: Known, columns: Mapping[str, Columns]) -> dict[str, BodyMotion]:
-    """The motions of bodies that hang on one another."""
-    placed = dict(known)
-    for one in hung_on:
-        placed[one.body] = one.place(placed[one.on], columns[one.body])
-    return {one.body: placed[one.body] for one in hung_on}
+def locate_all(attached: tuple[Attachment, ...], known: Known, columns: Mapping[str, Columns]) -> dict[str, BodyMotion]:
+    """The motions of bodies attached in order to known bodies and to one another."""
+    located = dict(known)
+    for one in attached:
+        located[one.body] = one.locate(located[one.on], columns[one.body])
+    return {one.body: located[one.body] for one in attached}

@@ -1,9 +1,9 @@
-"""A body that a coupling drives from bodies which no input determines alone: a wheel on a rocker, a rack's pinion.
+"""A body driven through a coupling by a moving source that inputs alone do not determine: a wheel on a rocker.
 
     q = at + scale (q_source - source_at)
 
-q is an angle against the carrier, of a rack the displacement of its slide; a source's angle is taken within half a turn
-of `source_at`.
+q is an angle against the carrier, of a rack the displacement of its slide; the angle of a source is assumed to be
+within half a turn of `source_at`.
 """
 
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ from ilmek.arrays import RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.equations import angle_near
-from ilmek.linkage.groups.attachment import Attachment, hangs
+from ilmek.linkage.groups.attachment import Attachment, find_attachments
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
 from ilmek.linkage.model import Coupling, Slide
 from ilmek.plane.vectors import unit
@@ -25,11 +25,12 @@ from ilmek.plane.vectors import unit
 class CoupledFollower(Step):
     """A body on one joint that follows a source through a coupling.
 
-    source  the body that drives it
-    slide   where that is a rack: its point in its own frame; the slide's point and direction in the guide's
+    source  the driving body
+    slide   for a rack as source: its point in its own frame [m]; the slide's point [m] and direction in the guide's
+            frame
     """
 
-    hang: Attachment
+    attachment: Attachment
     carrier: str
     source: str
     slide: tuple[complex, complex, complex] | None
@@ -41,44 +42,44 @@ class CoupledFollower(Step):
     @property
     def bodies(self) -> tuple[str, ...]:
         """The driven body."""
-        return (self.hang.body,)
+        return (self.attachment.body,)
 
     @property
     def parents(self) -> tuple[str, ...]:
-        """What it hangs on, the carrier and the source."""
-        return tuple(dict.fromkeys((self.hang.on, self.carrier, self.source)))
+        """The body to which it is attached, the carrier and the source."""
+        return tuple(dict.fromkeys((self.attachment.on, self.carrier, self.source)))
 
     @property
-    def words(self) -> str:
-        """What it is, for people."""
-        return f"{self.hang.body} driven by {self.source} through {self.coupling}"
+    def description(self) -> str:
+        """Description of the step for users."""
+        return f"{self.attachment.body} driven by {self.source} through {self.coupling}"
 
-    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - follows bodies only
-        """Direction, angular velocity and acceleration; on a slide way, speed and acceleration."""
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
+        """Direction, angular velocity and acceleration; on a slide displacement, speed and acceleration."""
         source, carrier = self._source(known), known[self.carrier]
         value = self.at + self.scale * (source.value - self.source_at)
         speed, acceleration = self.scale * source.speed, self.scale * source.acceleration
-        if self.hang.track is not None:
-            return GroupSolution({self.hang.body: (value, speed, acceleration)})
+        if self.attachment.track is not None:
+            return GroupSolution({self.attachment.body: (value, speed, acceleration)})
         direction = carrier.direction * unit(value)
-        return GroupSolution({self.hang.body: (direction, carrier.omega + speed, carrier.alpha + acceleration)})
+        return GroupSolution({self.attachment.body: (direction, carrier.omega + speed, carrier.alpha + acceleration)})
 
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+    def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The body on its joint."""
-        return {self.hang.body: self.hang.place(known[self.hang.on], columns[self.hang.body])}
+        return {self.attachment.body: self.attachment.locate(known[self.attachment.on], columns[self.attachment.body])}
 
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
+        located: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - common signature
     ) -> Mapping[str, BodyJerk]:
-        """The driven body's: the source's jerk, scaled, upon the carrier's."""
-        carrier, body = known[self.carrier], self.hang.body
+        """Jerk of the driven body: the scaled jerk of the source plus the carrier's."""
+        carrier, body = known[self.carrier], self.attachment.body
         third = self.scale * self._source_jerk(known[self.source], carrier)
-        beta = third if self.hang.track is not None else carrier.beta + third
-        return {body: self.hang.jerk(known[self.hang.on], placed[body], columns[body], beta)}
+        beta = third if self.attachment.track is not None else carrier.beta + third
+        return {body: self.attachment.jerk(known[self.attachment.on], located[body], columns[body], beta)}
 
     def _source_jerk(self, source: BodyJerk, carrier: BodyJerk) -> RealField:
         """Third rate of the source's angle against the carrier, or of its slide's displacement."""
@@ -86,8 +87,8 @@ class CoupledFollower(Step):
             return source.beta - carrier.beta
         point, root, lead = self.slide
         p, g, turns = source.motion.carry(point), carrier.motion.carry(root), carrier.motion
-        way, gain, rush = p.position - g.position, p.velocity - g.velocity, p.acceleration - g.acceleration
-        back = slid_jerk(1 + 0j, -turns.omega, -turns.alpha, -carrier.beta, way, gain, rush, 0j)
+        distance, gain, rush = p.position - g.position, p.velocity - g.velocity, p.acceleration - g.acceleration
+        back = slid_jerk(1 + 0j, -turns.omega, -turns.alpha, -carrier.beta, distance, gain, rush, 0j)
         jerk = source.carry(point) - carrier.carry(root) + back
         return np.real(jerk * np.conj(turns.direction * lead))
 
@@ -100,21 +101,21 @@ class CoupledFollower(Step):
         point, root, lead = self.slide
         p, g, w = source.carry(point), carrier.carry(root), carrier.omega
         back = np.conj(carrier.direction * lead)
-        way, gain = p.position - g.position, p.velocity - g.velocity
-        spin = (1j * carrier.alpha + w * w) * way
+        distance, gain = p.position - g.position, p.velocity - g.velocity
+        spin = (1j * carrier.alpha + w * w) * distance
         return InputMotion(
-            np.real(way * back),
-            np.real((gain - 1j * w * way) * back),
+            np.real(distance * back),
+            np.real((gain - 1j * w * distance) * back),
             np.real((p.acceleration - g.acceleration - 2j * w * gain - spin) * back),
         )
 
 
 def recognise(group: Group) -> CoupledFollower | None:
-    """The group as one body that follows another through a coupling, or None: a carrier that follows is not one."""
-    hung = hangs(group) if len(group.couplings) == 1 and not group.inputs else None
-    if hung is None or len(hung) != 1:
+    """The group as one body driven by another through a coupling, or None; None for a driven carrier too."""
+    attached = find_attachments(group) if len(group.couplings) == 1 and not group.inputs else None
+    if attached is None or len(attached) != 1:
         return None
-    (one,), (coupling,) = hung, group.couplings
+    (one,), (coupling,) = attached, group.couplings
     (first, _), (second, _) = coupling.first, coupling.second
     if one.body == second:
         if (coupling.kind == "rack") != (one.track is not None):

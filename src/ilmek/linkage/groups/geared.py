@@ -1,7 +1,6 @@
-"""Bodies that couplings drive from the inputs: their angles and displacements are linear in the inputs' values.
+"""Bodies driven by the inputs through couplings: angles and displacements are linear in the inputs' values.
 
-Gears in a row, belts, racks, planetary gears with any member driven: however many turns, the angle is known; see
-`winding`.
+Gear trains, belts, racks, planetary gears with any driven member. Angles count full turns; see `winding`.
 """
 
 from collections.abc import Mapping
@@ -9,74 +8,74 @@ from dataclasses import dataclass
 
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.groups.attachment import Attachment, hangs, locate_all
+from ilmek.linkage.groups.attachment import Attachment, find_attachments, locate_all
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
-from ilmek.linkage.groups.winding import LinearRelation, courses
+from ilmek.linkage.groups.winding import LinearRelation, linear_relations
 from ilmek.plane.vectors import unit
 
 
 @dataclass(frozen=True, slots=True)
 class Geared(Step):
-    """Bodies on one joint each, and their courses: angle in the world of one on a pin, way of one on a slide."""
+    """Bodies on one joint each, with the relation of their angle in the world (pin) or displacement (slide)."""
 
-    hangs: tuple[Attachment, ...]
-    courses: tuple[LinearRelation, ...]
+    attachments: tuple[Attachment, ...]
+    relations: tuple[LinearRelation, ...]
     through: tuple[str, ...]
     on: tuple[str, ...]
 
     @property
     def bodies(self) -> tuple[str, ...]:
         """The driven bodies."""
-        return tuple(one.body for one in self.hangs)
+        return tuple(one.body for one in self.attachments)
 
     @property
     def parents(self) -> tuple[str, ...]:
-        """The known bodies that they hang on or are coupled with."""
+        """The known bodies to which they are attached or coupled."""
         return self.on
 
     @property
-    def words(self) -> str:
-        """What it is, for people."""
-        inputs = {name for course in self.courses for name in course.shares}
-        driven = f"driven by {' and '.join(sorted(inputs))}" if inputs else "held"
+    def description(self) -> str:
+        """Description of the step for users."""
+        inputs = {name for relation in self.relations for name in relation.shares}
+        driven = f"driven by {' and '.join(sorted(inputs))}" if inputs else "fixed"
         return f"{' and '.join(self.bodies)} {driven} through {', '.join(self.through)}"
 
-    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - the inputs alone count
-        """Direction, angular velocity and acceleration; on a slide way, speed and acceleration."""
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs inputs only
+        """Direction, angular velocity and acceleration; on a slide displacement, speed and acceleration."""
         columns: dict[str, Columns] = {}
-        for one, course in zip(self.hangs, self.courses, strict=True):
-            drive = course.drive(drives)
+        for one, relation in zip(self.attachments, self.relations, strict=True):
+            drive = relation.drive(drives)
             value = unit(drive.value) if one.track is None else drive.value
             columns[one.body] = (value, drive.speed, drive.acceleration)
         return GroupSolution(columns)
 
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+    def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The bodies on their joints."""
-        return locate_all(self.hangs, known, columns)
+        return locate_all(self.attachments, known, columns)
 
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
+        located: Known,
         columns: Mapping[str, Columns],
         drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
-        """The bodies': their courses' jerks."""
+        """Jerks of the bodies, from their relations."""
         found = dict(known)
-        for one, course in zip(self.hangs, self.courses, strict=True):
-            third = course.drive(drives).jerk
-            found[one.body] = one.jerk(found[one.on], placed[one.body], columns[one.body], third)
+        for one, relation in zip(self.attachments, self.relations, strict=True):
+            third = relation.drive(drives).jerk
+            found[one.body] = one.jerk(found[one.on], located[one.body], columns[one.body], third)
         return {body: found[body] for body in self.bodies}
 
 
 def recognise(group: Group) -> Geared | None:
-    """The group as bodies that couplings drive from the inputs, or None."""
-    hung = hangs(group) if group.couplings else None
-    if hung is None:
+    """The group as bodies driven by the inputs through couplings, or None."""
+    attached = find_attachments(group) if group.couplings else None
+    if attached is None:
         return None
-    found = courses(group.mechanism)
-    keys = [("angle", one.body) if one.track is None else ("travel", one.joint) for one in hung]
+    found = linear_relations(group.mechanism)
+    keys = [("angle", one.body) if one.track is None else ("travel", one.joint) for one in attached]
     if not all(key in found for key in keys):
         return None
     through = tuple(coupling.name for coupling in group.couplings)
-    return Geared(hung, tuple(found[key] for key in keys), through, group.parents)
+    return Geared(attached, tuple(found[key] for key in keys), through, group.parents)

@@ -1,9 +1,10 @@
 """Any group without a closed form: Newton's method on its loop equations.
 
-    J(x) dx = -c(x) until nothing moves;    J x' = c's inputs' rates;    J x'' = their second rates - bias
+    J(x) dx = -c(x) to convergence;    J x' = input rates;    J x'' = second input rates - bias
 
-The start is a motion of the group's own bodies that `solve` hands in among the known ones; see `newton.starts`.
-Angles are measured in lengths (times the group's size), so that the condition of J is free of units.
+The start is a motion of the group's own bodies, given by `solve` with the known motions; see `initial_pose.starts`.
+Angles are scaled to lengths by the group's size, so that the condition of J does not depend on units [Nikravesh,
+Computer-Aided Analysis of Mechanical Systems, chapter 3].
 """
 
 from collections.abc import Mapping
@@ -23,20 +24,20 @@ from ilmek.num.linear import reciprocal_condition, solve_many
 from ilmek.num.newton import newton
 
 TOLERANCE = 1e-9
-"""Last step of the iteration, of the group's size; quadratic convergence leaves an error at rounding."""
+"""Last step of the iteration relative to the group's size; quadratic convergence leaves an error at rounding."""
 
 
 @dataclass(frozen=True, slots=True)
 class GeneralGroup(Step):
-    """A group of any class, its loop equations solved together.
+    """A group of any class; all its loop equations are solved together.
 
-    scale    its size [m]
-    courses  of the bodies whose angles inputs and couplings alone determine
+    scale      its size [m]
+    relations  of the angles determined by inputs and couplings alone, by body
     """
 
     group: Group
     scale: float
-    courses: Mapping[str, LinearRelation] = field(default_factory=dict)
+    relations: Mapping[str, LinearRelation] = field(default_factory=dict)
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -45,12 +46,12 @@ class GeneralGroup(Step):
 
     @property
     def parents(self) -> tuple[str, ...]:
-        """The bodies it hangs on."""
+        """The bodies to which it is attached."""
         return self.group.parents
 
     @property
-    def words(self) -> str:
-        """What it is, for people."""
+    def description(self) -> str:
+        """Description of the step for users."""
         joints = ", ".join(joint.name for joint in self.group.joints)
         return f"{', '.join(self.bodies)} with joints {joints}: Newton's method on the loop equations"
 
@@ -59,8 +60,8 @@ class GeneralGroup(Step):
         """Name of the Status of a sample that it cannot solve."""
         return "NOT_CONVERGED"
 
-    def gap(self, known: Known) -> RealField:  # noqa: ARG002 - says only that it failed
-        """Unknown: the iteration does not say by how much it fails."""
+    def gap(self, known: Known) -> RealField:  # noqa: ARG002 - common signature
+        """NaN: the iteration has no measure of the gap."""
         return np.nan
 
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:
@@ -73,8 +74,10 @@ class GeneralGroup(Step):
             return fixed | self._moved(start, x)
 
         def system(x: FloatArray) -> tuple[FloatArray, FloatArray]:
-            held = self.equations(at(x), drives)
-            return _stack([one.value * self._unit(one) for one in held], samples), self._matrix(held, samples)
+            loop_equations = self.equations(at(x), drives)
+            return _stack([one.value * self._unit(one) for one in loop_equations], samples), self._matrix(
+                loop_equations, samples
+            )
 
         shape = (*samples, 3 * len(self.bodies))
         x = newton(system, np.zeros(shape), tolerance=TOLERANCE * self.scale)
@@ -82,28 +85,28 @@ class GeneralGroup(Step):
         matrix = self._matrix(self.equations(posed, drives), samples)
         return self._rates(known, posed, drives, matrix)
 
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:  # noqa: ARG002
+    def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:  # noqa: ARG002
         """The bodies, anchored at their origins."""
         return {body: BodyMotion(PointMotion(*columns[body][3:]), 0j, *columns[body][:3]) for body in self.bodies}
 
     def equations(self, bodies: Known, drives: Mapping[str, InputMotion]) -> list[Equation]:
-        """The group's loop equations in the poses and at the velocities of `bodies`, origin-anchored."""
-        mechanism, held = self.group.mechanism, []
+        """The group's loop equations in the poses and at the velocities of `bodies`, anchored at their origins."""
+        mechanism, loop_equations = self.group.mechanism, []
         for joint in self.group.joints:
             if isinstance(joint, Pin):
-                held += equations.pin_equations(mechanism, joint, bodies)
+                loop_equations += equations.pin_equations(mechanism, joint, bodies)
             else:
-                held += equations.slide_equations(mechanism, joint, bodies)
+                loop_equations += equations.slide_equations(mechanism, joint, bodies)
         for entry in self.group.inputs:
             joint, drive = mechanism.joint(entry.joint), drives[entry.name]
             if isinstance(entry, Rotation):
-                held.append(equations.rotation_equation(mechanism, entry, drive, bodies))
+                loop_equations.append(equations.rotation_equation(mechanism, entry, drive, bodies))
             elif isinstance(joint, Slide):
-                held.append(equations.displacement_equation(mechanism, joint, drive, bodies))
+                loop_equations.append(equations.displacement_equation(mechanism, joint, drive, bodies))
         for coupling in self.group.couplings:
-            near = first_angle(coupling, self.courses, drives)
-            held.append(equations.coupling_equation(mechanism, coupling, near, bodies))
-        return held
+            near = first_angle(coupling, self.relations, drives)
+            loop_equations.append(equations.coupling_equation(mechanism, coupling, near, bodies))
+        return loop_equations
 
     def _rates(
         self, known: Known, posed: Known, drives: Mapping[str, InputMotion], matrix: FloatArray
@@ -111,14 +114,14 @@ class GeneralGroup(Step):
         """Velocities, then accelerations: the same matrix twice."""
         samples = matrix.shape[:-2]
         moving = dict(posed) | {body: _at_origin(known[body]) for body in self.parents}
-        held = self.equations(moving, drives)
+        loop_equations = self.equations(moving, drives)
         speeds = {body: (moving[body].anchor.velocity, moving[body].omega) for body in self.parents}
-        demand = [(one.rate - _share(one, speeds)) * self._unit(one) for one in held]
+        demand = [(one.rate - _share(one, speeds)) * self._unit(one) for one in loop_equations]
         v = solve_many(matrix, _stack(demand, samples))
         moving |= {body: self._with_velocity(posed[body], v, k) for k, body in enumerate(self.bodies)}
-        held = self.equations(moving, drives)
+        loop_equations = self.equations(moving, drives)
         gains = {body: (moving[body].anchor.acceleration, moving[body].alpha) for body in self.parents}
-        demand = [(one.second_rate - one.bias - _share(one, gains)) * self._unit(one) for one in held]
+        demand = [(one.second_rate - one.bias - _share(one, gains)) * self._unit(one) for one in loop_equations]
         a = solve_many(matrix, _stack(demand, samples))
         columns = {body: self._columns(moving[body], a, k) for k, body in enumerate(self.bodies)}
         return GroupSolution(columns, reciprocal_condition(matrix))
@@ -126,35 +129,35 @@ class GeneralGroup(Step):
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
-        columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
+        located: Known,
+        columns: Mapping[str, Columns],  # noqa: ARG002 - common signature
         drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
-        """The bodies': the matrix of `solve` once more, with the third rates' right side."""
-        moving = dict(placed) | {body: _at_origin(known[body].motion) for body in self.parents}
+        """Jerks of the bodies: the matrix of `solve` with the right side of the third rates."""
+        moving = dict(located) | {body: _at_origin(known[body].motion) for body in self.parents}
         shapes = (np.shape(field) for body in moving.values() for field in (body.direction, body.alpha))
         samples = np.broadcast_shapes(*shapes)
-        held = self.equations(moving, drives)
+        loop_equations = self.equations(moving, drives)
         biases = equations.third_biases(self.group, moving)
         jerks = {body: (known[body].carry(0j), known[body].beta) for body in self.parents}
         demand = [
             (one.third_rate - bias - _share(one, jerks)) * self._unit(one)
-            for one, bias in zip(held, biases, strict=True)
+            for one, bias in zip(loop_equations, biases, strict=True)
         ]
-        x = solve_many(self._matrix(held, samples), _stack(demand, samples))
+        x = solve_many(self._matrix(loop_equations, samples), _stack(demand, samples))
         return {
-            body: BodyJerk(placed[body], x[..., 3 * k] + 1j * x[..., 3 * k + 1], x[..., 3 * k + 2] / self.scale)
+            body: BodyJerk(located[body], x[..., 3 * k] + 1j * x[..., 3 * k + 1], x[..., 3 * k + 2] / self.scale)
             for k, body in enumerate(self.bodies)
         }
 
     def _unit(self, equation: Equation) -> float:
         return 1.0 if equation.length else self.scale
 
-    def _matrix(self, held: list[Equation], samples: tuple[int, ...]) -> FloatArray:
+    def _matrix(self, loop_equations: list[Equation], samples: tuple[int, ...]) -> FloatArray:
         """Derivatives by (x, y, scale theta) of the group's bodies."""
         size = 3 * len(self.bodies)
         matrix = np.zeros((*samples, size, size))
-        for i, one in enumerate(held):
+        for i, one in enumerate(loop_equations):
             for k, body in enumerate(self.bodies):
                 if body in one.row:
                     for j, (slope, per) in enumerate(zip(one.row[body], (1, 1, self.scale), strict=True)):
@@ -162,7 +165,7 @@ class GeneralGroup(Step):
         return matrix
 
     def _moved(self, start: Known, x: FloatArray) -> dict[str, BodyMotion]:
-        """The bodies moved by x from where they started, at rest."""
+        """The bodies displaced by x from the start, at rest."""
         moved = {}
         for k, body in enumerate(self.bodies):
             shift, turn = x[..., 3 * k] + 1j * x[..., 3 * k + 1], x[..., 3 * k + 2] / self.scale
@@ -182,14 +185,14 @@ class GeneralGroup(Step):
 
 
 def from_group(group: Group) -> GeneralGroup:
-    """The group as a block for Newton's method."""
+    """The group as a step for Newton's method."""
     points = [abs(point) for body in group.bodies for point in group.mechanism.body(body).points.values()]
     reach = max([*points, *(abs(p) for p in group.mechanism.body("ground").points.values())])
     return GeneralGroup(group, reach or 1.0, angles(group.mechanism) if group.couplings else {})
 
 
 def _share(one: Equation, rates: Mapping[str, tuple[ComplexField, RealField]]) -> RealField:
-    """What the known bodies contribute to an equation's rate, by the rates of their origins and angles."""
+    """Contribution of the known bodies to an equation's rate, from the rates of their origins and angles."""
     share: RealField = 0.0
     for body, (move, turn) in rates.items():
         if body in one.row:

@@ -1,7 +1,6 @@
-"""What a group is to the plan: some bodies that can be solved together once the bodies they hang on are known.
+"""Groups of bodies that are solved together once the bodies to which they are attached are known.
 
-A file of this package holds one kind of group: its leaf formulas, the step that applies them, and the function that
-recognises it.
+A module of this package has one kind of group: its formulas, the step that applies them, and its recogniser.
 """
 
 from abc import ABC, abstractmethod
@@ -18,18 +17,18 @@ from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.model import Coupling, Input, Joint, Mechanism
 
 Columns: TypeAlias = tuple[Any, ...]
-"""What is kept of a body's motion, real and complex fields: enough for `Step.place` to give all of it back."""
+"""The stored part of a body's motion, real and complex fields, from which `Step.locate` recovers all of it."""
 
 Known: TypeAlias = Mapping[str, BodyMotion]
-"""Motions of the bodies already solved, by name."""
+"""Motions of the solved bodies, by name."""
 
 KnownJerks: TypeAlias = Mapping[str, BodyJerk]
-"""The same with their jerks."""
+"""Motions with jerks of the solved bodies, by name."""
 
 
 @dataclass(frozen=True, slots=True)
 class InputMotion:
-    """An input's course: value [rad or m], speed, acceleration and jerk, a number or one a sample."""
+    """Motion of an input: value [rad or m] and its first to third rates, constant or (samples,)."""
 
     value: RealField
     speed: RealField
@@ -37,17 +36,17 @@ class InputMotion:
     jerk: RealField = 0.0
 
     def part(self, chosen: Any) -> "InputMotion":
-        """Some of its samples, as a slice or mask chooses them."""
+        """The samples of a slice or mask."""
         fields = (self.value, self.speed, self.acceleration, self.jerk)
         return InputMotion(*(field[chosen] if isinstance(field, np.ndarray) else field for field in fields))
 
 
 @dataclass(frozen=True, slots=True)
 class GroupSolution:
-    """A step's answer: the columns of each of its bodies, and how far from a dead centre it stands.
+    """The solution of a step: the columns of each body, and the distance from a dead centre.
 
-    margin  `best` at best, 0 at a dead centre, NaN where the step cannot be solved; either sign; None where it cannot
-            fail
+    margin  at most `best` in magnitude, 0 at a dead centre, NaN where the step cannot be solved; None for a step that
+            cannot fail
     """
 
     columns: Mapping[str, Columns]
@@ -56,9 +55,9 @@ class GroupSolution:
 
 
 class Step(ABC):
-    """A group ready to be solved. Steps are frozen records of numbers; they keep nothing of a motion.
+    """A group with all numbers for its solution, independent of any motion.
 
-    As it stands, a step that cannot fail; the others say by how much they do.
+    The defaults are those of a step that cannot fail.
     """
 
     __slots__ = ()
@@ -66,37 +65,37 @@ class Step(ABC):
     @property
     @abstractmethod
     def bodies(self) -> tuple[str, ...]:
-        """The bodies it solves."""
+        """The bodies of the group."""
 
     @property
     @abstractmethod
     def parents(self) -> tuple[str, ...]:
-        """The bodies it hangs on."""
+        """The bodies to which it is attached."""
 
     @property
     @abstractmethod
-    def words(self) -> str:
-        """What it is, for people."""
+    def description(self) -> str:
+        """Description of the step for users."""
 
     @abstractmethod
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:
         """The bodies' columns at every sample."""
 
     @abstractmethod
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+    def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The bodies' motions from their columns."""
 
     @abstractmethod
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
+        located: Known,
         columns: Mapping[str, Columns],
         drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
         """The bodies' jerks: the equations of `solve` differentiated once more, each with another right side.
 
-        known  jerks of the bodies it hangs on         placed  the bodies' own motions, from their columns
+        known  jerks of the known bodies         located  the bodies' own motions, from their columns
         """
 
     @property
@@ -106,21 +105,21 @@ class Step(ABC):
 
     @property
     def failure(self) -> str:
-        """Name of the Status of a sample that it cannot solve."""
+        """Name of the Status of a sample without a solution."""
         return "CANNOT_CLOSE"
 
     def gap(self, known: Known) -> RealField:  # noqa: ARG002 - for the steps that can fail
-        """By how much it fails to close [m], 0 where it closes, NaN where what it hangs on is lost."""
+        """Gap [m] by which the group does not close; 0 where it closes, NaN where a known body is NaN."""
         return 0.0
 
     def shortfall(self, known: Known) -> tuple[str, str]:  # noqa: ARG002 - for the steps that can fail
-        """The worst gap of the samples in words, and what would mend it."""
+        """The greatest gap of the samples in words, and the remedy."""
         return "", ""
 
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """Bodies whose joints and inputs, to each other and to known bodies, leave them no freedom."""
+    """Bodies with their joints, inputs and couplings to one another and to known bodies."""
 
     mechanism: Mechanism
     bodies: tuple[str, ...]
@@ -129,8 +128,8 @@ class Group:
     couplings: tuple[Coupling, ...] = ()
 
     @property
-    def freedom(self) -> int:
-        """Freedoms that joints, couplings and inputs leave by count: 3 a body less 2, 1 and 1 [Gruebler's count]."""
+    def degrees_of_freedom(self) -> int:
+        """Remaining degrees of freedom, 3 bodies - 2 joints - inputs - couplings [Gruebler's criterion]."""
         return 3 * len(self.bodies) - 2 * len(self.joints) - len(self.inputs) - len(self.couplings)
 
     @property
@@ -145,19 +144,19 @@ class Group:
 
     @property
     def parents(self) -> tuple[str, ...]:
-        """The known bodies it hangs on, in the mechanism's order."""
-        touched = {body for held in (*self.outer, *self.couplings) for body in held.bodies} - set(self.bodies)
+        """The known bodies to which it is attached, in the mechanism's order."""
+        touched = {body for joint in (*self.outer, *self.couplings) for body in joint.bodies} - set(self.bodies)
         return tuple(body.name for body in self.mechanism.bodies if body.name in touched)
 
     @property
     def is_dyad(self) -> bool:
         """Whether it is two undriven bodies with a joint between them and one joint each to known bodies."""
-        hung = {body for joint in self.outer for body in joint.bodies} & set(self.bodies)
-        return len(self.bodies) == len(hung) == len(self.outer) == 2 and len(self.inner) == 1 and not self.inputs
+        attached = {body for joint in self.outer for body in joint.bodies} & set(self.bodies)
+        return len(self.bodies) == len(attached) == len(self.outer) == 2 and len(self.inner) == 1 and not self.inputs
 
     @property
     def reach(self) -> float:
-        """Largest coordinate of any body's point [m], the ground's too: the scale of its lengths; 1 if all are 0."""
+        """Largest coordinate of any body's point [m], including the ground: the scale of lengths; 1 if all are 0."""
         return max(abs(point) for body in self.mechanism.bodies for point in body.points.values()) or 1.0
 
     def outer_of(self, body: str) -> tuple[Joint, ...]:
@@ -181,13 +180,13 @@ class Group:
         return arm
 
     def branch(self, joint: str) -> int:
-        """The branch said for a free pin. Raises MechanismError where none is."""
+        """The branch of a free pin or slide. Raises MechanismError where none is given."""
         branches = self.mechanism.branches
         if joint not in branches:
             raise MechanismError(
                 f"{self.mechanism.name} has no branch for the free pin {joint!r} of {' and '.join(self.bodies)}",
                 allowed="+1 or -1",
-                do=f"say branches={{{joint!r}: +1}}",
+                do=f"give branches={{{joint!r}: +1}}",
                 about=("joints", joint),
             )
         return branches[joint]

@@ -1,4 +1,4 @@
-"""What two kinds of dyads share: two bodies of which one or both are attached to known bodies by pins."""
+"""Common parts of dyads: two bodies, one or both attached to known bodies by pins."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ class PinnedPair(Step):
         """Motions of the known pins."""
         return known[self.on[0]].carry(self.hinges[0]), known[self.on[1]].carry(self.hinges[1])
 
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+    def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The bodies, anchored at the known pins."""
         return {
             link: pinned(known[on], hinge, at, columns[link])
@@ -68,9 +68,9 @@ class SliderPair(Step):
         """The body with the known pin, and the guide."""
         return self.on
 
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+    def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The link, anchored at the known pin, and the slider, anchored at its point on the guide."""
         return {
             self.link: pinned(known[self.on[0]], self.hinge, self.at, columns[self.link]),
-            self.slider: self.track.place(known[self.on[1]], columns[self.slider]),
+            self.slider: self.track.locate(known[self.on[1]], columns[self.slider]),
         }

@@ -2,10 +2,10 @@
 
     C = P + s e = Q + z f,    C' = P' + i w s e + s' e = Q' + i v z f + z' f,    and the same once more for C''
 
-P and Q are where C stands on either line at zero travel, e and f the lines' unit directions, w and v the rates of the
-guides, which may move: C is where the lines cross, so there is one way to close [Artobolevsky, Theory of Mechanisms and
-Machines: groups of class II, fourth kind]. Tangent mechanisms, wedges, pins led by two slots.
-The dyad stands at a dead centre where the lines are parallel: e x f = 0.
+P and Q are the positions of C on each line at zero travel, e and f the unit directions of the lines, w and v the
+angular velocities of the guides, which may move. C is the crossing of the lines, so there is one assembly
+[Artobolevsky, Theory of Mechanisms and Machines: groups of class II, fourth kind]. Tangent mechanisms, wedges, pins
+guided by two slots. The dyad is at a dead centre where the lines are parallel: e x f = 0.
 """
 
 from collections.abc import Mapping
@@ -45,17 +45,17 @@ class CrossedSliders(Step):
         return self.on
 
     @property
-    def words(self) -> str:
-        """What it is, for people."""
+    def description(self) -> str:
+        """Description of the step for users."""
         (p, q), (on_p, on_q) = self.sliders, self.on
         return f"sliders {p} and {q} joined at {self.pin}, on {on_p} and {on_q}: PRP"
 
     def line(self, known: Known, which: int) -> tuple[BodyMotion, PointMotion, ComplexField]:
-        """A guide, the motion of its line's zero for the pin, and the line's direction."""
+        """A guide, the motion of the pin's point on it at zero travel, and the line's direction."""
         guide, line = known[self.on[which]], self.tracks[which]
         return guide, guide.carry(line.root + line.twist * self.reach[which]), guide.direction * line.lead
 
-    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - hangs on bodies only
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
         """Travel, speed and acceleration of both sliders."""
         (one, P, e), (two, Q, f) = self.line(known, 0), self.line(known, 1)
         w, v = one.omega, two.omega
@@ -68,32 +68,32 @@ class CrossedSliders(Step):
         columns = {self.sliders[0]: (s, ds, oblique(r, e, f)), self.sliders[1]: (z, dz, -oblique(r, f, e))}
         return GroupSolution(columns, cross(e, f))
 
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+    def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The sliders, anchored at their slides' points."""
         return {
-            slider: line.place(known[on], columns[slider])
+            slider: line.locate(known[on], columns[slider])
             for slider, on, line in zip(self.sliders, self.on, self.tracks, strict=True)
         }
 
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
+        located: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - common signature
     ) -> Mapping[str, BodyJerk]:
-        """The sliders': the third rates of s along e and z along f make good what the guides and other rates leave."""
+        """Jerks of the sliders: the third rates of s along e and z along f balance those of the guides."""
         lines, ends = [], []
         for slider, on, line, reach in zip(self.sliders, self.on, self.tracks, self.reach, strict=True):
             guide, turns, (s, ds, dds) = known[on], known[on].motion, columns[slider]
             e = turns.direction * line.lead
             lines.append(e)
-            way = slid_jerk(e, turns.omega, turns.alpha, guide.beta, s, ds, dds, 0.0)
-            ends.append(guide.carry(line.root + line.twist * reach) + way)
+            slid = slid_jerk(e, turns.omega, turns.alpha, guide.beta, s, ds, dds, 0.0)
+            ends.append(guide.carry(line.root + line.twist * reach) + slid)
         r = ends[1] - ends[0]
         thirds = oblique(r, lines[0], lines[1]), -oblique(r, lines[1], lines[0])
         return {
-            slider: line.jerk(known[on], placed[slider], columns[slider], third)
+            slider: line.jerk(known[on], located[slider], columns[slider], third)
             for slider, on, line, third in zip(self.sliders, self.on, self.tracks, thirds, strict=True)
         }
 
@@ -103,7 +103,7 @@ class CrossedSliders(Step):
         return self.scale
 
     def gap(self, known: Known) -> RealField:
-        """0: lines that are not parallel cross; NaN where what it hangs on is lost."""
+        """0: lines that are not parallel cross; NaN where a guide is NaN."""
         (_, _, e), (_, _, f) = self.line(known, 0), self.line(known, 1)
         return 0.0 * cross(e, f)
 

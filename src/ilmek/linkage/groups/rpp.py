@@ -1,10 +1,10 @@
-"""RPP dyad: a body hung on a known pin A slides on a slider, which slides on a known guide.
+"""RPP dyad: a body on a known pin A slides on a slider, which slides on a known guide.
 
     A = Q + s e + z f,    A' = Q' + i w (A - Q) + s' e + z' f,    and the same once more for A''
 
-e is the unit direction of the guide's line, f that of the line between the two bodies. Nothing in the dyad turns
-against the guide, so that w is the angular velocity of both bodies and the angle between e and f is fixed; Q stands
-where the known pin would be at zero travel of both slides. There is one way to close, and it always closes
+e is the unit direction of the guide's line, f that of the line between the two bodies. The bodies do not turn
+against the guide, so that w is the angular velocity of both and the angle between e and f is fixed. Q is the position
+of the known pin at zero travel of both slides. There is one assembly, and it always closes
 [Artobolevsky, Theory of Mechanisms and Machines: groups of class II, fifth kind]. Scotch yokes, Oldham couplings.
 """
 
@@ -22,9 +22,9 @@ from ilmek.plane.vectors import cross, oblique
 
 
 def gain(r: ComplexField, sliding: ComplexField, w: RealField) -> ComplexField:
-    """What s'' and z'' must make good: s'' e + z'' f = r - 2 i w (s' e + z' f) [m/s^2].
+    """Right side of s'' e + z'' f = r - 2 i w (s' e + z' f) [m/s^2].
 
-    r  acceleration of A less that of the guide's point where A stands        sliding  s' e + z' f [m/s]
+    r  acceleration of A minus that of the guide's point at A [m/s^2]        sliding  s' e + z' f [m/s]
     >>> gain(5 + 0j, 3j, 2.0)
     (17+0j)
     """
@@ -37,7 +37,7 @@ def zero(
     at: ComplexField,
     twists: tuple[complex, complex],
 ) -> ComplexField:
-    """Where the known pin stands at s = z = 0, in the guide's frame [m].
+    """Position of the known pin at s = z = 0 in the guide's frame [m].
 
     outer, inner  a slide's points in the frames of the body nearer the guide and of the other [m]: guide and slider,
                   slider and link           at  the pin in the link's frame [m]        twists  of slider, and link on it
@@ -61,12 +61,12 @@ class CrossSlide(SliderPair):
     zero: complex
 
     @property
-    def words(self) -> str:
-        """What it is, for people."""
-        return f"{self.link} on slider {self.slider}, hung on {self.on[0]} and {self.on[1]}: RPP"
+    def description(self) -> str:
+        """Description of the step for users."""
+        return f"{self.link} on slider {self.slider}, attached to {self.on[0]} and {self.on[1]}: RPP"
 
-    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - hangs on bodies only
-        """Direction and rates of the link, those of the guide; travel, speed and acceleration of the slider."""
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
+        """Direction and rates of the link; travel, speed and acceleration of the slider."""
         A, guide = known[self.on[0]].carry(self.hinge), known[self.on[1]]
         Q, w, alpha = guide.carry(self.zero), guide.omega, guide.alpha
         e = guide.direction * self.track.lead
@@ -83,13 +83,13 @@ class CrossSlide(SliderPair):
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
+        located: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - common signature
     ) -> Mapping[str, BodyJerk]:
-        """The slider's: its third rate along e makes good what the guide leaves; the link turns as the guide does."""
+        """Jerks: the slider's third rate along e balances those of pin and guide; the link turns with the guide."""
         guide, A = known[self.on[1]], known[self.on[0]].carry(self.hinge)
-        turns, link = guide.motion, placed[self.link]
+        turns, link = guide.motion, located[self.link]
         Q, w = turns.carry(self.zero), turns.omega
         d = link.anchor.position - Q.position
         ds = link.anchor.velocity - carried_velocity(Q.velocity, d, w)
@@ -99,7 +99,7 @@ class CrossSlide(SliderPair):
         third = oblique(r, e, turns.direction * (self.track.twist * self.lead))
         return {
             self.link: BodyJerk(link, A, guide.beta),
-            self.slider: self.track.jerk(guide, placed[self.slider], columns[self.slider], third),
+            self.slider: self.track.jerk(guide, located[self.slider], columns[self.slider], third),
         }
 
 

@@ -1,13 +1,13 @@
-"""RPR dyad: two bodies that slide on one another, each hung on a known pin, A and B.
+"""RPR dyad: two bodies that slide on one another, each on a known pin, A and B.
 
     B - A = (t + i o) e,    t = branch sqrt(|B - A|^2 - o^2)
     (B - A)' = t' e + i w (t + i o) e,    and the same once more for (B - A)''
 
 e is the unit direction of the slide, o the fixed distance of B from the line through A along e (left of it: above 0),
-t the way from A to the foot of B on that line. Both bodies turn alike: w is the angular velocity of both [Norton,
+t the distance from A to the foot of B on that line. w is the angular velocity of both bodies [Norton,
 Design of Machinery, sections 4.7, 6.7, 7.3: inverted slider-crank].
 Oscillating cylinders, quick-returns, slotted levers.
-The dyad stands at a dead centre where t = 0: the slide is square to A -> B, or B passes through A. There the rates are
+The dyad is at a dead centre where t = 0: the slide is normal to A -> B, or B passes through A. There the rates are
 infinite.
 """
 
@@ -27,9 +27,9 @@ from ilmek.units import format_quantity
 
 
 def sliding_distance(d: ComplexField, o: RealField, branch: RealField) -> RealField:
-    """Way t [m] along the slide from A to the foot of B, d = B - A; NaN where the pins are nearer than the offset.
+    """Distance t = branch sqrt(|d|^2 - o^2) [m] along the slide from A to the foot of B; NaN where |d| < |o|.
 
-    branch  +1: B ahead of A in the slide's direction, -1: behind
+    d  B - A [m]   o  offset [m]   branch  +1: B ahead of A in the slide's direction, -1: behind
     >>> float(sliding_distance(3 + 4j, 3.0, branch=-1))
     -4.0
     """
@@ -37,7 +37,7 @@ def sliding_distance(d: ComplexField, o: RealField, branch: RealField) -> RealFi
 
 
 def heading(d: ComplexField, o: RealField, t: RealField) -> ComplexField:
-    """Unit direction e of the slide: d / (t + i o).
+    """Unit direction e = d / (t + i o) of the slide; d = B - A, o and t [m].
 
     >>> complex(heading(3 + 4j, 3.0, 4.0))
     (0.96+0.28j)
@@ -48,7 +48,7 @@ def heading(d: ComplexField, o: RealField, t: RealField) -> ComplexField:
 def turn_rate(e: ComplexField, r: ComplexField, t: RealField) -> RealField:
     """Angular velocity w [rad/s] of both bodies, from i w d + t' e = r.
 
-    For velocities r = d'; for accelerations r is what `parting` gives and the answer is alpha.
+    For velocities r = d' [m/s]; with r of `relative_acceleration` the result is alpha [rad/s^2].
     >>> float(turn_rate(0.96 + 0.28j, 2j, 4.0)), float(sliding_speed(0.96 + 0.28j, 2j, 0.48, 3.0))
     (0.48, 2.0)
     """
@@ -56,14 +56,16 @@ def turn_rate(e: ComplexField, r: ComplexField, t: RealField) -> RealField:
 
 
 def sliding_speed(e: ComplexField, r: ComplexField, w: RealField, o: RealField) -> RealField:
-    """Sliding speed t' [m/s], from i w d + t' e = r; see `turn_rate`, of which w is the answer."""
+    """Sliding speed t' [m/s], from i w d + t' e = r; w is the result of `turn_rate` [rad/s]."""
     return e.real * r.real + e.imag * r.imag + w * o
 
 
-def parting(d2: ComplexField, d: ComplexField, e: ComplexField, w: RealField, dt: RealField) -> ComplexField:
-    """What alpha and t'' must make good: r = d'' + w^2 d - 2 i w t' e [m/s^2]; see `turn_rate`.
+def relative_acceleration(
+    d2: ComplexField, d: ComplexField, e: ComplexField, w: RealField, dt: RealField
+) -> ComplexField:
+    """Right side r = d'' + w^2 d - 2 i w t' e [m/s^2] of i alpha d + t'' e = r; see `turn_rate`.
 
-    >>> complex(parting(1 + 0j, 3 + 4j, 1j, 2.0, 5.0))
+    >>> complex(relative_acceleration(1 + 0j, 3 + 4j, 1j, 2.0, 5.0))
     (33+16j)
     """
     return d2 + w * w * d - 2j * (w * dt) * e
@@ -72,7 +74,7 @@ def parting(d2: ComplexField, d: ComplexField, e: ComplexField, w: RealField, dt
 def offset(
     first: ComplexField, root: ComplexField, second: ComplexField, at: ComplexField, line: SlideTrack
 ) -> RealField:
-    """Offset o [m] of the second body's known pin from the line through the first's along the slide; the same always.
+    """Offset o [m] of the second body's known pin from the line through the first's along the slide; constant.
 
     first, root   the known pin and the slide's point of the guide, in its frame [m]
     second, at    those of the other body, in its frame [m]
@@ -83,7 +85,7 @@ def offset(
 
 
 def shortness(d: ComplexField, o: RealField) -> RealField:
-    """By how much the known pins are too near for the offset [m], 0 where the dyad closes.
+    """Missing distance max(|o| - |d|, 0) [m] of the known pins; 0 where the dyad closes.
 
     >>> float(shortness(3 + 4j, -7.0)), float(shortness(3 + 4j, 3.0))
     (2.0, 0.0)
@@ -106,12 +108,12 @@ class SlidingDyad(PinnedPair):
     scale: float
 
     @property
-    def words(self) -> str:
-        """What it is, for people."""
+    def description(self) -> str:
+        """Description of the step for users."""
         (p, q), (on_p, on_q) = self.links, self.on
-        return f"{p} and {q} joined by slide {self.slide} (branch {self.branch:+d}), hung on {on_p} and {on_q}: RPR"
+        return f"{p} and {q} joined by slide {self.slide} (branch {self.branch:+d}), attached to {on_p} and {on_q}: RPR"
 
-    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - hangs on bodies only
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
         """Directions of both bodies, their common angular velocity and acceleration."""
         A, B = self.pins(known)
         d = B.position - A.position
@@ -119,7 +121,7 @@ class SlidingDyad(PinnedPair):
         e = heading(d, self.offset, t)
         r = B.velocity - A.velocity
         w = turn_rate(e, r, t)
-        r = parting(B.acceleration - A.acceleration, d, e, w, sliding_speed(e, r, w, self.offset))
+        r = relative_acceleration(B.acceleration - A.acceleration, d, e, w, sliding_speed(e, r, w, self.offset))
         alpha = turn_rate(e, r, t)
         direction = e * self.track.lead.conjugate()
         columns = {self.links[0]: (direction, w, alpha), self.links[1]: (direction * self.track.twist, w, alpha)}
@@ -128,18 +130,18 @@ class SlidingDyad(PinnedPair):
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
-        columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
-        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
+        located: Known,
+        columns: Mapping[str, Columns],  # noqa: ARG002 - common signature
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - common signature
     ) -> Mapping[str, BodyJerk]:
-        """Both bodies': i beta d and the third rate of t along e make good what the other rates leave."""
-        (p, q), (one, two) = (known[on] for on in self.on), (placed[link] for link in self.links)
+        """Jerks of both bodies: i beta d and the third rate of t along e balance the other terms."""
+        (p, q), (one, two) = (known[on] for on in self.on), (located[link] for link in self.links)
         jerks = p.carry(self.hinges[0]), q.carry(self.hinges[1])
         A, B, o = one.anchor, two.anchor, self.offset
         e, w, alpha = one.direction * self.track.lead, one.omega, one.alpha
         d, gain = B.position - A.position, B.acceleration - A.acceleration
         t, dt = dot(e, d), sliding_speed(e, B.velocity - A.velocity, w, o)
-        ddt = sliding_speed(e, parting(gain, d, e, w, dt), alpha, o)
+        ddt = sliding_speed(e, relative_acceleration(gain, d, e, w, dt), alpha, o)
         r = jerks[1] - jerks[0] - slid_jerk(e, w, alpha, 0.0, t + 1j * o, dt, ddt, 0.0)
         beta = turn_rate(e, r, t)
         return {self.links[0]: BodyJerk(one, jerks[0], beta), self.links[1]: BodyJerk(two, jerks[1], beta)}
@@ -150,7 +152,7 @@ class SlidingDyad(PinnedPair):
         return self.scale
 
     def gap(self, known: Known) -> RealField:
-        """How much too near the known pins are for the offset [m]."""
+        """Missing distance [m] of the known pins."""
         A, B = self.pins(known)
         return shortness(B.position - A.position, self.offset)
 
@@ -158,15 +160,15 @@ class SlidingDyad(PinnedPair):
         """The least distance of the known pins against the offset."""
         gap = float(np.nanmax(self.gap(known)))
         near, offset = format_quantity(abs(self.offset) - gap, "mm"), format_quantity(abs(self.offset), "mm")
-        pins = f"the pins that {self.links[0]} and {self.links[1]} hang on"
+        pins = f"the known pins of {self.links[0]} and {self.links[1]}"
         return (
-            f"{pins} come within {near}, slide {self.slide} keeps them {offset} apart",
-            f"make the offset of slide {self.slide} less by {format_quantity(gap, 'mm')}",
+            f"{pins} come within {near}, slide {self.slide} requires a distance of {offset}",
+            f"reduce the offset of slide {self.slide} by {format_quantity(gap, 'mm')}",
         )
 
 
 def recognise(group: Group) -> SlidingDyad | None:
-    """The group as an RPR dyad, or None; None too where the slide has no branch: a pose must say how it closes."""
+    """The group as an RPR dyad, or None; None too for a slide without a branch, which needs a pose."""
     slide, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
     if not isinstance(slide, Slide) or not all(isinstance(joint, Pin) for joint in group.outer):
         return None

@@ -1,11 +1,12 @@
-"""RRP dyad: a link hung on a known pin A, pinned at C to a slider whose direction is known.
+"""RRP dyad: a link on a known pin A, pinned at C to a slider of known direction.
 
     |C - A| = a,    C = Q + s e,    C on the `branch` side along e of the foot of A
     C' = A' + i wa (C - A) = Q' + i w s e + s' e,    and the same once more for C''
 
-Q is where C stands at s = 0 (so offsets and sliders that reach out to C are in it), e the unit direction of the line,
-w and alpha the rates of the guide, which may move [Norton, Design of Machinery, sections 4.6, 6.7, 7.3].
-The dyad stands at a dead centre where the link is square to the line: (C - A) . e = 0. There the rates are infinite.
+Q is the position of C at s = 0 (with offsets and the reach of the slider), e the unit direction of the line, w and
+alpha the angular velocity and acceleration of the guide, which may move [Norton, Design of Machinery, sections 4.6,
+6.7, 7.3]. The dyad is at a dead centre where the link is normal to the line: (C - A) . e = 0. There the rates are
+infinite.
 """
 
 from collections.abc import Mapping
@@ -38,14 +39,14 @@ def position(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField, br
 
 
 def turning(u: ComplexField, e: ComplexField) -> RealField:
-    """Lean u . e [m] of the link u = C - A and the line's direction e: zero at a dead centre."""
+    """Projection u . e [m] of the link u = C - A on the line's direction e: zero at a dead centre."""
     return u.real * e.real + u.imag * e.imag
 
 
 def link_rate(e: ComplexField, r: ComplexField, cosine: RealField) -> RealField:
     """Angular velocity wa [rad/s] of the link, from i wa u - s' e = r with cosine = u . e.
 
-    For velocities r = Q' + i w s e - A'; for accelerations r is what `parting` gives, the answers are alpha_a and s''.
+    For velocities r = Q' + i w s e - A'; with r of `relative_acceleration` the results are alpha_a and s''.
     >>> float(link_rate(1 + 0j, 8j, 4.0)), float(slider_rate(4 - 3j, 8j, 4.0))
     (2.0, 6.0)
     """
@@ -57,18 +58,18 @@ def slider_rate(u: ComplexField, r: ComplexField, cosine: RealField) -> RealFiel
     return -(u.real * r.real + u.imag * r.imag) / cosine
 
 
-def parting(A2: ComplexField, C2: ComplexField, u: ComplexField, wa: RealField) -> ComplexField:
-    """What alpha_a and s'' must make good: r = C2 - (A'' - wa^2 u) [m/s^2]; see `link_rate`.
+def relative_acceleration(A2: ComplexField, C2: ComplexField, u: ComplexField, wa: RealField) -> ComplexField:
+    """Right side r = C2 - (A'' - wa^2 u) [m/s^2] of i alpha_a u - s'' e = r; see `link_rate`.
 
-    C2  acceleration of the slider's pin, were s'' = 0: Q'' + (i alpha - w^2) s e + 2 i w s' e
-    >>> parting(1 + 0j, 5 + 0j, 3j, 2.0)
+    C2  acceleration of the slider's pin at s'' = 0: Q'' + (i alpha - w^2) s e + 2 i w s' e
+    >>> relative_acceleration(1 + 0j, 5 + 0j, 3j, 2.0)
     (4+12j)
     """
     return C2 - (A2 - wa * wa * u)
 
 
 def shortness(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField) -> RealField:
-    """By how much the link is too short for the line [m], 0 where it reaches.
+    """Missing length [m] of the link to the line, 0 where it reaches.
 
     >>> float(shortness(0j, 7j, 1 + 0j, 5.0)), float(shortness(0j, 3j, 1 + 0j, 5.0))
     (2.0, 0.0)
@@ -79,7 +80,7 @@ def shortness(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField) -
 
 @dataclass(frozen=True, slots=True)
 class SliderDyad(SliderPair):
-    """A link of length a [m] hung on a known body and pinned to a slider on another (or the same) known body.
+    """A link of length a [m] on a known body, pinned to a slider on another (or the same) known body.
 
     arm  known pin -> free pin in the link's frame [m]      reach  slide's point -> free pin in the slider's frame [m]
     """
@@ -91,29 +92,29 @@ class SliderDyad(SliderPair):
     reach: complex
 
     @property
-    def words(self) -> str:
-        """What it is, for people."""
+    def description(self) -> str:
+        """Description of the step for users."""
         return (
             f"{self.link} and slider {self.slider} joined at {self.pin} (branch {self.branch:+d}), "
             f"hung on {self.on[0]} and {self.on[1]}: RRP"
         )
 
-    def hung(self, known: Known) -> tuple[PointMotion, PointMotion, ComplexField]:
-        """Motions of the known pin and of the line's zero for the free pin, and the line's direction."""
+    def known_line(self, known: Known) -> tuple[PointMotion, PointMotion, ComplexField]:
+        """Motions of the known pin and of the free pin's point on the line at zero travel, and the line's direction."""
         guide = known[self.on[1]]
         zero = guide.carry(self.track.root + self.track.twist * self.reach)
         return known[self.on[0]].carry(self.hinge), zero, guide.direction * self.track.lead
 
-    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - hangs on bodies only
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
         """Direction and rates of the link; travel, speed and acceleration of the slider."""
-        A, Q, e = self.hung(known)
+        A, Q, e = self.known_line(known)
         w, alpha = known[self.on[1]].omega, known[self.on[1]].alpha
         s = position(A.position, Q.position, e, self.a, self.branch)
         u = Q.position + s * e - A.position
         cosine = turning(u, e)
         r = Q.velocity + slid_velocity(e, w, s, 0.0) - A.velocity
         wa, ds = link_rate(e, r, cosine), slider_rate(u, r, cosine)
-        r = parting(A.acceleration, Q.acceleration + slid_acceleration(e, w, alpha, s, ds, 0.0), u, wa)
+        r = relative_acceleration(A.acceleration, Q.acceleration + slid_acceleration(e, w, alpha, s, ds, 0.0), u, wa)
         columns = {
             self.link: (u * (1 / self.arm), wa, link_rate(e, r, cosine)),
             self.slider: (s, ds, slider_rate(u, r, cosine)),
@@ -123,12 +124,12 @@ class SliderDyad(SliderPair):
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
+        located: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - common signature
     ) -> Mapping[str, BodyJerk]:
-        """Link's and slider's: i beta_a u and the third rate of s along e make good what the other rates leave."""
-        guide, link = known[self.on[1]], placed[self.link]
+        """Jerks of link and slider: i beta_a u and the third rate of s along e balance the other terms."""
+        guide, link = known[self.on[1]], located[self.link]
         turns, A = guide.motion, known[self.on[0]].carry(self.hinge)
         e, u = turns.direction * self.track.lead, link.direction * self.arm
         s, ds, dds = columns[self.slider]
@@ -139,17 +140,17 @@ class SliderDyad(SliderPair):
         third = slider_rate(u, r, cosine)
         return {
             self.link: BodyJerk(link, A, link_rate(e, r, cosine)),
-            self.slider: self.track.jerk(guide, placed[self.slider], columns[self.slider], third),
+            self.slider: self.track.jerk(guide, located[self.slider], columns[self.slider], third),
         }
 
     @property
     def size(self) -> float:
-        """The link [m]."""
+        """Length of the link [m]."""
         return self.a
 
     def gap(self, known: Known) -> RealField:
-        """How much too short the link is for the line [m]."""
-        A, Q, e = self.hung(known)
+        """Missing length [m] of the link to the line."""
+        A, Q, e = self.known_line(known)
         return shortness(A.position, Q.position, e, self.a)
 
     def shortfall(self, known: Known) -> tuple[str, str]:
@@ -163,7 +164,7 @@ class SliderDyad(SliderPair):
 
 
 def recognise(group: Group) -> SliderDyad | None:
-    """The group as an RRP dyad, or None. Raises MechanismError where its pin has no branch or its link no length."""
+    """The group as an RRP dyad, or None. Raises MechanismError for a pin without a branch or a link of zero length."""
     if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
         return None
     pin, mechanism = group.inner[0], group.mechanism

@@ -1,10 +1,10 @@
-"""RRR dyad: two links joined by a pin C and hung on two known pins A and B.
+"""RRR dyad: two links joined by a pin C, on two known pins A and B.
 
     |C - A| = a,    |C - B| = b,    C on the `branch` side of A -> B
     C' = A' + i wa (C - A) = B' + i wb (C - B),    and the same once more for C''
 
 [Norton, Design of Machinery, sections 4.5, 6.7, 7.3, with the angles eliminated: no arc functions.]
-The dyad stands at a dead centre where its links are in line: (C - A) x (C - B) = 0. There the rates are infinite.
+The dyad is at a dead centre where its links are in line: (C - A) x (C - B) = 0. There the rates are infinite.
 """
 
 from collections.abc import Mapping
@@ -36,7 +36,8 @@ def position(A: ComplexField, B: ComplexField, a: RealField, b: RealField, branc
 
 
 def turning(u: ComplexField, v: ComplexField) -> RealField:
-    """Lean u x v [m^2] of the links u = C - A and v = C - B: a b sin(transmission angle), zero at a dead centre.
+    """Cross product u x v [m^2] of the links u = C - A and v = C - B: a b sin(transmission angle), zero at a dead
+    centre.
 
     >>> float(turning(3j, -4 + 3j))
     12.0
@@ -47,7 +48,7 @@ def turning(u: ComplexField, v: ComplexField) -> RealField:
 def first_rate(v: ComplexField, r: ComplexField, sine: RealField) -> RealField:
     """Angular velocity wa [rad/s] of the link on A, from i wa u - i wb v = r with sine = u x v.
 
-    For velocities r = B' - A'; for accelerations r is what `parting` gives and the answer is alpha_a.
+    For velocities r = B' - A' [m/s]; with r of `relative_acceleration` the result is alpha_a [rad/s^2].
     >>> float(first_rate(-4 + 3j, -2 + 0j, 12.0)), float(second_rate(3j, -2 + 0j, 12.0))
     (0.6666666666666666, 0.0)
     """
@@ -59,19 +60,19 @@ def second_rate(u: ComplexField, r: ComplexField, sine: RealField) -> RealField:
     return (u.real * r.real + u.imag * r.imag) / sine
 
 
-def parting(  # noqa: PLR0917 - a leaf takes its symbols in the equation's order
+def relative_acceleration(  # noqa: PLR0917 - arguments in the order of the equation
     A2: ComplexField, B2: ComplexField, u: ComplexField, v: ComplexField, wa: RealField, wb: RealField
 ) -> ComplexField:
-    """What the angular accelerations must make good: r = (B'' - wb^2 v) - (A'' - wa^2 u) [m/s^2]; see `first_rate`.
+    """Right side r = (B'' - wb^2 v) - (A'' - wa^2 u) [m/s^2] of i alpha_a u - i alpha_b v = r; see `first_rate`.
 
-    >>> parting(1 + 0j, 5 + 0j, 3j, -4 + 3j, 2.0, 1.0)
+    >>> relative_acceleration(1 + 0j, 5 + 0j, 3j, -4 + 3j, 2.0, 1.0)
     (8+9j)
     """
     return (B2 - wb * wb * v) - (A2 - wa * wa * u)
 
 
 def misfit(A: ComplexField, B: ComplexField, a: RealField, b: RealField) -> RealField:
-    """By how much the dyad fails to close [m]: above 0 too far apart, below 0 too near, 0 where it closes.
+    """Gap [m] of the dyad: above 0 for known pins too far apart, below 0 for too near, 0 where it closes.
 
     >>> float(misfit(0j, 9 + 0j, 3.0, 5.0)), float(misfit(0j, 1 + 0j, 3.0, 5.0)), float(misfit(0j, 4 + 0j, 3.0, 5.0))
     (1.0, -1.0, 0.0)
@@ -83,25 +84,25 @@ def misfit(A: ComplexField, B: ComplexField, a: RealField, b: RealField) -> Real
 
 @dataclass(frozen=True, slots=True)
 class RRRDyad(PinnedPair):
-    """Two links, of lengths a and b [m], hung on known bodies and joined by the free pin.
+    """Two links, of lengths a and b [m], on known bodies and joined by the free pin.
 
     arms  known pin -> free pin in the links' frames [m]
     """
 
     pin: str
-    hung_at: tuple[str, str]
+    known_pins: tuple[str, str]
     branch: int
     arms: tuple[complex, complex]
     a: float
     b: float
 
     @property
-    def words(self) -> str:
-        """What it is, for people."""
+    def description(self) -> str:
+        """Description of the step for users."""
         (p, q), (on_p, on_q) = self.links, self.on
-        return f"{p} and {q} joined at {self.pin} (branch {self.branch:+d}), hung on {on_p} and {on_q}: RRR"
+        return f"{p} and {q} joined at {self.pin} (branch {self.branch:+d}), attached to {on_p} and {on_q}: RRR"
 
-    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - hangs on bodies only
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
         """Directions, angular velocities and accelerations of the links."""
         A, B = self.pins(known)
         C = position(A.position, B.position, self.a, self.b, self.branch)
@@ -109,7 +110,7 @@ class RRRDyad(PinnedPair):
         sine = turning(u, v)
         r = B.velocity - A.velocity
         wa, wb = first_rate(v, r, sine), second_rate(u, r, sine)
-        r = parting(A.acceleration, B.acceleration, u, v, wa, wb)
+        r = relative_acceleration(A.acceleration, B.acceleration, u, v, wa, wb)
         columns = {
             self.links[0]: (u * (1 / self.arms[0]), wa, first_rate(v, r, sine)),
             self.links[1]: (v * (1 / self.arms[1]), wb, second_rate(u, r, sine)),
@@ -119,12 +120,12 @@ class RRRDyad(PinnedPair):
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
-        columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
-        drives: Mapping[str, InputMotion],  # noqa: ARG002 - as of every step
+        located: Known,
+        columns: Mapping[str, Columns],  # noqa: ARG002 - common signature
+        drives: Mapping[str, InputMotion],  # noqa: ARG002 - common signature
     ) -> Mapping[str, BodyJerk]:
-        """The links': i beta_a u - i beta_b v = what A, B and the other rates of u and v leave."""
-        (one, two), (p, q) = (placed[link] for link in self.links), (known[on] for on in self.on)
+        """Jerks of the links, from i beta_a u - i beta_b v = r."""
+        (one, two), (p, q) = (located[link] for link in self.links), (known[on] for on in self.on)
         u, v = one.direction * self.arms[0], two.direction * self.arms[1]
         A, B = p.carry(self.hinges[0]), q.carry(self.hinges[1])
         r = carried_jerk(B, v, two.omega, two.alpha, 0.0) - carried_jerk(A, u, one.omega, one.alpha, 0.0)
@@ -136,11 +137,11 @@ class RRRDyad(PinnedPair):
 
     @property
     def size(self) -> float:
-        """The longer link [m]."""
+        """Length of the longer link [m]."""
         return max(self.a, self.b)
 
     def gap(self, known: Known) -> RealField:
-        """How much too far apart (above 0) or too near (below 0) the known pins are [m]."""
+        """Gap [m]: known pins too far apart (above 0) or too near (below 0)."""
         A, B = self.pins(known)
         return misfit(A.position, B.position, self.a, self.b)
 
@@ -151,7 +152,7 @@ class RRRDyad(PinnedPair):
         worst = int(np.nanargmax(np.abs(gaps)))
         reach, gap = np.ravel(np.abs(B.position - A.position))[worst], gaps[worst]
         reach = 0.0 if reach < TOUCHING * self.a else reach
-        (p, q), pins = self.links, "-".join(self.hung_at)
+        (p, q), pins = self.links, "-".join(self.known_pins)
         if gap > 0:
             return (
                 f"|{pins}| reaches {_mm(reach)}, {p} + {q} = {_mm(self.a + self.b)}",
@@ -165,17 +166,17 @@ class RRRDyad(PinnedPair):
 
 
 def recognise(group: Group) -> RRRDyad | None:
-    """The group as an RRR dyad, or None. Raises MechanismError where its pin has no branch or a link no length."""
+    """The group as an RRR dyad, or None. Raises MechanismError for a pin without a branch or a link of zero length."""
     if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
         return None
     pin, mechanism = group.inner[0], group.mechanism
     if not all(isinstance(joint, Pin) for joint in group.joints):
         return None
     links = pin.bodies
-    held = [group.outer_of(link) for link in links]
-    if any(len(joints) != 1 for joints in held):
+    joints_to_known = [group.outer_of(link) for link in links]
+    if any(len(joints) != 1 for joints in joints_to_known):
         return None
-    outer = [joints[0] for joints in held]
+    outer = [joints[0] for joints in joints_to_known]
     on = [group.beyond(joint, link) for joint, link in zip(outer, links, strict=True)]
     at = [mechanism.point(link, joint.name) for joint, link in zip(outer, links, strict=True)]
     hinges = [mechanism.point(body, joint.name) for joint, body in zip(outer, on, strict=True)]
@@ -184,7 +185,7 @@ def recognise(group: Group) -> RRRDyad | None:
         links=links,
         on=(on[0], on[1]),
         pin=pin.name,
-        hung_at=(outer[0].name, outer[1].name),
+        known_pins=(outer[0].name, outer[1].name),
         branch=group.branch(pin.name),
         hinges=(hinges[0], hinges[1]),
         at=(at[0], at[1]),

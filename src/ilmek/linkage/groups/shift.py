@@ -1,4 +1,4 @@
-"""A body shifted by an input along a slide on a known body: P = G + s e, angle fixed against the known body."""
+"""A body driven by an input along a slide on a known body: P = G + s e, at a fixed angle to the known body."""
 
 import cmath
 from collections.abc import Mapping, Sequence
@@ -14,11 +14,12 @@ from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotio
 from ilmek.linkage.model import Displacement, Mechanism, Slide
 
 PARALLEL = 1e-12
-"""Sine of the angle between two lines that are parallel but for rounding."""
+"""Greatest sine of the angle between lines that count as parallel."""
 
 
 def slid_velocity(e: ComplexField, omega: RealField, s: RealField, ds: RealField) -> ComplexField:
-    """Rate (s e)' = (s' + i w s) e [m/s] of the way s [m] along the unit direction e of a guide that turns at w.
+    """Rate (s e)' = (s' + i w s) e [m/s] of a displacement s [m] along the unit direction e of a guide with rate w
+    [rad/s].
 
     >>> slid_velocity(1j, 3.0, 2.0, 5.0)
     (-6+5j)
@@ -26,7 +27,7 @@ def slid_velocity(e: ComplexField, omega: RealField, s: RealField, ds: RealField
     return (ds + 1j * (omega * s)) * e
 
 
-def slid_acceleration(  # noqa: PLR0917 - a leaf takes its symbols in the equation's order
+def slid_acceleration(  # noqa: PLR0917 - arguments in the order of the equation
     e: ComplexField, omega: RealField, alpha: RealField, s: RealField, ds: RealField, dds: RealField
 ) -> ComplexField:
     """Second rate (s e)'' = (s'' - w^2 s + i (alpha s + 2 w s')) e [m/s^2]; see `slid_velocity`.
@@ -39,10 +40,10 @@ def slid_acceleration(  # noqa: PLR0917 - a leaf takes its symbols in the equati
 
 @dataclass(frozen=True, slots=True)
 class SlideTrack:
-    """A slide seen from its known body, whichever of the two that is.
+    """A slide relative to its known body, either of the two.
 
-    The unknown body's point of the slide, at `at` [m] of its frame, stands at `root` + s `lead` of the known body's
-    frame, and its direction is that of the known body times `twist`.
+    The unknown body's point of the slide, `at` [m] in its frame, is at `root` + s `lead` [m] in the known body's frame.
+    Its direction is the known body's times `twist`.
     """
 
     root: complex
@@ -50,7 +51,7 @@ class SlideTrack:
     twist: complex
     at: complex
 
-    def place(self, on: BodyMotion, columns: Columns) -> BodyMotion:
+    def locate(self, on: BodyMotion, columns: Columns) -> BodyMotion:
         """The sliding body anchored at the slide's point; columns: s, s', s''.
 
         P = G + s e,  P' = G' + (i w s + s') e,  P'' = G'' + ((i alpha - w^2) s + 2 i w s' + s'') e
@@ -65,16 +66,16 @@ class SlideTrack:
         )
         return BodyMotion(anchor, self.at, on.direction * self.twist, w, on.alpha)
 
-    def jerk(self, on: BodyJerk, placed: BodyMotion, columns: Columns, third: RealField) -> BodyJerk:
+    def jerk(self, on: BodyJerk, located: BodyMotion, columns: Columns, third: RealField) -> BodyJerk:
         """The sliding body's jerk; columns: s, s', s''; third: the third rate of s."""
         s, ds, dds = columns
         e, w = on.motion.direction * self.lead, on.motion.omega
         anchor = on.carry(self.root) + slid_jerk(e, w, on.motion.alpha, on.beta, s, ds, dds, third)
-        return BodyJerk(placed, anchor, on.beta)
+        return BodyJerk(located, anchor, on.beta)
 
 
 def track(mechanism: Mechanism, slide: Slide, body: str) -> SlideTrack:
-    """The slide as the unknown `body` sees it."""
+    """The slide relative to the known body, for the unknown `body`."""
     along, turned = cmath.rect(1, slide.along), cmath.rect(1, slide.turned)
     on_line, guide = mechanism.point(slide.body, slide.name), mechanism.point(slide.guide, slide.name)
     if body == slide.body:
@@ -83,19 +84,19 @@ def track(mechanism: Mechanism, slide: Slide, body: str) -> SlideTrack:
 
 
 def refuse_parallel(mechanism: Mechanism, slides: Sequence[Slide], sine: RealField) -> None:
-    """Raise MechanismError where two slides of a group run in one direction, by the sine of the angle between them."""
+    """Raise MechanismError for parallel slides of a group, by the sine of the angle between them."""
     if np.abs(sine) <= PARALLEL:
         first, second = (slide.name for slide in slides)
         raise MechanismError(
             f"slides {first!r} and {second!r} of {mechanism.name} are parallel",
-            allowed="one hinders nothing that the other does not: what hangs on both can run along them",
-            do="turn one of them",
+            allowed="a body on both slides could move freely along them",
+            do="change the direction of one of them",
         )
 
 
 @dataclass(frozen=True, slots=True)
 class DrivenSlider(Step):
-    """A driven slider: shifted along its track on the known body `on`."""
+    """A driven slider on its track on the known body `on`."""
 
     body: str
     on: str
@@ -109,13 +110,13 @@ class DrivenSlider(Step):
 
     @property
     def parents(self) -> tuple[str, ...]:
-        """The body that it slides on."""
+        """The guide."""
         return (self.on,)
 
     @property
-    def words(self) -> str:
-        """What it is, for people."""
-        return f"{self.body} shifted by the input on {self.on}"
+    def description(self) -> str:
+        """Description of the step for users."""
+        return f"{self.body} moved by the input on {self.on}"
 
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - the slide's s is the input
         """Travel, speed and acceleration of the slide."""
@@ -123,20 +124,20 @@ class DrivenSlider(Step):
         columns: tuple[ComplexField, ...] = (drive.value, drive.speed, drive.acceleration)
         return GroupSolution({self.body: columns})
 
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+    def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The driven body, anchored at the slide's point."""
-        return {self.body: self.track.place(known[self.on], columns[self.body])}
+        return {self.body: self.track.locate(known[self.on], columns[self.body])}
 
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
+        located: Known,
         columns: Mapping[str, Columns],
         drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
-        """The driven body's: the input's jerk along the track."""
+        """Jerk of the driven body: the input's jerk along the track."""
         third = drives[self.entry].jerk
-        return {self.body: self.track.jerk(known[self.on], placed[self.body], columns[self.body], third)}
+        return {self.body: self.track.jerk(known[self.on], located[self.body], columns[self.body], third)}
 
 
 def recognise(group: Group) -> DrivenSlider | None:

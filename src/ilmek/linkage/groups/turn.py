@@ -28,12 +28,12 @@ class DrivenCrank(Step):
 
     @property
     def parents(self) -> tuple[str, ...]:
-        """The body that carries it."""
+        """The carrier."""
         return (self.carrier,)
 
     @property
-    def words(self) -> str:
-        """What it is, for people."""
+    def description(self) -> str:
+        """Description of the step for users."""
         return f"{self.body} turned by the input on {self.carrier}"
 
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:
@@ -45,21 +45,21 @@ class DrivenCrank(Step):
         direction = unit(value) if self.carrier == GROUND else carrier.direction * unit(value)
         return GroupSolution({self.body: (direction, carrier.omega + speed, carrier.alpha + acceleration)})
 
-    def place(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
+    def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:
         """The driven body, anchored at its pin."""
         return {self.body: pinned(known[self.carrier], self.hinge, self.at, columns[self.body])}
 
     def jerk(
         self,
         known: KnownJerks,
-        placed: Known,
-        columns: Mapping[str, Columns],  # noqa: ARG002 - as of every step
+        located: Known,
+        columns: Mapping[str, Columns],  # noqa: ARG002 - common signature
         drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
-        """The driven body's: the input's jerk upon the carrier's."""
+        """Jerk of the driven body: the input's jerk plus the carrier's."""
         carrier, jerk = known[self.carrier], drives[self.entry].jerk
         beta = carrier.beta + (jerk if self.sign > 0 else -jerk)
-        return {self.body: BodyJerk(placed[self.body], carrier.carry(self.hinge), beta)}
+        return {self.body: BodyJerk(located[self.body], carrier.carry(self.hinge), beta)}
 
 
 def pinned(on: BodyMotion, hinge: complex, at: complex, columns: Columns) -> BodyMotion:

@@ -1,4 +1,4 @@
-"""Angles and displacements that inputs and couplings alone determine, as numbers of turns and not only as directions.
+"""Angles and displacements determined by inputs and couplings alone, with their full turns.
 
 Every angle theta of a body and displacement s of a slide is an unknown of one linear system:
 
@@ -7,7 +7,7 @@ Every angle theta of a body and displacement s of a slide is an unknown of one l
     gears, belt  theta_2 - theta_c - second_at = ratio (theta_1 - theta_c - first_at)
     rack         s - second_at = ratio (theta_1 - theta_c - first_at)
 
-Where it determines an unknown, that is  constant + sum of factor times input  [Willis, Principles of Mechanism:
+A determined unknown is  constant + sum of factor times input  [Willis, Principles of Mechanism:
 epicyclic trains by their relative angles].
 """
 
@@ -21,10 +21,10 @@ from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.model import GROUND, Coupling, Mechanism, Rotation, Slide
 
 FREE = 1e-9
-"""A share of an unknown this large in what the system leaves free: it is not determined."""
+"""Least share of an unknown in the null space of the system, from which it is undetermined."""
 
 ROUNDING = 2e-15
-"""A factor this near to a number of twelve decimals is that number."""
+"""Relative distance within which a factor is rounded to twelve decimals."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class LinearRelation:
     shares: Mapping[str, float]
 
     def drive(self, drives: Mapping[str, InputMotion]) -> InputMotion:
-        """Value, speed, acceleration and jerk at the inputs' courses."""
+        """Value and first to third rates from the motions of the inputs."""
         value: RealField = self.constant
         speed: RealField = 0.0
         acceleration: RealField = 0.0
@@ -49,22 +49,22 @@ class LinearRelation:
 
 
 def angles(mechanism: Mechanism) -> dict[str, LinearRelation]:
-    """Body -> course of its angle [rad] in the world, for the bodies that have one."""
-    return {name: course for (kind, name), course in courses(mechanism).items() if kind == "angle"}
+    """Body -> relation of its angle [rad] in the world, for the determined bodies."""
+    return {name: relation for (kind, name), relation in linear_relations(mechanism).items() if kind == "angle"}
 
 
-def courses(mechanism: Mechanism) -> dict[tuple[str, str], LinearRelation]:
-    """("angle", body) or ("travel", slide) -> its course, for those that inputs and couplings determine."""
+def linear_relations(mechanism: Mechanism) -> dict[tuple[str, str], LinearRelation]:
+    """("angle", body) or ("travel", slide) -> relation, for those determined by inputs and couplings."""
     unknown = [("angle", body) for body in mechanism.moving]
     unknown += [("travel", joint.name) for joint in mechanism.joints if isinstance(joint, Slide)]
-    place = {one: k for k, one in enumerate(unknown)}
+    index = {one: k for k, one in enumerate(unknown)}
     names = [entry.name for entry in mechanism.inputs]
     rows = list(_rows(mechanism))
     left, right = np.zeros((len(rows), len(unknown))), np.zeros((len(rows), 1 + len(names)))
     for k, (terms, constant, entry) in enumerate(rows):
         for one, factor in terms:
-            if one in place:
-                left[k, place[one]] += factor
+            if one in index:
+                left[k, index[one]] += factor
         right[k, 0] = constant
         if entry:
             right[k, 1 + names.index(entry)] = 1.0
@@ -79,7 +79,7 @@ def courses(mechanism: Mechanism) -> dict[tuple[str, str], LinearRelation]:
 def _determined(
     unknown: list[tuple[str, str]], left: FloatArray, right: FloatArray
 ) -> Iterator[tuple[tuple[str, str], list[float]]]:
-    """The unknowns that the system determines, with what they come to: constant and factors."""
+    """The determined unknowns, with their constant and factors."""
     _, values, rows = np.linalg.svd(left, full_matrices=True)
     rank = int(np.sum(values > FREE * values[0]))
     loose = np.linalg.norm(rows[rank:], axis=0)
@@ -95,7 +95,7 @@ Row = tuple[tuple[tuple[tuple[str, str], float], ...], float, str]
 
 
 def _rows(mechanism: Mechanism) -> Iterator[Row]:
-    """The linear equations: terms, constant, and the input that is added to the constant."""
+    """The linear equations: terms, constant, and the input added to the constant."""
     for joint in mechanism.joints:
         if isinstance(joint, Slide):
             yield ((("angle", joint.body), 1.0), (("angle", joint.guide), -1.0)), joint.turned, ""
@@ -120,7 +120,7 @@ def _coupled(one: Coupling) -> tuple[tuple[tuple[str, str], float], ...]:
 def first_angle(
     coupling: Coupling, known: Mapping[str, LinearRelation], drives: Mapping[str, InputMotion]
 ) -> RealField:
-    """Angle of a coupling's first body against the carrier [rad], to half a turn: of its course, else as assembled."""
+    """Angle of a coupling's first body against the carrier [rad], within half a turn; default: `first_at`."""
     first, carrier = known.get(coupling.first[0]), known.get(coupling.carrier)
     if first is None or carrier is None:
         return coupling.first_at
