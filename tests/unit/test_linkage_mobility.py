@@ -61,7 +61,7 @@ def test_a_crank_of_another_length_locks_it():
     assert found.ranked == 1
     assert found.beside == 0
     assert found.singular
-    assert "0 beside this pose" in found.description
+    assert "0 in neighbouring poses" in found.description
 
 
 def test_a_flat_parallelogram_has_a_surplus_degree_of_freedom_in_this_pose_only():

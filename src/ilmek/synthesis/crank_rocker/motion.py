@@ -58,7 +58,7 @@ def moved(links: LinkRatios, angle: RealField) -> CrankRockerMotion:
     lean = rrr.turning(u, v)
     slip = -1j * pin
     omega = rrr.first_rate(v, slip, lean), rrr.second_rate(u, slip, lean)
-    pull = rrr.parting(-pin, 0j, u, v, *omega)
+    pull = rrr.relative_acceleration(-pin, 0j, u, v, *omega)
     return CrankRockerMotion(pin, u, v, lean, omega, (rrr.first_rate(v, pull, lean), rrr.second_rate(u, pull, lean)))
 
 
