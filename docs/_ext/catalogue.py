@@ -6,6 +6,7 @@ and, beside the built pages, the report of every machine.
 """
 
 import ast
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -57,27 +58,61 @@ def names(parameter: Parameter) -> str:
     return f"`{parameter.name}`, `{parameter.alias}`" if parameter.alias else f"`{parameter.name}`"
 
 
-def said(parameter: Parameter) -> str:
+def meaning(parameter: Parameter) -> str:
     """A parameter's meaning, with its symbol where it has one."""
     return f"{parameter.doc} ({parameter.symbol})" if parameter.symbol else parameter.doc
 
 
+POINTS, ANGLES = "(12mm,4mm) (18.5mm,9.5mm) (24mm,8mm) (27mm,3mm)", "20deg 65deg 100deg 150deg"
+POSES = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
+
+VARIANTS: dict[str, tuple[dict[str, str], ...]] = {
+    "cam": ({"angle": "30deg", "linkage_stiffness": "500N/mm"},),
+    "beat-up": ({"crank_angle": "60deg"},),
+    "tufting": ({"crank_angle": "22deg"},),
+    "hammer": ({"drive": "linkage"},),
+    "knotting-four-bar": ({"sides": "2"}, {"poses": POSES, "ground_angle": "275deg"}),
+    "knotting-dyad": ({"points": POINTS, "angles": ANGLES},),
+    "path-four-bar": ({"cognates": "yes"},),
+}
+"""Settings beside the defaults in whose reports further results stand."""
+
+
+def structure(value: object) -> str:
+    """The names inside a group of values: `{slope, load {weight, pull}}`, and of a list those of its first entry."""
+    if isinstance(value, Mapping):
+        inner = (f"{name} {structure(item)}".strip() for name, item in value.items())
+        return f"{{{', '.join(inner)}}}"
+    if isinstance(value, list | tuple) and value:
+        return f"[{structure(value[0]) or '…'}, …]"
+    return ""
+
+
+def result_rows(machine: Component) -> list[tuple[object, ...]]:
+    """The declared results of a machine, with the structure of those that are groups of values."""
+    reports = [machine.report_for(settings) for settings in ({}, *VARIANTS.get(machine.name, ()))]
+    found = {result.name: structure(result.value) for report in reversed(reports) for result in report.results}
+    declared = {one.name: one for one in reversed(declared_results(*machine.reported))}
+    return [
+        (f"`{name}`", printed_unit(one.unit) or "–", f"{one.meaning} {found.get(name, '')}".strip())
+        for name, one in reversed(declared.items())
+    ]
+
+
 def machine_section(machine: Component) -> str:
-    """One machine: its parameters and, from a run of its defaults, its results and checks."""
+    """One machine: its parameters, its declared results and, from a run of its defaults, its checks."""
     parameters = [
-        (names(p), default(p), printed_unit(p.unit) or "–", p.allowed().removeprefix("allowed: "), said(p))
+        (names(p), default(p), printed_unit(p.unit) or "–", p.allowed().removeprefix("allowed: "), meaning(p))
         for p in listed(machine.params)
     ]
-    report = machine.report_for({})
-    results = [(f"`{r.name}`", printed_unit(r.unit) or "–", r.meaning) for r in declared_results(*machine.reported)]
-    checks = [(c.name, c.relation, format_quantity(c.limit, c.unit), c.source) for c in report.all_checks]
+    checks = [(c.name, c.relation, format_quantity(c.limit, c.unit), c.source) for c in machine.report_for({}).checks]
     return "\n\n".join(
         (
             f"## {machine.name}",
             f'{machine.summary}. <a href="../../machines/{machine.name}.html">Its page</a>, drawn with the defaults.',
             table(("parameter", "default", "unit", "allowed", "meaning"), parameters),
-            "Results (JSON in SI and radians; the unit is the one a report shows):",
-            table(("result", "unit", "meaning"), results),
+            "Results (JSON in SI and radians; the unit is the one that a report shows):",
+            table(("result", "unit", "meaning, {names of a group}"), result_rows(machine)),
             "Checks, with the limits of the default parameters:",
             table(("check", "", "limit", "source"), checks),
         )
