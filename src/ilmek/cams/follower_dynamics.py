@@ -28,6 +28,7 @@ from ilmek.cams.follower_model import FollowerModel, Stage, one_mass
 from ilmek.cams.laws import Law
 from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion, jumps
 from ilmek.errors import ParameterError
+from ilmek.records import record
 from ilmek.report import Axis, Plot, Series
 
 __all__ = [
@@ -52,7 +53,7 @@ _DEFECTIVE = 1e7
 _APART = 1e-10
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Response:
     """What a follower does, at ascending places; rows of the arrays are its masses, from the cam outwards.
 

@@ -65,14 +65,14 @@ class OpenSegment:
     change: float
 
 
-def rise(span: float, lift: float, law: Law) -> CamSegment:
-    """The follower goes `lift` [m] outwards over `span` [rad]."""
-    return CamSegment("rise", span, lift, law)
+def rise(span: float, lift: float, law: Law | str) -> CamSegment:
+    """The follower goes `lift` [m] outwards over `span` [rad] by a law or the law of a name."""
+    return CamSegment("rise", span, lift, law_of(law) if isinstance(law, str) else law)
 
 
-def fall(span: float, lift: float, law: Law) -> CamSegment:
-    """The follower comes back by `lift` [m] over `span` [rad]."""
-    return CamSegment("fall", span, -lift, law)
+def fall(span: float, lift: float, law: Law | str) -> CamSegment:
+    """The follower comes back by `lift` [m] over `span` [rad] by a law or the law of a name."""
+    return CamSegment("fall", span, -lift, law_of(law) if isinstance(law, str) else law)
 
 
 def dwell(span: float) -> CamSegment:

@@ -16,6 +16,7 @@ from ilmek.arrays import Bool, Float, FloatArray, Int
 from ilmek.cams.laws import Law
 from ilmek.cams.programme import TURN
 from ilmek.errors import ParameterError
+from ilmek.records import record
 
 PerDesign = Float[np.ndarray, " designs"]
 
@@ -34,7 +35,7 @@ _CLOSE = 0.05
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CamRequirements:
     """What is asked of many cams, one entry a design; lengths in m, angles in rad.
 
@@ -64,7 +65,7 @@ class CamRequirements:
             raise ParameterError("a limit of the pressure angle", allowed="above 0 deg, below 90 deg")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CamSweep:
     """What the cams are, one entry a design.
 

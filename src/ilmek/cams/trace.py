@@ -15,7 +15,6 @@ Positive curvature is convex.  [do Carmo, Differential Geometry of Curves and Su
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -23,9 +22,10 @@ import numpy as np
 from ilmek.arrays import ComplexArray, ComplexField, FloatArray
 from ilmek.cams.programme import CamProgramme, FollowerMotion
 from ilmek.plane.vectors import cross, unit
+from ilmek.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CamTrace:
     """Pitch curve and all that hangs on it at cam angles [rad], arrays of one shape, in the cam's frame.
 

@@ -5,7 +5,6 @@ The picture is averaged onto the knot grid (`design`), each distinct colour gets
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,9 +18,10 @@ from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import PictureError, YarnError
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Chart:
     """A knot chart.
 

@@ -6,7 +6,6 @@ those and looked up for the rest, through a table of all 2^24 codes.
 
 import itertools
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from ilmek.carpet.colour_difference import delta_e_2000, nearest
 from ilmek.errors import YarnError
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 
 _CODES = 1 << 24
 _BATCH = 65536
@@ -23,7 +23,7 @@ _LARGEST_TABLE = 1 << 25
 _MOST_TRIALS = 3_000_000
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Colours:
     """The distinct colours of a picture.
 

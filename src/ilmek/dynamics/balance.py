@@ -10,7 +10,6 @@ second, counter-rotating weight [Lanchester balancer].
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -24,9 +23,10 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import cross, unit
+from ilmek.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Shaking:
     """Force on the frame [N] and its moment [N m] about a point, one value per sample."""
 

@@ -12,6 +12,7 @@ from ilmek.dynamics.reduced import ReducedMechanism, Samples
 from ilmek.errors import MechanismError
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
+from ilmek.records import record
 from ilmek.units import turn
 
 Drive: TypeAlias = Callable[[float, float, float], float]
@@ -53,7 +54,7 @@ class RunEnd:
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ForwardRun:
     """A forward run, one value per sample; the last sample is the end.
 

@@ -9,14 +9,13 @@ N is doubled until the relative error is `ACCURACY` or no longer falls. The erro
 nodes, where the factor 1 - e^{iNq} of the leading term is greatest.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ilmek.arrays import Complex, Float
 from ilmek.dynamics.reduced import ReducedMechanism
 from ilmek.linkage.model import Rotation
 from ilmek.num.compiled import compiled
+from ilmek.records import record
 from ilmek.units import turn
 
 ACCURACY = 2e-14
@@ -29,7 +28,7 @@ MAX_NODES = 8192
 """Greatest number of nodes on a turn."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FourierTerms:
     """J, Q of gravity and Q of the other steady loads, each as the real part of Σ c_k e^{ikq}.
 

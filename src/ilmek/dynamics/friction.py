@@ -15,6 +15,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.errors import MechanismError
 from ilmek.linkage.motion import Motion
+from ilmek.records import record
 from ilmek.units import turn
 
 OFFSET = 1e-9
@@ -39,7 +40,7 @@ class AngleRange:
         return np.asarray(inside | (abs(span) >= turn))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class WindowedLoad:
     """A load that acts only while an input is in a range: resistance of a backing, a knife's cut, a beat-up.
 
@@ -62,7 +63,7 @@ class WindowedLoad:
             yield Wrench(wrench.body, wrench.force * open_, wrench.at, wrench.torque * open_)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Friction:
     """A force of given magnitude on a point of a body, against its velocity, while an input is in a range.
 

@@ -7,7 +7,6 @@ on its `body`; an input's effort acts on the driven body. The opposite acts on t
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,12 +21,13 @@ from ilmek.linkage.model import GROUND, Mechanism, Rotation, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.status import Status
 from ilmek.plane.vectors import dot
+from ilmek.records import record
 from ilmek.units import format_quantity
 
 MASSLESS = Inertia(0.0, 0j, 0.0)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Forces:
     """Forces over a motion, one value per sample; NaN where the motion does not close or is at a dead centre.
 

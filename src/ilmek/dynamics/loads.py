@@ -13,6 +13,7 @@ from ilmek.arrays import ComplexField, RealField
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.pose_block import cut
 from ilmek.linkage.motion import Motion
+from ilmek.records import record
 
 ForceLaw: TypeAlias = ComplexField | Callable[[Motion], ComplexField]
 """A force [N], complex: a number, one value per sample, or a function of the motion."""
@@ -21,7 +22,7 @@ TorqueLaw: TypeAlias = RealField | Callable[[Motion], RealField]
 """A torque [N m]: a number, one value per sample, or a function of the motion."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Wrench:
     """A force [N] at the point `at` of a body's frame [m], and a torque [N m]: numbers, or one value per sample."""
 
@@ -55,7 +56,7 @@ class Gravity:
             yield Wrench(body, inertia.mass * self.acceleration, inertia.centre)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PointForce:
     """A force [N] on a point of a body, given by its name or by its position in the body's frame [m]."""
 
@@ -70,7 +71,7 @@ class PointForce:
         yield Wrench(self.body, force, local)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Torque:
     """A torque [N m] on a body, counter-clockwise."""
 

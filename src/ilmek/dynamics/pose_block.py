@@ -1,7 +1,7 @@
 """Poses of a mechanism over a block of samples: the quantities in the equations of its forces."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,6 +14,7 @@ from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.model import GROUND, Coupling, Joint, Mechanism, Pin, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import cross, dot, unit
+from ilmek.records import record
 
 BLOCK = 4096
 """Samples computed at a time, so that their arrays stay in the processor's cache."""
@@ -26,7 +27,7 @@ class ForceAndMoment(NamedTuple):
     moment: RealField
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class JointPoses:
     """Poses of a joint or coupling between the bodies `on` and `by`.
 
@@ -74,7 +75,7 @@ class JointPoses:
         )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PoseBlock:
     """Motions of the bodies, of their mass centres, and poses of the joints, by name.
 

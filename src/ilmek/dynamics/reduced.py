@@ -9,7 +9,6 @@ differences.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -23,11 +22,12 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
 from ilmek.plane.vectors import dot
+from ilmek.records import record
 
 Samples: TypeAlias = Float[np.ndarray, " samples"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Terms:
     """The terms of the reduced equation, one value per sample; NaN where the mechanism does not close.
 
@@ -43,7 +43,7 @@ class Terms:
     status: Int8[np.ndarray, " samples"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ReducedMechanism:
     """A mechanism with one input, its masses and loads; built by `reduce`.
 

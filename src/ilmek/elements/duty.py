@@ -16,6 +16,7 @@ from ilmek.arrays import FloatArray
 from ilmek.elements.motors import MOTORS, STEPPER, Motor
 from ilmek.elements.reducers import DIRECT, PLANETARY, Reducer
 from ilmek.errors import ParameterError
+from ilmek.records import record
 
 INERTIA_RATIO = 10.0
 """Load over rotor that a controller of a servo bears well; 5 where it must be stiff [usual practice]."""
@@ -24,7 +25,7 @@ MARGIN = 1.25
 """Of torque over what is reckoned."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoadCycle:
     """What moves over a cycle, at equal steps of time (of the master angle, where that turns evenly).
 

@@ -54,6 +54,7 @@ from ilmek.linkage.model import (
     Slide,
 )
 from ilmek.linkage.structure import Plan, plan
+from ilmek.records import brief
 
 LARGEST = 1_000_000
 """Most bytes of a mechanism file."""
@@ -66,6 +67,12 @@ class MechanismFile:
     mechanism: Mechanism
     inertias: Mapping[str, Inertia] = field(default_factory=dict)
     sheet: SourceText = field(default_factory=lambda: SourceText("mechanism", {(): 1}), compare=False, repr=False)
+
+    def __hash__(self) -> int:
+        return hash((self.mechanism, tuple(self.inertias)))
+
+    def __repr__(self) -> str:
+        return brief(self)
 
     def plan(self) -> Plan:
         """The mechanism's plan. Raises MechanismError, naming the file, the line and the key, where it has none."""

@@ -7,7 +7,6 @@ import difflib
 import io
 import re
 import warnings
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
@@ -16,6 +15,7 @@ from PIL import Image, ImageCms, ImageOps, UnidentifiedImageError
 
 from ilmek.arrays import Rgb
 from ilmek.errors import PictureError
+from ilmek.records import record
 
 FORMATS = (
     "PNG", "JPEG", "MPO", "TIFF", "BMP", "DIB", "GIF", "WEBP", "AVIF", "JPEG2000", "PPM", "TGA", "PCX", "DCX", "ICO",
@@ -36,7 +36,7 @@ _ICC_MODES = {"RGB": "RGB", "GRAY": "L", "CMYK": "CMYK", "Lab": "LAB"}
 _Step: TypeAlias = tuple[Image.Image, tuple[str, ...]]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Picture:
     """A picture as sRGB, 8 bits a channel, row 0 on top; notes say what was done to the file's pixels."""
 

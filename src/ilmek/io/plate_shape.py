@@ -1,13 +1,13 @@
 """A plate's lines made ready to be written: every curve as arcs, counter-clockwise, and how far that leaves it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.plane.biarcs import as_contour, deviation
 from ilmek.plane.contours import area, bounds
+from ilmek.records import record
 from ilmek.report import Contour, Plate
 from ilmek.units import um
 
@@ -18,7 +18,7 @@ MOST = 1 * um
 """What arcs may leave a curve's points by at most [m]."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlateShape:
     """A plate's lines as contours of arcs [m].
 

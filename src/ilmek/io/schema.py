@@ -7,11 +7,11 @@ ours, and other readers pass it over: `unit`, for a quantity, which may be a num
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, NoReturn, TypeAlias
 
 from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean
 from ilmek.io.line_numbers import KeyLines, Path
+from ilmek.records import record
 from ilmek.units import parse_quantity
 
 Schema: TypeAlias = Mapping[str, Any]
@@ -19,7 +19,7 @@ Schema: TypeAlias = Mapping[str, Any]
 _NAMES = {"object": "a table", "array": "a list", "string": "text in quotes", "number": "a number"}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SourceText:
     """Where data come from: what a person calls them, and the line of each key."""
 
@@ -35,7 +35,7 @@ class SourceText:
         raise MechanismError(said, allowed=error.allowed, do=error.do) from None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Reader:
     """Data read by a schema."""
 

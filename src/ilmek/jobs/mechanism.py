@@ -1,7 +1,6 @@
 """A mechanism of one's own, moved through the course of one input."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,13 +13,14 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 from ilmek.units import parse_quantity, turn
 
 CUTS, PIECES = 9, 64
 """A step of a range is cut so often into so many pieces to find where it ends: to rounding."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MotionRequest:
     """What a mechanism is driven through, as a person says it.
 
@@ -36,7 +36,7 @@ class MotionRequest:
     steps: int = 72
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MechanismRun:
     """A mechanism in motion.
 

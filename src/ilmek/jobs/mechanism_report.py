@@ -4,34 +4,19 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, FloatArray
+from ilmek.arrays import FloatArray
 from ilmek.dynamics.animation import FRAMES, animated
 from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism import MechanismRun
-from ilmek.linkage.body_motion import PointMotion
 from ilmek.linkage.mobility import mobility
-from ilmek.linkage.model import GROUND, Pin, Rotation, degrees_of_freedom
-from ilmek.linkage.motion import Status
+from ilmek.linkage.model import Rotation, degrees_of_freedom
+from ilmek.linkage.motion import Status, moving_points
 from ilmek.linkage.solve import solve
 from ilmek.report import Axis, Column, Drawing, Figure, Plot, Report, Result, Series, Table
 from ilmek.units import turn
 
 CURVES = 4
 """Curves of a plot, at most, that a person can tell apart."""
-
-
-def moving_points(run: MechanismRun) -> tuple[tuple[str, str], ...]:
-    """The named points that move, each once: body and point; a joint's by the first body that carries it."""
-    mechanism = run.plan.mechanism
-    pins = {joint.name for joint in mechanism.joints if isinstance(joint, Pin)}
-    seen = {joint.name for joint in mechanism.joints if isinstance(joint, Pin) and GROUND in joint.bodies}
-    found = []
-    for body in mechanism.moving:
-        for point in mechanism.body(body).points:
-            if point not in seen:
-                found.append((body, point))
-                seen |= {point} & pins
-    return tuple(found)
 
 
 def report(run: MechanismRun) -> Report:
@@ -84,7 +69,8 @@ def _points_table(run: MechanismRun) -> Table:
         *(Column("point"), Column("x from", "mm"), Column("x to", "mm"), Column("y from", "mm"), Column("y to", "mm")),
         *(Column("speed up to", "m/s"), Column("acceleration up to", "m/s^2")),
     )
-    return Table("points", "Points that move", columns, tuple(_point_row(run, *one) for one in moving_points(run)))
+    points = moving_points(run.plan.mechanism)
+    return Table("points", "Points that move", columns, tuple(_point_row(run, *one) for one in points))
 
 
 def _point_row(run: MechanismRun, body: str, point: str) -> tuple[float | int | str, ...]:
@@ -135,7 +121,7 @@ def _moving(run: MechanismRun, drive: Axis) -> Iterator[Figure]:
     moved = solve(run.plan, run.at(at), {run.running.name: run.speed} if run.running else {})
     if moved.ok:
         joints = {joint.name for joint in run.plan.mechanism.joints}
-        traces = [one for one in moving_points(run) if one[1] not in joints]
+        traces = [one for one in moving_points(run.plan.mechanism) if one[1] not in joints]
         period = way / abs(run.speed) if run.speed else None
         drawn = Drawing("mechanism", f"{run.name} in motion", ())
         yield animated(moved, at, drawn, traces=traces, period=period, drive=drive)
@@ -150,12 +136,7 @@ def _frames(run: MechanismRun) -> tuple[FloatArray, float]:
 
 
 def _angle(run: MechanismRun, body: str) -> FloatArray:
-    """The body's angle [rad], unwrapped over the samples that closed."""
-    direction = run.motion.direction(body)
-    angle = np.full(len(direction), np.nan)
-    good = np.isfinite(direction)
-    angle[good] = np.unwrap(np.angle(direction[good]))
-    return angle
+    return run.motion.angle(body)
 
 
 def _omega(run: MechanismRun, body: str) -> FloatArray:
@@ -177,7 +158,7 @@ def as_json(run: MechanismRun) -> dict[str, object]:
         for body in run.plan.mechanism.moving
     }
     points: dict[str, dict[str, object]] = {}
-    for body, point in moving_points(run):
+    for body, point in moving_points(run.plan.mechanism):
         moved = motion.point(body, point)
         rates = {"position": moved.position, "velocity": moved.velocity, "acceleration": moved.acceleration}
         points.setdefault(body, {})[point] = rates
@@ -186,20 +167,7 @@ def as_json(run: MechanismRun) -> dict[str, object]:
 
 
 def columns(run: MechanismRun) -> dict[str, FloatArray]:
-    """Every number of the motion as a column of a table, by its heading with the unit: SI and radians."""
-    unit = "rad" if run.unit == "deg" else "m"
-    found = {f"{run.running.name} [{unit}]": run.values} if run.running else {}
-    for body in run.plan.mechanism.moving:
-        found[f"{body} angle [rad]"] = _angle(run, body)
-        found[f"{body} omega [rad/s]"] = run.motion.omega(body)
-        found[f"{body} alpha [rad/s^2]"] = run.motion.alpha(body)
-    for body, point in moving_points(run):
-        moved = run.motion.point(body, point)
-        for what, vector, per in _vectors(moved):
-            for axis, part in (("x", np.real(vector)), ("y", np.imag(vector))):
-                found[f"{body}.{point} {what}{axis} [{per}]"] = np.asarray(part)
-    return found
-
-
-def _vectors(moved: PointMotion) -> tuple[tuple[str, ComplexField, str], ...]:
-    return ("", moved.position, "m"), ("v", moved.velocity, "m/s"), ("a", moved.acceleration, "m/s^2")
+    """The columns of `Motion.table`, without the inputs that are held."""
+    held = {f"{entry.name} [" for entry in run.plan.mechanism.inputs if entry is not run.running}
+    table = run.motion.table()
+    return {heading: values for heading, values in table.items() if not heading.startswith(tuple(held))}

@@ -2,15 +2,15 @@
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from ilmek.errors import ParameterError
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 from ilmek.verification import PAPERS, Verdict, reproduce
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ReproductionResult:
     """The verdicts on the claims of each paper, and the time that they took [s]."""
 

@@ -16,6 +16,7 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import output_folder
 from ilmek.io.plate_shape import PlateShape
 from ilmek.plane.contours import area
+from ilmek.records import record
 from ilmek.report import CamTable, Plate, Report
 from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, turn, um
 
@@ -54,7 +55,7 @@ class Tolerance:
         return max(SHARE * travel, FINEST.get(kind, 0.0)) if self.share is None else self.share * travel
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Workshop:
     """The files that were written, and where.
 

@@ -34,9 +34,10 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import InputValues, drives_of, solve
 from ilmek.linkage.structure import Plan
 from ilmek.linkage.tape import ALPHA, DIRECTION, OMEGA, Dimensions, Tape, is_compiled, tape
+from ilmek.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BodyRotation:
     """A body's turning, (variants, samples): direction e^{i theta}, omega [rad/s], alpha [rad/s^2]."""
 
@@ -45,7 +46,7 @@ class BodyRotation:
     alpha: Float[np.ndarray, "variants samples"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Sweep:
     """The motions of many variants of one mechanism.
 

@@ -6,10 +6,9 @@ with a the motion of the body's anchor and r the arm from it: the acceleration's
 is computed on request only.
 """
 
-from dataclasses import dataclass
-
 from ilmek.arrays import ComplexField, RealField
 from ilmek.linkage.body_motion import STILL, BodyMotion
+from ilmek.records import record
 
 
 def carried_jerk(
@@ -43,7 +42,7 @@ def slid_jerk(  # noqa: PLR0917 - arguments in the order of the equation
     return (rate + 1j * (beta * s + 3 * alpha * ds + 3 * omega * dds - omega * omega * omega * s)) * e
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BodyJerk:
     """A body's motion with its jerk: that of its anchor [m/s^3], and beta = alpha' [rad/s^3]."""
 

@@ -6,9 +6,8 @@ with a the motion of the body's anchor, e its direction (unit complex), w and al
 acceleration [Norton, Design of Machinery, chapters 4, 6, 7: the complex vector method].
 """
 
-from dataclasses import dataclass
-
 from ilmek.arrays import ComplexField, RealField
+from ilmek.records import record
 
 
 def carried_velocity(velocity: ComplexField, arm: ComplexField, omega: RealField) -> ComplexField:
@@ -31,7 +30,7 @@ def carried_acceleration(
     return acceleration + (1j * alpha - omega * omega) * arm
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PointMotion:
     """A point's position [m], velocity [m/s] and acceleration [m/s^2]: complex, one value or one per sample."""
 
@@ -40,7 +39,7 @@ class PointMotion:
     acceleration: ComplexField
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BodyMotion:
     """A body's motion: the motion of one point, the anchor, and the rotation.
 

@@ -23,6 +23,7 @@ from ilmek.linkage.outputs import Output, output_history_of_bodies
 from ilmek.linkage.structure import plan
 from ilmek.linkage.tracing import ConfigurationCurve, trace
 from ilmek.num.piecewise import roots
+from ilmek.records import record
 
 SEEDS = 180
 """Values of the input, over a turn or the mechanism's reach, at which assemblies are sought."""
@@ -34,7 +35,7 @@ SAME = 1e-6
 """Greatest distance of equal configurations, relative to the mechanism's size."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Branch:
     """A part of a circuit between two dead centres of the input.
 

@@ -20,6 +20,7 @@ from ilmek.linkage.loops import Loops, loops
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.one_input import OneInput
 from ilmek.num.linear import solve_many
+from ilmek.records import record
 
 CORRECTIONS = 12
 """Maximum of Newton steps back to the curve; three suffice for a step of a few hundredths of the size."""
@@ -28,7 +29,7 @@ LAST = 1e-9
 """Last correction relative to the mechanism's size; by quadratic convergence the error is at rounding."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Configurations:
     """Configurations, one per row: origins [m] and unit directions of the moving bodies, free input [rad or m]."""
 

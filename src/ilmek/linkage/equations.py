@@ -10,7 +10,6 @@ is its sine, which near the solution is the error itself [Nikravesh, Computer-Ai
 chapter 3].
 """
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -21,12 +20,13 @@ from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.groups.group import Group, InputMotion, Known
 from ilmek.linkage.model import Coupling, Joint, Mechanism, Pin, Rotation, Slide
 from ilmek.plane.vectors import dot
+from ilmek.records import record
 
 Row: TypeAlias = dict[str, tuple[RealField, RealField, RealField]]
 """Derivatives of one equation by x, y [1/m] and theta [1/rad] of each body in it."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Equation:
     """One scalar loop equation in the present poses: value, derivatives, bias, and the first to third rates of its
     input.

@@ -19,6 +19,7 @@ from ilmek.linkage.outputs import Output, OutputHistory, output_history
 from ilmek.linkage.sensitivity import derivatives
 from ilmek.num.brackets import bracketed_roots
 from ilmek.num.piecewise import roots
+from ilmek.records import record
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +35,7 @@ class OutputExtreme:
     greatest: bool
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ExtremeDerivatives:
     """Derivatives of an extreme's value, and of its input, by each dimension."""
 

@@ -9,7 +9,6 @@ of the input but zero will do.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -18,12 +17,13 @@ from ilmek.arrays import Bool, Complex
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
+from ilmek.records import record
 
 PARALLEL = 1e-12
 """Greatest zero of the difference of angular velocities, times the mechanism's size, against that of velocities."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class InstantCentre:
     """The instant centre of two bodies at each sample.
 
@@ -36,7 +36,7 @@ class InstantCentre:
     direction: Complex[np.ndarray, " samples"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Centrodes:
     """Paths [m] of the instant centre of a moving body: in the frame of the reference body, and in its own.
 

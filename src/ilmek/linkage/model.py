@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias, TypeVar
 
 from ilmek.errors import MechanismError, did_you_mean
+from ilmek.records import brief
 
 GROUND = "ground"
 """The body that stands still; its local frame is the world."""
@@ -42,6 +43,12 @@ class Body:
                 given = f"point {name!r} of body {self.name!r} is {point}"
                 raise MechanismError(given, allowed="finite coordinates", about=("bodies", self.name, "points", name))
         object.__setattr__(self, "points", points)
+
+    def __hash__(self) -> int:
+        return hash((self.name, tuple(sorted(self.points))))
+
+    def __repr__(self) -> str:
+        return brief(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,6 +201,12 @@ class Mechanism:
         object.__setattr__(self, "branches", dict(self.branches))
         object.__setattr__(self, "pose", dict(self.pose))
         _check(self)
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.bodies, self.joints, self.inputs))
+
+    def __repr__(self) -> str:
+        return brief(self)
 
     def body(self, name: str) -> Body:
         """The body of that name."""

@@ -1,7 +1,6 @@
 """The result of `solve`: the motion of every body at each sample, and the status of the sample."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -11,9 +10,10 @@ from ilmek.linkage.body_jerk import STILL_JERK, BodyJerk
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.faults import first_fault
 from ilmek.linkage.groups.group import Columns, InputMotion
-from ilmek.linkage.model import GROUND
+from ilmek.linkage.model import GROUND, Mechanism, Pin, Rotation
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
+from ilmek.records import record
 
 __all__ = ["Motion", "Status"]
 
@@ -21,7 +21,7 @@ Reals: TypeAlias = Float[np.ndarray, " samples"]
 Points: TypeAlias = Complex[np.ndarray, " samples"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Motion:
     """The motion of a mechanism over a batch of samples.
 
@@ -38,6 +38,10 @@ class Motion:
 
     def __len__(self) -> int:
         return len(self.status)
+
+    def __repr__(self) -> str:
+        solved = int(np.count_nonzero(self.status == Status.OK))
+        return f"<Motion of {self.plan.mechanism.name[:60]}: {solved} of {len(self)} samples solved>"
 
     @property
     def ok(self) -> bool:
@@ -84,9 +88,14 @@ class Motion:
     def angle(self, body: str) -> Reals:
         """Angle of a body's frame against the world's x [rad], unwrapped along the samples, the first in (-pi, pi].
 
-        Steps of more than half a turn between samples are ambiguous.
+        Samples without a position are NaN and left out of the unwrapping. Steps of more than half a turn between
+        samples are ambiguous.
         """
-        return np.asarray(np.unwrap(np.angle(self.direction(body))))
+        direction = self.direction(body)
+        angle = np.full(len(direction), np.nan)
+        solved = np.isfinite(direction)
+        angle[solved] = np.unwrap(np.angle(direction[solved]))
+        return angle
 
     def omega(self, body: str) -> Reals:
         """Angular velocity of a body [rad/s]."""
@@ -117,6 +126,32 @@ class Motion:
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             return step.jerk(known, located, columns, self.drives)[name]
 
+    def table(self) -> dict[str, Reals]:
+        """The motion as columns of a table: heading with SI unit -> one value per sample; NaN where it does not close.
+
+        For each input `crank [rad]`; for each moving body `rocker angle [rad]`, `rocker omega [rad/s]`, `rocker alpha
+        [rad/s^2]`; for each moving point, joints once, `rocker.B x [m]`, `rocker.B y [m]` and likewise the velocity
+        `vx`, `vy` [m/s] and the acceleration `ax`, `ay` [m/s^2]. `pandas.DataFrame(motion.table())` takes it as it is.
+        """
+        columns = {
+            f"{entry.name} [{'rad' if isinstance(entry, Rotation) else 'm'}]": np.asarray(self.drives[entry.name].value)
+            for entry in self.plan.mechanism.inputs
+        }
+        for body in self.plan.mechanism.moving:
+            columns[f"{body} angle [rad]"] = self.angle(body)
+            columns[f"{body} omega [rad/s]"] = self.omega(body)
+            columns[f"{body} alpha [rad/s^2]"] = self.alpha(body)
+        for body, point in moving_points(self.plan.mechanism):
+            moved = self.point(body, point)
+            for rate, vector, unit in (
+                ("", moved.position, "m"),
+                ("v", moved.velocity, "m/s"),
+                ("a", moved.acceleration, "m/s^2"),
+            ):
+                columns[f"{body}.{point} {rate}x [{unit}]"] = np.real(vector)
+                columns[f"{body}.{point} {rate}y [{unit}]"] = np.imag(vector)
+        return columns
+
     def require(self) -> "Motion":
         """The motion itself, if every sample is solved.
 
@@ -138,6 +173,19 @@ class Motion:
     def _reals(self, value: RealField) -> Reals:
         reals: Reals = _over(value, self.status.shape, np.dtype(float))
         return reals
+
+
+def moving_points(mechanism: Mechanism) -> tuple[tuple[str, str], ...]:
+    """The named points that move, each once: body and point; a joint's by the first body that carries it."""
+    pins = {joint.name for joint in mechanism.joints if isinstance(joint, Pin)}
+    seen = {joint.name for joint in mechanism.joints if isinstance(joint, Pin) and GROUND in joint.bodies}
+    found = []
+    for body in mechanism.moving:
+        for point in mechanism.body(body).points:
+            if point not in seen:
+                found.append((body, point))
+                seen |= {point} & pins
+    return tuple(found)
 
 
 def _over(value: ComplexField, shape: tuple[int, ...], dtype: np.dtype[Any]) -> Any:

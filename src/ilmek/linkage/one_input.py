@@ -1,7 +1,6 @@
 """A mechanism moved by one of its inputs at unit speed, with the other inputs locked: the basis of quality measures."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,9 +10,10 @@ from ilmek.linkage.model import Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
+from ilmek.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class OneInput:
     """A plan, the name of the input that moves, and the values [rad, m] of the other, locked inputs."""
 

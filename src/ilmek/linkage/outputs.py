@@ -25,6 +25,7 @@ from ilmek.linkage.groups.group import InputMotion, Known
 from ilmek.linkage.model import GROUND, Mechanism, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import dot, unit
+from ilmek.records import record
 
 
 @runtime_checkable
@@ -99,7 +100,7 @@ class Travel:
         return displacement_equation(mechanism, joint, InputMotion(0.0, 0.0, 0.0), bodies)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class OutputHistory:
     """An output over a motion: value [rad or m], rate and second rate at each sample; an angle is unwrapped."""
 

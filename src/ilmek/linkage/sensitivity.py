@@ -25,9 +25,10 @@ from ilmek.linkage.loops import Loops, loops
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.outputs import Output
 from ilmek.num.linear import solve_many
+from ilmek.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Derivatives:
     """Derivatives of an output's value and rate by each dimension, at each sample, at fixed inputs."""
 
@@ -36,7 +37,7 @@ class Derivatives:
     rate: Float[np.ndarray, "dimensions samples"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class OutputTolerance:
     """Error of an output for given tolerances: worst case, and root sum square of independent errors."""
 

@@ -20,6 +20,7 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.groups import follower, geared, general, prp, rpp, rpr, rrp, rrr, shift, turn
 from ilmek.linkage.groups.group import Group, Step
 from ilmek.linkage.model import GROUND, Mechanism, degrees_of_freedom
+from ilmek.records import brief
 
 CLOSED_FORMS: tuple[Callable[[Group], Step | None], ...] = (
     turn.recognise,
@@ -41,6 +42,9 @@ class Plan:
 
     mechanism: Mechanism
     steps: tuple[Step, ...]
+
+    def __repr__(self) -> str:
+        return brief(self)
 
     def step_of(self, body: str) -> Step:
         """The step that solves a body."""

@@ -4,13 +4,12 @@ Predictor along the tangent, corrector normal to it; the step length follows the
 [Allgower, Georg: Numerical Continuation Methods, chapter 6.]
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.linkage.configuration import Configurations, FreeInput
 from ilmek.num.brackets import bracketed_roots
+from ilmek.records import record
 
 TURN = 0.3
 """Greatest rotation of the tangent in a step [rad]; after a step with less than half of it the step grows."""
@@ -28,7 +27,7 @@ REACH = 100.0
 """Distance from the origin, relative to the mechanism's size, beyond which a curve counts as unbounded."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ConfigurationCurve:
     """A configuration curve: nodes on it, their unit tangents, and path lengths from the first [m], by chords.
 

@@ -15,6 +15,7 @@ from ilmek.errors import LoomError
 from ilmek.loom.row import KnotRow
 from ilmek.loom.schedule import ByteTable, Layout, ScheduleResult, schedule
 from ilmek.loom.sharing import halves, share
+from ilmek.records import record
 from ilmek.units import format_number, hour
 
 MOST_YARNS = 255
@@ -51,7 +52,7 @@ class Times:
         return float(self.knot), float(self.colour_change), float(self.travel), float(self.weft)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class HeadWork:
     """What each head does over the whole carpet: arrays over the heads.
 
@@ -65,7 +66,7 @@ class HeadWork:
     busy: FloatArray
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Programme:
     """A carpet as a loom weaves it.
 

@@ -1,6 +1,5 @@
 """One row of a programme, and what each head ties in it."""
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -9,11 +8,12 @@ from ilmek.arrays import IntArray, UInt8
 from ilmek.errors import LoomError
 from ilmek.loom.schedule import PASSES, Layout, Line, replay
 from ilmek.loom.sharing import halves
+from ilmek.records import record
 
 _ALL_COLOURS = 255
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class HeadTies:
     """What a head ties in a row, in order: the warp pair (column of the chart) and the yarn of each knot."""
 
@@ -21,7 +21,7 @@ class HeadTies:
     colours: Line
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class KnotRow:
     """A row of knots as the loom ties it.
 

@@ -9,13 +9,22 @@ from ilmek.machines import ENTRIES
 from ilmek.machines.component import Component
 
 
+class UnknownMachineError(ParameterError, KeyError):
+    """A name that no machine has: a KeyError to whoever reads the catalogue as a mapping."""
+
+    def __str__(self) -> str:
+        return "; ".join(part for part in (self.given, self.allowed, self.do) if part)
+
+
 class Catalogue(Mapping[str, Component]):
     """Every machine by its name. A machine's package is imported when the machine is looked up: most jobs need one."""
 
     def __getitem__(self, name: str) -> Component:
-        """The machine of a name; KeyError for any other."""
+        """The machine of a name. Raises UnknownMachineError, a KeyError that names the nearest machine."""
         if name not in ENTRIES:
-            raise KeyError(name)
+            near = difflib.get_close_matches(name.lower().replace("_", "-"), ENTRIES, n=1)
+            hint = f"did you mean {near[0]}?" if near else ""
+            raise UnknownMachineError(f"unknown machine {name!r}", allowed=f"machines: {', '.join(ENTRIES)}", do=hint)
         machine = importlib.import_module(f"ilmek.machines.{name.replace('-', '_')}").MACHINE
         assert isinstance(machine, Component)
         return machine
@@ -33,8 +42,4 @@ MACHINES = Catalogue()
 
 def find_machine(name: str) -> Component:
     """The machine of a name. Raises ParameterError, naming the nearest."""
-    if name in ENTRIES:
-        return MACHINES[name]
-    near = difflib.get_close_matches(name.lower().replace("_", "-"), ENTRIES, n=1)
-    hint = f"did you mean {near[0]}?" if near else ""
-    raise ParameterError(f"unknown machine {name!r}", allowed=f"machines: {', '.join(ENTRIES)}", do=hint)
+    return MACHINES[name]

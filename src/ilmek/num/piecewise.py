@@ -17,6 +17,7 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, IntArray
 from ilmek.num.brackets import bracketed_roots
+from ilmek.records import record
 from ilmek.units import turn
 
 Curve: TypeAlias = Callable[[FloatArray], FloatArray]
@@ -64,7 +65,7 @@ class Extremum:
     side: int = 0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Pieces:
     """Consecutive pieces of the domain on each of which a curve is smooth.
 

@@ -9,13 +9,13 @@ area's error falls as the square of their size.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 
 from ilmek.arrays import Complex, ComplexArray, Float, Int
 from ilmek.plane.vectors import cross
+from ilmek.records import record
 
 Distance: TypeAlias = Callable[[Complex[np.ndarray, " points"]], Float[np.ndarray, " points"]]
 """Points -> signed distance from the region, above 0 outside; inside it may be nearer to 0 than the edge is."""
@@ -24,7 +24,7 @@ Crossing: TypeAlias = tuple[tuple[int, int], tuple[int, int]]
 """A side of a small square: its two nodes on the grid, in order."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Region:
     """A region measured.
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.records import record
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +16,7 @@ class Hole:
     label: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Contour:
     """A closed line of straight pieces and exact arcs [m]; `ilmek.plane.contours` reckons with it.
 
@@ -27,7 +28,7 @@ class Contour:
     bulges: FloatArray
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Plate:
     """A flat part for the workshop, in its own frame [m].
 
@@ -55,7 +56,7 @@ class Plate:
     notes: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CamTable:
     """A motion of a slave axis over one turn of the master, for a controller's electronic cam.
 

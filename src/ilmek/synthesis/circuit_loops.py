@@ -14,10 +14,11 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, Float, FloatArray, RealField
 from ilmek.linkage.quality import input_range
+from ilmek.records import record
 from ilmek.synthesis.four_bar import FourBar
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoopConfigurations:
     """Configurations: moving pins and tracer [m], unit vectors along the coupler and the rocker; tracer 0 if none."""
 

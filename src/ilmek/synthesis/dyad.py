@@ -21,6 +21,7 @@ from ilmek.errors import ParameterError
 from ilmek.num.pencil2 import roots2
 from ilmek.num.pencil3 import Roots, roots3
 from ilmek.plane.vectors import cross, dot, unit
+from ilmek.records import record
 from ilmek.synthesis.burmester.constant_distance import FAR, require_task, timed_forms
 from ilmek.synthesis.task import require_angles
 
@@ -104,7 +105,7 @@ WORDS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PoseArms:
     """Both roots of three-pose tasks, in the order of `ground`; what they are is in `found`.
 
@@ -192,7 +193,7 @@ def dyads_through_poses(
     )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PointArms:
     """All roots of four-point tasks, three each, in the order of `first`; what they are is in `found`.
 

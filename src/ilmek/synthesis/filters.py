@@ -20,6 +20,7 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.params import Params, kind
+from ilmek.records import record
 from ilmek.synthesis.candidate import Candidate
 from ilmek.units import deg, format_quantity
 
@@ -48,7 +49,7 @@ class Filters(Params):
     )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RemovedCandidate:
     """A candidate that was sieved out: for each filter that it failed, why, in words."""
 

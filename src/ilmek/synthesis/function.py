@@ -5,7 +5,6 @@ crank = crank_swing (x - x0) / (x1 - x0)        rocker = rocker_swing (f(x) - y0
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 import scipy
@@ -14,12 +13,13 @@ from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
+from ilmek.records import record
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Function:
     """y = f(x) from `start` to `stop`, and the turns of crank and rocker that show the two ranges [rad].
 
@@ -100,7 +100,7 @@ def function_of_samples(x: FloatArray, y: FloatArray, crank_swing: float, rocker
     return Function(scipy.interpolate.PchipInterpolator(x, y), float(x[0]), float(x[-1]), crank_swing, rocker_swing)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ErrorCurve:
     """How a four-bar generates a function over its range: everything by x.
 

@@ -1,12 +1,12 @@
 """What a four-bar is to do: precision positions, said by what is asked of each."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from ilmek.arrays import FloatArray, NumberArray
 from ilmek.errors import ParameterError
+from ilmek.records import record
 from ilmek.units import deg
 
 MET = 1e-6
@@ -15,7 +15,7 @@ MET = 1e-6
 TURN = 2 * math.pi + 1e-9
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PrecisionTask:
     """Precision positions in the order in which they are to be met; the first is the one in which a four-bar is drawn.
 

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.records import record
 from ilmek.timing.crossings import TrackInstant, passages, passing_share
 from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, Spans, Track, moment_angle
 from ilmek.timing.relations import Presence
@@ -54,7 +55,7 @@ class Constraint:
     kind: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Unknowns:
     """The places of the unknowns, and the forms of all instants.
 

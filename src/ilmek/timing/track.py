@@ -17,6 +17,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.errors import ParameterError
+from ilmek.records import record
 from ilmek.units import format_quantity, turn
 
 Curve: TypeAlias = Callable[[RealField], RealField]
@@ -202,7 +203,7 @@ class Track:
         return max(ends) - min(ends) if ends else 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TrackMotion:
     """Position of a track over the master angle, and its first two derivatives by the angle [SI per rad]."""
 

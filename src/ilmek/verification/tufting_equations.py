@@ -5,7 +5,6 @@ Signs as in the paper: theta3 of C-B, theta4 of C-D; F_ij the force that link i 
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache, partial
 
 import numpy as np
@@ -16,6 +15,7 @@ from ilmek.linkage.structure import plan
 from ilmek.machines.tufting import TuftingParams
 from ilmek.machines.tufting.model import TuftingState, evaluate, inertias, mechanism
 from ilmek.plane.vectors import cross
+from ilmek.records import record
 from ilmek.units import deg
 from ilmek.verification.claim import COUNT, RESIDUAL, Claim, Computation, residual
 
@@ -23,7 +23,7 @@ ANGLES = np.linspace(0.0, 2 * np.pi, 41)[:-1] + 3 * deg
 BODIES = ("crank", "coupler", "rocker", "arm", "rod")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Sample:
     """The mechanism at many crank angles: angle, speed and acceleration of links 1 to 5; forces; centres."""
 

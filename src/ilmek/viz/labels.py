@@ -1,17 +1,16 @@
 """Names put beside the things they name, without running into them or into each other."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray
+from ilmek.records import record
 from ilmek.viz.font import text_width
 
 _AROUND = np.exp(1j * np.radians([45, 135, -45, -135, 90, -90, 0, 180, 22, 158, -22, -158, 68, 112, -68, -112]))
 _REACHES = (1.0, 1.8, 2.8)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LabelRequest:
     """A name to place: the points it may stand beside [pt], the first the dearest, and the least distance to keep [pt].
 

@@ -1,17 +1,18 @@
 """What moves in a figure, as SVG: each part names its places in the list of the figure's run."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from xml.sax.saxutils import escape
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.records import record
 from ilmek.viz.strokes import BLOCK
 from ilmek.viz.style import INK, PAPER, STEEL, STRONG
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PointTracks:
     """The places of all points at every frame, in the figure's units, each point once.
 

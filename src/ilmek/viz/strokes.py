@@ -1,12 +1,12 @@
 """How each role of `report.Stroke` and `report.Dot` is drawn: bars, hatched ground, pivots, dimensions."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.records import record
 from ilmek.report import Stroke
 from ilmek.viz.font import text_width
 from ilmek.viz.sheet import Sheet, circle
@@ -17,7 +17,7 @@ BLOCK = 10 + 6.5j
 """Half the length and half the height of a slider's block [pt]."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Pen:
     """Where to draw, how a place [m] becomes a place on the sheet [pt], and the next colour's number."""
 

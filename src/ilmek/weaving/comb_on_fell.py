@@ -14,11 +14,11 @@ u = l W / 2.
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
+from ilmek.records import record
 
 RIGID = 0.02
 """A comb of l W below this bends by less than 1e-7 of the displacement of the fell: rigid."""
@@ -27,7 +27,7 @@ _LONGEST = 1.5
 _DENSE = 201
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FellPressure:
     """Pressure of a comb on the fell across its width.
 

@@ -6,13 +6,14 @@ L lift, beta cam angle of the rise, w cam speed. A fall is a rise of -L.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from ilmek.arrays import RealField
+from ilmek.records import record
 
 Curve: TypeAlias = Callable[[RealField], RealField]
 
@@ -33,7 +34,7 @@ class LawValues(NamedTuple):
     j: RealField
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Law:
     """A motion law on u in [0, 1]: from rest at 0 to rest at 1, unless its file says otherwise.
 

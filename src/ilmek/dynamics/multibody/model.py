@@ -16,6 +16,7 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body, Joint, Pin, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import unit
+from ilmek.records import record
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +47,7 @@ class BodyTorque:
     drag: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class System:
     """Bodies with masses, the joints between them, the loads, and the initial state.
 

@@ -1,7 +1,5 @@
 """Result of a run of a general planar system: positions, speeds, forces, energies, at an instant or by sample."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, RealField
@@ -12,12 +10,13 @@ from ilmek.dynamics.multibody.model import System
 from ilmek.dynamics.springs import Spring
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Joint, Pin
+from ilmek.records import record
 
 INDETERMINATE = 1e-6
 """Share of a joint in a self-equilibrated force above which its reaction counts as indeterminate."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MultibodyHistory:
     """A system over the samples of a run, or at one instant; results are then arrays of dimension 0.
 
@@ -125,7 +124,7 @@ class MultibodyHistory:
         return column
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SystemRun(MultibodyHistory):
     """A run of a general system, one row per sample; the last sample is the end.
 

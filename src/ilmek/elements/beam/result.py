@@ -14,6 +14,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, IntArray, NumberArray, RealField
 from ilmek.elements.beam.model import Beam
+from ilmek.records import record
 
 DEGREE = 5
 
@@ -33,7 +34,7 @@ class BeamExtreme:
         return abs(self.value)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BeamResult:
     """The solved beam.
 

@@ -2,17 +2,17 @@
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from ilmek.arrays import Float
 from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
+from ilmek.records import record
 from ilmek.report import CamTable
 from ilmek.units import deg, parse_unit, turn
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TablePoints:
     """A table's points in the units of a controller: degrees of the master, the table's unit of the slave.
 
@@ -30,7 +30,7 @@ def no_more(table: CamTable, sampled: SampledTable) -> dict[str, float]:  # noqa
     return {}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Format:
     """A controller's format.
 

@@ -6,16 +6,16 @@ quintic  between neighbours the polynomial of the fifth degree with their positi
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 import scipy
 
 from ilmek.arrays import Float, FloatArray
+from ilmek.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Nodes:
     """Points of a cam table over a turn: master angles [rad] from 0 to 2 pi, ascending; s [SI] and its derivatives."""
 
@@ -28,7 +28,7 @@ class Nodes:
 Between: TypeAlias = Callable[[Nodes, FloatArray], FloatArray]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Interpolation:
     """A way to go from point to point.
 

@@ -6,7 +6,6 @@ title and, as JSON under `ilmek-chart`, yarns, size, quality and knot.
 """
 
 import json
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,13 +15,14 @@ from PIL.PngImagePlugin import PngInfo
 from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart
 from ilmek.errors import PictureError
+from ilmek.records import record
 
 KEY = "ilmek-chart"
 _METRE = 0.0254
 """Metres per inch: Pillow takes dots per inch and writes dots per metre."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ChartPicture:
     """What a chart PNG holds: indices, yarn names and colours in their order; size [m], quality [knots/m], knot."""
 

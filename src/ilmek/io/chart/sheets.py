@@ -8,6 +8,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ilmek.records import record
+
 OVERLAP = 3
 """Knots of the next sheet that are shown too."""
 
@@ -16,7 +18,7 @@ _SMALLEST = 7.4
 """Room for the knots on a sheet, width and height [pt]; the least side of a knot's cell [pt]."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ChartSheet:
     """One sheet: its number from 1, its own knots left..right-1 and rows low..high-1 (from 0, from the bottom), the
     knots and rows shown with the overlap, and its neighbours' numbers (0: none).

@@ -8,7 +8,7 @@ Computer-Aided Analysis of Mechanical Systems, chapter 3].
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
@@ -22,12 +22,13 @@ from ilmek.linkage.groups.winding import LinearRelation, angles, first_angle
 from ilmek.linkage.model import Pin, Rotation, Slide
 from ilmek.num.linear import reciprocal_condition, solve_many
 from ilmek.num.newton import newton
+from ilmek.records import record
 
 TOLERANCE = 1e-9
 """Last step of the iteration relative to the group's size; quadratic convergence leaves an error at rounding."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GeneralGroup(Step):
     """A group of any class; all its loop equations are solved together.
 

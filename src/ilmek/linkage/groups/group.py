@@ -15,6 +15,7 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.model import Coupling, Input, Joint, Mechanism
+from ilmek.records import record
 
 Columns: TypeAlias = tuple[Any, ...]
 """The stored part of a body's motion, real and complex fields, from which `Step.locate` recovers all of it."""
@@ -26,7 +27,7 @@ KnownJerks: TypeAlias = Mapping[str, BodyJerk]
 """Motions with jerks of the solved bodies, by name."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class InputMotion:
     """Motion of an input: value [rad or m] and its first to third rates, constant or (samples,)."""
 
@@ -41,7 +42,7 @@ class InputMotion:
         return InputMotion(*(field[chosen] if isinstance(field, np.ndarray) else field for field in fields))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GroupSolution:
     """The solution of a step: the columns of each body, and the distance from a dead centre.
 

@@ -12,13 +12,13 @@ epicyclic trains by their relative angles].
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.model import GROUND, Coupling, Mechanism, Rotation, Slide
+from ilmek.records import record
 
 FREE = 1e-9
 """Least share of an unknown in the null space of the system, from which it is undetermined."""
@@ -27,7 +27,7 @@ ROUNDING = 2e-15
 """Relative distance within which a factor is rounded to twelve decimals."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LinearRelation:
     """constant + sum of factor times input [rad or m]; shares: input -> factor."""
 

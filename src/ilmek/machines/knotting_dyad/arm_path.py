@@ -28,12 +28,13 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, Float, FloatArray
 from ilmek.plane.vectors import unit
+from ilmek.records import record
 
 Jet: TypeAlias = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 """A function's values and its first to third derivatives by s."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ArmPath:
     """Joint angles along an arm's path, and their derivatives by the path's parameter s.
 

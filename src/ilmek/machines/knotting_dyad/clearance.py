@@ -19,6 +19,7 @@ from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.machines.knotting_dyad.arm_path import Arm
 from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.plane.outlines import between, to_segments
+from ilmek.records import record
 
 TOLERANCE, RELATIVE = 1e-6, 5e-3
 """Absolute [m] and relative tolerance of a least distance."""
@@ -42,7 +43,7 @@ class LeastDistance:
     sure: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RoundBars:
     """Bars with round ends: (positions, bars) ends [m], and the radii of each [m]."""
 

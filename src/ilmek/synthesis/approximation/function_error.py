@@ -14,13 +14,13 @@ s is the branch of the four-bar times the signs of a and c. The slopes follow fr
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from ilmek.arrays import Bool, ComplexArray, Float, FloatArray, RealField
 from ilmek.plane.vectors import dot
+from ilmek.records import record
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.function import Function
 
@@ -71,7 +71,7 @@ class Generator(NamedTuple):
         return FourBar(0j, complex(ground), a * ground, b * ground)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class StructuralErrors:
     """(free parameters, x) -> weighted structural error [rad] and its slopes; inf where the four-bar does not close
     (everywhere, if it is not at x that it does not).

@@ -14,7 +14,6 @@ design error; Liu and Angeles, Mech. Mach. Theory 27 (1992) 501, for the differe
 """
 
 import math
-from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
 
@@ -23,6 +22,7 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.num.brackets import bracketed_roots
+from ilmek.records import record
 from ilmek.synthesis.approximation.exchange import PROVEN, extremes
 from ilmek.synthesis.approximation.function_error import Weight, structural_error
 from ilmek.synthesis.approximation.search import (
@@ -41,7 +41,7 @@ CRITERIA = ("interpolation", "least squares", "minimax")
 """What `function_approximations` can be asked for."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FunctionApproximation:
     """A four-bar that generates a function nearly.
 

@@ -16,7 +16,6 @@ that is in every product; from there it goes on by exchange (`approximation.exch
 """
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple, TypeAlias
 
@@ -24,6 +23,7 @@ import numpy as np
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
+from ilmek.records import record
 from ilmek.synthesis.approximation.exchange import (
     PROVEN,
     Descent,
@@ -65,7 +65,7 @@ NOTHING = 1e-13
 """Error, of the greatest wanted value, that counts as none."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SynthesisPolynomial:
     """What is to be approximated, and by what.
 
@@ -125,7 +125,7 @@ def of_table(
     return SynthesisPolynomial(given[0], given[1], products, row(product_terms), row(weight), between=False)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Approximation:
     """One answer.
 

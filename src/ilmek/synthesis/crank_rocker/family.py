@@ -4,11 +4,10 @@ Members are evenly apart in the ratio a / b, which names them for every phi (`be
 ends of the open interval: nearer than that to an end stand toggles, of use to nobody.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray, RealField
+from ilmek.records import record
 from ilmek.synthesis.crank_rocker.dead_centres import (
     LinkRatios,
     OpenInterval,
@@ -26,7 +25,7 @@ COUNT = 1000
 """Members of a family, unsaid."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CrankRockerFamily:
     """Crank-rockers with one swing and one turn of the crank [rad], by ascending ratio crank / coupler."""
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import Complex, Float, Int
+from ilmek.records import record
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.path.limits import excess
@@ -37,7 +38,7 @@ class Search:
     agreed: int
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PathFit:
     """A four-bar for the points of a path.
 

@@ -9,14 +9,16 @@ Seeded: batches of starts are numbered, and no result depends on how many thread
 
 import dataclasses
 import math
+import time
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from ilmek.arrays import Bool, Complex, Float, Int
 from ilmek.errors import ParameterError
+from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 from ilmek.synthesis.path.descent import EXACT, descend_all
 from ilmek.synthesis.path.fit import PathFit, Search, SearchEnd, least_transmission, path_fit
 from ilmek.synthesis.path.links import random_links
@@ -75,7 +77,7 @@ class SearchEnds(NamedTuple):
         return self.states[:, 0]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Scaled:
     """A task in sizes of its path about its middle."""
 
@@ -97,22 +99,35 @@ class Scaled:
 
 
 def path_four_bars(
-    task: PathTask, *, count: int = 5, seed: int = 0, starts: int = 960, threads: int = 2
+    task: PathTask,
+    *,
+    count: int = 5,
+    seed: int = 0,
+    starts: int = 960,
+    threads: int = 2,
+    time_limit: float = math.inf,
+    progress: Progress = SILENT,
 ) -> tuple[PathFit, ...]:
     """At most `count` different four-bars for a path, the nearest first; among exact ones, the best transmission first.
 
     seed     of the random starts: the same seed gives the same answers
     starts   after which the search ends at the latest, in batches of 192; it ends sooner where five agree on the best
     threads  that search at once
+    time_limit  time [s] after which no further batch of starts begins; default: none. The answers then depend on the
+             speed of the computer
+    progress called after each batch of 192 starts; the search can be cancelled there
 
     Local optima are all that any search of this kind can prove; `search.agreed` says how many starts ended here.
-    Raises ParameterError for numbers that are none, or where no start can be brought within the limits.
+    Raises ParameterError for a number out of range, or where no start can be brought within the limits; Cancelled.
     """
     for name, value in dict(count=count, starts=starts, threads=threads).items():
         if value < 1:
             raise ParameterError(f"{name} {value}", allowed="1 or more")
-    scaled = _scaled(task)
+    if not time_limit > 0:
+        raise ParameterError(f"time_limit {time_limit:g} s", allowed="above 0 s")
+    scaled, until = _scaled(task), time.monotonic() + time_limit
     found, evaluations, begun = [], 0, 0
+    progress(0.0)
     with ThreadPoolExecutor(threads) as pool:
         for first in range(0, math.ceil(starts / BATCH), WAVE):
             wave = pool.map(lambda number: _batch(scaled, seed, number), range(first, first + WAVE))
@@ -120,8 +135,11 @@ def path_four_bars(
                 found.append(ends)
                 evaluations += spent
             begun += WAVE * BATCH
+            progress(min(begun / starts, 1.0))
             errors = np.concatenate([ends.errors for ends in found])
             if len(errors) and _agreed(errors, errors.min(), len(task.points)) >= max(AGREE, count):
+                break
+            if time.monotonic() >= until:
                 break
     if not sum(len(ends.errors) for ends in found):
         raise ParameterError(

@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, NumberArray, RealField
 from ilmek.errors import ParameterError
+from ilmek.records import record
 from ilmek.synthesis.path.links import random_links
 from ilmek.synthesis.path.model import NAMES, SIZE, START, TURN
 
@@ -26,7 +27,7 @@ ONCE = 2 * math.pi * (1 + 1e-9)
 """The most that the crank turns over the points [rad]."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PathTask:
     """Points to be met by the tracer of a four-bar, in this order.
 

@@ -16,13 +16,13 @@ same side, and the word of the chords is the word of the path. If not, the sampl
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 
 from ilmek.arrays import BoolArray, Complex, ComplexArray, Float, FloatArray, Int
 from ilmek.errors import CarpetError
+from ilmek.records import record
 from ilmek.units import format_quantity
 from ilmek.weaving.knots.word import Word
 
@@ -33,7 +33,7 @@ _SLACK = 1e-9
 """Relative: a path on the very edge of the room that a warp keeps does not touch."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class WarpRow:
     """Warps in section: positions [m] from left to right, seen with the pile upwards, and the room each keeps [m].
 
