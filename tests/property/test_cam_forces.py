@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.cams import profile
-from ilmek.cams.contact import FollowerLoad, Touch, pressed
+from ilmek.cams.contact import ContactPoint, FollowerLoad, contact_force
 from ilmek.cams.laws import LAWS
 from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.cams.return_spring import doubling_spring, least_force, least_preload, least_rate, lift_off
@@ -30,11 +30,11 @@ def programme(law: str, span: float = 80 * deg) -> CamProgramme:
     )
 
 
-def touch(angle, at, offset: float, roller: float) -> Touch:
+def touch(angle, at, offset: float, roller: float) -> ContactPoint:
     """The roller on the cam, in the frame of the cam."""
     centre = profile.pitch_point(angle, at.s, PRIME, offset)
     normal = profile.normal(angle, at.s, at.ds, PRIME, offset)
-    return Touch(centre - roller * normal, normal, np.exp(-1j * angle))
+    return ContactPoint(centre - roller * normal, normal, np.exp(-1j * angle))
 
 
 @given(law=laws, offset=st.floats(-0.01, 0.01), roller=st.floats(0.0, 0.01), held=held)
@@ -43,7 +43,7 @@ def test_torque_is_virtual_work(law, offset, roller, held) -> None:
     angle = np.linspace(0.01, 6.2, 97)
     at = programme(law).at(angle)
     force = held.force(at.s, at.dds)
-    found = pressed(touch(angle, at, offset, roller), at.ds, force)
+    found = contact_force(touch(angle, at, offset, roller), at.ds, force)
     assert found.torque == pytest.approx(force * at.ds, abs=1e-9)
     assert found.normal * np.cos(profile.pressure_angle(at.s, at.ds, PRIME, offset)) == pytest.approx(force, abs=1e-9)
 
@@ -56,19 +56,19 @@ def test_friction_takes_the_power_that_is_missing(law, sliding, guide) -> None:
     at = programme(law).at(angle)
     force = np.full(97, 40.0)
     place = touch(angle, at, 0.004, 0.006)
-    found = pressed(place, at.ds, force, sliding=sliding, guide=guide)
+    found = contact_force(place, at.ds, force, sliding=sliding, guide=guide)
     tangent = 1j * place.normal
-    slip = np.real(np.conj(1j * place.point - at.ds * place.way) * tangent)
+    slip = np.real(np.conj(1j * place.point - at.ds * place.velocity) * tangent)
     push = found.normal * (place.normal + sliding * np.sign(slip) * tangent)
-    side = np.abs(np.imag(np.conj(place.way) * push))
+    side = np.abs(np.imag(np.conj(place.velocity) * push))
     rubbed = sliding * found.normal * np.abs(slip) + guide * side * np.abs(at.ds)
     assert np.all(rubbed >= 0)
     assert found.torque == pytest.approx(force * at.ds + rubbed, rel=1e-10, abs=1e-10)
 
 
 def test_follower_jams_where_friction_is_too_large() -> None:
-    steep = Touch(0.05 + 0j, np.exp(1j * np.array([20 * deg, 80 * deg])), 1.0 + 0j)
-    found = pressed(steep, np.array([0.02, 0.02]), 10.0, guide=0.3)
+    steep = ContactPoint(0.05 + 0j, np.exp(1j * np.array([20 * deg, 80 * deg])), 1.0 + 0j)
+    found = contact_force(steep, np.array([0.02, 0.02]), 10.0, guide=0.3)
     assert np.isfinite(found.normal[0])
     assert np.isnan(found.normal[1])
 
@@ -120,5 +120,5 @@ def test_no_spring_holds_a_follower_whose_velocity_drops() -> None:
 
 def test_rate_cannot_do_what_the_preload_must() -> None:
     short = CamProgramme((fall(math.pi, LIFT, LAWS["parabolic"]), rise(math.pi, LIFT, LAWS["parabolic"])))
-    with pytest.raises(ParameterError, match="lets the follower lift off where the spring is longest"):
+    with pytest.raises(ParameterError, match="is too small at displacement 0"):
         least_rate(short.shifted(0.0), FollowerLoad(30.0, 1.0))

@@ -35,7 +35,7 @@ def motion(lift, out=90 * deg, back=120 * deg, law="cycloidal") -> CamProgramme:
 @pytest.mark.parametrize("law", ["harmonic", "3-4-5"])
 def test_the_pressure_angle_alone_agrees_with_the_closed_form(law) -> None:
     programme = motion(30 * mm, law=law)
-    found = smallest_prime(PlateCam(programme, 1.0, 2 * mm), CamLimits(rise=30 * deg, back=30 * deg))
+    found = smallest_prime(PlateCam(programme, 1.0, 2 * mm), CamLimits(rise=30 * deg, fall=30 * deg))
     closed = pressure_prime(programme, CamLimits(30 * deg, 30 * deg), 2 * mm)
     assert found.prime_radius == pytest.approx(closed.value, rel=1e-12)
     assert found.at == pytest.approx(closed.at, abs=1e-6)
@@ -44,11 +44,11 @@ def test_the_pressure_angle_alone_agrees_with_the_closed_form(law) -> None:
 
 def test_rise_and_way_back_keep_their_own_limits() -> None:
     programme = motion(30 * mm)
-    closed = pressure_prime(programme, CamLimits(rise=35 * deg, back=20 * deg), 3 * mm)
+    closed = pressure_prime(programme, CamLimits(rise=35 * deg, fall=20 * deg), 3 * mm)
     cam = PlateCam(programme, closed.value, 3 * mm)
-    found = smallest_prime(cam, CamLimits(rise=35 * deg, back=20 * deg))
+    found = smallest_prime(cam, CamLimits(rise=35 * deg, fall=20 * deg))
     assert found.prime_radius == pytest.approx(closed.value, rel=1e-12)
-    assert found.binds == "the pressure angle on the way back"
+    assert found.binds == "the pressure angle on the return"
     assert pressure_angle_max(cam, "return").value == pytest.approx(20 * deg, rel=1e-12)
     assert pressure_angle_max(cam, "rise").value < 35 * deg
     rising = smallest_prime(cam, CamLimits(rise=35 * deg)).prime_radius
@@ -89,7 +89,7 @@ def test_a_flat_faces_circle_is_the_closed_form() -> None:
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_an_arms_circle_keeps_limits_that_a_smaller_one_breaks(side) -> None:
-    limits = CamLimits(rise=42 * deg, back=40 * deg, convex=14 * mm)
+    limits = CamLimits(rise=42 * deg, fall=40 * deg, convex=14 * mm)
     cam = OscillatingCam(motion(20 * deg), 70 * mm, 110 * mm, 100 * mm, side, 10 * mm)
     found = cam.resized(smallest_prime(cam, limits).prime_radius)
     require(found, limits)
@@ -107,7 +107,7 @@ def test_a_swinging_faces_circle_is_just_convex() -> None:
 
 
 def test_the_best_offset_is_better_than_all_others() -> None:
-    programme, limits = motion(30 * mm), CamLimits(rise=30 * deg, back=45 * deg)
+    programme, limits = motion(30 * mm), CamLimits(rise=30 * deg, fall=45 * deg)
     best = best_offset(programme, limits)
     assert best.offset > 0
     tried = [pressure_prime(programme, limits, float(e)).value for e in best.offset + np.linspace(-0.02, 0.02, 21)]
@@ -118,7 +118,7 @@ def test_the_best_offset_is_better_than_all_others() -> None:
 
 def test_equal_ways_out_and_back_want_no_offset() -> None:
     programme = motion(30 * mm, 120 * deg, 120 * deg)
-    assert best_offset(programme, CamLimits(rise=30 * deg, back=30 * deg)).offset == pytest.approx(0.0, abs=1e-7)
+    assert best_offset(programme, CamLimits(rise=30 * deg, fall=30 * deg)).offset == pytest.approx(0.0, abs=1e-7)
 
 
 def test_a_circle_too_small_is_refused_with_the_smallest_that_works() -> None:
@@ -136,4 +136,4 @@ def test_limits_that_no_circle_keeps_are_said() -> None:
     with pytest.raises(ParameterError, match="no prime radius from .* keeps a pressure angle on the rise of 5 deg"):
         smallest_prime(cam, CamLimits(rise=5 * deg))
     with pytest.raises(ParameterError, match="pressure angle of 90 deg; above 0 deg, below 90 deg"):
-        CamLimits(back=math.pi / 2)
+        CamLimits(fall=math.pi / 2)

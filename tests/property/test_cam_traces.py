@@ -92,12 +92,12 @@ def test_push_without_friction_gives_all_work_to_the_follower(kind, law, side) -
     trace = cam.trace(angle)
     lever = (np.conj(trace.surface) * trace.normal).imag
     if kind in {"roller", "flat"}:
-        moved = trace.course.ds
+        moved = trace.motion.ds
     elif kind == "arm":
-        moved = 95 * mm * trace.course.ds
+        moved = 95 * mm * trace.motion.ds
     else:
         pivot = 160 * mm * np.exp(-1j * angle)
-        moved = np.abs(trace.surface - pivot) * trace.course.ds
+        moved = np.abs(trace.surface - pivot) * trace.motion.ds
     np.testing.assert_allclose(lever, moved * np.cos(trace.pressure_angle), atol=1e-12)
 
 
@@ -107,7 +107,7 @@ def test_the_closed_forms_of_a_roller_in_a_slide_are_the_traces(law, offset, pri
     cam = PlateCam(motion(law, 25 * mm, 100 * deg, 0.3), prime, offset, 9 * mm)
     angle = np.linspace(0.0, TURN, 100)
     trace = cam.trace(angle)
-    at = trace.course
+    at = trace.motion
     np.testing.assert_allclose(cam.curvature(angle), trace.curvature, rtol=1e-11, atol=1e-10)
     np.testing.assert_allclose(cam.pressure_angle(angle), trace.pressure_angle, atol=1e-13)
     np.testing.assert_allclose(profile.normal(angle, at.s, at.ds, prime, offset), trace.normal, atol=1e-13)

@@ -33,7 +33,7 @@ CAMS = pytest.mark.parametrize("cam", [BARREL, ARM, BarrelArmCam(*[getattr(ARM, 
 def seen_from_the_roller(points, angle: float, cam):
     """Distances of points of the cam from the roller's axis when the cam stands at an angle."""
     turned = (points[..., 0] + 1j * points[..., 1]) * np.exp(1j * angle)
-    centre = complex(np.asarray(cam.motion(cam.programme.at(np.array(angle)))[0]))
+    centre = complex(np.asarray(cam.roller_motion(cam.programme.at(np.array(angle)))[0]))
     return np.hypot(points[..., 2] - centre.real, turned.imag - centre.imag), turned.real
 
 
@@ -77,7 +77,7 @@ def test_development_has_the_closed_forms() -> None:
 
 def test_smallest_barrel_for_a_pressure_angle() -> None:
     """R = s'max / tan(limit)."""
-    found = smallest_prime(BARREL, CamLimits(rise=30 * deg, back=30 * deg))
+    found = smallest_prime(BARREL, CamLimits(rise=30 * deg, fall=30 * deg))
     assert found.prime_radius == pytest.approx(2 * 40 * mm / (100 * deg) / math.tan(30 * deg), rel=1e-10)
 
 

@@ -19,7 +19,7 @@ def uniform() -> CamProgramme:
 
 def test_uniform_motion_jumps_in_the_velocity_and_nowhere_else() -> None:
     found = jumps(uniform(), 1)
-    assert [(jump.place, round(jump.after - jump.before, 12)) for jump in found] == [
+    assert [(jump.where, round(jump.after - jump.before, 12)) for jump in found] == [
         ("from dwell to rise", 0.02),
         ("from rise to dwell", -0.02),
         ("from dwell to fall", -0.02),
@@ -72,9 +72,9 @@ def test_blends_do_not_hide_the_jumps_of_others() -> None:
 @pytest.mark.parametrize(
     ("parts", "order", "said"),
     [
-        ((blend(1.0, 0.01), blend(1.0, -0.01), dwell(TURN - 2.0)), 2, "two blends side by side; say the motion"),
+        ((blend(1.0, 0.01), blend(1.0, -0.01), dwell(TURN - 2.0)), 2, "two adjacent blends; give the motion"),
         ((dwell(TURN),), 4, "continuity of order 4; 1 .velocity., 2"),
-        ((even(1.0, 0.01), blend(TURN - 1.0, -0.02)), 2, "-10 mm from where it began; it must come back"),
+        ((even(1.0, 0.01), blend(TURN - 1.0, -0.02)), 2, "-10 mm from its start; it must return"),
         ((even(1.0, 0.01), blend(1.0, -0.01)), 2, "constant speed 57.3 . blend 57.3 degrees; its parts must add up"),
     ],
 )
@@ -136,6 +136,6 @@ def test_any_order_of_angles_is_the_angles_one_by_one(law, angles, start) -> Non
 
 def test_a_law_that_does_not_end_at_one_is_no_rise() -> None:
     half = law_of("polynomial", {"end": (0.5, 0, 0)})
-    said = "rise: its law polynomial goes from 0 to 0.5; from 0 to 1; let it end at 1, or take `free`"
+    said = "rise: its law polynomial goes from 0 to 0.5; from 0 to 1; use a law that ends at 1, or `free`"
     with pytest.raises(ParameterError, match=said):
         CamProgramme((rise(1.0, 0.02, half), fall(1.0, 0.02, LAWS["3-4-5"]), dwell(TURN - 2.0)))

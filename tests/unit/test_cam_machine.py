@@ -142,7 +142,7 @@ def test_arm_turns_the_shaft_by_its_virtual_work(more) -> None:
     found = made(**ARM, **more, pressure_angle_limit="35deg")
     angle = np.linspace(0.01, 6.2, 61)
     state = found.state(angle)
-    assert state.torque == pytest.approx(state.force * state.trace.course.ds, abs=1e-9)
+    assert state.torque == pytest.approx(state.force * state.trace.motion.ds, abs=1e-9)
     course = found.programme.at(angle)
     moment = (0.5 * course.dds * 0.09 * found.params.speed**2 + 100) * 0.09
     spring = found.held.preload + found.held.rate * course.s
@@ -167,7 +167,7 @@ def test_cam_that_leads_both_ways_needs_no_spring(more) -> None:
     state = found.state(np.linspace(0.01, 6.2, 61))
     assert state.force.min() < 0 < state.force.max()
     assert np.sign(state.normal) == pytest.approx(np.sign(state.force))
-    assert state.torque == pytest.approx(state.force * state.trace.course.ds, abs=1e-9)
+    assert state.torque == pytest.approx(state.force * state.trace.motion.ds, abs=1e-9)
     assert found.held.rate == found.held.preload == 0
     assert not found.undercut
     assert math.isfinite(found.extremes.pressure.value)
@@ -193,7 +193,7 @@ def test_strip_turns_the_shaft_by_its_virtual_work(kind) -> None:
     found = made(**asked, kind=kind, pressure_angle_limit="28deg")
     assert found.cam.prime_radius == pytest.approx(2 * 30 * mm / (90 * deg) / math.tan(28 * deg), rel=1e-6)
     state = found.state(np.linspace(0.01, 1.5, 41))
-    assert state.torque == pytest.approx(state.force * state.trace.course.ds, abs=1e-9)
+    assert state.torque == pytest.approx(state.force * state.trace.motion.ds, abs=1e-9)
     assert state.normal * np.cos(state.trace.pressure_angle) == pytest.approx(state.force, abs=1e-9)
     assert not found.undercut
     assert found.params.led == (kind == "barrel") == (found.held.rate == 0)
@@ -202,7 +202,7 @@ def test_strip_turns_the_shaft_by_its_virtual_work(kind) -> None:
 def test_friction_in_the_guide_of_a_barrel_costs_what_it_rubs() -> None:
     found = made(law="cycloidal", lift="30mm", kind="barrel", guide_friction="0.1", speed="600rpm")
     state = found.state(np.linspace(0.01, 6.2, 61))
-    ds = state.trace.course.ds
+    ds = state.trace.motion.ds
     rubbed = 0.1 * np.abs(state.normal * np.sin(state.trace.pressure_angle) * ds)
     assert state.torque - state.force * ds == pytest.approx(rubbed, abs=1e-9)
     assert state.force.min() < 0

@@ -57,7 +57,7 @@ def test_any_turn_and_any_shape() -> None:
 )
 def test_names_where_the_acceleration_jumps(name, places) -> None:
     found = jumps(shed(name))
-    assert [jump.place for jump in found] == [place for place, _ in places]
+    assert [jump.where for jump in found] == [place for place, _ in places]
     assert [jump.angle for jump in found] == pytest.approx([angle for _, angle in places])
     assert jumps(shed(name), order=1) == ()
 
@@ -76,7 +76,7 @@ def test_size_of_the_jump() -> None:
 
 
 def test_the_jerk_jumps_where_a_smooth_law_meets_a_dwell() -> None:
-    assert [jump.place for jump in jumps(shed("cycloidal"), order=3)] == [
+    assert [jump.where for jump in jumps(shed("cycloidal"), order=3)] == [
         "from dwell to rise",
         "from rise to fall",
         "from fall to dwell",
@@ -87,7 +87,7 @@ def test_the_jerk_jumps_where_a_smooth_law_meets_a_dwell() -> None:
     ("segments", "said"),
     [
         ((rise(QUARTER, 0.06, LAWS["harmonic"]), fall(QUARTER, 0.06, LAWS["harmonic"])), "rise 90 . fall 90 degrees"),
-        ((rise(QUARTER, 0.06, LAWS["harmonic"]), dwell(1.5 * math.pi)), "60 mm from where it began"),
+        ((rise(QUARTER, 0.06, LAWS["harmonic"]), dwell(1.5 * math.pi)), "60 mm from its start"),
         ((dwell(3 * math.pi), dwell(-math.pi)), "must add up to 360"),
         ((), "no parts"),
     ],

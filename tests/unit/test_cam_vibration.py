@@ -212,7 +212,7 @@ def test_plots_hold_what_was_asked() -> None:
         (lambda: one_mass(0.0, 1.0), "a follower of mass 0 kg"),
         (lambda: FollowerModel(()), "a follower without a mass"),
         (lambda: rise_response(one_mass(1.0, 1.0), LAWS["cubic"], 0.01, 0.0), "a rise in 0 s; above 0"),
-        (lambda: rise_response(one_mass(1.0, 1e14), LAWS["cubic"], 0.01, 1.0), "take it as rigid"),
+        (lambda: rise_response(one_mass(1.0, 1e14), LAWS["cubic"], 0.01, 1.0), "model the follower as rigid"),
     ],
 )
 def test_refuses(call, said) -> None:
@@ -223,6 +223,6 @@ def test_refuses(call, said) -> None:
 def test_an_undamped_follower_in_tune_with_the_cam_is_refused() -> None:
     law = LAWS["cycloidal"]
     made = CamProgramme((rise(2.0, 0.02, law), fall(2.0, 0.02, law), dwell(TURN - 4.0)))
-    with pytest.raises(ParameterError, match="the follower resonates: .* give it damping, or another speed"):
+    with pytest.raises(ParameterError, match="the follower resonates: .* give damping, or another speed"):
         steady_response(one_mass(1.0, 30.0**2), made, 10.0)
     assert np.all(np.isfinite(steady_response(one_mass(1.0, 31.0**2), made, 10.0).displacement))

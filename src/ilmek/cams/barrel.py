@@ -1,19 +1,18 @@
 """Barrel (cylindrical) and end cams: a roller whose axis is radial, moved along the cam's axis or on an arm.
 
-The cam turns counter-clockwise about z. At the depth rho from the axis the roller's centre is (rho, y, z) with
-B = z + i y (`strip`). A point of the roller's mantle at that depth, B + d n, |n| = 1, d = -Rr (lower flank) or +Rr,
-moves over the cam along it where n is square to the relative motion: n = i (B' - i rho)/|B' - i rho|. So the flanks in
-space are, without any approximation,
+The cam turns counter-clockwise about z. At the distance rho from the axis the roller's axis is at (rho, y, z)
+with B = z + i y (`strip`). The roller touches the cam at B + d n, |n| = 1, d = -Rr (lower flank) or +Rr (upper flank),
+where n is perpendicular to the relative velocity: n = i (B' - i rho)/|B' - i rho|. So the exact flanks in space are
 
     (x + i y, z) = ((rho + i Im w) exp(-i theta), Re w),   w = B + d n(rho)
 
-and the development at the radius rho has the pressure angle that the roller has there: largest at its inner end. A
-flank is a surface that guides where
+The development at the radius rho has the pressure angle of the roller there; it is largest at the roller's inner end. A
+flank guides the roller where
 
     |B' - i rho| + d turning - Im(w) d Re(B') / |B' - i rho|^2  > 0
 
-The last term is what the development leaves out: the contact wanders along the roller's axis as the cam is round.
-An end cam is the lower flank alone, with a spring; a barrel's groove has both.
+The development neglects the last term: the contact moves along the roller's axis because the cam is round.
+An end cam has only the lower flank, and a spring; the groove of a barrel has both flanks.
 """
 
 import math
@@ -38,7 +37,7 @@ Space = Float[np.ndarray, "*batch 3"]
 
 
 class Barrel(CamCurves):
-    """What all barrel and end cams share; a follower gives its motion and its way in the development."""
+    """Barrel or end cam; a subclass gives the roller's motion and its direction in the development."""
 
     __slots__ = ()
 
@@ -47,17 +46,17 @@ class Barrel(CamCurves):
     roller_width: float
 
     @abstractmethod
-    def motion(self, course: FollowerMotion) -> tuple[ComplexField, ComplexField, ComplexField]:
+    def roller_motion(self, motion: FollowerMotion) -> tuple[ComplexField, ComplexField, ComplexField]:
         """Roller's centre B = z + i y and its derivatives by the cam angle [m]."""
 
     @abstractmethod
-    def way(self, course: FollowerMotion) -> ComplexField:
-        """Unit direction in which the roller goes as the displacement grows."""
+    def direction(self, motion: FollowerMotion) -> ComplexField:
+        """Unit direction in which the roller moves as the displacement grows."""
 
-    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
-        """Everything at cam angles [rad], of the course there, in the development at the mean radius."""
+    def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
+        """The trace at cam angles [rad], for the follower's motion there, in the development at the mean radius."""
         size = {"radius": self.prime_radius, "roller_radius": self.roller_radius}
-        return trace_of_strip(angle, course, self.motion(course), self.way(course), **size)
+        return trace_of_strip(angle, motion, self.roller_motion(motion), self.direction(motion), **size)
 
     @property
     def depths(self) -> tuple[float, float]:
@@ -66,40 +65,46 @@ class Barrel(CamCurves):
 
     @property
     def prime_bounds(self) -> tuple[float, float]:
-        """Between which mean radii [m] the cam can be built: the roller must end before the axis."""
+        """Bounds of the mean radius [m], both excluded: the roller must not reach the cam's axis."""
         return self.roller_width / 2, math.inf
 
     def flank(self, angle: FloatArray, depth: float, side: Literal[1, -1] = -1) -> Space:
-        """Points of a flank in space, in the cam's frame [m], where it is touched at a depth [m] along the roller.
+        """Contact points on a flank in space, (*angle, 3), in the cam's frame [m].
 
-        side  -1: under the roller, which it pushes out on a rise; +1: over it      The point touched lies at the
-        distance |rho + i Im w| from the axis, a little more than the depth.
+        angle  cam angles [rad]      depth  distance rho from the axis along the roller [m]
+        side   -1: the flank below the roller, which pushes it out on a rise; +1: the flank above it
+
+        A contact point lies at |rho + i Im w| from the axis, slightly more than the depth.
         """
         trace, w = self._section(angle, depth, side)
         round_ = (depth + 1j * w.imag) * unit(-trace.angle)
         return np.stack([round_.real, round_.imag, w.real], axis=-1)
 
     def guiding(self, angle: FloatArray, depth: float, side: Literal[1, -1] = -1) -> FloatArray:
-        """How fast the contact runs over a flank at a depth [m] [m/rad]; not above 0 where the flank is undercut."""
+        """Speed of the contact along a flank [m/rad] at cam angles [rad] and a depth [m]; not above 0: undercut.
+
+        side  as in `flank`
+        """
         trace, w = self._section(angle, depth, side)
         distance = side * self.roller_radius
-        first = np.asarray(self.motion(trace.course)[1])
+        first = np.asarray(self.roller_motion(trace.motion)[1])
         wander = w.imag * distance * first.real / trace.flow**2
         return np.asarray(trace.flow + distance * trace.turning - wander)
 
     def _section(self, angle: FloatArray, depth: float, side: int) -> tuple[CamTrace, np.ndarray]:
-        """Development at a depth, and the flank's points there as B + d n."""
-        course = self.programme.at(angle)
-        motion = self.motion(course)
-        trace = trace_of_strip(angle, course, motion, self.way(course), radius=depth, roller_radius=self.roller_radius)
-        return trace, np.asarray(motion[0] + side * self.roller_radius * trace.normal)
+        """Development at a depth [m], and the flank's points there, B + d n."""
+        motion = self.programme.at(angle)
+        point = self.roller_motion(motion)
+        size = {"radius": depth, "roller_radius": self.roller_radius}
+        trace = trace_of_strip(angle, motion, point, self.direction(motion), **size)
+        return trace, np.asarray(point[0] + side * self.roller_radius * trace.normal)
 
 
 @dataclass(frozen=True, slots=True)
 class BarrelCam(Barrel):
     """A barrel or end cam with a roller that slides along its axis; lengths in m.
 
-    prime_radius  distance of the middle of the roller from the cam's axis     roller_width  its length
+    prime_radius  distance of the middle of the roller from the cam's axis     roller_width  length of the roller
 
     Raises ParameterError where the roller reaches the axis.
     """
@@ -113,11 +118,11 @@ class BarrelCam(Barrel):
     def __post_init__(self) -> None:
         _check_roller(self.prime_radius, self.roller_width)
 
-    def motion(self, course: FollowerMotion) -> tuple[ComplexField, ComplexField, ComplexField]:
-        """B = s, along the axis."""
-        return course.s, course.ds, course.dds
+    def roller_motion(self, motion: FollowerMotion) -> tuple[ComplexField, ComplexField, ComplexField]:
+        """B = s, along the axis, with B' and B''."""
+        return motion.s, motion.ds, motion.dds
 
-    def way(self, course: FollowerMotion) -> ComplexField:  # noqa: ARG002
+    def direction(self, motion: FollowerMotion) -> ComplexField:  # noqa: ARG002
         """Along the axis."""
         return 1.0
 
@@ -132,13 +137,14 @@ class BarrelArmCam(Barrel):
 
         B = l sin phi + i side (l cos phi - t),   phi = start + s
 
-    start  angle of the arm from the plane across the cam's axis where the displacement is 0 [rad]; with -swing/2 the
-           arm swings evenly about that plane
-    arm    its length to the roller l [m]      pivot  distance of its pivot from the plane through cam and roller t [m];
-           with l cos(swing/2) the roller strays as far to one side as to the other
+    start  angle of the arm from the plane perpendicular to the cam's axis, at displacement 0 [rad]; with -swing/2 the
+           arm swings symmetrically about that plane
+    arm    length l from the pivot to the roller [m]
+    pivot  distance t of the pivot from the plane through the cam's axis and the roller's mean position [m]; with
+           t = l cos(swing/2) the roller deviates equally to both sides
     side   +1: the cam's surface moves from the pivot to the roller (trailing arm), -1: towards the pivot
 
-    Raises ParameterError where the roller reaches the axis or the arm swings along it.
+    Raises ParameterError where the roller reaches the axis, or the arm swings to 90 deg or beyond.
     """
 
     programme: CamProgramme
@@ -158,15 +164,15 @@ class BarrelArmCam(Barrel):
             shown = f"{format_quantity(low, 'deg')} to {format_quantity(high, 'deg')}"
             raise ParameterError(f"an arm that swings from {shown}", allowed="between -90 and 90 deg")
 
-    def motion(self, course: FollowerMotion) -> tuple[ComplexField, ComplexField, ComplexField]:
-        """B, B' = l psi' e and B'' = (psi'' - i side psi'^2) l e, with e the way."""
-        out = self.arm * self.way(course)
-        point = 1j * self.side * (out - self.pivot)
-        return point, course.ds * out, (course.dds - 1j * self.side * course.ds**2) * out
+    def roller_motion(self, motion: FollowerMotion) -> tuple[ComplexField, ComplexField, ComplexField]:
+        """B, B' = l psi' e and B'' = (psi'' - i side psi'^2) l e, with e the direction."""
+        out = self.arm * self.direction(motion)
+        centre = 1j * self.side * (out - self.pivot)
+        return centre, motion.ds * out, (motion.dds - 1j * self.side * motion.ds**2) * out
 
-    def way(self, course: FollowerMotion) -> ComplexField:
-        """Square to the arm: exp(-i side phi)."""
-        return unit(-self.side * (self.start + course.s))
+    def direction(self, motion: FollowerMotion) -> ComplexField:
+        """Perpendicular to the arm: exp(-i side phi)."""
+        return unit(-self.side * (self.start + motion.s))
 
     def resized(self, prime_radius: float) -> "BarrelArmCam":
         """The same cam with another mean radius [m]."""
@@ -174,9 +180,11 @@ class BarrelArmCam(Barrel):
 
 
 def undercut_in_space(cam: Barrel, *, both_flanks: bool = True) -> Extremum | None:
-    """The cam angle [rad] and the speed [m/rad], not above 0, where a flank is cut away worst; None where none is.
+    """The worst undercut: cam angle [rad] and speed of the contact [m/rad], not above 0; None without undercut.
 
-    Both ends of the roller and its middle are looked at; both_flanks: a groove's, else the lower one, of an end cam.
+    both_flanks  both flanks of a groove, else the lower flank of an end cam
+
+    The search covers both ends of the roller and its middle.
     """
     sides: tuple[Literal[1, -1], ...] = (-1, 1) if both_flanks else (-1,)
     found = [
@@ -189,17 +197,20 @@ def undercut_in_space(cam: Barrel, *, both_flanks: bool = True) -> Extremum | No
 
 
 def cutter_error(cam: Barrel, radius: float, side: Literal[1, -1] = -1, count: int = 181) -> tuple[float, float]:
-    """How far a flank cut by a cutter of another radius [m] stands off the roller, at least and at most [m].
+    """Least and greatest gap [m] between the roller and a flank cut by a cutter of another radius.
 
-    The cutter's axis is radial as the roller's is, its centre runs beside the roller's so that the flank is exact at
-    the mean radius; towards the roller's ends the normals turn, and the cutter leaves (below 0) or takes too much. Of
-    poses evenly over the turn, at both ends of the roller. 0 for a cutter as large as the roller.
+    radius  of the cutter [m], at most the roller's      side  flank, as in `Barrel.flank`
+    count   of poses, evenly over the turn; the gap is computed at both ends of the roller
+
+    The cutter's axis is radial, as the roller's is. The flank is exact at the mean radius. Towards the roller's ends
+    the normals turn, and the cutter leaves material (gap below 0) or removes too much. A cutter of the roller's radius
+    gives 0.
     """
     angle = np.linspace(float(cam.knots[0]), float(cam.knots[-1]), count)
     middle = cam.trace(angle)
-    first = np.asarray(cam.motion(middle.course)[1])
+    first = np.asarray(cam.roller_motion(middle.motion)[1])
     beside = side * (cam.roller_radius - radius)
-    centre = np.asarray(cam.motion(middle.course)[0]) + beside * middle.normal
+    centre = np.asarray(cam.roller_motion(middle.motion)[0]) + beside * middle.normal
     speed = first - 1j * beside * middle.turning * middle.normal
     gaps = []
     for depth in cam.depths:
@@ -210,20 +221,20 @@ def cutter_error(cam: Barrel, radius: float, side: Literal[1, -1] = -1, count: i
 
 
 def _gaps(cam: Barrel, angle: FloatArray, level: np.ndarray, up: FloatArray) -> FloatArray:
-    """Distance of points, seen at cam angles as (x + i y, z), from the roller's mantle in the pose that is nearest."""
+    """Gap [m] of points (x + i y, z), given at cam angles [rad], from the roller in the nearest pose."""
     later = np.linspace(-_LATER, _LATER, 61)
     poses = angle[:, None] + later
-    centre = np.asarray(cam.motion(cam.programme.at(poses))[0])
+    centre = np.asarray(cam.roller_motion(cam.programme.at(poses))[0])
     turned = level[:, None] * unit(later)
     apart = np.hypot(turned.imag - centre.imag, up[:, None] - centre.real)
     row, best = np.arange(angle.size), np.clip(np.argmin(apart, axis=1), 1, later.size - 2)
     before, here, after = (apart[row, best + step] for step in (-1, 0, 1))
-    # The least of the parabola through the nearest pose and its neighbours.
+    # The minimum of the parabola through the nearest pose and its neighbours.
     return np.asarray(here - (after - before) ** 2 / (8 * (after - 2 * here + before)) - cam.roller_radius)
 
 
 _LATER = 0.1
-"""How much earlier or later [rad] the roller may come nearest to a point that was cut at a cam angle."""
+"""Cam angle [rad] before and after the cut of a point within which the roller may come nearest to it."""
 
 
 def _check_roller(prime_radius: float, roller_width: float) -> None:

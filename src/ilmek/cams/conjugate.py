@@ -1,13 +1,13 @@
-"""Conjugate plate cams: two plates on one shaft hold a double follower from both sides, without spring and play.
+"""Conjugate plate cams: two plates on one shaft guide a double follower from both sides, without spring and backlash.
 
-What one roller goes out the other comes in; the second plate's programme is the rest of the way,
+When one roller moves out the other moves in, so the displacement of the second plate is the remaining lift:
 
     s2 = top - s1
 
-Two rollers (or two parallel faces) in one slide, the distance D apart with the shaft between them: the second plate is
-met half a turn further on, and its prime radius follows from D (both without offset: Rp2 = D - Rp1 - top). Two arms or
-two faces on one pivot with a fixed angle gamma between them, one on each side of the line to the axis:
-psi2 = gamma - psi1. Both plates share the frame of the shaft.
+Two rollers (or two parallel faces) on one slide are the distance D apart, with the shaft between them. The second plate
+is touched half a turn further on, and its prime radius follows from D (both without offset: Rp2 = D - Rp1 - top). Two
+arms or two faces on one pivot have a fixed angle gamma between them, one on each side of the line to the axis: psi2 =
+gamma - psi1. Both plates are described in the frame of the shaft.
 """
 
 import math
@@ -30,29 +30,29 @@ from ilmek.units import format_quantity
 
 @dataclass(frozen=True, slots=True)
 class ConjugatePair:
-    """Two conjugate plates; the second is met at the cam angle + `lag` [rad] of its own programme."""
+    """Two conjugate plates; the second is touched at the cam angle + `lag` [rad] of its own programme."""
 
     first: PlateCam | FlatCam | OscillatingCam | OscillatingFlatCam
     second: PlateCam | FlatCam | OscillatingCam | OscillatingFlatCam
     lag: float
 
     def traces(self, angle: FloatArray) -> tuple[CamTrace, CamTrace]:
-        """Both plates' traces at the moments when the shaft stands at the angles [rad], in the shaft's frame."""
+        """Traces of both plates at shaft angles [rad], in the shaft's frame."""
         return self.first.trace(angle), self.second.trace(angle + self.lag)
 
     def between(self, angle: FloatArray) -> ComplexArray:
-        """From the first roller's centre to the second's, in the shaft's frame [m]; of one length all round.
+        """Vector from the first roller's centre to the second's, in the shaft's frame [m], at shaft angles [rad].
 
-        Of faces, from one place of contact to the other.
+        For faces, from one contact point to the other. The length of the vector is constant for rollers.
         """
         first, second = self.traces(angle)
         return np.asarray(second.pitch - first.pitch)
 
 
 def remaining_rise(programme: CamProgramme) -> CamProgramme:
-    """The programme top - s, begun where s is highest between two parts, so that it starts from 0 again."""
+    """The programme top - s. It starts where s is highest between two parts, so its displacement starts at 0."""
     bases = programme.bases
-    highest = max(range(len(bases)), key=lambda place: bases[place])
+    highest = max(range(len(bases)), key=lambda number: bases[number])
     turned = [
         replace(part, change=-part.change, scale=None if part.scale is None else -part.scale)
         for part in (*programme.segments[highest:], *programme.segments[:highest])
@@ -61,10 +61,11 @@ def remaining_rise(programme: CamProgramme) -> CamProgramme:
 
 
 def conjugate(cam: PlateCam, distance: float, roller_radius: float | None = None) -> ConjugatePair:
-    """A plate and the one that holds its slide back: roller centres `distance` [m] apart on the slide's line.
+    """The pair of a plate and the second plate that returns its slide.
 
-    roller_radius  of the second roller [m]; None: as the first
-    Raises ParameterError where the distance leaves the second plate no prime circle.
+    distance       of the two rollers' centres along the slide's line [m]
+    roller_radius  of the second roller [m]; default: that of the first
+    Raises ParameterError for a distance too small for the second plate.
     """
     top = _top(cam.programme)
     own = math.sqrt(cam.prime_radius**2 - cam.offset**2)
@@ -82,9 +83,9 @@ def conjugate(cam: PlateCam, distance: float, roller_radius: float | None = None
 
 
 def smallest_conjugate(cam: PlateCam, limits: CamLimits) -> ConjugatePair:
-    """The pair whose plates are both as small as the limits allow; the cam's own prime radius does not matter.
+    """The pair whose plates are both as small as the limits allow; the given prime radius does not matter.
 
-    Each plate pushes where its own roller goes out, so that the limit of the rise is the second's on the way back.
+    Each plate drives where its own roller moves out, so the second plate keeps the limit of the rise on the return.
     Raises ParameterError where a plate cannot keep the limits.
     """
     first = cam.resized(smallest_prime(cam, limits).prime_radius)
@@ -95,10 +96,12 @@ def smallest_conjugate(cam: PlateCam, limits: CamLimits) -> ConjugatePair:
 
 
 def conjugate_faces(cam: FlatCam, distance: float) -> ConjugatePair:
-    """A plate between two parallel faces `distance` [m] apart, and the second plate that the other face needs.
+    """The pair of a plate and the second plate for a slide of two parallel faces.
 
-    Where s1(theta) + s1(theta + pi) = top both are one plate: a cam of constant breadth.
-    Raises ParameterError where the distance leaves the second plate no base circle.
+    distance  between the faces [m]
+
+    Where s1(theta) + s1(theta + pi) = top both plates are equal: a constant-breadth cam.
+    Raises ParameterError for a distance too small for the second plate.
     """
     radius = distance - cam.prime_radius - _top(cam.programme)
     if radius <= 0:
@@ -110,10 +113,11 @@ def conjugate_faces(cam: FlatCam, distance: float) -> ConjugatePair:
 def conjugate_arms(
     cam: OscillatingCam, between: float, arm: float | None = None, roller_radius: float | None = None
 ) -> ConjugatePair:
-    """A plate and the one that holds its arm back by a second arm on the same pivot.
+    """The pair of a plate and the second plate that returns its arm by a second arm on the same pivot.
 
-    between  angle between the arms, over the shaft [rad]      arm, roller_radius  of the second; None: as the first
-    Raises ParameterError where the angle leaves the second arm no way to its plate.
+    between             angle between the arms, across the shaft [rad]
+    arm, roller_radius  of the second arm [m]; default: those of the first
+    Raises ParameterError for an angle at which the second arm does not reach its plate.
     """
     length = cam.arm if arm is None else arm
     radius = cam.roller_radius if roller_radius is None else roller_radius
@@ -132,11 +136,11 @@ def conjugate_arms(
 
 
 def conjugate_swinging_faces(cam: OscillatingFlatCam, between: float, face_offset: float = 0.0) -> ConjugatePair:
-    """A plate and the one that holds its face back by a second face on the same pivot.
+    """The pair of a plate and the second plate that returns its face by a second face on the same pivot.
 
-    between  angle between the faces, over the shaft [rad]
-    face_offset  how far the second face lies beyond the pivot, away from its cam [m]
-    Raises ParameterError where the angle leaves the second plate no base circle.
+    between      angle between the faces, across the shaft [rad]
+    face_offset  distance of the second face beyond the pivot, away from its cam [m]
+    Raises ParameterError for an angle that leaves no base circle for the second plate.
     """
     top = _top(cam.programme)
     start = between - cam.start_angle - top
@@ -156,7 +160,7 @@ def conjugate_swinging_faces(cam: OscillatingFlatCam, between: float, face_offse
 
 
 def _top(programme: CamProgramme) -> float:
-    """Displacement at the highest end of a part."""
+    """Largest displacement at the ends of the parts [m or rad]."""
     return max(programme.bases)
 
 

@@ -18,7 +18,7 @@ _BESIDE = 1e-9
 
 
 def sample_angles(*programmes: CamProgramme, count: int = 361) -> FloatArray:
-    """Cam angles of one turn [rad] for a diagram: evenly spread, and both sides of every knot to show jumps upright."""
+    """Cam angles [rad] of one turn for a diagram: `count` even ones, and both sides of every knot to show jumps."""
     knots = np.mod(np.concatenate([programme.knots for programme in programmes]), TURN)
     sides = np.clip(np.concatenate([knots - _BESIDE, knots + _BESIDE]), 0.0, TURN)
     return np.unique(np.concatenate([np.linspace(0.0, TURN, count), sides]))
@@ -47,7 +47,7 @@ def turn_plot(
 
 def jump_note(programme: CamProgramme, of: str = "") -> str:
     """The jumps of the acceleration as a note; `of`: words before it, `even warps: `."""
-    found = ", ".join(f"{jump.place} at {format_quantity(jump.angle, 'deg')}" for jump in jumps(programme))
+    found = ", ".join(f"{jump.where} at {format_quantity(jump.angle, 'deg')}" for jump in jumps(programme))
     return f"{of}the acceleration jumps {found}" if found else "the acceleration has no jump"
 
 
@@ -58,12 +58,13 @@ def motion_plots(
     note: str = "",
     unit: Literal["mm", "deg"] = "mm",
 ) -> tuple[Plot, ...]:
-    """Displacement (with marks), velocity and acceleration (with a note) of followers by name, at a speed [rad/s].
+    """Plots of displacement, velocity and acceleration of followers by name.
 
-    unit  deg where the displacements are angles
+    speed  of the cam [rad/s]      marks  on the displacement      note  under the acceleration
+    unit   of the displacement: deg where it is an angle
     """
     angle = sample_angles(*programmes.values())
-    courses = {name: programme.at(angle) for name, programme in programmes.items()}
+    motions = {name: programme.at(angle) for name, programme in programmes.items()}
     kinds = (("displacement", unit, 0), ("velocity", f"{unit}/s", 1), ("acceleration", f"{unit}/s^2", 2))
     return tuple(
         Plot(
@@ -72,8 +73,8 @@ def motion_plots(
             x=_ANGLE,
             y=Axis(kind, unit),
             series=tuple(
-                Series(name, angle, speed**order * course[order], dashed=place > 0)
-                for place, (name, course) in enumerate(courses.items())
+                Series(name, angle, speed**order * motion[order], dashed=number > 0)
+                for number, (name, motion) in enumerate(motions.items())
             ),
             marks=marks if order == 0 else (),
             note=note if order == 2 else "",
@@ -98,7 +99,10 @@ def curvature_plot(cam: CamRole, at: float) -> Plot:
 
 
 def cam_drawing(cam: CamRole, bore_side: float, guide_radius: float) -> Drawing:
-    """The cam to scale, zero of the cam angle to the right: surface, prime circle, pitch curve, square bore, guide."""
+    """The cam to scale, cam angle 0 to the right: surface, prime circle, pitch curve, bore and guide circle.
+
+    bore_side  of the square bore [m]      guide_radius  of the guide cam [m]
+    """
     angle = sample_angles(cam.programme, count=721)
     circle = np.exp(1j * np.linspace(0.0, TURN, 361))
     tip = _to_the_tip(cam, angle)

@@ -1,20 +1,20 @@
-"""A follower of one mass or more on springs, driven by a cam: what it does instead of what the cam says.
+"""Dynamic response of a follower of one or more masses on springs, driven by a cam.
 
-Masses hang in a row on springs and dampers, the first on the cam's surface y, which moves as the law says:
+The masses form a row of springs and dampers; the first one follows the cam's surface y:
 
     M x'' + C x' + K x = (k1 y + c1 y') e1                                 [Norton, Cam Design and Manufacturing, 10]
 
-K holds the springs of the row and the return springs r to the frame. With z = x - y, how far each mass lags,
+K contains the springs of the row and the return springs r to the frame. With the deviation z = x - y of each mass,
 
     M z'' + C z' + K z = -m y'' - r y
 
-is linear with a smooth right side between the knots of the motion. In its natural modes each is one number q with
-q' = mu q + f, and so
+is linear, and its right side is smooth between the knots of the motion. In modal coordinates q, each with
+q' = mu q + f, it is solved exactly by
 
     q(t + h) = e^(mu h) q(t) + integral of e^(mu (h - s)) f(t + s) ds
 
-exactly; the integral is taken by Gauss' rule over panels short against every natural period, exact to rounding. Steps
-of the cam's velocity are kicks. The same steps, closed into a ring, give the motion that repeats turn by turn.
+Gauss' rule gives the integral, exact to rounding, over panels that are short against every natural period. A step of
+the cam's velocity adds an impulse. The periodic motion follows from the condition that the state repeats after a turn.
 """
 
 import math
@@ -55,12 +55,12 @@ _APART = 1e-10
 
 @record
 class Response:
-    """What a follower does, at ascending places; rows of the arrays are its masses, from the cam outwards.
+    """Response of a follower.
 
-    at            time of a rise [s], or cam angle of a turn [rad]
-    cam           displacement that the cam asks for [m]
-    displacement, velocity, acceleration   of the masses [m, m/s, m/s^2]
-    contact       force on the cam [N], below 0 where it would have to pull: there the follower leaves it
+    at            time in a rise [s], or cam angle in a turn [rad], ascending, (points,)
+    cam           displacement given by the cam [m], (points,)
+    displacement, velocity, acceleration   of the masses from the cam outwards [m, m/s, m/s^2], (masses, points)
+    contact       force on the cam [N], (points,); below 0 the follower leaves the cam
     """
 
     at: FloatArray
@@ -72,48 +72,50 @@ class Response:
 
     @property
     def lag(self) -> FloatArray:
-        """How far each mass is from where the cam would have it [m]."""
+        """Deviation of each mass from the displacement of the cam [m], (masses, points)."""
         return np.asarray(self.displacement - self.cam)
 
 
 def rise_response(
     follower: FollowerModel, law: Law, lift: float, time: float, *, after: float = 1.0, count: int = 401
 ) -> Response:
-    """The follower from rest over a rise of `lift` [m] in `time` [s], and for `after` rises' time beyond it.
+    """Response of a follower from rest to a rise, and after it.
 
-    count  even places over all that time; the knots of the law are added
-    Raises ParameterError for a time that is not above 0, and a follower too stiff to be followed.
+    lift, time  of the rise [m, s]      after  time after the rise, over `time` [-]
+    count       of even points over the whole time; the knots of the law are added
+    Raises ParameterError for a time that is not above 0, and for a follower too stiff to be integrated.
     """
     motion = _of_law(law, after)
     return _response(follower, motion, _even(0.0, 1.0 + after, count), (_rate(time), lift, time), _from_rest)
 
 
 def steady_response(follower: FollowerModel, programme: CamProgramme, speed: float, count: int = 721) -> Response:
-    """The motion that repeats every turn of a cam at a speed [rad/s], over one turn from the programme's start.
+    """Periodic response of a follower over one turn, from the programme's start.
 
-    Raises ParameterError where an undamped follower resonates with a multiple of the speed, or is too stiff.
+    speed  of the cam [rad/s]      count  of even points over the turn; the knots of the programme are added
+    Raises ParameterError where an undamped follower resonates with a multiple of the speed, and where it is too stiff.
     """
     motion = _of_programme(programme)
-    places = _even(programme.start, programme.start + TURN, count)
-    return _response(follower, motion, places, (speed, 1.0, 1.0), _repeating)
+    points = _even(programme.start, programme.start + TURN, count)
+    return _response(follower, motion, points, (speed, 1.0, 1.0), _repeating)
 
 
 def residual_of(follower: FollowerModel, law: Law, time: float) -> FloatArray:
-    """Amplitude that each mass swings with after a rise in `time` [s], at its end, in lifts: summed over the modes.
+    """Residual amplitude of each mass after a rise in `time` [s], over the lift [-], (masses,): the sum over the modes.
 
-    For one mass without return spring it is `vibration.residual` at time x frequency / 2 pi.
+    For one mass without return spring it equals `vibration.residual` at the time ratio time x frequency / 2 pi.
     """
     motion = _of_law(law, 0.0)
     modes = _modes(follower, _rate(time))
     _, states = _states(modes, motion, np.array([0.0, 1.0]), _from_rest)
-    # What stays is where the return springs hold the masses back.
+    # The static deflection by the return springs is no vibration.
     swing = states[:, -1] + modes.driven @ np.array([1.0, 0.0]) / modes.rates
     oscillates = np.abs(modes.rates.imag) > _BESIDE * np.abs(modes.rates)
     return np.asarray(np.abs(modes.shapes[: follower.masses.size] * (swing * oscillates)).sum(axis=1))
 
 
 def response_plot(responses: Mapping[str, Response], *, over_a_turn: bool = False) -> Plot:
-    """Lag of the last mass, of responses by name, over the time of a rise or over the cam angle of a turn."""
+    """Plot of the last mass's deviation, for responses by name, over the time of a rise or the cam angle of a turn."""
     series = tuple(Series(name, response.at, response.lag[-1]) for name, response in responses.items())
     x = Axis("cam angle", "deg") if over_a_turn else Axis("time", "ms")
     return Plot("follower", "Mass less cam: behind it below 0, beyond it above", x, Axis("mass less cam", "mm"), series)
@@ -121,16 +123,16 @@ def response_plot(responses: Mapping[str, Response], *, over_a_turn: bool = Fals
 
 @dataclass(frozen=True, slots=True)
 class _Motion:
-    """What drives the follower: s, s', s'' by place; knots; and steps of s' at places."""
+    """Excitation of the follower: s, s', s'' over the parameter (time ratio or cam angle), its knots, steps of s'."""
 
-    course: Callable[[FloatArray], FloatArray]
+    curve: Callable[[FloatArray], FloatArray]
     knots: FloatArray
     kicks: tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class _Modes:
-    """Natural modes over the place: q' = rates q + driven (s, s''), state = Re shapes q, with state (z, z')."""
+    """Natural modes over the parameter: q' = rates q + driven (s, s''), state (z, z') = Re shapes q."""
 
     rates: ComplexArray
     shapes: ComplexArray
@@ -145,22 +147,22 @@ def _rate(time: float) -> float:
 
 
 def _of_law(law: Law, after: float) -> _Motion:
-    def course(u: FloatArray) -> FloatArray:
+    def curve(u: FloatArray) -> FloatArray:
         at = law.motion(np.minimum(u, 1.0))
         still = u >= 1.0
         return np.array([np.where(still, law.s(1.0), at.s), np.where(still, 0.0, at.v), np.where(still, 0.0, at.a)])
 
     ends = (0.0, *law.breaks, 1.0, *([1.0 + after] if after else []))
-    return _Motion(course, np.array(ends), ((0.0, float(law.v(0.0))), (1.0, -float(law.v(1.0)))))
+    return _Motion(curve, np.array(ends), ((0.0, float(law.v(0.0))), (1.0, -float(law.v(1.0)))))
 
 
 def _of_programme(programme: CamProgramme) -> _Motion:
-    def course(angle: FloatArray) -> FloatArray:
+    def curve(angle: FloatArray) -> FloatArray:
         at: FollowerMotion = programme.at(angle)
         return np.array(at[:3])
 
     kicks = tuple((jump.angle, jump.after - jump.before) for jump in jumps(programme, 1))
-    return _Motion(course, programme.knots, kicks)
+    return _Motion(curve, programme.knots, kicks)
 
 
 def _modes(follower: FollowerModel, speed: float) -> _Modes:
@@ -173,7 +175,7 @@ def _modes(follower: FollowerModel, speed: float) -> _Modes:
     for damping in (follower.damping, follower.damping * (1.0 + _APART)):
         system[n:, n:] = -damping / mass / speed
         rates, shapes = np.linalg.eig(system)
-        # At critical damping two modes are one; a trace more of it parts them.
+        # At critical damping two modes coincide; a trace more damping separates them.
         if np.linalg.cond(shapes / np.abs(shapes).max(axis=0)) < _DEFECTIVE:
             break
     inverse = np.linalg.inv(shapes)
@@ -186,10 +188,10 @@ def _modes(follower: FollowerModel, speed: float) -> _Modes:
 
 
 def _states(
-    modes: _Modes, motion: _Motion, places: FloatArray, begin: Callable[[ComplexArray, ComplexArray], ComplexArray]
+    modes: _Modes, motion: _Motion, points: FloatArray, begin: Callable[[ComplexArray, ComplexArray], ComplexArray]
 ) -> tuple[FloatArray, ComplexArray]:
-    """Places (with knots, panels' ends) and the modes' states there, (modes, places), after the kicks."""
-    edges = _panels(np.unique(np.concatenate([motion.knots, places])), float(np.max(np.abs(modes.rates))))
+    """Points with knots and panel ends, and the modal states there, (modes, points), after the impulses."""
+    edges = _panels(np.unique(np.concatenate([motion.knots, points])), float(np.max(np.abs(modes.rates))))
     length = np.diff(edges)
     grow = np.exp(modes.rates[:, None] * length)
     gain = _gains(modes, motion, edges)
@@ -203,7 +205,7 @@ def _states(
 
 
 def _march(grow: ComplexArray, gain: ComplexArray, start: ComplexArray) -> ComplexArray:
-    """States at all edges: kicks (and what came by) are added at the edge, then the panel is crossed."""
+    """States at all edges: the gain is added at the edge, then the state crosses the panel."""
     state = np.empty(gain.shape, complex)
     state[:, 0] = start + gain[:, 0]
     for i in range(gain.shape[1] - 1):
@@ -212,23 +214,23 @@ def _march(grow: ComplexArray, gain: ComplexArray, start: ComplexArray) -> Compl
 
 
 def _gains(modes: _Modes, motion: _Motion, edges: FloatArray) -> ComplexArray:
-    """What the cam adds to each mode over the panel that ends at each edge; nothing at the first."""
+    """Gain of each mode over the panel that ends at each edge, (modes, edges); 0 at the first edge."""
     half = 0.5 * np.diff(edges)
     ahead = half[:, None] * (1.0 - _NODES)
-    course = motion.course(edges[1:, None] - ahead)
-    force = np.einsum("mf,fpn->mpn", modes.driven, course[[0, 2]])
+    cam = motion.curve(edges[1:, None] - ahead)
+    force = np.einsum("mf,fpn->mpn", modes.driven, cam[[0, 2]])
     added = np.exp(modes.rates[:, None, None] * ahead) * force * (half[:, None] * _WEIGHTS)
     return np.concatenate([np.zeros((modes.rates.size, 1)), added.sum(axis=-1)], axis=1)
 
 
 def _panels(edges: FloatArray, fastest: float) -> FloatArray:
-    """The edges with panels between them that no mode outruns."""
+    """The edges of panels that are short against the fastest mode."""
     apart = np.concatenate([[True], np.diff(edges) > _BESIDE])
     edges = edges[apart]
     counts = np.ceil(np.diff(edges) * max(fastest / _REACH, 4.0)).astype(int)
     if counts.sum() > _MOST_PANELS:
         raise ParameterError(
-            f"a follower that swings {fastest:g} rad in the unit of the motion", do="take it as rigid: it follows"
+            f"follower too stiff: {fastest:g} rad of vibration per unit of the motion", do="model the follower as rigid"
         )
     pieces = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(edges[:-1], edges[1:], counts, strict=True)]
     return np.concatenate([*pieces, edges[-1:]])
@@ -239,11 +241,11 @@ def _from_rest(_grown: ComplexArray, _gained: ComplexArray) -> ComplexArray:
 
 
 def _repeating(grown: ComplexArray, gained: ComplexArray) -> ComplexArray:
-    """The state that comes back after a turn: q = grown q + gained."""
+    """The state that repeats after a turn: q = grown q + gained."""
     if np.min(np.abs(1.0 - grown)) < _RESONANT:
         raise ParameterError(
-            "the follower resonates: a natural frequency is a multiple of the cam's speed and nothing damps it",
-            do="give it damping, or another speed",
+            "the follower resonates: a natural frequency is a multiple of the cam's speed, without damping",
+            do="give damping, or another speed",
         )
     return gained / (1.0 - grown)
 
@@ -255,17 +257,17 @@ def _even(first: float, last: float, count: int) -> FloatArray:
 def _response(
     follower: FollowerModel,
     motion: _Motion,
-    places: FloatArray,
+    points: FloatArray,
     units: tuple[float, float, float],
     begin: Callable[[ComplexArray, ComplexArray], ComplexArray],
 ) -> Response:
-    """The response in SI units; `units`: places a second, metres of a displacement, and of a place what is shown."""
+    """The response in SI units; `units`: parameter per second, metres per displacement, shown value per parameter."""
     speed, scale, shown = units
     modes, n = _modes(follower, speed), follower.masses.size
-    edges, states = _states(modes, motion, places, begin)
-    keep = np.isin(edges, np.concatenate([places, motion.knots]))
+    edges, states = _states(modes, motion, points, begin)
+    keep = np.isin(edges, np.concatenate([points, motion.knots]))
     edges, z = edges[keep], (modes.shapes @ states[:, keep]).real * scale
-    s, ds, _ = motion.course(edges) * scale
+    s, ds, _ = motion.curve(edges) * scale
     displacement, velocity = s + z[:n], speed * (ds + z[n:])
     stage = follower.stages[0]
     push = stage.stiffness * z[0] + stage.damping * speed * z[n]

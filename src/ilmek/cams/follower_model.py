@@ -1,4 +1,4 @@
-"""A follower as masses in a row on springs and dampers, the first on the cam; return springs lead to the frame."""
+"""Model of a follower: masses in a row on springs and dampers, the first on the cam; return springs to the frame."""
 
 import math
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from ilmek.errors import ParameterError
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """A mass and what it hangs on.
+    """A mass and its connections.
 
     mass         [kg], above 0
     stiffness    of the spring to the mass before it, or to the cam [N/m], above 0
@@ -27,9 +27,9 @@ class Stage:
 
 @dataclass(frozen=True, slots=True)
 class FollowerModel:
-    """Stages in a row, the first on the cam, and the force [N] that presses it on the cam at rest.
+    """Stages in a row, the first one on the cam, and the preload on the cam at rest [N].
 
-    Raises ParameterError for a row without stages, and for masses, springs or dampers of the wrong sign.
+    Raises ParameterError without stages, and for masses, stiffnesses or damping of the wrong sign.
     """
 
     stages: tuple[Stage, ...]
@@ -47,22 +47,22 @@ class FollowerModel:
 
     @property
     def masses(self) -> FloatArray:
-        """Masses [kg]."""
+        """Masses [kg], (masses,)."""
         return np.array([stage.mass for stage in self.stages])
 
     @property
     def return_rates(self) -> FloatArray:
-        """Rates of the return springs [N/m]."""
+        """Rates of the return springs [N/m], (masses,)."""
         return np.array([stage.return_rate for stage in self.stages])
 
     @property
     def stiffness(self) -> FloatArray:
-        """The matrix K [N/m]."""
+        """Stiffness matrix K [N/m], (masses, masses)."""
         return _row([stage.stiffness for stage in self.stages]) + np.diag(self.return_rates)
 
     @property
     def damping(self) -> FloatArray:
-        """The matrix C [N s/m]."""
+        """Damping matrix C [N s/m], (masses, masses)."""
         return _row([stage.damping for stage in self.stages])
 
     @property
@@ -75,7 +75,10 @@ class FollowerModel:
 def one_mass(
     mass: float, stiffness: float, damping_ratio: float = 0.0, return_rate: float = 0.0, preload: float = 0.0
 ) -> FollowerModel:
-    """A mass [kg] on a linkage of a stiffness [N/m], damped by a share of the critical.
+    """A follower of one mass.
+
+    mass         [kg]        stiffness  of the linkage [N/m]      damping_ratio  share of the critical damping [-]
+    return_rate  [N/m]       preload    on the cam at rest [N]
 
     >>> round(float(one_mass(2.0, 200.0).frequencies[0]), 9)
     10.0
@@ -85,7 +88,7 @@ def one_mass(
 
 
 def _row(rates: list[float]) -> FloatArray:
-    """The matrix of springs (dampers) in a row, the first to the cam."""
+    """Matrix of springs (or dampers) in a row, the first one to the cam."""
     own = np.array(rates)
     following = np.append(own[1:], 0.0)
     return np.diag(own + following) - np.diag(own[1:], 1) - np.diag(own[1:], -1)

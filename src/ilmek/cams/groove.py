@@ -1,9 +1,9 @@
-"""Groove: a roller between two flanks, which both are as far from the pitch curve as the roller is large.
+"""Groove: a roller between two flanks, both one roller radius from the pitch curve.
 
-A groove leads the roller out and back without a spring. Its inner flank is a plate's surface, its outer flank the same
-on the other side: it is cut in a cusp where the pitch curve is hollow and its radius not above the roller's. A groove
-that is wider than the roller by a clearance has that between the roller and its outer flank. It is cut by a cutter of
-its own width along one path, or, along two, by any smaller one. For plates and, developed, for barrels.
+A groove guides the roller out and back without a spring. The inner flank is the surface of a plate cam, the outer flank
+is the parallel curve on the other side. The outer flank is undercut where the pitch curve is concave and its radius of
+curvature is not above the roller's. The clearance lies between the roller and the outer flank. A cutter of the groove's
+width cuts it along one path, a smaller cutter along two. Valid for plates and for developed barrels.
 """
 
 from dataclasses import dataclass
@@ -46,7 +46,7 @@ class Groove:
         return trace.curvature_at(inner), trace.curvature_at(outer)
 
     def cutter_paths(self, angle: FloatArray, radius: float) -> tuple[ComplexArray, ComplexArray]:
-        """Centre of a cutter of a radius [m] along the inner and along the outer flank; one path where it fills both.
+        """Paths of the centre of a cutter of a radius [m] along the inner and the outer flank, at cam angles [rad] [m].
 
         Raises ParameterError for a cutter wider than the groove.
         """

@@ -1,8 +1,8 @@
-"""Contact pressure between cam and follower after Hertz: a line of contact, and an ellipse.
+"""Contact pressure between cam and follower after Hertz: line contact and elliptical contact.
 
-Both bodies are taken as smooth, elastic and much larger than the contact. A curvature is positive where its body bulges
-towards the other, negative where it is hollow, 0 where it is flat; the bodies touch only where the sum is positive.
-Where it is not, or nothing presses, the pressure is 0 or NaN as said below.
+Both bodies are assumed smooth, elastic and much larger than the contact. A curvature is positive for a convex body,
+negative for a concave one and 0 for a flat one. The bodies touch only where the sum of the curvatures is positive;
+elsewhere the results are NaN. Without load the pressure is 0.
 [Johnson, Contact Mechanics, 4.2; Hertz 1882]
 
 >>> steel = contact_modulus(206e9, 0.3, 206e9, 0.3)
@@ -20,28 +20,28 @@ from ilmek.arrays import FloatArray, RealField
 
 _STEPS = 20
 _SLOPE = -1.75
-"""Logarithm of the curvatures' ratio by that of the axes' ratio: -1.5 of a circle to -2 of a line. Steps with the slope
-between leave an error of 1/7 each time, at the worst."""
+"""Slope of the logarithm of the ratio of curvatures over that of the ratio of axes: -1.5 for a circle, -2 for a line.
+A step with this slope leaves at most 1/7 of the error."""
 
 _NOT_ROUND = -1e-9
-"""Logarithm of the axes' ratio of an ellipse that is nearly a circle, of which the formula of the ratio is 0/0."""
+"""Largest logarithm of the ratio of axes; for a circle the formula of the ratio is 0/0."""
 
 _MEANS = 6
-"""Steps of the arithmetic-geometric mean: from a ratio of 1e-6 down to rounding."""
+"""Steps of the arithmetic-geometric mean: enough from a ratio of 1e-6 to rounding."""
 
 LINE_YIELD, POINT_YIELD = 1.79, 1.60
 """Pressure over yield strength at which steel first yields, below the surface, after von Mises [Johnson, 4.5, 6.2]."""
 
 
 class Line(NamedTuple):
-    """A line of contact: half its width [m], and the greatest pressure [Pa]."""
+    """Line contact: half width [m] and maximum pressure [Pa]."""
 
     half_width: FloatArray
     pressure: FloatArray
 
 
 class Ellipse(NamedTuple):
-    """An ellipse of contact: semi-axes [m], across the sharper and across the flatter curvature, greatest pressure."""
+    """Elliptical contact: semi-axes [m] in the planes of larger and smaller curvature, and maximum pressure [Pa]."""
 
     narrow: FloatArray
     wide: FloatArray
@@ -49,17 +49,20 @@ class Ellipse(NamedTuple):
 
 
 def contact_modulus(first: float, first_poisson: float, second: float, second_poisson: float) -> float:
-    """Modulus E* of a pair [Pa]: 1/E* = (1 - v1^2)/E1 + (1 - v2^2)/E2."""
+    """Contact modulus E* of a pair [Pa]: 1/E* = (1 - v1^2)/E1 + (1 - v2^2)/E2.
+
+    first, second  elastic moduli [Pa]      first_poisson, second_poisson  Poisson's ratios [-]
+    """
     return 1.0 / ((1 - first_poisson**2) / first + (1 - second_poisson**2) / second)
 
 
 def line_contact(load: RealField, curvature: RealField, modulus: float) -> Line:
-    """Two cylinders side by side.
+    """Line contact of two parallel cylinders.
 
         b^2 = 4 q / (pi E* k),   p0 = 2 q / (pi b) = sqrt(q E* k / pi)
 
-    load        q, along the line [N/m]; below 0 counts as 0
-    curvature   k, of both bodies together [1/m]; NaN where it is not above 0: the bodies do not touch in a line
+    load        q, per length of the line [N/m]; below 0 counts as 0
+    curvature   k, sum of both bodies [1/m]; not above 0: no line contact, NaN
     modulus     E* of the pair [Pa]
     """
     q = np.maximum(load, 0.0)
@@ -68,13 +71,13 @@ def line_contact(load: RealField, curvature: RealField, modulus: float) -> Line:
 
 
 def ellipse_contact(load: RealField, along: RealField, across: RealField, modulus: float) -> Ellipse:
-    """Two bodies that touch in a point, their main curvatures in the same two planes.
+    """Point contact of two bodies with principal curvatures in the same two planes.
 
         (k_sharp / k_flat) = (E(e)/k'^2 - K(e)) / (K(e) - E(e)),   k' = b/a,   e^2 = 1 - k'^2
         b^3 = 3 F k' E(e) / (pi E* (along + across)),   p0 = 3 F / (2 pi a b)
 
     load            F [N]; below 0 counts as 0
-    along, across   relative curvatures in the two planes [1/m], each of both bodies together; NaN where not above 0
+    along, across   relative curvatures in the two planes [1/m], sums of both bodies; not above 0: NaN
     modulus         E* of the pair [Pa]
 
     A sphere on a plane: a^3 = 3 F R / (4 E*), p0 = 3 F / (2 pi a^2).     [Johnson, eqs. 4.22 to 4.32]
@@ -96,17 +99,17 @@ def _touching(curvature: RealField) -> RealField:
 
 
 def _slimness(ratio: RealField) -> RealField:
-    """Least over greatest semi-axis for a ratio of curvatures >= 1."""
-    wanted = np.log(ratio)
-    found = wanted / _SLOPE
+    """Smaller over larger semi-axis for a ratio of curvatures >= 1."""
+    target = np.log(ratio)
+    found = target / _SLOPE
     for _ in range(_STEPS):
         found = np.minimum(found, _NOT_ROUND)
-        found = found - (np.log(_ratio(np.exp(found))) - wanted) / _SLOPE
+        found = found - (np.log(_ratio(np.exp(found))) - target) / _SLOPE
     return np.where(ratio > 1, np.exp(np.minimum(found, 0.0)), 1.0)
 
 
 def _ratio(slim: RealField) -> RealField:
-    """Ratio of the curvatures that make an ellipse of this slimness; falls from infinity to 1."""
+    """Ratio of curvatures of an ellipse of this ratio of axes; falls from infinity to 1."""
     square = 1 - slim**2
     tail = _tail(slim)
     return (square / 2 - tail) / (slim**2 * (square / 2 + tail))

@@ -1,8 +1,8 @@
-"""Does any part of a plate cam enter its follower, near the contact or far from it?
+"""Interference of a plate cam with its follower, near the contact or far from it.
 
-Undercut is a local matter, of the curvature where the follower touches. A surface that is regular everywhere can still
-reach the follower from elsewhere: two lobes too close for a large roller, a groove that runs into itself. This looks at
-every pose against the whole surface.
+Undercut is local: it depends on the curvature at the contact. A surface without undercut can still enter the follower
+elsewhere, for example two lobes that are too close for a large roller, or a groove that crosses itself. So every pose
+is compared with the whole surface.
 """
 
 import numpy as np
@@ -13,14 +13,15 @@ from ilmek.num.piecewise import Extremum
 from ilmek.plane.vectors import dot
 
 _SHARE = 1e-9
-"""Share of the cam's size within which a depth is rounding."""
+"""Depth over the prime radius that counts as rounding."""
 
 
 def interference(cam: CamRole, *, both_flanks: bool = False, count: int = 720) -> Extremum | None:
-    """The cam angle [rad] at which a plate cam enters its follower deepest, and how deep [m]; None where it never does.
+    """The deepest interference of a plate cam with its follower: cam angle [rad] and depth [m]; None: no interference.
 
-    both_flanks  the outer flank of its groove too     count  poses, and points of the surface, evenly over the turn;
-                 the depth is that at the points, so that one much smaller than the way between them may be missed
+    both_flanks  check the outer flank of the groove too
+    count        of poses, and of points on the surface, evenly over the turn; a depth much smaller than the distance
+                 between neighbouring points may be missed
     """
     angle = np.linspace(float(cam.knots[0]), float(cam.knots[-1]), count, endpoint=False)
     trace = cam.trace(angle)
@@ -33,7 +34,7 @@ def interference(cam: CamRole, *, both_flanks: bool = False, count: int = 720) -
 
 
 def _depth(cam: CamRole, trace: CamTrace, flank: ComplexArray) -> FloatArray:
-    """How deep [m] the deepest point of a flank lies inside the roller, or behind the face, in each pose."""
+    """Depth [m] of the deepest point of a flank inside the roller, or behind the face, in each pose."""
     if cam.flat:
         across = dot(trace.normal[:, None], flank[None, :] - trace.pitch[:, None])
         return np.asarray(np.max(across, axis=1))

@@ -1,7 +1,7 @@
-"""Limits of a cam of any kind: pressure angle, curvature, undercut, area.
+"""Pressure angle, curvature, undercut and area of a cam of any kind.
 
-All of them are searched or integrated piece by piece between the programme's knots, so that jumps of the acceleration
-are taken at both their sides.
+Each is searched or integrated piece by piece between the programme's knots, so both sides of a jump of the acceleration
+are covered.
 """
 
 import math
@@ -28,26 +28,26 @@ __all__ = [
 ]
 
 Part: TypeAlias = Literal["turn", "rise", "return"]
-"""The whole turn, or only where the follower goes out, or only where it comes back."""
+"""The whole turn, only the rises, or only the returns."""
 
 
 def pressure_angle_max(cam: CamRole, part: Part = "turn") -> Extremum:
-    """Largest |pressure angle| [rad] over a part of the turn; 0 where the follower never moves so.
+    """Largest |pressure angle| [rad] over a part of the turn, and its cam angle [rad]; 0 where that part is empty.
 
-    A cam that is closed by a spring pushes on the rise alone; a groove or a second plate pushes on the return too.
+    A cam with a return spring drives on the rise only; a groove or a conjugate plate drives on the return too.
     """
 
     def leaning(angle: FloatArray) -> FloatArray:
         trace = cam.trace(angle)
-        return np.where(_within(part, trace.course.ds), np.abs(trace.pressure_angle), 0.0)
+        return np.where(_within(part, trace.motion.ds), np.abs(trace.pressure_angle), 0.0)
 
     return supremum(leaning, cam.knots)
 
 
 def convex_radius_min(cam: CamRole) -> Extremum:
-    """Least radius of curvature [m] of the pitch curve where it is convex; a roller must be smaller.
+    """Least radius of curvature [m] of the pitch curve where it is convex, and its cam angle [rad].
 
-    A flat face's pitch curve is the surface; its radius is not above 0 where no surface can guide the face.
+    A roller must be smaller. The pitch curve of a flat face is the surface itself; a radius not above 0 is undercut.
     Infinite where the curve is nowhere convex.
     """
     sharpest = supremum(_bend(cam), cam.knots)
@@ -55,18 +55,18 @@ def convex_radius_min(cam: CamRole) -> Extremum:
 
 
 def concave_radius_min(cam: CamRole) -> Extremum | None:
-    """Least radius of curvature [m] of the pitch curve where it is concave; None where it is convex all round.
+    """Least radius of curvature [m] of the pitch curve where it is concave, and its cam angle [rad]; None: convex.
 
-    The outer flank of a groove needs it above the roller's radius.
+    For the outer flank of a groove it must be larger than the roller's radius.
     """
     hollow = infimum(_bend(cam), cam.knots)
     return Extremum(hollow.at, -cam.prime_radius / math.tan(hollow.value)) if hollow.value < 0 else None
 
 
 def undercut(cam: CamRole, *, both_flanks: bool = False) -> bool:
-    """Whether no surface can guide the follower somewhere: convex rho <= roller radius, or a flat face on a hollow.
+    """Whether the surface is undercut: convex rho <= roller radius, or a concave surface under a flat face.
 
-    both_flanks  a groove's outer flank too: concave rho <= roller radius
+    both_flanks  check the outer flank of the groove too: concave rho <= roller radius
     """
     hollow = concave_radius_min(cam) if both_flanks or cam.flat else None
     hollowed = hollow is not None and (cam.flat or hollow.value <= cam.roller_radius)
@@ -74,9 +74,9 @@ def undercut(cam: CamRole, *, both_flanks: bool = False) -> bool:
 
 
 def largest_cutter(cam: CamRole) -> float:
-    """The largest radius [m] of a cutter that gets into every hollow of the cam's surface; infinite where none is.
+    """Largest radius [m] of a cutter that fits every concave part of the cam's surface; infinite where there is none.
 
-    Where the pitch curve's centre of curvature lies outside, the surface's is the same: rho_surface = rho + Rr.
+    There rho_surface = rho + Rr.
     """
     hollow = None if cam.flat else concave_radius_min(cam)
     return math.inf if hollow is None else hollow.value + cam.roller_radius
@@ -93,14 +93,14 @@ def area(cam: CamRole) -> float:
 
 
 def _within(part: Part, ds: FloatArray) -> BoolArray:
-    """Where the follower moves as the part of the turn says."""
+    """Whether each speed s' belongs to the part of the turn."""
     if part == "turn":
         return np.full(ds.shape, fill_value=True)
     return np.asarray(ds > 0 if part == "rise" else ds < 0)
 
 
 def _bend(cam: CamRole) -> Callable[[FloatArray], FloatArray]:
-    """The curvature as an angle, arctan(Rp kappa), which passes pi/2 where a flat face would cut the cam in a cusp."""
+    """The curvature as an angle, arctan(Rp kappa); it exceeds pi/2 where a flat face undercuts the cam."""
 
     def bend(angle: FloatArray) -> FloatArray:
         trace = cam.trace(angle)

@@ -1,14 +1,15 @@
-"""Plate cam with an oscillating roller, knife-edge or spherical follower: formulas of one cam angle, and the cam.
+"""Plate cam with an oscillating roller, knife-edge or spherical follower: formulas at one cam angle, and the cam.
 
 The cam turns counter-clockwise by theta about 0; the arm of length l swings about the pivot c on the x axis. psi is
-the arm's angle from the line pivot - axis; it grows as the follower goes out. The roller's centre is
+the arm's angle from the line pivot - axis; it grows as the follower moves out. The roller's centre is
 
     B = c - l e,   e = exp(-i side psi),   B' = i side psi' l e,   B'' = (i side psi'' + psi'^2) l e
 
-side +1 has the roller above the line, where the cam's turning drags the arm away from its pivot (trailing arm), -1
-below it, where it pushes the arm towards its pivot. |B|^2 = c^2 + l^2 - 2 c l cos psi; the follower's way is
-i side e. Over an eccentric circle the follower is a four-bar's rocker: ground c, crank the eccentricity, coupler the
-circle's radius and the roller's, rocker l; its pressure angle is the deviation of the transmission angle from 90 deg.
+side +1: the roller is above the line, and the cam's rotation drags the arm away from its pivot (trailing arm). side -1:
+the roller is below the line, and the cam pushes the arm towards its pivot. |B|^2 = c^2 + l^2 - 2 c l cos psi; the
+follower's direction is i side e. On an eccentric circle the follower is the rocker of a four-bar: ground c, crank the
+eccentricity, coupler the sum of the circle's and the roller's radius, rocker l; the pressure angle is the deviation of
+the transmission angle from 90 deg.
 [Norton, Cam Design and Manufacturing, 7]
 """
 
@@ -29,13 +30,19 @@ from ilmek.units import format_quantity
 def roller_motion(
     psi: RealField, dpsi: RealField, ddpsi: RealField, *, pivot: float, arm: float, side: int = 1
 ) -> tuple[ComplexField, ComplexField, ComplexField]:
-    """Roller's centre B in the world and its derivatives B', B'' by the cam angle [m], of the arm's angle [rad]."""
+    """Roller's centre B in the world and its derivatives B', B'' by the cam angle [m].
+
+    psi, dpsi, ddpsi  the arm's angle [rad] and its derivatives by the cam angle [-, 1/rad]
+    pivot, arm        distance of the pivot from the axis, length of the arm [m]      side  +1 or -1, as above
+    """
     along = arm * unit(-side * psi)
     return pivot - along, 1j * side * dpsi * along, (1j * side * ddpsi + np.square(dpsi)) * along
 
 
 def arm_angle(reach: RealField, pivot: float, arm: float) -> RealField:
-    """The arm's angle psi [rad] at which the roller's centre is `reach` [m] from the axis; NaN out of its reach.
+    """The arm's angle psi [rad] at which the roller's centre is `reach` [m] from the axis; NaN out of reach.
+
+    pivot, arm  distance of the pivot from the axis, length of the arm [m]
 
     >>> round(math.degrees(arm_angle(5.0, 4.0, 3.0)), 9)
     90.0
@@ -48,10 +55,10 @@ class OscillatingCam(CamCurves):
     """A plate cam with an oscillating roller or knife-edge follower; the programme's displacement is in rad.
 
     prime_radius  least distance [m] of the roller's centre from the axis, where the displacement is 0
-    pivot, arm    distance of the arm's pivot from the axis, length of the arm to the roller's centre [m]
+    pivot, arm    distance of the pivot from the axis, length of the arm to the roller's centre [m]
     side          +1: roller above the line from axis to pivot (trailing arm), -1: below it
 
-    Raises ParameterError where the roller fills the prime circle, the arm does not reach it or swings past the pivot.
+    Raises ParameterError where the roller is as large as the prime circle, or the arm cannot reach all positions.
     """
 
     programme: CamProgramme
@@ -70,8 +77,8 @@ class OscillatingCam(CamCurves):
             between = f"above {format_quantity(least, 'mm')}, below {format_quantity(most, 'mm')}"
             raise ParameterError(
                 f"prime_radius={shown} with pivot={pivot}, arm={arm} and {swing} of swing",
-                allowed="the arm cannot swing so far, whatever the prime radius" if none else between,
-                do="swing less, or change pivot or arm" if none else "",
+                allowed="no prime radius: the arm cannot swing so far" if none else between,
+                do="reduce the swing, or change pivot or arm" if none else "",
             )
 
     @property
@@ -81,12 +88,12 @@ class OscillatingCam(CamCurves):
 
     @property
     def swing(self) -> float:
-        """How far the arm swings out from where the displacement is 0 [rad]."""
+        """Largest swing of the arm from displacement 0 [rad]."""
         return self.programme.bounds[1]
 
     @property
     def prime_bounds(self) -> tuple[float, float]:
-        """Between which prime radii [m] the cam can be built: outside the roller, and the arm reaches all its way."""
+        """Bounds of the prime radius [m], both excluded: larger than the roller, all positions within reach."""
         c, arm = self.pivot, self.arm
         most = math.sqrt(max(c**2 + arm**2 + 2 * c * arm * math.cos(min(self.swing, math.pi)), 0.0))
         return max(abs(c - arm), self.roller_radius), most
@@ -95,9 +102,9 @@ class OscillatingCam(CamCurves):
         """The same cam with another prime radius [m]."""
         return replace(self, prime_radius=prime_radius)
 
-    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
-        """Everything at cam angles [rad] where the follower's course is known there."""
-        psi = self.start_angle + course.s
-        motion = roller_motion(psi, course.ds, course.dds, pivot=self.pivot, arm=self.arm, side=self.side)
-        way = (self.pivot - motion[0]) * (1j * self.side / self.arm)
-        return trace_of_point(angle, course, motion, way, self.roller_radius)
+    def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
+        """The trace at cam angles [rad], for the follower's motion there."""
+        psi = self.start_angle + motion.s
+        point = roller_motion(psi, motion.ds, motion.dds, pivot=self.pivot, arm=self.arm, side=self.side)
+        direction = (self.pivot - point[0]) * (1j * self.side / self.arm)
+        return trace_of_point(angle, motion, point, direction, self.roller_radius)

@@ -1,17 +1,17 @@
-"""Plate cam with an oscillating flat-faced follower: formulas of one cam angle, and the cam.
+"""Plate cam with an oscillating flat-faced follower: formulas at one cam angle, and the cam.
 
 The cam turns counter-clockwise by theta about 0; the face swings about the pivot c on the x axis, by psi from the line
-pivot - axis; psi grows as the face goes out. The face lies f beyond the pivot, away from the cam. In the world its
-normal, its distance from the axis and, with tau = 1 + side psi', the contact's way along it are
+pivot - axis; psi grows as the face moves out. The face lies f beyond the pivot, away from the cam. In the world its
+normal m, its distance h from the axis and the contact point K are, with tau = 1 + side psi',
 
     m = i side exp(-i side psi),   h = c sin psi + f,   K = (h - i h'/tau) m,   h' = c cos psi psi'
 
-tau is how fast the normal turns as seen from the cam; the envelope of the faces has the radius of curvature
+tau is the rate of the normal's direction as seen from the cam. The envelope of the faces has the radius of curvature
 
     rho = h + h''/tau^2 - h' tau'/tau^3,   h'' = c (cos psi psi'' - sin psi psi'^2),   tau' = side psi''
 
-which must be above 0, and tau too. The push is along m: the pressure angle is arctan(f / distance of K along the face
-from the pivot), 0 for a face through the pivot. side +1: the face above the line (trailing), -1: below it.
+which must be above 0, and tau too. The contact force acts along m: the pressure angle is arctan(f / distance of K from
+the pivot along the face), 0 for a face through the pivot. side +1: face above the line (trailing), -1: below it.
 [support function: do Carmo, Differential Geometry of Curves and Surfaces, 1-7]
 """
 
@@ -36,10 +36,10 @@ class OscillatingFlatCam(CamCurves):
 
     prime_radius  least distance [m] of the face from the axis, where the displacement is 0
     pivot         distance of the follower's pivot from the axis [m]
-    face_offset   how far the face lies beyond the pivot, away from the cam [m]
+    face_offset   distance of the face beyond the pivot, away from the cam [m]
     side          +1: face above the line from axis to pivot (trailing), -1: below it
 
-    Raises ParameterError where the face does not reach the base circle, or swings upright.
+    Raises ParameterError where the face cannot reach the base circle, or swings to a right angle.
     """
 
     programme: CamProgramme
@@ -57,7 +57,7 @@ class OscillatingFlatCam(CamCurves):
             raise ParameterError(
                 f"prime_radius={shown} with pivot={pivot} and {format_quantity(self.swing, 'deg')} of swing",
                 allowed=f"above 0 mm, below {format_quantity(most, 'mm')}",
-                do="swing less, or put the pivot further away" if most <= 0 else "",
+                do="reduce the swing, or move the pivot away" if most <= 0 else "",
             )
 
     @property
@@ -67,30 +67,30 @@ class OscillatingFlatCam(CamCurves):
 
     @property
     def swing(self) -> float:
-        """How far the face swings out from where the displacement is 0 [rad]."""
+        """Largest swing of the face from displacement 0 [rad]."""
         return self.programme.bounds[1]
 
     @property
     def prime_bounds(self) -> tuple[float, float]:
-        """Between which base radii [m] the cam can be built: the face must not swing past a right angle."""
+        """Bounds of the base radius [m], both excluded: the face must not swing past a right angle."""
         return 0.0, self.pivot * math.cos(min(self.swing, math.pi)) + self.face_offset
 
     def resized(self, prime_radius: float) -> "OscillatingFlatCam":
         """The same cam with another prime radius [m]."""
         return replace(self, prime_radius=prime_radius)
 
-    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
-        """Everything at cam angles [rad], of the course there; the pitch curve is the surface itself."""
-        swung = self.pivot * unit(self.start_angle + course.s)
+    def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
+        """The trace at cam angles [rad], for the follower's motion there; the pitch curve is the surface itself."""
+        swung = self.pivot * unit(self.start_angle + motion.s)
         far = swung.imag + self.face_offset
-        first, second = swung.real * course.ds, swung.real * course.dds - swung.imag * course.ds**2
-        turning = 1 + self.side * course.ds
+        first, second = swung.real * motion.ds, swung.real * motion.dds - swung.imag * motion.ds**2
+        turning = 1 + self.side * motion.ds
         wander = first / turning
-        normal = 1j * self.side * unit(-self.side * (self.start_angle + course.s) - angle)
-        flow = far * turning + (second - wander * self.side * course.dds) / turning
+        normal = 1j * self.side * unit(-self.side * (self.start_angle + motion.s) - angle)
+        flow = far * turning + (second - wander * self.side * motion.dds) / turning
         return CamTrace(
             angle=angle,
-            course=course,
+            motion=motion,
             pitch=np.asarray((far - 1j * wander) * normal),
             normal=np.asarray(normal),
             pressure_angle=np.arctan2(self.side * self.face_offset, swung.real - self.side * wander),
@@ -100,13 +100,13 @@ class OscillatingFlatCam(CamCurves):
         )
 
     def contact_distance(self, angle: FloatArray) -> FloatArray:
-        """How far from the foot of the pivot on the face, towards the cam, the cam touches [m], at cam angles [rad]."""
+        """Distance [m] of the contact from the foot of the pivot on the face, towards the cam, at cam angles [rad]."""
         at = self.programme.at(angle)
         foot = self.pivot * np.cos(self.start_angle + at.s)
         return np.asarray(foot * (1 - self.side * at.ds / (1 + self.side * at.ds)))
 
 
 def face_span(cam: OscillatingFlatCam) -> tuple[float, float]:
-    """The least and the largest distance [m] of the contact from the pivot along the face: it must cover them."""
+    """Least and largest distance [m] of the contact from the pivot along the face: the face must cover both."""
     knots = cam.programme.knots
     return infimum(cam.contact_distance, knots).value, supremum(cam.contact_distance, knots).value

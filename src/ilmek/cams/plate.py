@@ -1,7 +1,7 @@
 """Plate cam with a translating roller, knife-edge or spherical follower.
 
-The follower's line may pass beside the axis (`profile` has the formulas and the frame). A ball in a follower moves
-and touches as a roller of its radius does, in the plane of its motion; only the Hertz contact is a point's.
+The follower's line may be offset from the axis (formulas and frame: `profile`). In the plane of motion a spherical
+follower moves and touches as a roller of its radius; only the Hertz contact is a point contact.
 """
 
 import math
@@ -22,8 +22,9 @@ from ilmek.units import format_quantity
 class PlateCam(CamCurves):
     """A plate cam with a translating roller or knife-edge follower; lengths in m, frame and signs as in `profile`.
 
-    prime_radius  distance of the roller's centre from the axis where the displacement is 0
-    Raises ParameterError where the follower's line misses the prime circle or the roller fills it.
+    prime_radius   distance of the roller's centre from the axis where the displacement is 0
+    offset         of the follower's line from the axis      roller_radius  0: knife edge
+    Raises ParameterError where the follower's line misses the prime circle or the roller is as large as it.
     """
 
     programme: CamProgramme
@@ -40,9 +41,9 @@ class PlateCam(CamCurves):
 
     @property
     def prime_bounds(self) -> tuple[float, float]:
-        """Between which prime radii [m] the cam can be built: outside the offset and the roller, all round.
+        """Bounds of the prime radius [m], both excluded: larger than the offset and the roller all round.
 
-        A displacement below 0, of a law that overshoots, needs as much more.
+        A law that overshoots below 0 raises the lower bound.
         """
         least = max(abs(self.offset), self.roller_radius)
         lowest = self.programme.bounds[0]
@@ -54,10 +55,10 @@ class PlateCam(CamCurves):
         """The same cam with another prime radius [m]."""
         return replace(self, prime_radius=prime_radius)
 
-    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
-        """Everything at cam angles [rad] where the follower's course is known there."""
-        centre = profile.reach(course.s, self.prime_radius, self.offset) - 1j * self.offset
-        return trace_of_point(angle, course, (centre, course.ds, course.dds), 1.0, self.roller_radius)
+    def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
+        """The trace at cam angles [rad], for the follower's motion there."""
+        centre = profile.reach(motion.s, self.prime_radius, self.offset) - 1j * self.offset
+        return trace_of_point(angle, motion, (centre, motion.ds, motion.dds), 1.0, self.roller_radius)
 
     def pressure_angle(self, angle: FloatArray) -> FloatArray:
         """Pressure angle [rad] at cam angles [rad]."""

@@ -1,13 +1,14 @@
-"""Plate cam with a translating roller or knife-edge follower: formulas of one cam angle.
+"""Plate cam with a translating roller or knife-edge follower: formulas at one cam angle.
 
-The cam turns counter-clockwise by theta; the follower slides along +x on the line y = -e. In the cam's own frame the
+The cam turns counter-clockwise by theta; the follower slides along +x on the line y = -e. In the cam's frame the
 roller's centre is, with r = s + sqrt(Rp^2 - e^2),
 
     P = (r - i e) exp(-i theta),    dP/dtheta = ((s' - e) - i r) exp(-i theta)
 
 so that the outward normal is n = (r + i (s' - e)) exp(-i theta) / |dP|. Rp is the prime radius: the least distance of
 the roller's centre (of the knife's edge, where the roller radius is 0) from the cam's axis. The offset e is positive
-on the side that lowers the pressure angle of a rise. s, s', s'' [m, m/rad, m/rad^2]; any shapes that broadcast.
+on the side that lowers the pressure angle of a rise. Units: angle [rad], s, s', s'' [m, m/rad, m/rad^2], radii and
+offset [m]; any shapes that broadcast.
 [Norton, Cam Design and Manufacturing, 7; thesis 3.2]
 """
 
@@ -43,7 +44,7 @@ def profile_point(
 
 
 def pressure_angle(s: RealField, ds: RealField, prime_radius: float, offset: float = 0.0) -> RealField:
-    """Angle [rad] between the cam's push and the follower's way: tan mu = (s' - e) / r; positive pushes it aside."""
+    """Pressure angle [rad] from the follower's direction to the contact normal: tan mu = (s' - e) / r."""
     return np.arctan2(ds - offset, reach(s, prime_radius, offset))
 
 

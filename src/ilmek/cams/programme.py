@@ -1,4 +1,4 @@
-"""A cam's programme: rises, falls, dwells and parts of constant speed that fill one turn.
+"""Programme of a cam: rises, falls, dwells and parts of constant speed that fill one turn.
 
     s(theta) = base + change * law.s(u),   u = (theta - begin) / span     within each segment
 
@@ -47,7 +47,10 @@ _DERIVATIVES = ("", "velocity", "acceleration", "jerk")
 
 
 class FollowerMotion(NamedTuple):
-    """Displacement [m] and its derivatives by the cam angle [m/rad, m/rad^2, m/rad^3]; times w, w^2, w^3 by time."""
+    """Displacement [m] and its derivatives by the cam angle [m/rad, m/rad^2, m/rad^3], arrays of one shape.
+
+    The derivatives by time are these times w, w^2, w^3, with the speed w of the cam.
+    """
 
     s: FloatArray
     ds: FloatArray
@@ -57,29 +60,33 @@ class FollowerMotion(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Jump:
-    """A step in a derivative by the cam angle: of `order` 2 the acceleration [m/rad^2]."""
+    """A step of a derivative by the cam angle.
+
+    angle  cam angle [rad]            order  of the derivative: 1 velocity, 2 acceleration, 3 jerk
+    before, after  values [m/rad^order]      where  the parts it lies between or in
+    """
 
     angle: float
     order: int
     before: float
     after: float
-    place: str
+    where: str
 
     def __str__(self) -> str:
         """`the acceleration jumps from 0 to 0.12 m/rad^2 at 90 deg, from dwell to rise`."""
         power = f"^{self.order}" if self.order > 1 else ""
         step = f"from {self.before:.4g} to {self.after:.4g} m/rad{power}"
         at = format_quantity(self.angle % TURN, "deg")
-        return f"the {_DERIVATIVES[self.order]} jumps {step} at {at}, {self.place}"
+        return f"the {_DERIVATIVES[self.order]} jumps {step} at {at}, {self.where}"
 
 
 @dataclass(frozen=True, slots=True)
 class CamProgramme:
-    """Segments that fill one turn and come back to where they began.
+    """Segments that fill one turn and return to the initial displacement.
 
     start     cam angle [rad] where the first segment begins
-    revolves  what the follower gains in a turn [m]: an indexing table, a feed; 0: it comes back
-    Raises ParameterError where the segments do not fill the turn, do not come back, or have a law that is no rise.
+    revolves  displacement gained per turn [m], for example of an indexing table; 0: the follower returns
+    Raises ParameterError where the segments do not fill the turn or do not return, or a law does not go from 0 to 1.
     """
 
     segments: tuple[CamSegment, ...]
@@ -94,28 +101,28 @@ class CamProgramme:
             shown = format_quantity(left, "mm")
             if self.revolves:
                 gains = format_quantity(self.revolves, "mm")
-                raise ParameterError(f"the parts of a turn miss revolves={gains} by {shown}", do="let them add up")
-            raise ParameterError(f"the follower ends a turn {shown} from where it began", allowed="it must come back")
+                raise ParameterError(f"the parts of a turn miss revolves={gains} by {shown}", do="change a part")
+            raise ParameterError(f"the follower ends a turn {shown} from its start", allowed="it must return")
 
     def shifted(self, angle: float) -> "CamProgramme":
         """The same programme, later by `angle` [rad]."""
         return replace(self, start=self.start + angle)
 
     def require_continuity(self, order: int) -> "CamProgramme":
-        """The programme itself, where no derivative up to the order (0 to 3) jumps.
+        """The programme itself, if no derivative up to the order (1 to 3) jumps.
 
-        Raises ParameterError that names the first jump of the lowest derivative that has one.
+        Raises ParameterError that names the first jump of the lowest derivative that jumps.
         """
         found = all_jumps(self, order)
         if found:
             more = f", and {len(found) - 1} more" if len(found) > 1 else ""
             allowed = f"no jump up to the {_DERIVATIVES[order]}"
-            raise ParameterError(f"{found[0]}{more}", allowed=allowed, do="take a smoother law, or a blend there")
+            raise ParameterError(f"{found[0]}{more}", allowed=allowed, do="use a smoother law, or a blend there")
         return self
 
     @property
     def edges(self) -> FloatArray:
-        """Where each segment begins, and where the last ends, from the start [rad]."""
+        """Start of each segment and end of the last, from `start` on [rad], (segments + 1,)."""
         ends = itertools.accumulate(segment.span for segment in self.segments[:-1])
         return np.array([0.0, *ends, TURN])
 
@@ -136,11 +143,11 @@ class CamProgramme:
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """Least and greatest displacement over the first turn [m], overshoot of a law among it."""
+        """Least and greatest displacement over the first turn [m], including the overshoot of laws."""
         return bounds(self.segments)
 
     def at(self, angle: FloatArray) -> FollowerMotion:
-        """Motion at cam angles [rad] of any shape and any turn; at a boundary, that of the segment which begins."""
+        """Motion at cam angles [rad] of any shape and any turn; at a boundary, that of the segment that begins."""
         turns, phase = _turn_and_phase(np.asarray(angle - self.start))
         flat = phase.ravel()
         order = None if np.all(flat[1:] >= flat[:-1]) else np.argsort(flat, kind="stable")
@@ -154,7 +161,7 @@ class CamProgramme:
         return FollowerMotion(*rows)
 
     def _ascending(self, phase: FloatArray) -> FloatArray:
-        """Rows s, s', s'', s''' at ascending phases: each segment has a stretch of its own."""
+        """Rows s, s', s'', s''' at ascending phases, (4, phases): each segment has one slice."""
         edges, bases = self.edges, self.bases
         ends = (0, *np.searchsorted(phase, edges[1:-1]), phase.size)
         rows = np.zeros((4, phase.size))
@@ -176,8 +183,11 @@ def joined(
 ) -> CamProgramme:
     """A programme whose open parts are filled so that no derivative up to `order` (1 to 3) jumps at their ends.
 
-    An open part gets the polynomial whose derivatives 1..order are those of its neighbours.
-    Raises ParameterError for two open parts side by side, and where jumps remain that no open part could mend.
+    parts            segments, and open parts (`blend`) between them
+    start, revolves  cam angle of the first part [rad], displacement gained per turn [m], as in `CamProgramme`
+
+    An open part gets the polynomial whose derivatives 1..order equal those of its neighbours.
+    Raises ParameterError for two adjacent open parts, and where jumps remain elsewhere.
 
     >>> sway = joined((even(1.0, 0.02), blend(1.0, 0.005), dwell(2.0), blend(TURN - 4.0, -0.025)))
     >>> all_jumps(sway, 2)
@@ -192,7 +202,7 @@ def joined(
             continue
         before, after = parts[i - 1], parts[(i + 1) % len(parts)]
         if isinstance(before, OpenSegment) or isinstance(after, OpenSegment):
-            raise ParameterError("two blends side by side", do="say the motion of one of them, or make them one")
+            raise ParameterError("two adjacent blends", do="give the motion of one of them, or join them")
         orders = range(1, order + 1)
         ends = [before.derivative(1.0, k) for k in orders], [after.derivative(0.0, k) for k in orders]
         filled.append(replace(free(part.span, part.change, *ends), name=part.name))
@@ -200,13 +210,13 @@ def joined(
 
 
 def jumps(programme: CamProgramme, order: int = 2) -> tuple[Jump, ...]:
-    """Where the derivative of `order` (1 velocity, 2 acceleration, 3 jerk) jumps, in the order of the cam angle."""
+    """Jumps of the derivative of `order` (1 velocity, 2 acceleration, 3 jerk), in the order of the cam angle."""
     segments = programme.segments
     found = []
     for i, (segment, edge) in enumerate(zip(segments, programme.edges, strict=False)):
         previous, begin = segments[i - 1], programme.start + float(edge)
-        place = f"from {previous.name} to {segment.name}"
-        found.append(Jump(begin, order, previous.derivative(1.0, order), segment.derivative(0.0, order), place))
+        where = f"from {previous.name} to {segment.name}"
+        found.append(Jump(begin, order, previous.derivative(1.0, order), segment.derivative(0.0, order), where))
         found += [
             Jump(begin + u * segment.span, order, *segment.sides(u, order), f"inside the {segment.name}")
             for u in segment.law.breaks
@@ -223,22 +233,22 @@ def all_jumps(programme: CamProgramme, order: int = 3) -> tuple[Jump, ...]:
 def _check_turn(segments: tuple[CamSegment, ...]) -> None:
     spans = [segment.span for segment in segments]
     if min(spans, default=0.0) <= 0 or abs(sum(spans) - TURN) > _FIT:
-        said = " + ".join(f"{segment.name} {format_quantity(segment.span / deg, '')}" for segment in segments)
-        raise ParameterError(f"a cam of {said or 'no parts'} degrees", allowed="its parts must add up to 360 degrees")
+        shown = " + ".join(f"{segment.name} {format_quantity(segment.span / deg, '')}" for segment in segments)
+        raise ParameterError(f"a cam of {shown or 'no parts'} degrees", allowed="its parts must add up to 360 degrees")
 
 
 def _check_laws(segments: tuple[CamSegment, ...]) -> None:
-    """Raise ParameterError where a law does not begin at 0 and end at what its part moves by."""
+    """Raise ParameterError where a law does not go from 0 to the change of its part."""
     for segment in segments:
         law, factor = segment.law, segment.factor
         off = max(abs(factor * law.first), abs(factor * law.last - segment.change))
         if off > _FIT * segment.size:
             given = f"{segment.name}: its law {law.name} goes from {law.first:g} to {law.last:g}"
-            raise ParameterError(given, allowed="from 0 to 1", do="let it end at 1, or take `free` for a part")
+            raise ParameterError(given, allowed="from 0 to 1", do="use a law that ends at 1, or `free` for the part")
 
 
 def _turn_and_phase(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Whole turns and the rest in [0, 2 pi); what is a whole turn but for rounding is one."""
+    """Whole turns and the remainder in [0, 2 pi); a whole turn up to rounding counts as whole."""
     count = angle / TURN
     turns = np.asarray(np.floor(count + _WHOLE * np.abs(count)))
     return turns, np.asarray(np.maximum(angle - turns * TURN, 0.0)) if np.any(turns) else angle

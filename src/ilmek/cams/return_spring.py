@@ -1,11 +1,11 @@
-"""The spring that holds a follower to its cam: no lift-off up to a speed.
+"""The return spring of a follower: no lift-off up to a speed.
 
-The follower stays on the cam at the speed w if and only if, all round the turn,
+The follower stays on the cam at the speed w if and only if, over the whole turn,
 
     m w^2 s'' + k s + P + load >= 0
 
-Every condition below is this one, solved for the speed, for the preload or for the rate, as an exact least upper bound
-over the pieces of the programme. Where the velocity itself jumps down no spring holds the follower.
+The functions below solve this condition for the speed, the preload or the rate, as an exact supremum over the pieces of
+the programme. Where the velocity jumps down, no spring keeps the follower on the cam.
 """
 
 import math
@@ -21,23 +21,23 @@ from ilmek.num.piecewise import Extremum, infimum, supremum
 from ilmek.units import format_quantity
 
 _NOTHING = 1e-12
-"""Displacement over the lift below which the spring counts as not pressed together."""
+"""Displacement over the lift below which the spring counts as not compressed."""
 
 
 @dataclass(frozen=True, slots=True)
 class LiftOff:
-    """The speed [rad/s] at which the follower begins to lift off, inf where it never does, and the cam angle of it."""
+    """Cam speed [rad/s] at which the follower lifts off (inf: never), and the cam angle [rad] of lift-off."""
 
     speed: float
     at: float
 
 
-def lift_off(programme: CamProgramme, held: FollowerLoad) -> LiftOff:
-    """Where and from which speed on the follower leaves the cam; the speed of `held` plays no part.
+def lift_off(programme: CamProgramme, follower: FollowerLoad) -> LiftOff:
+    """Speed from which the follower leaves the cam, and the cam angle; the speed of `follower` is not used.
 
         1 / w^2 = sup( -m s'' / (k s + P + load) )
 
-    0 where the velocity jumps down, or where nothing presses at a place that asks for it.
+    The speed is 0 where the velocity jumps down, or where no force acts towards the cam while s'' < 0.
     """
     falls = velocity_drop(programme)
     if falls is not None:
@@ -45,7 +45,7 @@ def lift_off(programme: CamProgramme, held: FollowerLoad) -> LiftOff:
 
     def demand(angle: FloatArray) -> FloatArray:
         at = programme.at(angle)
-        pull, push = -held.mass * at.dds, held.rate * at.s + held.preload + held.load
+        pull, push = -follower.mass * at.dds, follower.rate * at.s + follower.preload + follower.load
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.where(pull <= 0, 0.0, np.where(push > 0, pull / push, np.inf))
 
@@ -55,68 +55,69 @@ def lift_off(programme: CamProgramme, held: FollowerLoad) -> LiftOff:
     return LiftOff(0.0 if math.isinf(worst.value) else 1 / math.sqrt(worst.value), worst.at)
 
 
-def least_force(programme: CamProgramme, held: FollowerLoad) -> Extremum:
-    """Least force along the motion over the turn [N] at the speed, and where; below 0 the follower lifts off."""
+def least_force(programme: CamProgramme, follower: FollowerLoad) -> Extremum:
+    """Least force along the motion over the turn [N] and its cam angle [rad]; below 0 the follower lifts off."""
 
     def force(angle: FloatArray) -> FloatArray:
         at = programme.at(angle)
-        return held.force(at.s, at.dds)
+        return follower.force(at.s, at.dds)
 
     return infimum(force, programme.knots)
 
 
-def least_preload(programme: CamProgramme, held: FollowerLoad) -> float:
+def least_preload(programme: CamProgramme, follower: FollowerLoad) -> float:
     """Least preload [N] of a spring of the given rate that keeps the follower on the cam at the speed.
 
     Raises ParameterError where the velocity jumps down.
     """
     _refuse_drop(programme)
-    return max(0.0, -least_force(programme, replace(held, preload=0.0)).value)
+    return max(0.0, -least_force(programme, replace(follower, preload=0.0)).value)
 
 
-def least_rate(programme: CamProgramme, held: FollowerLoad) -> float:
+def least_rate(programme: CamProgramme, follower: FollowerLoad) -> float:
     """Least rate [N/m] of a spring of the given preload that keeps the follower on the cam at the speed.
 
-    Raises ParameterError where the velocity jumps down, and where the preload alone must do it: at the lowest place.
+    Raises ParameterError where the velocity jumps down, and where the preload at displacement 0 is too small.
     """
     _refuse_drop(programme)
     lift = supremum(lambda angle: programme.at(angle).s, programme.knots).value
 
     def demand(angle: FloatArray) -> FloatArray:
         at = programme.at(angle)
-        lack = -replace(held, rate=0.0).force(at.s, at.dds)
+        lack = -replace(follower, rate=0.0).force(at.s, at.dds)
         low = at.s <= _NOTHING * lift
-        slack = _NOTHING * (held.mass * held.speed**2 * np.abs(at.dds) + held.preload + held.load)
+        slack = _NOTHING * (follower.mass * follower.speed**2 * np.abs(at.dds) + follower.preload + follower.load)
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.where(lack <= slack, 0.0, np.where(low, np.inf, lack / at.s))
 
     needed = supremum(demand, programme.knots).value
     if math.isinf(needed):
-        shown = format_quantity(held.preload, "N")
+        shown = format_quantity(follower.preload, "N")
         raise ParameterError(
-            f"preload={shown} lets the follower lift off where the spring is longest",
-            do="give a larger preload, or leave it out",
+            f"preload={shown} is too small at displacement 0: the follower lifts off there",
+            do="give a larger preload, or omit it",
         )
     return needed
 
 
-def doubling_spring(programme: CamProgramme, held: FollowerLoad) -> FollowerLoad:
-    """The weakest spring without lift-off at the speed among those whose force doubles over the lift: k = P / lift.
+def doubling_spring(programme: CamProgramme, follower: FollowerLoad) -> FollowerLoad:
+    """The weakest spring without lift-off at the speed whose force doubles over the lift: k = P / lift.
 
         P = sup( -(m w^2 s'' + load) / (1 + s / lift) )
 
-    Such a spring is neither endlessly long nor slack. Raises ParameterError where the velocity jumps down.
+    The factor 2 is a compromise between a long spring and a slack one.
+    Raises ParameterError where the velocity jumps down.
     """
     _refuse_drop(programme)
     lift = supremum(lambda angle: programme.at(angle).s, programme.knots).value
-    bare = replace(held, rate=0.0, preload=0.0)
+    bare = replace(follower, rate=0.0, preload=0.0)
 
     def demand(angle: FloatArray) -> FloatArray:
         at = programme.at(angle)
         return np.asarray(-bare.force(at.s, at.dds) / (1 + at.s / lift))
 
     preload = max(0.0, supremum(demand, programme.knots).value)
-    return replace(held, preload=preload, rate=preload / lift)
+    return replace(follower, preload=preload, rate=preload / lift)
 
 
 def velocity_drop(programme: CamProgramme) -> float | None:
@@ -130,5 +131,5 @@ def _refuse_drop(programme: CamProgramme) -> None:
         where = format_quantity(at, "deg")
         raise ParameterError(
             f"the velocity jumps down at {where}: no spring keeps the follower on the cam",
-            do="take a law that starts and ends at rest, or a grooved cam",
+            do="use a law that starts and ends at rest, or a grooved cam",
         )

@@ -1,11 +1,12 @@
-"""What a plate cam's face weighs: area, centre and polar moment, exact, by integrals along its surface (Green).
+"""Area, centroid and polar moment of a plate cam's face, exact, by integrals along its contour (Green).
 
-With K on the surface, its outward normal n and the speed f of the contact along it, K x dK = -(K . n) f dtheta:
+With the contact point K, its outward normal n and the speed f of the contact along the surface,
+K x dK = -(K . n) f dtheta:
 
     A = 1/2 int (K . n) f,   A c = 1/3 int K (K . n) f,   I = 1/4 int |K|^2 (K . n) f
 
-I is the second moment of area about the cam's axis; times thickness and density it is the moment of inertia. The centre
-says how far the cam is out of balance.
+I is the second moment of area about the cam's axis; times thickness and density it is the moment of inertia. The
+centroid gives the imbalance of the cam.
 """
 
 from collections.abc import Callable
@@ -20,7 +21,7 @@ from ilmek.plane.vectors import dot
 
 
 class CamSection(NamedTuple):
-    """Area [m^2], centre in the cam's frame [m] and second moment about the axis [m^4] of a plate cam's face."""
+    """Area [m^2], centroid in the cam's frame [m] and polar moment about the axis [m^4] of a plate cam's face."""
 
     area: float
     centre: complex
@@ -28,7 +29,7 @@ class CamSection(NamedTuple):
 
 
 def section(cam: CamRole) -> CamSection:
-    """The face of a plate cam, bore not taken off, without undercut.
+    """Section of a plate cam's face; the bore is not subtracted, undercut is not considered.
 
     >>> from ilmek.cams.plate import PlateCam
     >>> from ilmek.cams.programme import TURN, CamProgramme, dwell

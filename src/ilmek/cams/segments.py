@@ -1,4 +1,4 @@
-"""Parts of a cam's programme: rises, falls, dwells, constant speed, and free parts between given ends.
+"""Parts of a cam's programme: rises, falls, dwells, constant speed, and free polynomials.
 
 s = base + scale law.s(u),   s' = scale/span law.v(u),   ...        u = (theta - begin)/span in [0, 1]
 """
@@ -21,7 +21,7 @@ _BESIDE = 1e-12
 class CamSegment:
     """A part of the turn: `change` [m] of the follower over `span` [rad] by a law.
 
-    scale  what the law is multiplied by [m]; None: by the change, as fits a law that goes from 0 to 1
+    scale  factor of the law [m]; default: `change`, for a law from 0 to 1
     """
 
     name: str
@@ -32,25 +32,25 @@ class CamSegment:
 
     @property
     def factor(self) -> float:
-        """What the law is multiplied by [m]."""
+        """Factor of the law [m]."""
         return self.change if self.scale is None else self.scale
 
     @property
     def size(self) -> float:
-        """How far the follower moves about [m]: what its derivatives are small or large against."""
+        """Range of the displacement [m]: the scale of its derivatives."""
         return abs(self.factor) * max(self.law.highest - self.law.lowest, _BESIDE)
 
     def derivative(self, u: float, order: int) -> float:
-        """Derivative of an order (1 to 3) by the cam angle at u [m/rad, m/rad^2, m/rad^3]."""
+        """Derivative of order 1 to 3 by the cam angle [m/rad, m/rad^2, m/rad^3] at u in [0, 1]."""
         curve = (self.law.s, self.law.v, self.law.a, self.law.j)[order]
         return self.factor / self.span**order * float(curve(u))
 
     def sides(self, at: float, order: int) -> tuple[float, float]:
-        """The derivative just before and just behind u = at inside the part."""
+        """The derivative just before and just after u = at inside the part."""
         return self.derivative(at - _BESIDE, order), self.derivative(at + _BESIDE, order)
 
     def motion(self, u: FloatArray) -> LawValues:
-        """S from the part's begin, and its derivatives by the cam angle, at u."""
+        """Displacement from the start of the part [m], and its derivatives by the cam angle, at u in [0, 1]."""
         at, factor, rate = self.law.motion(u), self.factor, 1.0 / self.span
         v, a, j = factor * rate, factor * rate**2, factor * rate**3
         return LawValues(factor * at.s, v * at.v, a * at.a, j * at.j)
@@ -58,7 +58,7 @@ class CamSegment:
 
 @dataclass(frozen=True, slots=True)
 class OpenSegment:
-    """A part whose law is not given: `joined` finds the polynomial that meets both neighbours."""
+    """A part without a law: `joined` fills it with a polynomial that joins both neighbours; span [rad], change [m]."""
 
     name: str
     span: float
@@ -66,17 +66,17 @@ class OpenSegment:
 
 
 def rise(span: float, lift: float, law: Law | str) -> CamSegment:
-    """The follower goes `lift` [m] outwards over `span` [rad] by a law or the law of a name."""
+    """The follower moves out by `lift` [m] over `span` [rad]; law: a motion law or its name."""
     return CamSegment("rise", span, lift, law_of(law) if isinstance(law, str) else law)
 
 
 def fall(span: float, lift: float, law: Law | str) -> CamSegment:
-    """The follower comes back by `lift` [m] over `span` [rad] by a law or the law of a name."""
+    """The follower returns by `lift` [m] over `span` [rad]; law: a motion law or its name."""
     return CamSegment("fall", span, -lift, law_of(law) if isinstance(law, str) else law)
 
 
 def dwell(span: float) -> CamSegment:
-    """The follower stands still over `span` [rad]."""
+    """The follower rests over `span` [rad]."""
     return CamSegment("dwell", span, 0.0, REST)
 
 
@@ -93,9 +93,10 @@ def blend(span: float, change: float) -> OpenSegment:
 def free(
     span: float, change: float, start: Sequence[float] = (0.0, 0.0), end: Sequence[float] = (0.0, 0.0)
 ) -> CamSegment:
-    """A polynomial part between given derivatives.
+    """A polynomial part with given derivatives at its ends.
 
-    start, end  s', s'', s''' [m/rad, m/rad^2, m/rad^3] at the begin and at the end, as many as are to be met
+    span, change  [rad, m]
+    start, end    s', s'', s''' [m/rad, m/rad^2, m/rad^3] at the start and at the end, one to three values each
 
     >>> free(1.0, 0.0, (1.0, 0.0), (-1.0, 0.0)).law.highest > 0.3
     True
@@ -108,7 +109,7 @@ def free(
 
 
 def bounds(parts: Sequence[CamSegment]) -> tuple[float, float]:
-    """Least and greatest displacement [m] over parts in a row, from 0 at their begin; overshoot is counted."""
+    """Least and greatest displacement [m] over consecutive parts, from 0 at their start; overshoot is included."""
     base, lowest, highest = 0.0, math.inf, -math.inf
     for part in parts:
         ends = base + part.factor * np.array([part.law.lowest, part.law.highest])

@@ -1,12 +1,13 @@
 """Cams laid flat: the development of a barrel or end cam, and the wedge cam, which is flat already.
 
-Real axis: the way of the follower, imaginary: the way of the cam, which moves by rho theta towards +i under it, so that
-everything reads as of a plate cam whose axis is far away. In the strip's own frame, with B the roller's centre,
+The real axis is the direction of the follower. The imaginary axis is the direction of the cam, which moves by rho theta
+towards +i under the follower, as a plate cam whose axis is far away. In the frame of the strip, with B the roller's
+centre,
 
     P = B - i rho theta,   dP = B' - i rho,   d2P = B''
 
-rho is the barrel's radius at which it is cut and laid flat; of a wedge, its travel for a radian of the programme. A
-follower that goes straight (B = s) has tan mu = s'/rho and kappa = -rho s'' / (rho^2 + s'^2)^(3/2).
+rho is the radius at which the barrel is developed; for a wedge it is the travel per radian of the programme. A follower
+that moves straight (B = s) has tan mu = s'/rho and kappa = -rho s'' / (rho^2 + s'^2)^(3/2).
 [Rothbart, Cam Design Handbook, 10; Norton, Cam Design and Manufacturing, 7]
 """
 
@@ -26,24 +27,30 @@ from ilmek.units import format_quantity
 
 def trace_of_strip(
     angle: FloatArray,
-    course: FollowerMotion,
-    motion: tuple[ComplexField, ComplexField, ComplexField],
-    way: ComplexField,
+    motion: FollowerMotion,
+    point: tuple[ComplexField, ComplexField, ComplexField],
+    direction: ComplexField,
     *,
     radius: float,
     roller_radius: float,
 ) -> CamTrace:
-    """Trace of a roller on a cam laid flat at a radius [m]; motion (B, B', B'') and way of the follower as above."""
-    point, first, second = motion
+    """Trace of a roller on a cam that is developed at a radius.
+
+    angle          cam angles [rad], any shape             motion  the follower's motion there
+    point          roller's centre B and its derivatives B', B'' by the cam angle [m]
+    direction      unit direction in which the roller moves as the displacement grows
+    radius         rho [m]                                 roller_radius  [m]
+    """
+    centre, first, second = point
     along = np.asarray(first - 1j * radius)
     square = along.real**2 + along.imag**2
     flow = np.sqrt(square)
     push = 1j * along / flow
-    leaning = push * np.conj(way)
+    leaning = push * np.conj(direction)
     return CamTrace(
         angle=angle,
-        course=course,
-        pitch=np.asarray(point - 1j * radius * angle),
+        motion=motion,
+        pitch=np.asarray(centre - 1j * radius * angle),
         normal=push,
         pressure_angle=np.arctan2(leaning.imag, leaning.real),
         flow=flow,
@@ -57,10 +64,10 @@ class WedgeCam(CamCurves):
     """A wedge: a plate that moves to and fro and lifts a roller or a knife edge; lengths in m.
 
     programme  the follower's motion over the plate; its turn is `length` of travel
-    used       how far the plate goes [rad of the programme]: what lies behind it is not there
-    lean       angle of the follower's way from the normal of the travel [rad], positive towards the travel
+    used       travel of the plate [rad of the programme]: the plate ends there
+    lean       angle of the follower's direction from the normal of the travel [rad], positive towards the travel
 
-    Raises ParameterError for a length not above 0, a part not within a turn, or a lean of a right angle.
+    Raises ParameterError unless length > 0, 0 < used <= 2 pi and |lean| < pi/2.
     """
 
     programme: CamProgramme
@@ -80,28 +87,28 @@ class WedgeCam(CamCurves):
 
     @property
     def prime_radius(self) -> float:
-        """Travel for a radian of the programme [m]; what the prime radius is to a plate."""
+        """Travel per radian of the programme [m]: it corresponds to the prime radius of a plate."""
         return self.length / TURN
 
     @property
     def prime_bounds(self) -> tuple[float, float]:
-        """Between which travels for a radian [m] the wedge can be built: all above 0."""
+        """Bounds of the travel per radian [m], both excluded."""
         return 0.0, math.inf
 
     @property
     def knots(self) -> FloatArray:
-        """Places of the programme [rad] on the plate between which it is smooth."""
+        """Angles of the programme [rad], ascending, between which the plate is smooth."""
         inner = self.programme.knots
         end = float(inner[0]) + self.used
         return np.append(inner[inner < end], end)
 
     def resized(self, prime_radius: float) -> "WedgeCam":
-        """The same wedge with another travel for a radian of the programme [m]."""
+        """The same wedge with another travel per radian of the programme [m]."""
         return replace(self, length=prime_radius * TURN)
 
-    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
-        """Everything at places of the programme [rad] where the follower's course is known there."""
-        way = complex(math.cos(self.lean), math.sin(self.lean))
-        motion = course.s * way, course.ds * way, course.dds * way
+    def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
+        """The trace at angles of the programme [rad], for the follower's motion there."""
+        direction = complex(math.cos(self.lean), math.sin(self.lean))
+        point = motion.s * direction, motion.ds * direction, motion.dds * direction
         radius = self.prime_radius
-        return trace_of_strip(angle, course, motion, way, radius=radius, roller_radius=self.roller_radius)
+        return trace_of_strip(angle, motion, point, direction, radius=radius, roller_radius=self.roller_radius)

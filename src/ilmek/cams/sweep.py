@@ -1,8 +1,8 @@
 """Thousands of plate cams at once: smallest prime radius, pressure angle, curvature, undercut, area, torque.
 
-Each design is a rise, a fall by the same law and a rest, with a translating roller, knife or ball; the numbers are
-those of `sizing`, `limits` and `contact` for a single one. Designs of one law share its samples: with s = L s(u) and
-ds = L v(u)/beta all bounds are searched on one grid of u for all of them, and refined only where it may matter.
+Each design is a rise, a fall by the same law and a dwell, with a translating roller, knife edge or sphere. The results
+equal those of `sizing`, `limits` and `contact` for a single cam. Designs of one law share its samples: with s = L s(u)
+and ds = L v(u)/beta all bounds are searched on one grid of u, and refined only near the maxima.
 """
 
 import itertools
@@ -21,28 +21,30 @@ from ilmek.records import record
 PerDesign = Float[np.ndarray, " designs"]
 
 _COARSE = 64
-"""Points of the first grid over a law, shared by its pieces, at least _LEAST in each."""
+"""Points of the first grid over a law, divided among its pieces, at least _LEAST in each."""
 
 _LEAST = 13
 _ZOOM = 9
 _ZOOMS = 4
 _INSIDE = 1e-12
-"""How far inside its piece a one-sided value is taken, over the whole law."""
+"""Distance in u inside a piece at which one-sided values are taken."""
 
 _CLOSE = 0.05
-"""Pieces whose coarse top is within this share of the design's best are refined too."""
+"""Pieces whose coarse maximum is within this share of the range from the design's best are refined too."""
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
 
 
 @record
 class CamRequirements:
-    """What is asked of many cams, one entry a design; lengths in m, angles in rad.
+    """Data of many cams, one entry per design; lengths in m, angles in rad.
 
-    law    place of the motion law in the list that goes with it
-    fall   angle of the fall         limit   pressure angle on the rise
-    offset, roller_radius            0: in line, a knife's edge
-    mass, speed, rate, preload, load as of `contact.Held`; 0 where not given
+    law    index of the motion law in the accompanying list
+    lift   of the follower           rise, fall   cam angles of the rise and of the fall
+    limit  of the pressure angle on the rise
+    offset, roller_radius            0: in line, knife edge
+    mass, speed, rate, preload, load as in `contact.FollowerLoad`; default: 0
+    Raises ParameterError where rise and fall exceed a turn, and unless 0 < limit < pi/2.
     """
 
     law: Int[np.ndarray, " designs"]
@@ -67,11 +69,14 @@ class CamRequirements:
 
 @record
 class CamSweep:
-    """What the cams are, one entry a design.
+    """Results of many cams, one entry per design.
 
-    prime_radius, pressure_angle_max (on the rise), curvature_radius_min (pitch curve, convex), undercut, area and
-    torque_max (largest size) as a single design has them; a prime radius that the offset or the roller would fill is
-    an undercut, its area NaN
+    prime_radius          smallest for the limit of the pressure angle [m]
+    pressure_angle_max    on the rise [rad]
+    curvature_radius_min  of the pitch curve, convex [m]
+    undercut              also true where the prime radius is not above the offset or the roller's radius
+    area                  of the cam's face [m^2]; NaN where the prime radius is too small
+    torque_max            largest magnitude of the shaft's torque [N m]
     """
 
     prime_radius: PerDesign
@@ -83,7 +88,9 @@ class CamSweep:
 
 
 def requirements(count: int, **given: object) -> CamRequirements:
-    """Designs from numbers and arrays; what is not given is 0, the fall as the rise or the rest of the turn.
+    """Requirements of `count` designs from numbers and arrays (count,), by the names and units of `CamRequirements`.
+
+    Fields that are not given are 0; default of `fall`: the rise, or the remaining turn if that is less.
 
     >>> requirements(2, law=0, lift=0.02, rise=np.array([1.5, 4.0]), limit=0.5).fall.round(4).tolist()
     [1.5, 2.2832]
@@ -96,12 +103,12 @@ def requirements(count: int, **given: object) -> CamRequirements:
 
 
 def sweep(laws: Sequence[Law], designs: CamRequirements) -> CamSweep:
-    """All designs, law by law. Raises IndexError for a law that is not in the list."""
+    """Results of all designs, law by law. Raises IndexError for an index outside the list of laws."""
     count = designs.law.size
     rows = np.empty((5, count))
-    for place in np.unique(designs.law):
-        here = np.flatnonzero(designs.law == place)
-        rows[:, here] = _of_law(laws[place], designs, here)
+    for index in np.unique(designs.law):
+        here = np.flatnonzero(designs.law == index)
+        rows[:, here] = _of_law(laws[index], designs, here)
     prime, pressure, bend, area, torque = rows
     radius = 1 / bend
     filled = prime <= np.maximum(np.abs(designs.offset), designs.roller_radius)
@@ -116,16 +123,16 @@ def sweep(laws: Sequence[Law], designs: CamRequirements) -> CamSweep:
 
 
 @dataclass(frozen=True, slots=True)
-class _Way:
-    """Rise or fall of the designs of a law: columns (designs, 1), or (pairs, 1) where only some are refined."""
+class _Stroke:
+    """Rise or fall of the designs of a law: columns (designs, 1), or (selected, 1) in the refinement."""
 
     law: Law
     base: FloatArray
     lift: FloatArray
     span: FloatArray
 
-    def of(self, rows: Int[np.ndarray, " rows"]) -> "_Way":
-        return _Way(self.law, self.base[rows], self.lift[rows], self.span[rows])
+    def of(self, rows: Int[np.ndarray, " rows"]) -> "_Stroke":
+        return _Stroke(self.law, self.base[rows], self.lift[rows], self.span[rows])
 
     def s(self, u: FloatArray) -> FloatArray:
         return np.asarray(self.base + self.lift * self.law.s(u))
@@ -137,36 +144,36 @@ class _Way:
         return np.asarray(self.lift / self.span**2 * self.law.a(u))
 
 
-_Value = Callable[[_Way, FloatArray, Callable[[FloatArray], FloatArray]], FloatArray]
-"""A number of a way at u, with the rows of a per-design column picked by the last argument."""
+_Value = Callable[[_Stroke, FloatArray, Callable[[FloatArray], FloatArray]], FloatArray]
+"""A quantity of a stroke at u; the last argument selects the rows of a column of the designs."""
 
 
 def _of_law(law: Law, designs: CamRequirements, here: Int[np.ndarray, " rows"]) -> FloatArray:
     """Prime radius, tangent of the pressure angle, largest curvature, area, torque of the designs of one law."""
     column = {name: getattr(designs, name)[here][:, None] for name in CamRequirements.__slots__ if name != "law"}
     lift, offset, roller = column["lift"], column["offset"], column["roller_radius"]
-    rising = _Way(law, np.zeros_like(lift), lift, column["rise"])
-    falling = _Way(law, lift, -lift, column["fall"])
+    rising = _Stroke(law, np.zeros_like(lift), lift, column["rise"])
+    falling = _Stroke(law, lift, -lift, column["fall"])
     slope = np.tan(column["limit"])
 
-    demand = _top(rising, lambda way, u, pick: np.abs(way.ds(u) - pick(offset)) / pick(slope) - way.s(u))
+    demand = _top(rising, lambda stroke, u, pick: np.abs(stroke.ds(u) - pick(offset)) / pick(slope) - stroke.s(u))
     prime = np.hypot(np.maximum(demand, 0.0)[:, None], offset)
     near = np.sqrt(np.maximum(prime**2 - offset**2, 0.0))
 
-    def leaning(way: _Way, u: FloatArray, pick: Callable[[FloatArray], FloatArray]) -> FloatArray:
-        return np.asarray(np.abs(way.ds(u) - pick(offset)) / (way.s(u) + pick(near)))
+    def leaning(stroke: _Stroke, u: FloatArray, pick: Callable[[FloatArray], FloatArray]) -> FloatArray:
+        return np.asarray(np.abs(stroke.ds(u) - pick(offset)) / (stroke.s(u) + pick(near)))
 
-    def bend(way: _Way, u: FloatArray, pick: Callable[[FloatArray], FloatArray]) -> FloatArray:
-        e, r, ds = pick(offset), way.s(u) + pick(near), way.ds(u)
+    def bend(stroke: _Stroke, u: FloatArray, pick: Callable[[FloatArray], FloatArray]) -> FloatArray:
+        e, r, ds = pick(offset), stroke.s(u) + pick(near), stroke.ds(u)
         along = r**2 + (ds - e) ** 2
-        return np.asarray((r * (r - way.dds(u)) + (ds - e) * (2 * ds - e)) / (along * np.sqrt(along)))
+        return np.asarray((r * (r - stroke.dds(u)) + (ds - e) * (2 * ds - e)) / (along * np.sqrt(along)))
 
     inertia = column["mass"] * column["speed"] ** 2
     pushed = column["preload"] + column["load"]
 
-    def torque(way: _Way, u: FloatArray, pick: Callable[[FloatArray], FloatArray]) -> FloatArray:
-        force = pick(inertia) * way.dds(u) + pick(column["rate"]) * way.s(u) + pick(pushed)
-        return np.asarray(np.abs(force * way.ds(u)))
+    def torque(stroke: _Stroke, u: FloatArray, pick: Callable[[FloatArray], FloatArray]) -> FloatArray:
+        force = pick(inertia) * stroke.dds(u) + pick(column["rate"]) * stroke.s(u) + pick(pushed)
+        return np.asarray(np.abs(force * stroke.ds(u)))
 
     with np.errstate(divide="ignore", invalid="ignore"):
         rest = TURN - column["rise"] - column["fall"]
@@ -179,16 +186,16 @@ def _of_law(law: Law, designs: CamRequirements, here: Int[np.ndarray, " rows"]) 
     return np.stack([prime[:, 0], pressure, sharpest, area[:, 0], turning])
 
 
-def _sector(way: _Way, near: FloatArray, offset: FloatArray, roller: FloatArray) -> FloatArray:
-    """A part's share of the area inside the surface: 1/2 integral of (K . n) flow_K, as `limits.area` (Green)."""
-    u, weight = _nodes(way.law)
-    r, ds, dds = way.s(u) + near, way.ds(u), way.dds(u)
+def _sector(stroke: _Stroke, near: FloatArray, offset: FloatArray, roller: FloatArray) -> FloatArray:
+    """Area inside the surface swept by a stroke: 1/2 integral of (K . n) flow_K, as `limits.area` (Green)."""
+    u, weight = _nodes(stroke.law)
+    r, ds, dds = stroke.s(u) + near, stroke.ds(u), stroke.dds(u)
     square = r**2 + (ds - offset) ** 2
     flow = np.sqrt(square)
     turning = (r * (r - dds) + (ds - offset) * (2 * ds - offset)) / square
     out = (r**2 - offset * (ds - offset)) / flow - roller
     inside = 0.5 * out * (flow - roller * turning)
-    return np.asarray(way.span * np.sum(weight * inside, axis=1, keepdims=True))
+    return np.asarray(stroke.span * np.sum(weight * inside, axis=1, keepdims=True))
 
 
 def _nodes(law: Law) -> tuple[FloatArray, FloatArray]:
@@ -199,27 +206,27 @@ def _nodes(law: Law) -> tuple[FloatArray, FloatArray]:
     return (middle + half * _NODES).ravel(), (half * _WEIGHTS).ravel()
 
 
-def _top(way: _Way, value: _Value) -> PerDesign:
-    """Least upper bound over u of a value of each design, piece by piece, one-sided at the breaks."""
-    edges = np.array([0.0, *way.law.breaks, 1.0])
+def _top(stroke: _Stroke, value: _Value) -> PerDesign:
+    """Supremum over u of a quantity of each design, piece by piece, one-sided at the breaks."""
+    edges = np.array([0.0, *stroke.law.breaks, 1.0])
     count = max(_LEAST, _COARSE // (edges.size - 1))
     pieces = [np.linspace(low + _INSIDE, high - _INSIDE, count) for low, high in itertools.pairwise(edges)]
-    coarse = [value(way, u, lambda column: column) for u in pieces]
+    coarse = [value(stroke, u, lambda column: column) for u in pieces]
     tops = np.stack([np.max(rows, axis=1) for rows in coarse])
     best = np.max(tops, axis=0)
     spread = best - np.min(np.stack([np.min(rows, axis=1) for rows in coarse]), axis=0)
     for u, rows, top in zip(pieces, coarse, tops, strict=True):
         close = np.flatnonzero(top >= best - _CLOSE * spread)
         if close.size:
-            best[close] = np.maximum(best[close], _refined(way, value, close, u, rows[close]))
+            best[close] = np.maximum(best[close], _refined(stroke, value, close, u, rows[close]))
     return np.asarray(best)
 
 
 def _refined(
-    way: _Way, value: _Value, rows: Int[np.ndarray, " rows"], u: FloatArray, found: FloatArray
+    stroke: _Stroke, value: _Value, rows: Int[np.ndarray, " rows"], u: FloatArray, found: FloatArray
 ) -> Float[np.ndarray, " rows"]:
-    """The top of some designs in one piece: zooming grids, and the vertex of the parabola through the last three."""
-    some, grid = way.of(rows), np.broadcast_to(u, found.shape)
+    """Maximum of some designs in one piece: zooming grids, then the vertex of a parabola."""
+    some, grid = stroke.of(rows), np.broadcast_to(u, found.shape)
     row = np.arange(rows.size)
     for _ in range(_ZOOMS):
         at = np.argmax(found, axis=1)

@@ -1,13 +1,13 @@
-"""What a follower traces on a cam: one record for every kind of cam and follower, all of it from one pass.
+"""Pitch curve, normals and pressure angle of a cam: one record for every kind of cam and follower.
 
-In the cam's own frame the pitch curve P (the way of the roller's centre or the knife's edge; for a flat face the
-surface itself) is run through against the cam's turning, with the cam on the right of it:
+In the cam's frame the pitch curve P (the path of the roller's centre or the knife edge; for a flat face the surface
+itself) is traversed against the cam's rotation, with the cam on its right:
 
     dP/dtheta = -i n flow,    dn/dtheta = -i n turning,    kappa = turning / flow
 
-n is the unit normal that points out of the cam, to the follower. A curve at the signed distance d along the normals
-has the same normals and flow_d = flow + d turning; it stops being a curve that guides (it turns back in a cusp) where
-that is no longer above 0. Surface, cutter path and both flanks of a groove are such curves:
+n is the unit normal that points out of the cam, to the follower. A parallel curve at the signed distance d along the
+normals has the same normals and flow_d = flow + d turning; where that is not above 0 the curve has a cusp and cannot
+guide. Surface, cutter path and both flanks of a groove are parallel curves:
 
     surface  d = -Rr      other flank of a groove  d = +Rr      centre of a cutter  d = Rc - Rr
 
@@ -27,18 +27,18 @@ from ilmek.records import record
 
 @record
 class CamTrace:
-    """Pitch curve and all that hangs on it at cam angles [rad], arrays of one shape, in the cam's frame.
+    """Pitch curve and derived quantities at cam angles [rad], arrays of one shape, in the cam's frame.
 
-    course          displacement of the follower and its derivatives by the cam angle
+    motion          displacement of the follower and its derivatives by the cam angle
     pitch           points of the pitch curve [m]
     normal          its outward unit normals
-    pressure_angle  from the follower's way to the cam's push [rad]; positive where it pushes aside on a rise
+    pressure_angle  from the follower's direction to the contact normal [rad]; positive on a steep rise
     flow, turning   speed of the pitch point along its curve [m/rad] and of the normal's direction [1]
     roller_radius   distance of the surface inside the pitch curve [m]
     """
 
     angle: FloatArray
-    course: FollowerMotion
+    motion: FollowerMotion
     pitch: ComplexArray
     normal: ComplexArray
     pressure_angle: FloatArray
@@ -73,7 +73,7 @@ class CamTrace:
 
 @runtime_checkable
 class CamRole(Protocol):
-    """What the limits ask of a cam. `prime_radius` [m] sets its size; `flat` says that its follower is a flat face."""
+    """Interface of a cam for limits and sizing; `prime_radius` sets its size."""
 
     @property
     def programme(self) -> CamProgramme:
@@ -81,7 +81,7 @@ class CamRole(Protocol):
 
     @property
     def prime_radius(self) -> float:
-        """Least distance of the pitch curve from the axis; of the face, where the follower is flat."""
+        """Least distance of the pitch curve from the axis [m]; of the face, where the follower is flat."""
 
     @property
     def knots(self) -> FloatArray:
@@ -89,28 +89,28 @@ class CamRole(Protocol):
 
     @property
     def prime_bounds(self) -> tuple[float, float]:
-        """Between which prime radii the cam can be built, both excluded [m]."""
+        """Bounds of the prime radius [m], both excluded."""
 
     @property
     def roller_radius(self) -> float:
-        """Roller's (or ball's) radius; 0 for a knife edge and for a flat face."""
+        """Radius of the roller or sphere [m]; 0 for a knife edge and for a flat face."""
 
     @property
     def flat(self) -> bool:
-        """Whether the follower's face is flat, so that only a convex cam touches it."""
+        """Whether the follower's face is flat: the cam must then be convex."""
 
-    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
-        """Everything at cam angles [rad] where the follower's course is known there."""
+    def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
+        """Everything at cam angles [rad] where the follower's motion is known there."""
 
     def trace(self, angle: FloatArray) -> CamTrace:
-        """Everything at cam angles [rad]."""
+        """The trace at cam angles [rad]."""
 
     def resized(self, prime_radius: float) -> "CamRole":
         """The same cam with another prime radius [m]."""
 
 
 class CamCurves(ABC):
-    """The curves of a cam one by one, for whoever needs only one; each reckons the whole trace."""
+    """Single curves of a cam; each call computes the whole trace."""
 
     __slots__ = ()
 
@@ -122,11 +122,11 @@ class CamCurves(ABC):
         return self.programme.knots
 
     @abstractmethod
-    def trace_of(self, angle: FloatArray, course: FollowerMotion) -> CamTrace:
-        """Everything at cam angles [rad] where the follower's course is known there."""
+    def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
+        """Everything at cam angles [rad] where the follower's motion is known there."""
 
     def trace(self, angle: FloatArray) -> CamTrace:
-        """Everything at cam angles [rad], in one pass."""
+        """The trace at cam angles [rad]."""
         return self.trace_of(angle, self.programme.at(angle))
 
     def pitch(self, angle: FloatArray) -> ComplexArray:
@@ -138,7 +138,7 @@ class CamCurves(ABC):
         return self.trace(angle).surface
 
     def cutter_path(self, angle: FloatArray, radius: float) -> ComplexArray:
-        """Centre of a cutter of a radius [m] that cuts the surface at cam angles [rad], in the cam's frame [m]."""
+        """Path of the centre of a cutter of a radius [m], at cam angles [rad], in the cam's frame [m]."""
         trace = self.trace(angle)
         return trace.parallel(radius - trace.roller_radius)
 
@@ -153,32 +153,34 @@ class CamCurves(ABC):
 
 def trace_of_point(
     angle: FloatArray,
-    course: FollowerMotion,
-    motion: tuple[ComplexField, ComplexField, ComplexField],
-    way: ComplexField,
+    motion: FollowerMotion,
+    point: tuple[ComplexField, ComplexField, ComplexField],
+    direction: ComplexField,
     roller_radius: float,
 ) -> CamTrace:
     """Trace of a follower that is a point (a roller's centre, a knife's edge) on a cam that turns counter-clockwise.
 
-    motion  the point in the world, B, and its derivatives B', B'' by the cam angle [m]
-    way     unit direction in the world in which the point goes as the follower rises
+    angle      cam angles [rad], any shape             motion         the follower's motion there
+    point      the point B in the world and its derivatives B', B'' by the cam angle [m]
+    direction  unit direction in the world in which the point moves as the follower rises
+    roller_radius  [m]
 
     Seen from the cam, P = B exp(-i theta), dP = (B' - i B) exp(-i theta), d2P = (B'' - 2i B' - B) exp(-i theta).
     """
-    point, first, second = motion
-    along = first - 1j * point
-    bend = second - 2j * first - point
+    centre, first, second = point
+    along = first - 1j * centre
+    bend = second - 2j * first - centre
     square = along.real**2 + along.imag**2
     flow = np.sqrt(square)
-    with np.errstate(divide="ignore", invalid="ignore"):  # NaN where the point stands still as seen from the cam
+    with np.errstate(divide="ignore", invalid="ignore"):  # NaN where the point is at rest relative to the cam
         push = 1j * along / flow
         turning = np.asarray(-cross(along, bend) / square)
-    leaning = push * np.conj(way)
+    leaning = push * np.conj(direction)
     frame = unit(-angle)
     return CamTrace(
         angle=angle,
-        course=course,
-        pitch=np.asarray(point * frame),
+        motion=motion,
+        pitch=np.asarray(centre * frame),
         normal=np.asarray(push * frame),
         pressure_angle=np.arctan2(leaning.imag, leaning.real),
         flow=flow,

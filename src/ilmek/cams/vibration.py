@@ -1,15 +1,16 @@
-"""Residual vibration: what a springy follower still swings by when the cam has stopped lifting it.
+"""Residual vibration of an elastic follower after a rise.
 
-A mass on a spring whose foot follows the cam: z = x - y is how far it lags. Over u = t/T, z in lifts L,
+A mass x on a spring whose foot y follows the cam has the deviation z = x - y. Over u = t/T, with z in lifts L,
 
     z'' + 2 zeta W z' + W^2 z = -a(u),     W = 2 pi T/tau                  [Norton, Cam Design and Manufacturing, 10-12]
 
-T time of the rise, tau natural period of the follower, T/tau the time ratio. After the rise z swings freely, with
+T is the time of the rise, tau the natural period of the follower, T/tau the time ratio. After the rise z vibrates
+freely with
 
     amplitude = |integral of a(u) e^(m (1 - u)) du| / (W sqrt(1 - zeta^2)),   m = W (-zeta + i sqrt(1 - zeta^2))
 
-at its end: without damping the Fourier transform of the law's acceleration at the follower's frequency, over W. In
-closed form, n = T/tau, zeta = 0:
+at the end of the rise: without damping, the Fourier transform of the law's acceleration at the natural frequency, over
+W. In closed form, n = T/tau, zeta = 0:
 
     uniform |sin pi n| / (pi n)          parabolic 4 sin^2(pi n/2) / (pi n)^2
     harmonic |cos pi n| / |4 n^2 - 1|    cycloidal |sin pi n| / (pi n |n^2 - 1|)
@@ -30,19 +31,21 @@ from ilmek.report import Axis, Plot, Series
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _BLOCK = 64
-"""Time ratios at a time: with the greatest of them goes the number of panels."""
+"""Number of time ratios per block; the largest ratio of a block sets the number of panels."""
 
 _LEAST_SHARE, _MOST_SHARE = 1e-5, 0.5
 _GRID = 24
-"""Time ratios looked at within one, where the lobes of a spectrum are one wide."""
+"""Points per unit of the time ratio; the lobes of a spectrum are one unit wide."""
 
 
 def residual(law: Law, ratio: RealField, damping: float = 0.0) -> FloatArray:
-    """Amplitude at the end of the rise, in lifts, for time ratios T/tau above 0 of any shape.
+    """Residual amplitude over the lift [-] at the end of the rise.
 
-    damping  share zeta of the critical, 0 to below 1
-    A law whose velocity jumps at its ends kicks the follower there, which is counted.
-    Raises ParameterError for a damping or a time ratio out of these bounds.
+    ratio    time ratios T/tau [-], above 0, any shape
+    damping  ratio zeta to the critical damping [-], 0 to below 1
+
+    The impulses of a law whose velocity jumps at its ends are included.
+    Raises ParameterError for a damping or a time ratio outside these bounds.
 
     >>> from ilmek.cams.laws import LAWS
     >>> round(float(residual(LAWS["harmonic"], 1.5)), 12)
@@ -69,7 +72,7 @@ def _transform(law: Law, ratios: FloatArray, damping: float) -> FloatArray:
 
 
 def _nodes(law: Law, ratio: float) -> tuple[FloatArray, FloatArray]:
-    """Gauss' nodes over panels of at most a natural period, and their weights: 12 are exact to rounding on it."""
+    """Gauss nodes and weights over panels of at most a natural period, where 12 nodes are exact to rounding."""
     knots = np.array([0.0, *law.breaks, 1.0])
     edges = [np.linspace(a, b, 4 + math.ceil(ratio * (b - a))) for a, b in itertools.pairwise(knots)]
     low = np.concatenate([row[:-1] for row in edges])
@@ -78,10 +81,10 @@ def _nodes(law: Law, ratio: float) -> tuple[FloatArray, FloatArray]:
 
 
 def least_ratio(law: Law, share: float, damping: float = 0.0) -> float:
-    """Least time ratio from which on, for all greater ones too, the residual amplitude is at most a share of the lift.
+    """Least time ratio [-] above which the residual amplitude stays within a share [-] of the lift.
 
-    A spectrum has zeros that a speed a little off misses; this is the bound that holds all the way up.
-    Raises ParameterError for a share outside 1e-5..0.5 and for a law whose acceleration is endless.
+    The zeros of a spectrum are useless at a slightly different speed; this bound holds for all larger ratios.
+    Raises ParameterError for a share outside 1e-5..0.5, and for a law of infinite acceleration.
 
     >>> from ilmek.cams.laws import LAWS
     >>> round(least_ratio(LAWS["cycloidal"], 0.01), 3)
@@ -92,23 +95,23 @@ def least_ratio(law: Law, share: float, damping: float = 0.0) -> float:
         raise ParameterError(f"residual share {share:g} of the lift", allowed=allowed)
     if not math.isfinite(law.acceleration_peak):
         raise ParameterError(f"law {law.name}: its velocity jumps", allowed="a law of finite acceleration")
-    # A rise in no time at all leaves the whole lift, so the spectrum begins above any share.
+    # At ratio 0 the amplitude is the whole lift, so the spectrum starts above any share.
     most = _bounded(law, share * math.sqrt(1.0 - damping**2))
     ratios = np.arange(1, math.ceil(most * _GRID) + 2) / _GRID
     sizes = residual(law, ratios, damping)
     inner = sizes[1:-1]
     tops = 1 + np.flatnonzero((inner >= sizes[:-2]) & (inner >= sizes[2:]) & (inner > 0.95 * share))
     for top in tops[::-1]:
-        place, peak = _summit(law, damping, float(ratios[top - 1]), float(ratios[top + 1]))
+        at, peak = _summit(law, damping, float(ratios[top - 1]), float(ratios[top + 1]))
         if peak > share:
             below = top + 1 + int(np.argmax(sizes[top + 1 :] <= share))
-            return _last_above(law, share, damping, place, float(ratios[below]))
+            return _last_above(law, share, damping, at, float(ratios[below]))
     last = int(np.flatnonzero(sizes > share)[-1])
     return _last_above(law, share, damping, float(ratios[last]), float(ratios[last + 1]))
 
 
 def _summit(law: Law, damping: float, low: float, high: float) -> tuple[float, float]:
-    """Place and height of the one top between two time ratios."""
+    """Time ratio and height of the maximum between two time ratios."""
     top = supremum(lambda ratio: residual(law, ratio, damping), np.array([low, high]), samples=16)
     return top.at, top.value
 
@@ -121,7 +124,7 @@ def _last_above(law: Law, share: float, damping: float, above: float, below: flo
 
 
 def _bounded(law: Law, share: float) -> float:
-    """A time ratio beyond which the residual is below the share: twice by parts, |z| <= variation of a / W^2."""
+    """A time ratio beyond which the residual is below the share: by parts, |z| <= variation of a / W^2."""
     knots = np.array([0.0, *law.breaks, 1.0])
     u = np.concatenate([np.linspace(a + 1e-12, b - 1e-12, 200) for a, b in itertools.pairwise(knots)])
     variation = np.sum(np.abs(np.diff(np.concatenate([[0.0], np.asarray(law.a(u)), [0.0]]))))
@@ -135,9 +138,10 @@ def _bounded(law: Law, share: float) -> float:
 def spectrum_plot(
     laws: Mapping[str, Law], most: float = 6.0, damping: float = 0.0, count: int = 601, *, decibels: bool = False
 ) -> Plot:
-    """Residual amplitude over the time ratio up to `most`, for laws compared at equal lift and time.
+    """Plot of the residual amplitude over the time ratio [-] up to `most`, for laws by name.
 
-    decibels  20 log10 of the amplitude over the lift, down to -100: lobes that a linear axis flattens to nothing
+    count     of points      damping  ratio to the critical damping [-]
+    decibels  plot 20 log10 of the amplitude over the lift, at least -100, to show small lobes
     """
     ratios = np.linspace(most / count, most, count)
     sizes = {name: residual(law, ratios, damping) for name, law in laws.items()}
@@ -147,4 +151,4 @@ def spectrum_plot(
     x = Axis("time of the rise over natural period of the follower")
     y = Axis("amplitude over lift, dB" if decibels else "amplitude over lift")
     note = f"damping {100 * damping:g} % of the critical" if damping else "without damping"
-    return Plot("residual-vibration", "What swings on after the rise", x, y, series, (), note)
+    return Plot("residual-vibration", "Residual vibration after the rise", x, y, series, (), note)

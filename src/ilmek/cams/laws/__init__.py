@@ -46,16 +46,19 @@ FAMILIES: Mapping[str, LawFamily] = MappingProxyType(
         "s-curve": s_curve.FAMILY,
     }
 )
-"""How each law is made, and what parameters it takes."""
+"""The families of laws by name: how a law is built and which parameters it takes."""
 
 
 def law_of(name: str, parameters: Mapping[str, Any] = NONE) -> Law:
-    """The law of a name with its parameters; those not given are the family's defaults.
+    """A motion law by name, with parameters.
 
-    Numbers may be of any kind, rows any sequence, a row of one its number. The same name and values give the same
-    object.
-    Raises ParameterError for a name or parameter that does not exist (the nearest is offered), a value that is no
-    number, and values that the law cannot take.
+    name        a key of `FAMILIES`
+    parameters  numbers [-] and rows of numbers, by name; a row of one entry may be given as a number; default: those
+                of the family
+
+    The same name and values give the same object.
+    Raises ParameterError for an unknown name or parameter (the message offers the nearest one), for a value that is
+    not a finite number, and for values outside the range of the law.
 
     >>> law_of("modified-sine", {"constant_velocity": 0.5}).parameters
     {'constant_velocity': 0.5}
@@ -65,7 +68,7 @@ def law_of(name: str, parameters: Mapping[str, Any] = NONE) -> Law:
     defaults = FAMILIES[name].defaults
     for given in parameters:
         if given not in defaults:
-            allowed = ", ".join(defaults) or "it takes none"
+            allowed = ", ".join(defaults) or "none"
             raise ParameterError(f"law {name} has no {given!r}", allowed=allowed, do=_perhaps(given, defaults))
     values = {key: _value(name, key, parameters.get(key, default), default) for key, default in defaults.items()}
     return _made(name, tuple(values.items()))
@@ -104,4 +107,4 @@ LAWS: Mapping[str, Law] = MappingProxyType({name: law_of(name) for name in FAMIL
 """Each law with its default parameters."""
 
 SMOOTH_LAWS: tuple[str, ...] = tuple(name for name, law in LAWS.items() if math.isfinite(law.acceleration_peak))
-"""Names of the laws that a follower with a mass can do: their acceleration is finite."""
+"""Names of the laws of finite acceleration: those that a follower with a mass can follow."""

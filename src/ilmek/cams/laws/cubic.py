@@ -2,8 +2,8 @@
 
     s = 3 u^2 - 2 u^3                                                      [Norton, Cam Design and Manufacturing, 4]
 
-Least rms acceleration of all laws from rest to rest: the least heat in a motor that moves an inertia. Against a dwell
-the acceleration jumps from 0 to 6.
+It has the least rms acceleration of all laws from rest to rest, so a motor that moves an inertia heats least. Next to a
+dwell the acceleration jumps from 0 to 6.
 """
 
 import math

@@ -1,10 +1,10 @@
-"""Cycloidal motion (inclined sine): the course of a point on a circle of radius L/2pi that rolls along a line.
+"""Cycloidal motion (inclined sine): the path of a point on a circle of radius L/2pi that rolls along a line.
 
     s = u - sin(2 pi u) / (2 pi)                                                      [thesis, 2.2.2, eq. 2.52-2.56]
 
-Acceleration starts and ends at 0, so it joins a dwell without a jump; the jerk is finite (4 pi^2), not zero as the
-thesis' "jerk-free" says. Eq. 2.55 and 2.56 print the bracket with the trigonometric function under the fraction bar;
-it belongs above it.
+The acceleration starts and ends at 0, so the law joins a dwell without a jump. The jerk is finite (4 pi^2), although
+the thesis calls the law "jerk-free". Eq. 2.55 and 2.56 print the bracket with the trigonometric function under the
+fraction bar; it belongs above it.
 """
 
 import math
@@ -42,7 +42,7 @@ def j(u: RealField) -> RealField:
 
 
 def motion(u: RealField) -> LawValues:
-    """All four, from one sine and one cosine."""
+    """s, v, a and j at u, from one sine and one cosine."""
     turned = _TURN * u
     sin, cos = np.sin(turned), np.cos(turned)
     return LawValues(u - sin / _TURN, 1.0 - cos, _TURN * sin, _TURN**2 * cos)

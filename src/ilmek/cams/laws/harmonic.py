@@ -1,9 +1,9 @@
-"""Simple harmonic motion: the projection of a point that runs on a circle of diameter L.
+"""Simple harmonic motion: the projection of a point that moves uniformly on a circle of diameter L.
 
     s = (1 - cos pi u) / 2                                                            [thesis, 2.2.2, eq. 2.47-2.51]
 
-The smoothest start and the least velocity of the simple laws, but against a dwell the acceleration jumps from 0 to
-pi^2/2. Eq. 2.47 prints cos theta for cos(pi theta/beta); eq. 2.49 prints L/[2(1 - cos)] for (L/2)(1 - cos).
+It starts smoothly and its velocity is low, but next to a dwell the acceleration jumps from 0 to pi^2/2. Eq. 2.47
+prints cos theta for cos(pi theta/beta); eq. 2.49 prints L/[2(1 - cos)] for (L/2)(1 - cos).
 """
 
 import math
@@ -39,7 +39,7 @@ def j(u: RealField) -> RealField:
 
 
 def motion(u: RealField) -> LawValues:
-    """All four, from one sine and one cosine."""
+    """s, v, a and j at u, from one sine and one cosine."""
     turned = math.pi * u
     sin, cos = np.sin(turned), np.cos(turned)
     return LawValues(0.5 - 0.5 * cos, 0.5 * math.pi * sin, 0.5 * math.pi**2 * cos, -0.5 * math.pi**3 * sin)

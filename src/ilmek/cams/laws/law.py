@@ -1,4 +1,4 @@
-"""What a motion law is: a rise of 1 in a time of 1, and its derivatives.
+"""A motion law: a rise of 1 in a time of 1, and its derivatives.
 
     S = L s(u),   V = L (w/beta) v(u),   A = L (w/beta)^2 a(u),   J = L (w/beta)^3 j(u),   u = theta/beta
 
@@ -19,14 +19,14 @@ Curve: TypeAlias = Callable[[RealField], RealField]
 
 
 Parameters: TypeAlias = Mapping[str, float | tuple[float, ...]]
-"""What a law is made with, by name: numbers and rows of numbers."""
+"""Parameters of a law by name: numbers and rows of numbers."""
 
 NONE: Parameters = MappingProxyType({})
-"""Of a law without parameters."""
+"""The parameters of a law that has none."""
 
 
 class LawValues(NamedTuple):
-    """A law and its derivatives at the same places."""
+    """Displacement and its first three derivatives at the same u, arrays of one shape."""
 
     s: RealField
     v: RealField
@@ -36,19 +36,19 @@ class LawValues(NamedTuple):
 
 @record
 class Law:
-    """A motion law on u in [0, 1]: from rest at 0 to rest at 1, unless its file says otherwise.
+    """A motion law on u in [0, 1]: from rest at 0 to rest at 1, unless its module states otherwise.
 
     s, v, a, j          displacement and its first three derivatives by u, arrays of any shape
     velocity_peak       largest |v|
     acceleration_peak   largest |a|; inf where the velocity jumps against a dwell
     jerk_peak           largest |j|; inf where the acceleration jumps, at the ends (against a dwell) or inside
-    torque_peak         largest |v a|: the inertia's part of the cam torque
-    acceleration_rms    root of the mean square of a: heating of a motor that moves an inertia
+    torque_peak         largest |v a|: the share of the inertia in the cam torque
+    acceleration_rms    root mean square of a: it sets the heat in a motor that moves an inertia
     breaks              u inside the rise where a or j is not smooth; a and j are one-sided there
-    parameters          what the law was made with; `law_of(name, parameters)` makes it again
+    parameters          the law's parameters; `law_of(name, parameters)` builds it again
     lowest, highest     bounds of s: a law that overshoots leaves [0, 1]
     first, last         s at u = 0 and u = 1
-    at_once             all four curves by one call, where that is quicker
+    at_once             all four curves in one call, where that is faster
     """
 
     name: str
@@ -70,21 +70,21 @@ class Law:
     at_once: Callable[[RealField], LawValues] | None = None
 
     def motion(self, u: RealField) -> LawValues:
-        """s, v, a and j at u of any shape."""
+        """s, v, a and j at u in [0, 1], an array of any shape."""
         if self.at_once is not None:
             return self.at_once(u)
         return LawValues(self.s(u), self.v(u), self.a(u), self.j(u))
 
 
 class LawFamily(NamedTuple):
-    """A law that takes parameters: how it is made, and what it is made with where nothing is said."""
+    """A law with parameters: the function that builds it, and the default parameters."""
 
     make: Callable[..., Law]
     defaults: Parameters = NONE
 
 
 def fixed(law: Law) -> LawFamily:
-    """A law without parameters, as a family of one."""
+    """The family of a law that has no parameters."""
     return LawFamily(lambda: law)
 
 
@@ -93,4 +93,4 @@ def _still(u: RealField) -> RealField:
 
 
 REST = Law("rest", _still, _still, _still, _still, 0.0, 0.0, 0.0, 0.0, 0.0)
-"""No motion at all: the law of a dwell."""
+"""The law of a dwell: no motion."""

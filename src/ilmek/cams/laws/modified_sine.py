@@ -1,9 +1,9 @@
-"""Modified sine: a quick quarter sine wave up to u = 1/8, a slow half wave to 7/8, a quick quarter to the end.
+"""Modified sine: a fast quarter sine wave up to u = 1/8, a slow half wave to 7/8, a fast quarter wave to the end.
 
     (b, c, d) = (1/4, 0, 3/4) of the SCCA family,   Ca = 4 pi^2 / (pi + 4)  [Norton, Cam Design and Manufacturing, 3]
 
-12 % less acceleration and 33 % less torque than the cycloidal law, at the price of more jerk. With a share k of the
-time at constant velocity in the middle the ramps keep their split of 1 to 3: (b, c, d) = (1 - k) (1/4, 0, 3/4).
+It has 12 % less acceleration and 33 % less torque than the cycloidal law, but more jerk. With a share k of the time at
+constant velocity in the middle, the ramps keep their ratio of 1 to 3: (b, c, d) = (1 - k) (1/4, 0, 3/4).
 """
 
 from ilmek.cams.laws.law import Law, LawFamily
@@ -12,9 +12,9 @@ from ilmek.errors import ParameterError
 
 
 def law(constant_velocity: float) -> Law:
-    """The law with a share of the time at constant velocity; 0 is the modified sine as such.
+    """The modified sine with a share [-] of the time at constant velocity; 0: the plain modified sine.
 
-    Raises ParameterError unless it is at least 0 and below 1.
+    Raises ParameterError unless the share is at least 0 and below 1.
 
     >>> round(law(0.2).velocity_peak, 5)
     1.52754

@@ -2,9 +2,9 @@
 
     v = V u / b1  (u <= b1),   V,   V (1 - u) / b2  (u >= 1 - b2),     V = 1 / (1 - (b1 + b2)/2)     [thesis, 2.2.2]
 
-Constant velocity where the work asks for it and finite acceleration at its ends, which still jumps there. With
-b1 = b2 = 1/2 it is the parabolic law, with both going to 0 the uniform one. The missing velocity on either side is
-V p / b and V q / b, p = max(b1 - u, 0) and q = max(u - 1 + b2, 0), so that one formula serves all three parts.
+The velocity is constant where the work requires it. The acceleration is finite, but it jumps at the ends. With
+b1 = b2 = 1/2 it is the parabolic law; as both go to 0 it becomes the uniform law. The velocity falls short of V by
+V p / b1 and V q / b2, p = max(b1 - u, 0) and q = max(u - 1 + b2, 0), so one formula serves all three parts.
 """
 
 import math
@@ -26,7 +26,7 @@ class _Blends:
     top: float
 
     def _short(self, u: RealField) -> tuple[RealField, RealField]:
-        """How far u lies inside the first and the last parabola."""
+        """Depth of u inside the first and the last parabola."""
         return np.maximum(self.b1 - u, 0.0), np.maximum(u - (1.0 - self.b2), 0.0)
 
     def s(self, u: RealField) -> RealField:
@@ -45,14 +45,14 @@ class _Blends:
         return self.top * (np.sign(p) / self.b1 - np.sign(q) / self.b2)
 
     def j(self, u: RealField) -> RealField:
-        """Jerk: nothing between the jumps."""
+        """Jerk: 0 between the jumps."""
         return 0.0 * np.asarray(u)
 
 
 def law(b1: float, b2: float) -> Law:
-    """The law with the shares b1 and b2 of the time for its parabolas.
+    """The modified uniform law; b1, b2: shares [-] of the time for the first and the last parabola.
 
-    Raises ParameterError unless both are above 0 and together at most 1.
+    Raises ParameterError unless both shares are above 0 and their sum is at most 1.
 
     >>> round(law(0.25, 0.25).velocity_peak, 6)
     1.333333

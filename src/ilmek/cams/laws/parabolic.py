@@ -2,8 +2,8 @@
 
     s = 2 u^2  (u <= 1/2),   s = 1 - 2 (1 - u)^2  (u >= 1/2)                              [thesis, 2.2.2, Fig. 2.7]
 
-The least acceleration any law from rest to rest can have; it jumps at both ends and in the middle. About the middle,
-with d = u - 1/2, both halves are one formula: s = 1/2 + 2 d (1 - |d|).
+It has the least peak acceleration of all laws from rest to rest. The acceleration jumps at both ends and in the middle.
+With d = u - 1/2, one formula serves both halves: s = 1/2 + 2 d (1 - |d|).
 """
 
 import math
@@ -30,12 +30,12 @@ def v(u: RealField) -> RealField:
 
 
 def a(u: RealField) -> RealField:
-    """Acceleration d2s/du2: +4, then -4; 0, the mean of both, in the middle itself."""
+    """Acceleration d2s/du2: +4, then -4; at u = 1/2 their mean, 0."""
     return -4.0 * np.sign(u - 0.5)
 
 
 def j(u: RealField) -> RealField:
-    """Jerk d3s/du3: nothing between the jumps."""
+    """Jerk d3s/du3: 0 between the jumps."""
     return 0.0 * np.asarray(u)
 
 

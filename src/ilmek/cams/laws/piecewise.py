@@ -1,7 +1,7 @@
-"""Polynomials, one or several joined at knots, and their exact peaks.
+"""Piecewise polynomials and their exact peaks.
 
-Each piece is a polynomial of t = (u - begin)/length. Extremes are taken at the roots of the derivative, so that a law
-which overshoots has its true bounds and not those of a grid.
+Each piece is a polynomial of t = (u - begin)/length. The extremes are taken at the roots of the derivative, so a law
+that overshoots has its exact bounds.
 """
 
 from dataclasses import dataclass
@@ -12,16 +12,18 @@ from ilmek.arrays import FloatArray, IntArray, RealField
 from ilmek.cams.laws.law import Law, LawValues, Parameters
 
 _SAME = 1e-9
-"""Below this share of a derivative's size its step at a knot, or its value at an end, is rounding."""
-
+"""Share of a derivative's peak below which its step at a knot, or its value at an end, counts as rounding."""
 
 _EXACT = 1e-12
-"""Values so near to a whole number are meant to be it."""
+"""Distance from a whole number below which a value is snapped to it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Piecewise:
-    """Polynomials between ascending knots from 0 to 1; `rows` holds a piece's coefficients, the constant first."""
+    """Polynomials between ascending knots from 0 to 1.
+
+    knots  (pieces + 1,)      rows  coefficients of each piece by its t, the constant first, (pieces, terms)
+    """
 
     knots: FloatArray
     rows: FloatArray
@@ -34,7 +36,7 @@ class Piecewise:
         return _horner(self.rows.T[:, piece], t)
 
     def local(self, u: RealField) -> tuple[IntArray, FloatArray]:
-        """The piece that each u lies in, and t within it; at a knot, the piece that begins."""
+        """The piece of each u, and its t in [0, 1]; at a knot, the piece that begins."""
         u = np.asarray(u, float)
         piece = np.asarray(np.searchsorted(self.knots[1:-1], u, side="right"))
         return piece, np.asarray((u - self.knots[piece]) / np.diff(self.knots)[piece])
@@ -59,7 +61,7 @@ class Piecewise:
         return Piecewise(self.knots, self.rows[:, 1:] * powers / np.diff(self.knots)[:, None])
 
     def times(self, other: "Piecewise") -> "Piecewise":
-        """The product with another over the same knots."""
+        """The product with another piecewise polynomial over the same knots."""
         pairs = zip(self.rows, other.rows, strict=True)
         return Piecewise(self.knots, np.array([np.convolve(first, second) for first, second in pairs]))
 
@@ -69,7 +71,7 @@ class Piecewise:
         return float(values.min()), float(values.max())
 
     def peak(self) -> float:
-        """Largest size."""
+        """Largest magnitude."""
         return max(abs(bound) for bound in self.bounds())
 
     def integral(self) -> float:
@@ -78,17 +80,17 @@ class Piecewise:
         return float(np.sum(np.diff(self.knots) * np.sum(self.rows / powers, axis=1)))
 
     def steps(self) -> FloatArray:
-        """Steps at the inner knots."""
+        """Steps at the inner knots, (pieces - 1,)."""
         return np.asarray(self.rows[1:, 0] - self.rows[:-1].sum(axis=1))
 
 
 def law_of_pieces(name: str, s: Piecewise, parameters: Parameters) -> Law:
-    """The law whose displacement is `s`, with exact peaks."""
+    """The law with the displacement s(u) and exact peaks; inf where the law does not start and end at rest."""
     v = s.derivative()
     a = v.derivative()
     j = a.derivative()
     ends = np.array([0.0, 1.0])
-    lowest, highest, first, last = (_meant(value) for value in (*s.bounds(), *np.asarray(s(ends)).tolist()))
+    lowest, highest, first, last = (_snapped(value) for value in (*s.bounds(), *np.asarray(s(ends)).tolist()))
     velocity, acceleration = v.peak(), a.peak()
     torque, rms = v.times(a).peak(), float(np.sqrt(a.times(a).integral()))
     stays = np.all(np.abs(v(ends)) <= _SAME * velocity)
@@ -114,7 +116,7 @@ def law_of_pieces(name: str, s: Piecewise, parameters: Parameters) -> Law:
     )
 
 
-def _meant(value: float) -> float:
+def _snapped(value: float) -> float:
     return float(round(value)) if abs(value - round(value)) < _EXACT else value
 
 

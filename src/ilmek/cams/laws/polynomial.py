@@ -1,14 +1,14 @@
-"""Free polynomial: as many terms as there are conditions, on s and its derivatives at both ends and anywhere between.
+"""Free polynomial: one term for each condition on s and its derivatives, at both ends and between them.
 
     s(u) = sum c_k u^k,     s^(m)(u_i) = given                             [Norton, Cam Design and Manufacturing, 4]
 
-From (0, 0, 0) to (1, 0, 0) it is the 3-4-5 polynomial, with one derivative more at each end 4-5-6-7; with velocities
-at the ends it joins parts of constant speed; with a point between it goes through that point. Values that are not a
-number (nan) leave a derivative free.
+From (0, 0, 0) to (1, 0, 0) it is the 3-4-5 polynomial; with one more derivative at each end it is 4-5-6-7. With end
+velocities it joins parts of constant speed. A point between the ends is met exactly. A value of nan leaves that
+derivative free.
 
-The system is solved over z = 2u - 1 in Chebyshev polynomials, whose columns stay apart where those of u^k grow alike.
-A derivative given between the ends, or left out below one that is given, can leave the system without an answer:
-that is found by its rank and said.
+The system is solved in Chebyshev polynomials of z = 2u - 1, which are better conditioned than powers of u. A derivative
+given between the ends, or a derivative left free below a given one, can make the system singular. Its condition number
+shows this, and an error reports it.
 """
 
 import math
@@ -24,14 +24,14 @@ from ilmek.cams.laws.piecewise import Piecewise, law_of_pieces
 from ilmek.errors import ParameterError
 
 MOST = 16
-"""Conditions at most; beyond them the course between them swings more than any follower wants."""
+"""Largest number of conditions; with more the polynomial oscillates too much between them for any follower."""
 
 _SINGULAR = 1e-10
 _NAMES = ("s", "s'", "s''", "s'''")
 
 
 class Condition(NamedTuple):
-    """The derivative of an order (0 to 3) at u is a value."""
+    """The derivative of order 0 to 3 at u in [0, 1] equals `value`."""
 
     u: float
     order: int
@@ -45,11 +45,12 @@ def law(
     s: Sequence[float] = (),
     orders: Sequence[float] = (),
 ) -> Law:
-    """The polynomial that meets the conditions and has no term more.
+    """The polynomial of lowest degree that meets the conditions.
 
-    start, end   s, s', s'', s''' at u = 0 and at u = 1, as many of them as are given; nan leaves one free
-    u, s         places between and the values there; `orders` says of which derivative (0 to 3), of s if empty
-    Raises ParameterError where conditions contradict each other, cannot be met or are too many.
+    start, end   s, s', s'', s''' at u = 0 and at u = 1 [-], up to four values each; nan leaves a derivative free
+    u, s         points in [0, 1] and the values there, of one length
+    orders       order of the derivative (0 to 3) that each value of `s` belongs to; default: 0 for all
+    Raises ParameterError for conditions that contradict each other or cannot be met, and for more than 16.
 
     >>> round(law((0, 0, 0), (1, 0, 0)).acceleration_peak, 6)
     5.773503
@@ -71,7 +72,7 @@ FAMILY = LawFamily(law, {"start": (0.0, 0.0, 0.0), "end": (1.0, 0.0, 0.0), "u": 
 def solved(conditions: Sequence[Condition]) -> FloatArray:
     """Coefficients by u, the constant first, of the polynomial that meets the conditions.
 
-    Raises ParameterError where there are none or too many, two say different things, or no polynomial meets them.
+    Raises ParameterError for no or too many conditions, for contradicting ones, and where no polynomial meets them.
     """
     _check(conditions)
     count = len(conditions)
@@ -111,7 +112,7 @@ def _between(u: Sequence[float], s: Sequence[float], orders: Sequence[float]) ->
     orders = orders or [0.0] * len(u)
     if not len(u) == len(s) == len(orders):
         raise ParameterError(
-            f"polynomial: {len(u)} places u, {len(s)} values s, {len(orders)} orders", allowed="one of each for a point"
+            f"polynomial: {len(u)} points u, {len(s)} values s, {len(orders)} orders", allowed="as many of each"
         )
     for at, order in zip(u, orders, strict=True):
         if not 0 <= at <= 1 or order not in {0, 1, 2, 3}:
@@ -139,8 +140,8 @@ def _not_met(conditions: Sequence[Condition]) -> ParameterError:
     said = ", ".join(_said(condition) for condition in conditions)
     return ParameterError(
         f"polynomial: no polynomial of degree {len(conditions) - 1} meets {said}, or more than one does",
-        allowed="s itself somewhere, and below each derivative those of lower order",
-        do="move a point, or give the derivatives that are left out",
+        allowed="a value of s, and all lower derivatives wherever a derivative is given",
+        do="move a point, or give the missing derivatives",
     )
 
 

@@ -2,8 +2,8 @@
 
     s = 10 u^3 - 15 u^4 + 6 u^5                                            [Norton, Cam Design and Manufacturing, 4]
 
-Nearly as gentle as the cycloidal law with 8 % less acceleration. Exact peaks: 15/8, 10/sqrt 3, 60; printed tables
-that give 5.777 for the second are rounded.
+It is nearly as smooth as the cycloidal law, with 8 % less acceleration. Exact peaks: 15/8, 10/sqrt 3, 60; printed
+tables that give 5.777 for the second are rounded.
 """
 
 import math

@@ -2,7 +2,7 @@
 
     s = 35 u^4 - 84 u^5 + 70 u^6 - 20 u^7                                  [Norton, Cam Design and Manufacturing, 4]
 
-The jerk joins a dwell without a jump; the price is a third more acceleration than 3-4-5. With w = u (1 - u) the
+The jerk joins a dwell without a jump, but the acceleration is a third larger than that of 3-4-5. With w = u (1 - u) the
 derivatives are 140 w^3, 420 w^2 (1 - 2 u) and 840 w (1 - 5 w). Exact peaks: 35/16, 84 sqrt(5)/25, 105/2; printed
 tables that give 7.526 for the second are rounded.
 """

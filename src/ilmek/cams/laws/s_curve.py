@@ -1,11 +1,12 @@
-"""The S-curve of servo axes: constant jerk up, acceleration held, constant jerk down, cruise, and back the same.
+"""The S-curve of servo axes: constant jerk, constant acceleration, constant jerk back, cruise, and the same mirrored.
 
     j = +-J,   J = 1 / (r (r + h) (2 r + h + c)),   4 r + 2 h + c = 1
 
-r the share of the time of each of the four ramps of the acceleration, c that of the cruise, h that of each held one.
-The quickest move within limits of speed, acceleration and jerk has this course [`ilmek.timing.s_curve`]. With r = 1/4
-and c = 0 the least jerk of all laws from rest to rest with a finite one, 32. At every break the jerk changes by
-+-J, so that a = J sum(+-(u - t)+), v = J/2 sum(+-(u - t)+^2), s = J/6 sum(+-(u - t)+^3) over the eight breaks t.
+r, h and c are shares of the time: of each of the four ramps of the acceleration, of each phase of constant
+acceleration, and of the cruise. The fastest move within limits of speed, acceleration and jerk is of this form
+[`ilmek.timing.s_curve`]. With r = 1/4 and c = 0 it has the least peak jerk of all laws from rest to rest, 32. At every
+break the jerk changes by +-J, so that a = J sum(+-(u - t)+), v = J/2 sum(+-(u - t)+^2), s = J/6 sum(+-(u - t)+^3) over
+the eight breaks t.
 """
 
 import math
@@ -43,7 +44,7 @@ class _Ramps:
         return self._sum(u, 1)
 
     def j(self, u: RealField) -> RealField:
-        """Jerk; at a break the mean of what ends and what begins there."""
+        """Jerk; at a break the mean of both sides."""
         at: FloatArray = np.asarray(u, dtype=float)
         inner = zip(_SIGNS[1:-1], self.breaks[1:-1], strict=True)
         steps = (sign * np.heaviside(at - place, 0.5) for sign, place in inner)
@@ -51,9 +52,9 @@ class _Ramps:
 
 
 def law(ramp: float, cruise: float) -> Law:
-    """The law with a share of the time for each ramp and one for the cruise.
+    """The S-curve; ramp: share [-] of the time of each of the four jerk phases; cruise: share [-] at constant velocity.
 
-    Raises ParameterError unless the ramp is above 0, the cruise not below 0, and four ramps and it fit the time.
+    Raises ParameterError unless ramp > 0, cruise >= 0 and 4 ramp + cruise <= 1.
 
     >>> law(0.25, 0.0).jerk_peak, law(0.25, 0.0).acceleration_peak, law(0.25, 0.0).velocity_peak
     (32.0, 8.0, 2.0)
@@ -61,7 +62,7 @@ def law(ramp: float, cruise: float) -> Law:
     if not (ramp > 0 and cruise >= 0 and 4 * ramp + cruise <= 1 + _ROUNDING):
         raise ParameterError(
             f"s-curve with ramp={ramp:g}, cruise={cruise:g}",
-            allowed="ramp above 0, cruise 0 or more, four ramps and the cruise at most 1",
+            allowed="ramp above 0, cruise at least 0, 4 ramp + cruise at most 1",
         )
     hold = max(0.0, (1 - cruise) / 2 - 2 * ramp)
     speeding = 2 * ramp + hold

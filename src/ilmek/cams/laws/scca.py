@@ -1,21 +1,21 @@
-"""The SCCA family (sine, constant, cosine acceleration): one formula for most laws that cams are cut to.
+"""The SCCA family (sine, constant, cosine acceleration): one formula for most cam laws.
 
-The acceleration climbs along a quarter sine wave, stays, and falls along a quarter cosine wave to the middle; the way
-down mirrors it. The waves together take the shares b (sine), c (constant), d (cosine) of the time; what b + c + d
-leaves over is run at constant velocity about the middle.                [Norton, Cam Design and Manufacturing, 3]
+The acceleration rises along a quarter sine wave, stays constant, and falls along a quarter cosine wave to the middle;
+the deceleration mirrors it. b (sine), c (constant) and d (cosine) are the shares of the time of both halves together.
+The remaining time, 1 - b - c - d, is at constant velocity about the middle.  [Norton, Cam Design and Manufacturing, 3]
 
     parabolic (0, 1, 0)              harmonic (0, 0, 1)             cycloidal (1/2, 0, 1/2)
     modified trapezoid (1/4, 1/2, 1/4)                              modified sine (1/4, 0, 3/4)
 
 With b + c + d = 1 the peak is Ca = 4 pi^2 / ((pi^2 - 8)(b^2 - d^2) - 2 pi (pi - 2) b + pi^2).
 
-Counted from the middle, h = |u - 1/2| runs through the lengths E (even), D = d/2, C = c/2 and B = b/2; x1 and x3 are
-its parts within E and C. With p = 2D/pi and q = 2B/pi the angle y runs from 0 to pi/2 along the cosine, stays, and goes
-on to pi along the sine, so that one formula serves all zones:
+From the middle outwards, h = |u - 1/2| passes the lengths E (constant velocity), D = d/2, C = c/2 and B = b/2; x1 and
+x3 are its parts within E and C. With p = 2D/pi and q = 2B/pi, the angle y grows from 0 to pi/2 along the cosine, stays
+constant, and grows to pi along the sine, so one formula serves all zones:
 
     |a| = Ca sin y,    v = Ca (p max(cos y, 0) + C - x3 + q (1 + min(cos y, 0)))
     |s - 1/2| = Ca ((p + C + q) x1 + x3 (C + q - x3/2) + w),
-    w = p ((C + q) y + p sin y) up to y = pi/2, and from there on q^2 (y + sin y) and what joins it
+    w = p ((C + q) y + p sin y) up to y = pi/2, then q^2 (y + sin y) plus a constant that makes it continuous
 """
 
 import math
@@ -34,7 +34,7 @@ _QUARTER = 0.5 * math.pi
 
 
 class _Zones(NamedTuple):
-    """Where u lies: side of the middle, parts of the even and the constant length, the angle y."""
+    """Position of u: side of the middle, parts of the lengths E and C, and the angle y."""
 
     side: RealField
     x1: RealField
@@ -63,7 +63,7 @@ class _Waves:
         return _BY_ANGLE * self.sine
 
     def zones(self, u: RealField) -> _Zones:
-        """Where each u lies."""
+        """Position of each u in the zones."""
         d = np.asarray(u - 0.5)
         x = np.abs(d)
         x1: RealField = 0.0
@@ -98,7 +98,7 @@ class _Waves:
         return self._j(at, np.cos(at.y))
 
     def motion(self, u: RealField) -> LawValues:
-        """All four, from one sine and one cosine."""
+        """s, v, a and j at u, from one sine and one cosine."""
         at = self.zones(u)
         sin, cos = np.sin(at.y), np.cos(at.y)
         return LawValues(self._s(at, sin), self._v(at, cos), -self.peak * at.side * sin, self._j(at, cos))
@@ -106,12 +106,12 @@ class _Waves:
     def _s(self, at: _Zones, sin: RealField) -> RealField:
         p, q, hold = self.p, self.q, self.constant + self.q
         join = p * hold * _QUARTER + p**2 - q**2 * (_QUARTER + 1.0)
-        way = np.where(at.y > _QUARTER, q**2 * (at.y + sin) + join, p * hold * at.y + p**2 * sin)
+        rise = np.where(at.y > _QUARTER, q**2 * (at.y + sin) + join, p * hold * at.y + p**2 * sin)
         if self.even > 0:
-            way = way + (p + hold) * at.x1
+            rise = rise + (p + hold) * at.x1
         if self.constant > 0:
-            way = way + at.x3 * (hold - 0.5 * at.x3)
-        return 0.5 + self.peak * at.side * way
+            rise = rise + at.x3 * (hold - 0.5 * at.x3)
+        return 0.5 + self.peak * at.side * rise
 
     def _v(self, at: _Zones, cos: RealField) -> RealField:
         slowing = self.p * np.maximum(cos, 0.0) + self.q * (1.0 + np.minimum(cos, 0.0))
@@ -127,13 +127,13 @@ class _Waves:
 
 
 def family(name: str, b: float, c: float, d: float, parameters: Parameters) -> Law:
-    """The member of the family with the shares b, c, d, under a name of its own.
+    """The SCCA law with the shares b, c, d [-] of the time, under the given name and parameters.
 
-    Raises ParameterError unless they are at least 0, together above 0 and at most 1.
+    Raises ParameterError unless each share is at least 0 and their sum is above 0 and at most 1.
     """
     if not (min(b, c, d) >= 0 and 0 < b + c + d <= 1 + _ROUNDING):
         raise ParameterError(
-            f"{name} with b={b:g}, c={c:g}, d={d:g}", allowed="none below 0, together above 0 and at most 1"
+            f"{name} with b={b:g}, c={c:g}, d={d:g}", allowed="each at least 0, their sum above 0 and at most 1"
         )
     even = max(0.5 * (1.0 - b - c - d), 0.0)
     even = even if even > _ROUNDING else 0.0
@@ -146,7 +146,9 @@ def family(name: str, b: float, c: float, d: float, parameters: Parameters) -> L
 
 
 def law(b: float, c: float, d: float) -> Law:
-    """The law with the shares b, c, d of sine, constant and cosine; the rest of the time runs evenly.
+    """The SCCA law with the shares b (sine), c (constant), d (cosine) [-] of the time; the rest at constant velocity.
+
+    Raises ParameterError unless each share is at least 0 and their sum is above 0 and at most 1.
 
     >>> round(law(0.25, 0.5, 0.25).acceleration_peak, 6)
     4.888124
@@ -155,7 +157,7 @@ def law(b: float, c: float, d: float) -> Law:
 
 
 def _peak(even: float, cosine: float, constant: float, sine: float) -> float:
-    """Ca: what makes the way from the middle to the end 1/2."""
+    """Ca, for which the rise from the middle to the end is 1/2."""
     p, q = _BY_ANGLE * cosine, _BY_ANGLE * sine
     hold = constant + q
     way = (p + hold) * even + hold * cosine + p**2 + constant * (hold - 0.5 * constant) + q * sine - q**2

@@ -3,8 +3,8 @@
     s(u_i) = s_i,     s^(k) continuous, k < degree;     the first (degree - 1)/2 derivatives given at both ends
 
 Degree 3 is C2 (the jerk steps at the points), degree 5 is C4, degree 7 is C6. Each piece is the Hermite polynomial of
-the derivatives 1..m, m = (degree - 1)/2, at its two ends; those at the inner points are the unknowns, and continuity
-of the derivatives m + 1..2m there is the linear system for them.              [de Boor, A Practical Guide to Splines]
+the derivatives 1..m, m = (degree - 1)/2, at its two ends; those at the inner points are the unknowns. Continuity of
+the derivatives m + 1..2m there is the linear system for them.              [de Boor, A Practical Guide to Splines]
 """
 
 import itertools
@@ -21,16 +21,18 @@ from ilmek.errors import ParameterError
 
 DEGREES = (3, 5, 7)
 MOST = 400
-"""Points between at most."""
+"""Largest number of inner points."""
 
 
 def law(
     u: Sequence[float], s: Sequence[float], start: Sequence[float], end: Sequence[float], degree: float = 5.0
 ) -> Law:
-    """The spline from 0 through the points (u, s) to 1.
+    """The spline from (0, 0) through the points (u, s) to (1, 1).
 
-    start, end   s', s'', s''' at the ends, as many as the degree takes (1, 2, 3); those not given are 0
-    Raises ParameterError for points that do not ascend, more end values than the degree takes, or another degree.
+    u, s         inner points, u ascending in (0, 1), of one length, up to 400
+    start, end   s', s'', s''' at the ends [-], at most (degree - 1)/2 of them; default: 0
+    degree       3, 5 or 7
+    Raises ParameterError for points that do not ascend, too many points or end values, and another degree.
 
     >>> round(float(law((0.5,), (0.5,), (), (), 3).s(0.25)), 6)
     0.15625
@@ -53,7 +55,10 @@ FAMILY = LawFamily(law, {"u": (0.25, 0.5, 0.75), "s": (0.1, 0.5, 0.9), "start": 
 
 
 def pieces(knots: FloatArray, values: FloatArray, ends: tuple[FloatArray, FloatArray]) -> FloatArray:
-    """Coefficients of each piece by its own t in [0, 1], the constant first; `ends`: derivatives 1..m at both ends."""
+    """Coefficients of each piece by its own t in [0, 1], the constant first, (pieces, 2m + 2).
+
+    knots, values  points of the spline, (points,)      ends  derivatives 1..m at both ends, (m,) each
+    """
     m, count = ends[0].size, knots.size
     unknown = np.zeros((count, m))
     unknown[0], unknown[-1] = ends
@@ -78,10 +83,10 @@ def _rows(hermite: FloatArray, values: FloatArray, lengths: FloatArray, slopes: 
 
 
 def _inner(hermite: FloatArray, values: FloatArray, lengths: FloatArray, known: FloatArray) -> FloatArray:
-    """Derivatives 1..m at the inner points: those for which the derivatives m + 1..2m have no step.
+    """Derivatives 1..m at the inner points: they make the derivatives m + 1..2m continuous.
 
-    The steps are linear in the unknowns; a unit of each unknown gives a column. A point's unknowns reach the steps at
-    itself and its two neighbours only, so every third point is tried at once.
+    The steps are linear in the unknowns; a unit of each unknown gives a column. A point's unknowns change the steps at
+    itself and its two neighbours only, so every third point is probed at once.
     """
     m, inner = known.shape[1], known.shape[0] - 2
 
@@ -116,7 +121,7 @@ def _order(degree: float) -> int:
 
 def _points(u: Sequence[float], s: Sequence[float]) -> tuple[FloatArray, FloatArray]:
     if len(u) != len(s) or len(u) > MOST:
-        raise ParameterError(f"spline: {len(u)} places u, {len(s)} values s", allowed=f"as many of both, up to {MOST}")
+        raise ParameterError(f"spline: {len(u)} points u, {len(s)} values s", allowed=f"equal numbers, up to {MOST}")
     knots, values = np.array([0.0, *u, 1.0]), np.array([0.0, *s, 1.0])
     if not (np.all(np.isfinite(values)) and np.all(np.diff(knots) > 0)):
         shown = ", ".join(f"{at:g}" for at in u)
@@ -127,5 +132,5 @@ def _points(u: Sequence[float], s: Sequence[float]) -> tuple[FloatArray, FloatAr
 def _end_values(given: Sequence[float], m: int) -> FloatArray:
     if len(given) > m:
         most = ["s'", "s''", "s'''"][:m]
-        raise ParameterError(f"spline: {len(given)} values at an end", allowed=f"of this degree {', '.join(most)}")
+        raise ParameterError(f"spline: {len(given)} values at an end", allowed=f"for this degree {', '.join(most)}")
     return np.array([*map(float, given), *[0.0] * (m - len(given))])

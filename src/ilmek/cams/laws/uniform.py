@@ -1,9 +1,9 @@
-"""Uniform motion: constant velocity from the first moment to the last.
+"""Uniform motion: constant velocity from start to end.
 
     s = u                                                                          [thesis, 2.2.2; VDI 2143, type G-G]
 
-The least velocity a rise can have. Against a dwell the velocity jumps, so no follower of any mass can do it; between
-two parts of the same speed it is the law of a constant-speed part.
+It has the least peak velocity of all laws. Next to a dwell the velocity jumps, which no follower with a mass can
+follow. Between two parts of the same speed it is the law of a constant-speed part.
 """
 
 import math
@@ -24,17 +24,17 @@ def s(u: RealField) -> RealField:
 
 
 def v(u: RealField) -> RealField:
-    """Velocity ds/du: 1 throughout, the ends among it."""
+    """Velocity ds/du: 1, at the ends too."""
     return 1.0 + 0.0 * np.asarray(u)
 
 
 def a(u: RealField) -> RealField:
-    """Acceleration d2s/du2: nothing between the jumps of the velocity."""
+    """Acceleration d2s/du2: 0 between the jumps of the velocity."""
     return 0.0 * np.asarray(u)
 
 
 def j(u: RealField) -> RealField:
-    """Jerk d3s/du3: nothing between the jumps of the velocity."""
+    """Jerk d3s/du3: 0 between the jumps of the velocity."""
     return 0.0 * np.asarray(u)
 
 

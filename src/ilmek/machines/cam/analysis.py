@@ -141,4 +141,4 @@ def _motion(design: CamDesign) -> SlidePeaks | ArmPeaks:
 def _jump_as_json(jump: Jump, speed: float) -> dict[str, Json]:
     rate = speed**jump.order
     sides: dict[str, Json] = {"before": jump.before * rate, "after": jump.after * rate}
-    return {"angle": jump.angle, "order": jump.order, "place": jump.place, **sides}
+    return {"angle": jump.angle, "order": jump.order, "place": jump.where, **sides}

@@ -82,7 +82,7 @@ def animated(  # noqa: PLR0917
     """Strokes at cam angles, with the readings of a cam; `guide`, `dots`: at rest, `touched`: the point of contact."""
     state = design.state(at)
     readings = (
-        Reading("lift", state.trace.course.s * design.params.per_unit, "mm"),
+        Reading("lift", state.trace.motion.s * design.params.per_unit, "mm"),
         Reading("pressure angle", state.trace.pressure_angle, "deg"),
         Reading("contact force", state.normal, "N"),
         Reading("torque", state.torque, "N*m"),

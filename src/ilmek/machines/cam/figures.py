@@ -134,7 +134,7 @@ def _force_plots(design: CamDesign) -> tuple[Plot, ...]:
     }
     note = "below 0 the other flank or cam holds the follower"
     if not led:
-        forces["spring"] = lambda angle: (held.preload + held.rate * design.state(angle).trace.course.s) / arc
+        forces["spring"] = lambda angle: (held.preload + held.rate * design.state(angle).trace.motion.s) / arc
         note = "the follower stays on the cam as long as the force is above 0"
     mark = Mark(extremes.normal.at, format_quantity(extremes.normal.value, "N"))
     title, newton = "Force between cam and follower", Axis("force", "N")

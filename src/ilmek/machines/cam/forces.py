@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.cams.contact import ContactForce, FollowerLoad, Touch, pressed
+from ilmek.cams.contact import ContactForce, ContactPoint, FollowerLoad, contact_force
 from ilmek.cams.hertz import LINE_YIELD, POINT_YIELD, contact_modulus, ellipse_contact, line_contact
 from ilmek.cams.programme import TURN, CamProgramme
 from ilmek.cams.return_spring import doubling_spring, least_preload, least_rate, velocity_drop
@@ -101,7 +101,7 @@ def duty_of(params: CamParams, cams: CamShape, held: FollowerLoad) -> RollerDuty
 
     def borne(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
         state = state_of(params, cams, held, angle)
-        swung = params.side_sign * state.trace.course.ds if params.motion == "oscillating" else 0.0
+        swung = params.side_sign * state.trace.motion.ds if params.motion == "oscillating" else 0.0
         spin = np.abs(state.trace.flow / cams.cam.roller_radius - (0 if params.laid_flat else 1) - swung)
         return _size(params, state.normal), spin
 
@@ -118,7 +118,7 @@ def duty_of(params: CamParams, cams: CamShape, held: FollowerLoad) -> RollerDuty
 def state_of(params: CamParams, cams: CamShape, held: FollowerLoad, angle: FloatArray) -> CamState:
     """Geometry and forces at cam angles [rad]."""
     trace = cams.cam.trace(angle)
-    force = held.force(trace.course.s, trace.course.dds)
+    force = held.force(trace.motion.s, trace.motion.dds)
     found = _pressed(params, trace, force, cams.cam.prime_radius)
     bend, back = trace.surface_curvature, force < 0
     if cams.pair is not None:
@@ -136,13 +136,13 @@ def _pressed(params: CamParams, trace: CamTrace, force: FloatArray, radius: floa
     if params.laid_flat:
         return _pressed_flat(params, trace, force, radius)
     sliding = 0.0 if params.follower == "roller" else params.sliding_friction
-    touch = Touch(trace.surface, trace.normal, _direction(params, trace))
-    return pressed(touch, trace.course.ds, force, sliding=sliding, guide=params.guide_friction)
+    touch = ContactPoint(trace.surface, trace.normal, _direction(params, trace))
+    return contact_force(touch, trace.motion.ds, force, sliding=sliding, guide=params.guide_friction)
 
 
 def _pressed_flat(params: CamParams, trace: CamTrace, force: FloatArray, radius: float) -> ContactForce:
     """N = F / (cos mu - mu_g |sin mu| sign(s')), T = N rho sin mu: the cam moves at right angles to the follower."""
-    sense = np.where(force < 0, -1.0, 1.0) * np.sign(trace.course.ds)
+    sense = np.where(force < 0, -1.0, 1.0) * np.sign(trace.motion.ds)
     cosine, sine = np.cos(trace.pressure_angle), np.sin(trace.pressure_angle)
     along = cosine - params.guide_friction * np.abs(sine) * sense
     with np.errstate(divide="ignore", invalid="ignore"):

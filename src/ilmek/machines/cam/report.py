@@ -201,7 +201,7 @@ def _point_table(design: CamDesign) -> Table:
     """The cam in steps of 5 degrees, to be drawn or checked."""
     angle = np.arange(0, 360, 5) * deg
     state = design.state(angle)
-    trace, lift = state.trace, state.trace.course.s * design.params.per_unit
+    trace, lift = state.trace, state.trace.motion.s * design.params.per_unit
     shape = (angle, lift, trace.surface.real, trace.surface.imag, trace.pressure_angle, trace.curvature)
     heads = columns(
         "cam angle [deg]",

@@ -90,7 +90,7 @@ def limits_of(params: CamParams) -> CamLimits:
     if params.follower == "flat":
         return CamLimits(convex=params.curvature_least)
     limit = params.limit or LIMIT
-    return CamLimits(rise=limit, back=limit if params.led else None)
+    return CamLimits(rise=limit, fall=limit if params.led else None)
 
 
 class CamShape(NamedTuple):

@@ -145,7 +145,7 @@ class SheddingDesign:
     acceleration_jumps = computed(
         "",
         "jumps of the acceleration of the even warps, shaft angle [rad]",
-        lambda it: [{"angle": jump.angle, "place": jump.place} for jump in jumps(it.even)],
+        lambda it: [{"angle": jump.angle, "place": jump.where} for jump in jumps(it.even)],
     )
     shaft_supports = computed("1", "supports of the shaft, both ends included", lambda it: it.params.spans + 1)
     warps_across = computed("N", "largest force of the lifted warps across the shaft", lambda it: it.across_max.value)
