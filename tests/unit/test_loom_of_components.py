@@ -154,4 +154,4 @@ def test_loom_sums_what_its_machines_return() -> None:
     of_machines = {part.name for child in loom.machines.values() for part in child.parts}
     assert of_machines < {part.name for part in report.parts}
     assert all(isinstance(child.design.params, Params) for child in loom.children)
-    assert {one.name for one in fields(loom)} >= {"machines", "beat", "arms"}
+    assert {one.name for one in fields(loom)} >= {"machines", "beat", "task"}

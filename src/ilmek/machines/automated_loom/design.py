@@ -38,7 +38,7 @@ class LoomDesign:
     """A loom for one carpet.
 
     machines       its machines by name, in the order of the report: head, shedding, warp tension, ...
-    arms           that can tie the knots of its heads, or the reason why none can
+    task           of its machines
     beat           the drive of the beat
     row_timing, row_cyclogram   of the wefts and beats of a row, one turn of the shedding cams
     times          of the acts of weaving, as the programme counts them
@@ -50,7 +50,7 @@ class LoomDesign:
     heads: int
     heads_max: int
     machines: Mapping[str, Child]
-    arms: KnottingArms
+    task: LoomTask
     beat: BeatDrive
     row_timing: RowTiming
     row_cyclogram: Cyclogram
@@ -75,12 +75,16 @@ class LoomDesign:
         return design
 
     @property
+    def arms(self) -> KnottingArms:
+        """The arms that can tie the knots of its heads, or the reason why none can."""
+        return arms_for(self.task)
+
+    @property
     def children(self) -> tuple[Child, ...]:
         """Every machine in the loom, in the order of the report."""
         head, *others = self.machines.values()
-        arms = () if self.arms.child is None else (self.arms.child,)
         beat = Child(MACHINES[self.beat.name], self.beat.design, self.beat.number)
-        return (head, *arms, beat, *others)
+        return (head, *self.arms.children, beat, *others)
 
     @property
     def warps(self) -> int:
@@ -145,7 +149,7 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     row = cyclogram(timing, period)
     tracks = (track for child in machines.values() for track in child.component.tracks(child.design))
     row = replace(row, tracks=(*row.tracks, *tracks))
-    return LoomDesign(params, rows, columns, heads, most, machines, arms_for(task), beat, timing, row, times)
+    return LoomDesign(params, rows, columns, heads, most, machines, task, beat, timing, row, times)
 
 
 def _made(name: str, task: LoomTask) -> tuple[Child, LoomTask]:

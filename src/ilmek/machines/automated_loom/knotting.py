@@ -4,11 +4,16 @@ The finer the pitch, the thinner the needle, until the yarn bends it into the wa
 and the loom reports the reason.
 """
 
+import math
+from functools import lru_cache
+
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.loom_task import LoomTask
+from ilmek.params import Params
 from ilmek.records import record
+from ilmek.report import Check, at_most
 from ilmek.units import format_quantity
 
 DYAD = "knotting-dyad"
@@ -16,15 +21,20 @@ DYAD = "knotting-dyad"
 
 @record
 class KnottingArms:
-    """The arms of a loom's heads, where they can tie its knots.
+    """The arms of a loom's heads.
 
-    child   the arms; not in the parts list, as an alternative to the head's cams and grippers; None: they cannot tie
-    cycle   time of a knot [s]; nan: none           reason  why they cannot tie
+    children  the arms, an alternative to the head's cams and grippers, not in the parts list; empty: none can tie
+    cycle     time of a knot [s]; nan: none            reason  why none can tie
     """
 
-    child: Child | None
-    cycle: float = float("nan")
-    reason: str = ""
+    children: tuple[Child, ...]
+    cycle: float
+    reason: str
+
+    def checks(self, knot_time: float) -> tuple[Check, ...]:
+        """Whether the arms, where they can tie, tie within the time of a knot [s]."""
+        source = "time of a knot of one head"
+        return tuple(at_most("arms of the heads: cycle", self.cycle, knot_time, "s", source) for _ in self.children)
 
 
 def arms_for(task: LoomTask) -> KnottingArms:
@@ -32,11 +42,19 @@ def arms_for(task: LoomTask) -> KnottingArms:
     component, shown = MACHINES[DYAD], format_quantity(task.params.pitch, "mm", 3)
     assert component.fit is not None
     try:
-        made = component.design(task.parameters(DYAD, component.fit(task)))
+        return _designed(task.parameters(DYAD, component.fit(task)), shown)
     except ParameterError as error:
-        return KnottingArms(None, reason=f"no arms of a knotting-dyad tie on warps {shown} apart: {error.given}")
+        return KnottingArms((), math.nan, f"no arms of a knotting-dyad tie on warps {shown} apart: {error.given}")
+
+
+@lru_cache(maxsize=32)
+def _designed(params: Params, shown: str) -> KnottingArms:
+    """The same, designed once for each set of parameters."""
+    component = MACHINES[DYAD]
+    made = component.design(params)
     report = component.report(made, in_a_loom=True)
     if report.failed:
         why = "; ".join(report.warnings) or ", ".join(check.name for check in report.failed)
-        return KnottingArms(None, reason=f"the arms of a knotting-dyad cannot tie on warps {shown} apart: {why}")
-    return KnottingArms(Child(component, made, 0, report), float(str(report["cycle_time"])))
+        reason = f"the arms of a knotting-dyad cannot tie on warps {shown} apart: {why}"
+        return KnottingArms((), math.nan, reason)
+    return KnottingArms((Child(component, made, 0, report),), float(str(report["cycle_time"])), "")

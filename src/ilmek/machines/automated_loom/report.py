@@ -84,7 +84,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
     return (
         at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width"),
         *(apart if loom.heads > 1 else ()),
-        *_arms_in_time(loom),
+        *loom.arms.checks(loom.times.knot),
         at_most("shuttle: speed", speed, params.shuttle_speed, "m/s", "shuttle_speed"),
         at_most("shuttle: acceleration", acceleration, params.shuttle_acceleration, "m/s^2", "shuttle_acceleration"),
         at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
@@ -92,13 +92,6 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *(replace(check_apart(knot, one), name=f"knot: {one.said(knot.units)}") for one in knot.exclusions),
         *_frame_checks(found.listed.frame),
     )
-
-
-def _arms_in_time(loom: LoomDesign) -> tuple[Check, ...]:
-    """Whether the arms, where they can tie, tie within the time of a knot."""
-    if loom.arms.child is None:
-        return ()
-    return (at_most("arms of the heads: cycle", loom.arms.cycle, loom.times.knot, "s", "time of a knot of one head"),)
 
 
 def _frame_checks(frame: LoomFrame) -> tuple[Check, ...]:
@@ -174,12 +167,12 @@ def warnings(found: LoomAnalysis) -> tuple[str, ...]:
     """The arms that cannot tie, the knot that the head cannot, rows left loose, heavy cylinders, a slow row."""
     loom, texts = found.loom, []
     params, arms, beat = loom.params, loom.arms, loom.beat
-    if arms.child is None:
+    if arms.reason:
         texts.append(arms.reason)
     if params.knot != "symmetric":
         texts.append(
             f"the head of the thesis ties symmetric knots; {params.knot} ones need other motions of its grippers"
-            + ("" if arms.child is None else ", as those of the knotting-dyad")
+            + ("" if arms.reason else ", as those of the knotting-dyad")
         )
     required = 1 / params.quality.along
     if beat.row_pitch_left > required * (1 + ROW_TOLERANCE):
