@@ -138,7 +138,7 @@ def test_two_planes_at_once_are_the_two_alone() -> None:
     [
         (lambda: Beam(1.0, (0.0, 1.2)), "1200 mm; 0 to 1000 mm"),
         (lambda: Beam(1.0, (0.0,)), "two or more, or one clamped"),
-        (lambda: Beam(1.0, (0.5, 0.2)), "rising places"),
+        (lambda: Beam(1.0, (0.5, 0.2)), "ascending positions"),
         (lambda: Beam(1.0, (0.0, 0.5), (), (0.5,)), "clamped at 500 mm"),
         (lambda: Beam(1.0, (0.0, 1.0), (LineLoad(0.5, 0.5, 1.0),)), "a start before its end"),
         (lambda: Beam(0.0, (0.0, 1.0)), "a beam 0 mm long"),

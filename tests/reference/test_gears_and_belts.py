@@ -149,7 +149,7 @@ def test_belt_width_grows_with_the_torque() -> None:
 def test_impossible_belts_are_refused() -> None:
     with pytest.raises(ParameterError, match="15 or more"):
         BeltDrive(BELTS["AT5"], 10, 20, 100)
-    with pytest.raises(ParameterError, match="so that the pulleys stand apart"):
+    with pytest.raises(ParameterError, match="so that the pulleys do not touch"):
         BeltDrive(BELTS["AT5"], 20, 40, 40)
     with pytest.raises(ParameterError, match="nearest offered is 'HTD 5M'"):
         find_belt("HTD 6M")

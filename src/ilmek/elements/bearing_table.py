@@ -1,9 +1,9 @@
-"""Rolling bearings that dealers keep: boundary dimensions, load ratings, mass, speed limit.
+"""Stock rolling bearings: boundary dimensions, load ratings, mass, speed limit.
 
-Boundary dimensions are those of ISO 15 (insert bearings and their flanges: ISO 9628, ISO 3228), the same for all
-makers. Load ratings after ISO 281 and ISO 76 differ between makers by some per cent, and so do masses and speed limits:
-these are usual catalogue values of plain bearings (not of a maker's strengthened series), rounded as
-catalogues round them. Speed limits are those of grease; of the insert bearings those of their seals on a shaft h6.
+Boundary dimensions are those of ISO 15 (insert bearings and their flanges: ISO 9628, ISO 3228), equal for all
+makers. Load ratings after ISO 281 and ISO 76, masses and speed limits differ between makers by some per cent. The
+values here are typical catalogue values of standard series. Speed limits are those of grease lubrication; for insert
+bearings those of their seals on a shaft h6.
 """
 
 from dataclasses import dataclass, replace
@@ -18,10 +18,10 @@ class RollingBearing:
     """A rolling bearing.
 
     name    its designation      kind  deep-groove ball, cylindrical roller or insert ball (deep groove inside)
-    bore, outer, width           of the rings [m]; an insert bearing's width is its inner ring's
+    bore, outer, width           of the rings [m]; an insert bearing's width is the inner ring's
     dynamic, static              load ratings C and C0 [N]
     mass    with the housing [kg]       speed  limit with grease [rad/s]
-    flange  side of the square housing of a UCF [m]; 0 where there is none
+    flange  side of the square housing of a UCF [m]; 0 without a housing
     """
 
     name: str
@@ -122,7 +122,7 @@ def _rows(text: str, kind: str) -> list[RollingBearing]:
 
 
 def _insert(prefix: str) -> list[RollingBearing]:
-    """Insert bearings by themselves (UC), or in a square flanged housing (UCF)."""
+    """Insert bearings without a housing (UC), or in a square flanged housing (UCF)."""
     made = []
     for name, *rest in (line.split() for line in _INSERT.split("\n") if line):
         *numbers, flanged, side = (float(one) for one in rest)

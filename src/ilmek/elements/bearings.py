@@ -1,10 +1,10 @@
-"""Rolling bearings: what slope they bear, how long they live, which is enough.
+"""Rolling bearings: allowed slope, rating life, selection.
 
-    L = a1 (C / P)^p 10^6 revolutions,   p = 3 of balls, 10/3 of rollers                       [ISO 281:2007, 5 to 9]
+    L = a1 (C / P)^p 10^6 revolutions,   p = 3 for balls, 10/3 for rollers                     [ISO 281:2007, 5 to 9]
     P = X Fr + Y Fa,                     s0 = C0 / P0                                          [ISO 281, 76]
 
-C, C0 load ratings, P equivalent load, Fr radial and Fa axial load [N], a1 for a reliability above 90 %. Lubrication and
-cleanliness (the standard's factor a_ISO) are taken as ordinary: 1.
+C, C0 load ratings, P equivalent load, Fr radial and Fa axial load [N], a1 factor of a reliability above 90 %. The
+factor a_ISO of lubrication and cleanliness is 1.
 
 >>> [bearing.name for bearing in bearings_for(0.0008)]
 ['deep-groove ball', 'cylindrical roller']
@@ -43,7 +43,7 @@ __all__ = [
 
 @dataclass(frozen=True, slots=True)
 class Bearing:
-    """A kind of rolling bearing and the largest slope [rad] between its shaft and its outer ring."""
+    """A kind of rolling bearing and the allowed slope [rad] between shaft and outer ring."""
 
     name: str
     slope_limit: float
@@ -51,12 +51,12 @@ class Bearing:
 
 
 BEARINGS = (
-    Bearing("deep-groove ball", 0.004, "thesis 3.1; makers say 2' to 10', 0.0006 to 0.003 rad, by clearance and load"),
-    Bearing("cylindrical roller", 0.001, "thesis 3.1; makers say 3' to 4', 0.0009 to 0.0012 rad"),
+    Bearing("deep-groove ball", 0.004, "thesis 3.1; makers give 2' to 10', 0.0006 to 0.003 rad, by clearance and load"),
+    Bearing("cylindrical roller", 0.001, "thesis 3.1; makers give 3' to 4', 0.0009 to 0.0012 rad"),
     Bearing("tapered roller", 0.0005, "thesis 3.1"),
 )
-"""The thesis' limits. Its own UCF 207 is a deep-groove ball bearing with a spherical outside, which takes up a slope of
-some degrees once, when it is mounted, and so only what the load adds later counts against the limit."""
+"""The thesis' limits. Its UCF 207 is a deep-groove ball bearing with a spherical outer ring, which aligns itself by
+some degrees when it is mounted; only the slope due to the load counts against the limit."""
 
 RELIABILITY = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99: 0.25}
 """Life factor a1 by reliability [ISO 281:2007, table 12]."""
@@ -68,18 +68,18 @@ _X = 0.56
 
 
 def bearings_for(slope: float) -> tuple[Bearing, ...]:
-    """The kinds that bear a slope [rad]."""
+    """The kinds that allow a slope [rad]."""
     return tuple(bearing for bearing in BEARINGS if slope <= bearing.slope_limit)
 
 
 def slope_limit(bearing: RollingBearing) -> float:
-    """Largest slope [rad] that the bearing's kind bears; an insert bearing is a deep-groove ball bearing."""
+    """Allowed slope [rad] of the bearing's kind; an insert bearing is a deep-groove ball bearing."""
     kind = DEEP_GROOVE if bearing.kind == INSERT else bearing.kind
     return next(known.slope_limit for known in BEARINGS if known.name == kind)
 
 
 def find_bearing(name: str) -> RollingBearing:
-    """The bearing of a designation; ParameterError, naming the nearest, where it is not in the table.
+    """The bearing of a designation. Raises ParameterError with the nearest designation for an unknown one.
 
     >>> find_bearing("ucf207").name, find_bearing("nu 205").kind
     ('UCF 207', 'cylindrical roller')
@@ -88,9 +88,10 @@ def find_bearing(name: str) -> RollingBearing:
 
 
 def life(dynamic: float, load: float, kind: str, reliability: float = 0.9) -> float:
-    """Life [revolutions] under an equivalent load [N]: a1 (C / P)^p 10^6; endless without load.
+    """Life [revolutions] under an equivalent load: a1 (C / P)^p 10^6; infinite without load.
 
-    kind  "ball" or "roller", or a bearing's kind, which ends in one of them
+    dynamic  C [N]      load  P [N]      kind  "ball" or "roller", or a bearing's kind, which ends in one of them
+    reliability  0.90 to 0.99. Raises ParameterError outside this range
     >>> life(5.0, 1.0, "ball"), round(life(5.0, 1.0, "roller") / 1e6, 5)
     (125000000.0, 213.74699)
     """
@@ -99,7 +100,7 @@ def life(dynamic: float, load: float, kind: str, reliability: float = 0.9) -> fl
 
 
 def hours(revolutions: float, speed: float) -> float:
-    """Hours of running for so many revolutions at a speed [rad/s]; endless at rest.
+    """Running time [h] of a number of revolutions at a speed [rad/s]; infinite at rest.
 
     >>> round(hours(125e6, 300 * 2 * np.pi / 60), 4)
     6944.4444
@@ -108,26 +109,27 @@ def hours(revolutions: float, speed: float) -> float:
 
 
 def reliability_factor(reliability: float) -> float:
-    """Life factor a1 for a reliability from 0.90 to 0.99, even between the table's."""
+    """Life factor a1 for a reliability from 0.90 to 0.99, linear between the values of the table."""
     if not 0.9 <= reliability <= 0.99:
         raise ParameterError(
             f"a reliability of {reliability:g} for a bearing's life",
             allowed="0.90 to 0.99",
-            do="take one of 0.90 0.95 0.96 0.97 0.98 0.99",
+            do="use one of 0.90 0.95 0.96 0.97 0.98 0.99",
         )
     return float(np.interp(reliability, list(RELIABILITY), list(RELIABILITY.values())))
 
 
 def equivalent_load(bearing: RollingBearing, radial: float, axial: float = 0.0) -> float:
-    """Dynamic equivalent load P [N]: Fr up to Fa / Fr = e, above it 0.56 Fr + Y Fa; e and Y by Fa / C0.
+    """Dynamic equivalent load P [N] of a radial and an axial load [N].
 
-    Ball bearings with ordinary clearance; an insert bearing likewise, as far as its set screws hold the axial load.
+    Fr up to Fa / Fr = e, above it 0.56 Fr + Y Fa, at least Fr; e and Y are functions of Fa / C0. For ball bearings with
+    normal clearance, and insert bearings within the axial limit of their set screws.
     Raises ParameterError for an axial load on a NU, which has no ribs for it.   [Shigley, table 11-1; ISO 281, table 3]
     """
     radial, axial = abs(radial), abs(axial)
     if bearing.kind == CYLINDRICAL and axial > 0:
         raise ParameterError(
-            f"an axial load of {axial:g} N on {bearing.name}", allowed="none", do="take a deep-groove ball bearing"
+            f"an axial load of {axial:g} N on {bearing.name}", allowed="none", do="use a deep-groove ball bearing"
         )
     share = axial / bearing.static
     if axial <= radial * float(np.interp(share, _AXIAL, _E)):
@@ -136,7 +138,7 @@ def equivalent_load(bearing: RollingBearing, radial: float, axial: float = 0.0) 
 
 
 def static_load(bearing: RollingBearing, radial: float, axial: float = 0.0) -> float:
-    """Static equivalent load P0 [N]: the larger of Fr and 0.6 Fr + 0.5 Fa; Fr of a roller bearing [ISO 76, 5.2]."""
+    """Static equivalent load P0 [N]: the larger of Fr and 0.6 Fr + 0.5 Fa; Fr for a roller bearing [ISO 76, 5.2]."""
     if bearing.kind == CYLINDRICAL:
         return abs(radial)
     return max(abs(radial), 0.6 * abs(radial) + 0.5 * abs(axial))
@@ -153,17 +155,18 @@ def smallest_bearing(
     reliability: float = 0.9,
     static_safety: float = 1.0,
 ) -> RollingBearing | None:
-    """The lightest bearing of a kind that lives so many revolutions under loads [N]; None where none does.
+    """The lightest bearing of a kind with the required life under a load; None if none has it.
 
-    bore  least bore [m]      speed  that its grease must bear [rad/s]      static_safety  least C0 / P0
+    radial, axial  load [N]             revolutions  required life        bore  least bore [m]
+    speed          required [rad/s]     reliability  0.90 to 0.99         static_safety  least C0 / P0
     >>> smallest_bearing(4500.0, 1e8, kind="insert ball", bore=0.03).name
     'UC 207'
     """
 
-    def enough(one: RollingBearing) -> bool:
-        lives = life(one.dynamic, equivalent_load(one, radial, axial), one.kind, reliability) >= revolutions
-        bears = one.static >= static_safety * static_load(one, radial, axial)
-        return one.bore >= bore * (1 - 1e-9) and one.speed >= speed and bears and lives
+    def is_sufficient(one: RollingBearing) -> bool:
+        lasts = life(one.dynamic, equivalent_load(one, radial, axial), one.kind, reliability) >= revolutions
+        carries = one.static >= static_safety * static_load(one, radial, axial)
+        return one.bore >= bore * (1 - 1e-9) and one.speed >= speed and carries and lasts
 
-    offered = [one for one in ROLLING_BEARINGS.values() if one.kind == kind and enough(one)]
+    offered = [one for one in ROLLING_BEARINGS.values() if one.kind == kind and is_sufficient(one)]
     return min(offered, key=lambda one: (one.mass, one.bore), default=None)

@@ -4,7 +4,7 @@
     zm = z1 (π - 2 φ) / 2 π,   Fu = T / r1,   Fv >= Fu / 2
 
 p pitch, z teeth, a distance of the axes, r1 <= r2 pitch radii, zm teeth of the small pulley in mesh, Fu pull, Fv
-pretension of each side: then the slack side is just not loose, and the tight side has Fv + Fu / 2.
+pretension of each side: at the least pretension the slack side has no force, the tight side Fv + Fu / 2.
                                                                                   [ISO 5295; exact, uncrossed belt]
 """
 
@@ -20,8 +20,8 @@ from ilmek.units import format_quantity, mm
 class BeltType:
     """A profile of belts.
 
-    pitch  [m]      widths  offered [m]      least_teeth  of a pulley
-    pull   that a tooth in mesh bears, a width [N/m], at rest (a third less at 1000 rpm); None: ask the maker
+    pitch  [m]      widths  available [m]      least_teeth  of a pulley
+    pull   allowed pull of a tooth in mesh per width [N/m], at rest (a third less at 1000 rpm); None: not known
     """
 
     name: str
@@ -32,7 +32,7 @@ class BeltType:
 
 
 def _belt(name: str, pitch: float, widths: tuple[float, ...], least: int, pull: float | None) -> BeltType:
-    """Pitch and widths in mm, pull of a tooth in N/cm, as catalogues have it."""
+    """Pitch and widths in mm, pull of a tooth in N/cm, the units of catalogues."""
     return BeltType(name, pitch * mm, tuple(w * mm for w in widths), least, None if pull is None else pull * 100)
 
 
@@ -50,10 +50,10 @@ BELTS: dict[str, BeltType] = {
     )
 }
 """By name: pitches and widths of DIN 7721 (T), makers' AT and ISO 13050 (H profiles, HTD); pulls of polyurethane belts
-with steel cords as makers give them, rounded down."""
+with steel cords from makers' data, rounded down."""
 
 MESHING = 12
-"""Teeth in mesh that count at most: more do not share the pull evenly [makers' rule]."""
+"""Maximum number of teeth that share the pull [makers' rule]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,13 +80,13 @@ class BeltDrive:
             least = math.ceil(belt_length(self.belt, self.small, self.large, self._least) / self.belt.pitch)
             raise ParameterError(
                 f"a belt of {self.teeth} teeth about pulleys of {self.small} and {self.large}",
-                allowed=f"{least} or more, so that the pulleys stand apart",
-                do="take a longer belt or smaller pulleys",
+                allowed=f"{least} or more, so that the pulleys do not touch",
+                do="use a longer belt or smaller pulleys",
             )
 
     @property
     def length(self) -> float:
-        """Of the belt [m]."""
+        """Length of the belt [m]."""
         return self.teeth * self.belt.pitch
 
     @property
@@ -96,7 +96,7 @@ class BeltDrive:
 
     @property
     def distance(self) -> float:
-        """Of the axes [m], for which the belt is just as long; exact, by Newton."""
+        """Distance of the axes [m] for the length of the belt, by Newton's method."""
         first, second = self.radii
         a = max(self._least, (self.length - math.pi * (first + second)) / 2)
         for _ in range(30):
@@ -112,20 +112,20 @@ class BeltDrive:
         return self.small * (math.pi - 2 * math.asin((second - first) / self.distance)) / (2 * math.pi)
 
     def pull(self, torque: float) -> float:
-        """Force Fu [N] of a torque on the small pulley [N m]."""
+        """Force Fu = T / r1 [N] of a torque on the small pulley [N m]."""
         return abs(torque) / self.radii[0]
 
     def pretension(self, torque: float) -> float:
-        """Least force in each side at rest [N]."""
+        """Least pretension Fv = Fu / 2 of each side at rest [N], for a torque [N m]."""
         return self.pull(torque) / 2
 
     def shaft_load(self, torque: float) -> float:
-        """Force that presses the shafts together at rest [N]: 2 Fv cos φ."""
+        """Load of the shafts at rest [N]: 2 Fv cos φ, for a torque [N m]."""
         first, second = self.radii
         return 2 * self.pretension(torque) * math.sqrt(1 - ((second - first) / self.distance) ** 2)
 
     def width_for(self, torque: float, service: float = 1.4) -> float | None:
-        """The narrowest stock width [m] that bears a torque with a service factor; None: none, or ask the maker."""
+        """The narrowest sufficient width [m] for a torque [N m] and a service factor; None if none, or not known."""
         if self.belt.pull is None:
             return None
         least = service * self.pull(torque) / (self.belt.pull * min(int(self.meshing), MESHING))
@@ -133,30 +133,33 @@ class BeltDrive:
 
     @property
     def _least(self) -> float:
-        """Distance at which the pulleys touch [m]."""
+        """Distance of the axes at which the pulleys touch [m]."""
         return sum(self.radii)
 
 
 def find_belt(name: str) -> BeltType:
-    """The profile of a name; ParameterError, naming the nearest, where it is not in the table."""
+    """The profile of a name. Raises ParameterError with the nearest name for an unknown one."""
     return pick(BELTS, name, "belt")
 
 
 def belt_length(belt: BeltType, small: int, large: int, distance: float) -> float:
-    """Length [m] of a belt about two pulleys at a distance of axes [m]. Raises ParameterError where they overlap."""
+    """Length [m] of a belt on two pulleys, by their teeth, at a distance of axes [m].
+
+    Raises ParameterError for overlapping pulleys.
+    """
     first, second = belt.pitch * small / (2 * math.pi), belt.pitch * large / (2 * math.pi)
     if distance < (first + second) * (1 - 1e-12):
         raise ParameterError(
             f"pulley axes {format_quantity(distance, 'mm')} apart",
             allowed=f"{format_quantity(first + second, 'mm')} or more",
-            do="move them apart or take smaller pulleys",
+            do="move them apart or use smaller pulleys",
         )
     angle = math.asin((second - first) / distance)
     return 2 * distance * math.cos(angle) + math.pi * (first + second) + 2 * angle * (second - first)
 
 
 def belt_at(belt: BeltType, small: int, large: int, distance: float) -> BeltDrive:
-    """The drive with the whole number of teeth nearest to a wanted distance of axes [m]; see its own `distance`.
+    """The drive with the whole number of teeth nearest to a required distance of axes [m]; the exact one is `distance`.
 
     >>> round(belt_at(BELTS["HTD 5M"], 20, 40, 0.2).distance, 5)
     0.19936

@@ -1,4 +1,4 @@
-"""Looking a name up in a table of stock parts; the nearest one named where it is not there.
+"""Look-up of names in tables of stock parts, with a hint for unknown names.
 
 >>> pick({"6204": 1, "6205": 2, "NU 205": 3}, " nu-205", "bearing")
 3
@@ -15,9 +15,9 @@ Part = TypeVar("Part")
 
 
 def pick(table: Mapping[str, Part], name: str, what: str) -> Part:
-    """The part of that name, upper and lower case, blanks and hyphens apart.
+    """The part of a name; case, blanks and hyphens do not count.
 
-    Raises ParameterError, naming the nearest of the table, where there is none.
+    Raises ParameterError with the nearest name of the table for an unknown one.
     """
     known = {plain(offered): offered for offered in table}
     found = known.get(plain(name))
@@ -25,13 +25,13 @@ def pick(table: Mapping[str, Part], name: str, what: str) -> Part:
         raise ParameterError(
             f"no {what} {name!r} in the table",
             allowed=f"the nearest offered is {nearest(name, table)!r}",
-            do=f"take it, or one of the {len(table)} others",
+            do=f"use it, or one of the {len(table)} others",
         )
     return table[found]
 
 
 def nearest(name: str, offered: Iterable[str]) -> str:
-    """The offered name most like `name`: with the same letters that of the nearest number, else by its spelling.
+    """The most similar name: the nearest number with the same letters, else the closest spelling.
 
     >>> nearest("UCF 216", ["UC 216", "UCF 204", "UCF 212"])
     'UCF 212'

@@ -70,7 +70,10 @@ class HollowSquare:
 
 
 def eccentric(force: float, lever: float, height: float, section: HollowSquare) -> tuple[float, float]:
-    """Greatest stress [Pa] and bow [m] of a column under a force [N] off its axis; inf from Euler's load on."""
+    """Greatest stress [Pa] and bow [m] of a column under an eccentric force; inf at or above Euler's load.
+
+    force  [N]      lever  of the force [m]      height  [m]
+    """
     q = height / 2 * math.sqrt(force / (STEEL.modulus * section.inertia))
     if q >= math.pi / 2:
         return math.inf, math.inf

@@ -19,8 +19,8 @@ _MIDPOINTS = 1440
 def motor_part(name: str, motor: Motor | None, torque: float, speed: float, number: int = 1) -> Part:
     """The line of a motor, which drives an axis of the control.
 
-    motor          of the catalogue; None: a servo made to measure, priced by its power
-    torque, speed  that it must give [N m, rad/s]
+    motor          of the catalogue; None: a special servo, priced by its power
+    torque, speed  required [N m, rad/s]
     """
     if motor is not None:
         return Part(name, number, motor.name, "", motor.kind, motor.mass, power=motor.power, drives=True)

@@ -1,10 +1,10 @@
-"""A motor's duty over a cycle, and the smallest motor with its reducer that bears it.
+"""A motor's duty over a cycle, and the smallest sufficient motor with its reducer.
 
     M = Mr(T + J a) + Jm i a,   M_rms = sqrt(mean M²),   ratio = J / (i² Jm)
 
 T torque of the load, J its inertia, w and a its speed and acceleration; Mr the reducer's input torque (`reducers`), i
-its ratio, Jm the rotor's inertia; the reducer's own is left out. The windings' warmth goes with the mean of M², the
-drive's current with its largest.                              [equation of motion; usual practice of servo sizing]
+its ratio, Jm the rotor's inertia; the reducer's inertia is neglected. The heating of the windings follows the mean of
+M², the drive's current the largest M.                            [equation of motion; usual practice of servo sizing]
 """
 
 from collections.abc import Sequence
@@ -19,17 +19,17 @@ from ilmek.errors import ParameterError
 from ilmek.records import record
 
 INERTIA_RATIO = 10.0
-"""Load over rotor that a controller of a servo bears well; 5 where it must be stiff [usual practice]."""
+"""Greatest ratio of the load's inertia to the rotor's for a servo; 5 for stiff control [usual practice]."""
 
 MARGIN = 1.25
-"""Of torque over what is reckoned."""
+"""Least ratio of available to computed torque."""
 
 
 @record
 class LoadCycle:
-    """What moves over a cycle, at equal steps of time (of the master angle, where that turns evenly).
+    """A load over a cycle, at equal steps of time (or of a master angle with constant speed).
 
-    speed, acceleration  of the load [rad/s, rad/s²]      torque  that it resists with, without inertia [N m]
+    speed, acceleration  of the load [rad/s, rad/s²]      torque  of resistance, without inertia [N m]
     inertia              of the load [kg m²]
     """
 
@@ -48,17 +48,17 @@ class LoadCycle:
 
     @property
     def effort(self) -> FloatArray:
-        """Torque with that of the load's own inertia [N m]."""
+        """Torque with the load's inertia, T + J a [N m]."""
         return np.asarray(self.torque + self.inertia * self.acceleration)
 
 
 @dataclass(frozen=True, slots=True)
 class MotorDuty:
-    """What a motor bears over a cycle.
+    """A motor's load over a cycle.
 
-    rms, peak       of its torque [N m]      speed_max  [rad/s]      power_mean  that goes in [W], braking counted back
-    inertia_ratio   of the load, on the motor's shaft, over the rotor
-    reserve         least ratio of the torque it can give to the one asked, over the samples
+    rms, peak       of its torque [N m]      speed_max  [rad/s]      power_mean  input, with recovery of braking [W]
+    inertia_ratio   of the load, reduced to the motor's shaft, to the rotor
+    reserve         least ratio of available to required torque over the samples
     """
 
     rms: float
@@ -79,7 +79,7 @@ class ServoDrive:
 
 
 def duty(cycle: LoadCycle, motor: Motor, reducer: Reducer = DIRECT) -> MotorDuty:
-    """The motor's duty over the cycle.
+    """The motor's duty M = Mr(T + J a) + Jm i a over a cycle.
 
     >>> turn = 2 * np.pi * np.arange(360) / 360
     >>> swing = LoadCycle(10 * np.sin(turn), 100 * np.cos(turn), np.zeros(360), inertia=0.01)
@@ -90,12 +90,12 @@ def duty(cycle: LoadCycle, motor: Motor, reducer: Reducer = DIRECT) -> MotorDuty
     """
     torque = reducer.input_torque(cycle.effort, cycle.speed) + motor.inertia * reducer.ratio * cycle.acceleration
     speed = reducer.ratio * cycle.speed
-    asked = np.abs(torque)
-    given = motor.peak_at(speed)
-    reserve = np.divide(given, asked, out=np.full(asked.shape, np.inf), where=asked > 0)
+    required = np.abs(torque)
+    available = motor.peak_at(speed)
+    reserve = np.divide(available, required, out=np.full(required.shape, np.inf), where=required > 0)
     return MotorDuty(
         rms=float(np.sqrt(np.mean(torque**2))),
-        peak=float(np.max(asked)),
+        peak=float(np.max(required)),
         speed_max=float(np.max(np.abs(speed))),
         power_mean=float(np.mean(torque * speed)),
         inertia_ratio=cycle.inertia / reducer.ratio**2 / motor.inertia,
@@ -104,14 +104,15 @@ def duty(cycle: LoadCycle, motor: Motor, reducer: Reducer = DIRECT) -> MotorDuty
 
 
 def bears(motor: Motor, found: MotorDuty, *, margin: float = MARGIN, inertia_ratio: float = INERTIA_RATIO) -> bool:
-    """Whether the motor bears a duty: torque of every sample, lasting torque and speed of a servo, inertia ratio.
+    """Whether a motor is sufficient for a duty: peak torque, inertia ratio, and for a servo rms torque and speed.
 
-    A stepper's windings always carry their current, so that no rms is asked of it.
+    margin  least ratio of available to required torque      inertia_ratio  greatest ratio of load to rotor
+    A stepper always carries its rated current, so that its rms torque has no limit.
     """
-    lasts = motor.kind == STEPPER or (
+    continuous = motor.kind == STEPPER or (
         found.rms * margin <= motor.torque and found.speed_max <= motor.speed * (1 + 1e-9)
     )
-    return lasts and found.reserve >= margin and found.inertia_ratio <= inertia_ratio
+    return continuous and found.reserve >= margin and found.inertia_ratio <= inertia_ratio
 
 
 def size_motor(
@@ -122,9 +123,10 @@ def size_motor(
     margin: float = MARGIN,
     inertia_ratio: float = INERTIA_RATIO,
 ) -> ServoDrive | None:
-    """The motor of least power in `MOTORS` that bears the cycle behind one of the reducers; None where none does.
+    """The motor of least power in `MOTORS` that is sufficient with one of the reducers; None if none is.
 
-    Of several reducers the one with the least rms torque. kind  "stepper" or "servo"; None takes either
+    kind  "stepper" or "servo"; default: either      margin, inertia_ratio  as for `bears`
+    Of several sufficient reducers the one with the least rms torque is chosen.
     """
     for motor in sorted(MOTORS, key=lambda one: one.power):
         if kind in (None, motor.kind):

@@ -3,7 +3,7 @@
     Se = ka kb kc ke Se',   Se' = Sut / 2 (700 MPa at most),   Kf = 1 + q (Kt - 1)
     1 / n = σa / Se + σm / Sut                              [Goodman; Soderberg has the yield strength for Sut]
 
-σa, σm are von Mises stresses of amplitude and mean of bending and torsion, notch factors in them.
+σa, σm are von Mises stresses of amplitude and mean of bending and torsion, with notch factors.
                               [Shigley's Mechanical Engineering Design, 9th ed., 6-7 to 6-14, eq. 7-7; steel shafts]
 """
 
@@ -42,7 +42,7 @@ _LARGEST = 700 * MPa
 
 @dataclass(frozen=True, slots=True)
 class Loading:
-    """Amplitude and mean of moment and torque [N m]: a turning shaft has its moment as amplitude, torque as mean."""
+    """Amplitude and mean of moment and torque [N m]: on a rotating shaft a constant moment is an amplitude."""
 
     moment: float
     torque: float
@@ -51,7 +51,7 @@ class Loading:
 
 
 def surface_factor(tensile: float, surface: str) -> float:
-    """Ka of a tensile strength [Pa] [eq. 6-19].
+    """Surface factor ka of a tensile strength [Pa] and a surface of `SURFACES` [eq. 6-19].
 
     >>> round(surface_factor(520e6, "machined"), 3)
     0.86
@@ -63,7 +63,7 @@ def surface_factor(tensile: float, surface: str) -> float:
 
 
 def size_factor(diameter: float) -> float:
-    """Kb of a diameter [m] from 2.79 to 254 mm; those beyond count as the nearest [eq. 6-20].
+    """Size factor kb of a diameter [m], clipped to 2.79 to 254 mm [eq. 6-20].
 
     >>> round(size_factor(0.032), 3)
     0.858
@@ -74,6 +74,9 @@ def size_factor(diameter: float) -> float:
 
 def endurance_limit(tensile: float, diameter: float, surface: str = "machined", reliability: float = 0.99) -> float:
     """Endurance limit Se [Pa] of a steel shaft in reversed bending [eq. 6-18].
+
+    tensile  strength [Pa]      diameter  [m]      surface  of `SURFACES`      reliability  0.5 to 0.9999
+    Raises ParameterError for an unknown surface or a reliability outside the table.
 
     >>> round(endurance_limit(690e6, 0.032, "machined", 0.5) / 1e6)
     236
@@ -86,7 +89,9 @@ def endurance_limit(tensile: float, diameter: float, surface: str = "machined", 
 
 
 def notch_factor(concentration: float, radius: float, tensile: float, *, torsion: bool = False) -> float:
-    """Kf of a concentration Kt at a notch of a radius [m] in steel: q = 1 / (1 + sqrt(a / r)) [eq. 6-33 to 6-35].
+    """Fatigue notch factor Kf of a steel shaft: Kf = 1 + q (Kt - 1), q = 1 / (1 + sqrt(a / r)) [eq. 6-33 to 6-35].
+
+    concentration  Kt      radius  of the notch [m]      tensile  strength [Pa]
 
     >>> round(notch_factor(1.65, 0.003, 690e6), 2)
     1.55
@@ -100,9 +105,10 @@ def notch_factor(concentration: float, radius: float, tensile: float, *, torsion
 def goodman(
     loading: Loading, section: Section, *, endurance: float, tensile: float, notch: tuple[float, float] = (1.0, 1.0)
 ) -> float:
-    """Safety against fatigue without end; `tensile` the yield strength makes it Soderberg's.
+    """Safety against fatigue for infinite life; infinite without load.
 
-    notch  Kf of bending and of torsion
+    endurance  limit Se [Pa]      tensile  strength [Pa]; the yield strength instead gives Soderberg's criterion
+    notch      Kf of bending and of torsion
     """
     bending, torsion = notch
     amplitude = section.equivalent_stress(bending * loading.moment, torsion * loading.torque_amplitude, turning=True)
@@ -112,7 +118,10 @@ def goodman(
 
 
 def yielding(loading: Loading, section: Section, *, strength: float, notch: tuple[float, float] = (1.0, 1.0)) -> float:
-    """Safety against yielding at the largest moment and torque together [eq. 7-15, 7-16]."""
+    """Safety against yielding at the largest moment and torque together [eq. 7-15, 7-16].
+
+    strength  yield strength [Pa]      notch  factors of bending and of torsion
+    """
     moment = notch[0] * (abs(loading.moment) + abs(loading.moment_mean))
     torque = notch[1] * (abs(loading.torque) + abs(loading.torque_amplitude))
     stress = float(section.equivalent_stress(moment, torque, turning=True))

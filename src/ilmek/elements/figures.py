@@ -1,4 +1,4 @@
-"""What elements look like: a beam's moment and deflection, a tube's section, a pair of gears to scale."""
+"""Figures of elements: a beam's moment and deflection, a tube's section, a pair of gears to scale."""
 
 import math
 from itertools import pairwise
@@ -15,18 +15,18 @@ from ilmek.units import format_quantity
 
 
 def deflection_plot(load: float, length: float, modulus: float, inertia: float, limit: float) -> Plot:
-    """Deflection line of a simply supported, uniformly loaded beam, and its limit [m]; downwards as on the drawing."""
+    """Deflection line of a simply supported, uniformly loaded beam, drawn downwards, and its limit [m]."""
     x = np.linspace(0.0, length, 121)
     series = (
         Series("deflection", x, -uniform.deflection(x, load, length, modulus, inertia=inertia)),
         Series("limit", np.array([0.0, length]), np.full(2, -limit), dashed=True),
     )
     title = "Deflection along the width"
-    return Plot("deflection", title, Axis("place between the bearings", "mm"), Axis("deflection", "mm"), series)
+    return Plot("deflection", title, Axis("position between the bearings", "mm"), Axis("deflection", "mm"), series)
 
 
 def tube_drawing(outer_radius: float, inner_radius: float, least_outer_radius: float) -> Drawing:
-    """Section of a tube to scale, and the outer radius that the slope alone asks for."""
+    """Section of a tube to scale, and the least outer radius for the slope alone [m]."""
     note = f"dashed: the least outer radius for the slope, {format_quantity(least_outer_radius, 'mm')}"
     circle = np.exp(1j * np.linspace(0.0, 2 * math.pi, 361))
     below = outer_radius * (np.array([-1.0, 1.0]) - 1.15j)
@@ -44,25 +44,25 @@ def tube_drawing(outer_radius: float, inner_radius: float, least_outer_radius: f
 def beam_plots(
     bent: BeamResult, rigidity: float, planes: tuple[str, str] = ("vertical", "horizontal")
 ) -> tuple[Plot, Plot]:
-    """Moment and deflection along a beam of rigidity E I [N m²], of both planes where loads lie in both."""
+    """Moment and deflection along a beam of rigidity E I [N m²], in each plane with loads."""
     breaks = bent.breaks
     x = np.unique(np.concatenate([np.linspace(left, right, 33) for left, right in pairwise(breaks)]))
     moment, deflection = bent.moment(x), bent.deflection(x, rigidity)
-    place = Axis("place along the beam", "mm")
+    position = Axis("position along the beam", "mm")
     most, sag = bent.moment_max, bent.deflection_max(rigidity)
     marks = (Mark(most.at, format_quantity(most.size, "Nm")),), (Mark(sag.at, format_quantity(sag.size, "mm")),)
     return (
-        Plot("moment", "Bending moment", place, Axis("moment", "Nm"), _parts(x, moment, planes), marks[0]),
-        Plot("deflection", "Deflection", place, Axis("deflection", "mm"), _parts(x, deflection, planes), marks[1]),
+        Plot("moment", "Bending moment", position, Axis("moment", "Nm"), _parts(x, moment, planes), marks[0]),
+        Plot("deflection", "Deflection", position, Axis("deflection", "mm"), _parts(x, deflection, planes), marks[1]),
     )
 
 
 def _parts(x: FloatArray, values: ComplexArray, planes: tuple[str, str]) -> tuple[Series, ...]:
-    """Both planes' curves, and their size together; one curve where there is but one plane."""
+    """The curves of both planes and their magnitude; one curve for one plane."""
     parts = [
         Series(name, x, part) for name, part in zip(planes, (values.real, values.imag), strict=True) if np.any(part)
     ]
-    return (*parts, Series("together", x, np.abs(values), dashed=True)) if len(parts) == 2 else tuple(parts)
+    return (*parts, Series("magnitude", x, np.abs(values), dashed=True)) if len(parts) == 2 else tuple(parts)
 
 
 def gear_drawing(pair: GearPair) -> Drawing:
@@ -80,6 +80,6 @@ def gear_drawing(pair: GearPair) -> Drawing:
     ]
     reach = 0.35 * rolling[0] * np.exp(1j * (math.pi / 2 + pair.pressure_angle))
     strokes.append(Stroke(rolling[0] + np.array([-reach, reach]), "path", "line of action"))
-    note = f"contact ratio {pair.contact_ratio:.3f}; fillets at the roots left out"
+    note = f"contact ratio {pair.contact_ratio:.3f}; root fillets are not drawn"
     dots = (Dot(0j, "", "point"), Dot(distance + 0j, "", "point"))
     return Drawing("gears", "Gears, to scale", tuple(strokes), dots, note=note)

@@ -5,7 +5,7 @@
     σF = F / (b m Y),   σH = sqrt(Fn / (π b) (1 / ρ1 + 1 / ρ2) / ((1 - ν1²) / E1 + (1 - ν2²) / E2))
 
 Fn along the line of action, ρ radii of curvature at the pitch point, Y Lewis' form factor (`gears`). σH is ISO 6336-2's
-nominal stress at the pitch point; its factors of overload, speed, spread and overlap are left out, all of them 1.
+nominal stress at the pitch point; its factors of application, speed, load distribution and overlap are 1.
                                                                 [ISO 21771; Lewis; ISO 6336-2, eq. 4 with Zε = 1]
 """
 
@@ -44,52 +44,55 @@ class GearPair:
 
     @property
     def pressure_angle(self) -> float:
-        """αw in work [rad]."""
+        """Working pressure angle αw [rad]."""
         both = self.first.teeth + self.second.teeth
         shift = self.first.shift + self.second.shift
         return involute_angle(involute(PRESSURE_ANGLE) + 2 * shift * math.tan(PRESSURE_ANGLE) / both)
 
     @property
     def distance(self) -> float:
-        """Of the axes [m]."""
+        """Distance of the axes [m]."""
         standard = self.first.pitch_radius + self.second.pitch_radius
         return standard * math.cos(PRESSURE_ANGLE) / math.cos(self.pressure_angle)
 
     @property
     def tip_radii(self) -> tuple[float, float]:
-        """Tip radii [m], shortened so that the clearance at the roots stays a quarter of the module."""
+        """Tip radii [m], shortened to keep a root clearance of a quarter of the module."""
         module = self.first.module
         full = self.first.pitch_radius + self.second.pitch_radius + module * (self.first.shift + self.second.shift)
         return self.first.tip_radius + self.distance - full, self.second.tip_radius + self.distance - full
 
     @property
     def contact_ratio(self) -> float:
-        """Mean number of teeth in contact: 1.1 or more for an even run."""
+        """Mean number of teeth in contact ε: 1.1 or more for smooth running."""
         return self._contact_length / (math.pi * self.first.module * math.cos(PRESSURE_ANGLE))
 
     @property
     def interferes(self) -> bool:
-        """Whether a tip reaches where the other flank is no involute: it would jam."""
+        """Whether a tip touches the other flank inside its base circle: interference."""
         reach = self.distance * math.sin(self.pressure_angle)
         return max(self._reaches) > reach * (1 + 1e-12)
 
     @property
     def rolling_radii(self) -> tuple[float, float]:
-        """Radii of the circles that roll on one another [m]."""
+        """Radii of the operating pitch circles [m]."""
         first = self.distance / (1 + self.ratio)
         return first, self.distance - first
 
     def force(self, torque: float) -> float:
-        """Force along the rolling circles [N] of a torque on the first gear [N m]."""
+        """Force along the operating pitch circles [N] of a torque on the first gear [N m]."""
         return abs(torque) / self.rolling_radii[0]
 
     def bending(self, torque: float) -> float:
-        """Largest bending stress at a root [Pa], all of it on one tooth's tip: that of the gear with fewer teeth."""
+        """Bending stress at the root [Pa] of the gear with fewer teeth, with the whole load at one tooth's tip.
+
+        torque  on the first gear [N m]
+        """
         form = lewis(min(self.first.teeth, self.second.teeth))
         return self.force(torque) / (self.width * self.first.module * form)
 
     def pressure(self, torque: float, first: Material, second: Material) -> float:
-        """Hertz pressure at the pitch point [Pa]."""
+        """Hertz pressure σH at the pitch point [Pa] for a torque on the first gear [N m] and both materials."""
         angle = self.pressure_angle
         curved = sum(1 / (radius * math.sin(angle)) for radius in self.rolling_radii)
         yielding = sum((1 - each.poisson**2) / each.modulus for each in (first, second))
@@ -97,7 +100,7 @@ class GearPair:
 
     @property
     def _reaches(self) -> tuple[float, float]:
-        """From the base circle's point of tangency to each tip along the line of action [m]."""
+        """Distances along the line of action from the base circles to the tips [m]."""
         first, second = self.tip_radii
         return _leg(first, self.first.base_radius), _leg(second, self.second.base_radius)
 
@@ -107,9 +110,10 @@ class GearPair:
 
 
 def pair_at(distance: float, module: float, teeth: tuple[int, int], width: float, share: float = 0.5) -> GearPair:
-    """The pair whose profile shifts bring its axes to a distance [m]; `share` of the sum is the first gear's.
+    """The pair with profile shifts for a distance of axes [m].
 
-    Raises ParameterError where that is below the base circles'.
+    module, width  [m]      share  of the sum of shifts on the first gear
+    Raises ParameterError for a distance below that of the base circles.
     >>> round(pair_at(0.061, 0.002, (20, 40), 0.02).distance, 9)
     0.061
     """
@@ -119,7 +123,7 @@ def pair_at(distance: float, module: float, teeth: tuple[int, int], width: float
         raise ParameterError(
             f"axes {distance:g} m apart for {teeth[0]} and {teeth[1]} teeth of module {module:g} m",
             allowed=f"more than {cosine * distance:.6g} m",
-            do="move the axes apart, or take fewer teeth or a finer module",
+            do="move the axes apart, or use fewer teeth or a finer module",
         )
     shift = both * (involute(math.acos(cosine)) - involute(PRESSURE_ANGLE)) / (2 * math.tan(PRESSURE_ANGLE))
     first, second = (Gear(module, number, part * shift) for number, part in zip(teeth, (share, 1 - share), strict=True))
@@ -140,10 +144,10 @@ def smallest_pair(
     safety: float = 1.2,
     teeth: int = 20,
 ) -> GearPair | None:
-    """The pair of the finest preferred module that bears a torque on the first gear [N m]; None where none does.
+    """The pair of the finest preferred module that is sufficient for a torque on the first gear [N m]; None if none is.
 
-    bending  stress that the teeth bear [Pa]      safety  of the Hertz pressures that the materials bear
-    teeth    of the first gear; the second has the number nearest to `ratio` times of it
+    bending  allowed bending stress of the teeth [Pa]      safety  factor on the Hertz pressure
+    teeth    of the first gear; the second has the nearest number to `ratio` times it
     """
     known = [material.hertz for material in (first, second) if material.hertz is not None]
     for module in MODULES:

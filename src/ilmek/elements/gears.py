@@ -4,9 +4,9 @@
     σ = F / (b m Y)
 
 a distance of the axes, m module, z teeth of each, α = 20 deg, αw working pressure angle, x profile shifts; F force
-along the pitch circle, b width, Y Lewis' form factor, σ bending at the root of a tooth that bears all of it at its tip.
-Between the standard distances m z the profiles are shifted.     [ISO 21771 for the teeth; Lewis' equation, Shigley's
-Mechanical Engineering Design, 14-1: a first estimate, without dynamic load, notch and overlap]
+along the pitch circle, b width, Y Lewis' form factor, σ bending stress at the root of a tooth with the whole load at
+its tip. The profiles are shifted where a is no standard distance m z.     [ISO 21771 for the teeth; Lewis' equation,
+Shigley's Mechanical Engineering Design, 14-1: a first estimate, without dynamic load, notch and overlap]
 """
 
 import math
@@ -28,7 +28,7 @@ _RACK = 0.485
 """Lewis' form factor of 20 deg full teeth [Shigley, table 14-2]."""
 
 LEAST_TEETH = 18
-"""Fewest teeth that are not undercut: 2 / sin² α = 17.1."""
+"""Least number of teeth without undercut: above 2 / sin² α = 17.1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ class EqualGears:
 
     @property
     def pitch_radius(self) -> float:
-        """Radius of the circles that roll on one another [m]: half the distance."""
+        """Radius of the operating pitch circles [m]: half the distance."""
         return self.distance / 2
 
     @property
@@ -65,7 +65,7 @@ class EqualGears:
         return abs(torque) / self.pitch_radius
 
     def separating(self, force: float) -> float:
-        """Force along the line of centres [N] that presses the wheels apart: F tan αw."""
+        """Separating force along the line of centres [N]: F tan αw."""
         return force * math.tan(self.pressure_angle)
 
     def bending(self, force: float) -> float:
@@ -74,7 +74,7 @@ class EqualGears:
 
 
 def lewis(teeth: int) -> float:
-    """Lewis' form factor of 20 deg full teeth, even in 1 / z between the table's; below 12 teeth that of 12.
+    """Lewis' form factor of 20 deg full teeth, linear in 1 / z between the table's; below 12 teeth that of 12.
 
     >>> lewis(20), round(lewis(200), 3), round(lewis(10**9), 3)
     (0.322, 0.466, 0.485)
@@ -86,12 +86,13 @@ def lewis(teeth: int) -> float:
 def equal_gears(
     distance: float, torque: float, *, width: float, stress: float, module: float | None = None, standard: bool = False
 ) -> EqualGears:
-    """The finest equal gears that bear a torque on a wheel [N m] with axes at a distance [m].
+    """The finest equal gears that are sufficient for a torque on a wheel [N m], with axes at a distance [m].
 
-    width  of the wheels [m]      stress  bending that the teeth bear [Pa]      module  of choice [m]; else preferred
-    standard  the distance may grow up to the next standard one, so that no profile is shifted
-    Where none of the modules bears the torque it is the coarsest that fits; `bending` tells. Raises IlmekError where
-    not even the finest has enough teeth.
+    width     of the wheels [m]      stress  allowed bending stress [Pa]      module  [m]; default: the preferred
+              modules
+    standard  increase the distance to the next standard one, without profile shifts
+    If no module is sufficient, the coarsest that fits is chosen; check `bending`. Raises IlmekError if even the finest
+    module gives fewer than 18 teeth.
 
     >>> gears = equal_gears(0.0735, 0.5, width=0.005, stress=20e6, standard=True)
     >>> gears.module, gears.teeth, gears.distance, round(gears.profile_shift, 9)
@@ -108,6 +109,6 @@ def equal_gears(
         raise IlmekError(
             f"axes {format_quantity(distance, 'mm')} apart for gears of module {format_quantity(finest, 'mm')}",
             allowed=f"{least} or more: fewer than {LEAST_TEETH} teeth are undercut",
-            do="move the axes apart, or take a finer module",
+            do="move the axes apart, or use a finer module",
         )
     return next((one for one in fitting if one.bending(one.force(torque)) <= stress), fitting[-1])

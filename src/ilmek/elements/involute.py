@@ -20,12 +20,12 @@ DEDENDUM = 1.25
 
 
 def involute(angle: float) -> float:
-    """Inv α = tan α - α."""
+    """Inv α = tan α - α of an angle [rad]."""
     return math.tan(angle) - angle
 
 
 def involute_angle(value: float) -> float:
-    """The angle [rad] of which inv is `value`, 0 or more; Newton from Cheng's series.
+    """The angle α [rad] with inv α = `value`, 0 or more, by Newton's method from Cheng's series.
 
     >>> round(involute_angle(involute(0.4)), 12)
     0.4
@@ -72,44 +72,44 @@ class Gear:
 
     @property
     def base_radius(self) -> float:
-        """Of the circle that the flank is unwound from [m]."""
+        """Radius of the base circle [m]."""
         return self.pitch_radius * math.cos(PRESSURE_ANGLE)
 
     @property
     def tip_radius(self) -> float:
-        """Of a gear by itself [m]; in a pair with shifts it is shortened (`gear_pair`)."""
+        """Tip radius of a single gear [m]; in a pair with shifts it is shortened (`gear_pair`)."""
         return self.pitch_radius + self.module * (1 + self.shift)
 
     @property
     def root_radius(self) -> float:
-        """[m]."""
+        """Root radius [m]."""
         return self.pitch_radius - self.module * (DEDENDUM - self.shift)
 
     @property
     def undercut(self) -> bool:
-        """Whether a rack cutter cuts into the flank."""
+        """Whether a rack cutter undercuts the flank."""
         return self.shift < least_shift(self.teeth) - 1e-12
 
     @property
     def rack_travel(self) -> float:
-        """Way of a rack for a turn of the gear [m]: π m z."""
+        """Travel of a rack per turn of the gear [m]: π m z."""
         return math.pi * self.module * self.teeth
 
     def half_thickness(self, radius: RealField) -> FloatArray:
-        """Half the angle [rad] of a tooth at a radius from the base circle on [m]; negative beyond its point."""
+        """Half the angle [rad] of a tooth at a radius outside the base circle [m]; negative beyond its point."""
         cosine = np.minimum(self.base_radius / np.asarray(radius, dtype=float), 1.0)
         angle = np.arccos(cosine)
         at_pitch = (math.pi / 2 + 2 * self.shift * math.tan(PRESSURE_ANGLE)) / self.teeth
         return np.asarray(at_pitch + involute(PRESSURE_ANGLE) - (np.tan(angle) - angle))
 
     def tip_thickness(self, tip_radius: float | None = None) -> float:
-        """Thickness of a tooth at its tip [m]: 0.2 modules or more where the tip must not break [DIN 3960]."""
+        """Thickness of a tooth at its tip [m]; 0.2 modules or more against breakage [DIN 3960]."""
         radius = self.tip_radius if tip_radius is None else tip_radius
         return 2 * radius * float(self.half_thickness(radius))
 
 
 def outline(gear: Gear, tip_radius: float | None = None, points: int = 9) -> ComplexArray:
-    """The gear's closed outline about its centre [m], a tooth on the real axis; the fillet at the root left out.
+    """The gear's closed outline about its centre [m], with a tooth on the real axis, without root fillets.
 
     points  on each flank; below the base circle the flank is drawn radially
     """

@@ -13,7 +13,7 @@ from ilmek.units import format_quantity, mm
 class Keyway:
     """A parallel key's section and its grooves [m].
 
-    over, upto  shaft diameters it is for        width, height  of the key's section
+    over, upto  range of shaft diameters         width, height  of the key's section
     in_shaft    depth of the shaft's groove      in_hub         depth of the hub's, beyond the bore
     """
 
@@ -49,7 +49,7 @@ KEYWAYS = tuple(Keyway(*(value * mm for value in row)) for row in _ROWS)
 
 
 def keyway_for(diameter: float) -> Keyway:
-    """The keyway of a shaft or bore of this diameter [m]. Raises ParameterError outside of the table.
+    """The keyway of a shaft or bore of a diameter [m]. Raises ParameterError outside the table.
 
     >>> keyway_for(0.025).width
     0.008
@@ -61,5 +61,5 @@ def keyway_for(diameter: float) -> Keyway:
     raise ParameterError(
         f"no parallel key for a shaft of {format_quantity(diameter, 'mm')}",
         allowed=f"above {format_quantity(least, 'mm')}, at most {format_quantity(most, 'mm')} (DIN 6885-1)",
-        do="take another diameter, or a square shaft",
+        do="use another diameter, or a square shaft",
     )

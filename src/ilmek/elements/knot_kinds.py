@@ -1,4 +1,4 @@
-"""Kinds of knots: their names, and the length of yarn that each takes round its warps.
+"""Kinds of knots: names, and the length of yarn around the warps.
 
 The yarn's axis turns round a warp on the radius r; the warps have the pitch p. In the section across the warps:
 
@@ -13,10 +13,10 @@ The yarn's axis turns round a warp on the radius r; the warps have the pitch p. 
 
                 wrap = sqrt(p² - 4r²) + 2 r (pi + alpha)
 
-            Where the warps are closer than 2r the yarn stands upright between them: alpha = 90°, no straight part.
+            Where the warps are closer than 2r the yarn is perpendicular to their plane: alpha = 90°, no straight part.
 
-The jufti forms take neighbouring warps together: the straight parts grow by whole pitches, the turns stay. The same
-curve, point for point, is `ilmek.weaving.knots.path`.                                             [derived: geometry]
+The jufti forms combine neighbouring warps: the straight parts grow by whole pitches, the turns are equal. The same
+curve, point by point, is `ilmek.weaving.knots.path`.                                             [derived: geometry]
 """
 
 import difflib
@@ -27,17 +27,19 @@ from ilmek.errors import CarpetError
 
 
 def symmetric_wrap(pitch: float, radius: float, left: int = 1, right: int = 1) -> float:
-    """Part of a symmetric knot round its warps [m]: (2 (m + n) - 3) p + 3 pi r.
+    """Length of a symmetric knot around its warps [m]: (2 (m + n) - 3) p + 3 pi r.
 
+    pitch  p of the warps [m]      radius  r of the yarn's axis on a warp [m]
     left, right  m and n, warps on each side of its middle: 1, 2 for the jufti form
     """
     return (2 * (left + right) - 3) * pitch + 3 * math.pi * radius
 
 
 def asymmetric_wrap(pitch: float, radius: float, passed: int = 1, encircled: int = 1) -> float:
-    """Part of an asymmetric knot round its warps [m]: (m - 1 + 2 (n - 1)) p + sqrt(p² - 4r²) + 2 r (pi + alpha).
+    """Length of an asymmetric knot around its warps [m]: (m - 1 + 2 (n - 1)) p + sqrt(p² - 4r²) + 2 r (pi + alpha).
 
-    sin alpha = 2r/p      passed, encircled  m and n, warps it only passes behind, and winds round: 1, or 2 of a jufti
+    sin alpha = 2r/p      pitch  p of the warps [m]      radius  r of the yarn's axis on a warp [m]
+    passed, encircled  m and n, numbers of warps passed behind and encircled: 1, or 2 for a jufti
     """
     alpha = math.asin(min(1.0, 2 * radius / pitch))
     straight = (passed - 1 + 2 * (encircled - 1)) * pitch + math.sqrt(max(pitch**2 - 4 * radius**2, 0.0))
@@ -63,9 +65,9 @@ def parse_knot(text: str) -> str:
         return name
     if name in _OTHER_NAMES:
         return _OTHER_NAMES[name]
-    near = difflib.get_close_matches(name, [*WRAPS, *_OTHER_NAMES], n=1)
+    matches = difflib.get_close_matches(name, [*WRAPS, *_OTHER_NAMES], n=1)
     raise CarpetError(
         f"unknown knot {text!r}",
         allowed="symmetric (Turkish) or asymmetric (Persian)",
-        do=f"did you mean {near[0]}?" if near else "",
+        do=f"did you mean {matches[0]}?" if matches else "",
     )

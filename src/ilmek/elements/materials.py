@@ -1,10 +1,10 @@
-"""Materials: what a calculation needs of them, and where it is written.
+"""Materials: properties for calculations, and their sources.
 
     σH = A HV + B                                                           [ISO 6336-5:2003, table 1, quality MQ]
 
-σH is the Hertz pressure that a flank bears without end, of gears, cams and rollers alike. The fatigue limit is that
-of a polished bar in reversed bending, a share of the tensile strength: 0.45 of steel (0.40 case-hardened or stainless),
-0.34 of nodular and 0.30 of grey cast iron and aluminium.                                [FKM guideline, table 4.2.1]
+σH is the allowed Hertz pressure for infinite life of gears, cams and rollers. The fatigue limit is that of a polished
+bar in reversed bending, a share of the tensile strength: 0.45 for steel (0.40 case-hardened or stainless), 0.34 for
+nodular and 0.30 for grey cast iron and aluminium.                                [FKM guideline, table 4.2.1]
 
 >>> MATERIALS["structural steel"].modulus
 210000000000.0
@@ -16,7 +16,7 @@ from ilmek.elements.catalogue import pick
 from ilmek.units import GPa, MPa
 
 GRAVITY = 9.81
-"""Acceleration of gravity [m/s^2], as machine design takes it (standard gravity is 9.80665)."""
+"""Acceleration of gravity [m/s^2], as used in machine design (standard gravity is 9.80665)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class Material:
 
     modulus   Young's [Pa]      density  [kg/m^3]      strength  yield, of cast iron tensile [Pa]
     tensile   strength [Pa]     poisson  ratio         hardness  of its surface, Brinell below 400, else Vickers
-    fatigue   limit in reversed bending [Pa]; hertz    pressure that a flank bears without end [Pa]; None: not known
+    fatigue   limit in reversed bending [Pa]; hertz    allowed pressure for infinite life [Pa]; None: not known
     """
 
     name: str
@@ -140,11 +140,11 @@ MATERIALS: dict[str, Material] = {
         ),
     )
 }  # fmt: skip
-"""By name. Strengths are the standards' least, of the size named; hardnesses are usual ones of that state."""
+"""By name. Strengths are the least values of the standards for the given size; hardnesses are typical."""
 
 
 def find_material(name: str) -> Material:
-    """The material of a name; ParameterError, naming the nearest, where it is not in the table.
+    """The material of a name. Raises ParameterError with the nearest name for an unknown one.
 
     >>> find_material("Tin-bronze").hertz
     425000000.0
@@ -153,6 +153,6 @@ def find_material(name: str) -> Material:
 
 
 def hertz_limit(first: Material, second: Material, safety: float = 1.0) -> float | None:
-    """Hertz pressure [Pa] that the weaker of two surfaces bears without end, with a safety; None where not known."""
+    """Allowed Hertz pressure [Pa] of the weaker of two surfaces for infinite life, over a safety; None: not known."""
     known = [material.hertz for material in (first, second) if material.hertz is not None]
     return min(known) / safety if len(known) == 2 else None

@@ -1,10 +1,11 @@
-"""Motors: what they give at a speed, which is enough; reducers are in `reducers`, duty cycles in `duty`.
+"""Motors: torque at a speed, selection; reducers are in `reducers`, duty cycles in `duty`.
 
     stepper:  T(w) = Th / sqrt(1 + (w / wc)^2)
 
 Th holding torque: the current of a winding of resistance and inductance at the step frequency, at a fixed voltage. The
-corner wc lies at 268 rpm here, so that two thirds are left at 300 rpm, and a quarter at 1000: what drives of 48 to 70 V
-reach.                                                       [Acarnley, Stepping Motors, chapter 5, without back e.m.f.]
+corner wc is 268 rpm here, so that two thirds of Th remain at 300 rpm and a quarter at 1000 rpm: typical of drives of 48
+to 70 V.
+                                                             [Acarnley, Stepping Motors, chapter 5, without back e.m.f.]
 """
 
 import math
@@ -38,9 +39,9 @@ FULL_STEPS = 200
 
 @dataclass(frozen=True, slots=True)
 class Motor:
-    """A class of motors, no maker's product: lasting torque [N m] up to a speed [rad/s].
+    """A class of motors, not a product: continuous torque [N m] up to a speed [rad/s].
 
-    peak     torque for a moment [N m]; of a stepper its holding torque
+    peak     short-term torque [N m]; for a stepper the holding torque
     inertia  of the rotor [kg m²]      mass  [kg]
     """
 
@@ -58,7 +59,7 @@ class Motor:
         return self.torque * self.speed
 
     def peak_at(self, speed: RealField) -> FloatArray:
-        """Most torque at a speed [N m]: a stepper's falls with it, a servo's stays up to its rated speed, then 0."""
+        """Greatest torque [N m] at a speed [rad/s]: T(w) of a stepper; a servo: peak to its rated speed, then 0."""
         speed = np.abs(speed)
         if self.kind == STEPPER:
             return np.asarray(self.peak / np.sqrt(1 + (speed / _CORNER) ** 2))
@@ -105,13 +106,13 @@ MOTORS = (
     _servo(11000.0, 1500.0, 2.5, 281.0, 58.0),
     _servo(15000.0, 1500.0, 2.5, 315.0, 70.0),
 )
-"""Classes to choose from. Steppers: the torque left at 300 rpm, two thirds of holding. Servos: rated power and speed,
-torque = power / speed, peak 2.5 or 3 times of it. Inertia (written in kg cm²) and mass are middling ones of the
-catalogues of such motors; a maker's may differ by a third."""
+"""Available classes. Steppers: torque at 300 rpm, two thirds of the holding torque. Servos: rated power and speed,
+torque = power / speed, peak 2.5 or 3 times the torque. Inertia (written in kg cm²) and mass are mean values of
+catalogues; those of a maker may differ by a third."""
 
 
 def find_motor(name: str) -> Motor:
-    """The motor of a name; ParameterError, naming the nearest, where it is not in the table.
+    """The motor of a name. Raises ParameterError with the nearest name for an unknown one.
 
     >>> find_motor("servo 400 W, 3000 rpm, 1.27 N m").mass
     1.3
@@ -120,9 +121,9 @@ def find_motor(name: str) -> Motor:
 
 
 def smallest_motor(torque: float, speed: float = 0.0, kind: str | None = None) -> Motor | None:
-    """The motor of least power in `MOTORS` that gives `torque` [N m] at `speed` [rad/s]; None where none does.
+    """The motor of least power in `MOTORS` with a torque [N m] at a speed [rad/s]; None if none has it.
 
-    kind  "stepper" or "servo"; None takes either
+    kind  "stepper" or "servo"; default: either
     >>> smallest_motor(6.5).name
     'stepper NEMA 34, 7 N m'
     """
@@ -134,8 +135,9 @@ def smallest_motor(torque: float, speed: float = 0.0, kind: str | None = None) -
 def geared_motor(
     torque: float, speed: float, reducers: Sequence[Reducer], kind: str | None = None
 ) -> tuple[Motor, Reducer] | None:
-    """The motor of least power that gives `torque` [N m] at `speed` [rad/s] behind one of the reducers, and the first
-    of them with which it does; None where no motor does.
+    """The motor of least power with the first sufficient reducer; None if no motor is sufficient.
+
+    torque, speed  at the output of the reducer [N m, rad/s]      kind  "stepper" or "servo"; default: either
 
     >>> motor, gear = geared_motor(20.0, 1.0, [Reducer(ratio, 0.9) for ratio in (10, 50, 100)], "servo")
     >>> motor.name, gear.ratio
@@ -147,7 +149,7 @@ def geared_motor(
 
 
 def most_torque(speed: float) -> float:
-    """The most torque that any motor in `MOTORS` gives at a speed [rad/s]; 0 where none is that quick [N m].
+    """Greatest continuous torque [N m] of the motors in `MOTORS` at a speed [rad/s]; 0 above all their speeds.
 
     >>> most_torque(1e6)
     0.0

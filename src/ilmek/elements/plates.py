@@ -30,11 +30,11 @@ def link_plate(
     material: str,
     number: int = 1,
 ) -> Plate:
-    """A link's plate: a bored hole at each pin, and as much material around them as `width` asks for.
+    """A link's plate: a bored hole at each pin, with material around it according to `width`.
 
     pins   names and positions of the pins in the link's own frame [m], two or more
-    width  across a straight link [m]: twice the radius of its ends
-    Three pins or more make the hull of their ends. Raises ParameterError for coincident pins, or a width without
+    width  of a straight link [m]: twice the radius of its ends
+    Three or more pins give the hull of their ends. Raises ParameterError for coincident pins, or a width without
     material beside the holes.
 
     >>> plate = link_plate("crank", "Crank", [("A", 0j), ("B", 0.06 + 0j)], hole_radius=0.005, width=0.024,
@@ -69,8 +69,8 @@ def link_plates(
     """The plates of a linkage's links, bored for pins of a third of their width.
 
     links  link -> names and positions of its pins in its own frame [m]
-    A pin is left out where its hole and that of a pin before it would leave no bridge; a link with fewer than two pins
-    left has no plate: it is made otherwise.
+    A pin without a bridge between its hole and that of an earlier pin is left out; a link with fewer than two remaining
+    pins has no plate.
     """
     hole = PIN_SHARE * width / 2
     bored = {name: _apart(pins, 3 * hole) for name, pins in links.items()}
@@ -130,5 +130,5 @@ def square_bore(side: float) -> Bore:
 
 
 def zero_mark(radius: float, angle: float = 0.0) -> dict[str, ComplexArray]:
-    """The line to scribe at an angle [rad] of a disc, inwards from its edge at this radius [m]: a plate's `marks`."""
+    """The line to scribe at an angle [rad] of a disc, inwards from the edge at a radius [m]; for a plate's `marks`."""
     return {"zero": radius * np.array([1 - ZERO_MARK, 1.0]) * np.exp(1j * angle)}

@@ -1,9 +1,9 @@
-"""Reducers: what torque arrives, what stays locked; stock ratios of planetary and of worm gears.
+"""Reducers: torque, efficiency, self-locking; stock ratios of planetary and worm gears.
 
-A reducer of ratio i and efficiency eta: M_motor = M_load / (i eta). With the same friction losses driven backwards,
-eta_back = 2 - 1/eta, so a reducer that locks itself (eta_back <= 0) has eta <= 1/2: a worm can be self-locking or
-efficient, not both. Makers of worm gears count on it below 0.45 and call 0.45 to 0.55 unsure, for friction changes with
-speed, lubricant and warmth.                                           [inclined plane with friction; derived]
+A reducer of ratio i and efficiency eta: M_motor = M_load / (i eta). With the same friction losses in back-driving,
+eta_back = 2 - 1/eta, so a self-locking reducer (eta_back <= 0) has eta <= 1/2: a worm can be self-locking or efficient,
+not both. Makers of worm gears rely on self-locking below 0.45 and call 0.45 to 0.55 uncertain, since friction changes
+with speed, lubricant and temperature.                                           [inclined plane with friction; derived]
 """
 
 import math
@@ -22,14 +22,14 @@ class Reducer:
     efficiency: float
 
     def motor_torque(self, load_torque: float) -> float:
-        """Torque at the input [N m] that moves a load torque at the output [N m]."""
+        """Torque at the input [N m] for a load torque at the output [N m]: M / (i eta)."""
         return load_torque / (self.ratio * self.efficiency)
 
     def input_torque(self, load_torque: RealField, speed: RealField) -> FloatArray:
-        """Torque at the input [N m] for a torque [N m] and a speed [rad/s] at the output, of one sign or of two.
+        """Torque at the input [N m] for a torque [N m] and a speed [rad/s] at the output, broadcast.
 
-        M / (i eta) where the motor drives, M eta_back / i where the load does (a motor must help a locked one back),
-        and at rest what friction does not hold.
+        M / (i eta) where the motor drives, M eta_back / i where the load drives (negative for a self-locking reducer),
+        and at rest M max(eta_back, 0) / i.
         """
         backwards = self.back_driving_efficiency
         power = np.multiply(load_torque, speed)
@@ -38,7 +38,7 @@ class Reducer:
 
     @property
     def back_driving_efficiency(self) -> float:
-        """Efficiency when the load drives, 2 - 1/eta: nothing comes back where it is not above 0."""
+        """Efficiency with the load driving, 2 - 1/eta; 0 or less for a self-locking reducer."""
         return 2 - 1 / self.efficiency
 
     @property
@@ -60,7 +60,7 @@ PLANETARY = tuple(
 def worm_efficiency(lead_angle: float, friction_angle: float) -> float:
     """Efficiency of a worm: tan g / tan(g + r) of its lead angle g and the angle of friction r [rad].
 
-    It locks itself for g <= r, and then the efficiency is (1 - tan^2 r)/2 at most.
+    Self-locking for g <= r, with an efficiency of at most (1 - tan^2 r)/2.
     """
     return math.tan(lead_angle) / math.tan(lead_angle + friction_angle)
 
@@ -86,20 +86,20 @@ class Worm:
 
     @property
     def lead_angle(self) -> float:
-        """G [rad]."""
+        """Lead angle g [rad]."""
         return math.atan(self.starts / self.quotient)
 
     @property
     def locking_friction(self) -> float:
-        """Coefficient of friction from which on it locks itself: tan g.
+        """Least coefficient of friction for self-locking: tan g.
 
         Hardened steel on bronze in oil has 0.02 to 0.06 at speed and 0.1 or more at the start, so that a worm may hold
-        at rest what it lets slip when it shakes.
+        at rest and slip under vibration.
         """
         return self.starts / self.quotient
 
     def reducer(self, friction: float) -> Reducer:
-        """The reducer that it is with a coefficient of friction; losses of bearings and oil left out."""
+        """The reducer for a coefficient of friction, without losses of bearings and oil."""
         return Reducer(self.ratio, worm_efficiency(self.lead_angle, math.atan(friction)))
 
 
@@ -110,4 +110,4 @@ WORMS = (
     *(Worm(teeth, 1, 12.5) for teeth in (60, 80)),
     Worm(100, 1, 16.0),
 )
-"""Stock ratios 7.5 to 100 with the starts and quotients usual for them (DIN 3976: q of 8 to 16)."""
+"""Stock ratios 7.5 to 100 with their usual starts and quotients (DIN 3976: q of 8 to 16)."""

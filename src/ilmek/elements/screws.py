@@ -1,11 +1,12 @@
-"""Screws: force and torque with friction, both ways; buckling and critical speed; a guide that turns by being pushed.
+"""Screws: force and torque with friction in both directions, buckling; steep screws as rotating guides.
 
-    T = F d/2 tan(λ + ρ),   η = tan λ / tan(λ + ρ);   pushed back:  T' = F d/2 tan(λ - ρ),   η' = tan(λ - ρ) / tan λ
+    T = F d/2 tan(λ + ρ),   η = tan λ / tan(λ + ρ);   back-driven:  T' = F d/2 tan(λ - ρ),   η' = tan(λ - ρ) / tan λ
     tan λ = P / (π d),   tan ρ = μ / cos α
 
 d pitch diameter, P lead, λ lead angle, μ friction, α half the thread's angle (15° trapezoidal, 0 square; a ball screw
-has an effective μ of 0.003 to 0.01). The force turns the nut or screw only for λ > ρ, the torque pushes only for
-λ + ρ < 90°: in between both ways are free.                             [Shigley, 8-2; ISO 2904 for the thread's sizes]
+has an effective μ of 0.003 to 0.01). The force turns the nut or screw only for λ > ρ, the torque gives a
+thrust only for λ + ρ < 90°; in between the screw can be driven in both directions.
+                                                                         [Shigley, 8-2; ISO 2904 for the thread's sizes]
 """
 
 import math
@@ -49,44 +50,45 @@ class Screw:
 
     @property
     def self_locking(self) -> bool:
-        """Whether a force along it cannot turn it: λ <= ρ."""
+        """Whether a force along the axis cannot turn it: λ <= ρ."""
         return self.lead_angle <= self.friction_angle
 
     @property
     def jams(self) -> bool:
-        """Whether a torque cannot push along it, so steep it is: λ + ρ >= 90°."""
+        """Whether a torque gives no thrust: λ + ρ >= 90°."""
         return self.lead_angle + self.friction_angle >= math.pi / 2
 
     @property
     def efficiency(self) -> float:
-        """Of turning into pushing; 0 where it jams."""
+        """Efficiency η from torque to thrust; 0 where it jams."""
         return 0.0 if self.jams else math.tan(self.lead_angle) / math.tan(self.lead_angle + self.friction_angle)
 
     @property
     def back_driving_efficiency(self) -> float:
-        """Of pushing into turning; 0 where it locks itself."""
+        """Efficiency η' from thrust to torque; 0 where it is self-locking."""
         return max(0.0, math.tan(self.lead_angle - self.friction_angle) / math.tan(self.lead_angle))
 
     def torque(self, force: float) -> float:
-        """Torque [N m] that pushes against a force [N]; inf where it jams."""
+        """Torque [N m] for a thrust [N]: F d/2 tan(λ + ρ); inf where it jams."""
         turned = self.lead_angle + self.friction_angle
         return math.inf if self.jams else force * self.diameter / 2 * math.tan(turned)
 
     def holding_torque(self, force: float) -> float:
-        """Torque [N m] that a force [N] turns with; negative where it locks: what lowers the load."""
+        """Torque [N m] produced by a force [N]: F d/2 tan(λ - ρ); below 0 for a self-locking screw: to lower it."""
         return force * self.diameter / 2 * math.tan(self.lead_angle - self.friction_angle)
 
     def turning_force(self, torque: float) -> float:
-        """Force [N] along a steep screw that turns against a torque [N m]; inf where it locks itself.
+        """Force [N] along a steep screw that overcomes a torque [N m]; inf for a self-locking screw.
 
-        The guide of a gripper that must turn as it moves: its pin in a steep groove. Equal to holding_torque backwards.
+        For the guide of a gripper that turns as it moves, with its pin in a steep groove. Inverse of holding_torque.
         """
         return math.inf if self.self_locking else torque / self.holding_torque(1.0)
 
     def buckling_force(self, length: float, modulus: float, ends: str = "clamped-hinged") -> float:
-        """Force [N] at which the core buckles after Euler: c π² E I / l² [Shigley, 4-12].
+        """Euler's buckling force of the core [N]: c π² E I / l² [Shigley, 4-12].
 
-        Valid while its stress stays below half the yield strength
+        length  [m]      modulus  E [Pa]      ends  of `END_FIXITY`. Raises ParameterError for others
+        Valid for stresses below half the yield strength.
         """
         if ends not in END_FIXITY:
             raise ParameterError(f"ends {ends!r}", allowed="one of " + ", ".join(END_FIXITY))
@@ -95,7 +97,7 @@ class Screw:
 
 
 END_FIXITY = {"clamped-free": 0.25, "hinged": 1.0, "clamped-hinged": 2.0, "clamped": 4.0}
-"""Euler's c by the ends [theory; designers take 1.2 for clamped ends that give]."""
+"""Euler's c by the ends [theory; designers use 1.2 for elastic clamped ends]."""
 
 
 def collar_torque(force: float, diameter: float, friction: float) -> float:
@@ -108,9 +110,9 @@ _TRAPEZOIDAL = {8: 1.5, 10: 2, 12: 3, 14: 3, 16: 4, 18: 4, 20: 4, 24: 5, 28: 5, 
 
 
 def trapezoidal(nominal: float, starts: int = 1, friction: float = 0.12) -> Screw:
-    """The Tr screw of a nominal diameter [m] with one start or more; steel on bronze in oil.
+    """The Tr screw of a nominal diameter [m] with one start or more; default friction: steel on bronze in oil.
 
-    Raises ParameterError, naming the nearest, for a diameter that is not preferred.
+    Raises ParameterError with the nearest preferred diameter for another one.
 
     d2 = d - P / 2,   d3 = d - P - 2 ac, ac = 0.15 mm for P 1.5, 0.25 mm up to 5, 0.5 mm above [ISO 2904]
     >>> screw = trapezoidal(0.020)
@@ -122,7 +124,7 @@ def trapezoidal(nominal: float, starts: int = 1, friction: float = 0.12) -> Scre
         raise ParameterError(
             f"no trapezoidal screw of {format_quantity(nominal, 'mm')} in the table",
             allowed=f"the nearest offered is Tr {size}",
-            do="take it, or one of " + " ".join(map(str, _TRAPEZOIDAL)),
+            do="use it, or one of " + " ".join(map(str, _TRAPEZOIDAL)),
         )
     pitch = _TRAPEZOIDAL[size]
     clearance = 0.15 if pitch < 2 else 0.25 if pitch <= 5 else 0.5

@@ -24,7 +24,7 @@ class Section:
     area  [m²]      inertia  second moment of area [m⁴]      torsion  J of Saint-Venant [m⁴]
     bending_modulus W and torsion_modulus Wt [m³]
     corner  stress over the diagonal in W: sqrt 2 of a square, 1 of a round one
-    size    diameter that fatigues alike under reversed bending [m] [Shigley, 6-23 to 6-25]
+    size    diameter of the round bar with equal fatigue in reversed bending [m] [Shigley, 6-23 to 6-25]
     """
 
     area: float
@@ -38,7 +38,7 @@ class Section:
     def equivalent_stress(self, moment: RealField, torque: RealField, *, turning: bool = False) -> FloatArray:
         """Stress [Pa] of a moment and a torque [N m] together.
 
-        turning  the section turns under the moment: then a square's corner, free of torsion, bears sqrt 2 of σ too
+        turning  the section rotates under the moment: then the corner of a square, without torsion, has sqrt 2 σ too
         """
         bending = np.abs(moment) / self.bending_modulus
         shear = np.abs(torque) / self.torsion_modulus
@@ -46,7 +46,7 @@ class Section:
         return np.asarray(np.maximum(both, self.corner * bending) if turning else both)
 
     def twist(self, torque: RealField, length: RealField, shear_modulus: float) -> FloatArray:
-        """Twist [rad] from end to end under a torque throughout; half of it where it is taken off evenly."""
+        """Twist T l / (G J) [rad] of a length [m] under a constant torque [N m]; half of it if evenly distributed."""
         return np.asarray(np.multiply(torque, length) / (shear_modulus * self.torsion))
 
 

@@ -1,6 +1,6 @@
 """Smallest section of a simply supported, uniformly loaded shaft for a slope and a deflection.
 
-The second moment of area that keeps the limit, put into the section's formula (`beam.uniform`). Load w [N/m],
+The least second moment of area for the limit, and the size of the section that has it (`beam.uniform`). Load w [N/m],
 length l [m], modulus E [Pa], slope theta [rad], deflection y [m].                 [thesis 3.1, 3.2, eq. 3.4, 3.5]
 """
 
@@ -13,26 +13,26 @@ from ilmek.units import mm
 STOCK_SIDES = tuple(
     side * mm for side in (20, 22, 25, 28, 30, 32, 35, 40, 45, 50, 55, 60, 65, 70, 75, 80, 90, 100, 110, 120, 130, 150)
 )
-"""Sides of hot rolled square steel bars that dealers keep [m] (a choice from EN 10059)."""
+"""Stock sides of hot rolled square steel bars [m] (a choice from EN 10059)."""
 
 
 def inertia_for_slope(load: float, length: float, modulus: float, slope: float) -> float:
-    """Least second moment of area [m^4] that keeps the slope at the supports: w l^3 / (24 E theta)."""
+    """Least second moment of area [m^4] for a slope at the supports: w l^3 / (24 E theta)."""
     return load * length**3 / (24 * modulus * slope)
 
 
 def inertia_for_deflection(load: float, length: float, modulus: float, deflection: float) -> float:
-    """Least second moment of area [m^4] that keeps the deflection at mid-span: 5 w l^4 / (384 E y)."""
+    """Least second moment of area [m^4] for a deflection at mid-span: 5 w l^4 / (384 E y)."""
     return 5 * load * length**4 / (384 * modulus * deflection)
 
 
 def square_side(inertia: float) -> float:
-    """Side [m] of the square bar of that second moment of area: (12 I)^(1/4)."""
+    """Side [m] of a square bar with a second moment of area [m^4]: (12 I)^(1/4)."""
     return float((12 * inertia) ** 0.25)
 
 
 def tube_outer_radius(inertia: float, inner_radius: float) -> float:
-    """Outer radius [m] of the tube of that second moment of area: (Ri^4 + 4 I / pi)^(1/4)."""
+    """Outer radius [m] of a tube with a second moment of area [m^4]: (Ri^4 + 4 I / pi)^(1/4)."""
     return float((inner_radius**4 + 4 * inertia / math.pi) ** 0.25)
 
 
@@ -49,22 +49,22 @@ POISSON = 0.3
 """Poisson's ratio of steel: G = E / 2.6 [EN 1993-1-1, 3.2.6]."""
 
 SQUARE_TORSION, SQUARE_SHEAR = 0.140577, 0.208165
-"""Of a square bar of side B: J = 0.1406 B^4, largest shear stress T / (0.208 B^3).
+"""Factors of a square bar of side B: J = 0.1406 B^4, largest shear stress T / (0.208 B^3).
 
 [Saint-Venant's series; Timoshenko and Goodier, Theory of Elasticity, torsion of rectangular bars]
 """
 
 
 def square_twist(torque: float, length: float, modulus: float, side: float) -> float:
-    """Twist [rad] from end to end of a square bar driven at one end, its torque [N m] taken off evenly along it.
+    """Twist [rad] of a square bar driven at one end, with the torque [N m] taken off evenly along its length [m].
 
-    T l / (2 G J): half of what the same torque twists at the far end
+    T l / (2 G J): half the twist of the same torque at the far end
     """
     return torque * length / (2 * modulus / (2 + 2 * POISSON) * SQUARE_TORSION * side**4)
 
 
 def side_for_twist(torque: float, length: float, modulus: float, twist: float) -> float:
-    """Least side [m] of the square bar that keeps such a twist [rad]."""
+    """Least side [m] of a square bar for a twist [rad]; see `square_twist`."""
     return math.sqrt(math.sqrt(square_twist(torque, length, modulus, 1.0) / twist))
 
 
@@ -74,5 +74,5 @@ def square_stress(moment: float, torque: float, side: float) -> float:
 
 
 def side_for_strength(moment: float, torque: float, strength: float) -> float:
-    """Least side [m] of the square bar that keeps the strength [Pa]."""
+    """Least side [m] of a square bar for a strength [Pa] under a moment and a torque [N m]."""
     return float(np.cbrt(square_stress(moment, torque, 1.0) / strength))

@@ -1,4 +1,4 @@
-"""Helical compression springs of round wire: rate, stress, buckling, surge, geometry; the lightest for a task.
+"""Helical compression springs of round wire: rate, stress, buckling, surge, geometry; selection.
 
     k = G d⁴ / (8 D³ n),   τ = Kw 8 F D / (π d³),   Kw = (4 C - 1) / (4 C - 4) + 0.615 / C,   C = D / d
     f = sqrt(k / m) / 2,   no buckling for α L0 / D < π sqrt(2 (E - G) / (2 G + E)), about 2.6
@@ -17,7 +17,7 @@ from ilmek.units import GPa, MPa, mm
 
 @dataclass(frozen=True, slots=True)
 class Wire:
-    """Spring wire: tensile strength A / d^power [Pa, d in mm], share borne in shear, G, E [Pa], density [kg/m³]."""
+    """Spring wire: tensile strength A / d^power [Pa, d in mm], its allowed share in shear, G, E, density [kg/m³]."""
 
     name: str
     strength: float
@@ -28,7 +28,7 @@ class Wire:
     density: float
 
     def allowed(self, diameter: float) -> float:
-        """Shear stress [Pa] that a wire of a diameter [m] bears at rest."""
+        """Allowed static shear stress [Pa] of a wire of a diameter [m]."""
         return self.share * self.strength * math.exp(-self.power * math.log(diameter / mm))
 
 
@@ -77,7 +77,7 @@ class CompressionSpring:
 
     @property
     def rate(self) -> float:
-        """K [N/m]."""
+        """Rate k [N/m]."""
         return WIRES[self.wire].shear_modulus * self.wire_diameter**4 / (8 * self.diameter**3 * self.coils)
 
     @property
@@ -86,12 +86,12 @@ class CompressionSpring:
         return (4 * self.index - 1) / (4 * self.index - 4) + 0.615 / self.index
 
     def stress(self, force: float) -> float:
-        """Largest shear stress in the wire [Pa]."""
+        """Largest shear stress τ in the wire [Pa] under a force [N]."""
         return self.wahl * 8 * force * self.diameter / (math.pi * self.wire_diameter**3)
 
     @property
     def allowed(self) -> float:
-        """Shear stress [Pa] that its wire bears."""
+        """Allowed static shear stress of the wire [Pa]."""
         return WIRES[self.wire].allowed(self.wire_diameter)
 
     @property
@@ -101,52 +101,56 @@ class CompressionSpring:
 
     @property
     def solid_stress(self) -> float:
-        """Shear stress pressed solid [Pa]."""
+        """Shear stress at the solid length [Pa]."""
         return self.stress(self.rate * (self.free_length - self.solid_length))
 
     @property
     def mass(self) -> float:
-        """Of the active coils [kg]: a third of it moves along."""
+        """Mass of the active coils [kg]; a third of it moves with the load."""
         return WIRES[self.wire].density * math.pi**2 / 4 * self.wire_diameter**2 * self.diameter * self.coils
 
     @property
     def surge(self) -> float:
-        """Its own lowest frequency between plates [Hz]: to be 15 to 20 times that of its motion."""
+        """Lowest natural frequency between plates [Hz]; should be 15 to 20 times the frequency of the motion."""
         return math.sqrt(self.rate / self.mass) / 2
 
     def fatigue_safety(self, least: float, most: float, *, peened: bool = False) -> float:
-        """Safety against breaking in the long run between two forces [N]: Zimmerli's amplitude over that of the stress.
+        """Safety against fatigue between two forces [N]: Zimmerli's amplitude over that of the stress.
 
-        241 MPa, 398 MPa shot-peened, of all spring steels below 10 mm and whatever the mean [Shigley, eq. 10-28, 10-29]
+        241 MPa, 398 MPa shot-peened, for all spring steels below 10 mm and any mean stress [Shigley, eq. 10-28, 10-29]
         """
         amplitude = self.stress(abs(most - least) / 2)
         return (ZIMMERLI_PEENED if peened else ZIMMERLI) / amplitude if amplitude > 0 else math.inf
 
     def buckling_deflection(self, end: float = 0.5) -> float:
-        """Deflection at which it buckles [m]; inf where it never does. `end` α: 0.5 parallel plates, 1 pivoted, 2 free.
+        """Deflection at which it buckles [m]; inf for a stable spring. `end` α: 0.5 parallel plates, 1 pivoted, 2 free.
 
         y = L0 C1 (1 - sqrt(1 - C2 (D / α L0)²)), C1 = E / 2 (E - G), C2 = 2 π² (E - G) / (2 G + E) [Shigley, 10-10]
         """
         wire = WIRES[self.wire]
-        apart = wire.modulus - wire.shear_modulus
+        stiffness_difference = wire.modulus - wire.shear_modulus
         inside = (
             1
             - 2
             * math.pi**2
-            * apart
+            * stiffness_difference
             / (2 * wire.shear_modulus + wire.modulus)
             * (self.diameter / (end * self.free_length)) ** 2
         )
-        return self.free_length * wire.modulus / (2 * apart) * (1 - math.sqrt(inside)) if inside > 0 else math.inf
+        return (
+            self.free_length * wire.modulus / (2 * stiffness_difference) * (1 - math.sqrt(inside))
+            if inside > 0
+            else math.inf
+        )
 
 
 INDICES = tuple(half / 2 for half in range(8, 33))
-"""Of coils that wind well: 4 to 16."""
+"""Indices of springs that can be wound well: 4 to 16."""
 
 ZIMMERLI, ZIMMERLI_PEENED = 241 * MPa, 398 * MPa
 
 CLASH = 0.15
-"""Travel left to the solid length, of the whole deflection [Shigley, 10-3]."""
+"""Remaining travel to the solid length over the whole deflection [Shigley, 10-3]."""
 
 
 def choose_spring(
@@ -162,12 +166,12 @@ def choose_spring(
     end: float = 0.5,
     fatigue: float = 0.0,
 ) -> CompressionSpring | None:
-    """The lightest spring of a rate [N/m] with a preload [N] and a travel [m] from there; None where none does.
+    """The lightest spring of a rate [N/m] with a preload [N] and a further travel [m]; None if none fits.
 
-    outer, inner  the room for it across [m]      length  room when preloaded [m]
-    surge         least own frequency [Hz]        end     as of `buckling_deflection`
-    fatigue       least safety in the long run, over the travel
-    It bears being pressed solid, has three active coils or more, one of `INDICES`, and does not buckle.
+    outer, inner  greatest and least diameter [m]     length  greatest length at the preload [m]
+    surge         least natural frequency [Hz]        end     as for `buckling_deflection`
+    fatigue       least safety against fatigue over the travel
+    The spring is safe at its solid length, has three active coils or more, an index of `INDICES`, and does not buckle.
     Raises ParameterError for a wire that is not in the table.
 
     >>> spring = choose_spring(2000.0, 20.0, 0.02, inner=0.01)

@@ -1,9 +1,9 @@
-"""Round steel tubes that dealers keep, and the properties of their sections.
+"""Stock round steel tubes, and the properties of their sections.
 
     I = π (D⁴ - d⁴) / 64,   J = 2 I,   W = 2 I / D,   A = π (D² - d²) / 4
 
 D outer, d inner diameter. Hot finished hollow sections after EN 10210-2, and cold drawn precision tubes after EN
-10305-1 in even diameters, the thesis' 140 x 5 mm among them: a choice of the standards' sizes.
+10305-1 in round diameters, among them the thesis' 140 x 5 mm: a choice of the standards' sizes.
 
 >>> tube = find_tube("140x5")
 >>> tube.outer_radius, tube.standard, round(tube.inertia * 1e8, 2)
@@ -28,7 +28,7 @@ class Tube:
 
     @property
     def name(self) -> str:
-        """Outer diameter x wall in millimetres, as dealers write it."""
+        """Outer diameter x wall in millimetres."""
         return f"{self.outer / mm:.5g}x{self.wall / mm:.5g}"
 
     @property
@@ -53,7 +53,7 @@ class Tube:
 
     @property
     def modulus(self) -> float:
-        """Section modulus [m³]: bending stress = M / W; torsion has twice of it."""
+        """Section modulus [m³]: bending stress = M / W; twice the value for torsion."""
         return self.inertia / self.outer_radius
 
     def mass(self, density: float = 7850.0) -> float:
@@ -90,45 +90,45 @@ _WRITTEN = re.compile(r"\s*(\d+(?:\.\d+)?)\s*(?:mm)?\s*[x×*]\s*(\d+(?:\.\d+)?)\
 
 
 def find_tube(name: str) -> Tube:
-    """The tube written as outer diameter x wall in mm; ParameterError, naming the nearest, where it is no stock size.
+    """The tube of a name, outer diameter x wall in mm. Raises ParameterError with the nearest one for an unknown size.
 
     >>> find_tube("139.7 x 5 mm").name
     '139.7x5'
     """
-    read = _WRITTEN.match(name)
-    if read is None:
+    match = _WRITTEN.match(name)
+    if match is None:
         raise ParameterError(
             f"{name!r} is no tube", allowed="outer diameter x wall in millimetres", do="write it like 140x5"
         )
-    outer, wall = float(read[1]) * mm, float(read[2]) * mm
-    near = min(TUBES.values(), key=lambda tube: _apart(tube, outer, wall))
-    if _apart(near, outer, wall) > 1e-6:
+    outer, wall = float(match[1]) * mm, float(match[2]) * mm
+    nearest = min(TUBES.values(), key=lambda tube: _size_difference(tube, outer, wall))
+    if _size_difference(nearest, outer, wall) > 1e-6:
         raise ParameterError(
             f"no tube {name.strip()!r} in the table",
-            allowed=f"the nearest offered is {near.name!r}",
-            do=f"take it, or one of the {len(TUBES)} others",
+            allowed=f"the nearest offered is {nearest.name!r}",
+            do=f"use it, or one of the {len(TUBES)} others",
         )
-    return near
+    return nearest
 
 
 def lightest_tube(inertia: float, *, modulus: float = 0.0, inner_radius: float = 0.0, wall: float = 0.0) -> Tube | None:
-    """The lightest stock tube with so much second moment of area [m⁴]; None beyond the largest.
+    """The lightest stock tube with a second moment of area [m⁴]; None beyond the largest.
 
     modulus  least section modulus [m³]      inner_radius  least [m]      wall  least [m]
     >>> lightest_tube(480e-8, inner_radius=0.065, wall=0.005).name
     '140x5'
     """
 
-    def enough(tube: Tube) -> bool:
+    def is_sufficient(tube: Tube) -> bool:
         wide = tube.inner_radius >= inner_radius * _LEAST and tube.wall >= wall * _LEAST
         return wide and tube.inertia >= inertia * _LEAST and tube.modulus >= modulus * _LEAST
 
-    return min(filter(enough, TUBES.values()), key=lambda tube: tube.area, default=None)
+    return min(filter(is_sufficient, TUBES.values()), key=lambda tube: tube.area, default=None)
 
 
 _LEAST = 1 - 1e-9
 
 
-def _apart(tube: Tube, outer: float, wall: float) -> float:
-    """How far a size is from a stock tube's: relative in both measures, the diameter counting double."""
+def _size_difference(tube: Tube, outer: float, wall: float) -> float:
+    """Relative difference of a size from a stock tube's; the diameter has weight 2, the wall 1."""
     return 2 * abs(outer / tube.outer - 1) + abs(wall / tube.wall - 1)

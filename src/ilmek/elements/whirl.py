@@ -1,11 +1,11 @@
-"""Critical speeds of a shaft: natural frequencies of bending, with masses on it, on any supports.
+"""Critical speeds of a shaft: natural frequencies of bending, with masses, on any supports.
 
     uniform, alone:   w = (βl)² sqrt(E I / m') / l²,   βl = n π (hinged), cos βl cosh βl = -1 (cantilever), +1 (clamped)
     Dunkerley:  1/w² ≈ Σ 1/wi² (too low)          Rayleigh:  w² ≈ g Σ m y / Σ m y² (too high)
 
 `frequencies` is the finite element solution: cubic beams with their consistent mass. Its error falls with the fourth
-power of their length, (π / n)⁴ / 1440 of n in a half wave: 2e-7 of the first mode of one span. Gyroscopic moments are
-left out: they raise the critical speed of a forward whirl.
+power of their length, (π / n)⁴ / 1440 for n elements in a half wave: 2e-7 for the first mode of one span. Gyroscopic
+moments are neglected: they raise the critical speed of a forward whirl.
                                               [Rao, Mechanical Vibrations, 8.5; Shigley, 7-6; Przemieniecki, 11.3]
 """
 
@@ -28,7 +28,7 @@ _ELEMENTS = 24
 
 @dataclass(frozen=True, slots=True)
 class Mass:
-    """A mass [kg] on the shaft at a place [m]."""
+    """A mass [kg] on the shaft at a position [m]."""
 
     at: float
     mass: float
@@ -58,26 +58,29 @@ def uniform_root(mode: int, ends: str) -> float:
 
 
 def uniform_speed(mode: int, ends: str, length: float, rigidity: float, linear_density: float) -> float:
-    """Critical speed [rad/s] of a shaft alone, of its mode: (βl)² sqrt(E I / m') / l²."""
+    """Critical speed [rad/s] of a uniform shaft without masses: (βl)² sqrt(E I / m') / l².
+
+    mode, ends  as for `uniform_root`      length  [m]      rigidity  E I [N m²]      linear_density  m' [kg/m]
+    """
     return (uniform_root(mode, ends) / length) ** 2 * math.sqrt(rigidity / linear_density)
 
 
 def frequencies(
     beam: Beam, rigidity: float, linear_density: float, masses: Sequence[Mass] = (), *, count: int = 3
 ) -> FloatArray:
-    """The lowest natural frequencies [rad/s], which are critical speeds too.
+    """The lowest natural frequencies [rad/s], equal to the critical speeds, ascending, (count,) or fewer.
 
     beam            its supports and clamped ends; loads do not matter      rigidity  E I [N m²]
     linear_density  [kg/m]; 0 for a shaft without mass, which then needs masses
     """
     _check(beam, linear_density, masses)
     nodes = _nodes(beam, masses)
-    place = {float(at): number for number, at in enumerate(nodes)}
+    index = {float(at): number for number, at in enumerate(nodes)}
     stiffness, inertia = _assembled(nodes, rigidity, linear_density)
     for mass in masses:
-        inertia[2 * place[mass.at], 2 * place[mass.at]] += mass.mass
-    held = [2 * place[at] for at in beam.supports] + [2 * place[at] + 1 for at in beam.clamped]
-    free = np.setdiff1d(np.arange(2 * len(nodes)), held)
+        inertia[2 * index[mass.at], 2 * index[mass.at]] += mass.mass
+    fixed = [2 * index[at] for at in beam.supports] + [2 * index[at] + 1 for at in beam.clamped]
+    free = np.setdiff1d(np.arange(2 * len(nodes)), fixed)
     lower = np.linalg.cholesky(stiffness[np.ix_(free, free)])
     reduced = np.linalg.solve(lower, np.linalg.solve(lower, inertia[np.ix_(free, free)]).T)
     slowness = np.linalg.eigvalsh((reduced + reduced.T) / 2)[::-1][:count]
@@ -86,12 +89,12 @@ def frequencies(
 
 def dunkerley(beam: Beam, rigidity: float, masses: Sequence[Mass]) -> float:
     """Lower bound of the first critical speed [rad/s] of masses on a shaft without mass: 1 / w² = Σ m δ."""
-    yields = (float(_deflections(beam, rigidity, [mass], per=1.0)[0].real) for mass in masses)
-    return 1 / math.sqrt(sum(mass.mass * give for mass, give in zip(masses, yields, strict=True)))
+    compliances = (float(_deflections(beam, rigidity, [mass], per=1.0)[0].real) for mass in masses)
+    return 1 / math.sqrt(sum(mass.mass * compliance for mass, compliance in zip(masses, compliances, strict=True)))
 
 
 def rayleigh(beam: Beam, rigidity: float, masses: Sequence[Mass]) -> float:
-    """Upper bound of the first critical speed [rad/s] of masses on a shaft without mass, from their static line."""
+    """Upper bound of the first critical speed [rad/s] of masses on a massless shaft, from static deflections."""
     weights = np.array([mass.mass for mass in masses])
     line = np.abs(_deflections(beam, rigidity, masses, per=None))
     return float(np.sqrt(GRAVITY * np.sum(weights * line) / np.sum(weights * line**2)))
@@ -115,7 +118,7 @@ def _deflections(beam: Beam, rigidity: float, masses: Sequence[Mass], *, per: fl
 
 
 def _nodes(beam: Beam, masses: Sequence[Mass]) -> FloatArray:
-    """Ends, supports and masses, and places between them, a length / 24 or less apart and six or more to a gap."""
+    """Ends, supports and masses, with nodes between them: spacing length / 24 or less, six or more elements per gap."""
     fixed = sorted({0.0, beam.length, *beam.supports, *(mass.at for mass in masses)})
     parts = [max(6, math.ceil(_ELEMENTS * (right - left) / beam.length)) for left, right in pairwise(fixed)]
     made = [np.linspace(left, right, n + 1)[:-1] for (left, right), n in zip(pairwise(fixed), parts, strict=True)]

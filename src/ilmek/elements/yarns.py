@@ -1,4 +1,4 @@
-"""Yarns: what a calculation needs of their material, and the usual warp of a carpet.
+"""Yarns: properties of their materials, and the usual warp of a carpet.
 
 A yarn of linear density mu [kg/m] has
 
@@ -45,7 +45,7 @@ class YarnMaterial:
     def stiffness(self, linear_density: float) -> float:
         """Force over strain EA [N] of a yarn of a linear density [kg/m].
 
-        Raises ParameterError for a material whose stiffness is not known.
+        Raises ParameterError for a material of unknown stiffness.
 
         >>> round(COTTON.stiffness(857e-6), 1)
         1799.7
@@ -72,7 +72,7 @@ WOOL = YarnMaterial(
     source="strength of the fibres: Morton and Hearle, Physical Properties of Textile Fibres; packing of a soft "
     "woollen yarn",
 )
-"""Soft woollen yarn: pile, and the warp and weft of a woollen ground. All its fibres together bear 12 cN/tex."""
+"""Soft woollen yarn: pile, warp and weft of a woollen ground. Strength of all its fibres together: 12 cN/tex."""
 
 COTTON = YarnMaterial(
     name="cotton",

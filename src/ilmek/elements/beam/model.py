@@ -1,8 +1,8 @@
-"""A beam on two supports or more, anywhere along it, with loads across it in two planes.
+"""A beam on two or more supports with transverse loads in two planes.
 
-A load across the beam is a complex number: its real part lies in one plane (say downwards, the weight), its imaginary
-part in the other (say horizontally, the pull of the warps). So are shear, moment, slope and deflection, and both
-planes are solved at once; the supports give way in neither. Places x [m] are reckoned from the beam's left end.
+A transverse load is a complex number: its real part is in one plane (for example vertical, the weight), its imaginary
+part in the other (for example horizontal, the pull of the warps). So are shear, moment, slope and deflection; both
+planes are solved together. The supports are rigid in both. Positions x [m] are measured from the beam's left end.
 
 >>> simple = Beam(1.2, (0.0, 1.2), (LineLoad(0.0, 1.2, 7500.0),))
 >>> simple.weight
@@ -18,7 +18,7 @@ from ilmek.units import format_quantity
 
 @dataclass(frozen=True, slots=True)
 class PointLoad:
-    """A force [N] at a place [m]; positive deflects the beam positively."""
+    """A force [N] at a position [m], positive in the direction of positive deflection."""
 
     at: float
     force: complex
@@ -26,7 +26,7 @@ class PointLoad:
 
 @dataclass(frozen=True, slots=True)
 class LineLoad:
-    """A load per length [N/m] from `start` to `end` [m], even, or changing linearly from `first` to `last`."""
+    """A load per length [N/m] from `start` to `end` [m], constant or linear from `first` to `last`."""
 
     start: float
     end: float
@@ -39,18 +39,18 @@ class LineLoad:
         return 0.0 if self.last is None else (self.last - self.first) / (self.end - self.start)
 
     def value(self, x: float) -> complex:
-        """Load per length [N/m] at a place between its ends."""
+        """Load per length [N/m] at a position x [m] between its ends."""
         return self.first + self.gradient * (x - self.start)
 
     @property
     def total(self) -> complex:
-        """Its whole force [N]."""
+        """Resultant force [N]."""
         return (self.end - self.start) * (self.first + (self.first if self.last is None else self.last)) / 2
 
 
 @dataclass(frozen=True, slots=True)
 class Couple:
-    """A couple [N m] at a place [m]; positive turns the beam to a positive slope there."""
+    """A couple [N m] at a position [m], positive in the direction of positive slope."""
 
     at: float
     moment: complex
@@ -61,11 +61,11 @@ Load: TypeAlias = PointLoad | LineLoad | Couple
 
 @dataclass(frozen=True, slots=True)
 class Beam:
-    """A beam of one section throughout.
+    """A beam of constant section.
 
-    length    [m]      supports  places of its hinged supports [m], rising      loads  across it
-    clamped   which of the beam's own ends, 0 or length, is held against turning too; it must be a support
-    Raises ParameterError for supports or loads off the beam, and for a beam that can fall or turn.
+    length   [m]      supports  positions of its hinged supports [m], ascending      loads  transverse
+    clamped  the ends of the beam, 0 or length, with a fixed slope too; they must be supports
+    Raises ParameterError for supports or loads off the beam, and for an insufficiently supported beam.
     """
 
     length: float
@@ -78,14 +78,16 @@ class Beam:
             raise ParameterError(f"a beam {format_quantity(self.length, 'mm')} long", allowed="more than 0")
         if any(after <= before for before, after in zip(self.supports, self.supports[1:], strict=False)):
             raise ParameterError(
-                f"supports at {self._places(self.supports)}", allowed="rising places", do="sort them, each once"
+                f"supports at {self._positions(self.supports)}",
+                allowed="ascending positions",
+                do="sort them, each once",
             )
         self._check_on_beam()
         if not set(self.clamped) <= {0.0, self.length} & set(self.supports):
             raise ParameterError(
-                f"a beam clamped at {self._places(self.clamped)}",
+                f"a beam clamped at {self._positions(self.clamped)}",
                 allowed=f"0 mm or {format_quantity(self.length, 'mm')}, where a support is",
-                do="put a support there, or two supports close together elsewhere",
+                do="add a support at the end, or two supports close together elsewhere",
             )
         if len(self.supports) + len(self.clamped) < 2:
             raise ParameterError(
@@ -97,7 +99,7 @@ class Beam:
         for load in self.loads:
             spans.append((load.start, load.end) if isinstance(load, LineLoad) else (load.at, load.at))
             if isinstance(load, LineLoad) and not load.start < load.end:
-                raise ParameterError(f"a line load from {self._places(spans[-1])}", allowed="a start before its end")
+                raise ParameterError(f"a line load from {self._positions(spans[-1])}", allowed="a start before its end")
         for off in (at for span in spans for at in span if not 0 <= at <= self.length):
             raise ParameterError(
                 f"a support or load at {format_quantity(off, 'mm')}",
@@ -113,9 +115,9 @@ class Beam:
 
     @property
     def transverse(self) -> tuple[PointLoad | LineLoad, ...]:
-        """The loads that are forces."""
+        """The loads except couples."""
         return tuple(load for load in self.loads if not isinstance(load, Couple))
 
     @staticmethod
-    def _places(places: tuple[float, ...]) -> str:
-        return ", ".join(format_quantity(at, "mm") for at in places)
+    def _positions(positions: tuple[float, ...]) -> str:
+        return ", ".join(format_quantity(at, "mm") for at in positions)

@@ -1,10 +1,10 @@
-"""A loaded beam's shear, moment, slope and deflection: exact everywhere, and where they are largest.
+"""Shear, moment, slope and deflection of a loaded beam: exact values, and extremes.
 
     E I y'''' = q,   M = -E I y'',   V = M' = -E I y'''
 
-Between breaks of the load E I y is a polynomial of the fifth degree at most (the load being linear), so a value at any
-place and the largest values are exact: these lie at ends of pieces or where the derivative of |y|² = conj(y) y is 0.
-All of them are complex as the loads are (see `model`). [Gere and Goodno, Mechanics of Materials, 9.2 to 9.4]
+Between breaks of the load E I y is a polynomial of the fifth degree at most (the load being linear), so values at any
+position and extremes are exact: extremes are at ends of pieces or at zeros of the derivative of |y|² = conj(y) y.
+All values are complex like the loads (see `model`). [Gere and Goodno, Mechanics of Materials, 9.2 to 9.4]
 """
 
 import math
@@ -23,7 +23,7 @@ _SHEAR, _MOMENT, _SLOPE, _DEFLECTION = 3, 2, 1, 0
 
 @dataclass(frozen=True, slots=True)
 class BeamExtreme:
-    """The largest value by its magnitude, and its place [m]; `value` has the planes' parts and signs."""
+    """The value of greatest magnitude, and its position [m]; `value` has the parts and signs of both planes."""
 
     at: float
     value: complex
@@ -40,8 +40,8 @@ class BeamResult:
 
     breaks        ends of the pieces [m], one more than pieces
     coefficients  E I y of each piece by powers of the distance from its left end [N m³, N m², ...]
-    reactions     of the supports on the beam, against the load [N]
-    clamps        of the clamped ends on the beam, against its turning, in the beam's order of `clamped` [N m]
+    reactions     forces of the supports on the beam, positive against the load [N]
+    clamps        moments of the clamped ends on the beam, in the order of `clamped` [N m]
     """
 
     beam: Beam
@@ -51,19 +51,19 @@ class BeamResult:
     clamps: tuple[complex, ...]
 
     def shear(self, x: RealField) -> ComplexArray:
-        """V [N] at places [m]: the sum of reactions less loads on the left; at a jump the value on its right."""
+        """Shear force V [N] at positions [m]: reactions minus loads on the left; at a jump the value on its right."""
         return self._at(x, _SHEAR, -1.0)
 
     def moment(self, x: RealField) -> ComplexArray:
-        """M [N m] at places [m]; positive stretches the side to which a positive load pushes."""
+        """Bending moment M [N m] at positions [m]; positive: tension on the side of positive deflection."""
         return self._at(x, _MOMENT, -1.0)
 
     def slope(self, x: RealField, rigidity: float) -> ComplexArray:
-        """Y' [rad] at places [m] of a beam of rigidity E I [N m²]."""
+        """Slope y' [rad] at positions [m] for a rigidity E I [N m²]."""
         return self._at(x, _SLOPE, 1 / rigidity)
 
     def deflection(self, x: RealField, rigidity: float) -> ComplexArray:
-        """Y [m] at places [m] of a beam of rigidity E I [N m²]."""
+        """Deflection y [m] at positions [m] for a rigidity E I [N m²]."""
         return self._at(x, _DEFLECTION, 1 / rigidity)
 
     @property
@@ -77,21 +77,21 @@ class BeamResult:
         return self._extreme(_MOMENT, -1.0)
 
     def slope_max(self, rigidity: float) -> BeamExtreme:
-        """Largest slope [rad] anywhere."""
+        """Largest slope [rad] for a rigidity E I [N m²]."""
         return self._extreme(_SLOPE, 1 / rigidity)
 
     def slope_at_supports(self, rigidity: float) -> BeamExtreme:
-        """Largest slope [rad] in a support: what its bearing must bear."""
+        """Largest slope [rad] at a support, relevant for its bearing, for a rigidity E I [N m²]."""
         slopes = self.slope(np.array(self.beam.supports), rigidity)
         worst = int(np.argmax(np.abs(slopes)))
         return BeamExtreme(self.beam.supports[worst], complex(slopes[worst]))
 
     def deflection_max(self, rigidity: float) -> BeamExtreme:
-        """Largest deflection [m]."""
+        """Largest deflection [m] for a rigidity E I [N m²]."""
         return self._extreme(_DEFLECTION, 1 / rigidity)
 
     def rigidity_for(self, *, slope: float = math.inf, deflection: float = math.inf) -> float:
-        """Least E I [N m²] that keeps a slope in the supports [rad] and a deflection anywhere [m].
+        """Least E I [N m²] for an allowed slope at the supports [rad] and an allowed deflection [m].
 
         >>> from ilmek.elements.beam.model import LineLoad
         >>> from ilmek.elements.beam.solve import bend
@@ -111,12 +111,12 @@ class BeamResult:
         rows, widths = derived(self.coefficients, order), np.diff(self.breaks)
         scaled = rows * widths[:, None] ** np.arange(rows.shape[1])
         found = BeamExtreme(0.0, 0j)
-        for piece in _worth(scaled):
-            places = np.concatenate(([0.0, 1.0], _turns(scaled[piece])))
-            values = _horner(scaled[piece], places)
+        for piece in _candidates(scaled):
+            shares = np.concatenate(([0.0, 1.0], _stationary(scaled[piece])))
+            values = _horner(scaled[piece], shares)
             worst = int(np.argmax(np.abs(values)))
             if abs(values[worst]) > found.size * (1 + 1e-12):
-                found = BeamExtreme(float(self.breaks[piece] + widths[piece] * places[worst]), complex(values[worst]))
+                found = BeamExtreme(float(self.breaks[piece] + widths[piece] * shares[worst]), complex(values[worst]))
         return BeamExtreme(found.at, found.value * factor)
 
 
@@ -135,16 +135,16 @@ def _horner(coefficients: NumberArray, x: FloatArray) -> ComplexArray:
     return value
 
 
-def _worth(scaled: NumberArray) -> IntArray:
-    """The pieces that can hold the largest value: |p| <= its ends' + max |p''| / 8, against the largest at an end."""
+def _candidates(scaled: NumberArray) -> IntArray:
+    """The pieces that may have the largest value, by |p| <= max at ends + max |p''| / 8."""
     powers = np.arange(scaled.shape[1])
     ends = np.maximum(np.abs(scaled[:, 0]), np.abs(scaled.sum(axis=1)))
     above = np.abs(scaled) @ (powers * (powers - 1)) / 8
     return np.flatnonzero(ends + above >= np.max(ends) * (1 - 1e-12))
 
 
-def _turns(row: ComplexArray) -> FloatArray:
-    """Where |p| is stationary inside (0, 1): roots of Re(conj(p) p')."""
+def _stationary(row: ComplexArray) -> FloatArray:
+    """Stationary points of |p| inside (0, 1): roots of Re(conj(p) p')."""
     parts = [(part, derived(part, 1)) for part in (row.real, row.imag) if np.any(part)]
     product = sum((np.convolve(part, slope) for part, slope in parts), np.zeros(1))
     size = float(np.max(np.abs(product)))

@@ -1,11 +1,11 @@
-"""Solving a beam: moments over its supports, then the pieces of its line.
+"""Solution of a beam: moments over its supports, then the pieces of its deflection curve.
 
     M₋ l + 2 M₀ (l + l') + M₊ l' = -6 (B + A'),   A = Σ P a b (l + b) / 6 l,   B = Σ P a b (l + a) / 6 l
 
-l, l' spans left and right of a support, M₋, M₀, M₊ moments over it and its neighbours; A and B slopes x E I that the
-loads of a span give its left and right end as a simple beam, a load P standing a from the left and b from the right.
-A clamped end has no span beyond it. The equations stay well conditioned whatever the number of supports, and where
-loads crowd.                          [theorem of three moments, Clapeyron; Timoshenko, Strength of Materials I, 46]
+l, l' spans left and right of a support, M₋, M₀, M₊ moments over it and its neighbours; A and B the slopes x E I at the
+left and right end of a span as a simple beam, with loads P at a from the left and b from the right. A clamped end has
+no span beyond it. The equations are well conditioned for any number of supports and any density of loads.
+                                          [theorem of three moments, Clapeyron; Timoshenko, Strength of Materials I, 46]
 """
 
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.elements.beam.model import Beam, Couple, LineLoad, PointLoad
 from ilmek.elements.beam.result import DEGREE, BeamResult, derived
 
-_GAUSS = tuple((float(place), float(weight)) for place, weight in zip(*np.polynomial.legendre.leggauss(3), strict=True))
+_GAUSS = tuple((float(node), float(weight)) for node, weight in zip(*np.polynomial.legendre.leggauss(3), strict=True))
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,16 +33,16 @@ class BeamSegment:
 
     @property
     def length(self) -> float:
-        """[m]."""
+        """Length [m]."""
         return self.end - self.start
 
     def forces(self) -> Iterator[tuple[float, complex]]:
-        """Distance from the left end, and force; a line load stands as three."""
+        """Distance from the left end [m], and force [N]; a line load counts as three forces."""
         yield from ((load.at - self.start, load.force) for load in self.points)
         for load in self.lines:
             half, middle = (load.end - load.start) / 2, (load.end + load.start) / 2
-            for place, weight in _GAUSS:
-                x = middle + half * place
+            for node, weight in _GAUSS:
+                x = middle + half * node
                 yield x - self.start, weight * half * load.value(x)
 
     def total(self) -> complex:
@@ -54,11 +54,11 @@ class BeamSegment:
         return sum((couple.moment for couple in self.couples), 0j)
 
     def moment(self) -> complex:
-        """Moment at its right end of its loads, its left end being free [N m]."""
+        """Moment of its loads at its right end, with a free left end [N m]."""
         return self.turning() - sum((force * (self.length - a) for a, force in self.forces()), 0j)
 
     def balancing(self) -> complex:
-        """Moment at its left end that balances its loads, its right end being free [N m]."""
+        """Moment at its left end that balances its loads, with a free right end [N m]."""
         return -self.turning() - sum((force * a for a, force in self.forces()), 0j)
 
     def slopes(self) -> tuple[complex, complex]:
@@ -75,7 +75,7 @@ class BeamSegment:
 
 
 def parts_of(beam: Beam) -> list[BeamSegment]:
-    """Left overhang, spans, right overhang; overhangs may be of no length. A load over a support is right of it."""
+    """Left overhang, spans, right overhang; overhangs may be empty. A load over a support is in the right part."""
     ends = list(pairwise((0.0, *beam.supports, beam.length)))
     return [_part(beam, start, end, last=number == len(ends) - 1) for number, (start, end) in enumerate(ends)]
 
@@ -95,7 +95,7 @@ def _part(beam: Beam, start: float, end: float, *, last: bool) -> BeamSegment:
 
 
 def bend(beam: Beam) -> BeamResult:
-    """Reactions and the exact line of a beam under its loads.
+    """Reactions and the exact deflection curve of a beam under its loads [theorem of three moments].
 
     >>> from ilmek.elements.beam.model import LineLoad
     >>> bent = bend(Beam(2.0, (0.0, 1.0, 2.0), (LineLoad(0.0, 2.0, 8.0),)))
@@ -106,7 +106,7 @@ def bend(beam: Beam) -> BeamResult:
     over = _moments(beam, parts)
     starts = _starts(parts, over)
     lines = [_Line(part, moment, shear) for part, (moment, shear) in zip(parts, starts, strict=True)]
-    _hang(lines)
+    _join(lines)
     leaving = [shear - part.total() for part, (_, shear) in zip(parts, starts, strict=True)]
     reactions = tuple(after - before for before, (_, after) in zip(leaving, starts[1:], strict=False))
     clamps = tuple(complex(-over[0] if at == 0 else over[-1] - parts[-1].balancing()) for at in beam.clamped)
@@ -134,7 +134,7 @@ def _moments(beam: Beam, parts: list[BeamSegment]) -> ComplexArray:
 def _beside(
     row: int, spans: list[BeamSegment], slopes: list[tuple[complex, complex]]
 ) -> Iterator[tuple[BeamSegment, int, complex]]:
-    """The spans left and right of a support, with the number of the support beyond and the slope here."""
+    """The spans left and right of a support, with the index of the next support and the slope at this one."""
     if row > 0:
         yield spans[row - 1], row - 1, slopes[row - 1][1]
     if row < len(spans):
@@ -142,19 +142,19 @@ def _beside(
 
 
 def _starts(parts: list[BeamSegment], over: ComplexArray) -> list[tuple[complex, complex]]:
-    """Moment and shear at the left end of each part, before the loads that stand there."""
+    """Moment and shear at the left end of each part, before the loads at this end."""
     spans = zip(parts[1:-1], over[:-1], over[1:], strict=True)
     within = [(complex(first), complex(last - first - span.moment()) / span.length) for span, first, last in spans]
     return [(0j, 0j), *within, (parts[-1].balancing(), parts[-1].total())]
 
 
 class _Line:
-    """The line of one part: right ends and coefficients of its pieces, at first with neither deflection nor slope."""
+    """The curve of one part: right ends and coefficients of its pieces; initially zero at its left."""
 
     def __init__(self, part: BeamSegment, moment: complex, shear: complex) -> None:
-        places = {part.start, part.end} | {at for load in part.lines for at in (load.start, load.end)}
-        places |= {load.at for load in part.points} | {couple.at for couple in part.couples}
-        lefts = sorted(places)
+        ends = {part.start, part.end} | {at for load in part.lines for at in (load.start, load.end)}
+        ends |= {load.at for load in part.points} | {couple.at for couple in part.couples}
+        lefts = sorted(ends)
         self.length = part.length
         self.lefts, self.rights = [left - part.start for left in lefts[:-1]], lefts[1:]
         self.rows: list[ComplexArray] = []
@@ -169,8 +169,8 @@ class _Line:
             self.rows.append(row)
             self.deflection, self.slope, moment, shear = _carried(row, right - left)
 
-    def lay(self, deflection: complex, slope: complex) -> None:
-        """Give the part's left end a deflection and a slope."""
+    def shift(self, deflection: complex, slope: complex) -> None:
+        """Add a deflection and a slope at the part's left end."""
         for left, row in zip(self.lefts, self.rows, strict=True):
             row[0] += deflection + slope * left
             row[1] += slope
@@ -185,11 +185,11 @@ def _carried(row: ComplexArray, width: float) -> tuple[complex, complex, complex
     return y, slope, -bend, -shear
 
 
-def _hang(lines: list[_Line]) -> None:
-    """Lay every part so that no support deflects and the line has no kink; a clamped end has no slope."""
+def _join(lines: list[_Line]) -> None:
+    """Shift every part for zero deflection at the supports and a continuous slope; a clamped end has zero slope."""
     left, *spans, right = lines
     for span in spans:
-        span.lay(0j, -span.deflection / span.length)
+        span.shift(0j, -span.deflection / span.length)
     start = complex(spans[0].rows[0][1]) if spans else 0j
-    right.lay(0j, spans[-1].slope if spans else 0j)
-    left.lay(-left.deflection - (start - left.slope) * left.length, start - left.slope)
+    right.shift(0j, spans[-1].slope if spans else 0j)
+    left.shift(-left.deflection - (start - left.slope) * left.length, start - left.slope)

@@ -1,9 +1,10 @@
-"""Simply supported beam under a uniform load, and the inertia of its section; any other beam by `bend(Beam(...))`.
+"""Simply supported beam under a uniform load, and the inertia of its section; for other beams see `bend`.
 
 Load w [N/m], length l [m], modulus E [Pa], second moment of area I [m^4]; any shapes that broadcast. Deflection is
-positive along the load. l is between the supports.                                          [thesis 3.1, eq. 3.1-3.7]
+positive along the load. l is the distance of the supports.
+                                                                                               [thesis 3.1, eq. 3.1-3.7]
 
-The largest deflection and slope are bound to each other whatever the section: y/theta = 5 l / 16.
+The ratio of the largest deflection and slope does not depend on the section: y/theta = 5 l / 16.
 
 >>> tube = 210e9 * float(tube_inertia(0.07, 0.065))
 >>> bent = bend(Beam(1.2, (0.0, 1.2), (LineLoad(0.0, 1.2, 7500.0),)))
