@@ -97,8 +97,8 @@ def test_parts_stand_at_the_frame_shown_first_and_refer_to_places(report: Report
     for figure in motions(report):
         root = ET.fromstring(svg(figure))
         run = json.loads(next(one.text or "" for one in root.iter() if one.tag.endswith("metadata")))
-        assert {len(places) for places in run["places"]} == {2 * len(figure.at)}
-        first = [tuple(places[2 * run["start"] : 2 * run["start"] + 2]) for places in run["places"]]
+        assert {len(places) for places in run["positions"]} == {2 * len(figure.at)}
+        first = [tuple(places[2 * run["start"] : 2 * run["start"] + 2]) for places in run["positions"]]
         moved = [one for one in root.iter() if "data-at" in one.attrib or "data-line" in one.attrib]
         for one in moved:
             place = one.get("data-at")

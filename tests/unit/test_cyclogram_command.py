@@ -39,7 +39,7 @@ def test_a_solved_cyclogram_is_written_read_and_found_solved(tmp_path: Path) -> 
     code, said, _ = run(PRESS, "--solve", "period", "--out", str(quick), "--report", str(page))
     assert code == 0
     assert "period: 1 s -> 0.4279 s" in said
-    assert "die: up starts after die: pressed: a degree less would lower the period by" in said
+    assert "die: up starts after die: pressed: 1 deg less would reduce the period by" in said
     again = read_cyclogram(quick)
     assert again.period == pytest.approx(0.4278743, rel=1e-6)
     assert all(check.ok for check in judged(again))
@@ -142,7 +142,7 @@ def test_cyclograms_of_machines_hold_and_are_solved(name: str, tmp_path: Path) -
         (["automated-loom"], "automated-loom:knot or automated-loom:row"),
         (["automated-loom:weft"], "automated-loom:knot or automated-loom:row"),
         (["beat-up"], "beat-up has no cyclogram; machines with some: automated-loom, weaver"),
-        ([PRESS, "--set", "cycle=1s"], "is no machine whose parameters could be set"),
+        ([PRESS, "--set", "cycle=1s"], "is a file and has no parameters to set"),
     ],
 )
 def test_a_machine_without_that_cyclogram_is_said(arguments: list[str], said: str) -> None:

@@ -104,9 +104,9 @@ BAD = {
     "quotes": (b'x [mm],y [mm]\n"1,9\n', (), "line"),
     "through a warp": (b"x [mm],y [mm]\n2,9\n2,-9\n", (), "warp 2"),
     "no pitch": (GOOD, ("--pitch", "0mm"), "a pitch of 0 mm; more than 0"),
-    "no way between": (GOOD, ("--keep-out", "1mm"), "leaves no way between them"),
+    "no passage between": (GOOD, ("--keep-out", "1mm"), "leaves no passage between them"),
     "pitch of an angle": (GOOD, ("--pitch", "2deg"), "2deg"),
-    "two first warps": (GOOD, ("--first", "(0mm,0mm) (1mm,1mm)"), "--first gives 2 places"),
+    "two first warps": (GOOD, ("--first", "(0mm,0mm) (1mm,1mm)"), "--first gives 2 points"),
 }
 
 

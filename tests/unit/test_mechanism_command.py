@@ -115,7 +115,7 @@ FOUR_BAR = four_bar(0.3, 0.06, 0.2, 0.23, branch=1)
 WRONG = {
     "missing file": (["gone.toml"], "mechanism file gone.toml does not exist"),
     "unknown input": ([example("peaucellier"), "--at", "rank=1"], "Peaucellier has no input 'rank'; it has crank"),
-    "held twice": ([example("peaucellier"), "--at", "1", "--at", "2"], "holds the input twice"),
+    "held twice": ([example("peaucellier"), "--at", "1", "--at", "2"], "fixes the input twice"),
     "no range": ([example("peaucellier"), "--over", "3"], "write FROM..TO, like 0deg..360deg"),
     "empty range": ([example("peaucellier"), "--over", "1..1"], "has no length"),
     "wrong unit": ([example("peaucellier"), "--over", "1mm..2mm"], "'1mm' has the wrong unit"),

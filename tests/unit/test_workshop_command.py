@@ -93,16 +93,16 @@ def test_notes_tell_of_missed_tolerances_and_of_slaves_that_move_at_the_start(tm
     made = write_workshop(report(plates=(crank(),), tables=(wobble,)), tmp_path / "out", Tolerance(share=1e-6))
     said = "\n".join(made.notes)
     assert "wobble.codesys.st: 128 points leave an error of" in said
-    assert "wobble moves at the master angle 0: couple it while the master stands, or ramp in" in said
+    assert "wobble moves at master angle 0: couple it while the master stands still, or ramp in" in said
     assert ("pip install 'ilmek[step]'" in said) is not with_step()
-    assert made.said.startswith(f"{tmp_path / 'out'}: 1 DXF, ")
+    assert made.summary.startswith(f"{tmp_path / 'out'}: 1 DXF, ")
 
 
 def test_a_plate_that_does_not_enclose_its_area_leaves_nothing(tmp_path: Path) -> None:
     loop = 0.05 * np.exp(2j * np.pi * np.arange(360) / 360)
     wrong = Plate("disc", "Disc", loop, 0.01, "steel", area=0.008)
     with pytest.raises(
-        OutputError, match="plate disc cannot be drawn: its outline encloses 78.5. cm², its design says"
+        OutputError, match="plate disc cannot be drawn: its outline encloses 78.5. cm², the design requires"
     ):
         write_workshop(report(plates=(crank(), wrong)), tmp_path / "out")
     assert not list(tmp_path.iterdir())
@@ -168,8 +168,8 @@ def test_the_command_writes_replaces_and_refuses(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("cam", "--force"), "--force and --tolerance belong to --workshop DIR; see 'ilmek design --help'"),
-        (("cam", "--tolerance", "1um"), "--force and --tolerance belong to --workshop DIR; see 'ilmek design --help'"),
+        (("cam", "--force"), "--force and --tolerance need --workshop DIR; see 'ilmek design --help'"),
+        (("cam", "--tolerance", "1um"), "--force and --tolerance need --workshop DIR; see 'ilmek design --help'"),
         (("cam", "--workshop", "{out}", "--tolerance", "1kg"), "tolerance '1kg'; a length, an angle, or a share"),
     ],
 )

@@ -1,6 +1,6 @@
 """The command line: `ilmek weave`, `chart`, `design`, `mechanism`, `cyclogram`, `knot` and the others below.
 
-Nothing heavy is imported here: a command's module is loaded when the command is run, so that `ilmek --help` is quick.
+Nothing heavy is imported here: a command's module is loaded when the command is run, so that `ilmek --help` is fast.
 """
 
 import click
@@ -10,7 +10,7 @@ from ilmek.cli.frame import LazyGroup
 
 main = LazyGroup(
     name="ilmek",
-    help="Carpet in, loom out: knot chart, yarn, loom and programme from a carpet picture.",
+    help="Design a loom for a carpet picture: knot chart, yarn to buy, machines and loom programme.",
     epilog=(
         "\b\n"
         "Examples:\n"
@@ -22,15 +22,18 @@ main = LazyGroup(
     ),
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     modules={
-        "weave": ("ilmek.cli.weave", "A picture in, everything for weaving it out: chart, yarn, loom, programme."),
-        "chart": ("ilmek.cli.chart", "Only the knot chart of a picture and the yarn to buy."),
-        "machines": ("ilmek.cli.machines", "The machines, or one machine's parameters."),
+        "weave": (
+            "ilmek.cli.weave",
+            "Turn a picture into a chart, a yarn bill, a loom and its programme.",
+        ),
+        "chart": ("ilmek.cli.chart", "Make only the knot chart of a picture and the yarn bill."),
+        "machines": ("ilmek.cli.machines", "List the machines, or the parameters of one machine."),
         "design": ("ilmek.cli.design", "Design one machine and report it."),
-        "mechanism": ("ilmek.cli.mechanism", "A mechanism from a file: how it is built, its motion, a page to read."),
-        "cyclogram": ("ilmek.cli.cyclogram", "A cyclogram from a file: judged, solved, tabled, drawn."),
-        "knot": ("ilmek.cli.knot", "Which knot the motion of a gripper ties, proved."),
-        "reproduce": ("ilmek.cli.reproduce", "Every number of four published papers, computed and judged."),
-        "inspect": ("ilmek.cli.inspect", "Look into a loom programme: rows, colours, statistics."),
+        "mechanism": ("ilmek.cli.mechanism", "Analyse a mechanism from a file: structure, mobility, motion, report."),
+        "cyclogram": ("ilmek.cli.cyclogram", "Check, optimise, tabulate and draw a cyclogram."),
+        "knot": ("ilmek.cli.knot", "Prove which knot the motion of a gripper ties."),
+        "reproduce": ("ilmek.cli.reproduce", "Recompute every number of four published papers and compare."),
+        "inspect": ("ilmek.cli.inspect", "Show a loom programme: rows, colours, statistics."),
     },
 )
 click.version_option(__version__, "-V", "--version", prog_name="ilmek", message="%(prog)s %(version)s")(main)

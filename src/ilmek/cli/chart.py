@@ -1,4 +1,4 @@
-"""`ilmek chart`: the carpet part alone."""
+"""`ilmek chart`: the knot chart and the yarn bill alone."""
 
 from pathlib import Path
 from typing import Any
@@ -25,36 +25,36 @@ Examples:
 @carpet_options
 @force_option
 @json_option
-def command(out: Path | None, force: bool, json_to: str | None, **order: Any) -> None:
-    """Make the knot chart of PICTURE and the bill of yarn.
+def command(out: Path | None, force: bool, json_to: str | None, **carpet: Any) -> None:
+    """Make the knot chart of PICTURE and the yarn bill.
 
-    The output folder holds chart.png (a pixel a knot), chart.pdf (to weave from; see --pdf), yarn.csv and chart.json.
-    With --json and without --out no folder is made.
+    The output folder contains chart.png (one pixel per knot), chart.pdf (printed chart; see --pdf), yarn.csv and
+    chart.json. With --json and without --out no folder is made.
     """
     check_json(json_to)
-    wanted = read_order(**order)
-    folder = out or (None if json_to else free_folder(wanted.picture, "chart"))
+    order = read_order(**carpet)
+    folder = out or (None if json_to else free_folder(order.picture, "chart"))
     with progress_bar() as progress:
-        charted, files = chart_order(wanted, folder, force=force, progress=progress)
+        charted, files = chart_order(order, folder, force=force, progress=progress)
     if not give_json(json_to, chart_json(charted, files)):
         show_chart(charted)
         if folder is not None:
             console().print(f"files in {folder}: {', '.join(Path(file).name for file in files)}")
-    for said in (*charted.notes, *charted.warnings):
-        note(said)
+    for remark in (*charted.notes, *charted.warnings):
+        note(remark)
 
 
 def show_chart(charted: ChartResult) -> None:
-    """A chart in a few lines, and its yarn."""
+    """Print a summary of a chart and its yarn bill."""
     chart = charted.chart
     show_pairs(
         [
             ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
             ("knots", f"{chart.rows * chart.columns:,} ({chart.rows} rows of {chart.columns})"),
             ("colours", f"{chart.colours} of {len(charted.order.yarns)} yarns"),
-            ("colour difference", f"{chart.mean_delta_e:.2f} mean CIEDE2000 ({chart.least_delta_e:.2f} at best)"),
+            ("colour difference", f"{chart.mean_delta_e:.2f} mean CIEDE2000 (lower bound {chart.least_delta_e:.2f})"),
             ("lone knots", f"{chart.lone_fraction:.2%} ({chart.merged:,} merged)"),
-            ("colour changes", f"{chart.changes_per_knot:.3f} a knot"),
+            ("colour changes", f"{chart.changes_per_knot:.3f} per knot"),
             ("pile", pile_in_words(charted)),
         ]
     )
@@ -62,7 +62,7 @@ def show_chart(charted: ChartResult) -> None:
 
 
 def pile_in_words(charted: ChartResult) -> str:
-    """The pile's mass, its mass per area, and how much of the ground it fills."""
+    """The pile's mass, mass per area, and share of the ground filled."""
     mass, area = charted.bill.pile_mass, charted.chart.size.area
     fill = charted.checks[0]
     filled = f"{format_quantity(fill.value, fill.unit, 3)} of the ground filled"
@@ -70,7 +70,7 @@ def pile_in_words(charted: ChartResult) -> str:
 
 
 def show_yarn(bill: YarnBill) -> None:
-    """The yarn bill as a table."""
+    """Print the yarn bill as a table."""
     rows = [
         (need.name, need.use, f"{need.knots:,}" if need.knots else "", _amount(need.length), _amount(need.mass / g),
          "" if need.price is None else f"{need.price:,.2f}")

@@ -1,4 +1,4 @@
-"""`ilmek cyclogram`: a cyclogram from a file, judged, solved, tabled and drawn."""
+"""`ilmek cyclogram`: a cyclogram from a file, checked, optimised, tabulated and drawn."""
 
 from pathlib import Path
 
@@ -32,12 +32,22 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("file", metavar="FILE|MACHINE")
 @click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", help="Set a parameter of the machine.")
-@click.option("--solve", "goal", type=click.Choice(tuple(GOALS)), help="Make the acceleration, or the period, least.")
-@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a page to read.")
-@click.option("--csv", "csv_to", metavar="-|FILE", help="Write all motions as CSV; - is standard output.")
-@click.option("--steps", type=click.IntRange(1, 1_000_000), default=360, show_default=True, help="Rows of the CSV.")
+@click.option("--solve", "goal", type=click.Choice(tuple(GOALS)), help="Minimise peak acceleration or cycle time.")
+@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
+@click.option("--csv", "csv_to", metavar="-|FILE", help="Write all motions as CSV; - writes to standard output.")
 @click.option(
-    "--out", "file_to", type=click.Path(path_type=Path), metavar="FILE.toml", help="Write the cyclogram again."
+    "--steps",
+    type=click.IntRange(1, 1_000_000),
+    default=360,
+    show_default=True,
+    help="Steps of the CSV table per turn.",
+)
+@click.option(
+    "--out",
+    "file_to",
+    type=click.Path(path_type=Path),
+    metavar="FILE.toml",
+    help="Write the cyclogram, as given or solved.",
 )
 @json_option
 def command(
@@ -51,57 +61,57 @@ def command(
     file_to: Path | None,
     json_to: str | None,
 ) -> None:
-    """Read the cyclogram in FILE (TOML or JSON) or of a MACHINE, judge what must hold, place its motions better."""
-    _check_places(csv_to, page_to, file_to, json_to)
+    """Check the cyclogram of FILE (TOML or JSON) or of a MACHINE; with --solve, retime its motions."""
+    _check_outputs(csv_to, page_to, file_to, json_to)
     given = find(file, read_settings(settings))
     with progress_bar() as progress:
         solution = solve(given, goal, progress) if goal else None
     found = solution.cyclogram if solution else given
-    said = report(found, solution)
-    write_page(page_to, said)
+    shown = report(found, solution)
+    write_page(page_to, shown)
     if file_to is not None:
         write_cyclogram(file_to, found)
     table = csv_text(columns(found, steps)) if csv_to else ""
-    quiet = give_json(json_to, said.as_json()) if json_to else False
+    quiet = give_json(json_to, shown.as_json()) if json_to else False
     if csv_to == "-":
         click.echo(table, nl=False)
     elif csv_to:
         write_whole(Path(csv_to), table)
     if not quiet and csv_to != "-":
-        _show(said, solution)
-        for kind, place in (("report", page_to), ("cyclogram", file_to), ("table", csv_to)):
-            if place is not None:
-                console().print(f"{kind}: {place}")
-    elif said.failed:
-        note(f"checks: {passed(said.checks)}")
+        _show(shown, solution)
+        for kind, path in (("report", page_to), ("cyclogram", file_to), ("table", csv_to)):
+            if path is not None:
+                console().print(f"{kind}: {path}")
+    elif shown.failed:
+        note(f"checks: {passed(shown.checks)}")
 
 
-def _check_places(csv_to: str | None, page_to: Path | None, file_to: Path | None, json_to: str | None) -> None:
-    """Raise before any work where an output has no place, or two have the same."""
+def _check_outputs(csv_to: str | None, page_to: Path | None, file_to: Path | None, json_to: str | None) -> None:
+    """Raise before any work if an output cannot be written or two outputs share standard output."""
     check_json(json_to)
     if csv_to == json_to == "-":
         raise ParameterError("both --csv and --json go to standard output", do="give one of them a file")
     if file_to is not None and file_to.suffix.lower() not in (".toml", ".json"):
         raise ParameterError(f"--out {file_to} ends in {file_to.suffix!r}", allowed=".toml or .json")
-    for place in (page_to, file_to, Path(csv_to) if csv_to not in (None, "-") else None):
-        if place is not None:
-            check_file(place)
+    for path in (page_to, file_to, Path(csv_to) if csv_to not in (None, "-") else None):
+        if path is not None:
+            check_file(path)
 
 
-def _show(said: Report, solution: Solution | None) -> None:
-    """The motions, the checks, and what was won."""
-    console().print(said.title)
-    for table in said.tables:
+def _show(shown: Report, solution: Solution | None) -> None:
+    """Print motions, checks, and the result of the solver."""
+    console().print(shown.title)
+    for table in shown.tables:
         if table.name != "binding":
             rows = [tuple(_cell(cell) for cell in row) for row in table.rows]
             show_table([column.heading for column in table.columns], rows)
-    if said.checks:
-        show_checks(said.checks)
+    if shown.checks:
+        show_checks(shown.checks)
     if solution is not None:
         before, after = (format_quantity(value, solution.unit) for value in (solution.before, solution.after))
         times = format_number(solution.before / solution.after, 3)
-        console().print(f"{solution.measure}: {before} -> {after}, {times} times less; no other of this order has less")
-        console().print("what binds, in the order of the turn:")
+        console().print(f"{solution.measure}: {before} -> {after}, {times} times less; least for this order")
+        console().print("binding constraints, in the order of the turn:")
         for line in binding_words(solution):
             console().print(f"  {line}")
 

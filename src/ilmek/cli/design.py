@@ -1,4 +1,4 @@
-"""`ilmek design`: one machine, designed from its parameters and reported."""
+"""`ilmek design`: design one machine from its parameters and report it."""
 
 from pathlib import Path
 
@@ -29,10 +29,10 @@ The parameters of a machine: ilmek machines MACHINE
     "settings",
     multiple=True,
     metavar="NAME=VALUE",
-    help="Set a parameter; a value takes its unit; @FILE: what stands in FILE.",
+    help="Set a parameter, with its unit; @FILE reads the value from FILE.",
 )
 @json_option
-@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a page to read.")
+@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @click.option(
     "--workshop",
     "parts_to",
@@ -40,8 +40,8 @@ The parameters of a machine: ilmek machines MACHINE
     metavar="DIR",
     help="Write plates (DXF, STEP) and cam tables for controllers.",
 )
-@click.option("--tolerance", metavar="ERROR", help="Of cam tables: 1um, 0.01deg, 0.01% of the stroke.")
-@click.option("--force", is_flag=True, help="Replace a workshop folder whose files ilmek made.")
+@click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
+@click.option("--force", is_flag=True, help="Replace a workshop folder that ilmek wrote.")
 def command(  # noqa: PLR0917 - click calls it by name
     name: str,
     more: tuple[str, ...],
@@ -55,7 +55,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     """Design MACHINE and report it: results, checks against limits, warnings."""
     check_json(json_to)
     if parts_to is None and (force or tolerance is not None):
-        raise click.UsageError("--force and --tolerance belong to --workshop DIR")
+        raise click.UsageError("--force and --tolerance need --workshop DIR")
     outputs = Outputs(page_to, parts_to, tolerance, force)
     with progress_bar() as progress:
         made = design_machine(name, read_settings((*settings, *more)), outputs, progress=progress)
@@ -64,6 +64,6 @@ def command(  # noqa: PLR0917 - click calls it by name
         if page_to is not None:
             console().print(f"report: {page_to}")
         if made.workshop is not None:
-            console().print(f"workshop: {made.workshop.said}")
+            console().print(f"workshop: {made.workshop.summary}")
     for warning in made.warnings:
         note(warning)

@@ -1,11 +1,11 @@
-"""The frame of every command: lazy loading, and the one place where an error becomes one line.
+"""The frame of every command: lazy loading, and error messages of one line.
 
     exit 0    done
-    exit 1    the reader of the output went away
+    exit 1    the reader of the output closed it
     exit 2    bad input, or an output that cannot be written: one line on the error stream, nothing written
     exit 130  Ctrl-C (129: the terminal closed; 143: terminated): one line, nothing half-written
 
-Errors of ours (IlmekError) and click's are shown alike; a defect of the program keeps its traceback.
+Errors of ilmek (IlmekError) and of click are shown alike. A defect of the program keeps its traceback.
 """
 
 import contextlib
@@ -26,9 +26,9 @@ from ilmek.errors import IlmekError, did_you_mean
 
 
 class LazyGroup(click.Group):
-    """A group whose commands live in modules of their own, loaded when needed.
+    """A group whose commands are loaded from their modules when they are needed.
 
-    modules  command name -> (module that holds the command under the name `command`, one line of help)
+    modules  command name -> (module that defines `command`, one line of help)
     """
 
     def __init__(self, *, modules: Mapping[str, tuple[str, str]], **settings: Any) -> None:
@@ -40,7 +40,7 @@ class LazyGroup(click.Group):
         return list(self.modules)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
-        """The command, its module loaded; None where there is none."""
+        """The command, loaded from its module; None for an unknown name."""
         if cmd_name not in self.modules:
             return None
         return cast(click.Command, importlib.import_module(self.modules[cmd_name][0]).command)
@@ -48,7 +48,7 @@ class LazyGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """The command named first; an unknown one is a usage error that names the nearest."""
+        """The command of the first argument. Raises UsageError for an unknown one, with the nearest name."""
         name = args[0]
         command = self.get_command(ctx, name)
         if command is None:
@@ -57,7 +57,7 @@ class LazyGroup(click.Group):
         return name, command, args[1:]
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's
-        """The list of commands, without loading one."""
+        """Write the list of commands without loading them."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, line) for name, (_, line) in self.modules.items()])
 
@@ -70,7 +70,7 @@ class LazyGroup(click.Group):
         windows_expand_args: bool = True,
         **extra: Any,
     ) -> Any:
-        """Run; standalone, every error a user can mend becomes one line and an exit code."""
+        """Run the command. Standalone, every error that a user can correct becomes one line and an exit code."""
         settings = dict(extra, complete_var=complete_var, windows_expand_args=windows_expand_args)
         run = partial(super().main, args, prog_name or "ilmek", standalone_mode=False, **settings)
         if not standalone_mode:
@@ -91,7 +91,7 @@ class LazyGroup(click.Group):
             except OSError as error:
                 _leave(f"{error.filename or 'the output'} cannot be read or written: {error.strerror or error}", 2)
             except Exception:
-                # Ctrl-C inside a library's callback comes out as whatever error the library makes of it.
+                # A library may turn Ctrl-C inside its callback into an error of its own.
                 if not stopped:
                     raise
                 _leave(_INTERRUPTED, 128 + stopped[0])
@@ -100,29 +100,29 @@ class LazyGroup(click.Group):
 
 _INTERRUPTED = "interrupted; nothing was written"
 _IMPATIENCE = 2.0
-"""Signals so soon after the first [s] are left aside: the temporary files are being removed."""
+"""Time after the first signal in which further ones are ignored [s]: temporary files are being removed."""
 
 
 class _Stopped(BaseException):
-    """A signal that ends the program has come. No KeyboardInterrupt: click would answer that with an empty line."""
+    """A signal that ends the program. It is no KeyboardInterrupt: click would print an empty line for that."""
 
 
 def _help_alone() -> None:
-    """The bare program shows its help."""
+    """Show the help if no command is given."""
     context = click.get_current_context()
     if context.invoked_subcommand is None:
         click.echo(context.get_help())
 
 
 def _usage(error: click.ClickException) -> str:
-    """A usage error in one line, with where to read on."""
-    said = error.format_message().rstrip(".")
+    """A usage error in one line, with a reference to the help."""
+    message = error.format_message().rstrip(".")
     context = getattr(error, "ctx", None)
-    return f"{said}; see '{context.command_path} --help'" if context is not None else said
+    return f"{message}; see '{context.command_path} --help'" if context is not None else message
 
 
 def _leave(message: str, status: int) -> NoReturn:
-    """Say one line on the error stream and end with `status`; a file name cannot smuggle in lines or escapes."""
+    """Print one line on the error stream and exit with `status`. Control characters become spaces."""
     line = "".join(letter if letter.isprintable() else " " for letter in message)
     with contextlib.suppress(OSError):
         if message is _INTERRUPTED and sys.stderr.isatty():
@@ -132,18 +132,18 @@ def _leave(message: str, status: int) -> NoReturn:
 
 
 def _open_streams() -> None:
-    """Streams that were closed before the start (`>&-`) lead nowhere, lest a file of ours take their place."""
+    """Open closed standard streams (`>&-`) on the null device, so that no output file gets their numbers."""
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         if getattr(sys, name) is None:
             nowhere = os.open(os.devnull, os.O_RDWR)
-            if nowhere != number:  # for want of the number itself
+            if nowhere != number:  # the stream's own number was taken by another file
                 os.dup2(nowhere, number)
                 os.close(nowhere)
             setattr(sys, name, os.fdopen(number, "w" if number else "r", encoding="utf-8", closefd=False))
 
 
 def _write_any_character() -> None:
-    """A terminal that has no × or ° shows a question mark instead of failing."""
+    """Replace characters that the terminal cannot show, such as × or °, by a question mark."""
     for stream in (sys.stdout, sys.stderr):
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
@@ -152,7 +152,7 @@ def _write_any_character() -> None:
 
 @contextlib.contextmanager
 def _unwinding() -> Iterator[list[int]]:
-    """While inside, Ctrl-C, SIGTERM and SIGHUP unwind the stack, so that temporary files go; gives those that came."""
+    """Let Ctrl-C, SIGTERM and SIGHUP unwind the stack, which removes temporary files; yields the signals received."""
     stopped: list[int] = []
     since = -math.inf
 
@@ -165,10 +165,10 @@ def _unwinding() -> Iterator[list[int]]:
             raise _Stopped
 
     def unraisable(found: Any) -> None:
-        if not isinstance(found.exc_value, _Stopped):  # a library's callback swallows even those, and says so
-            said(found)
+        if not isinstance(found.exc_value, _Stopped):  # a library's callback cannot pass it on
+            hook(found)
 
-    said = sys.unraisablehook
+    hook = sys.unraisablehook
     numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
     usual = (signal.SIG_DFL, signal.default_int_handler)
     try:
@@ -180,13 +180,13 @@ def _unwinding() -> Iterator[list[int]]:
         yield stopped
         _flush()
     finally:
-        sys.unraisablehook = said
+        sys.unraisablehook = hook
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
 def _flush() -> None:
-    """Write out what is buffered; where the reader has gone, send the rest nowhere and end with 1."""
+    """Flush standard output. If its reader has closed it, discard the rest and exit with 1."""
     try:
         sys.stdout.flush()
     except BrokenPipeError:

@@ -1,4 +1,4 @@
-"""`ilmek inspect`: what a loom programme holds."""
+"""`ilmek inspect`: show a loom programme."""
 
 from pathlib import Path
 
@@ -21,7 +21,11 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("file", type=click.Path(path_type=Path), metavar="FILE.ilmek")
 @click.option(
-    "--row", "number", type=int, metavar="N", help="The row to show, from 1 at the bottom edge; else a random one."
+    "--row",
+    "number",
+    type=int,
+    metavar="N",
+    help="Row to show, counted from 1 at the bottom edge; default: a random row.",
 )
 @json_option
 def command(file: Path, number: int | None, json_to: str | None) -> None:
@@ -36,15 +40,15 @@ def command(file: Path, number: int | None, json_to: str | None) -> None:
 
 
 def show_programme(programme: ProgrammeFile) -> None:
-    """The whole carpet: what it is, how long it takes, its yarns, its heads."""
+    """Print size, weaving time, yarns and heads of the whole carpet."""
     label, totals, work = programme.label, programme.totals, programme.work
     show_pairs(
         [
             ("carpet", f"{label.size}, {label.quality}, {label.knot} knot"),
             ("rows", f"{programme.rows:,} of {programme.columns:,} knots, {totals.knots:,} in all"),
-            ("loom", f"{programme.heads} heads, a warp every {format_quantity(label.warp_pitch, 'mm')}"),
+            ("loom", f"{programme.heads} heads, warp pitch {format_quantity(label.warp_pitch, 'mm')}"),
             ("weaving time", f"{format_quantity(totals.duration, 'h')}"),
-            ("colour changes", f"{totals.changes:,}, {totals.changes_per_knot:.3f} a knot"),
+            ("colour changes", f"{totals.changes:,}, {totals.changes_per_knot:.3f} per knot"),
         ]
     )
     counted = [
@@ -61,11 +65,11 @@ def show_programme(programme: ProgrammeFile) -> None:
 
 
 def show_row(found: InspectionResult) -> None:
-    """One row: for each head the runs of knots in the order they are tied."""
+    """Print one row: for each head its runs of knots in the order of tying."""
     row, names = found.row, [yarn.name for yarn in found.programme.label.yarns]
     console().print(
         f"row {row.number + 1} of {found.programme.rows}, from the bottom: {format_quantity(found.time, 's')}, "
-        f"woven to the {'right' if row.forward else 'left'}; knots from the left, in the order they are tied"
+        f"woven to the {'right' if row.forward else 'left'}; knots from the left, in the order of tying"
     )
     lines = []
     for head, ties in enumerate(row.ties(), 1):

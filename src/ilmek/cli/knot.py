@@ -1,4 +1,4 @@
-"""`ilmek knot`: which knot the motion of a gripper ties."""
+"""`ilmek knot`: prove which knot the motion of a gripper ties."""
 
 from pathlib import Path
 
@@ -25,16 +25,26 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("paths", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="PATH.csv [OTHER.csv]")
-@click.option("--pitch", default="2mm", show_default=True, metavar="LENGTH", help="Distance of two warps.")
-@click.option("--warps", type=click.IntRange(1, 10_000), default=12, show_default=True, help="Warps in the row.")
-@click.option("--first", default="(0mm,0mm)", show_default=True, metavar="(X,Y)", help="Place of warp 1, at the left.")
 @click.option(
-    "--keep-out", default="0mm", show_default=True, metavar="LENGTH", help="Radius about a warp that stays free."
+    "--pitch", default="2mm", show_default=True, metavar="LENGTH", help="Distance between neighbouring warps."
 )
-@click.option("--columns", nargs=2, metavar="X Y", help="Headings of the two columns, where there are more.")
-@click.option("--smooth", is_flag=True, help="The places are samples of a smooth motion, not corners.")
-@click.option("--closed", is_flag=True, help="The motion ends where it began.")
-@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a page to read.")
+@click.option("--warps", type=click.IntRange(1, 10_000), default=12, show_default=True, help="Warps in the row.")
+@click.option(
+    "--first", default="(0mm,0mm)", show_default=True, metavar="(X,Y)", help="Position of warp 1, the leftmost."
+)
+@click.option(
+    "--keep-out",
+    default="0mm",
+    show_default=True,
+    metavar="LENGTH",
+    help="Radius around each warp that the path must not enter.",
+)
+@click.option(
+    "--columns", nargs=2, metavar="X Y", help="Headings of the columns of x and y, if the file has more than two."
+)
+@click.option("--smooth", is_flag=True, help="The points are samples of a smooth motion, not corners of a polyline.")
+@click.option("--closed", is_flag=True, help="The path is closed: it returns to its first point.")
+@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @json_option
 def command(
     *,
@@ -49,28 +59,28 @@ def command(
     page_to: Path | None,
     json_to: str | None,
 ) -> None:
-    """Say which knot is tied by yarn whose end is led along PATH, among warps in a row, the pile upwards.
+    """Find the knot that a yarn ties when its end is led along PATH through a row of warps; the pile points up.
 
-    With two paths each leads one end, both from one place. The answer is a proof: paths that can be pulled into each
-    other without crossing a warp tie the same knot.
+    With two paths, each leads one end of the yarn, and both start at the same point. The answer is proved: paths that
+    can be deformed into each other without crossing a warp tie the same knot.
     """
     check_json(json_to)
     if page_to is not None:
         check_file(page_to)
-    asked = KnotRequest(
-        warps, parse_quantity(pitch, "mm"), _place(first), parse_quantity(keep_out, "mm"), smooth, closed
+    request = KnotRequest(
+        warps, parse_quantity(pitch, "mm"), _position(first), parse_quantity(keep_out, "mm"), smooth, closed
     )
-    said = knot_of(paths, asked, columns)
-    write_page(page_to, said)
-    if not give_json(json_to, said.as_json()):
-        show_report(said)
+    report = knot_of(paths, request, columns)
+    write_page(page_to, report)
+    if not give_json(json_to, report.as_json()):
+        show_report(report)
         if page_to is not None:
             console().print(f"report: {page_to}")
 
 
-def _place(text: str) -> complex:
-    """The one place of a text [m]."""
-    places = read_points("--first", text)
-    if len(places) != 1:
-        raise CarpetError(f"--first gives {len(places)} places", allowed="one, like (0mm,0mm)")
-    return complex(places[0])
+def _position(text: str) -> complex:
+    """The position of warp 1 [m]. Raises CarpetError unless the text gives exactly one point."""
+    points = read_points("--first", text)
+    if len(points) != 1:
+        raise CarpetError(f"--first gives {len(points)} points", allowed="one, like (0mm,0mm)")
+    return complex(points[0])

@@ -1,4 +1,4 @@
-"""`ilmek machines`: what can be designed, and with which parameters."""
+"""`ilmek machines`: list the machines and their parameters."""
 
 import click
 
@@ -24,14 +24,14 @@ def command(name: str | None, json_to: str | None) -> None:
     if name is None:
         machines = machine_list()
         if not give_json(json_to, {"machines": machines}):
-            show_table(("machine", "what it is"), list(machines.items()))
+            show_table(("machine", "description"), list(machines.items()))
         return
     form = machine_form(name)
     if not give_json(json_to, form.as_json()):
         console().print(f"{form.machine}: {form.summary}")
         show_table(("parameter", "default", "unit", "allowed", "meaning"), [_row(p) for p in form.parameters])
         if form.machines:
-            console().print(f"and every parameter of {', '.join(form.machines)}, as {form.machines[0]}.NAME=VALUE")
+            console().print(f"also every parameter of {', '.join(form.machines)}, as {form.machines[0]}.NAME=VALUE")
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str, str]:

@@ -1,4 +1,4 @@
-"""`ilmek mechanism`: a mechanism from a file, taken apart, moved, tabled and drawn."""
+"""`ilmek mechanism`: analyse a mechanism from a file, tabulate and draw its motion."""
 
 from pathlib import Path
 
@@ -28,20 +28,28 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--at", "held", multiple=True, metavar="[NAME=]VALUE", help="Hold an input; with all held, one pose.")
-@click.option("--over", default="", metavar="FROM..TO", help="Range of the input that runs; a full turn if not given.")
-@click.option("--speed", default="", metavar="SPEED", help="Its speed, like 60rpm; 1 rad/s (or 1 m/s) if not given.")
+@click.option(
+    "--at",
+    "fixed",
+    multiple=True,
+    metavar="[NAME=]VALUE",
+    help="Fix an input at a value; with all inputs fixed, compute one pose.",
+)
+@click.option("--over", default="", metavar="FROM..TO", help="Range of the driving input; default: a full turn.")
+@click.option(
+    "--speed", default="", metavar="SPEED", help="Speed of the driving input, like 60rpm; default: 1 rad/s or 1 m/s."
+)
 @click.option("--steps", type=click.IntRange(1, 1_000_000), default=72, show_default=True, help="Steps of the range.")
 @click.option(
-    "--csv", "csv_to", metavar="-|FILE", help="Write the motion as CSV, SI and radians; - is standard output."
+    "--csv", "csv_to", metavar="-|FILE", help="Write the motion as CSV, SI and radians; - writes to standard output."
 )
-@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a page to read.")
-@click.option("--as", "kind", type=click.Choice(("toml", "json")), help="Only give the file again, in this form.")
+@click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
+@click.option("--as", "kind", type=click.Choice(("toml", "json")), help="Convert the file to this format and exit.")
 @json_option
 def command(
     *,
     file: Path,
-    held: tuple[str, ...],
+    fixed: tuple[str, ...],
     over: str,
     speed: str,
     steps: int,
@@ -50,50 +58,50 @@ def command(
     kind: str | None,
     json_to: str | None,
 ) -> None:
-    """Read the mechanism in FILE (TOML or JSON), say how it is built, and move it."""
-    _check_places(csv_to, page_to, json_to)
-    found = read_mechanism(file)
+    """Read the mechanism in FILE (TOML or JSON), report its structure and mobility, and compute its motion."""
+    _check_outputs(csv_to, page_to, json_to)
+    given = read_mechanism(file)
     if kind is not None:
         write = mechanism_toml if kind == "toml" else mechanism_json
-        click.echo(write(found.mechanism, found.inertias), nl=False)
+        click.echo(write(given.mechanism, given.inertias), nl=False)
         return
-    moved = run(found, MotionRequest(_held(held), over, speed, steps))
-    said = report(moved)
-    write_page(page_to, said)
+    moved = run(given, MotionRequest(_fixed(fixed), over, speed, steps))
+    found_report = report(moved)
+    write_page(page_to, found_report)
     quiet = give_json(json_to, as_json(moved)) if json_to else False
     quiet = _give_csv(csv_to, moved) or quiet
     if not quiet:
-        show(said)
-        for kind_of, place in (("report", page_to), ("table", csv_to)):
-            if place is not None:
-                console().print(f"{kind_of}: {place}")
-    for warning in said.warnings:
+        show(found_report)
+        for output, path in (("report", page_to), ("table", csv_to)):
+            if path is not None:
+                console().print(f"{output}: {path}")
+    for warning in found_report.warnings:
         note(warning)
 
 
-def _check_places(csv_to: str | None, page_to: Path | None, json_to: str | None) -> None:
-    """Raise before any work where an output has no place, or two have the same."""
+def _check_outputs(csv_to: str | None, page_to: Path | None, json_to: str | None) -> None:
+    """Raise before any work if an output cannot be written or two outputs share standard output."""
     check_json(json_to)
     if csv_to == json_to == "-":
         raise MechanismError("both --csv and --json go to standard output", do="give one of them a file")
-    for place in (page_to, Path(csv_to) if csv_to not in (None, "-") else None):
-        if place is not None:
-            check_file(place)
+    for path in (page_to, Path(csv_to) if csv_to not in (None, "-") else None):
+        if path is not None:
+            check_file(path)
 
 
-def _held(said: tuple[str, ...]) -> dict[str, str]:
-    """Values by input, "" for the only one. Raises MechanismError for an input held twice."""
-    held: dict[str, str] = {}
-    for one in said:
-        name, equals, value = one.rpartition("=")
-        if name.strip() in held:
-            raise MechanismError(f"--at holds {name.strip() or 'the input'} twice", do="hold it once")
-        held[name.strip() if equals else ""] = value.strip()
-    return held
+def _fixed(texts: tuple[str, ...]) -> dict[str, str]:
+    """Values by input, "" for the only one. Raises MechanismError for an input that is fixed twice."""
+    fixed: dict[str, str] = {}
+    for text in texts:
+        name, equals, value = text.rpartition("=")
+        if name.strip() in fixed:
+            raise MechanismError(f"--at fixes {name.strip() or 'the input'} twice", do="fix it once")
+        fixed[name.strip() if equals else ""] = value.strip()
+    return fixed
 
 
 def _give_csv(to: str | None, moved: MechanismRun) -> bool:
-    """Write the table where `--csv` says; whether it went to standard output."""
+    """Write the table to the output of `--csv`; True if that is standard output."""
     if to is None:
         return False
     if to == "-":
@@ -103,13 +111,13 @@ def _give_csv(to: str | None, moved: MechanismRun) -> bool:
     return False
 
 
-def show(said: Report) -> None:
-    """How it is built, and its points and bodies."""
-    console().print(said.title)
-    for result in said.results:
+def show(shown: Report) -> None:
+    """Print the structure, and the tables of points and bodies."""
+    console().print(shown.title)
+    for result in shown.results:
         for value in result.value if isinstance(result.value, list) else [result.value]:
             console().print(f"  {result.name}: {_shown(value, result.unit)}")
-    for table in said.tables:
+    for table in shown.tables:
         headings = [f"{c.heading} [{c.unit}]" if c.unit else c.heading for c in table.columns]
         rows = [
             tuple(

@@ -1,4 +1,4 @@
-"""Options that several commands have, declared once."""
+"""Options that several commands share."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -9,16 +9,19 @@ import click
 F = TypeVar("F", bound=Callable[..., Any])
 
 SIZES = "a standard size (seccade, kelle, ...) or width x length, like 120x180cm"
-QUALITIES = "knots across x along, like 25x25/dm; also 40raj, 130kpsi, 62500/m2, 9/60 (India), 90line (China)"
+QUALITIES = "knots across x knots along, like 25x25/dm; also 40raj, 130kpsi, 62500/m2, 9/60 (India), 90line (China)"
 
 json_option = click.option(
-    "--json", "json_to", metavar="-|FILE", help="Give everything as JSON, SI and radians; - is standard output."
+    "--json",
+    "json_to",
+    metavar="-|FILE",
+    help="Write all results as JSON, SI and radians; - writes to standard output.",
 )
-force_option = click.option("--force", is_flag=True, help="Replace an output folder that ilmek made before.")
+force_option = click.option("--force", is_flag=True, help="Replace an output folder that ilmek wrote.")
 
 
 def carpet_options(command: F) -> F:
-    """The options that say which carpet: picture, size, quality, knot, yarns, colours, lone knots, pile, printing."""
+    """Options of a carpet: picture, size, quality, knot, yarns, colours, lone knots, pile, printed chart."""
     for option in reversed(_CARPET):
         command = option(command)
     return command
@@ -36,15 +39,21 @@ _CARPET = (
         "yarn_file",
         type=click.Path(path_type=Path),
         metavar="FILE",
-        help="Yarn list, TOML or CSV; without it sixteen wool yarns that come with ilmek.",
+        help="Yarn list, TOML or CSV; default: the sixteen wool yarns that come with ilmek.",
     ),
-    click.option("--colours", type=int, metavar="N", help="Use only the best N yarns of the list."),
-    click.option("--keep-lone", is_flag=True, help="Leave knots unlike all four neighbours; else they are merged."),
+    click.option(
+        "--colours", type=int, metavar="N", help="Use only the N yarns of the list that match the picture best."
+    ),
+    click.option(
+        "--keep-lone", is_flag=True, help="Keep knots that differ from all four neighbours; default: they are merged."
+    ),
     click.option("--pile-height", default="8mm", show_default=True, metavar="LENGTH", help="Height of the cut pile."),
     click.option(
-        "--pdf/--no-pdf", default=None, help="Print the chart as PDF or not; without it up to 400 sheets are printed."
+        "--pdf/--no-pdf",
+        default=None,
+        help="Write the chart as PDF or not; default: only if it has at most 400 sheets.",
     ),
     click.option(
-        "--out", type=click.Path(path_type=Path), metavar="DIR", help="Output folder, made whole or not at all."
+        "--out", type=click.Path(path_type=Path), metavar="DIR", help="Output folder; on an error nothing is written."
     ),
 )

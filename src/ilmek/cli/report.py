@@ -8,7 +8,7 @@ from ilmek.units import format_number, format_quantity, from_si, printed_unit
 
 
 def show_report(report: Report) -> None:
-    """Results, the tables that are brief, and checks."""
+    """Print results, brief tables and checks."""
     console().print(report.title)
     shown = [(r.name, _shown(r), r.meaning) for r in report.results if r.shown]
     show_table(("result", "value", "meaning"), shown, right=(1,))
@@ -25,7 +25,7 @@ def show_report(report: Report) -> None:
 
 
 def _show(table: Table) -> None:
-    """A table of the report, its numbers in the units of their columns."""
+    """Print a table of the report, numbers in the units of their columns."""
     console().print(table.title)
     units = [printed_unit(column.unit) for column in table.columns]
     headings = [
@@ -37,14 +37,14 @@ def _show(table: Table) -> None:
 
 
 def _cell(cell: float | int | str, column: Column) -> str:
-    """A cell without its unit, which the heading has."""
+    """A cell without its unit, which is in the heading."""
     if isinstance(cell, str):
         return cell
     return format_number(from_si(cell, column.unit), column.digits) if math.isfinite(cell) else "–"
 
 
 def _shown(result: Result) -> str:
-    """A result in its unit; a group is shown name by name."""
+    """A result in its unit; a group, name by name."""
     return _value(result.value, result.unit)
 
 

@@ -1,4 +1,4 @@
-"""`ilmek reproduce`: the verification manual, computed anew."""
+"""`ilmek reproduce`: recompute the verification manual."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -22,36 +22,40 @@ Examples:
   ilmek reproduce --json -
 
 reproduced        agrees to the last printed digit; an equation leaves no residual
-rounding          within 1.5 units of the last printed digit, or from the paper's own rounded numbers
-misprint          the computed number is right; the note has the right equation
-not reproducible  the note says why
+rounding          within 1.5 units of the last printed digit, or follows from the paper's rounded numbers
+misprint          the computed number is right; the note gives the correct equation
+not reproducible  the note gives the reason
 """
 
 
 @click.command(epilog=EXAMPLES)
 @click.option(
-    "--paper", "papers", multiple=True, type=click.Choice(tuple(PAPERS)), help="Only this paper; may be repeated."
+    "--paper",
+    "papers",
+    multiple=True,
+    type=click.Choice(tuple(PAPERS)),
+    help="Only this paper; may be given several times.",
 )
 @json_option
 def command(papers: tuple[str, ...], json_to: str | None) -> None:
-    """Compute every number that the four papers print, and say which are reproduced.
+    """Compute every number that the four papers print and report which are reproduced.
 
-    Of each paper first what is not reproduced, then the rest in the order of its pages. Numbers are in the unit as
-    printed, so that they can be laid beside the paper; so they are in the JSON.
+    Numbers that are not reproduced are listed first, then the rest in the order of the pages. Numbers are in the unit
+    as printed, in the JSON too, so that they can be compared with the paper.
     """
     check_json(json_to)
     with progress_bar() as progress:
-        found = reproduce_papers(papers, progress=progress)
-    if give_json(json_to, found.as_json()):
+        result = reproduce_papers(papers, progress=progress)
+    if give_json(json_to, result.as_json()):
         return
-    for paper, of_paper in found.verdicts.items():
+    for paper, of_paper in result.verdicts.items():
         show_paper(paper, of_paper)
-    show_summary(found.verdicts)
-    console().print(f"computed in {found.seconds:.1f} s")
+    show_summary(result.verdicts)
+    console().print(f"computed in {result.seconds:.1f} s")
 
 
 def show_paper(paper: str, verdicts: Sequence[Verdict]) -> None:
-    """One paper: its claims, those that are not reproduced first, verdict by verdict."""
+    """Print the claims of one paper, those that are not reproduced first."""
     console().print(f"{paper}: {TITLES[paper]}")
     groups = [[row(verdict) for verdict in verdicts if verdict.verdict == name] for name in ORDER]
     show_table(HEADINGS, *filter(None, groups), right=(2,), wide=(1, 2, 3))
@@ -59,7 +63,7 @@ def show_paper(paper: str, verdicts: Sequence[Verdict]) -> None:
 
 
 def show_summary(verdicts: Mapping[str, Sequence[Verdict]]) -> None:
-    """How many claims of each paper have which verdict."""
+    """Print the number of claims by paper and verdict."""
     counted = {paper: Counter(verdict.verdict for verdict in of_paper) for paper, of_paper in verdicts.items()}
     if len(counted) > 1:
         counted["all"] = sum(counted.values(), Counter())

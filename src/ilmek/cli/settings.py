@@ -1,4 +1,4 @@
-"""Settings of parameters on the command line: NAME=VALUE, or NAME=@FILE for a value that stands in a file."""
+"""Settings of parameters on the command line: NAME=VALUE, or NAME=@FILE to read the value from a file."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -7,18 +7,19 @@ from ilmek.errors import ParameterError
 from ilmek.io.text_file import read_text
 
 LARGEST = 1_000_000
-"""Bytes of a value in a file."""
+"""Largest size of a value in a file [bytes]."""
 
 
 def read_settings(settings: Iterable[str]) -> dict[str, str]:
-    """Texts by parameter name. Raises ParameterError for a setting without a name or value, or one given twice, and
-    for a file that cannot be read.
+    """Texts by parameter name.
+
+    Raises ParameterError for a setting without a name or value, one given twice, or a file that cannot be read.
     """
     read: dict[str, str] = {}
     for setting in settings:
         name, equals, value = (part.strip() for part in setting.partition("="))
         if not equals or not name or not value:
-            raise ParameterError(f"{setting!r} sets nothing", do="write NAME=VALUE, like swing=30deg")
+            raise ParameterError(f"{setting!r} is no setting", do="write NAME=VALUE, like swing=30deg")
         if name in read:
             raise ParameterError(f"{name} is set twice: {read[name]} and {value}", do="set it once")
         read[name] = _in_file(name, Path(value[1:])) if value.startswith("@") else value
@@ -26,8 +27,8 @@ def read_settings(settings: Iterable[str]) -> dict[str, str]:
 
 
 def _in_file(name: str, path: Path) -> str:
-    said = dict(noun="text file with the value", do="check its name")
+    wording = dict(noun="text file with the value", do="check its name")
     try:
-        return read_text(path, largest=LARGEST, error=ParameterError, **said)
+        return read_text(path, largest=LARGEST, error=ParameterError, **wording)
     except ParameterError as error:
         raise ParameterError(f"{name}=@{path}: {error.given}", allowed=error.allowed, do=error.do) from None

@@ -1,6 +1,6 @@
-"""What a person sees: short tables on standard output, notes and a progress bar on the error stream.
+"""Output for people: short tables on standard output, notes and a progress bar on the error stream.
 
-The library that draws tables and bars is imported when the first is drawn: JSON needs none.
+The library for tables and bars is imported when the first is drawn; JSON output does not need it.
 """
 
 import contextlib
@@ -23,7 +23,7 @@ WIDTH_IN_A_PIPE = 120
 
 
 def console() -> "Console":
-    """Standard output as rich sees it; texts are shown as they are."""
+    """A rich console on standard output that shows texts unchanged."""
     from rich.console import Console
 
     width = None if sys.stdout.isatty() else WIDTH_IN_A_PIPE
@@ -33,16 +33,17 @@ def console() -> "Console":
 def show_table(
     headings: Sequence[str], *groups: Sequence[Sequence[str]], right: Sequence[int] = (), wide: Sequence[int] = ()
 ) -> None:
-    """A table, its groups of rows divided by lines.
+    """Print a table; lines divide its groups of rows.
 
-    right  columns aligned to the right      wide  columns that are never broken
+    right  indices of columns aligned to the right
+    wide   indices of columns that are never broken
     """
     from rich import box
     from rich.table import Table
 
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for place, heading in enumerate(headings):
-        table.add_column(heading, justify="right" if place in right else "left", no_wrap=place in wide)
+    for index, heading in enumerate(headings):
+        table.add_column(heading, justify="right" if index in right else "left", no_wrap=index in wide)
     for rows in groups:
         for row in rows:
             table.add_row(*row)
@@ -51,14 +52,14 @@ def show_table(
 
 
 def show_pairs(pairs: Sequence[tuple[str, str]]) -> None:
-    """Names and what they are, a line each, never broken: a path can be copied."""
+    """Print names and values, one line each. Lines are never broken, so that a path can be copied."""
     width = max(len(name) for name, _ in pairs)
-    for name, said in pairs:
-        click.echo(f"{name:<{width}}  {said}")
+    for name, value in pairs:
+        click.echo(f"{name:<{width}}  {value}")
 
 
 def show_checks(checks: "Sequence[Check]") -> None:
-    """Value against limit, the failed ones first."""
+    """Print checks with value and limit, failed ones first."""
     ordered = sorted(checks, key=lambda check: check.ok)
     rows = [
         (
@@ -74,19 +75,19 @@ def show_checks(checks: "Sequence[Check]") -> None:
 
 
 def passed(checks: "Sequence[Check]") -> str:
-    """How many checks hold, in words, naming those that do not."""
+    """The numbers of passed and failed checks, and the names of the failed ones."""
     failed = [check.name for check in checks if not check.ok]
-    said = f"{len(checks) - len(failed)} passed, {len(failed)} failed"
-    return f"{said}: {'; '.join(failed)}" if failed else said
+    counts = f"{len(checks) - len(failed)} passed, {len(failed)} failed"
+    return f"{counts}: {'; '.join(failed)}" if failed else counts
 
 
 def note(text: str) -> None:
-    """A remark on the error stream, one line."""
+    """Print a note of one line on the error stream."""
     click.echo(f"note: {' '.join(text.split())}", err=True)
 
 
 def check_json(to: str | None) -> None:
-    """Raise OutputError before any work where `--json` says a place that cannot be written."""
+    """Raise OutputError before any work if the output of `--json` cannot be written."""
     if to not in (None, "-"):
         from ilmek.io.output import check_file
 
@@ -94,7 +95,7 @@ def check_json(to: str | None) -> None:
 
 
 def give_json(to: str | None, data: Any) -> bool:
-    """Write JSON where `--json` says; whether it went to standard output, which is then kept clean of all else."""
+    """Write JSON to the output of `--json`; True if that is standard output, on which nothing else is then printed."""
     if to is None:
         return False
     from ilmek.io.json_file import json_text, write_json
@@ -108,7 +109,7 @@ def give_json(to: str | None, data: Any) -> bool:
 
 @contextlib.contextmanager
 def progress_bar() -> Iterator[Progress]:
-    """A bar for long work on a terminal; nothing in a pipe."""
+    """A progress bar on a terminal; nothing in a pipe."""
     if not sys.stderr.isatty():
         yield SILENT
         return

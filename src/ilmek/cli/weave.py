@@ -1,4 +1,4 @@
-"""`ilmek weave`: the main job."""
+"""`ilmek weave`: from a picture to chart, yarn, loom and programme."""
 
 from pathlib import Path
 from typing import Any
@@ -20,21 +20,25 @@ Examples:
   ilmek weave photo.jpg
   ilmek weave photo.jpg --size 120x180cm --quality 40x40/dm --yarns wool.toml --knot symmetric --deadline 72h
   ilmek weave photo.jpg --size kelle --colours 8 --heads 6 --out carpet --force
-  ilmek weave photo.jpg --loom hammer=comb --loom prices=@prices.txt
+  ilmek weave photo.jpg --loom hammer=comb --loom shedding.law=modified-sine --loom prices=@prices.txt
 """
 
 
 @click.command(epilog=EXAMPLES)
 @carpet_options
-@click.option("--heads", type=int, metavar="N", help="Knotting heads; without it 4, or as the deadline needs.")
-@click.option("--deadline", metavar="TIME", help="Find the heads that weave the carpet in this time, like 72h.")
-@click.option("--warp-pitch", metavar="LENGTH", help="Distance of two warps of your loom; without it the quality's.")
+@click.option(
+    "--heads", type=int, metavar="N", help="Number of knotting heads; default: 4, or as many as --deadline needs."
+)
+@click.option("--deadline", metavar="TIME", help="Use the fewest heads that weave the carpet in this time, like 72h.")
+@click.option(
+    "--warp-pitch", metavar="LENGTH", help="Distance between the warps of your loom; default: that of the quality."
+)
 @click.option(
     "--loom",
     "settings",
     multiple=True,
     metavar="NAME=VALUE",
-    help="Set a parameter of the automated-loom, like hammer=comb; @FILE: what stands in FILE.",
+    help="Set a parameter of the loom or its machines: hammer=comb, shedding.law=modified-sine; @FILE reads a file.",
 )
 @force_option
 @json_option
@@ -49,30 +53,32 @@ def command(
     json_to: str | None,
     **carpet: Any,
 ) -> None:
-    """Take PICTURE to everything that weaves it: knot chart, yarn, loom with its machines, programme, report.
+    """Turn PICTURE into all that is needed to weave it: knot chart, yarn bill, loom, programme, report.
 
-    The output folder holds report.html, report.json, chart.png, chart.pdf (see --pdf), yarn.csv, programme.ilmek and
+    The output folder contains report.html, report.json, chart.png, chart.pdf (see --pdf), yarn.csv, programme.ilmek and
     machine.json.
     """
     check_json(json_to)
     order = read_order(**carpet)
-    asked = read_loom_order(order, heads=heads, deadline=deadline, warp_pitch=warp_pitch, loom=read_settings(settings))
+    loom_order = read_loom_order(
+        order, heads=heads, deadline=deadline, warp_pitch=warp_pitch, loom=read_settings(settings)
+    )
     folder = out or free_folder(order.picture, "carpet")
     check_free(folder, force=force)
     with progress_bar() as progress:
-        woven = weave(order, asked, folder, force=force, progress=progress)
+        woven = weave(order, loom_order, folder, force=force, progress=progress)
     if not give_json(json_to, weave_json(woven)):
         show_woven(woven)
-    for said in (*woven.charted.notes, *woven.charted.warnings):
-        note(said)
+    for remark in (*woven.charted.notes, *woven.charted.warnings):
+        note(remark)
 
 
 def show_woven(woven: WeaveResult) -> None:
-    """The job in a few lines, and where the report lies."""
+    """Print a summary of the job and the path of the report."""
     chart, bill, programme = woven.charted.chart, woven.charted.bill, woven.loomed.programme
     heads = f"{programme.heads} (of {woven.loomed.design.heads_max} that fit)"
-    if woven.asked.deadline is not None:
-        heads = f"{programme.heads} needed for the deadline of {time_in_words(woven.asked.deadline)}"
+    if woven.loom_order.deadline is not None:
+        heads = f"{programme.heads} needed for the deadline of {time_in_words(woven.loom_order.deadline)}"
     warnings = [("warnings", f"{len(woven.warnings)}, in the report")] if woven.warnings else []
     show_pairs(
         [

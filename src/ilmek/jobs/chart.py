@@ -1,4 +1,4 @@
-"""The carpet part: picture to knot chart and yarn bill, and their files."""
+"""From a picture to knot chart and yarn bill, and their files."""
 
 import math
 from collections.abc import Sequence
@@ -24,12 +24,15 @@ from ilmek.report import Check, at_most
 from ilmek.units import format_quantity
 
 MOST_SHEETS = 400
-"""Sheets of a printed chart that are written without being asked for."""
+"""Largest number of sheets for which chart.pdf is written by default."""
 
 
 @dataclass(frozen=True, slots=True)
 class ChartResult:
-    """An order's chart and yarn bill; notes say what was done to the picture, and what was left out."""
+    """Chart and yarn bill of an order.
+
+    notes  changes made to the picture, and files that are left out
+    """
 
     order: CarpetOrder
     chart: Chart
@@ -38,47 +41,48 @@ class ChartResult:
 
     @property
     def files(self) -> tuple[str, ...]:
-        """What `write_chart` puts into a folder."""
+        """Names of the files that `write_chart` writes."""
         return ("chart.png", "chart.pdf", "yarn.csv") if self._printed else ("chart.png", "yarn.csv")
 
     @property
     def _printed(self) -> bool:
-        """Whether there is a chart.pdf: as ordered, or else where it has no more than MOST_SHEETS."""
+        """Whether chart.pdf is written; default: if it has at most MOST_SHEETS sheets."""
         return chart_cut(self.chart).count <= MOST_SHEETS if self.order.pdf is None else self.order.pdf
 
     @property
     def thickest(self) -> Yarn:
-        """The thickest yarn that at least one knot has."""
+        """The thickest yarn that is used."""
         used = (yarn for yarn, knots in zip(self.chart.yarns, self.chart.counts, strict=True) if knots)
         return max(used, key=lambda yarn: yarn.linear_density)
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Whether the pile has room on the ground."""
+        """Share of the ground that the pile fills, against 100 %."""
         fill = pile_fill(self.chart.quality, self.thickest.linear_density, self.order.pile)
-        source = "two legs a knot in the knot's cell, fibre packed as in the free yarn"
+        source = "two legs per knot in the knot's cell, fibre packed as in the free yarn"
         return (at_most("pile: share of the ground filled", fill, 1.0, "%", source),)
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What would mend the checks that fail."""
+        """Remedies for the checks that fail."""
         if not (fails := [check for check in self.checks if not check.ok]):
             return ()
         yarn = self.thickest
-        # Rounded up: a count a little too fine fits, one a little too coarse does not.
+        # Rounded up, because a finer count fits.
         fits = math.ceil(100 * coarsest_count(self.chart.quality, yarn.ply, self.order.pile)) / 100
-        said = f"{yarn.name!r} (Nm {yarn.metric_count:g}, ply {yarn.ply}) is too thick for {self.chart.quality}"
+        problem = f"{yarn.name!r} (Nm {yarn.metric_count:g}, ply {yarn.ply}) is too thick for {self.chart.quality}"
         takes = f"its pile would take {format_quantity(fails[0].value, '%', 3)} of the ground"
-        return (f"{said}: {takes}; with ply {yarn.ply}, Nm {fits:g} or finer fits, or take a coarser quality",)
+        return (f"{problem}: {takes}; with ply {yarn.ply}, Nm {fits:g} or finer fits, or take a coarser quality",)
 
 
 def chart_order(
     order: CarpetOrder, folder: Path | None = None, *, force: bool = False, progress: Progress = SILENT
 ) -> tuple[ChartResult, list[str]]:
-    """Do the whole job, and put its files into a folder, whole or not at all; gives their paths too.
+    """Chart an order and write its files into a folder; on an error nothing is written. Returns also their paths.
 
-    folder  default: nothing is written      force  replace a folder that ilmek made
-    Raises OutputError, before any work, for a folder that cannot be made; errors of `make_charted`; Cancelled.
+    folder  default: nothing is written
+    force   replace a folder that ilmek wrote
+    Raises OutputError, before any work, for a folder that cannot be written; errors of `make_charted`; Cancelled.
     """
     if folder is None:
         return make_charted(order, progress), []
@@ -113,11 +117,11 @@ def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
     sheets = chart_cut(chart).count
     if order.pdf is not None or sheets <= MOST_SHEETS:
         return ()
-    return (f"chart.pdf would have {sheets:,} sheets and is left out; --pdf writes it all the same",)
+    return (f"chart.pdf would have {sheets:,} sheets and is left out; --pdf writes it",)
 
 
 def _fit(rgb: Rgb, chart: Chart) -> tuple[str, ...]:
-    """What a person should know of how the picture fits the carpet."""
+    """Notes on a picture that is stretched or coarser than the carpet."""
     height, width = rgb.shape[:2]
     stretch = distortion(rgb, chart.size)
     notes = []
@@ -134,7 +138,7 @@ def _fit(rgb: Rgb, chart: Chart) -> tuple[str, ...]:
 
 
 def chart_results(charted: ChartResult) -> dict[str, Any]:
-    """The results of a chart by their stable names, SI."""
+    """The results of a chart by their JSON names, SI."""
     chart, bill = charted.chart, charted.bill
     return {
         "rows": chart.rows,
@@ -159,7 +163,7 @@ def _need(need: YarnNeed) -> dict[str, Any]:
 
 
 def write_chart(charted: ChartResult, folder: Path, progress: Progress = SILENT) -> None:
-    """Write the chart's files into a folder. An OSError passes through."""
+    """Write the chart's files into a folder. Raises OSError."""
     write_chart_png(folder / "chart.png", charted.chart)
     if "chart.pdf" in charted.files:
         write_chart_pdf(folder / "chart.pdf", charted.chart, progress=progress)
@@ -167,7 +171,7 @@ def write_chart(charted: ChartResult, folder: Path, progress: Progress = SILENT)
 
 
 def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Any]:
-    """The JSON of a chart and the files it was written to."""
+    """The JSON of a chart and the paths of its files."""
     return job_json(
         "chart",
         charted.order.as_dict(),
@@ -180,11 +184,10 @@ def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Any]:
 
 
 def job_json(job: str, parameters: dict[str, Any], results: dict[str, Any], **more: Any) -> dict[str, Any]:
-    """The JSON of any job, built here alone: `job`, `parameters`, `results`, and `more` (checks, notes, files ...).
+    """The JSON of a job: `job`, `parameters`, `results`, and `more` (checks, notes, files ...).
 
-    Each result stands in two places, on purpose: under `results`, as in a machine's report, and at the top level under
-    its own name, so that a reader of one number need not know where it is kept. No name of a result may be one of the
-    others'.
+    Each result is given twice: under `results`, as in a machine's report, and at the top level, where a reader of one
+    number finds it by name. No result may have the name of another entry of the top level.
     """
     around = {"job": job, "parameters": parameters, "results": results, **more}
     assert not results.keys() & around.keys()

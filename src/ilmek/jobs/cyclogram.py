@@ -1,4 +1,4 @@
-"""A cyclogram of one's own: judged, solved, reported, tabled."""
+"""A cyclogram of a file or a machine: checked, optimised, reported, tabulated."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -19,22 +19,24 @@ from ilmek.timing.track import peak_acceleration, peak_speed, sample
 from ilmek.units import deg, format_number, format_quantity, from_si, turn
 
 GOALS = {"acceleration": least_acceleration, "period": least_period}
-"""What a cyclogram can be solved for."""
+"""Goals that a cyclogram can be solved for."""
 
 
 def find(name: str, settings: Mapping[str, str]) -> Cyclogram:
-    """The cyclogram of a file, or of a machine of the catalogue with some parameters: MACHINE, or MACHINE:CYCLOGRAM.
+    """The cyclogram of a file or of a machine of the catalogue, given as MACHINE or MACHINE:CYCLOGRAM.
 
-    Raises ParameterError for settings of a file, a machine without cyclograms, and one with several that names none.
+    settings  parameters of the machine by name, with units
+    Raises ParameterError for settings of a file, a machine without cyclograms, and a machine with several cyclograms of
+    which none is named.
     """
     machine, _, which = name.partition(":")
     if machine not in MACHINES or Path(name).suffix.lower() in (".toml", ".json"):
         path = Path(name)
         if not path.suffix and not path.exists():
-            here = ", ".join(_timed())
-            raise ParameterError(f"{name} is neither a cyclogram file nor a machine", allowed=f"a path, or {here}")
+            machines = ", ".join(_timed())
+            raise ParameterError(f"{name} is neither a cyclogram file nor a machine", allowed=f"a path, or {machines}")
         if settings:
-            raise ParameterError(f"{name} is no machine whose parameters could be set", allowed=", ".join(_timed()))
+            raise ParameterError(f"{name} is a file and has no parameters to set", allowed=", ".join(_timed()))
         return read_cyclogram(path)
     kind = MACHINES[machine]
     if kind.cyclograms is None:
@@ -42,7 +44,7 @@ def find(name: str, settings: Mapping[str, str]) -> Cyclogram:
     made = {one.name: one for one in kind.cyclograms(kind.design(kind.params.read(settings)))}
     if which not in made and (which or len(made) > 1):
         choices = " or ".join(f"{machine}:{one}" for one in made)
-        raise ParameterError(f"{name}: which cyclogram is not said", allowed=choices)
+        raise ParameterError(f"{name} has several cyclograms", allowed=choices)
     return made[which] if which else next(iter(made.values()))
 
 
@@ -51,7 +53,10 @@ def _timed() -> list[str]:
 
 
 def solve(cyclogram: Cyclogram, goal: str, progress: Progress = SILENT) -> Solution:
-    """The cyclogram solved for a goal. Raises ParameterError for an unknown one, and as the solver; Cancelled."""
+    """The cyclogram solved for a goal, a key of `GOALS`.
+
+    Raises ParameterError for an unknown goal, and as the solver; Cancelled.
+    """
     if goal not in GOALS:
         raise ParameterError(f"--solve {goal}", allowed=" or ".join(GOALS))
     progress.part(0.0, 1.0, "solve")
@@ -59,26 +64,26 @@ def solve(cyclogram: Cyclogram, goal: str, progress: Progress = SILENT) -> Solut
 
 
 def report(cyclogram: Cyclogram, solution: Solution | None = None) -> Report:
-    """What a cyclogram holds; of a solved one also what was won and what binds.
+    """The report of a cyclogram; of a solved one also the improvement and the binding constraints.
 
-    Raises ParameterError where what is asked of it cannot hold together, wherever the motions lie.
+    Raises ParameterError if its constraints contradict each other, so that no timing can satisfy them.
     """
     checks = (*judged(cyclogram), *_limit_checks(cyclogram))
     if solution is None and not all(check.ok for check in checks):
         require_possible(cyclogram)
     notes = {
-        "Shaded: a stay in a place that another track needs too.": cyclogram.exclusions,
-        "Arrows: what must come after what.": cyclogram.relations,
+        "Shaded: occupation of a zone that another track needs too.": cyclogram.exclusions,
+        "Arrows: required order of events.": cyclogram.relations,
     }
-    note = " ".join(said for said, there in notes.items() if there)
+    note = " ".join(text for text, used in notes.items() if used)
     tables = [_motions_table(cyclogram), _tracks_table(cyclogram)]
     results = [
-        Result("period", cyclogram.period, "s", "a turn of the master shaft"),
+        Result("period", cyclogram.period, "s", "time of a turn of the master shaft"),
         Result("tracks", _peaks(cyclogram), "", "largest speed and acceleration of each track", shown=False),
-        Result("cyclogram", cyclogram_data(cyclogram), "", "the cyclogram, as a file keeps it", shown=False),
+        Result("cyclogram", cyclogram_data(cyclogram), "", "the cyclogram, as in a file", shown=False),
     ]
     if solution is not None:
-        results += _won(solution)
+        results += _improvement(solution)
         tables.insert(0, _binding_table(solution))
     return Report(
         machine="cyclogram",
@@ -92,7 +97,10 @@ def report(cyclogram: Cyclogram, solution: Solution | None = None) -> Report:
 
 
 def columns(cyclogram: Cyclogram, steps: int) -> dict[str, FloatArray]:
-    """Master angle, time, and position, speed and acceleration of every track as columns, units in the headings."""
+    """Columns of a table by heading with unit: master angle, time; position, velocity, acceleration of each track.
+
+    steps  of a turn; the table has one row more
+    """
     angle = np.linspace(0.0, turn, steps + 1)
     w = cyclogram.speed
     found = {"master angle [deg]": np.linspace(0.0, 360.0, steps + 1), "time [s]": angle / w}
@@ -106,35 +114,35 @@ def columns(cyclogram: Cyclogram, steps: int) -> dict[str, FloatArray]:
 
 
 def binding_words(solution: Solution) -> list[str]:
-    """What binds, a line each, in the order of the turn."""
+    """The binding constraints, one line each, in the order of the turn."""
     return [f"{one.said}: {_cost(one, solution)}" for one in solution.binding]
 
 
 def _cost(one: Binding, solution: Solution) -> str:
     if one.kind == "motion":
-        return f"{format_number(100 * one.share, 3)} % of what the turn is needed for"
+        return f"{format_number(100 * one.share, 3)} % of the turn's requirement"
     if one.kind in ("order", "turn"):
-        return "no room between" if one.kind == "order" else "the turn ends there"
+        return "no gap left" if one.kind == "order" else "end of the turn"
     grows = "period" if solution.goal == "period" else "acceleration"
-    return f"a degree less would lower the {grows} by {format_number(100 * one.cost * deg, 3)} %"
+    return f"1 deg less would reduce the {grows} by {format_number(100 * one.cost * deg, 3)} %"
 
 
 def _limit_checks(cyclogram: Cyclogram) -> list[Check]:
-    """Largest speed and acceleration of each track with such limits, and its shortest motion."""
+    """Largest speed and acceleration of each track against its limits."""
     checks = []
     for track in cyclogram.tracks:
-        limits, unit, said = track.limits, track.unit, f"limit of {track.actuator or track.name}"
+        limits, unit, source = track.limits, track.unit, f"limit of {track.actuator or track.name}"
         speed, acceleration = peak_speed(track, cyclogram.period), peak_acceleration(track, cyclogram.period)
         if np.isfinite(limits.speed):
-            checks.append(at_most(f"{track.name}: speed", _cut(speed), limits.speed, f"{unit}/s", said))
+            checks.append(at_most(f"{track.name}: speed", _rounded(speed), limits.speed, f"{unit}/s", source))
         if np.isfinite(limits.acceleration):
             name = f"{track.name}: acceleration"
-            checks.append(at_most(name, _cut(acceleration), limits.acceleration, f"{unit}/s^2", said))
+            checks.append(at_most(name, _rounded(acceleration), limits.acceleration, f"{unit}/s^2", source))
     return checks
 
 
-def _cut(value: float) -> float:
-    """The value without what rounding left in its tenth digit."""
+def _rounded(value: float) -> float:
+    """The value to nine digits, free of rounding errors."""
     return float(f"{value:.9g}")
 
 
@@ -148,20 +156,20 @@ def _peaks(cyclogram: Cyclogram) -> dict[str, Any]:
     }
 
 
-def _won(solution: Solution) -> list[Result]:
+def _improvement(solution: Solution) -> list[Result]:
     binding = [{"said": one.said, "kind": one.kind, "share": one.share, "cost": one.cost} for one in solution.binding]
     return [
-        Result("goal", solution.goal, "", "what was made least"),
+        Result("goal", solution.goal, "", "quantity that was minimised"),
         Result("before", solution.before, solution.unit, f"{solution.measure}, as given"),
-        Result("after", solution.after, solution.unit, f"{solution.measure}, solved: the least in this order"),
-        Result("binding", binding, "", "what binds, in the order of the turn", shown=False),
+        Result("after", solution.after, solution.unit, f"{solution.measure}, solved: least for this order"),
+        Result("binding", binding, "", "binding constraints, in the order of the turn", shown=False),
     ]  # fmt: skip
 
 
 def _binding_table(solution: Solution) -> Table:
-    columns = (Column("what binds"), Column("kind"), Column("what it does"))
+    columns = (Column("constraint"), Column("kind"), Column("effect"))
     rows = tuple((one.said, one.kind, _cost(one, solution)) for one in solution.binding)
-    return Table("binding", "What binds, in the order of the turn", columns, rows, brief=True)
+    return Table("binding", "Binding constraints, in the order of the turn", columns, rows, brief=True)
 
 
 def _motions_table(cyclogram: Cyclogram) -> Table:

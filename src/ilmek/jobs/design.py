@@ -1,4 +1,4 @@
-"""One machine, designed from its parameters; its page and its workshop files."""
+"""Design one machine; write its report page and its workshop files."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Outputs:
-    """The files of a design that are wanted.
+    """Requested output files of a design.
 
-    page       of the report, HTML; default: none
+    page       HTML report; default: none
     workshop   folder for plates (DXF, STEP) and cam tables; default: none
     tolerance  of the cam tables, like `1um` or `0.01%` of the stroke; default: see `jobs.workshop.SHARE`
-    force      replace a workshop folder whose files ilmek made
+    force      replace a workshop folder that ilmek wrote
     """
 
     page: Path | None = None
@@ -53,16 +53,16 @@ class DesignResult:
 def design_machine(
     name: str, settings: Mapping[str, Setting], outputs: Outputs | None = None, *, progress: Progress = SILENT
 ) -> DesignResult:
-    """Design a machine of the catalogue, report it, and write the files that are wanted.
+    """Design a machine of the catalogue, report it, and write the requested files.
 
     settings  values of parameters by name: texts with units, or numbers in SI
     Raises ParameterError for an unknown machine, parameter or tolerance and for a value out of bounds; OutputError,
     before any work, where a file cannot be written; errors of the machine; Cancelled.
     """
-    wanted = outputs or Outputs()
-    if wanted.page is not None:
-        check_file(wanted.page)
-    write = _workshop_writer(wanted)
+    requested = outputs or Outputs()
+    if requested.page is not None:
+        check_file(requested.page)
+    write = _workshop_writer(requested)
     machine = find_machine(name)
     params = machine.params.read(settings)
     progress.part(0.0, 0.6, "design")
@@ -71,17 +71,17 @@ def design_machine(
     report = machine.report(made)
     progress.part(0.8, 1.0, "files")
     workshop = write(report) if write is not None else None
-    write_page(wanted.page, report)
+    write_page(requested.page, report)
     progress(1.0)
     return DesignResult(report, workshop)
 
 
-def _workshop_writer(wanted: Outputs) -> "Callable[[Report], Workshop] | None":
-    """Writes the workshop files of a report; None where none are wanted. Their libraries are imported only here."""
-    if wanted.workshop is None:
+def _workshop_writer(requested: Outputs) -> "Callable[[Report], Workshop] | None":
+    """Writes the workshop files of a report; None where none are requested. Their libraries are imported only here."""
+    if requested.workshop is None:
         return None
-    check_free(wanted.workshop, force=wanted.force)
+    check_free(requested.workshop, force=requested.force)
     from ilmek.jobs.workshop import Tolerance, read_tolerance, write_workshop
 
-    tolerance = Tolerance() if wanted.tolerance is None else read_tolerance(wanted.tolerance)
-    return partial(write_workshop, folder=wanted.workshop, tolerance=tolerance, force=wanted.force)
+    tolerance = Tolerance() if requested.tolerance is None else read_tolerance(requested.tolerance)
+    return partial(write_workshop, folder=requested.workshop, tolerance=tolerance, force=requested.force)

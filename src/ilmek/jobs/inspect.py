@@ -1,4 +1,4 @@
-"""What a loom programme holds: the carpet, colours, statistics, and one row as the heads tie it."""
+"""Contents of a loom programme: carpet, colours, statistics, and one row as the heads tie it."""
 
 import itertools
 import random
@@ -15,16 +15,17 @@ from ilmek.loom.row import HeadTies, KnotRow
 
 @dataclass(frozen=True, slots=True)
 class InspectionResult:
-    """A programme, whose file is closed, one of its rows, and the time of that row with its wefts [s]."""
+    """A programme (its file is closed), one of its rows, and the time of that row with its wefts [s]."""
 
     programme: ProgrammeFile
     row: KnotRow
     time: float
 
     def as_json(self) -> dict[str, Any]:
-        """The programme's figures and the row, SI. The row's number is from 1 at the bottom, its pairs (the knots, one
-        on each pair of warps) from 1 at the left, as on the printed chart; its yarns are indices of the list `yarn`,
-        from 0.
+        """The programme's statistics and the row, SI.
+
+        Rows count from 1 at the bottom and pairs of warps (one knot each) from 1 at the left, as on the printed chart.
+        Yarns are indices of the list `yarn`, from 0.
         """
         programme, row = self.programme, self.row
         label, totals, work = programme.label, programme.totals, programme.work
@@ -53,9 +54,9 @@ class InspectionResult:
 
 
 def inspect_programme(file: Path, number: int | None = None) -> InspectionResult:
-    """Read a programme's figures and one of its rows.
+    """Read a programme's statistics and one of its rows.
 
-    number  of the row, from 1 at the bottom edge; default: a random one
+    number  of the row, from 1 at the bottom edge; default: a random row
     Raises LoomError for a row beyond the carpet, and as `open_programme`.
     """
     with open_programme(file) as programme:
@@ -71,8 +72,9 @@ def _index(number: int, rows: int) -> int:
 
 
 def runs(ties: HeadTies) -> list[tuple[int, int, int]]:
-    """(first knot, last knot, yarn) of neighbouring knots tied one after the other in one yarn; knots from 1 at the
-    left, yarns from 0.
+    """(first knot, last knot, yarn) of each run of neighbouring knots tied one after the other in one yarn.
+
+    Knots count from 1 at the left, yarns from 0.
     """
     pairs, colours = ties.pairs.astype(np.int64) + 1, ties.colours
     breaks = (np.abs(np.diff(pairs)) != 1) | (np.diff(colours.astype(np.int64)) != 0)

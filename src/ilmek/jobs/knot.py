@@ -1,4 +1,4 @@
-"""Which knot the motion of a yarn's end ties, said and drawn."""
+"""The knot that the motion of a yarn's end ties, reported and drawn."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,20 +17,22 @@ from ilmek.weaving.knots.proof import TiedKnot, joined_ends, tied_knot
 from ilmek.weaving.knots.word import word_text
 
 RING = np.exp(2j * np.pi * np.arange(72) / 72)
-"""Corners of a round warp of radius 1."""
+"""Polygon of a round warp of radius 1."""
 
 BESIDE = 2
-"""Warps drawn on each side of those that the path comes to."""
+"""Number of warps drawn on each side of those that the path reaches."""
 
 
 @dataclass(frozen=True, slots=True)
 class KnotRequest:
-    """A row of warps [m], and how the path is to be taken.
+    """A row of warps, and how the path is interpreted.
 
-    count, pitch, first  of the warps; the first stands at `first`, the others to its right
-    keep_out  radius about a warp that the path may not enter [m]
-    smooth    the places are samples of a smooth motion; else corners of a path of straight lines
-    closed    the motion ends where it began
+    count     number of warps
+    pitch     distance between neighbouring warps [m]
+    first     position of the leftmost warp [m]
+    keep_out  radius around each warp that the path must not enter [m]
+    smooth    the points are samples of a smooth motion; default: corners of a polyline
+    closed    the path returns to its first point
     """
 
     count: int
@@ -47,66 +49,71 @@ class KnotRequest:
             )
         if self.keep_out >= self.pitch / 2:
             raise CarpetError(
-                f"{format_quantity(self.keep_out, 'mm')} kept about warps {format_quantity(self.pitch, 'mm')} apart "
-                "leaves no way between them",
+                f"keep-out {format_quantity(self.keep_out, 'mm')} at warps {format_quantity(self.pitch, 'mm')} apart "
+                "leaves no passage between them",
                 allowed=f"less than {format_quantity(self.pitch / 2, 'mm')}",
-                do="--keep-out is the warp's radius and half of what moves",
+                do="--keep-out is the warp's radius plus half the width of the moving part",
             )
 
     @property
     def warps(self) -> ComplexArray:
-        """Places of the warps [m]."""
+        """Positions of the warps [m]."""
         return self.first + self.pitch * np.arange(self.count)
 
 
 def knot_of(
-    files: Sequence[Path], asked: KnotRequest, columns: tuple[str, str] | None = None, progress: Progress = SILENT
+    files: Sequence[Path], request: KnotRequest, columns: tuple[str, str] | None = None, progress: Progress = SILENT
 ) -> Report:
-    """The knot that yarn ties whose end is led along the path of a file, or whose two ends along two.
+    """The knot that a yarn ties when its end is led along the path of a file, or its two ends along two.
 
-    columns  headings of the columns of x and y; default: the only two
+    columns  headings of the columns of x and y; default: the only two columns of the file
     Raises CarpetError for more than two files, a path that cannot be read, or one that comes too close to a warp.
     """
     if len(files) > 2:
         raise CarpetError(f"{len(files)} paths", allowed="one, or two for both ends of the yarn")
     progress.part(0.0, 1.0, "knot")
-    return report(*judged([read_path(file, columns) for file in files], asked), asked)
+    return report(*judged([read_path(file, columns) for file in files], request), request)
 
 
-def judged(paths: Sequence[ComplexArray], asked: KnotRequest) -> tuple[ComplexArray, TiedKnot]:
-    """The yarn's whole path [m] of one end, or of two led from one place, and the knot that it ties."""
+def judged(paths: Sequence[ComplexArray], request: KnotRequest) -> tuple[ComplexArray, TiedKnot]:
+    """The yarn's whole path [m], of one end or of two that start at one point, and the knot that it ties."""
     path = paths[0] if len(paths) == 1 else joined_ends(paths[0], paths[1])
-    lengths = arc_lengths(np.append(path, path[0]) if asked.closed else path) if asked.smooth else None
-    return path, tied_knot(path, asked.warps, keep_out=asked.keep_out, lengths=lengths, closed=asked.closed)
+    lengths = arc_lengths(np.append(path, path[0]) if request.closed else path) if request.smooth else None
+    return path, tied_knot(path, request.warps, keep_out=request.keep_out, lengths=lengths, closed=request.closed)
 
 
-def report(path: Complex[np.ndarray, " places"], tied: TiedKnot, asked: KnotRequest) -> Report:
-    """What is tied, in words, as a word, and drawn."""
+def report(path: Complex[np.ndarray, " points"], tied: TiedKnot, request: KnotRequest) -> Report:
+    """The report of a knot: its name, its crossing word, a drawing."""
     known = tied.knot
     results = (
         Result("verdict", tied.words, "", "the knot that is tied, or why there is none"),
-        Result("knot", known.kind if known else None, "", "its kind: symmetric, asymmetric or single-warp; none"),
+        Result("knot", known.kind if known else None, "", "kind: symmetric, asymmetric or single-warp; null: no knot"),
         Result("opens", known.opens or None if known else None, "", "side on which an asymmetric knot is open"),
-        Result("warps", list(known.warps) if known else [], "", "it is tied on, numbered from 1 at the left"),
+        Result(
+            "warps",
+            list(known.warps) if known else [],
+            "",
+            "warps that the knot is tied on, numbered from 1 at the left",
+        ),
         Result("word", list(tied.word), "", "warps passed behind: + from left to right, - from right to left"),
-        Result("way", word_text(tied.word) if tied.word else "behind no warp", "", "the word as a weaver says it"),
+        Result("way", word_text(tied.word) if tied.word else "behind no warp", "", "the crossing word in words"),
         Result("backward", tied.backward, "", "the yarn runs through the knot from its other end"),
-        Result("length", float(np.abs(np.diff(path)).sum()), "mm", "of the path, from place to place"),
+        Result("length", float(np.abs(np.diff(path)).sum()), "mm", "length of the path, from point to point"),
     )
-    first = [asked.first.real, asked.first.imag]
-    parameters: dict[str, Json] = dict(pitch=asked.pitch, warps=asked.count, first=first, keep_out=asked.keep_out)
-    parameters |= dict(smooth=asked.smooth, closed=asked.closed)
-    return Report("knot", "Knot of a motion", parameters, results, (), figures=(_drawing(path, tied, asked),))
+    first = [request.first.real, request.first.imag]
+    parameters: dict[str, Json] = dict(pitch=request.pitch, warps=request.count, first=first, keep_out=request.keep_out)
+    parameters |= dict(smooth=request.smooth, closed=request.closed)
+    return Report("knot", "Knot of a motion", parameters, results, (), figures=(_drawing(path, tied, request),))
 
 
-def _drawing(path: ComplexArray, tied: TiedKnot, asked: KnotRequest) -> Drawing:
-    """The path among the warps that it comes to."""
-    along = (path.real - asked.first.real) / asked.pitch
+def _drawing(path: ComplexArray, tied: TiedKnot, request: KnotRequest) -> Drawing:
+    """The path among the warps that it reaches."""
+    along = (path.real - request.first.real) / request.pitch
     low, high = int(np.floor(along.min())) - BESIDE, int(np.ceil(along.max())) + BESIDE
-    numbers = [number for number in range(asked.count) if low <= number <= high]
-    radius = asked.keep_out or asked.pitch / 20
-    rings = [Stroke(asked.warps[number] + radius * RING, "outline", closed=True) for number in numbers]
-    names = [Dot(complex(asked.warps[number]), str(number + 1), "point") for number in numbers]
+    numbers = [number for number in range(request.count) if low <= number <= high]
+    radius = request.keep_out or request.pitch / 20
+    rings = [Stroke(request.warps[number] + radius * RING, "outline", closed=True) for number in numbers]
+    names = [Dot(complex(request.warps[number]), str(number + 1), "point") for number in numbers]
     ends = [Dot(complex(path[0]), "begins", "point"), Dot(complex(path[-1]), "ends", "point")]
-    strokes = (*rings, Stroke(path, "yarn", closed=asked.closed))
+    strokes = (*rings, Stroke(path, "yarn", closed=request.closed))
     return Drawing("knot", "The path among the warps", strokes, (*names, *ends), "mm", f"{tied.words}; pile upwards.")

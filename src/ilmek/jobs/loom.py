@@ -1,4 +1,4 @@
-"""The loom part: what is asked of the loom, the loom designed for a chart, and its programme."""
+"""The loom of an order: its parameters, its design for a chart, and its programme."""
 
 import re
 from collections.abc import Mapping
@@ -19,10 +19,11 @@ from ilmek.units import format_quantity, parse_quantity
 
 @dataclass(frozen=True, slots=True)
 class LoomOrder:
-    """What is asked of the loom: its parameters as far as the carpet is known without its picture, and
+    """An order for a loom.
 
-    heads     knotting heads; None: as the deadline needs, or USUAL_HEADS
-    deadline  time for the whole carpet [s]; None: none
+    params    parameters of the loom, as far as they are known without the picture
+    heads     number of knotting heads; default: as many as the deadline needs, or USUAL_HEADS
+    deadline  time for the whole carpet [s]; default: none
     """
 
     params: AutomatedLoomParams
@@ -30,7 +31,7 @@ class LoomOrder:
     deadline: float | None
 
     def as_dict(self) -> dict[str, Any]:
-        """What was asked, as plain data, SI."""
+        """The order as plain data, SI."""
         return {"heads": self.heads, "deadline": self.deadline, "warp_pitch": self.params.pitch}
 
 
@@ -54,7 +55,7 @@ OF_THE_CARPET = {
     "knot_yarn": "--pile-height",
     "changes_per_knot": "the picture",
 }
-"""Parameters of a loom that follow from the carpet, and what sets them."""
+"""Parameters of a loom that follow from the carpet, and the option that sets each."""
 
 
 def read_loom_order(
@@ -65,13 +66,14 @@ def read_loom_order(
     warp_pitch: Setting = None,
     loom: Mapping[str, Setting] = MappingProxyType({}),
 ) -> LoomOrder:
-    """What is asked of the loom, from texts; `loom`: more of its parameters.
+    """The order for a loom, from texts.
 
-    Raises ParameterError, UnitError, or LoomError where the quality is beyond the warp pitch.
+    loom  further parameters of the loom, by name
+    Raises ParameterError, UnitError, or LoomError if the quality does not fit the warp pitch.
     """
     for name in loom:
         if name in OF_THE_CARPET:
-            raise ParameterError(f"{name} of the loom is the carpet's", do=f"use {OF_THE_CARPET[name]} for it")
+            raise ParameterError(f"{name} of the loom follows from the carpet", do=f"set it by {OF_THE_CARPET[name]}")
     if heads is not None and deadline is not None:
         raise ParameterError("heads and a deadline are both given", do="give one of --heads and --deadline")
     limit = None if deadline is None else _deadline(deadline)
@@ -98,25 +100,25 @@ def _deadline(text: str) -> float:
     return seconds
 
 
-def make_loomed(asked: LoomOrder, order: CarpetOrder, chart: Chart) -> LoomResult:
-    """The loom for a chart with the heads that are asked for or needed, and its programme.
+def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart) -> LoomResult:
+    """The loom for a chart, with the number of heads required, and its programme.
 
-    Raises LoomError where the heads do not fit or the deadline cannot be met, or another error of the machines.
+    Raises LoomError if the heads do not fit or the deadline cannot be met, and errors of the machines.
     """
     longest = max(knot_length(chart.knot, chart.quality, yarn.linear_density, order.pile) for yarn in chart.yarns)
     params = replace(
-        asked.params, colours=chart.colours, knot_yarn=longest, changes_per_knot=min(1.0, chart.changes_per_knot)
+        loom_order.params, colours=chart.colours, knot_yarn=longest, changes_per_knot=min(1.0, chart.changes_per_knot)
     )
     made = design(params)
-    heads = _heads(asked, made, chart)
+    heads = _heads(loom_order, made, chart)
     if heads != params.heads:
         made = design(replace(params, heads=heads))
     return LoomResult(made, make_programme(chart.knots, len(chart.yarns), heads, made.times))
 
 
-def _heads(asked: LoomOrder, made: LoomDesign, chart: Chart) -> int:
-    if asked.heads is not None:
-        return asked.heads
-    if asked.deadline is None:
+def _heads(loom_order: LoomOrder, made: LoomDesign, chart: Chart) -> int:
+    if loom_order.heads is not None:
+        return loom_order.heads
+    if loom_order.deadline is None:
         return min(USUAL_HEADS, made.heads_max)
-    return heads_for(chart.knots, len(chart.yarns), asked.deadline, made.times, made.heads_max)
+    return heads_for(chart.knots, len(chart.yarns), loom_order.deadline, made.times, made.heads_max)

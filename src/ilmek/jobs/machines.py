@@ -9,14 +9,14 @@ if TYPE_CHECKING:
     from ilmek.params import Parameter
 
 FIELDS = ("name", "default", "unit", "above", "at_least", "below", "at_most", "choices", "doc", "symbol", "alias")
-"""What the JSON of a parameter holds."""
+"""Entries of a parameter in JSON."""
 
 
 @dataclass(frozen=True, slots=True)
 class MachineForm:
     """The declared parameters of a machine, nested ones by dotted names.
 
-    machines  whose parameters can be set too, as `shedding.law`
+    machines  other machines whose parameters can be set too, as `shedding.law`
     """
 
     machine: str
@@ -25,7 +25,7 @@ class MachineForm:
     machines: tuple[str, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
-        """The parameters as plain data: default and bounds in SI, and the unit they are shown in."""
+        """The parameters as plain data: default and bounds in SI, and the unit in which they are shown."""
         parameters = [{name: getattr(parameter, name) for name in FIELDS} for parameter in self.parameters]
         return {
             "machine": self.machine,
@@ -36,7 +36,7 @@ class MachineForm:
 
 
 def machine_list() -> dict[str, str]:
-    """What each machine is, by its name. No machine is imported."""
+    """The summary of each machine by its name. No machine is imported."""
     return dict(SUMMARIES)
 
 

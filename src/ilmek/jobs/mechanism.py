@@ -1,4 +1,4 @@
-"""A mechanism of one's own, moved through the course of one input."""
+"""The motion of a mechanism of a file over a range of one input."""
 
 from collections.abc import Mapping
 
@@ -17,20 +17,20 @@ from ilmek.records import record
 from ilmek.units import parse_quantity, turn
 
 CUTS, PIECES = 9, 64
-"""A step of a range is cut so often into so many pieces to find where it ends: to rounding."""
+"""The end of a range is located by so many subdivisions of a step into so many pieces, to machine precision."""
 
 
 @record
 class MotionRequest:
-    """What a mechanism is driven through, as a person says it.
+    """The motion of a mechanism, as texts with units.
 
-    held   input -> value; "" for the only input. At most one input is left to run
-    over   "FROM..TO" of the input that runs; "" for a full turn
-    speed  of the input that runs; "" for 1 rad/s or 1 m/s
-    steps  how many the range is divided into
+    fixed  input -> value; "" for the only input. At most one input is left to drive
+    over   range "FROM..TO" of the driving input; default: a full turn
+    speed  of the driving input; default: 1 rad/s or 1 m/s
+    steps  number of steps of the range
     """
 
-    held: Mapping[str, str]
+    fixed: Mapping[str, str]
     over: str = ""
     speed: str = ""
     steps: int = 72
@@ -40,7 +40,9 @@ class MotionRequest:
 class MechanismRun:
     """A mechanism in motion.
 
-    running  the input that runs over `values` [rad or m], at `speed`; None where all are held: one pose
+    running  the driving input; None if all inputs are fixed: one pose
+    values   of the driving input [rad or m]
+    speed    of the driving input [rad/s or m/s]
     """
 
     name: str
@@ -52,24 +54,24 @@ class MechanismRun:
 
     @property
     def unit(self) -> str:
-        """Unit to show the running input in."""
+        """Unit in which the driving input is shown."""
         return "mm" if self.running is not None and not isinstance(self.running, Rotation) else "deg"
 
     def at(self, values: FloatArray) -> dict[str, RealField]:
-        """All inputs' values where the running one takes these."""
-        held = {name: float(np.ravel(drive.value)[0]) for name, drive in self.motion.drives.items()}
-        return {**held, **({self.running.name: values} if self.running else {})}
+        """Values of all inputs for these values of the driving input [rad or m]."""
+        fixed = {name: float(np.ravel(drive.value)[0]) for name, drive in self.motion.drives.items()}
+        return {**fixed, **({self.running.name: values} if self.running else {})}
 
     @property
     def closing(self) -> tuple[tuple[float, float], ...]:
-        """Ranges of the running input over which the mechanism could be moved; their ends to rounding."""
+        """Ranges of the driving input in which the mechanism closes [rad or m]; their ends are exact to rounding."""
         good = np.flatnonzero(self.motion.status == Status.OK)
         runs = np.split(good, np.flatnonzero(np.diff(good) > 1) + 1) if len(good) else []
         ends = [(int(run[0]), int(run[-1])) for run in runs]
         return tuple((self._end(first, first - 1), self._end(last, last + 1)) for first, last in ends)
 
     def _end(self, good: int, bad: int) -> float:
-        """Where the mechanism ceases to close between two samples; the good one's value where there is no other."""
+        """Input value at which the mechanism ceases to close between two samples; at an end of the range, that end."""
         if not 0 <= bad < len(self.values):
             return float(self.values[good])
         ends = self.values[[good, bad]]
@@ -80,60 +82,63 @@ class MechanismRun:
         return float(ends[0])
 
 
-def run(file: MechanismFile, course: MotionRequest, progress: Progress = SILENT) -> MechanismRun:
-    """The mechanism moved through its course.
+def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT) -> MechanismRun:
+    """The motion of the mechanism of a file.
 
-    Raises MechanismError where it has no plan, where the course names an unknown input or leaves two to run, and where
-    it closes nowhere; UnitError for a value that cannot be read.
+    Raises MechanismError if the mechanism cannot be solved, if the request names an unknown input or leaves two inputs
+    to drive, or if the mechanism closes nowhere; UnitError for a value that cannot be read.
     """
     progress.part(0.0, 1.0, "motion")
     plan = file.plan()
     inputs = {entry.name: entry for entry in plan.mechanism.inputs}
-    held = _held(plan, inputs, course.held)
-    free = [entry for name, entry in inputs.items() if name not in held]
+    fixed = _fixed(plan, inputs, request.fixed)
+    free = [entry for name, entry in inputs.items() if name not in fixed]
     if len(free) > 1:
         names = " and ".join(entry.name for entry in free)
-        raise MechanismError(f"inputs {names} are both left to run", do=f"hold one, like --at {free[0].name}=0")
+        raise MechanismError(f"inputs {names} are both without a value", do=f"fix one, like --at {free[0].name}=0")
     if not free:
-        motion = solve(plan, held).require()
+        motion = solve(plan, fixed).require()
         return MechanismRun(plan.mechanism.name, plan, motion, None, np.zeros(1), 0.0)
     (running,) = free
-    values, speed = _values(running, course), _speed(running, course.speed)
-    motion = solve(plan, {**held, running.name: values}, {running.name: speed})
+    values, speed = _values(running, request), _speed(running, request.speed)
+    motion = solve(plan, {**fixed, running.name: values}, {running.name: speed})
     if (motion.status != Status.OK).all():
         motion.require()
     return MechanismRun(plan.mechanism.name, plan, motion, running, values, speed)
 
 
-def _held(plan: Plan, inputs: Mapping[str, Input], said: Mapping[str, str]) -> dict[str, RealField]:
-    held: dict[str, RealField] = {}
-    for name, text in said.items():
+def _fixed(plan: Plan, inputs: Mapping[str, Input], texts: Mapping[str, str]) -> dict[str, RealField]:
+    fixed: dict[str, RealField] = {}
+    for name, text in texts.items():
         if not name and len(inputs) > 1:
-            raise MechanismError(f"{text} for which input?", do=f"write NAME=VALUE, with one of {', '.join(inputs)}")
+            raise MechanismError(f"{text} names no input", do=f"write NAME=VALUE, with one of {', '.join(inputs)}")
         entry = inputs.get(name or next(iter(inputs), ""))
         if entry is None:
             raise MechanismError(
                 f"{plan.mechanism.name} has no input {name!r}", allowed=f"it has {', '.join(inputs) or 'none'}"
             )
-        held[entry.name] = parse_quantity(text, "rad" if isinstance(entry, Rotation) else "m")
-    return held
+        fixed[entry.name] = parse_quantity(text, "rad" if isinstance(entry, Rotation) else "m")
+    return fixed
 
 
-def _values(running: Input, course: MotionRequest) -> FloatArray:
-    """The values of the running input. Raises MechanismError for a range that cannot be read or has no length."""
+def _values(running: Input, request: MotionRequest) -> FloatArray:
+    """The values of the driving input. Raises MechanismError for a range that cannot be read or has no length."""
     turning = isinstance(running, Rotation)
-    if not course.over and not turning:
-        raise MechanismError(f"input {running.name!r} shifts a slide", do="say its range, like --over 0mm..50mm")
-    start, dots, end = course.over.partition("..") if course.over else ("0", "..", str(turn))
-    if not dots or course.steps < 1:
+    if not request.over and not turning:
         raise MechanismError(
-            f"the range {course.over!r} in {course.steps} steps is none", do="write FROM..TO, like 0deg..360deg"
+            f"input {running.name!r} is a displacement and needs a range", do="give one, like --over 0mm..50mm"
+        )
+    start, dots, end = request.over.partition("..") if request.over else ("0", "..", str(turn))
+    if not dots or request.steps < 1:
+        raise MechanismError(
+            f"the range {request.over!r} in {request.steps} steps cannot be read",
+            do="write FROM..TO, like 0deg..360deg",
         )
     first, last = (parse_quantity(end, "rad" if turning else "m") for end in (start, end))
     if first == last:
-        raise MechanismError(f"the range {course.over} has no length", do="give one pose with --at instead")
-    return np.linspace(first, last, course.steps + 1)
+        raise MechanismError(f"the range {request.over} has no length", do="give one pose with --at instead")
+    return np.linspace(first, last, request.steps + 1)
 
 
-def _speed(running: Input, said: str) -> float:
-    return parse_quantity(said, "rad/s" if isinstance(running, Rotation) else "m/s") if said else 1.0
+def _speed(running: Input, text: str) -> float:
+    return parse_quantity(text, "rad/s" if isinstance(running, Rotation) else "m/s") if text else 1.0

@@ -1,4 +1,4 @@
-"""What a mechanism is made of and how it moves: tables, figures, JSON, columns of numbers."""
+"""The report of a mechanism: structure, mobility, motion; tables, figures, JSON, columns of numbers."""
 
 from collections.abc import Callable, Iterator
 
@@ -16,28 +16,33 @@ from ilmek.report import Axis, Column, Drawing, Figure, Plot, Report, Result, Se
 from ilmek.units import turn
 
 CURVES = 4
-"""Curves of a plot, at most, that a person can tell apart."""
+"""Largest number of curves in a plot."""
 
 
 def report(run: MechanismRun) -> Report:
-    """What the mechanism is and how it moves; lengths in mm, angles in degrees where shown."""
+    """Structure, mobility and motion of the mechanism."""
     mechanism = run.plan.mechanism
     results = (
-        Result("freedoms", degrees_of_freedom(mechanism), "1", "freedoms by count, the inputs left free"),
+        Result("freedoms", degrees_of_freedom(mechanism), "1", "degrees of freedom by count, with the inputs free"),
         Result(
             "mobility",
             _mobility(run),
             "",
-            "freedoms by count, and by the rank of all constraints in the first pose that closes",
+            "degrees of freedom by count, and by the rank of all constraints in the first pose that closes",
         ),
-        Result("inputs", [entry.name for entry in mechanism.inputs], "", "what is driven"),
+        Result("inputs", [entry.name for entry in mechanism.inputs], "", "driving inputs"),
         Result(
             "groups",
             [step.description for step in run.plan.steps],
             "",
-            "the groups it falls apart into, in the order in which they are solved",
+            "Assur groups of the mechanism, in the order of solution",
         ),
-        Result("closes", [list(ends) for ends in run.closing], run.unit, "ranges of the running input that can be had"),
+        Result(
+            "closes",
+            [list(ends) for ends in run.closing],
+            run.unit,
+            "ranges of the driving input in which the mechanism closes",
+        ),
     )
     return Report(
         machine="mechanism",
@@ -108,27 +113,27 @@ def _figures(run: MechanismRun) -> tuple[Figure, ...]:
         ("speeds", "Angular velocities", Axis("angular velocity", "rad/s"), _omega),
     )
     plots = (
-        Plot(f"{name}-{start // CURVES + 1}", title, x, y, _series(run, turning[start : start + CURVES], course))
-        for name, title, y, course in curves
+        Plot(f"{name}-{start // CURVES + 1}", title, x, y, _series(run, turning[start : start + CURVES], curve))
+        for name, title, y, curve in curves
         for start in range(0, len(turning), CURVES)
     )
     return (*_moving(run, x), *plots)
 
 
 def _moving(run: MechanismRun, drive: Axis) -> Iterator[Figure]:
-    """The mechanism in motion, the paths of its free points drawn."""
-    at, way = _frames(run)
+    """The mechanism in motion, with the paths of its free points."""
+    at, travel = _frames(run)
     moved = solve(run.plan, run.at(at), {run.running.name: run.speed} if run.running else {})
     if moved.ok:
         joints = {joint.name for joint in run.plan.mechanism.joints}
         traces = [one for one in moving_points(run.plan.mechanism) if one[1] not in joints]
-        period = way / abs(run.speed) if run.speed else None
+        period = travel / abs(run.speed) if run.speed else None
         drawn = Drawing("mechanism", f"{run.name} in motion", ())
         yield animated(moved, at, drawn, traces=traces, period=period, drive=drive)
 
 
 def _frames(run: MechanismRun) -> tuple[FloatArray, float]:
-    """Values of the running input to draw at, and their range: the longest that closes; of a turn not the end again."""
+    """Input values of the frames over the longest range that closes, and its length [rad or m]; a full turn is open."""
     one, other = max(run.closing, key=lambda ends: abs(ends[1] - ends[0]))
     first, last = min(one, other), max(one, other)
     whole = isinstance(run.running, Rotation) and abs(last - first - turn) < 1e-9
@@ -144,14 +149,14 @@ def _omega(run: MechanismRun, body: str) -> FloatArray:
 
 
 def _series(
-    run: MechanismRun, bodies: list[str], course: Callable[[MechanismRun, str], FloatArray]
+    run: MechanismRun, bodies: list[str], curve: Callable[[MechanismRun, str], FloatArray]
 ) -> tuple[Series, ...]:
-    return tuple(Series(body, run.values, course(run, body)) for body in bodies)
+    return tuple(Series(body, run.values, curve(run, body)) for body in bodies)
 
 
 def as_json(run: MechanismRun) -> dict[str, object]:
-    """The report and, sample by sample, everything that moves: SI and radians, points as [x, y]."""
-    said = report(run).as_json()
+    """The report, and the motion of all bodies and points by samples: SI and radians, points as [x, y]."""
+    data = report(run).as_json()
     motion = run.motion
     bodies = {
         body: {"angle": _angle(run, body), "omega": motion.omega(body), "alpha": motion.alpha(body)}
@@ -163,11 +168,10 @@ def as_json(run: MechanismRun) -> dict[str, object]:
         rates = {"position": moved.position, "velocity": moved.velocity, "acceleration": moved.acceleration}
         points.setdefault(body, {})[point] = rates
     status = [Status(code).name for code in motion.status]
-    return {**said, "values": run.values, "status": status, "bodies": bodies, "points": points}
+    return {**data, "values": run.values, "status": status, "bodies": bodies, "points": points}
 
 
 def columns(run: MechanismRun) -> dict[str, FloatArray]:
-    """The columns of `Motion.table`, without the inputs that are held."""
-    held = {f"{entry.name} [" for entry in run.plan.mechanism.inputs if entry is not run.running}
-    table = run.motion.table()
-    return {heading: values for heading, values in table.items() if not heading.startswith(tuple(held))}
+    """The columns of `Motion.table`, without the fixed inputs."""
+    fixed = tuple(f"{entry.name} [" for entry in run.plan.mechanism.inputs if entry is not run.running)
+    return {heading: values for heading, values in run.motion.table().items() if not heading.startswith(fixed)}

@@ -1,4 +1,4 @@
-"""A carpet as ordered: what a person types, read and checked before any work is done."""
+"""The order of a carpet, read from texts and checked before any work is done."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,8 +17,13 @@ from ilmek.params import Setting
 
 @dataclass(frozen=True, slots=True)
 class CarpetOrder:
-    """Which carpet: picture file, size, quality, knot, yarn list, how many of its yarns, lone knots, pile; and whether
-    its chart is printed as PDF (None: where the sheets are not too many).
+    """The order of a carpet.
+
+    picture    file of the picture
+    yarns      yarn list
+    colours    number of yarns to use; default: as many as match the picture best
+    keep_lone  keep knots that differ from all four neighbours
+    pdf        print the chart; default: if it has few enough sheets (`jobs.chart.MOST_SHEETS`)
     """
 
     picture: Path
@@ -58,7 +63,7 @@ def read_order(
     pile_height: Setting = "8mm",
     pdf: bool | None = None,
 ) -> CarpetOrder:
-    """The order from texts. Raises CarpetError, YarnError or ParameterError; the picture is not opened yet."""
+    """The order from texts; the picture is not opened. Raises CarpetError, YarnError or ParameterError."""
     kind, wide, fine = parse_knot(knot), parse_size(size), parse_quality(quality)
     pile = PileParams.read({"pile_height": pile_height})
     knot_grid(wide, fine)

@@ -1,4 +1,4 @@
-"""The page of a report, for a person to read."""
+"""The HTML page of a report."""
 
 from pathlib import Path
 
@@ -7,9 +7,9 @@ from ilmek.report import Report
 
 
 def write_page(path: Path | None, report: Report) -> None:
-    """Write the page of a report as HTML, whole or not at all; None writes nothing. Raises OutputError.
+    """Write a report as HTML. Nothing is written for `path` None or on an error. Raises OutputError.
 
-    The figures and the templates are imported here: without a page no command needs them.
+    Figures and templates are imported here, because only a page needs them.
     """
     if path is not None:
         from ilmek.viz.page import machine_page

@@ -1,4 +1,4 @@
-"""The verification manual, computed anew."""
+"""Recompute the verification manual."""
 
 import time
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ from ilmek.verification import PAPERS, Verdict, reproduce
 
 @record
 class ReproductionResult:
-    """The verdicts on the claims of each paper, and the time that they took [s]."""
+    """The verdicts on the claims of each paper, and the computing time [s]."""
 
     verdicts: dict[str, tuple[Verdict, ...]]
     seconds: float
@@ -23,7 +23,7 @@ class ReproductionResult:
 
 
 def reproduce_papers(papers: Sequence[str] = (), *, progress: Progress = SILENT) -> ReproductionResult:
-    """Compute every number that the papers print, and judge it.
+    """Compute every number that the papers print, with a verdict on each.
 
     papers  names of `PAPERS`; default: all
     Raises ParameterError for an unknown paper; Cancelled between two papers.
@@ -31,11 +31,11 @@ def reproduce_papers(papers: Sequence[str] = (), *, progress: Progress = SILENT)
     unknown = [paper for paper in papers if paper not in PAPERS]
     if unknown:
         raise ParameterError(f"unknown paper {unknown[0]!r}", allowed=f"papers: {', '.join(PAPERS)}")
-    wanted = [paper for paper in PAPERS if paper in papers or not papers]
-    begun = time.perf_counter()
+    chosen = [paper for paper in PAPERS if paper in papers or not papers]
+    started = time.perf_counter()
     verdicts = {}
-    for number, paper in enumerate(wanted):
-        progress.part(number / len(wanted), (number + 1) / len(wanted), paper)
+    for number, paper in enumerate(chosen):
+        progress.part(number / len(chosen), (number + 1) / len(chosen), paper)
         verdicts[paper] = reproduce([paper])
     progress(1.0)
-    return ReproductionResult(verdicts, time.perf_counter() - begun)
+    return ReproductionResult(verdicts, time.perf_counter() - started)

@@ -1,8 +1,8 @@
-"""Make ready for the first job: `python -m ilmek.jobs.warm`, once after installing.
+"""Compile the kernels once after installing: `python -m ilmek.jobs.warm`.
 
-A kernel is compiled when it is first called and kept in the user's cache folder (`ilmek.num.machine_code`). This weaves
-a carpet of a few knots into a folder that is thrown away, and searches a four-bar for a path, so that the first real
-job does not wait.
+A kernel is compiled at its first call and kept in the user's cache folder (`ilmek.num.machine_code`). This job weaves a
+carpet of a few knots into a temporary folder and searches a four-bar for a path, so that the first real job does not
+wait.
 """
 
 import tempfile
@@ -19,7 +19,7 @@ from ilmek.machines.path_four_bar import PathFourBarParams, design
 
 
 def warm() -> float:
-    """Search one path, weave 16 x 16 knots of noise; the weaving time [s]."""
+    """Search a four-bar for one path and weave 16 x 16 knots of noise. Returns the weaving time [s]."""
     design(PathFourBarParams(starts=1))
     noise = np.random.default_rng(1).integers(0, 256, (24, 24, 3), dtype=np.uint8)
     with tempfile.TemporaryDirectory() as folder:

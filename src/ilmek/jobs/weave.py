@@ -1,4 +1,4 @@
-"""The whole arc: carpet picture in; chart, yarn, loom, programme and report out."""
+"""From a carpet picture to chart, yarn, loom, programme and report."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,43 +24,43 @@ FILES = (
     FileNote("chart.png", "the knot chart, one pixel one knot"),
     FileNote("chart.pdf", "the knot chart to weave from, with symbols and row numbers"),
     FileNote("yarn.csv", "the yarn to buy"),
-    FileNote("programme.ilmek", "the loom programme; look into it with `ilmek inspect`"),
+    FileNote("programme.ilmek", "the loom programme; show it with `ilmek inspect`"),
     FileNote("machine.json", "the loom and its machines: parameters, results, checks"),
 )
-"""What a woven folder holds, each file where it is made."""
+"""Files of the output folder."""
 
 
 @dataclass(frozen=True, slots=True)
 class WeaveResult:
-    """Everything that the job found, and the folder of its files.
+    """Results of the job, and the folder of its files.
 
-    loom   the loom's report, with those of its machines
+    loom  the loom's report, with those of its machines
     """
 
     charted: ChartResult
-    asked: LoomOrder
+    loom_order: LoomOrder
     loomed: LoomResult
     loom: Report
     folder: Path
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Every check: of the whole, the loom and each of its machines, by whose name it begins."""
+        """All checks: of the job, the loom and its machines; the latter begin with the machine's name."""
         return (*self.own_checks, *self.loom.all_checks)
 
     @property
     def own_checks(self) -> tuple[Check, ...]:
-        """Checks of the whole: of the carpet, and the deadline, where there is one."""
-        return (*self.charted.checks, *job_checks(self.asked, self.loomed))
+        """Checks of the job: the carpet, and the deadline if one is given."""
+        return (*self.charted.checks, *job_checks(self.loom_order, self.loomed))
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Every warning: of the carpet, the loom and its machines."""
+        """All warnings: of the carpet, the loom and its machines."""
         return (*self.charted.warnings, *self.loom.all_warnings)
 
     @property
     def notes(self) -> tuple[FileNote, ...]:
-        """The files that are made."""
+        """The files that are written, with descriptions."""
         return tuple(file for file in FILES if file.name != "chart.pdf" or file.name in self.charted.files)
 
     @property
@@ -70,16 +70,17 @@ class WeaveResult:
 
 
 def weave(
-    order: CarpetOrder, asked: LoomOrder, folder: Path, *, force: bool = False, progress: Progress = SILENT
+    order: CarpetOrder, loom_order: LoomOrder, folder: Path, *, force: bool = False, progress: Progress = SILENT
 ) -> WeaveResult:
-    """Do the whole job and put its files into a folder, whole or not at all.
+    """Do the whole job and write its files into a folder.
 
+    force  replace a folder that ilmek wrote
     Raises any IlmekError; then nothing is written.
     """
     charted = make_charted(order, progress.part(0.0, 0.4, "picture"))
     progress.part(0.4, 0.5, "loom")
-    loomed = make_loomed(asked, order, charted.chart)
-    woven = WeaveResult(charted, asked, loomed, MACHINE.report(loomed.design), folder)
+    loomed = make_loomed(loom_order, order, charted.chart)
+    woven = WeaveResult(charted, loom_order, loomed, MACHINE.report(loomed.design), folder)
     with output_folder(folder, force=force) as work:
         write_chart(charted, work, progress.part(0.5, 0.7, "chart.pdf"))
         write_programme(
@@ -92,15 +93,15 @@ def weave(
     return woven
 
 
-def job_checks(asked: LoomOrder, loomed: LoomResult) -> tuple[Check, ...]:
-    """The deadline, where there is one."""
-    if asked.deadline is None:
+def job_checks(loom_order: LoomOrder, loomed: LoomResult) -> tuple[Check, ...]:
+    """The check of the deadline, if one is given."""
+    if loom_order.deadline is None:
         return ()
-    return (at_most("weaving time", loomed.programme.duration, asked.deadline, "h", "the deadline asked for"),)
+    return (at_most("weaving time", loomed.programme.duration, loom_order.deadline, "h", "the deadline given"),)
 
 
 def weave_results(woven: WeaveResult) -> dict[str, Any]:
-    """The results of the whole by their stable names, SI."""
+    """The results of the job by their JSON names, SI."""
     programme, made = woven.loomed.programme, woven.loomed.design
     return {
         **chart_results(woven.charted),
@@ -116,10 +117,10 @@ def weave_results(woven: WeaveResult) -> dict[str, Any]:
 
 
 def weave_json(woven: WeaveResult) -> dict[str, Any]:
-    """The JSON of the whole."""
+    """The JSON of the job."""
     return job_json(
         "weave",
-        {**woven.charted.order.as_dict(), **woven.asked.as_dict()},
+        {**woven.charted.order.as_dict(), **woven.loom_order.as_dict()},
         weave_results(woven),
         checks=[check.as_json() for check in woven.checks],
         notes=list(woven.charted.notes),
@@ -149,14 +150,14 @@ def time_in_words(seconds: float) -> str:
 
 
 def _page(woven: WeaveResult) -> CarpetPage:
-    chart, programme, asked = woven.charted.chart, woven.loomed.programme, woven.asked
-    heads = "as the deadline needs" if asked.deadline is not None else f"{woven.loomed.design.heads_max} would fit"
+    chart, programme, deadline = woven.charted.chart, woven.loomed.programme, woven.loom_order.deadline
+    heads = "as the deadline needs" if deadline is not None else f"{woven.loomed.design.heads_max} would fit"
     facts = [
         Fact("Heads", str(programme.heads), heads),
         Fact("Weaving time", time_in_words(programme.duration), f"{programme.rows} rows"),
     ]
-    if asked.deadline is not None:
-        facts.append(Fact("Deadline", time_in_words(asked.deadline), "met", "good"))
+    if deadline is not None:
+        facts.append(Fact("Deadline", time_in_words(deadline), "met", "good"))
     return CarpetPage(
         title=woven.charted.order.picture.stem,
         lead=f"{chart.size}, {chart.quality}, {chart.knot} knot",

@@ -1,4 +1,4 @@
-"""A design's plates and motions as files for the workshop and the controller, with an index, whole or not at all."""
+"""Write plates and cam tables of a design as files for workshop and controller, with an index."""
 
 import importlib
 import re
@@ -24,22 +24,23 @@ _Named = TypeVar("_Named", Plate, CamTable)
 
 INDEX = "workshop.json"
 AREA_ERROR = 1e-4
-"""What a file's area may differ from the design's by, as a share of it."""
+"""Allowed relative difference between the area of a file and that of the design."""
 
 
 FINEST = {parse_unit("m").dimension: 1 * um, parse_unit("rad").dimension: 1e-3 * deg}
-"""By the kind of slave, the tolerance that nobody needs finer without saying so [SI]."""
+"""Finest default tolerance by the dimension of the slave axis [m or rad]."""
 
 SHARE = 1e-5
-"""The tolerance where none is said, as a share of the stroke, if that is not finer than `FINEST`."""
+"""Default tolerance as a share of the stroke; at least `FINEST`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
-    """What a controller's course may leave the exact one by.
+    """Allowed deviation of a controller's motion from the exact one.
 
-    share     of each stroke; None: not said
-    quantity  for those slaves that move by quantities of its kind, a dimension [SI]; None: not said
+    share     of each stroke; default: `SHARE`
+    quantity  for slave axes of the dimension `kind` [SI]; default: none
+    kind      exponents of the dimension of `quantity`
     """
 
     share: float | None = None
@@ -57,9 +58,9 @@ class Tolerance:
 
 @record
 class Workshop:
-    """The files that were written, and where.
+    """The files that were written.
 
-    entries  of the index, one a file: what it is of, how exact, how many points
+    entries  of the index, one per file: part, error, number of points
     """
 
     folder: Path
@@ -71,29 +72,29 @@ class Workshop:
         return [str(self.folder / name) for name in (*(entry["file"] for entry in self.entries), INDEX)]
 
     @property
-    def said(self) -> str:
-        """How many files of which kind, in a line."""
+    def summary(self) -> str:
+        """The numbers of files by kind, in one line."""
         kinds = [entry["kind"] for entry in self.entries]
         drawn = ", ".join(f"{kinds.count(kind)} {kind.upper()}" for kind in ("dxf", "step") if kind in kinds)
         tables = len(kinds) - kinds.count("dxf") - kinds.count("step")
         parts = ", ".join(part for part in (drawn, f"{tables} cam tables" if tables else "") if part)
-        return f"{self.folder}: {parts}; exactness in {INDEX}"
+        return f"{self.folder}: {parts}; errors in {INDEX}"
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a person should know: a tolerance missed, a slave that moves at 0, an extra that is not there."""
+        """Notes: tolerances not met, axes that move at master angle 0, STEP not installed."""
         return (*self._missed(), *self._moving(), *self._without_step())
 
     def _missed(self) -> Iterator[str]:
         for entry in self.entries:
             if not entry.get("kept", True):
-                left, asked = (format_quantity(entry[name], entry["unit"]) for name in ("error", "tolerance"))
-                yield f"{entry['file']}: {entry['points']} points leave an error of {left}, asked for {asked}"
+                error, tolerance = (format_quantity(entry[name], entry["unit"]) for name in ("error", "tolerance"))
+                yield f"{entry['file']}: {entry['points']} points leave an error of {error}; required: {tolerance}"
 
     def _moving(self) -> Iterator[str]:
         moving = sorted({entry["of"] for entry in self.entries if abs(entry.get("start_speed", 0.0)) > _STILL})
         for name in moving:
-            yield f"{name} moves at the master angle 0: couple it while the master stands, or ramp in"
+            yield f"{name} moves at master angle 0: couple it while the master stands still, or ramp in"
 
     def _without_step(self) -> Iterator[str]:
         kinds = {entry["kind"] for entry in self.entries}
@@ -102,13 +103,13 @@ class Workshop:
 
 
 _STILL = 1e-9
-"""Speed of a slave below which it stands [SI]."""
+"""Speed below which a slave axis stands still [m/s or rad/s]."""
 
 
 def read_tolerance(text: str) -> Tolerance:
     """A tolerance as written: `1um`, `0.01deg`, or a share like `0.001%`.
 
-    Raises ParameterError for what is neither a length nor an angle nor a share, or is not above 0.
+    Raises ParameterError unless it is a length, an angle or a share above 0.
 
     >>> read_tolerance("1um").quantity, read_tolerance("0.01%").share
     (1e-06, 0.0001)
@@ -131,32 +132,33 @@ def write_workshop(
 ) -> Workshop:
     """Write the report's plates and cam tables into a folder, with an index.
 
-    force  replace a folder whose files ilmek made
-    Raises OutputError where there is nothing to write, a plate does not enclose the area of its design, or the folder
-    cannot be written; then nothing is.
+    tolerance  of the cam tables; default: see `SHARE`
+    force      replace a folder that ilmek wrote
+    Raises OutputError if there is nothing to write, a plate does not enclose the area of its design, or the folder
+    cannot be written; then nothing is written.
     """
     if not (report.all_plates or report.all_cam_tables):
         raise OutputError(
             f"{report.machine} has no plates and no cam tables", do="leave out --workshop; its page: --report FILE.html"
         )
     plates, tables = _own_names(report.all_plates), _own_names(report.all_cam_tables)
-    asked = tolerance or Tolerance()
+    allowed = tolerance or Tolerance()
     with output_folder(folder, force=force) as work:
         files = [
             *(entry for name, plate in plates.items() for entry in _plate_files(plate, work, name)),
-            *(entry for name, table in tables.items() for entry in _table_files(table, work, name, asked)),
+            *(entry for name, table in tables.items() for entry in _table_files(table, work, name, allowed)),
         ]
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
     return Workshop(folder, tuple(files))
 
 
 def _own_names(parts: Sequence[_Named]) -> dict[str, _Named]:
-    """The parts by names for files: letters, digits and hyphens, each its own."""
+    """The parts by unique file names of letters, digits and hyphens."""
     named: dict[str, _Named] = {}
     for part in parts:
         plain: str = re.sub(r"[^a-z0-9]+", "-", part.name.lower()).strip("-") or "part"
-        ways = [plain, *(f"{plain}-{number}" for number in range(2, len(parts) + 1))]
-        named[next(way for way in ways if way not in named)] = part
+        names = [plain, *(f"{plain}-{number}" for number in range(2, len(parts) + 1))]
+        named[next(name for name in names if name not in named)] = part
     return named
 
 
@@ -166,10 +168,10 @@ def _plate_files(plate: Plate, work: Path, name: str) -> Iterator[dict[str, Any]
     known = area(shape.outline) if plate.area is None else plate.area
     off = abs(facts.area / known - 1)
     if facts.errors or not off <= AREA_ERROR:
-        found, meant = (format_quantity(value, "cm^2") for value in (facts.area, known))
+        found, required = (format_quantity(value, "cm^2") for value in (facts.area, known))
         raise OutputError(
-            f"plate {plate.name} cannot be drawn: its outline encloses {found}, its design says {meant}",
-            do="look at its checks: an undercut cam crosses itself",
+            f"plate {plate.name} cannot be drawn: its outline encloses {found}, the design requires {required}",
+            do="see its checks: the profile of an undercut cam crosses itself",
         )
     common = {
         "of": plate.name,
@@ -195,14 +197,12 @@ def _plate_files(plate: Plate, work: Path, name: str) -> Iterator[dict[str, Any]
         exact = (known - shape.bored) * plate.thickness
         off = abs(read / exact - 1)
         if not off <= AREA_ERROR:
-            raise OutputError(
-                f"plate {plate.name} makes no sound solid: {off:.2%} of its volume is missing or too much"
-            )
+            raise OutputError(f"plate {plate.name} gives no valid solid: its volume differs by {off:.2%}")
         yield {"file": f"{name}.step", "kind": "step", **common, "volume": read, "volume_error": off}
 
 
 def _step() -> tuple[Callable[[Path, Plate, PlateShape], None], Callable[[Path], float]] | None:
-    """Writer and reader of STEP, where the extra `step` is installed."""
+    """Writer and reader of STEP; None unless the extra `step` is installed."""
     try:
         adapter = importlib.import_module("ilmek.io.step")
     except ImportError:

@@ -1,1 +1,1 @@
-"""Pictures and pages."""
+"""Figures, carpet pictures and HTML pages."""

@@ -1,7 +1,7 @@
-"""Machines in motion: a drawing to scale whose bars and joints a short script of the page moves (`animate.js`).
+"""Machines in motion: a drawing to scale whose bars and joints are moved by a script of the page (`animate.js`).
 
-What stands still is drawn as in any drawing; what moves is written as SVG of its own at the frame shown first, and
-refers to a list of places at every frame that stands in the figure's metadata. Without the script it is a drawing.
+Fixed parts are drawn as in any drawing. Moving parts are separate SVG elements at the first frame shown; they refer to
+positions at every frame, listed in the figure's metadata. Without the script the figure is a drawing.
 """
 
 import dataclasses
@@ -24,16 +24,16 @@ from ilmek.viz.strokes import Pen
 from ilmek.viz.style import INK, STRONG, TEXT, colour, shown_unit, tint
 
 SECONDS = 5.0
-"""Time of a run on the page [s]."""
+"""Duration of a run on the page [s]."""
 
 _MOVING, _STILL = 0.4, 1e6
-"""What it costs a name to go round its point."""
+"""Cost of moving a name around its point: of a moving point, of a fixed one."""
 
 _ROW, _LEFT = 13.0, 14.0
 
 
 def draw_animation(animation: Animation) -> tuple[Sheet, str]:
-    """The sheet with all that stands still, and the SVG of what moves, to stand behind it in the same element."""
+    """The sheet with the fixed parts, and the SVG of the moving parts, which follows it in the same element."""
     still, start = animation.still, animation.start
     moving = tuple(Stroke(one.points[start], one.role, one.label, one.closed) for one in animation.strokes)
     numbers = colours((*still.strokes, *moving))
@@ -48,44 +48,44 @@ def draw_animation(animation: Animation) -> tuple[Sheet, str]:
     quiet = dataclasses.replace(still, strokes=unnamed, dots=())
     fixed = obstacles(pen, still)
     boxes = names(pen, quiet, np.concatenate([fixed, *bars]), foot)
-    course = PointTracks(pen.sheet.height, start)
-    parts = [*_lines(pen, animation, course), *_dots(pen, animation, course)]
+    tracks = PointTracks(pen.sheet.height, start)
+    parts = [*_lines(pen, animation, tracks), *_dots(pen, animation, tracks)]
     met = [np.concatenate([at, fixed, *(_filled(*box) for box in boxes)]) for at in bars]
-    parts += _names(pen, animation, course, met, foot)
-    return pen.sheet, "\n".join((*parts, f"<metadata>{escape(_run(animation, course))}</metadata>"))
+    parts += _names(pen, animation, tracks, met, foot)
+    return pen.sheet, "\n".join((*parts, f"<metadata>{escape(_run(animation, tracks))}</metadata>"))
 
 
-def _lines(pen: Pen, animation: Animation, course: PointTracks) -> Iterator[str]:
-    """Bars as wide lines in a pale shade inside slightly wider ones in the full colour, others as plain lines."""
+def _lines(pen: Pen, animation: Animation, tracks: PointTracks) -> Iterator[str]:
+    """Bars as wide pale lines with edges in the full colour, others as plain lines."""
     first = len(animation.still.strokes)
     for number, one in enumerate(animation.strokes, first):
         track = [pen(points) for points in one.points.T]
         if one.role != "link":
-            yield line(course, track, INK, 1.6, closed=one.closed)
+            yield line(tracks, track, INK, 1.6, closed=one.closed)
             continue
         shade = colour(pen.numbers[number])
         if one.closed:
-            yield line(course, track, "none", 0.0, closed=True, fill=tint(shade, 0.3))
-        yield line(course, track, shade, 7.0, closed=one.closed)
-        yield line(course, track, tint(shade, 0.45), 4.8, closed=one.closed)
+            yield line(tracks, track, "none", 0.0, closed=True, fill=tint(shade, 0.3))
+        yield line(tracks, track, shade, 7.0, closed=one.closed)
+        yield line(tracks, track, tint(shade, 0.45), 4.8, closed=one.closed)
 
 
-def _dots(pen: Pen, animation: Animation, course: PointTracks) -> Iterator[str]:
-    """Blocks below the pins; the pins of the pivots once more, for bars pass over them."""
+def _dots(pen: Pen, animation: Animation, tracks: PointTracks) -> Iterator[str]:
+    """Blocks below the pins; pins of the pivots again, because bars pass over them."""
     for one in animation.dots:
         if one.role == "block" and one.along is not None:
-            yield block(course, pen(one.at), one.along)
+            yield block(tracks, pen(one.at), one.along)
     frames = len(animation.at)
     for pivot in animation.still.dots:
         if pivot.role == "pivot":
-            yield dot(course, np.full(frames, pen(np.array([pivot.at]))[0]), "pin")
+            yield dot(tracks, np.full(frames, pen(np.array([pivot.at]))[0]), "pin")
     for one in animation.dots:
         if one.role != "block":
-            yield dot(course, pen(one.at), one.role)
+            yield dot(tracks, pen(one.at), one.role)
 
 
 def _bars(pen: Pen, animation: Animation) -> list[ComplexArray]:
-    """At every frame, points along all that moves [pt]."""
+    """Points along all moving parts at every frame [pt]."""
     ring = 4.0 * np.exp(2j * np.pi * np.arange(8) / 8)
     found = []
     for frame in range(len(animation.at)):
@@ -99,26 +99,26 @@ def _filled(centre: complex, half: complex) -> ComplexArray:
     return np.asarray((centre + across[:, np.newaxis] + 1j * up).ravel())
 
 
-def _names(pen: Pen, animation: Animation, course: PointTracks, met: list[ComplexArray], foot: float) -> Iterator[str]:
-    """Names of all dots; those of still ones stand still."""
+def _names(pen: Pen, animation: Animation, tracks: PointTracks, met: list[ComplexArray], foot: float) -> Iterator[str]:
+    """Names of all dots; those of fixed dots do not move."""
     frames = len(animation.at)
     fixed = [(np.full(frames, one.at), one.label, _STILL) for one in animation.still.dots]
-    wanted = [
+    requests = [
         LabelRequest(pen(at), label, STRONG, 6.0, pull)
         for at, label, pull in (*fixed, *((one.at, one.label, _MOVING) for one in animation.dots))
         if label
     ]
     corner = complex(pen.sheet.width, pen.sheet.height) - (2 + 2j)
-    middles = named(wanted, met, complex(2, foot), corner, closes=animation.closes)
-    for one, middle in zip(wanted, middles, strict=True):
-        yield name(course, middle, one.text)
+    middles = named(requests, met, complex(2, foot), corner, closes=animation.closes)
+    for one, middle in zip(requests, middles, strict=True):
+        yield name(tracks, middle, one.text)
 
 
 def _rows(animation: Animation) -> Iterator[list[tuple[float, int, str]]]:
-    """The legend in rows: left edge [pt], place among all strokes, and name of each coloured line."""
+    """The legend in rows: left edge [pt], index among all strokes, and name of each coloured line."""
     row: list[tuple[float, int, str]] = []
     left, first, seen = _LEFT, len(animation.still.strokes), {""}
-    for place, one in enumerate(animation.strokes, first):
+    for index, one in enumerate(animation.strokes, first):
         width = 20.0 + text_width(one.label, TEXT) + 12.0
         if one.role != "link" or one.label in seen:
             continue
@@ -126,7 +126,7 @@ def _rows(animation: Animation) -> Iterator[list[tuple[float, int, str]]]:
         if row and left + width > WIDTH:
             yield row
             row, left = [], _LEFT
-        row.append((left, place, one.label))
+        row.append((left, index, one.label))
         left += width
     if row:
         yield row
@@ -135,16 +135,16 @@ def _rows(animation: Animation) -> Iterator[list[tuple[float, int, str]]]:
 def _legend(pen: Pen, rows: list[list[tuple[float, int, str]]]) -> None:
     for at, row in enumerate(rows):
         height = FOOT + _ROW * (len(rows) - 1 - at) - 1.0
-        for left, place, label in row:
-            shade = colour(pen.numbers[place])
+        for left, index, label in row:
+            shade = colour(pen.numbers[index])
             swatch = np.array([left, left + 14.0]) + 1j * height
             pen.sheet.line(swatch, color=shade, linewidth=6.0)
             pen.sheet.line(swatch, color=tint(shade, 0.45), linewidth=3.8)
             pen.sheet.text(complex(left + 21.0, height), label, fontsize=TEXT, color=INK, va="center_baseline")
 
 
-def _run(animation: Animation, course: PointTracks) -> str:
-    """What the script needs, as JSON."""
+def _run(animation: Animation, tracks: PointTracks) -> str:
+    """The data of the script, as JSON."""
     factor = parse_unit(animation.drive.unit).factor
     at = animation.at / factor
     readings = [
@@ -156,7 +156,7 @@ def _run(animation: Animation, course: PointTracks) -> str:
         for one in animation.readings
     ]
     run = {
-        "places": course.places,
+        "positions": tracks.positions,
         "closes": animation.closes,
         "start": animation.start,
         "seconds": SECONDS,
@@ -170,7 +170,7 @@ def _run(animation: Animation, course: PointTracks) -> str:
 
 
 def digits(most: float) -> int:
-    """Decimals with which the greatest value shows three digits.
+    """Decimals with which the greatest value has three digits.
 
     >>> digits(123.4), digits(1.5), digits(0.02)
     (0, 2, 4)

@@ -1,4 +1,4 @@
-"""What frames the pile: selvedges at the sides, a flat-woven band and a fringe at both ends."""
+"""The frame of the pile: selvedges at the sides, a flat-woven band and a fringe at both ends."""
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -13,7 +13,7 @@ _FINER = 3
 
 
 def selvedge(height: int, width: int, light: tuple[float, float, float], rng: np.random.Generator) -> Rgb:
-    """A cord of overcast wefts `height` x `width` pixels in a linear colour, round across, wound in slanting turns."""
+    """A round cord of overcast wefts, `height` x `width` pixels, in a linear colour."""
     across = (np.arange(width) + 0.5) / max(width, 1) * 2 - 1
     body = 0.45 + 0.55 * np.sqrt(np.clip(1 - across**2, 0, 1)) - 0.12 * across
     turns = np.arange(height)[:, np.newaxis] / max(2.6, width / 2.2) + across * 0.35
@@ -30,7 +30,7 @@ def flat_band(height: int, width: int, rng: np.random.Generator) -> Rgb:
 
 
 def fringe(height: int, width: int, rng: np.random.Generator) -> Image.Image:
-    """Warp ends knotted in bundles, hanging down on white paper."""
+    """Warp ends knotted in bundles on white paper, pointing down."""
     finer = Image.new("RGB", (width * _FINER, height * _FINER), _PAPER)
     draw = ImageDraw.Draw(finer)
     spacing = max(6.0, width / 170) * _FINER
@@ -40,7 +40,7 @@ def fringe(height: int, width: int, rng: np.random.Generator) -> Image.Image:
 
 
 def _bundle(draw: ImageDraw.ImageDraw, centre: float, spacing: float, height: int, rng: np.random.Generator) -> None:
-    """Some strands from the edge into a knot and out of it again, the hinder ones darker."""
+    """Strands from the edge into a knot and out of it again, the rear ones darker."""
     knot, along = 0.20 * height, np.linspace(0.0, 1.0, 9)
     width = max(1, round(spacing / 7))
     strands = 7

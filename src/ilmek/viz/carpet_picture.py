@@ -1,7 +1,7 @@
-"""The carpet as it will look: the chart as pile, with selvedges, flat ends and fringes; and a close-up of the knots.
+"""Simulated picture of a carpet: the chart as pile, with selvedges, flat ends and fringes; and a close-up of the knots.
 
-Where a knot has at least two pixels its tuft is drawn (`tufts`); where there are more knots than pixels their light is
-averaged, as the eye does from afar. A seed makes the same carpet every time.
+Tufts are drawn (`tufts`) if a knot has at least two pixels; otherwise the light of the knots is averaged. The same seed
+gives the same picture.
 """
 
 import io
@@ -19,7 +19,7 @@ from ilmek.viz.carpet_edges import flat_band, fringe, selvedge
 from ilmek.viz.tufts import encoded, tufted, yarn_light
 
 LONGEST = 1400
-"""Pixels along the longer side of the picture, at most."""
+"""Largest number of pixels along the longer side of the picture."""
 _FRINGE, _BAND, _SELVEDGE = 0.055, 0.012, 0.008
 """Length of the fringe, of the flat-woven end, width of the selvedge [m]."""
 _CLOSE_UP = (40, 30)
@@ -29,7 +29,7 @@ _FIBRE = 0.10
 
 @dataclass(frozen=True, slots=True)
 class _Layout:
-    """Pixels: of the pile, and of what frames it; a knot has `across` x `down` pixels, 0 where knots are averaged."""
+    """Sizes of pile and frame [pixels]; a knot has `across` x `down` pixels, 0 if knots are averaged."""
 
     width: int
     height: int
@@ -51,7 +51,7 @@ def carpet_picture(chart: Chart, longest: int = LONGEST, seed: int = 1) -> bytes
 
 
 def close_up(chart: Chart, seed: int = 1) -> bytes:
-    """Some 40 x 30 knots at the centre of the carpet as a JPEG file, every tuft visible, in true proportion."""
+    """About 40 x 30 knots at the centre of the carpet as a JPEG file, in true proportion."""
     columns, rows = min(_CLOSE_UP[0], chart.columns), min(_CLOSE_UP[1], chart.rows)
     left, top = (chart.columns - columns) // 2, (chart.rows - rows) // 2
     piece = chart.knots[top : top + rows, left : left + columns]
@@ -63,7 +63,7 @@ def close_up(chart: Chart, seed: int = 1) -> bytes:
 
 
 def _layout(chart: Chart, longest: int) -> _Layout:
-    """The picture's proportions follow the size; tufts are drawn on whole pixels and then shrunk a little."""
+    """The proportions follow the carpet's size. Tufts are drawn on whole pixels and then scaled down."""
     width, length = chart.size.width, chart.size.length
     scale = longest / max(width + 2 * _SELVEDGE, length + 2 * (_FRINGE + _BAND))
     across, down = (math.ceil(scale * side - 1e-6) for side in (width / chart.columns, length / chart.rows))
@@ -93,8 +93,8 @@ def _framed(chart: Chart, pile: Image.Image, layout: _Layout, rng: np.random.Gen
         whole.paste(Image.fromarray(selvedge(layout.height + 2 * layout.band, side, light, rng)), (left, layout.fringe))
     for top in (layout.fringe, end + layout.height):
         whole.paste(Image.fromarray(flat_band(layout.band, layout.width, rng)), (side, top))
-    hanging = fringe(layout.fringe, layout.width, rng)
-    whole.paste(hanging.transpose(Image.Transpose.FLIP_TOP_BOTTOM), (side, 0))
+    upper = fringe(layout.fringe, layout.width, rng)
+    whole.paste(upper.transpose(Image.Transpose.FLIP_TOP_BOTTOM), (side, 0))
     whole.paste(fringe(layout.fringe, layout.width, rng), (side, end + layout.height + layout.band))
     whole.paste(pile, (side, end))
     return whole

@@ -1,7 +1,7 @@
-"""Drawings to scale: laid out on a sheet, every part drawn by its role (`strokes`), names put clear of the lines.
+"""Drawings to scale: parts are drawn by their roles (`strokes`), names are placed clear of the lines.
 
-The drawing is laid out in points, so that names, hatches and arrows keep their size whatever the machine's size; a
-scale bar tells the size.
+The layout is in points, so that names, hatches and arrows have the same size for every machine. A scale bar shows the
+scale.
 """
 
 from collections.abc import Mapping
@@ -21,15 +21,15 @@ from ilmek.viz.thinning import thinned_line
 
 WIDTH = 420.0
 FOOT = 30.0
-"""Height of the room for the scale bar [pt]."""
+"""Height reserved for the scale bar [pt]."""
 
 _MARGIN = 26.0
 _LEAST, _MOST = 90.0, 330.0
-"""Height of the drawn part [pt], at least and at most."""
+"""Least and greatest height of the drawn part [pt]."""
 
 
 def draw_drawing(drawing: Drawing) -> Sheet:
-    """The drawing as large as the sheet allows, equal in both directions, with a scale bar below."""
+    """The drawing as large as the sheet allows, with equal scales in x and y and a scale bar below."""
     pen = pen_for(extent(drawing), colours(drawing.strokes), drawing.unit)
     draw_still(pen, drawing)
     names(pen, drawing, obstacles(pen, drawing))
@@ -43,9 +43,11 @@ def extent(drawing: Drawing) -> ComplexArray:
 
 
 def pen_for(points: ComplexArray, numbers: Mapping[int, int], unit: str, foot: float = FOOT) -> Pen:
-    """A pen on a sheet that holds all points [m], with room below for the scale bar.
+    """A pen on a sheet that contains all points [m], with space below for the scale bar.
 
-    numbers  the colour of each stroke, by place      unit  of the scale bar      foot  height of the room below [pt]
+    numbers  colour number of each stroke, by index
+    unit     of the scale bar
+    foot     height of the space below [pt]
     """
     finite = points[np.isfinite(points)]
     lower, upper = _corners(finite) if len(finite) else (0j, 1 + 1j)
@@ -57,7 +59,7 @@ def pen_for(points: ComplexArray, numbers: Mapping[int, int], unit: str, foot: f
 
 
 def draw_still(pen: Pen, drawing: Drawing) -> None:
-    """Strokes, dots and the scale bar; no names."""
+    """Draw strokes, dots and the scale bar, without names."""
     for number, stroke in enumerate(drawing.strokes):
         STROKES[stroke.role](pen, stroke, number)
     for dot in drawing.dots:
@@ -73,53 +75,53 @@ def _corners(points: ComplexArray) -> tuple[complex, complex]:
 
 
 def colours(strokes: tuple[Stroke, ...]) -> dict[int, int]:
-    """A colour number for each coloured stroke, by place: links first, then paths; paths of a link's name share it."""
+    """Colour number of each coloured stroke, by index: links first, then paths; equal names share one."""
     numbers: dict[int, int] = {}
     names: dict[str, int] = {}
     for role in ("link", "path"):
-        for place, stroke in enumerate(strokes):
+        for index, stroke in enumerate(strokes):
             if stroke.role == role:
                 fresh = len(set(numbers.values()))
-                numbers[place] = names.setdefault(stroke.label, fresh) if stroke.label else fresh
+                numbers[index] = names.setdefault(stroke.label, fresh) if stroke.label else fresh
     return numbers
 
 
 def _beside(points: ComplexArray, closed: bool) -> ComplexArray:
-    """Points of a line its name may stand beside: its middle first; all round a closed one, from the upper right."""
+    """Anchors for the name of a line, its middle first; all around a closed line, from the upper right."""
     if closed:
         points = np.append(points, points[0])
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
     shares = np.arange(24) / 24 if closed else np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8])
-    places = np.interp(shares * along[-1], along, points.real) + 1j * np.interp(shares * along[-1], along, points.imag)
+    anchors = np.interp(shares * along[-1], along, points.real) + 1j * np.interp(shares * along[-1], along, points.imag)
     if not closed:
-        return np.asarray(places)
-    turned = np.angle((places - places.mean()) * np.exp(-1j * np.pi / 4))
-    return np.asarray(places[np.argsort(np.abs(turned), kind="stable")])
+        return np.asarray(anchors)
+    turned = np.angle((anchors - anchors.mean()) * np.exp(-1j * np.pi / 4))
+    return np.asarray(anchors[np.argsort(np.abs(turned), kind="stable")])
 
 
 def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT) -> list[tuple[complex, complex]]:
-    """Names of dots in bold, names of strokes in the stroke's colour, all clear of the points `covered` [pt].
+    """Write names of dots in bold and of strokes in their colours, clear of the points `covered` [pt].
 
-    Returns the middle of each name and half its size [pt].
+    Returns the centre of each name and half its width + i half its height [pt].
     """
-    wanted: list[LabelRequest] = []
+    requests: list[LabelRequest] = []
     looks: list[dict[str, Any]] = []
     for dot in drawing.dots:
         if dot.label:
-            wanted.append(LabelRequest(pen(np.array([dot.at])), dot.label, STRONG, 5.5, pull=3.0))
+            requests.append(LabelRequest(pen(np.array([dot.at])), dot.label, STRONG, 5.5, pull=3.0))
             looks.append({"color": INK, "bold": True, "fontsize": STRONG})
     seen: set[str] = set()
     for number, stroke in enumerate(drawing.strokes):
         if stroke.label and stroke.label not in seen and stroke.role != "dimension" and len(stroke.points) > 1:
             seen.add(stroke.label)
-            places = _beside(thinned_line(pen(stroke.points)), stroke.closed)
-            wanted.append(LabelRequest(places, stroke.label, TEXT, 7.0 if stroke.role == "link" else 4.5))
+            anchors = _beside(thinned_line(pen(stroke.points)), stroke.closed)
+            requests.append(LabelRequest(anchors, stroke.label, TEXT, 7.0 if stroke.role == "link" else 4.5))
             looks.append({"color": _shade(pen, stroke, number), "fontsize": TEXT})
     corner = complex(pen.sheet.width, pen.sheet.height)
-    centres = placed(wanted, covered, complex(2.0, foot), corner - (2 + 2j))
-    for one, centre, look in zip(wanted, centres, looks, strict=True):
+    centres = placed(requests, covered, complex(2.0, foot), corner - (2 + 2j))
+    for one, centre, look in zip(requests, centres, looks, strict=True):
         pen.sheet.text(centre, one.text, ha="center", va="center_baseline", zorder=8, **look)
-    return [(centre, one.half) for one, centre in zip(wanted, centres, strict=True)]
+    return [(centre, one.half) for one, centre in zip(requests, centres, strict=True)]
 
 
 def _shade(pen: Pen, stroke: Stroke, number: int) -> str:
@@ -129,7 +131,7 @@ def _shade(pen: Pen, stroke: Stroke, number: int) -> str:
 
 
 def obstacles(pen: Pen, drawing: Drawing) -> ComplexArray:
-    """Points each 3 pt along every stroke, and rings around the dots, which no name should cover."""
+    """Points that no name should cover [pt]: every 3 pt along strokes, and rings around dots."""
     parts: list[ComplexArray] = [np.empty(0, complex)]
     for stroke in drawing.strokes:
         points = thinned_line(pen(stroke.points))
@@ -144,12 +146,12 @@ def obstacles(pen: Pen, drawing: Drawing) -> ComplexArray:
 
 
 def dotted(points: ComplexArray) -> ComplexArray:
-    """Points each 3 pt along a line [pt]."""
+    """Points every 3 pt along a line [pt]."""
     if len(points) < 2:
         return np.empty(0, complex)
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
-    places = np.linspace(0.0, along[-1], max(2, int(along[-1] / 3.0)))
-    return np.asarray(np.interp(places, along, points.real) + 1j * np.interp(places, along, points.imag))
+    lengths = np.linspace(0.0, along[-1], max(2, int(along[-1] / 3.0)))
+    return np.asarray(np.interp(lengths, along, points.real) + 1j * np.interp(lengths, along, points.imag))
 
 
 def _scale_bar(pen: Pen) -> None:

@@ -1,7 +1,7 @@
 """Widths of texts, from the advance widths of DejaVu Sans, which comes with the package.
 
-A page names several fonts and the reader's machine takes the first that it has. DejaVu Sans is the widest of them, so
-that a text laid out by its widths runs into nothing in any other.
+A page names several fonts; the browser uses the first one installed. DejaVu Sans is the widest of them, so that a text
+laid out by its widths overlaps nothing in any other font.
 
 Tables of the font file: OpenType specification 1.9, cmap (format 12), head, hhea, hmtx.
 """
@@ -15,12 +15,12 @@ ASCENT, DESCENT = 0.76, 0.24
 """Height of an upright letter above the baseline and depth of a letter below it, as shares of the size."""
 
 _UNKNOWN = 1.0
-"""Width of a letter that the font lacks, as a share of the size."""
+"""Width of a letter that is missing in the font, as a share of the size."""
 
 
 @lru_cache(maxsize=4096)
 def text_width(text: str, size: float, bold: bool = False) -> float:
-    """Width of a line of text [pt] in the widest font it may be shown in, at `size` [pt].
+    """Width of a line of text [pt] in the widest font of a page, at `size` [pt].
 
     >>> round(text_width("Hello", 10.0), 1), text_width("", 10.0)
     (25.3, 0.0)

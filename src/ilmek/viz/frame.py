@@ -15,7 +15,7 @@ _TICK = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """Where a plot lies on its sheet [pt]: left and lower edge, width and height."""
+    """Rectangle of a plot on its sheet [pt]: left and lower edge, width and height."""
 
     left: float
     low: float
@@ -40,12 +40,12 @@ class Box:
 
 
 def paper(sheet: Sheet, box: Box) -> None:
-    """The white ground of a plot."""
+    """Draw the white background of a plot."""
     sheet.area(box.corners, facecolor=PAPER, linewidth=0, zorder=0.5)
 
 
 def grid(sheet: Sheet, box: Box, x: Sequence[float] = (), y: Sequence[float] = ()) -> None:
-    """Grid lines at these places [pt]."""
+    """Draw grid lines at these coordinates [pt]."""
     upright, level = axis_points(x), 1j * axis_points(y)
     starts = np.concatenate([upright + 1j * box.low, level + box.left])
     ends = np.concatenate([upright + 1j * box.top, level + box.right])
@@ -53,7 +53,7 @@ def grid(sheet: Sheet, box: Box, x: Sequence[float] = (), y: Sequence[float] = (
 
 
 def lower_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], name: str) -> None:
-    """The axis along the lower edge: ticks at places [pt] with their values, and its name."""
+    """Draw the axis along the lower edge: ticks at coordinates [pt], their values, and its name."""
     _edge(sheet, 1j * box.low + axis_points([box.left, box.right]), 1j * box.low + axis_points(at), -1j)
     for x, words in zip(at, tick_labels(values), strict=True):
         sheet.text(x + 1j * (box.low - _TICK - 2.5), words, ha="center", va="top", fontsize=SMALL, color=MUTED)
@@ -62,7 +62,7 @@ def lower_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float],
 
 
 def upper_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], name: str) -> None:
-    """The axis along the upper edge."""
+    """Draw the axis along the upper edge."""
     _edge(sheet, 1j * box.top + axis_points([box.left, box.right]), 1j * box.top + axis_points(at), 1j)
     for x, words in zip(at, tick_labels(values), strict=True):
         sheet.text(x + 1j * (box.top + _TICK + 2.0), words, ha="center", va="bottom", fontsize=SMALL, color=MUTED)
@@ -71,11 +71,11 @@ def upper_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float],
 
 
 def left_axis(sheet: Sheet, box: Box, at: Sequence[float], values: list[float], name: str) -> None:
-    """The axis along the left edge; its name stands at the sheet's edge and is read from the right."""
+    """Draw the axis along the left edge; its name is at the sheet's edge and is read from the right."""
     _edge(sheet, box.left + 1j * axis_points([box.low, box.top]), box.left + 1j * axis_points(at), -1)
     for y, words in zip(at, tick_labels(values), strict=True):
-        place = complex(box.left - _TICK - 2.5, y)
-        sheet.text(place, words, ha="right", va="center_baseline", fontsize=SMALL, color=MUTED)
+        at_tick = complex(box.left - _TICK - 2.5, y)
+        sheet.text(at_tick, words, ha="right", va="center_baseline", fontsize=SMALL, color=MUTED)
     middle = complex(12.0, (box.low + box.top) / 2)
     sheet.text(middle, name, ha="center", va="baseline", fontsize=TEXT, rotation=90)
 

@@ -1,4 +1,4 @@
-"""Names put beside the things they name, without running into them or into each other."""
+"""Placement of names beside the parts that they name, clear of lines and of each other."""
 
 import numpy as np
 
@@ -12,9 +12,12 @@ _REACHES = (1.0, 1.8, 2.8)
 
 @record
 class LabelRequest:
-    """A name to place: the points it may stand beside [pt], the first the dearest, and the least distance to keep [pt].
+    """A name to place.
 
-    pull  how much a place far from its point costs; the higher, the closer the name stays
+    anchors   points beside which it may be placed [pt], the best first
+    size      of the letters [pt]
+    distance  least distance from the anchor [pt]
+    pull      cost factor of the distance: the higher, the closer the name stays to its anchor
     """
 
     anchors: ComplexArray
@@ -25,20 +28,21 @@ class LabelRequest:
 
     @property
     def half(self) -> complex:
-        """Half the width and half the height of the text [pt]."""
+        """Half the width + i half the height of the text [pt]."""
         return complex(text_width(self.text, self.size) / 2 + 1.0, 0.62 * self.size)
 
 
-def placed(wanted: list[LabelRequest], obstacles: ComplexArray, lower: complex, upper: complex) -> list[complex]:
-    """Centres of the names [pt], chosen one after the other among places around their points.
+def placed(requests: list[LabelRequest], obstacles: ComplexArray, lower: complex, upper: complex) -> list[complex]:
+    """Centres of the names [pt], chosen one after the other among positions around their anchors.
 
-    obstacles       points that should not be covered [pt], those along the lines of the drawing
-    lower, upper    corners of the sheet that no name leaves [pt]
+    obstacles     points that should not be covered [pt]
+    lower, upper  corners of the area in which all names lie [pt]
 
-    A place costs 1 for each point it covers, 200 for a name it touches, and a little for its distance.
+    A position costs 1 for each point covered, 200 for each name touched, 400 outside the sheet, and a little for its
+    distance.
     """
     boxes: list[tuple[complex, complex]] = []
-    for one in wanted:
+    for one in requests:
         half = one.half
         candidates, cost = _candidates(one)
         least, most = lower + half, upper - half
@@ -53,19 +57,19 @@ def placed(wanted: list[LabelRequest], obstacles: ComplexArray, lower: complex, 
 
 
 def _candidates(one: LabelRequest) -> tuple[ComplexArray, FloatArray]:
-    """Centres such that the box of the text just clears the distance from an anchor, and what their distance costs."""
+    """Centres at which the box of the text just keeps the distance from an anchor, and the costs of their distances."""
     half = one.half
-    way = np.tile(_AROUND, len(_REACHES))
+    direction = np.tile(_AROUND, len(_REACHES))
     reach = np.repeat(_REACHES, len(_AROUND))
-    beside = np.sign(np.round(way.real, 1)) * half.real + 1j * np.sign(np.round(way.imag, 1)) * half.imag
-    offsets = way * one.distance * reach + beside
-    cost = one.pull * (np.array(reach) - 1.0) * one.distance * 0.3 + 0.05 * np.arange(len(way)) / len(way)
-    dearness = 0.8 * np.arange(len(one.anchors))
-    return (one.anchors[:, np.newaxis] + offsets).ravel(), (dearness[:, np.newaxis] + cost).ravel()
+    beside = np.sign(np.round(direction.real, 1)) * half.real + 1j * np.sign(np.round(direction.imag, 1)) * half.imag
+    offsets = direction * one.distance * reach + beside
+    cost = one.pull * (np.array(reach) - 1.0) * one.distance * 0.3 + 0.05 * np.arange(len(direction)) / len(direction)
+    rank_cost = 0.8 * np.arange(len(one.anchors))
+    return (one.anchors[:, np.newaxis] + offsets).ravel(), (rank_cost[:, np.newaxis] + cost).ravel()
 
 
 def covered(centres: ComplexArray, half: complex, obstacles: ComplexArray) -> FloatArray:
-    """How many obstacle points each box covers, up to 12."""
+    """Number of obstacle points that each box covers, at most 12."""
     if not len(obstacles):
         return np.zeros(len(centres))
     reach = half + (1 + 1j)

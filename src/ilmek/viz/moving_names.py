@@ -1,10 +1,10 @@
-"""Names of points that move: beside their points at every frame, clear of the lines, as still as that allows.
+"""Names of moving points: beside their points at every frame, clear of the lines, with as little movement as possible.
 
-A name has sixteen places around its point. Over the frames that sequence of places is taken whose sum is least of
+A name has sixteen positions around its point. The sequence of positions over the frames minimises the sum of
 
-    what the name covers at a frame  +  p d^2 for a change by d places from frame to frame, p the name's pull
+    cost of the parts covered at a frame  +  p d^2 for a change by d positions from frame to frame, p the name's pull
 
-found by dynamic programming; where the run closes, the last frame is followed by the first [R. Bellman; A. Viterbi].
+by dynamic programming (the Viterbi algorithm); in a closed run the last frame is followed by the first.
 """
 
 import numpy as np
@@ -14,11 +14,11 @@ from ilmek.viz.labels import LabelRequest, covered
 
 NAME_POSITIONS = 16
 _TOUCHED = 30.0
-"""What it costs to touch another name, or to leave the sheet."""
+"""Cost of touching another name or leaving the sheet."""
 
 
 def positions_around(one: LabelRequest) -> ComplexArray:
-    """Where the middle of the name may stand, from its point [pt]: its box clears the distance in every direction."""
+    """Possible centres of the name relative to its point [pt]; its box keeps the distance in every direction."""
     angle = 2 * np.pi * np.arange(NAME_POSITIONS) / NAME_POSITIONS + np.pi / 4
     aside = (
         np.clip(1.5 * np.cos(angle), -1, 1) * one.half.real + 1j * np.clip(1.5 * np.sin(angle), -1, 1) * one.half.imag
@@ -27,23 +27,25 @@ def positions_around(one: LabelRequest) -> ComplexArray:
 
 
 def named(
-    wanted: list[LabelRequest], obstacles: list[ComplexArray], lower: complex, upper: complex, *, closes: bool
+    requests: list[LabelRequest], obstacles: list[ComplexArray], lower: complex, upper: complex, *, closes: bool
 ) -> list[ComplexArray]:
-    """The middle of each name at every frame [pt].
+    """The centre of each name at every frame [pt].
 
-    wanted      names with their points at the frames as anchors        obstacles  at every frame, not to be covered
-    lower, upper  corners of the sheet                                  closes     the first frame follows the last
+    requests      names with their points at the frames as anchors
+    obstacles     points that should not be covered at each frame [pt]
+    lower, upper  corners of the sheet [pt]
+    closes        the first frame follows the last
     """
     found: list[ComplexArray] = []
-    for one in wanted:
+    for one in requests:
         around = positions_around(one)
         centres = one.anchors[:, np.newaxis] + around
         cost = np.array([covered(at, one.half, met) for at, met in zip(centres, obstacles, strict=True)])
         least, most = lower + one.half, upper - one.half
         cost += _TOUCHED * ((centres.real < least.real) | (centres.real > most.real))
         cost += _TOUCHED * ((centres.imag < least.imag) | (centres.imag > most.imag))
-        for other, place in zip(wanted, found, strict=False):
-            away = centres - place[:, np.newaxis]
+        for other, centre in zip(requests, found, strict=False):
+            away = centres - centre[:, np.newaxis]
             room = one.half + other.half
             cost += _TOUCHED * ((np.abs(away.real) < room.real) & (np.abs(away.imag) < room.imag))
         found.append(one.anchors + around[steadiest(cost, one.pull, closes=closes)])
@@ -51,9 +53,10 @@ def named(
 
 
 def steadiest(cost: FloatArray, pull: float, *, closes: bool) -> IntArray:
-    """The place at each frame for which costs and changes together are least.
+    """The position at each frame that minimises the sum of costs and changes.
 
-    cost  (frames, places), the places in a ring      pull  what it costs to change to the next place
+    cost  (frames, positions), the positions in a ring
+    pull  cost of a change to the next position
 
     >>> steadiest(np.array([[0.0, 1.0], [0.9, 1.0], [1.0, 0.0]]), 3.0, closes=False)
     array([0, 0, 0])
@@ -61,16 +64,16 @@ def steadiest(cost: FloatArray, pull: float, *, closes: bool) -> IntArray:
     count = cost.shape[1]
     apart = np.abs(np.subtract.outer(np.arange(count), np.arange(count)))
     change = pull * np.minimum(apart, count - apart) ** 2
-    # One search for each first place where the run must come back to it, otherwise a single one.
+    # A closed run returns to its first position: one search for each of these. An open run needs a single search.
     sums = np.where(np.eye(count, dtype=bool), cost[0], np.inf) if closes else cost[:1]
     came = []
     for of_frame in cost[1:]:
-        ways = sums[:, :, np.newaxis] + change
-        came.append(np.argmin(ways, axis=1))
-        sums = np.min(ways, axis=1) + of_frame
+        through = sums[:, :, np.newaxis] + change
+        came.append(np.argmin(through, axis=1))
+        sums = np.min(through, axis=1) + of_frame
     total = sums + change if closes else sums
-    search, place = np.unravel_index(int(np.argmin(total)), total.shape)
-    chosen = [int(place)]
+    search, last = np.unravel_index(int(np.argmin(total)), total.shape)
+    chosen = [int(last)]
     for before in reversed(came):
         chosen.append(int(before[search, chosen[-1]]))
     return np.array(chosen[::-1])

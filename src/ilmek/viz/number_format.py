@@ -1,4 +1,4 @@
-"""How numbers and names are written on a page."""
+"""Format of numbers and names on a page."""
 
 import math
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ NARROW_SPACE = "\u202f"
 
 
 def number(value: Json, unit: str = "", digits: int = 4) -> str:
-    r"""An SI number in `unit` without the unit; a text stays, a truth is yes or no, nothing is a dash.
+    r"""An SI number in `unit`, without the unit. A text stays as it is, True and False become yes and no, None a dash.
 
     >>> number(0.0597375, "mm"), number(-2.0), number(135000), number(True), number(None), number(4.857e-5)
     ('59.74', '−2', '135\u202f000', 'yes', '–', '4.857·10⁻⁵')
@@ -45,7 +45,7 @@ class Cell:
 
 
 def cells(table: Table) -> list[list[Cell]]:
-    """A table's rows as they are printed; a number of rounding noise beside the others of its column is 0.
+    """A table's rows as printed; numbers below 1e-12 of the largest in their column are printed as 0.
 
     >>> from ilmek.report import Column
     >>> shown = cells(Table("t", "", (Column("x", "mm"),), ((0.1,), (1e-17,))))
@@ -69,7 +69,7 @@ def _measured(value: float | int | str) -> TypeGuard[float]:
 
 
 def quantity(value: Json, unit: str = "") -> str:
-    """An SI number in `unit` with the unit; what is not a number stays alone.
+    """An SI number in `unit`, with the unit; other values as `number`.
 
     >>> quantity(0.5, "deg"), quantity(9.81, "m/s^2"), quantity("cycloidal", "")
     ('28.65°', '9.81 m/s²', 'cycloidal')
@@ -81,7 +81,7 @@ def quantity(value: Json, unit: str = "") -> str:
 
 
 def count(value: int) -> str:
-    """A whole number with its thousands apart.
+    """A whole number with its thousands separated.
 
     >>> count(1234567) == "1 234 567".replace(" ", NARROW_SPACE)
     True
@@ -90,7 +90,7 @@ def count(value: int) -> str:
 
 
 def fixed(value: float, factor: float, decimals: int) -> str:
-    """The value divided by a factor, with so many decimals.
+    """The value divided by a factor, with the given number of decimals.
 
     >>> fixed(1.23456, 0.001, 1).replace(NARROW_SPACE, " ")
     '1 234.6'
@@ -99,7 +99,7 @@ def fixed(value: float, factor: float, decimals: int) -> str:
 
 
 def amount(value: float, factor: float) -> str:
-    """The value divided by a factor: whole, or with one decimal below 10, where nothing is a dash.
+    """The value divided by a factor: a whole number, one decimal below 10; zero is a dash.
 
     >>> amount(0.1234, 0.001), amount(0.0024, 0.001), amount(0.0, 1.0)
     ('123', '2.4', '–')
@@ -108,7 +108,7 @@ def amount(value: float, factor: float) -> str:
 
 
 def share(part: int, whole: int) -> str:
-    """A part of a whole in per cent; one that is there is never 0.
+    """A part of a whole in per cent; a small one is printed as < 0.1 %.
 
     >>> share(1, 3), share(1, 5000)
     ('33.3 %', '< 0.1 %')
@@ -117,7 +117,7 @@ def share(part: int, whole: int) -> str:
 
 
 def words(name: str) -> str:
-    """A name of the programme as words.
+    """A name of an interface as words.
 
     >>> words("drive_torque")
     'drive torque'
@@ -135,7 +135,7 @@ def sign(relation: str) -> str:
 
 
 def duration(seconds: float) -> str:
-    """A time in the units people say it in.
+    """A time in seconds, minutes or hours.
 
     >>> duration(42.0), duration(5400.0), duration(270000.0)
     ('42 s', '1 h 30 min', '75 h')

@@ -1,7 +1,7 @@
-"""Reports as web pages that need nothing but themselves: they open from disk, without a network, and print.
+"""Reports as self-contained HTML pages: they open from disk without a network, and can be printed.
 
-`machine_page` shows a machine's report. `carpet_page` shows a carpet with the loom for it. Texts from outside are
-escaped by the template engine; figures come from `svg`, pictures from `carpet_picture`.
+`machine_page` shows a machine's report, `carpet_page` a carpet with its loom. The template engine escapes all texts;
+figures come from `svg`, pictures from `carpet_picture`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -27,16 +27,16 @@ _TEMPLATES = Path(__file__).parent / "templates"
 
 @dataclass(frozen=True, slots=True)
 class CarpetPage:
-    """What the page of a carpet shows.
+    """Contents of the page of a carpet.
 
     title, lead    heading and the line below it
     chart, bill    the carpet and its yarn
-    symbols        the sign of each yarn of `chart.yarns` in the printed chart ("": none)
+    symbols        the symbol of each yarn of `chart.yarns` in the printed chart; default: none
     facts          further entries of the summary, after knots, colours and yarn (heads, weaving time, deadline)
-    reports        the machines, in the order to show them
-    checks         checks of the whole that belong to no machine
-    files          the files beside the page
-    warnings       what was done to the picture, and whatever else a person must know
+    reports        the machines, in the order of the page
+    checks         checks that belong to no machine
+    files          the other files of the folder
+    warnings       warnings, and notes on changes made to the picture
     """
 
     title: str
@@ -53,7 +53,7 @@ class CarpetPage:
 
 @dataclass(frozen=True, slots=True)
 class _Drawn:
-    """A figure with its drawing; of the kind "wide" it takes the whole width; "moves" and "wide timed" are driven."""
+    """A figure and its SVG. Kinds: "", "wide" (whole width), "moves" (animated), "wide timed" (with a cursor)."""
 
     figure: Figure
     svg: Markup
@@ -78,7 +78,7 @@ class _Judged:
 
 
 def carpet_page(page: CarpetPage) -> str:
-    """The text of a carpet's page: HTML, complete in itself."""
+    """The page of a carpet as self-contained HTML."""
     sections = [_section(number, report) for number, report in enumerate(page.reports, 1)]
     judged = [_Judged("", check) for check in page.checks]
     judged += [_Judged(report.title, check) for report in page.reports for check in report.checks]
@@ -104,7 +104,7 @@ def carpet_page(page: CarpetPage) -> str:
 
 
 def machine_page(report: Report) -> str:
-    """The text of a machine's page: HTML, complete in itself."""
+    """The page of a machine as self-contained HTML."""
     section = _section(1, report)
     return _render(
         "machine.html.j2",
@@ -120,9 +120,9 @@ def machine_page(report: Report) -> str:
     )
 
 
-def _section(place: int, report: Report) -> _Section:
+def _section(index: int, report: Report) -> _Section:
     drawn = tuple(_Drawn(figure, Markup(svg(figure)), _kind(figure)) for figure in report.figures)
-    return _Section(f"m{place}", report, drawn)
+    return _Section(f"m{index}", report, drawn)
 
 
 def _kind(figure: Figure) -> str:
@@ -145,7 +145,7 @@ def _render(template: str, **values: object) -> str:
 
 @lru_cache(maxsize=1)
 def _environment() -> Environment:
-    """The template engine: everything escaped, a name that is missing an error."""
+    """The template engine: all texts are escaped, a missing name is an error."""
     environment = Environment(
         loader=FileSystemLoader(_TEMPLATES),
         autoescape=True,

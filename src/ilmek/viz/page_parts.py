@@ -17,11 +17,11 @@ from ilmek.viz.carpet_picture import carpet_picture, close_up
 from ilmek.viz.number_format import count, fixed, share
 
 _LARGEST = 1600
-"""Pixels along the longer side of the chart's picture on the page, at most."""
+"""Largest number of pixels along the longer side of the chart's picture."""
 
 
 _TALLEST = 960
-"""Height of a picture on the page [px], at most."""
+"""Largest height of a picture on the page [px]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class Fact:
 
 @dataclass(frozen=True, slots=True)
 class FileNote:
-    """A file beside the page and what it holds."""
+    """A file of the output folder and its contents."""
 
     name: str
     meaning: str
@@ -44,7 +44,7 @@ class FileNote:
 
 @dataclass(frozen=True, slots=True)
 class PagePicture:
-    """A picture of the page: data address, proportions, what it shows; `times` is how much a click enlarges it."""
+    """A picture of the page: data URL, proportions, caption; `times` is the enlargement on a click."""
 
     source: str
     width: int
@@ -58,7 +58,7 @@ class PagePicture:
 
     @property
     def widest(self) -> int:
-        """Greatest width on the page [px]: a runner is not to be taller than a screen."""
+        """Largest width on the page [px], so that a runner is not taller than a screen."""
         return max(1, round(_TALLEST * self.width / self.height))
 
 
@@ -74,9 +74,9 @@ class YarnLine:
 
 
 def carpet_facts(chart: Chart, bill: YarnBill, more: Sequence[Fact], checks: Sequence[Check]) -> list[Fact]:
-    """The summary: knots, colours, yarn, what the job adds, and how many checks hold."""
-    held = sum(check.ok for check in checks)
-    failed = len(checks) - held
+    """The summary: size, knots, colours, yarn, further facts, and the numbers of passed and failed checks."""
+    passed = sum(check.ok for check in checks)
+    failed = len(checks) - passed
     size, quality = chart.size, chart.quality
     facts = [
         Fact("Size", f"{_cm(size.width)} × {_cm(size.length)} cm", size.name),
@@ -91,8 +91,8 @@ def carpet_facts(chart: Chart, bill: YarnBill, more: Sequence[Fact], checks: Seq
         *more,
     ]
     if checks:
-        mood, note = ("bad", f"{held} of {len(checks)} hold") if failed else ("good", "none fails")
-        facts.append(Fact("Checks", f"{failed} failed" if failed else f"{held} passed", note, mood))
+        mood, note = ("bad", f"{passed} of {len(checks)} passed") if failed else ("good", "none failed")
+        facts.append(Fact("Checks", f"{failed} failed" if failed else f"{passed} passed", note, mood))
     return facts
 
 
@@ -105,17 +105,17 @@ def _cm(length: float) -> str:
 
 
 def pictures(chart: Chart) -> list[PagePicture]:
-    """The chart, the carpet as it will look, and some of its knots."""
+    """The chart, the simulated carpet, and a close-up of its knots."""
     name = f"{chart.columns} by {chart.rows} knots in {chart.colours} colours"
     whole, near = carpet_picture(chart), close_up(chart)
     width, height = round(1000 * chart.size.width), round(1000 * chart.size.length)
     return [
         PagePicture(
             _address(_chart_png(chart), "png"), width, height, "Knot chart.", f"Knot chart, {name}",
-            "One cell one knot; click to enlarge.", pixelated=True, times=max(1.0, 3 * chart.columns / width),
+            "One cell is one knot; click to enlarge.", pixelated=True, times=max(1.0, 3 * chart.columns / width),
         ),
         PagePicture(
-            _address(whole, "jpeg"), *_size(whole), "As it will look.", f"Simulated carpet, {name}",
+            _address(whole, "jpeg"), *_size(whole), "The finished carpet.", f"Simulated carpet, {name}",
             "Simulated pile, fringe and selvedge.", times=1.25,
         ),
         PagePicture(
@@ -126,7 +126,7 @@ def pictures(chart: Chart) -> list[PagePicture]:
 
 
 def _chart_png(chart: Chart) -> bytes:
-    """The chart as an indexed PNG; of a very large one each n-th knot."""
+    """The chart as an indexed PNG; of a very large one, every n-th knot."""
     step = -(-max(chart.rows, chart.columns) // _LARGEST)
     knots = np.ascontiguousarray(chart.knots[::step, ::step])
     picture = Image.frombytes("P", (knots.shape[1], knots.shape[0]), knots.tobytes())
@@ -146,15 +146,15 @@ def _address(picture: bytes, kind: str) -> str:
 
 
 def yarn_lines(chart: Chart, bill: YarnBill, symbols: str) -> list[YarnLine]:
-    """The bill's lines with the yarns' colours and signs; a sign is black or white, as in the printed chart."""
-    places = {yarn.name: place for place, yarn in enumerate(chart.yarns)}
+    """The lines of the bill with the yarns' colours and symbols, which are black or white as in the printed chart."""
+    indices = {yarn.name: index for index, yarn in enumerate(chart.yarns)}
     lines = []
     for need in bill.pile:
-        place = places[need.name]
-        srgb = chart.yarns[place].srgb
+        index = indices[need.name]
+        srgb = chart.yarns[index].srgb
         light = float(LINEAR[list(srgb)] @ np.array([0.2126, 0.7152, 0.0722]))
         letter = "#ffffff" if light < 0.179 else "#000000"
-        symbol = symbols[place] if place < len(symbols) else ""
+        symbol = symbols[index] if index < len(symbols) else ""
         colour, of_all = "#{:02x}{:02x}{:02x}".format(*srgb), share(need.knots, int(chart.knots.size))
         lines.append(YarnLine(need, symbol, colour, letter, of_all))
     return lines + [YarnLine(need, "", "", "", "") for need in bill.ground]

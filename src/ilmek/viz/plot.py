@@ -23,7 +23,7 @@ _KEY = 20.0
 
 @dataclass(frozen=True, slots=True)
 class _Entry:
-    """A legend entry with its place: row from the top, left edge [pt]."""
+    """A legend entry with its row from the top and its left edge [pt]."""
 
     series: Series
     number: int
@@ -32,7 +32,7 @@ class _Entry:
 
 
 def draw_plot(plot: Plot) -> Sheet:
-    """The curves with a grid, units on the axes, the legend above the curves and the marks between the two."""
+    """The curves with grid, axes with units, legend above the curves and labels of the marks between the two."""
     x_span = span(_all([in_unit(one.x, plot.x.unit) for one in plot.series]))
     y_span = _padded(*span(_all([in_unit(one.y, plot.y.unit) for one in plot.series])))
     x_ticks, y_ticks = ticks(*x_span, plot.x.unit, 9), ticks(*y_span, plot.y.unit, 6)
@@ -61,7 +61,7 @@ def draw_plot(plot: Plot) -> Sheet:
 
 @dataclass(frozen=True, slots=True)
 class _Scales:
-    """Values in the axes' units to places on the sheet [pt]."""
+    """Map from values in the axes' units to coordinates on the sheet [pt]."""
 
     box: Box
     x_span: tuple[float, float]
@@ -79,34 +79,34 @@ def _all(parts: list[FloatArray]) -> FloatArray:
 
 
 def _padded(low: float, high: float) -> tuple[float, float]:
-    """The span with 5 % of air; an end at zero, or near it, is put on zero."""
-    air = 0.05 * (high - low)
+    """The span with 5 % margins; an end at or near zero is put on zero."""
+    margin = 0.05 * (high - low)
     if low >= 0 and low < 0.25 * high:
-        return 0.0, high + air
+        return 0.0, high + margin
     if high <= 0 and high > 0.25 * low:
-        return low - air, 0.0
-    return low - air, high + air
+        return low - margin, 0.0
+    return low - margin, high + margin
 
 
 def _line(series: Series, number: int) -> dict[str, Any]:
-    """How a curve is drawn; beyond the palette the line is broken too."""
+    """Style of a curve; beyond the palette lines are dashed."""
     rounds = number // len(PALETTE)
     dashes = DASHES[0] if series.dashed else DASHES[(rounds - 1) % len(DASHES)] if rounds else ()
     return {"color": colour(number), "linewidth": 1.5, "dashes": dashes}
 
 
 def _legend(plot: Plot, left: float) -> list[_Entry]:
-    """Entries in rows above the curves; none where the axis says it already."""
+    """Entries in rows above the curves; none if the axis names the only curve."""
     if len(plot.series) == 1 and plot.series[0].label in ("", plot.y.label, plot.title):
         return []
     entries: list[_Entry] = []
-    row, place = 0, left
+    row, at = 0, left
     for number, series in enumerate(plot.series):
         width = _KEY + 4.0 + text_width(series.label, TEXT) + 12.0
-        if place > left and place + width > WIDTH:
-            row, place = row + 1, left
-        entries.append(_Entry(series, number, row, place))
-        place += width
+        if at > left and at + width > WIDTH:
+            row, at = row + 1, left
+        entries.append(_Entry(series, number, row, at))
+        at += width
     return entries
 
 
@@ -118,9 +118,9 @@ def _draw_legend(sheet: Sheet, entries: list[_Entry]) -> None:
 
 
 def _tiers(marks: tuple[Mark, ...], x_span: tuple[float, float], unit: str, width: float) -> list[int]:
-    """The height of each mark's label: 0, or higher where it would run into one to its left."""
-    places = in_unit(np.array([mark.x for mark in marks], dtype=float), unit)
-    centres = (places - x_span[0]) / (x_span[1] - x_span[0]) * width
+    """The tier of each mark's label: 0, or higher if it would overlap one to its left."""
+    values = in_unit(np.array([mark.x for mark in marks], dtype=float), unit)
+    centres = (values - x_span[0]) / (x_span[1] - x_span[0]) * width
     tiers = [0] * len(marks)
     ends: list[float] = []
     for index in np.argsort(centres):

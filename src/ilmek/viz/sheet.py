@@ -1,7 +1,7 @@
-"""Paper to draw a figure on, measured in points, and its text as SVG.
+"""A sheet on which figures are drawn, in points, and its SVG text.
 
-Lines, areas and texts are laid at known places; an SVG file counts downward, a sheet upward. Lengths are rounded to a
-hundredth of a point. Marks are drawn in the order of their level, those of one level in the order they were made.
+The y axis of a sheet points up, that of SVG down. Lengths are rounded to a hundredth of a point. Marks are drawn in the
+order of their levels, those of one level in the order of their creation.
 """
 
 import re
@@ -14,16 +14,16 @@ from ilmek.arrays import ComplexArray
 from ilmek.viz.font import ASCENT, DESCENT, text_width
 from ilmek.viz.style import INK, PAPER, TEXT
 
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # no XML may hold these
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # not allowed in XML
 _ANCHORS = {"left": "", "center": ' text-anchor="middle"', "right": ' text-anchor="end"'}
 _DROPS = {"baseline": 0.0, "center_baseline": ASCENT / 2, "top": ASCENT, "bottom": -DESCENT}
-"""How far the baseline lies below the place of a text, as a share of its size."""
+"""Distance of the baseline below the anchor of a text, as a share of its size."""
 _PAD = 1.0
-"""Paper left free around a text on a line [pt]."""
+"""Margin around a text on a line [pt]."""
 
 
 class Sheet:
-    """A sheet of width x height [pt]; places are complex, from its lower left corner [pt]."""
+    """A sheet of width x height [pt]; positions are complex, from its lower left corner [pt]."""
 
     def __init__(self, width: float, height: float) -> None:
         self.width, self.height = float(width), float(height)
@@ -38,7 +38,7 @@ class Sheet:
         dashes: Sequence[float] = (),
         zorder: float = 2.0,
     ) -> None:
-        """A line through points; NaN makes a gap.
+        """Draw a line through points [pt]; NaN makes a gap.
 
         dashes  lengths of dash, gap, dash ... in line widths; default: a full line
         """
@@ -52,7 +52,7 @@ class Sheet:
         self._put(zorder, f'<path d="{through}" stroke="{color}" stroke-width="{linewidth:g}"{broken}/>')
 
     def lines(self, starts: ComplexArray, ends: ComplexArray, *, color: str, linewidth: float, zorder: float) -> None:
-        """Straight lines from each start to its end, drawn as one."""
+        """Draw straight lines from each start to its end [pt] as one mark."""
         gaps = np.full(len(starts), complex(np.nan, np.nan))
         points = np.column_stack((starts, ends, gaps)).ravel()
         self.line(points, color=color, linewidth=linewidth, zorder=zorder)
@@ -66,7 +66,7 @@ class Sheet:
         linewidth: float = 0.0,
         zorder: float = 1.0,
     ) -> None:
-        """A filled polygon, its edge drawn where it has a colour."""
+        """Draw a filled polygon [pt]; its edge is drawn if it has a colour."""
         through = self._through(points)
         edge = f' stroke="{edgecolor}" stroke-width="{linewidth:g}"' if edgecolor else ""
         if through:
@@ -86,10 +86,12 @@ class Sheet:
         clear: bool = False,
         zorder: float = 3.0,
     ) -> None:
-        """A text.
+        """Draw a text.
 
-        ha, va    which of its points lies at the place: left, center, right; top, center_baseline, baseline, bottom
-        rotation  about that point, anticlockwise [deg]      clear  lay paper under a centred text
+        at        position of the anchor [pt]
+        ha, va    anchor of the text: left, center, right; top, center_baseline, baseline, bottom
+        rotation  about the anchor, anticlockwise [deg]
+        clear     hide the lines under a centred text
         """
         x, y = at.real, self.height - at.imag
         turn = f' transform="rotate({-rotation:.4g} {x:.6g} {y:.6g})"' if abs(rotation) > 1e-6 else ""
@@ -105,7 +107,7 @@ class Sheet:
     def svg(self, title: str, fonts: str, over: str = "") -> str:
         """The sheet as an `<svg>` element with a title and no fixed size: its view box keeps the proportions.
 
-        over  SVG that is laid over the sheet
+        over  SVG that is drawn over the sheet
 
         >>> text = Sheet(72, 36).svg("a < b", "sans-serif")
         >>> text.startswith("<svg") and "a &lt; b" in text
@@ -123,10 +125,10 @@ class Sheet:
         self._marks.append((level, mark))
 
     def _through(self, points: ComplexArray) -> str:
-        """The path through points, in pieces where there are gaps; a piece of one point is left out."""
-        places = np.round(np.column_stack((points.real, self.height - points.imag)), 2)
-        whole = np.isfinite(places).all(axis=1)
-        pieces = np.split(places, np.flatnonzero(np.diff(whole)) + 1)
+        """The SVG path through points, divided at gaps; a piece of one point is left out."""
+        coordinates = np.round(np.column_stack((points.real, self.height - points.imag)), 2)
+        whole = np.isfinite(coordinates).all(axis=1)
+        pieces = np.split(coordinates, np.flatnonzero(np.diff(whole)) + 1)
         return "".join(
             "M" + "L".join(f"{x:g} {y:g}" for x, y in piece.tolist())
             for piece in pieces
@@ -139,10 +141,10 @@ def _short(value: float) -> str:
 
 
 def circle(centre: complex, radius: float) -> ComplexArray:
-    """A circle as a polygon [pt] fine enough for a figure."""
+    """A circle as a polygon of 24 corners [pt]."""
     return np.asarray(centre + radius * np.exp(2j * np.pi * np.arange(24) / 24))
 
 
 def axis_points(values: Sequence[float]) -> ComplexArray:
-    """Numbers along an axis as places on the real line."""
+    """Coordinates along an axis [pt] as complex numbers on the real line."""
     return np.array(values, dtype=complex)

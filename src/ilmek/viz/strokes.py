@@ -1,4 +1,4 @@
-"""How each role of `report.Stroke` and `report.Dot` is drawn: bars, hatched ground, pivots, dimensions."""
+"""Drawing of each role of `report.Stroke` and `report.Dot`: bars, hatched ground, pivots, dimensions."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -14,12 +14,12 @@ from ilmek.viz.style import INK, MUTED, PAPER, SMALL, STEEL, YARN, colour, tint
 from ilmek.viz.thinning import thinned_line
 
 BLOCK = 10 + 6.5j
-"""Half the length and half the height of a slider's block [pt]."""
+"""Half the length + i half the height of a slider's block [pt]."""
 
 
 @record
 class Pen:
-    """Where to draw, how a place [m] becomes a place on the sheet [pt], and the next colour's number."""
+    """A sheet, the map from points of the machine [m] to the sheet [pt], and the colour numbers of strokes."""
 
     sheet: Sheet
     scale: float
@@ -28,7 +28,7 @@ class Pen:
     unit: str
 
     def __call__(self, points: ComplexArray) -> ComplexArray:
-        """Places on the sheet [pt] of points [m]."""
+        """Positions of points [m] on the sheet [pt]."""
         return (points - self.origin) * self.scale
 
 
@@ -53,7 +53,7 @@ def _outline(pen: Pen, stroke: Stroke, _: int) -> None:
 
 
 def _link(pen: Pen, stroke: Stroke, number: int) -> None:
-    """A bar: a wide line in a pale shade inside a slightly wider one in the full colour."""
+    """A bar: a wide pale line with edges in the full colour."""
     shade = colour(pen.numbers[number])
     if stroke.filled:
         _fill(pen, stroke, tint(shade, 0.3), 3.8)
@@ -62,7 +62,7 @@ def _link(pen: Pen, stroke: Stroke, number: int) -> None:
 
 
 def _ground(pen: Pen, stroke: Stroke, _: int) -> None:
-    """A grey line with hatches on the right hand of its direction."""
+    """A grey line with hatches on the right of its direction."""
     points = _line(pen, stroke, color=STEEL, linewidth=1.4, zorder=2.5)
     if stroke.filled:
         _fill(pen, stroke, "#e4e8ec", 1.7)
@@ -70,10 +70,10 @@ def _ground(pen: Pen, stroke: Stroke, _: int) -> None:
 
 
 def _guide(pen: Pen, stroke: Stroke, _: int) -> None:
-    """The wall that a slider runs along, hatched, on the right hand of its direction and clear of the block."""
+    """The hatched guide of a slider, on the right of its direction and clear of the block."""
     points = pen(stroke.points)
-    way = (points[-1] - points[0]) / (abs(points[-1] - points[0]) or 1.0)
-    wall = points + way * (BLOCK.real * np.linspace(-1, 1, len(points)) - 1j * (BLOCK.imag + 0.8))
+    direction = (points[-1] - points[0]) / (abs(points[-1] - points[0]) or 1.0)
+    wall = points + direction * (BLOCK.real * np.linspace(-1, 1, len(points)) - 1j * (BLOCK.imag + 0.8))
     pen.sheet.line(wall, color=STEEL, linewidth=1.4, zorder=2.5)
     _hatch(pen.sheet, wall, 5.5)
 
@@ -83,11 +83,11 @@ def _hatch(sheet: Sheet, points: ComplexArray, length: float) -> None:
     along = np.concatenate([[0.0], np.cumsum(np.abs(steps))])
     if len(points) < 2 or along[-1] == 0:
         return
-    places = np.arange(2.0, along[-1], 5.0)
-    where = np.clip(np.searchsorted(along, places, side="right") - 1, 0, len(steps) - 1)
-    ways = steps[where] / np.abs(steps[where])
-    starts = points[where] + ways * (places - along[where])
-    ends = starts + ways * length * np.exp(-1j * np.radians(135))
+    lengths = np.arange(2.0, along[-1], 5.0)
+    where = np.clip(np.searchsorted(along, lengths, side="right") - 1, 0, len(steps) - 1)
+    directions = steps[where] / np.abs(steps[where])
+    starts = points[where] + directions * (lengths - along[where])
+    ends = starts + directions * length * np.exp(-1j * np.radians(135))
     sheet.lines(starts, ends, color=STEEL, linewidth=0.7, zorder=2.4)
 
 
@@ -111,14 +111,14 @@ def _dimension(pen: Pen, stroke: Stroke, _: int) -> None:
     if len(points) < 2:
         return
     for tip, inner in ((points[0], points[1]), (points[-1], points[-2])):
-        way = (inner - tip) / (abs(inner - tip) or 1.0)
-        corners = tip + way * np.array([0, 6 + 1.6j, 6 - 1.6j])
+        direction = (inner - tip) / (abs(inner - tip) or 1.0)
+        corners = tip + direction * np.array([0, 6 + 1.6j, 6 - 1.6j])
         pen.sheet.area(corners, facecolor=MUTED, linewidth=0, zorder=5)
     if not stroke.label:
         return
-    middle, way = _middle(points)
+    middle, direction = _middle(points)
     if text_width(stroke.label, SMALL) + 18.0 > float(np.abs(np.diff(points)).sum()):
-        middle += 7.0 * _upright(way) * 1j
+        middle += 7.0 * _upright(direction) * 1j
     pen.sheet.text(
         middle,
         stroke.label,
@@ -126,25 +126,25 @@ def _dimension(pen: Pen, stroke: Stroke, _: int) -> None:
         color=INK,
         ha="center",
         va="center_baseline",
-        rotation=float(np.degrees(np.angle(_upright(way)))),
+        rotation=float(np.degrees(np.angle(_upright(direction)))),
         clear=True,
         zorder=6,
     )
 
 
-def _upright(way: complex) -> complex:
-    """The direction or its opposite, whichever lets a text be read from below or from the right."""
-    return -way if way.real < -1e-9 or (abs(way.real) <= 1e-9 and way.imag < 0) else way
+def _upright(direction: complex) -> complex:
+    """The direction or its opposite, so that a text is read from below or from the right."""
+    return -direction if direction.real < -1e-9 or (abs(direction.real) <= 1e-9 and direction.imag < 0) else direction
 
 
 def _middle(points: ComplexArray) -> tuple[complex, complex]:
-    """The middle of a polyline by its length, and the unit direction there."""
+    """The middle of a polyline by its length, and the unit direction at that point."""
     steps = np.diff(points)
     along = np.concatenate([[0.0], np.cumsum(np.abs(steps))])
-    place = int(np.clip(np.searchsorted(along, along[-1] / 2) - 1, 0, len(steps) - 1))
-    length = abs(steps[place]) or 1.0
-    return complex(points[place] + steps[place] * (along[-1] / 2 - along[place]) / length), complex(
-        steps[place] / length
+    index = int(np.clip(np.searchsorted(along, along[-1] / 2) - 1, 0, len(steps) - 1))
+    length = abs(steps[index]) or 1.0
+    return complex(points[index] + steps[index] * (along[-1] / 2 - along[index]) / length), complex(
+        steps[index] / length
     )
 
 

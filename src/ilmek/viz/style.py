@@ -1,7 +1,7 @@
-"""One look for every figure: colours, line widths, fonts and the words of an axis.
+"""Style of all figures: colours, line widths, fonts, axis labels.
 
 The curve colours are those of M. Okabe and K. Ito, "Color Universal Design" (2008), with the yellow left out and the
-orange darkened for white paper: they stay apart under every common colour blindness.
+orange darkened for white paper: they are distinguishable under every common colour blindness.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ SMALL, TEXT, STRONG = 7.8, 8.7, 9.2
 """Sizes of letters [pt]: ticks and marks, labels, names."""
 
 FONTS = "'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
-"""Fonts of every figure, the first that the reader has."""
+"""Fonts of every figure; the first installed one is used."""
 
 
 def shown_unit(unit: str) -> str:
@@ -48,7 +48,7 @@ def with_unit(label: str, unit: str) -> str:
 
 
 def in_unit(values: FloatArray, unit: str) -> FloatArray:
-    """SI values in the unit of the axis, as floats; what is not finite is a gap (NaN)."""
+    """SI values in the unit of the axis, as floats; values that are not finite become NaN, a gap."""
     shown = np.array(values, dtype=float) / parse_unit(unit).factor
     shown[~np.isfinite(shown)] = np.nan
     return shown

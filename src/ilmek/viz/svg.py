@@ -1,6 +1,6 @@
 """Figures of a report as inline SVG.
 
-The look is `style`, the kinds of figure are `plot`, `drawing`, `animation` and `timing`, the text is made in `sheet`.
+`style` has the colours and fonts, `plot`, `drawing`, `animation` and `timing` the kinds of figure, `sheet` writes SVG.
 """
 
 from ilmek.report import Animation, Drawing, Figure, Plot

@@ -1,4 +1,4 @@
-"""Curves with no more points than a figure can show."""
+"""Reduction of curves to the points that a figure can show."""
 
 import numpy as np
 
@@ -6,13 +6,13 @@ from ilmek.arrays import Bool, ComplexArray, FloatArray
 
 LIMIT = 720
 TOLERANCE = 0.04
-"""How far a thinned line may stray from the line given [pt]; a tenth of a thin stroke."""
+"""Largest deviation of a thinned line from the given line [pt]; a tenth of a thin stroke."""
 
 
 def thinned_curve(x: FloatArray, y: FloatArray, limit: int = LIMIT) -> tuple[FloatArray, FloatArray]:
-    """The curve y(x) with at most `limit` samples, in which every peak survives.
+    """The curve y(x) with at most `limit` samples, which keeps every peak.
 
-    The samples are cut into limit/4 groups of which the first, the lowest, the highest and a gap (NaN) stay.
+    The samples are divided into limit/4 groups; of each, the first, the lowest, the highest and a gap (NaN) are kept.
 
     >>> x, y = thinned_curve(np.arange(10_000.0), np.sin(np.arange(10_000.0) / 500))
     >>> len(x) <= 720, round(float(y.max()), 6)
@@ -23,18 +23,17 @@ def thinned_curve(x: FloatArray, y: FloatArray, limit: int = LIMIT) -> tuple[Flo
         return x, y
     starts = np.linspace(0, count, limit // 4, dtype=np.intp)[:-1]
     group = np.repeat(np.arange(len(starts)), np.diff(np.append(starts, count)))
-    # Sorted group by group the first of each is its lowest, or its highest, or its first gap; those without a gap have
-    # any other point there.
+    # Sorted by group, the first of each group is its lowest, its highest, or its first gap (any point without a gap).
     firsts = [np.lexsort((key, group))[starts] for key in (y, -y, np.isfinite(y))]
     order = np.unique(np.concatenate([[count - 1], starts, *firsts]))
     return x[order], y[order]
 
 
 def thinned_line(points: ComplexArray, tolerance: float = TOLERANCE, limit: int = LIMIT) -> ComplexArray:
-    """The polyline without the points that lie within `tolerance` of the line drawn without them.
+    """The polyline without the points that lie within `tolerance` [pt] of the line drawn without them.
 
-    A point stays where it is the one farthest from the chord of its stretch, and farther than the tolerance; the
-    stretch is then cut there in two. Gaps (NaN) stay.    [D. H. Douglas and T. K. Peucker, Cartographica 10 (1973) 112]
+    The point farthest from the chord of an interval is kept if it is farther than the tolerance, and divides the
+    interval in two. Gaps (NaN) are kept.    [D. H. Douglas and T. K. Peucker, Cartographica 10 (1973) 112]
 
     >>> thinned_line(np.array([0, 1, 2, 2 + 1j], dtype=complex)).tolist()
     [0j, (2+0j), (2+1j)]
@@ -49,23 +48,23 @@ def thinned_line(points: ComplexArray, tolerance: float = TOLERANCE, limit: int 
 
 
 def _kept(points: ComplexArray, tolerance: float) -> Bool[np.ndarray, " n"]:
-    """Which points of a line without gaps stay; all its stretches are cut at once, until none needs a cut.
+    """Which points of a line without gaps are kept; all intervals are divided at once until none needs division.
 
-    How far a point lies from a chord is measured to its ends too: a line may turn back beyond them.
+    The distance from a chord is that from the segment, because a line may turn back beyond its ends.
     """
     keep = np.zeros(len(points), dtype=bool)
     keep[[0, -1]] = True
     while len(points) > 2:
         ends = np.flatnonzero(keep)
-        stretch = np.minimum(np.cumsum(keep) - 1, len(ends) - 2)
-        starts = points[ends[stretch]]
-        chord, off = points[ends[stretch + 1]] - starts, points - starts
+        interval = np.minimum(np.cumsum(keep) - 1, len(ends) - 2)
+        starts = points[ends[interval]]
+        chord, off = points[ends[interval + 1]] - starts, points - starts
         squared = np.maximum(chord.real**2 + chord.imag**2, np.finfo(float).tiny)
         share = np.clip((off.real * chord.real + off.imag * chord.imag) / squared, 0.0, 1.0)
         away = np.abs(off - share * chord)
-        farthest = np.maximum.reduceat(away, ends[:-1])[stretch]
+        farthest = np.maximum.reduceat(away, ends[:-1])[interval]
         cuts = np.flatnonzero((away == farthest) & (farthest > tolerance))
         if not len(cuts):
             break
-        keep[cuts[np.unique(stretch[cuts], return_index=True)[1]]] = True
+        keep[cuts[np.unique(interval[cuts], return_index=True)[1]]] = True
     return keep

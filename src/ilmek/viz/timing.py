@@ -1,10 +1,9 @@
-"""Cyclograms: what every actuator does over one turn of the master shaft.
+"""Cyclograms: the motion of every actuator over one turn of the master shaft.
 
-Tracks lie under one another over a common master angle; a motion is drawn as the curve of its position with its name
-and law below it, a dwell lies flat. The events of a track are ticks with names above its curve; its stays in a place
-that another track needs are shaded, arrows say what must come after what. The lower axis is the angle, the upper one
-the time. Where the laws of the motions are known, their curves are laid over the sheet, and a short script of the page
-(`timing.js`) moves a cursor over them.
+Tracks are stacked over a common master angle. A motion is drawn as the curve of its position, with its name and law
+below; a dwell is flat. Events are ticks with names above the curve. Intervals in a zone that another track needs are
+shaded; arrows show the required order of events. The lower axis is the angle, the upper one the time. If the laws of
+the motions are known, a script of the page (`timing.js`) moves a cursor over their curves.
 """
 
 import json
@@ -26,7 +25,7 @@ from ilmek.viz.thinning import thinned_curve, thinned_line
 WIDTH = 600.0
 _RIGHT, _TOP, _BOTTOM = 16.0, 30.0, 30.0
 _STROKE, _GAP, _TIER, _LAW = 26.0, 9.0, 9.5, 8.0
-"""Height of a full stroke, air between tracks, height of a line of event names, and of one of laws [pt]."""
+"""Height of a full stroke, gap between tracks, height of a line of event names, and of one of laws [pt]."""
 _FINE = 6.4
 """Size of the names of motions and laws [pt]."""
 _BAD, _SHADE = "#c0392b", "#8a94a0"
@@ -34,7 +33,7 @@ _TURN = 360.0
 
 
 def draw_timing(timing: Timing) -> tuple[Sheet, str]:
-    """The sheet with the tracks stacked, the first on top, and the SVG of the curves that a script may change."""
+    """The sheet with the stacked tracks, the first on top, and the SVG of the curves that a script may change."""
     names = [text_width(lane.name, STRONG, bold=True) for lane in timing.lanes]
     actuators = [text_width(lane.actuator, SMALL) for lane in timing.lanes]
     actuators += [text_width(_shared_law(lane), _FINE) for lane in timing.lanes]
@@ -67,12 +66,12 @@ def _height(lane: Lane, lane_flags: list[Flag]) -> float:
 
 
 def _flags(lane: Lane, width: float) -> list[Flag]:
-    places = [event.x / deg / _TURN * width for event in lane.events]
-    return flags(places, [text_width(event.label, SMALL) + 7.0 for event in lane.events], width)
+    ticks_at = [event.x / deg / _TURN * width for event in lane.events]
+    return flags(ticks_at, [text_width(event.label, SMALL) + 7.0 for event in lane.events], width)
 
 
 def _motion(sheet: Sheet, lane: Lane, floor: complex, width: float, shade: str) -> str:
-    """The curve of the position over its baseline, which begins at `floor`; as SVG where its laws are known."""
+    """Draw the position over its baseline, which begins at `floor` [pt]; as SVG if its laws are known."""
     angle, position = thinned_curve(np.asarray(lane.angle, dtype=float), np.asarray(lane.position, dtype=float))
     points = thinned_line(floor + angle / deg / _TURN * width + 1j * _STROKE * position)
     finite = points[np.isfinite(points)]
@@ -91,37 +90,36 @@ def _motion(sheet: Sheet, lane: Lane, floor: complex, width: float, shade: str) 
 
 
 def _shared_law(lane: Lane) -> str:
-    """The law of all motions of a lane; nothing where there are several."""
+    """The law of all motions of a lane; "" if there are several."""
     laws = {move.law for move in lane.moves}
     return laws.pop() if len(laws) == 1 else ""
 
 
 def _law(sheet: Sheet, move: Move, floor: complex, width: float, *, shared: bool) -> None:
-    """Name and law of a motion below its part of the baseline, as much of it as has room there; a shared law stands
-    beside the lane.
+    """Write name and law of a motion below its part of the baseline, as far as they fit; a shared law is written beside
+    the lane.
     """
     room = (min(move.end, _TURN * deg) - max(move.start, 0.0)) / deg / _TURN * width
     middle = (min(move.end, _TURN * deg) + max(move.start, 0.0)) / 2 / deg / _TURN * width
-    said = (move.name,) if shared else (f"{move.name} · {move.law}", move.name)
-    fits = next((words for words in said if text_width(words, _FINE) <= room + 2.0), None)
+    texts = (move.name,) if shared else (f"{move.name} · {move.law}", move.name)
+    fits = next((words for words in texts if text_width(words, _FINE) <= room + 2.0), None)
     if fits:
-        place = floor + middle - 1.8j
-        sheet.text(place, fits, fontsize=_FINE, color=MUTED, ha="center", va="top", zorder=5)
+        sheet.text(floor + middle - 1.8j, fits, fontsize=_FINE, color=MUTED, ha="center", va="top", zorder=5)
 
 
 def _hover(sheet: Sheet, lane: Lane, move: Move, floor: complex, width: float) -> str:
-    """What a browser says of a motion under the pointer."""
+    """The tooltip of a motion."""
     left, right = (at / deg / _TURN * width for at in (max(move.start, 0.0), min(move.end, _TURN * deg)))
     ends = f"{format_quantity(move.begin, lane.unit)} → {format_quantity(move.finish, lane.unit)}"
     angles = f"{format_number(move.start / deg)}°..{format_number(move.end / deg)}°"
-    said = escape(f"{lane.name}: {move.name}, {move.law}, {angles}, {ends}")
+    tooltip = escape(f"{lane.name}: {move.name}, {move.law}, {angles}, {ends}")
     top = sheet.height - floor.imag - _STROKE
-    place = f'x="{floor.real + left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{_STROKE + _LAW:g}"'
-    return f'<rect {place} fill="transparent"><title>{said}</title></rect>'
+    box = f'x="{floor.real + left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{_STROKE + _LAW:g}"'
+    return f'<rect {box} fill="transparent"><title>{tooltip}</title></rect>'
 
 
 def _shade(sheet: Sheet, lane: Lane, shade: Shade, floor: complex, width: float) -> None:
-    """A window behind the curve, in two where it runs through the end of the turn; its name at its foot."""
+    """Draw a window behind the curve, in two parts if it crosses the end of the turn, with its name at the bottom."""
     ends = np.array([shade.start, shade.end]) / deg
     spans = [(ends[0], min(ends[1], _TURN))] + ([(0.0, ends[1] - _TURN)] if ends[1] > _TURN else [])
     look = (_BAD, 0.42) if shade.bad else (_SHADE, 0.22)
@@ -135,12 +133,19 @@ def _shade(sheet: Sheet, lane: Lane, shade: Shade, floor: complex, width: float)
         middles = [start + share * (end - start) for share in (0.5, 0.35, 0.65, 0.25, 0.75)]
         clear = [at for at in middles if all(abs(at - tick) > half for tick in ticks)]
         if 2 * half <= end - start + 6.0:
-            place = floor + (clear or middles)[0] + 2.5j
-            sheet.text(place, shade.label, fontsize=_FINE, color=INK, ha="center", va="baseline", zorder=1.4)
+            sheet.text(
+                floor + (clear or middles)[0] + 2.5j,
+                shade.label,
+                fontsize=_FINE,
+                color=INK,
+                ha="center",
+                va="baseline",
+                zorder=1.4,
+            )
 
 
 def _links(sheet: Sheet, timing: Timing, floors: list[complex], width: float) -> None:
-    """An arrow from each instant to the one that must come after it; red where that does not hold."""
+    """Draw an arrow from each instant to the one that must come after it; red if that does not hold."""
     for link in timing.links:
         ends = [floors[lane] + angle / deg / _TURN * width for lane, angle in (link.first, link.then)]
         up = np.sign(ends[1].imag - ends[0].imag)
@@ -155,7 +160,7 @@ def _links(sheet: Sheet, timing: Timing, floors: list[complex], width: float) ->
 
 
 def _events(sheet: Sheet, lane: Lane, lane_flags: list[Flag], floor: complex) -> None:
-    """A tick from the baseline to the line of the name, a dot at its foot, the name beside its head."""
+    """Draw a tick from the baseline to the tier of the name, a dot at its bottom, the name beside its top."""
     for event, flag in zip(lane.events, lane_flags, strict=True):
         foot = floor + flag.x
         low = foot + 1j * (_STROKE + 1.5 + _TIER * flag.tier)
@@ -166,7 +171,7 @@ def _events(sheet: Sheet, lane: Lane, lane_flags: list[Flag], floor: complex) ->
 
 
 def _name(sheet: Sheet, lane: Lane, middle: complex) -> None:
-    """Name of the track, of its actuator, and of the law that all its motions share, left of the axis."""
+    """Write the names of track and actuator, and a law that all motions share, left of the axis."""
     right: dict[str, Any] = {"ha": "right", "va": "center_baseline"}
     shift = 5.2j if lane.actuator else 0j
     sheet.text(middle - 8.0 + shift, lane.name, fontsize=STRONG, bold=True, **right)
@@ -179,7 +184,7 @@ def _name(sheet: Sheet, lane: Lane, middle: complex) -> None:
 
 
 def _axes(sheet: Sheet, box: Box, period: float) -> None:
-    """The master angle below with the grid, the time above: seconds, or milliseconds for a quick turn."""
+    """Draw the master angle below with the grid, the time above in seconds, or in milliseconds for a fast turn."""
     angles = [30.0 * step for step in range(13)]
     at = [box.left + angle / _TURN * box.width for angle in angles]
     grid(sheet, box, at)
@@ -192,8 +197,8 @@ def _axes(sheet: Sheet, box: Box, period: float) -> None:
 
 
 def _run(timing: Timing, sheet: Sheet, box: Box, floors: list[complex]) -> str:
-    """The cursor, and what the script needs, as JSON: laws as tables, motions, where the lanes lie."""
-    numbers = {law.name: place for place, law in enumerate(timing.laws)}
+    """The cursor, and the data of the script as JSON: laws as tables, motions, positions of the lanes."""
+    numbers = {law.name: index for index, law in enumerate(timing.laws)}
     lanes = []
     for lane, floor in zip(timing.lanes, floors, strict=True):
         factor = parse_unit(lane.unit).factor

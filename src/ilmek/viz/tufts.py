@@ -1,13 +1,13 @@
-"""The pile of a carpet seen from above: every knot a tuft, in linear light.
+"""The pile of a carpet seen from above: every knot is a tuft, in linear light.
 
 A tuft is a leaning mound with an elliptic foot:
 
     z(x, y) = h - ((x - cx) / a)² - ((y - cy) / b)²                            own model, lengths in knot pitches
 
-with a centre (cx, cy) and a height h that vary from knot to knot. Of the tufts that reach a place the highest is seen;
-it is the darker, the deeper the place lies between the tufts, and the lighter, the more it faces the light (upper
-left). The pile leans towards the beginning of the weave, the lower edge. The yarn varies too: a little from knot to
-knot, and in bands along the rows where another dye lot begins (abrash).
+with a centre (cx, cy) and a height h that vary from knot to knot. At each point the highest tuft is visible. It is
+darker deep between the tufts and lighter where it faces the light (upper left). The pile leans towards the beginning of
+the weave, the lower edge. The yarn's colour varies a little from knot to knot, and in bands of rows from dye lot to dye
+lot (abrash).
 """
 
 from collections.abc import Sequence
@@ -28,7 +28,7 @@ Pixels = Float32[np.ndarray, "height width 3"]
 _FOOT = (0.66, 0.74)
 _LEAN = 0.10
 _LOOSE = 0.10
-"""Half axes of a tuft's foot, shift of its tip towards the viewer's lower edge, spread of its place [pitches]."""
+"""Half axes of a tuft's foot, shift of its tip towards the viewer's lower edge, spread of its position [pitches]."""
 _SUN = (-0.34, -0.26)
 _FINE = 65535
 _CODES = np.rint(255 * encode(np.arange(_FINE + 1) / _FINE)).astype(np.uint8)
@@ -36,7 +36,7 @@ _CODES = np.rint(255 * encode(np.arange(_FINE + 1) / _FINE)).astype(np.uint8)
 
 @dataclass(frozen=True, slots=True)
 class _Tufts:
-    """The tufts of a piece of pile, one ring of neighbours around it: place in the cell, height, linear colour."""
+    """Tufts of a piece of pile and of a ring of neighbours around it: position in the cell, height, linear colour."""
 
     across: Plane
     down: Plane
@@ -72,7 +72,7 @@ def yarn_light(knots: Indices, srgb: Sequence[tuple[int, int, int]], rng: np.ran
 
 
 def tufted(light: Light, across: int, down: int, rng: np.random.Generator, fibre: float = 0.0) -> Pixels:
-    """The pile of knots with these linear colours, `across` x `down` pixels a knot.
+    """The pile of knots with these linear colours, `across` x `down` pixels per knot.
 
     fibre  strength of single fibres: streaks in the light, frayed borders between tufts; for close-ups
     """
@@ -100,7 +100,7 @@ def _scattered(light: Light, rng: np.random.Generator) -> _Tufts:
 
 
 def _seen(tufts: _Tufts, x: float, y: float, rng: np.random.Generator, fray: float) -> Light:
-    """What is seen at one place of every cell: the highest of its own tuft and the three nearest neighbours'."""
+    """The light at one point of every cell: the highest of its own tuft and the three nearest neighbours."""
     aside, above = (1 if x > 0.5 else -1), (1 if y > 0.5 else -1)
     best, lit, colour = _tuft(tufts, x, y, 0, 0)
     best = best + _roughness(fray, best.shape, rng)
@@ -115,7 +115,7 @@ def _seen(tufts: _Tufts, x: float, y: float, rng: np.random.Generator, fray: flo
 
 
 def _tuft(tufts: _Tufts, x: float, y: float, dx: int, dy: int) -> tuple[Plane, Plane, Light]:
-    """Height, brightness by its slope, and colour of the tufts dx, dy cells away, at one place of every cell."""
+    """Height, brightness by its slope, and colour of the tufts dx, dy cells away, at one point of every cell."""
     part = (slice(1 + dy, tufts.height.shape[0] - 1 + dy), slice(1 + dx, tufts.height.shape[1] - 1 + dx))
     u = (np.float32(x - dx) - tufts.across[part]) * np.float32(1 / _FOOT[0])
     v = (np.float32(y - dy) - tufts.down[part]) * np.float32(1 / _FOOT[1])
@@ -124,12 +124,12 @@ def _tuft(tufts: _Tufts, x: float, y: float, dx: int, dy: int) -> tuple[Plane, P
 
 
 def _roughness(fray: float, shape: tuple[int, ...], rng: np.random.Generator) -> Plane | np.float32:
-    """How uneven the tips of the fibres are."""
+    """Random unevenness of the fibre tips [pitches]."""
     return np.float32(1.3 * fray) * rng.standard_normal(shape, dtype=np.float32) if fray else np.float32(0)
 
 
 def _streaks(height: int, width: int, across: int, rng: np.random.Generator, strength: float) -> Plane:
-    """Noise drawn out down the picture: the fibres of the cut pile."""
+    """Noise stretched down the picture: the fibres of the cut pile."""
     noise = rng.standard_normal((height, width), dtype=np.float32)
     length = max(2, across // 4)
     summed = np.cumsum(np.pad(noise, ((length, 0), (0, 0)), mode="wrap"), axis=0, dtype=np.float32)

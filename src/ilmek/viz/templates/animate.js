@@ -1,7 +1,7 @@
 for (const figure of document.querySelectorAll("figure.moves")) {
   const svg = figure.querySelector("svg");
   const run = JSON.parse(svg.querySelector("metadata").textContent);
-  const frames = run.places[0].length / 2, span = run.closes ? frames : frames - 1;
+  const frames = run.positions[0].length / 2, span = run.closes ? frames : frames - 1;
   const controls = figure.querySelector(".controls"), button = controls.querySelector("button");
   const slider = controls.querySelector("input"), answers = figure.querySelectorAll("[data-reading]");
   const between = (values, value, width, of) => {
@@ -9,59 +9,59 @@ for (const figure of document.querySelectorAll("figure.moves")) {
     const before = values[frame * width + of], after = values[((frame + 1) % frames) * width + of];
     return before + share * (after - before);
   };
-  const said = (number, digits, unit) => number.toFixed(digits).replace(/^-(?=0\.?0*$)/, "").replace("-", "−") +
+  const written = (number, digits, unit) => number.toFixed(digits).replace(/^-(?=0\.?0*$)/, "").replace("-", "−") +
     (unit && unit !== "°" ? " " : "") + unit;
   const parts = [...svg.querySelectorAll("[data-at]")], lines = [...svg.querySelectorAll("[data-line]")]
     .map((line) => [line, line.dataset.line.split(",").map(Number), line.dataset.closed ? "Z" : ""]);
   function show(value) {
-    const place = (point) => [0, 1].map((of) => between(run.places[point], value, 2, of));
-    const text = (point) => place(point).map((number) => number.toFixed(2)).join(" ");
+    const position = (point) => [0, 1].map((of) => between(run.positions[point], value, 2, of));
+    const text = (point) => position(point).map((number) => number.toFixed(2)).join(" ");
     for (const [line, points, end] of lines) line.setAttribute("d", "M" + points.map(text).join("L") + end);
     for (const part of parts) {
       let turned = "";
       if (part.dataset.ahead) {
-        const [x, y] = place(part.dataset.at), [ahead, below] = place(part.dataset.ahead);
+        const [x, y] = position(part.dataset.at), [ahead, below] = position(part.dataset.ahead);
         turned = ` rotate(${(Math.atan2(below - y, ahead - x) * 180) / Math.PI})`;
       }
       part.setAttribute("transform", `translate(${text(part.dataset.at)})${turned}`);
     }
-    const at = said(run.first + run.step * value, run.digits, run.unit);
+    const at = written(run.first + run.step * value, run.digits, run.unit);
     slider.value = value;
     slider.setAttribute("aria-valuetext", at);
     controls.querySelector("output").textContent = at;
-    answers.forEach((answer, place) => {
-      const one = run.readings[place];
-      answer.textContent = said(between(one.values, value, 1, 0), one.digits, one.unit);
+    answers.forEach((answer, index) => {
+      const one = run.readings[index];
+      answer.textContent = written(between(one.values, value, 1, 0), one.digits, one.unit);
     });
   }
-  let phase = 0, before = 0, asked = 0;
+  let phase = 0, before = 0, request = 0;
   const toPhase = (value) => (run.closes ? value / span : Math.acos(1 - (2 * value) / span) / (2 * Math.PI));
   const toValue = () => span * (run.closes ? phase % 1 : (1 - Math.cos(2 * Math.PI * phase)) / 2);
   function step(now) {
     phase = (phase + Math.min(now - before, 100) / (1000 * run.seconds)) % 1;
     before = now;
     show(toValue());
-    asked = requestAnimationFrame(step);
+    request = requestAnimationFrame(step);
   }
   function play(on) {
-    cancelAnimationFrame(asked);
-    asked = 0;
+    cancelAnimationFrame(request);
+    request = 0;
     button.textContent = on ? "Pause" : "Play";
     button.setAttribute("aria-pressed", on);
     before = performance.now();
-    if (on) asked = requestAnimationFrame(step);
+    if (on) request = requestAnimationFrame(step);
   }
   slider.max = span;
   slider.addEventListener("input", () => {
-    play((wanted = false));
+    play((playing = false));
     phase = toPhase(Number(slider.value));
     show(Number(slider.value));
   });
-  let wanted = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-  button.addEventListener("click", () => play((wanted = !asked)));
+  let playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+  button.addEventListener("click", () => play((playing = !request)));
   addEventListener("beforeprint", () => play(false));
   phase = toPhase(run.start);
   show(run.start);
   controls.hidden = false;
-  new IntersectionObserver((seen) => play(wanted && seen.at(-1).isIntersecting)).observe(svg);
+  new IntersectionObserver((seen) => play(playing && seen.at(-1).isIntersecting)).observe(svg);
 }

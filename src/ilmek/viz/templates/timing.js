@@ -7,14 +7,14 @@ for (const figure of document.querySelectorAll("figure.timed")) {
   const cursor = svg.querySelector("[data-cursor]"), orders = [...controls.querySelectorAll("[data-order]")];
   const moving = run.lanes.filter((lane) => lane.moves.length), curves = [...svg.querySelectorAll("[data-lane]")];
   const speed = 360 / run.period, last = run.laws.length ? run.laws[0][0].length - 1 : 0;
-  // A law between two places of its table: the cubic through both with their slopes; acceleration is that of v's cubic.
+  // A law between two points of its table: the cubic through both with their slopes; the acceleration from the cubic of v.
   function lawAt(law, order, u) {
     const x = u * last, k = Math.min(Math.floor(x), last - 1), t = x - k, h = 1 / last, r = 1 - t;
     const y = law[Math.min(order, 1)], d = law[Math.min(order, 1) + 1];
     if (order === 2) return (6 * t * r * (y[k + 1] - y[k])) / h + d[k] * r * (1 - 3 * t) + d[k + 1] * t * (3 * t - 2);
     return y[k] * (1 + 2 * t) * r * r + y[k + 1] * t * t * (3 - 2 * t) + h * (d[k] * t * r * r - d[k + 1] * t * t * r);
   }
-  // Position, velocity or acceleration of a lane at a master angle, by degrees; and the motion it is in.
+  // Position, velocity or acceleration of a lane at a master angle [deg].
   function at(lane, angle, order) {
     let value = order ? 0 : lane.moves.length ? lane.moves[0][2] : 0;
     for (const [start, end, begin, finish, law] of lane.moves) {
@@ -26,7 +26,7 @@ for (const figure of document.querySelectorAll("figure.timed")) {
     return value * speed ** order;
   }
   const motion = (lane, angle) => lane.moves.findIndex(([start, end]) => angle >= start && angle < end);
-  const told = (value, unit) => (Math.abs(value) < 1e-9 ? "0" : Number(value.toPrecision(4)).toString().replace("-", "−")) +
+  const written = (value, unit) => (Math.abs(value) < 1e-9 ? "0" : Number(value.toPrecision(4)).toString().replace("-", "−")) +
     (unit && unit !== "°" ? " " : "") + unit;
   const angles = (lane) => [...new Set([...Array(361).keys(), ...lane.moves.flatMap(([start, end]) =>
     [...Array(25).keys()].map((k) => start + (k / 24) * (end - start)))])]
@@ -35,15 +35,15 @@ for (const figure of document.querySelectorAll("figure.timed")) {
   function draw(order) {
     moving.forEach((lane, number) => {
       if (!order) return curves[number].setAttribute("d", original[number]);
-      const over = angles(lane), course = over.map((angle) => at(lane, angle, order));
-      const most = Math.max(...course.map(Math.abs)) || 1, middle = lane.floor - run.stroke / 2;
+      const over = angles(lane), values = over.map((angle) => at(lane, angle, order));
+      const most = Math.max(...values.map(Math.abs)) || 1, middle = lane.floor - run.stroke / 2;
       const points = over.map((angle, k) => `${(run.left + (angle / 360) * run.width).toFixed(1)} ` +
-        (middle - (course[k] / most) * (run.stroke / 2)).toFixed(2));
+        (middle - (values[k] / most) * (run.stroke / 2)).toFixed(2));
       curves[number].setAttribute("d", "M" + points.join("L"));
     });
-    orders.forEach((one, place) => one.setAttribute("aria-pressed", place === order));
+    orders.forEach((one, index) => one.setAttribute("aria-pressed", index === order));
   }
-  let angle = 0, before = 0, asked = 0;
+  let angle = 0, before = 0, request = 0;
   function show() {
     cursor.setAttribute("transform", `translate(${(run.left + (angle / 360) * run.width).toFixed(2)} 0)`);
     slider.value = angle;
@@ -53,22 +53,22 @@ for (const figure of document.querySelectorAll("figure.timed")) {
       const lane = run.lanes[number], [named, ...cells] = row.querySelectorAll("td"), now = motion(lane, angle);
       named.textContent = now < 0 ? "dwell" : named.dataset.names.split("|")[now];
       cells.forEach((cell, order) => (cell.textContent = lane.moves.length
-        ? told(at(lane, angle, order), lane.unit + ["", "/s", "/s²"][order]) : ""));
+        ? written(at(lane, angle, order), lane.unit + ["", "/s", "/s²"][order]) : ""));
     });
   }
   function step(now) {
     angle = (angle + (Math.min(now - before, 100) / 8000) * 360) % 360;
     before = now;
     show();
-    asked = requestAnimationFrame(step);
+    request = requestAnimationFrame(step);
   }
   function play(on) {
-    cancelAnimationFrame(asked);
-    asked = 0;
+    cancelAnimationFrame(request);
+    request = 0;
     button.textContent = on ? "Pause" : "Play";
     button.setAttribute("aria-pressed", on);
     before = performance.now();
-    if (on) asked = requestAnimationFrame(step);
+    if (on) request = requestAnimationFrame(step);
   }
   function point(event) {
     const box = svg.getBoundingClientRect(), view = svg.viewBox.baseVal;
@@ -81,7 +81,7 @@ for (const figure of document.querySelectorAll("figure.timed")) {
   svg.addEventListener("pointermove", (event) => event.buttons && point(event));
   svg.style.touchAction = "pan-y";
   slider.addEventListener("input", () => { play(false); angle = Number(slider.value); show(); });
-  button.addEventListener("click", () => play(!asked));
+  button.addEventListener("click", () => play(!request));
   orders.forEach((one, order) => one.addEventListener("click", () => draw(order)));
   addEventListener("beforeprint", () => { play(false); draw(0); });
   cursor.setAttribute("visibility", "visible");
