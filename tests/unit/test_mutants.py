@@ -10,18 +10,36 @@ from mutants.__main__ import read_accepted, sampled
 from mutants.operators import mutants_of, mutated
 
 SOURCE = """
-LIMIT: float = 2.0
+LIMIT: float = 2.0 * mm
+DOUBLE = 2 / LIMIT
+CALL = lambda x: 9 + x
+SMALL = 1e-6
 
-def area(width: int, sides: list[float]) -> float:
+def area(width: int, sides: list[float], number: int = 5) -> float:
+    for _ in range(4):
+        sides = sorted(sides)
     if width <= 3 or not sides:
         raise ValueError(f"{width + 1} is too small")
     return max(sides) * -width + LIMIT * abs(1e-9 - sides[0])
+
+def draw_figure(width: int) -> int:
+    return width + 1
+
+class Shape:
+    def __repr__(self) -> str:
+        return 7 * "-"
+
+def divided(width: float) -> list[float]:
+    return np.linspace(0, round(width, 2), 7, endpoint=width > 3 * SMALL)
 """
 
 
 def test_the_changes_of_a_function() -> None:
     assert {(one.function, one.before, one.after) for one in mutants_of("shapes", SOURCE)} == {
-        ("", "2.0", "2.2"),
+        ("", "2 / LIMIT", "2 * LIMIT"),
+        ("", "2 / LIMIT", "2"),
+        ("", "9 + x", "9 - x"),
+        ("", "9", "10"),
         ("area", "width <= 3", "width > 3"),
         ("area", "width <= 3", "width < 3"),
         ("area", "3", "4"),
@@ -41,8 +59,9 @@ def test_the_changes_of_a_function() -> None:
         ("area", "LIMIT * abs(1e-09 - sides[0])", "LIMIT"),
         ("area", "LIMIT * abs(1e-09 - sides[0])", "abs(1e-09 - sides[0])"),
         ("area", "abs(1e-09 - sides[0])", "1e-09 - sides[0]"),
-        ("area", "1e-09 - sides[0]", "1e-09 + sides[0]"),
         ("area", "0", "1"),
+        ("divided", "0", "1"),
+        ("divided", "width > 3 * SMALL", "width <= 3 * SMALL"),
     }
 
 

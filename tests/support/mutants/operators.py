@@ -1,7 +1,18 @@
-"""The changes that can be made of a source file, one at a time."""
+"""The changes that can be made of a source file, one at a time.
+
+Left out are sites where a change is no error of a computation:
+- figures and drawings: functions named so;
+- annotations, decorators, messages, assertions, representations, declarations of parameters and results;
+- tables of data, and numbers written outside functions or as a default: data with their source, which a test would
+  only repeat;
+- tolerances: numbers below 1e-4, constants of a module below 1e-4 or named like one, and what scales them;
+- sample counts: the number of points of `linspace` and `geomspace`, rounds of a loop whose number is not used,
+  digits of `round`.
+"""
 
 import ast
 import copy
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -42,7 +53,15 @@ NAMES = {
     },
 }
 TOLERANCE = 1e-4
-"""Literals below it are tolerances of the numerics: a change of one is no change of what is computed."""
+"""Numbers below it are tolerances of the numerics: a change of one is no change of what is computed."""
+TOLERANCES = re.compile(
+    r"_?(ROUNDING|TOLERANCE|ACCURACY|SLACK|GRACE|NOTHING|SAME|MET|STILL|NEAR)|.*_(ROUNDING|TOLERANCE)"
+)
+"""Names of tolerances, where a module imports them."""
+DISPLAY = re.compile(r"^__(repr|str)__$|(^|_)(drawings?|figures?|plots?|pictures?|animations?)(_|$)")
+"""Names of functions whose output is looked at."""
+POINTS = {"linspace": 2, "geomspace": 2, "round": 1}
+"""Functions and the index of their argument that is a number of points or digits."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +80,11 @@ class Mutant:
     def key(self) -> str:
         """What it is, whatever its line."""
         return f"{self.module} {self.function}: {self.before} -> {self.after}"
+
+    @property
+    def position(self) -> str:
+        """What it is, and where."""
+        return f"{self.key} (line {self.line}, node {self.node})"
 
 
 def mutants_of(module: str, source: str) -> list[Mutant]:
@@ -109,13 +133,15 @@ def _functions(tree: ast.Module) -> Iterator[tuple[int, str]]:
 
 
 def _left_out(tree: ast.Module) -> set[ast.AST]:
-    """Nodes that are no computation: annotations, messages, decorators, declarations of parameters, main blocks."""
-    roots: list[ast.AST | None] = []
+    """Nodes that are no computation, as the module's docstring lists them."""
+    roots: list[ast.AST | None] = [*_data(tree)]
     for node in ast.walk(tree):
+        roots += _settings(node)
         match node:
             case ast.FunctionDef():
                 arguments = [*node.args.args, *node.args.kwonlyargs, *node.args.posonlyargs]
-                roots += [node.returns, *node.decorator_list, *(one.annotation for one in arguments)]
+                defaults = [one for one in (*node.args.defaults, *node.args.kw_defaults) if one and _is_number(one)]
+                roots += [node.returns, *node.decorator_list, *(one.annotation for one in arguments), *defaults]
             case ast.AnnAssign():
                 roots.append(node.annotation)
                 if ast.unparse(node.annotation).endswith("TypeAlias") or _is_declaration(node.value):
@@ -130,7 +156,69 @@ def _left_out(tree: ast.Module) -> set[ast.AST]:
                 roots.append(node)
             case ast.Assign() if isinstance(node.value, ast.Subscript | ast.BinOp) and _is_alias(node.value):
                 roots.append(node.value)
-    return {inner for root in roots if root is not None for inner in ast.walk(root)}
+    return _tolerances(tree) | {inner for root in roots if root is not None for inner in ast.walk(root)}
+
+
+def _constants(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:
+    """Names in capitals that a module gives a value."""
+    for node in tree.body:
+        match node:
+            case (
+                ast.Assign(targets=[ast.Name(id=name)], value=value)
+                | ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value)
+            ) if name.isupper():
+                yield name, value
+
+
+def _data(node: ast.AST) -> Iterator[ast.AST]:
+    """Numbers outside functions."""
+    for child in ast.iter_child_nodes(node):
+        if _is_number(child):
+            yield child
+        elif not isinstance(child, ast.FunctionDef | ast.Lambda):
+            yield from _data(child)
+
+
+def _tolerances(tree: ast.Module) -> set[ast.AST]:
+    """Products with a tolerance, whole; of sums and differences with one, whether it is added."""
+    small = {name for name, value in _constants(tree) if _is_tolerance(value, set())}
+    found: set[ast.AST] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.BinOp) and any(_is_tolerance(side, small) for side in (node.left, node.right)):
+            found |= set(ast.walk(node)) if isinstance(node.op, ast.Mult | ast.Div) else {node}
+    return found
+
+
+def _is_number(value: ast.AST) -> bool:
+    """Whether it is a literal number, also with a sign or a unit."""
+    match value:
+        case ast.UnaryOp() | ast.BinOp(op=ast.Mult(), right=ast.Name()):
+            return _is_number(value.operand if isinstance(value, ast.UnaryOp) else value.left)
+    return isinstance(value, ast.Constant) and isinstance(value.value, int | float)
+
+
+def _is_tolerance(value: ast.expr, small: set[str]) -> bool:
+    """Whether it is a number below `TOLERANCE`, or the name of one."""
+    match value:
+        case ast.Constant(value=float() as number):
+            return 0 < abs(number) < TOLERANCE
+        case ast.Name(id=name):
+            return name in small or TOLERANCES.fullmatch(name) is not None
+        case ast.BinOp(op=ast.Mult() | ast.Div()):
+            return _is_tolerance(value.left, small) or _is_tolerance(value.right, small)
+    return False
+
+
+def _settings(node: ast.AST) -> list[ast.AST]:
+    """Functions of display; numbers of points, rounds or digits."""
+    match node:
+        case ast.FunctionDef(name=name) if DISPLAY.search(name):
+            return [node]
+        case ast.For(target=ast.Name(id="_"), iter=ast.Call(func=ast.Name(id="range")) as rounds):
+            return [rounds]
+        case ast.Call(func=ast.Attribute(attr=name) | ast.Name(id=name)) if name in POINTS:
+            return [*node.args[POINTS[name] :][:1], *(one.value for one in node.keywords if one.arg == "num")]
+    return []
 
 
 def _is_declaration(value: ast.expr | None) -> bool:

@@ -13,6 +13,8 @@ from mutants.worker import Task, outcomes
 KINDS = ("unit", "property", "reference")
 """Folders of tests that mutants are shown to: those of the architecture read sources, those of peers and golden runs
 are slow."""
+OF_DISPLAY = ("test_viz_*", "test_docs_*", "test_cli_*", "test_animation*", "test_mutants*", "test_chart_*")
+"""Test files of what is looked at: they run everything slowly and check none of its numbers."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,10 @@ def table(
 ) -> list[TestFile]:
     """The table of all test files, made by running them; kept until a source or a test changes, longer if `stale`."""
     files = [
-        str(path.relative_to(root)) for kind in KINDS for path in sorted((root / "tests" / kind).glob("test_*.py"))
+        str(path.relative_to(root))
+        for kind in KINDS
+        for path in sorted((root / "tests" / kind).glob("test_*.py"))
+        if not any(path.match(pattern) for pattern in OF_DISPLAY)
     ]
     stamp = _stamp([*(root / "src").rglob("*.py"), *(root / file for file in files)])
     if kept.exists():

@@ -43,6 +43,8 @@ LIBRARIES = (
     "click.testing",
     "jaxtyping",
 )
+RECORDED_EXAMPLES = 10
+"""Examples of a property while functions are recorded: the recording takes about as long as the others would."""
 FORK = multiprocessing.get_context("fork")
 K = TypeVar("K")
 CAUGHT, SURVIVED, TIMED_OUT = "caught", "survived", "timed out"
@@ -145,7 +147,8 @@ class _Plugin:
         usual = settings.default
         with suppress(InvalidArgument):
             usual = settings.get_profile("ilmek")
-        settings.register_profile("mutants", parent=usual, phases=[Phase.explicit, Phase.generate])
+        few = {"max_examples": RECORDED_EXAMPLES} if self.package else {}
+        settings.register_profile("mutants", parent=usual, phases=[Phase.explicit, Phase.generate], **few)
         settings.load_profile("mutants")
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
