@@ -8,10 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.machines.knotting_dyad import KnottingDyadParams
-from ilmek.machines.knotting_dyad.clearance import LeastDistance, arm_bars, least, to_warps
+from ilmek.machines.knotting_dyad.clearance import arm_bars, to_warps
 from ilmek.machines.knotting_dyad.head import Head, head_of
 from ilmek.machines.knotting_dyad.search import best_arm
 from ilmek.machines.knotting_dyad.section import section_of
+from ilmek.plane.round_bars import LeastDistance, least
 
 shares = st.floats(0.05, 0.95)
 
@@ -48,7 +49,7 @@ def test_the_needle_goes_through_the_gap_and_nothing_comes_nearer_than_the_secti
     arm, s = head.arm, np.array([share])
     elbow, tip = arm.elbow(s), arm.tip(s)
     assert math.isclose(abs(elbow[0] - tip[0]), arm.second, rel_tol=1e-9)
-    assert abs(((tip - elbow) * np.conj(arm.gap - elbow)).imag[0]) < 1e-12 * arm.second
+    assert abs(((tip - elbow) * np.conj(arm.swivel - elbow)).imag[0]) < 1e-12 * arm.second
     assert abs(head.clearance_min - head.section.clearance_bound) < 1e-8
     assert to_warps(head.section, arm_bars(head.section, arm, s))[0] >= head.clearance_min - 1e-9
     assert head.tied.knot == head.knot

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.elements.drive_parts import positive_work
+from ilmek.elements.prices import PRICES, read_prices
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines import warp_tension
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
@@ -26,7 +27,6 @@ from ilmek.machines.automated_loom.frame import (
     rail_sag,
 )
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom, price_of
-from ilmek.machines.automated_loom.prices import PRICES, read_prices
 from ilmek.machines.automated_loom.production_time import estimated_time, estimated_times_at, time_shares
 from ilmek.report import Report
 from ilmek.timing.track import peak_acceleration

@@ -11,7 +11,6 @@ from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up import MACHINE, BeatUpParams, design
 from ilmek.machines.beat_up.design import evaluate
-from ilmek.machines.beat_up.running import motor_run
 from ilmek.report import Animation, Drawing, Plot, Report
 from ilmek.units import deg
 
@@ -137,7 +136,7 @@ def test_machine_is_in_the_shape_of_the_catalogue() -> None:
 def test_mean_torque_is_that_of_dense_samples_however_near_a_toggle(swing: str, rotation: str) -> None:
     """Down to a transmission angle of 0.04 degrees, where half a degree of crank misses the peak altogether."""
     made = design(BeatUpParams.read({"swing": swing, "crank_rotation": rotation}))
-    rms = motor_run(made).duty.rms
+    rms = made.motor_run().duty.rms
     bodies = made.bodies
     angle = (np.arange(100_000) + 0.3) * (2 * math.pi / 100_000)
     torque = evaluate(made.params, made.plan, bodies, angle).torque
@@ -190,7 +189,7 @@ def test_the_whole_balance_leaves_nothing() -> None:
 
 @pytest.mark.parametrize("speed", [5.0, 40.0])
 def test_the_flywheel_keeps_the_fluctuation_at_any_speed(speed: float) -> None:
-    running = motor_run(design(BeatUpParams(speed=speed, slip=0.3, fluctuation=0.02)))  # so soft a motor leaves it so
+    running = design(BeatUpParams(speed=speed, slip=0.3, fluctuation=0.02)).motor_run()  # so soft a motor leaves it so
     assert running.last_turn is not None
     assert running.last_turn.fluctuation == pytest.approx(0.02, rel=0.1)
 

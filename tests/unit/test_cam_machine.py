@@ -10,13 +10,13 @@ from examples.draw_cam import cam as drawn
 from ilmek.cams.laws import LAWS
 from ilmek.cams.programme import TURN
 from ilmek.cli import main
+from ilmek.elements.cam_rollers import ROLLERS, RollerDuty
+from ilmek.elements.hubs import Hub, bore_for, hub_for
 from ilmek.errors import ParameterError
 from ilmek.machines.cam import MACHINE, CamDesign, CamParams, design
 from ilmek.machines.cam.analysis import analyse
 from ilmek.machines.cam.compliant_follower import compliant_follower
-from ilmek.machines.cam.hub import Hub, bore_for, hub_for
 from ilmek.machines.cam.parts import cam_tables, plates
-from ilmek.machines.cam.rollers import ROLLERS, RollerDuty
 from ilmek.machines.catalogue import MACHINES
 from ilmek.plane import contours
 from ilmek.report import results_of

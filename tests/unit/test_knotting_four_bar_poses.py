@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 
 from ilmek.errors import ParameterError
 from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBar, KnottingFourBarParams, design
-from ilmek.machines.knotting_four_bar.poses import HandPoses, best_ray, synthesised
 from ilmek.report import Animation, Drawing
+from ilmek.synthesis.three_poses import ThreePoses, best_ray, synthesised
 from ilmek.units import deg, mm
 
 PUBLISHED = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
 TURNED = "(0mm,0mm,10deg) (25mm,15mm,10deg) (30mm,5mm,10deg)"
-POSES = HandPoses(np.array([0, 25 + 15j, 30 + 1j]) * mm, np.array([10, 3, -25]) * deg)
+POSES = ThreePoses(np.array([0, 25 + 15j, 30 + 1j]) * mm, np.array([10, 3, -25]) * deg)
 
 
 def made(**given: str) -> KnottingFourBar:
@@ -113,7 +113,7 @@ def test_without_a_ground_angle_the_best_is_found() -> None:
 def test_turned_and_scaled_poses_make_the_same_four_bar(turned, factor) -> None:
     e = complex(np.exp(1j * turned))
     one = synthesised(POSES, 275 * deg)
-    two = synthesised(HandPoses(factor * e * POSES.points, POSES.angles + turned), 275 * deg + turned)
+    two = synthesised(ThreePoses(factor * e * POSES.points, POSES.angles + turned), 275 * deg + turned)
     for a, b in zip(one.best.candidate.four_bar.lengths, two.best.candidate.four_bar.lengths, strict=True):
         assert b == pytest.approx(factor * a, rel=1e-9)
     assert (two.best.crank, two.hand) == (one.best.crank, pytest.approx(factor * one.hand, rel=1e-9))

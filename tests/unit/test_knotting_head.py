@@ -7,13 +7,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from ilmek.linkage.swivelled_arm import mirrored_path
 from ilmek.machines.knotting_dyad import MACHINE, KnottingDyad, KnottingDyadParams, design
-from ilmek.machines.knotting_dyad.arm_path import mirrored_path
-from ilmek.machines.knotting_dyad.clearance import apart, arm_bars, mirrored_bars, to_warps
+from ilmek.machines.knotting_dyad.clearance import arm_bars, mirrored_bars, to_warps
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.section import NEIGHBOURS, section_of
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT, Phase, sequence
 from ilmek.machines.knotting_dyad.yarn import tied_by
+from ilmek.plane.round_bars import apart
 from ilmek.report import Animation
 from ilmek.weaving.knots.word import knot
 
@@ -63,7 +64,7 @@ def test_the_needle_always_goes_through_the_middle_of_the_gap_and_both_links_kee
     along = (tip - elbow) / arm.second
     assert np.abs(along) == pytest.approx(np.ones(501), abs=1e-12)
     assert np.abs(elbow - arm.pivot) == pytest.approx(np.full(501, arm.first), abs=1e-15)
-    assert (np.conj(along) * (arm.gap - elbow)).imag == pytest.approx(np.zeros(501), abs=1e-14)
+    assert (np.conj(along) * (arm.swivel - elbow)).imag == pytest.approx(np.zeros(501), abs=1e-14)
     assert tip[-1] == pytest.approx(head(**settings).section.handover, abs=1e-12)
 
 

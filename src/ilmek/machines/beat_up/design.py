@@ -13,9 +13,11 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.attached import AttachedPoint, attached
+from ilmek.dynamics.counterweight import Balance, balance
 from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined, point_mass
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity
+from ilmek.dynamics.motor_run import MotorRun, MotorTask, motor_run
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
 from ilmek.linkage.motion import Motion
@@ -24,7 +26,6 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.beat_up.family import FamilyResult, chosen_ratio, family_of, is_chosen
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
-from ilmek.machines.beat_up.shaking import Balance, balance
 from ilmek.num.piecewise import Extremum, around, suprema
 from ilmek.records import Computed, computed, record, result
 from ilmek.report import Json
@@ -161,6 +162,14 @@ class BeatUp:
         """All crank-rockers with its dead centres."""
         return family_of(self.params, self.links, self.dead_centres)
 
+    def motor_run(self) -> MotorRun:
+        """Its run by the motor, from rest with the beater farthest from the fell."""
+        params = self.params
+        task = MotorTask(
+            params.speed, params.slip, params.fluctuation, self.back_angle, params.motor_torque, params.flywheel
+        )
+        return motor_run(self.plan, self.bodies, params.gravity_vector, lambda at: self.state_at(at).torque, task)
+
     def state_at(self, angle: FloatArray) -> BeatUpState:
         """Motion and forces at crank angles [rad]."""
         return evaluate(self.params, self.plan, self.bodies, angle)
@@ -195,7 +204,13 @@ def design(params: BeatUpParams) -> BeatUp:
         plan=planned,
         state=whole,
         peaks=suprema(lambda at, _: magnitudes(state(at)), around(), samples=SAMPLES),
-        balance=balance(params, lengths, inertias, whole.motion),
+        balance=balance(
+            whole.motion,
+            lengths,
+            inertias,
+            share=params.balance_share,
+            radius=params.counterweight_radius or lengths["crank"],
+        ),
         at=None if params.crank_angle is None else state(np.array([params.crank_angle])),
     )
 

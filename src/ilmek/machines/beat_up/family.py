@@ -9,8 +9,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, IntArray, RealField
-from ilmek.machines.beat_up.family_forces import bodies, loaded
-from ilmek.machines.beat_up.params import LIMITS, OBJECTIVES, BeatUpParams, front_objectives
+from ilmek.dynamics.inertia import bar_mass, bar_moment
+from ilmek.machines.beat_up.params import BEATER_RATIO, LIMITS, OBJECTIVES, BeatUpParams, front_objectives
 from ilmek.num.pareto import front
 from ilmek.num.periodic_maxima import summits
 from ilmek.records import computed, record
@@ -30,6 +30,7 @@ from ilmek.synthesis.crank_rocker.dead_centres import (
     transmission_angle_min,
 )
 from ilmek.synthesis.crank_rocker.family import family, link_ratio, size
+from ilmek.synthesis.crank_rocker.forces import CrankRockerBodies, CrankRockerLoad, loaded
 from ilmek.synthesis.crank_rocker.motion import sharp_angles
 from ilmek.synthesis.crank_rocker.selection import RATIO_FLOOR
 from ilmek.units import turn
@@ -144,14 +145,15 @@ def family_of(params: BeatUpParams, links: LinkRatios, dead: DeadCentres) -> Fam
 def tabulate(params: BeatUpParams, links: LinkRatios, beta: RealField) -> Table:
     """The `QUANTITIES` of beat-ups with given links and crank angles of the beat [rad], arrays of one dimension."""
     made = bodies(params, links)
+    load = CrankRockerLoad(params.ground, params.speed, params.beater_mass, params.gravity_vector)
     beta = np.broadcast_to(beta, made.crank.shape)
 
     def curves(row: IntArray, angle: FloatArray) -> dict[str, FloatArray]:
-        return loaded(params, made.rows(row), angle)
+        return loaded(load, made.rows(row), angle)
 
     with np.errstate(divide="ignore", invalid="ignore"):
         most = summits(curves, sharp_angles(links))
-        beat = loaded(params, made, beta)
+        beat = loaded(load, made, beta)
     return {
         "crank_coupler_ratio": made.crank / made.coupler,
         "beta": np.mod(beta, turn),
@@ -171,6 +173,20 @@ def tabulate(params: BeatUpParams, links: LinkRatios, beta: RealField) -> Table:
         "drive_torque_max": most["drive_torque"],
         "joint_force_max": np.max(np.stack([most[pin] for pin in "ABCD"]), axis=0),
     }
+
+
+def bodies(params: BeatUpParams, links: LinkRatios) -> CrankRockerBodies:
+    """The bars and the beater of beat-ups with given links, all else as in the parameters."""
+    crank, coupler, rocker = (np.asarray(link, dtype=float) * params.ground for link in links)
+    beater = np.broadcast_to(np.asarray(params.beater or BEATER_RATIO * rocker), rocker.shape)
+    spans = crank, coupler, np.maximum(rocker, beater)
+    masses = [np.asarray(bar_mass(span, params.width, params.thickness, params.density)) for span in spans]
+    moments = [np.asarray(bar_moment(*pair, params.width)) for pair in zip(masses, spans, strict=True)]
+    centre, mass = spans[2] / 2, params.beater_mass
+    rocker_static = masses[2] * centre + mass * beater
+    rocker_moment = moments[2] + masses[2] * centre**2 + mass * beater**2
+    of_coupler, of_rocker = (masses[1], moments[1]), (masses[2] + mass, rocker_static, rocker_moment)
+    return CrankRockerBodies(crank, coupler, rocker, beater, masses[0], *of_coupler, *of_rocker)
 
 
 def is_chosen(params: BeatUpParams) -> bool:

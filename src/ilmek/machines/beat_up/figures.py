@@ -7,10 +7,10 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.animation import animated, frames
 from ilmek.dynamics.crank_figures import crank_plot, points_at
+from ilmek.dynamics.motor_run import MotorRun
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.running import MotorRun
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Series, Stroke
 from ilmek.units import format_quantity, turn
 

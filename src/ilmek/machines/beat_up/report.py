@@ -2,14 +2,14 @@
 
 import math
 
+from ilmek.dynamics.counterweight import Balance
+from ilmek.dynamics.motor_run import REACHED, LastTurn, MotorRun
 from ilmek.elements.plates import link_plates
 from ilmek.machines.beat_up.design import PINS, BeatUp
 from ilmek.machines.beat_up.family import QUANTITIES, FamilyResult, limits
 from ilmek.machines.beat_up.family_figures import family_figures
 from ilmek.machines.beat_up.figures import figures_of
 from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.machines.beat_up.running import REACHED, LastTurn, MotorRun, motor_run
-from ilmek.machines.beat_up.shaking import Balance
 from ilmek.records import record
 from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group
 from ilmek.synthesis.crank_rocker.dead_centres import grashof_margin
@@ -48,7 +48,7 @@ class BeatUpAnalysis:
 
 def analyse(design: BeatUp) -> BeatUpAnalysis:
     """The run and the family of a design."""
-    running = motor_run(design)
+    running = design.motor_run()
     return BeatUpAnalysis(design, design.balance, running, running.last_turn, design.family())
 
 

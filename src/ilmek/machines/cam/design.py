@@ -12,6 +12,8 @@ from ilmek.cams.contact import FollowerLoad
 from ilmek.cams.programme import CamProgramme, jumps
 from ilmek.cams.return_spring import LiftOff, lift_off
 from ilmek.cams.trace import CamRole
+from ilmek.elements.cam_rollers import ROLLERS, Roller, RollerDuty, find_roller
+from ilmek.elements.hubs import Hub, bore_for, hub_for
 from ilmek.machines.cam.forces import (
     CamExtremes,
     CamState,
@@ -22,9 +24,7 @@ from ilmek.machines.cam.forces import (
     pressure_of,
     state_of,
 )
-from ilmek.machines.cam.hub import Hub, bore_for, hub_for
 from ilmek.machines.cam.params import CamParams
-from ilmek.machines.cam.rollers import ROLLERS, Roller, RollerDuty, find_roller
 from ilmek.machines.cam.shape import CamShape, CamSize, cam_of, cams_of, part_knots, programme_of, roller_width, size_of
 from ilmek.records import computed, record, result
 from ilmek.report import Json

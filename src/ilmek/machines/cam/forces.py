@@ -15,9 +15,9 @@ from ilmek.cams.hertz import LINE_YIELD, POINT_YIELD, contact_modulus, ellipse_c
 from ilmek.cams.programme import TURN, CamProgramme
 from ilmek.cams.return_spring import doubling_spring, least_preload, least_rate, velocity_drop
 from ilmek.cams.trace import CamTrace
+from ilmek.elements.cam_rollers import POWER, RollerDuty
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.params import CamParams
-from ilmek.machines.cam.rollers import POWER, RollerDuty
 from ilmek.machines.cam.shape import CamShape
 from ilmek.num.piecewise import EQUAL, Curve, Extremum, infimum, integral, supremum
 from ilmek.plane.vectors import dot, unit

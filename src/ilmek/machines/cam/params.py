@@ -7,9 +7,9 @@ from typing import Literal
 
 from ilmek.cams.laws import LAWS, Law, law_of
 from ilmek.cams.programme import TURN
+from ilmek.elements.cam_rollers import find_roller
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
-from ilmek.machines.cam.rollers import find_roller
 from ilmek.params import Params
 from ilmek.params import kind as declare
 from ilmek.units import N, deg, format_quantity, kg, mm, rpm

@@ -10,11 +10,11 @@ from ilmek.cams import limits
 from ilmek.cams.contact import FollowerLoad
 from ilmek.cams.laws import LAWS
 from ilmek.cams.programme import CamProgramme, jumps
+from ilmek.elements.cam_rollers import ROLLERS, RollerDuty
 from ilmek.errors import ParameterError
 from ilmek.machines.cam.analysis import CamAnalysis
 from ilmek.machines.cam.compliant_follower import vibration_checks, vibration_table
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.rollers import ROLLERS, RollerDuty
 from ilmek.machines.cam.shape import programme_of, size_without_undercut, smallest_of
 from ilmek.num.piecewise import infimum, supremum
 from ilmek.report import Check, Table, at_least, at_most, columns

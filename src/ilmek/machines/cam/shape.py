@@ -18,9 +18,9 @@ from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime, smallest_prime
 from ilmek.cams.strip import WedgeCam
 from ilmek.cams.trace import CamRole
+from ilmek.elements.cam_rollers import ROLLERS
 from ilmek.errors import ParameterError
 from ilmek.machines.cam.params import LIMIT, NO_DWELL, CamParams
-from ilmek.machines.cam.rollers import ROLLERS
 from ilmek.num.piecewise import Extremum
 from ilmek.units import format_quantity, mm
 

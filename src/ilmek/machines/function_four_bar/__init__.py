@@ -6,11 +6,11 @@ with the alternation that proves it.
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
-from ilmek.machines.four_bars.choice import FourBarSelection
-from ilmek.machines.four_bars.report import warnings
 from ilmek.machines.function_four_bar.design import FunctionFourBar, design
 from ilmek.machines.function_four_bar.params import FunctionFourBarParams
 from ilmek.machines.function_four_bar.report import checks, figures, tables
+from ilmek.synthesis.selection import FourBarSelection
+from ilmek.synthesis.selection_report import warnings
 
 __all__ = ["MACHINE", "FunctionFourBar", "FunctionFourBarParams", "design"]
 

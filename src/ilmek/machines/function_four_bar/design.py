@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from ilmek.machines.four_bars.choice import FourBarDesign, FourBarOption, choose, detail_of_best, solutions
 from ilmek.machines.function_four_bar.params import CRITERIA, FunctionFourBarParams
 from ilmek.records import record
 from ilmek.report import Json
 from ilmek.synthesis.approximation.function_generator import FunctionApproximation, function_approximations
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.function import Function
+from ilmek.synthesis.selection import FourBarDesign, FourBarOption, choose, detail_of_best, solutions
 from ilmek.synthesis.task import MET, PrecisionTask
 
 SAME = 1e-9

@@ -12,11 +12,11 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
-from ilmek.machines.four_bars.choice import FourBarTaskParams
 from ilmek.params import kind
 from ilmek.params.text_lists import read_pairs
 from ilmek.synthesis.freudenstein import POINTS
 from ilmek.synthesis.function import Function, function_of_samples
+from ilmek.synthesis.selection import FourBarTaskParams
 from ilmek.units import deg, mm, turn
 
 F: TypeAlias = Callable[[FloatArray], FloatArray]

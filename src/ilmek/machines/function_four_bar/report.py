@@ -7,9 +7,7 @@ import numpy as np
 from ilmek.dynamics.animation import animated, frames
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.machines.four_bars import report as shared
-from ilmek.machines.four_bars.choice import FourBarOption, finite
-from ilmek.machines.four_bars.figures import drawn
+from ilmek.machines.four_bar_figures import drawn
 from ilmek.machines.function_four_bar.design import FunctionFourBar
 from ilmek.report import (
     Animation,
@@ -25,8 +23,10 @@ from ilmek.report import (
     at_most,
     columns,
 )
+from ilmek.synthesis import selection_report as shared
 from ilmek.synthesis.approximation.exchange import PROVEN
 from ilmek.synthesis.approximation.function_generator import FunctionApproximation
+from ilmek.synthesis.selection import FourBarOption, finite
 from ilmek.units import format_number, format_quantity
 
 

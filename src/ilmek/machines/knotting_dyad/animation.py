@@ -3,10 +3,11 @@
 import numpy as np
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
-from ilmek.machines.knotting_dyad.clearance import RoundBars, arm_bars, mirrored_bars
+from ilmek.machines.knotting_dyad.clearance import arm_bars, mirrored_bars
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import CyclePart, KnotCycle
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT, Phase
+from ilmek.plane.round_bars import RoundBars
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import turn
 from ilmek.weaving.knots.led_yarn import evenly

@@ -1,58 +1,24 @@
 """Clearances of everything that moves from the warps, the other arm and the centre gripper, over the whole cycle.
 
-Links and needles are bars with round ends, warps are discs, all exact. A least distance over the path is found by
-bisection: no point of an arm moves faster than V by s (`Arm.speed_bound`), so over an interval of half length e the
-distance is no less than f - V e, f that at its middle. Intervals that cannot go below the least distance found so far
-by more than the tolerance are dropped; the others are halved. The result is a distance that occurs, and none is less
-by more than the tolerance.
+Links and needles are bars with round ends, warps are discs, all exact. Least distances over the path:
+`plane.round_bars`, by the bound V of the speed of every point of an arm by s, `SwivelledArm.speed_bound`.
 
 For both arms the interval is a rectangle: s_left = u (1 - v) and s_right = u v, 0 <= u, v <= 1, are all their positions
 with s_left + s_right <= 1, however they are timed, and the distance changes by V at most by u, by 2 V at most by v.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import Complex, Float, FloatArray
-from ilmek.machines.knotting_dyad.arm_path import Arm
+from ilmek.arrays import Float, FloatArray
+from ilmek.linkage.swivelled_arm import SwivelledArm
 from ilmek.machines.knotting_dyad.section import WarpSection
-from ilmek.plane.outlines import between, to_segments
-from ilmek.records import record
-
-TOLERANCE, RELATIVE = 1e-6, 5e-3
-"""Absolute [m] and relative tolerance of a least distance."""
-
-PIECES, MOST = 16, 60_000
-"""Intervals at first in each direction; intervals at most, after which the tolerance is not met."""
+from ilmek.plane.outlines import to_segments
+from ilmek.plane.round_bars import LeastDistance, RoundBars, apart, least
 
 
-@dataclass(frozen=True, slots=True)
-class LeastDistance:
-    """A least distance.
-
-    name   of what, from what        value  [m], below 0 where they overlap
-    at     s there, one for each arm that matters
-    sure   tolerance: how much less it might be at most [m]
-    """
-
-    name: str
-    value: float
-    at: tuple[float, ...]
-    sure: float
-
-
-@record
-class RoundBars:
-    """Bars with round ends: (positions, bars) ends [m], and the radii of each [m]."""
-
-    starts: Complex[np.ndarray, "n bars"]
-    ends: Complex[np.ndarray, "n bars"]
-    radii: Float[np.ndarray, " bars"]
-
-
-def arm_bars(section: WarpSection, arm: Arm, s: Float[np.ndarray, " n"]) -> RoundBars:
+def arm_bars(section: WarpSection, arm: SwivelledArm, s: Float[np.ndarray, " n"]) -> RoundBars:
     """The left arm: first link, wide part of the second, needle."""
     elbow, tip = arm.elbow(s), arm.tip(s)
     wide = tip + section.needle_length * (elbow - tip) / arm.second
@@ -84,21 +50,7 @@ def to_warps(section: WarpSection, bars: RoundBars) -> Float[np.ndarray, " n"]:
     return least
 
 
-def apart(one: RoundBars, other: RoundBars, but: tuple[int, int] | None = None) -> Float[np.ndarray, " n"]:
-    """Least distance of two sets of bars [m], at each position; `but` a pair of them that meets on purpose."""
-    pairs = [
-        between(np.stack([one.starts[:, i], one.ends[:, i]], -1), np.stack([other.starts[:, j], other.ends[:, j]], -1))
-        - one.radii[i]
-        - other.radii[j]
-        for i in range(len(one.radii))
-        for j in range(len(other.radii))
-        if (i, j) != but
-    ]
-    least: Float[np.ndarray, " n"] = np.min(np.stack(pairs), axis=0)
-    return least
-
-
-def clearances(section: WarpSection, arm: Arm) -> tuple[LeastDistance, ...]:
+def clearances(section: WarpSection, arm: SwivelledArm) -> tuple[LeastDistance, ...]:
     """All least distances of a cycle; the right arm's are the left arm's, mirrored with the warps."""
     speed = arm.speed_bound
 
@@ -121,7 +73,7 @@ def clearances(section: WarpSection, arm: Arm) -> tuple[LeastDistance, ...]:
     )
 
 
-def _centre(section: WarpSection, arm: Arm) -> tuple[LeastDistance, ...]:
+def _centre(section: WarpSection, arm: SwivelledArm) -> tuple[LeastDistance, ...]:
     """The centre gripper and an arm: at rest while the arm moves, moving while it is at the hand-over or at rest."""
     top = max(arm.pivot.imag, float(np.max(arm.elbow(np.linspace(0, 1, 33)).imag))) + 2 * arm.first
     high = max(top, section.front + 2 * section.needle_length)
@@ -144,34 +96,3 @@ def _centre(section: WarpSection, arm: Arm) -> tuple[LeastDistance, ...]:
         least("centre gripper to an arm at the hand-over, but for the tips", coming(1.0, (2, 0)), (stroke,)),
         least("centre gripper to an arm at rest", coming(0.0, None), (stroke,)),
     )
-
-
-def least(name: str, f: Callable[[FloatArray], FloatArray], speeds: tuple[float, ...]) -> LeastDistance:
-    """The least value of f over the unit cube, whose points are its rows; f changes by speeds at most [m].
-
-    >>> found = least("x", lambda at: np.abs(at[:, 0] - 0.3), (1.0,))
-    >>> round(found.value, 5), round(found.at[0], 5), found.sure < 2e-6
-    (0.0, 0.3, True)
-    """
-    bound, size = np.array(speeds), len(speeds)
-    grid = np.meshgrid(*[(np.arange(PIECES) + 0.5) / PIECES] * size, indexing="ij")
-    middles, half = np.stack([axis.ravel() for axis in grid], axis=-1), 0.5 / PIECES
-    corners = np.stack([axis.ravel() for axis in np.meshgrid(*[np.array([0.0, 1.0])] * size, indexing="ij")], axis=-1)
-    value, at, spent = np.inf, middles[0], 0
-    for points in (corners, middles):
-        values = f(points)
-        if np.min(values) < value:
-            value, at = float(np.min(values)), points[np.argmin(values)]
-    while True:
-        lows = values - half * float(np.sum(bound))
-        tolerance = TOLERANCE + RELATIVE * abs(value)
-        kept = lows < value - tolerance
-        spent += len(middles)
-        if not kept.any() or spent > MOST:
-            sure = max(value - float(np.min(lows)), tolerance)
-            return LeastDistance(name, value, tuple(float(one) for one in at), sure)
-        half /= 2
-        middles = (middles[kept][:, None, :] + half * (2 * corners - 1)).reshape(-1, size)
-        values = f(middles)
-        if np.min(values) < value:
-            value, at = float(np.min(values)), middles[np.argmin(values)]

@@ -6,7 +6,7 @@ import numpy as np
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
-from ilmek.machines.knotting_dyad.arm_path import Arm
+from ilmek.linkage.swivelled_arm import SwivelledArm
 from ilmek.machines.knotting_dyad.head import Head, head_of
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.search import best_arm
@@ -154,7 +154,7 @@ def _for_knot(params: KnottingDyadParams) -> KnottingDyad:
     return replace(made, built=built, head=head_of(params, section, arm))
 
 
-def task_on(arm: Arm) -> ArmTask:
+def task_on(arm: SwivelledArm) -> ArmTask:
     """Four points of an arm's path, and the angles that its first link has there."""
     path = arm.tip(np.linspace(0.0, 1.0, SAMPLES))
     return ArmTask(arm.tip(SHARES), np.ascontiguousarray(arm.path(SHARES).theta[:, 0]), path, SHARES)

@@ -6,7 +6,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.knotting_dyad.animation import animation
-from ilmek.machines.knotting_dyad.clearance import RoundBars, arm_bars, mirrored_bars, to_warps
+from ilmek.machines.knotting_dyad.clearance import arm_bars, mirrored_bars, to_warps
 from ilmek.machines.knotting_dyad.design import SHARES, KnottingDyad
 from ilmek.machines.knotting_dyad.drives import HeadMotion
 from ilmek.machines.knotting_dyad.head import Head
@@ -14,6 +14,7 @@ from ilmek.machines.knotting_dyad.motion import KnotCycle
 from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
 from ilmek.machines.knotting_dyad.yarn import carried
+from ilmek.plane.round_bars import RoundBars
 from ilmek.report import Axis, Dot, Drawing, Figure, Lane, Mark, Plot, Series, Stroke, Timing
 from ilmek.synthesis.dyad import TwoLinkArm
 from ilmek.units import format_quantity, turn

@@ -12,12 +12,13 @@ from dataclasses import asdict
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS
-from ilmek.machines.knotting_dyad.arm_path import Arm, ArmPath
-from ilmek.machines.knotting_dyad.clearance import LeastDistance, clearances
+from ilmek.linkage.swivelled_arm import ArmPath, SwivelledArm
+from ilmek.machines.knotting_dyad.clearance import clearances
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import WarpSection, knot_of
 from ilmek.machines.knotting_dyad.sequence import Phase, sequence
 from ilmek.machines.knotting_dyad.yarn import tied_by
+from ilmek.plane.round_bars import LeastDistance
 from ilmek.records import computed, group, record, result
 from ilmek.report import Json
 from ilmek.weaving.knots.proof import TiedKnot
@@ -42,7 +43,7 @@ class Head:
 
     section: WarpSection = group()
     knot: Knot
-    arm: Arm
+    arm: SwivelledArm
     path: ArmPath
     sequence: tuple[Phase, ...]
     least: tuple[LeastDistance, ...]
@@ -83,7 +84,7 @@ class Head:
         ]
 
 
-def head_of(params: KnottingDyadParams, section: WarpSection, arm: Arm) -> Head:
+def head_of(params: KnottingDyadParams, section: WarpSection, arm: SwivelledArm) -> Head:
     """The head of an arm."""
     required = knot_of(params)
     phases = sequence(required, section.front, -section.depth)
@@ -99,7 +100,7 @@ def head_of(params: KnottingDyadParams, section: WarpSection, arm: Arm) -> Head:
     )
 
 
-def needle_deflection(params: KnottingDyadParams, section: WarpSection, arm: Arm) -> float:
+def needle_deflection(params: KnottingDyadParams, section: WarpSection, arm: SwivelledArm) -> float:
     """Greatest deflection of the needle [m] at the warps' axes, on its path behind them."""
     s = np.linspace(0.0, 1.0, BENDING_SAMPLES)
     beyond, length = arm.beyond(s), section.needle_length

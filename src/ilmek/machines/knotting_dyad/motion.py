@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
-from ilmek.machines.knotting_dyad.arm_path import ArmPath
+from ilmek.linkage.swivelled_arm import ArmPath
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.sequence import LEFT, OUT, RIGHT, Phase

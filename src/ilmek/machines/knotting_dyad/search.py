@@ -19,7 +19,7 @@ import numpy as np
 
 from ilmek.arrays import Bool, BoolArray, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
-from ilmek.machines.knotting_dyad.arm_path import Arm
+from ilmek.linkage.swivelled_arm import SwivelledArm
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.plane.vectors import cross
@@ -43,7 +43,7 @@ class _Tried:
     cost: FloatArray
 
 
-def best_arm(params: KnottingDyadParams, section: WarpSection) -> Arm:
+def best_arm(params: KnottingDyadParams, section: WarpSection) -> SwivelledArm:
     """The left arm. Raises ParameterError where none fits."""
     least = section.needle_length + params.link_width
     limit = params.link_limit
@@ -67,7 +67,7 @@ def best_arm(params: KnottingDyadParams, section: WarpSection) -> Arm:
 
 def _refined(
     params: KnottingDyadParams, section: WarpSection, centre: Float[np.ndarray, "3"], steps: FloatArray, sign: float
-) -> Arm:
+) -> SwivelledArm:
     """The best of ever finer grids about a set of parameters that fits."""
     spread = np.linspace(-1.0, 1.0, ZOOM)
     cube = np.stack([axis.ravel() for axis in np.meshgrid(spread, spread, spread, indexing="ij")], axis=-1)
@@ -76,11 +76,11 @@ def _refined(
         tried = _tried(params, section, at, np.full(len(at), sign))
         best = int(np.argmin(tried.cost))
         centre, steps = at[best], steps * SHRINK
-    return Arm(
+    return SwivelledArm(
         pivot=complex(tried.pivot[best]),
         first=float(tried.first[best]),
         second=float(tried.second[best]),
-        gap=section.gap,
+        swivel=section.gap,
         side=int(tried.side[best]),
         begin=-section.front,
         end=section.reach,
@@ -105,7 +105,7 @@ def _tried(params: KnottingDyadParams, section: WarpSection, at: Float[np.ndarra
 
 
 def _bent(base: FloatArray, first: FloatArray, r0: FloatArray, r1: FloatArray) -> FloatArray:
-    """Least sine between the links: see `Arm.bend`."""
+    """Least sine between the links: see `SwivelledArm.bend`."""
     cosine = np.maximum(*(np.abs(r + (first**2 - base**2) / r) for r in (r0, r1))) / (2 * first)
     return np.asarray(np.sqrt(1 - cosine**2))
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import CarpetError
-from ilmek.machines.knotting_dyad.arm_path import Arm
+from ilmek.linkage.swivelled_arm import SwivelledArm
 from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, Phase
 from ilmek.units import format_quantity, um
@@ -23,7 +23,7 @@ MISSED = 1 * um
 
 
 def carried(
-    section: WarpSection, arm: Arm, carrier: str, phase: Phase, shares: Float[np.ndarray, " n"]
+    section: WarpSection, arm: SwivelledArm, carrier: str, phase: Phase, shares: Float[np.ndarray, " n"]
 ) -> Complex[np.ndarray, " n"]:
     """Positions of a carrier's tip at shares of a phase [m]."""
     if carrier == CENTRE:
@@ -34,7 +34,7 @@ def carried(
     return tip if carrier == LEFT else np.asarray(2 * section.middle - np.conj(tip))
 
 
-def tied_by(section: WarpSection, arm: Arm, phases: Sequence[Phase]) -> TiedKnot:
+def tied_by(section: WarpSection, arm: SwivelledArm, phases: Sequence[Phase]) -> TiedKnot:
     """The knot that the phases tie with this arm and its mirror image; none where an end is led through a warp."""
 
     def ends(samples: int) -> tuple[SampledPath, SampledPath]:
@@ -43,7 +43,7 @@ def tied_by(section: WarpSection, arm: Arm, phases: Sequence[Phase]) -> TiedKnot
     return knot_of_ends(ends, section.warps, keep_out=section.warp / 2)
 
 
-def _end(section: WarpSection, arm: Arm, phases: Sequence[Phase], end: int, samples: int) -> SampledPath:
+def _end(section: WarpSection, arm: SwivelledArm, phases: Sequence[Phase], end: int, samples: int) -> SampledPath:
     """Path of an end over the phases. Raises CarpetError where a hand-over misses it."""
     shares = np.linspace(0.0, 1.0, samples)
     motions: list[tuple[ComplexArray, FloatArray]] = []
@@ -60,7 +60,7 @@ def _end(section: WarpSection, arm: Arm, phases: Sequence[Phase], end: int, samp
     return end_path(motions)
 
 
-def _length(arm: Arm, carrier: str, phase: Phase) -> float:
+def _length(arm: SwivelledArm, carrier: str, phase: Phase) -> float:
     """Upper bound of the length of a carrier's path during a phase [m]."""
     begin, end = phase.centre if carrier == CENTRE else (phase.left if carrier == LEFT else phase.right)
     return abs(end - begin) * (1.0 if carrier == CENTRE else arm.speed_bound)

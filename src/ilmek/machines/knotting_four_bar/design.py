@@ -24,11 +24,11 @@ from ilmek.machines.knotting_four_bar.model import (
     mechanism,
     parts,
 )
-from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, PosedParams
+from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, PosedParams, read_three_poses
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar, through_poses, through_the_reports_poses
-from ilmek.machines.knotting_four_bar.poses import read_three_poses, synthesised
 from ilmek.machines.knotting_four_bar.sides import KnottingSides, both_sides
 from ilmek.records import computed, group, record, result
+from ilmek.synthesis.three_poses import synthesised
 from ilmek.units import deg, format_quantity, turn
 
 SAMPLES = 360

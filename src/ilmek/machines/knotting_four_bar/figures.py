@@ -15,7 +15,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
-from ilmek.machines.four_bars.figures import numbered
+from ilmek.machines.four_bar_figures import numbered
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.model import evaluate
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams

@@ -8,12 +8,22 @@ from functools import partial
 import numpy as np
 
 from ilmek.errors import ParameterError
-from ilmek.machines.knotting_four_bar.poses import Synthesis, read_three_poses
 from ilmek.params import Params, Setting, declared, kind
+from ilmek.params.text_lists import read_poses
+from ilmek.synthesis.burmester.constant_distance import require_task
+from ilmek.synthesis.three_poses import ThreePoses, ThreePoseSynthesis
 from ilmek.units import MPa, deg, mm, turn
 
 SMALL, LARGE = 1e-4, 5.0
 """Bounds of plausible lengths [m]."""
+
+OTHERS = {
+    1: "one leaves nearly everything free: give three",
+    2: "two leave a family for every ground angle: give three",
+    4: "for 4 poses: motion-four-bar",
+    5: "for 5 poses: motion-four-bar",
+}
+"""What to do with other numbers of poses."""
 
 SYNTHESISED = ("ground", "crank", "coupler", "rocker", "branch", "hand")
 """Parameters that follow from poses."""
@@ -142,7 +152,7 @@ class PosedParams(KnottingFourBarParams):
         """Nothing: the links follow from the poses."""
 
 
-def params_of(params: KnottingFourBarParams, found: Synthesis) -> KnottingFourBarParams:
+def params_of(params: KnottingFourBarParams, found: ThreePoseSynthesis) -> KnottingFourBarParams:
     """Parameters without poses: the links, and the direction of the ground link from O1 to O1'.
 
     The crank angle to report is the given one with poses, by default that of the first.
@@ -162,3 +172,17 @@ def params_of(params: KnottingFourBarParams, found: Synthesis) -> KnottingFourBa
         hand=found.hand,
         crank_angle=float(found.crank_angles[0]) if given is None else given,
     )
+
+
+def read_three_poses(text: str) -> ThreePoses:
+    """The three poses of a text. Raises ParameterError for anything else."""
+    points, angles = read_poses("poses", text)
+    if len(points) in OTHERS:
+        given = f"{len(points)} pose{'s' if len(points) > 1 else ''}"
+        raise ParameterError(given, allowed="exactly 3", do=OTHERS[len(points)])
+    if len(points) > max(OTHERS):
+        raise ParameterError(
+            f"{len(points)} poses", allowed="exactly 3", do="no four-bar takes more than 5 exactly: choose among them"
+        )
+    require_task("pose", points, angles, 3, "knotting-four-bar")
+    return ThreePoses(points, angles, text)

@@ -12,10 +12,10 @@ from ilmek.linkage.quality import least_transmission_angle
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.knotting_four_bar.model import KnottingState, drive_for, evaluate, mechanism
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, params_of
-from ilmek.machines.knotting_four_bar.poses import HandPoses, Synthesis, synthesised
 from ilmek.plane.vectors import unit
 from ilmek.records import computed, group, record
 from ilmek.report import Json
+from ilmek.synthesis.three_poses import ThreePoses, ThreePoseSynthesis, synthesised
 from ilmek.units import deg, mm
 
 POINTS: ComplexArray = np.array([0j, 25 + 15j, 30 + 1j]) * mm
@@ -32,7 +32,7 @@ class PosedFourBar:
     params  with its links, all others as given        state  at the poses, in their frame
     """
 
-    synthesis: Synthesis = group()
+    synthesis: ThreePoseSynthesis = group()
     params: KnottingFourBarParams
     plan: Plan
     state: KnottingState
@@ -90,7 +90,7 @@ class PosedFourBar:
         }
 
 
-def through_poses(params: KnottingFourBarParams, found: Synthesis) -> PosedFourBar:
+def through_poses(params: KnottingFourBarParams, found: ThreePoseSynthesis) -> PosedFourBar:
     """The best four-bar of a synthesis, driven at the arm that leaves the other the better transmission angle."""
     made = params_of(params, found)
     planned = plan(mechanism(made, made.ground_angle or 0.0, found.crank.pivot))
@@ -100,4 +100,4 @@ def through_poses(params: KnottingFourBarParams, found: Synthesis) -> PosedFourB
 
 def through_the_reports_poses(params: KnottingFourBarParams) -> PosedFourBar:
     """The four-bar to use instead of the report's: both arms through its three poses, joined."""
-    return through_poses(params, synthesised(HandPoses(POINTS, COUPLER_ANGLES), GROUND_RAY))
+    return through_poses(params, synthesised(ThreePoses(POINTS, COUPLER_ANGLES), GROUND_RAY))

@@ -6,10 +6,10 @@ five a few links. All pairs are judged, and those without defects ranked.
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
-from ilmek.machines.four_bars.choice import FourBarSelection
 from ilmek.machines.motion_four_bar.design import MotionFourBar, design
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
 from ilmek.machines.motion_four_bar.report import checks, figures, tables, warnings
+from ilmek.synthesis.selection import FourBarSelection
 
 __all__ = ["MACHINE", "MotionFourBar", "MotionFourBarParams", "design"]
 

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.machines.four_bars.choice import FourBarDesign, FourBarOption, choose, of_best, solutions
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
 from ilmek.params.text_lists import BodyPoses, Bounds
 from ilmek.records import computed, record, result
@@ -22,6 +21,7 @@ from ilmek.synthesis.burmester.links import (
 )
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.guide_pairs import promising
+from ilmek.synthesis.selection import FourBarDesign, FourBarOption, choose, of_best, solutions
 from ilmek.synthesis.task import PrecisionTask
 
 JUDGED = 24

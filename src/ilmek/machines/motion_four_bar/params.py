@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 from ilmek.arrays import ComplexArray
 from ilmek.errors import ParameterError
-from ilmek.machines.four_bars.choice import FourBarTaskParams
 from ilmek.params import kind
 from ilmek.params.text_lists import BodyPoses, Bounds, read_bounds, read_poses, read_two_points
 from ilmek.synthesis.burmester.constant_distance import require_task
+from ilmek.synthesis.selection import FourBarTaskParams
 
 KNOTTING = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
 """The knotting report's poses of the gripper."""

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ilmek.machines.four_bars import report as shared
-from ilmek.machines.four_bars.figures import drawn_and_moving, links, numbered, pins
+from ilmek.machines.four_bar_figures import drawn_and_moving, links, numbered, pins
 from ilmek.machines.motion_four_bar.design import MotionFourBar
 from ilmek.report import Check, Dot, Drawing, Figure, Stroke, Table, at_most, columns
+from ilmek.synthesis import selection_report as shared
 from ilmek.synthesis.burmester.curve import CurveBranch
 from ilmek.synthesis.burmester.links import Guide, GuideKind
 

@@ -6,11 +6,11 @@ met exactly, by all four-bars that do.
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
-from ilmek.machines.four_bars.choice import FourBarSelection
-from ilmek.machines.four_bars.report import checks, warnings
 from ilmek.machines.path_four_bar.design import PathFourBar, design
 from ilmek.machines.path_four_bar.params import PathFourBarParams
 from ilmek.machines.path_four_bar.report import figures, tables
+from ilmek.synthesis.selection import FourBarSelection
+from ilmek.synthesis.selection_report import checks, warnings
 
 __all__ = ["MACHINE", "PathFourBar", "PathFourBarParams", "design"]
 

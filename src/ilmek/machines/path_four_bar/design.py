@@ -6,7 +6,6 @@ import math
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.machines.four_bars.choice import FourBarDesign, FourBarOption, choose, detail_of_best, dimensions, solutions
 from ilmek.machines.path_four_bar.params import PathFourBarParams
 from ilmek.records import computed, record
 from ilmek.report import Json
@@ -16,6 +15,7 @@ from ilmek.synthesis.path.fit import PathFit, judged
 from ilmek.synthesis.path.points import timed_four_bars
 from ilmek.synthesis.path.search import path_four_bars
 from ilmek.synthesis.path.task import PathTask
+from ilmek.synthesis.selection import FourBarDesign, FourBarOption, choose, detail_of_best, dimensions, solutions
 from ilmek.synthesis.task import PrecisionTask
 
 CURVES = 12

@@ -6,10 +6,10 @@ from typing import Any
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
-from ilmek.machines.four_bars.choice import FourBarTaskParams, ratio_limit
 from ilmek.params.kind import choice, count, flag, length, text
 from ilmek.params.text_lists import Bounds, read_angles, read_bounds, read_points, read_two_points
 from ilmek.synthesis.path.task import FEWEST, KINDS, MOST, PathTask
+from ilmek.synthesis.selection import FourBarTaskParams, ratio_limit
 
 LINE = "(20mm,20mm) (20mm,25mm) (20mm,30mm) (20mm,35mm) (20mm,40mm) (20mm,45mm)"
 """Case 1 of the literature's benchmarks: six points of a vertical line."""

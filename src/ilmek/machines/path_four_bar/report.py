@@ -1,11 +1,11 @@
 """Tables and figures of a four-bar for a path."""
 
-from ilmek.machines.four_bars.choice import FourBarOption, finite
-from ilmek.machines.four_bars.figures import curve, drawn_and_moving, links, numbered, pins
-from ilmek.machines.four_bars.report import LINKS
-from ilmek.machines.four_bars.report import tables as shared_tables
+from ilmek.machines.four_bar_figures import curve, drawn_and_moving, links, numbered, pins
 from ilmek.machines.path_four_bar.design import PathFourBar
 from ilmek.report import Dot, Drawing, Figure, Stroke, Table, columns
+from ilmek.synthesis.selection import FourBarOption, finite
+from ilmek.synthesis.selection_report import LINKS
+from ilmek.synthesis.selection_report import tables as shared_tables
 from ilmek.units import format_quantity
 
 NUMBERED = 12

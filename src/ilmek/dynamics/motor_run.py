@@ -1,4 +1,4 @@
-"""The beat-up run by a motor: required torque, the flywheel, the start from rest and the steady run.
+"""A machine run by a motor on its crank: required torque, the flywheel, the start from rest and the steady run.
 
     M = M_0 tanh((omega_0 - omega) / (s omega_0))          a motor or drive that limits its torque to M_0
 
@@ -6,6 +6,7 @@ omega_0 the speed without load, s the slip at which it would give M_0 were its c
 """
 
 import math
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -13,11 +14,11 @@ from ilmek.arrays import FloatArray
 from ilmek.dynamics.flywheel import CyclicTorque, cyclic_torque, flywheel
 from ilmek.dynamics.forward import ForwardRun, ForwardState, at_speed, forward
 from ilmek.dynamics.fourier_terms import tabulate
+from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity
 from ilmek.dynamics.reduced import reduce
-from ilmek.machines.beat_up.design import BeatUp
-from ilmek.records import record
-from ilmek.report import computed, result
+from ilmek.linkage.structure import Plan
+from ilmek.records import computed, record, result
 from ilmek.units import turn
 
 REACHED = 0.95
@@ -50,10 +51,10 @@ class LastTurn:
 
 @record
 class MotorRun:
-    """The beat-up under its motor.
+    """A machine under its motor.
 
     duty      of the torque at constant speed
-    start     the run from rest, the beater farthest back, to 95 % of the speed; `started`: whether it reached that
+    start     the run from rest to 95 % of the speed; `started`: whether it reached that
     steady    turns at speed, after it, and the last of them; None where it does not start
     All are None where the linkage stands so near a toggle that its inertia has no usable Fourier series.
     """
@@ -85,23 +86,46 @@ class MotorRun:
         return tuple(run for run in (self.start, self.steady) if run is not None)
 
 
-def motor_run(design: BeatUp) -> MotorRun:
-    """The run of a beat-up by its motor, and the motor and flywheel that it needs.
+@record
+class MotorTask:
+    """A motor and its flywheel on a crank.
 
+    speed        of the crank [rad/s]                       slip    s of the motor
+    torque       M_0 [N m]; None: the greatest required     start   crank angle of the start from rest [rad]
+    flywheel     [kg m²]; None: what keeps the fluctuation of the speed, (greatest - least) / mean
+    """
+
+    speed: float
+    slip: float
+    fluctuation: float
+    start: float
+    torque: float | None = None
+    flywheel: float | None = None
+
+
+def motor_run(
+    plan: Plan,
+    inertias: Mapping[str, Inertia],
+    gravity: complex,
+    torque: Callable[[FloatArray], FloatArray],
+    task: MotorTask,
+) -> MotorRun:
+    """The run of a mechanism by a motor on its crank, and the motor and flywheel that it needs.
+
+    gravity  acceleration [m/s²]        torque  on the crank at crank angles [rad], at the speed [N m]
     It reaches its speed in the time that twice the greatest inertia would take, or does not start.
     """
-    params, speed = design.params, design.params.speed
-    required = cyclic_torque(lambda angle, _: design.state_at(angle).torque)
-    wheel = params.flywheel
+    speed, wheel = task.speed, task.flywheel
+    required = cyclic_torque(lambda angle, _: torque(angle))
     if wheel is None:
-        wheel = max(flywheel(required.excess, speed, params.fluctuation) - design.bodies["crank"].about(0), 0.0)
-    most = params.motor_torque or required.peak.value
-    reduced = reduce(design.plan, design.bodies, (Gravity(params.gravity_vector),), flywheel=wheel)
+        wheel = max(flywheel(required.excess, speed, task.fluctuation) - inertias["crank"].about(0), 0.0)
+    most = task.torque or required.peak.value
+    reduced = reduce(plan, inertias, (Gravity(gravity),), flywheel=wheel)
     if most == 0 or tabulate(reduced) is None:
         return MotorRun(required, wheel, most, None, False, None, None)
 
     def motor(_time: float, _position: float, at: float) -> float:
-        return most * math.tanh((speed - at) / (params.slip * speed))
+        return most * math.tanh((speed - at) / (task.slip * speed))
 
     def run(start: ForwardState, duration: float, every: float, *, reach: bool) -> ForwardRun:
         events = (reached,) if reach else ()
@@ -110,7 +134,7 @@ def motor_run(design: BeatUp) -> MotorRun:
     reached = at_speed(REACHED * speed)
     greatest = float(np.max(reduced.terms(np.linspace(0, turn, 181)).inertia))
     duration = min(4 * greatest * speed / most, MOST_TURNS * turn / speed)
-    start = run(ForwardState(design.back_angle), duration, duration / 200, reach=True)
+    start = run(ForwardState(task.start), duration, duration / 200, reach=True)
     if start.end.reason != reached.name:
         return MotorRun(required, wheel, most, start, False, None, None)
     last, period = start.end.state, turn / speed

@@ -1,4 +1,4 @@
-"""Forces of many beat-ups at once: those that `dynamics.inverse` finds for one, in closed form for arrays of them.
+"""Forces of many crank-rockers with a mass on the rocker, the beater: those of `dynamics.inverse`, in closed form.
 
     F      of the coupler on the rocker at B
     v x F = J_A alpha_4 - g_4 x m_4 w,        u x F = -(g_3 x m_3 (a_3 - w) + J_3 alpha_3)
@@ -16,17 +16,15 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray, IntArray
-from ilmek.dynamics.inertia import bar_mass, bar_moment
-from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
 from ilmek.plane.vectors import cross
 from ilmek.synthesis.crank_rocker.dead_centres import LinkRatios
 from ilmek.synthesis.crank_rocker.motion import CrankRockerMotion, moved
 
 
-class Bodies(NamedTuple):
-    """Lengths, masses and moments of many beat-ups, each an array of one shape.
+class CrankRockerBodies(NamedTuple):
+    """Lengths, masses and moments of many crank-rockers, each an array of one shape.
 
-    crank, coupler, rocker, beater   lengths [m], the beater's from A          links over ground are in `links`
+    crank, coupler, rocker, beater   lengths [m], the beater: the mass on the rocker, from A
     crank_mass, coupler_mass         of the bars [kg]                          coupler_moment  about its centre [kg m²]
     rocker_mass, rocker_static, rocker_moment   rocker and beater together [kg], mass times its centre's distance from A
                                      [kg m], and moment about A [kg m²]
@@ -43,67 +41,54 @@ class Bodies(NamedTuple):
     rocker_static: FloatArray
     rocker_moment: FloatArray
 
-    def rows(self, row: IntArray) -> "Bodies":
+    def rows(self, row: IntArray) -> "CrankRockerBodies":
         """Those of some of them."""
-        return Bodies(*(column[row] for column in self))
+        return CrankRockerBodies(*(column[row] for column in self))
 
     def links(self, ground: float) -> LinkRatios:
         """Their links over the ground link [m]."""
         return LinkRatios(self.crank / ground, self.coupler / ground, self.rocker / ground)
 
 
-def bodies(params: BeatUpParams, links: LinkRatios) -> Bodies:
-    """The bars and the beater of beat-ups with given links, all else as in the parameters."""
-    crank, coupler, rocker = (np.asarray(link, dtype=float) * params.ground for link in links)
-    beater = np.broadcast_to(np.asarray(params.beater or BEATER_RATIO * rocker), rocker.shape)
-    spans = crank, coupler, np.maximum(rocker, beater)
-    masses = [np.asarray(bar_mass(span, params.width, params.thickness, params.density)) for span in spans]
-    moments = [np.asarray(bar_moment(*pair, params.width)) for pair in zip(masses, spans, strict=True)]
-    centre = spans[2] / 2
-    return Bodies(
-        crank,
-        coupler,
-        rocker,
-        beater,
-        masses[0],
-        masses[1],
-        moments[1],
-        masses[2] + params.beater_mass,
-        masses[2] * centre + params.beater_mass * beater,
-        moments[2] + masses[2] * centre**2 + params.beater_mass * beater**2,
-    )
+class CrankRockerLoad(NamedTuple):
+    """Ground link [m], speed of the crank [rad/s], mass of the beater [kg], acceleration of gravity [m/s²]."""
+
+    ground: float
+    speed: float
+    beater_mass: float
+    gravity: complex
 
 
-def loaded(params: BeatUpParams, made: Bodies, angle: FloatArray) -> dict[str, FloatArray]:
-    """Curves of beat-ups at crank angles [rad] that broadcast with them; magnitudes, by name.
+def loaded(load: CrankRockerLoad, made: CrankRockerBodies, angle: FloatArray) -> dict[str, FloatArray]:
+    """Curves of crank-rockers at crank angles [rad] that broadcast with them; magnitudes, by name.
 
     rocker_speed [rad/s], rocker_acceleration [rad/s^2], beater_acceleration [m/s^2], beater_force [N],
     drive_torque [N m], and the forces in the pins A, B, C, D [N]
     """
-    at = moved(made.links(params.ground), angle)
-    pull, gravity = params.speed**2, params.gravity_vector
+    at = moved(made.links(load.ground), angle)
+    pull, gravity = load.speed**2, load.gravity
     turned = (1j * at.alpha[1] - at.omega[1] ** 2) * at.rocker
-    beater = (made.beater / made.rocker * (params.ground * pull)) * turned
-    torque, pins = _forces(params, made, at, turned)
+    beater = (made.beater / made.rocker * (load.ground * pull)) * turned
+    torque, pins = _forces(load, made, at, turned)
     size = np.abs(beater)
     return {
-        "rocker_speed": np.abs(at.omega[1]) * params.speed,
+        "rocker_speed": np.abs(at.omega[1]) * load.speed,
         "rocker_acceleration": np.abs(at.alpha[1]) * pull,
         "beater_acceleration": size,
-        "beater_force": params.beater_mass * (np.abs(beater - gravity) if gravity else size),
+        "beater_force": load.beater_mass * (np.abs(beater - gravity) if gravity else size),
         "drive_torque": np.abs(torque),
         **{pin: np.abs(force) for pin, force in zip("ABCD", pins, strict=True)},
     }
 
 
 def _forces(
-    params: BeatUpParams, made: Bodies, at: CrankRockerMotion, turned: ComplexField
+    load: CrankRockerLoad, made: CrankRockerBodies, at: CrankRockerMotion, turned: ComplexField
 ) -> tuple[FloatArray, tuple[ComplexField, ...]]:
     """Torque on the crank [N m] and forces in the pins A, B, C, D [N]; turned: acceleration of B, at unit speed.
 
     Factors that are constant over the turn are multiplied first: their arrays are small beside the others.
     """
-    ground, pull, gravity = params.ground, params.speed**2, params.gravity_vector
+    ground, pull, gravity = load.ground, load.speed**2, load.gravity
     half = 0.5 * at.coupler
     coupler = (made.coupler_mass * (ground * pull)) * ((1j * at.alpha[0] - at.omega[0] ** 2) * half - at.pin)
     rocker = (made.rocker_static / made.rocker * (ground * pull)) * turned

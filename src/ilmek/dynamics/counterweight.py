@@ -1,4 +1,4 @@
-"""Shaking force and moment of the beat-up on the loom, and the counterweights against them."""
+"""Shaking force and moment of a four-bar on its frame, and the counterweights against them."""
 
 import cmath
 from collections.abc import Mapping
@@ -16,9 +16,7 @@ from ilmek.dynamics.balance import (
 )
 from ilmek.dynamics.inertia import Inertia
 from ilmek.linkage.motion import Motion
-from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.records import record
-from ilmek.report import computed, result
+from ilmek.records import computed, record, result
 from ilmek.units import turn
 
 
@@ -79,12 +77,17 @@ ROUNDING = 1e-10
 
 
 def balance(
-    params: BeatUpParams, lengths: Mapping[str, float], inertias: Mapping[str, Inertia], motion: Motion
+    motion: Motion, lengths: Mapping[str, float], inertias: Mapping[str, Inertia], *, share: float, radius: float
 ) -> Balance:
-    """The balance of a motion at constant speed over one turn in even steps, both ends included."""
-    radius = params.counterweight_radius or lengths["crank"]
+    """The balance of a motion at constant speed over one turn in even steps, both ends included.
+
+    lengths, inertias  of the links [m] and of the bodies, by name: crank, coupler, rocker
+    share              of the first harmonic's part that turns with the crank, cancelled by the counterweight on it
+    radius             distance of that counterweight's mass centre from the crank's pivot [m]
+    """
+    speed = float(motion.omega("crank")[0])
     before = shaking(motion, inertias)
-    weight = crank_counterweight(before.force[:-1], params.speed, share=params.balance_share)
+    weight = crank_counterweight(before.force[:-1], speed, share=share)
     first = harmonics(before.force[:-1], 1)
     after = shaking(motion, {**inertias, "crank": counterweighted(inertias["crank"], weight, radius)})
     whole = four_bar_counterweights(lengths, inertias)

@@ -2,9 +2,9 @@
 
 import math
 
-from ilmek.machines.four_bars.choice import FourBarDesign, FourBarSelection
 from ilmek.report import Check, Table, at_least, columns
 from ilmek.synthesis.candidate import Candidate
+from ilmek.synthesis.selection import FourBarDesign, FourBarSelection
 from ilmek.units import deg, format_quantity
 
 TRANSMISSION = 40 * deg

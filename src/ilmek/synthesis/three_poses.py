@@ -1,4 +1,4 @@
-"""The four-bar through three poses of the hand: both arms of the poses, joined, and judged at either crank.
+"""The four-bar through three poses of its coupler: both arms of the poses, joined, and judged at either crank.
 
 Each arm (`synthesis.dyad`) carries the coupler through the poses, its pivot on the ray of the ground angle. Two of them
 side by side are a four-bar: their second links are one body, the first links its crank and its rocker.
@@ -11,11 +11,9 @@ import numpy as np
 
 from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.errors import MechanismError, ParameterError
-from ilmek.params.text_lists import read_poses
 from ilmek.plane.vectors import unit
 from ilmek.records import computed, record
 from ilmek.report import Json
-from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.dyad import PoseArms, RootKind, TwoLinkArm, arms_through_poses, dyads_through_poses
 from ilmek.synthesis.filters import Filters, defects
@@ -29,18 +27,10 @@ DIRECTIONS = np.arange(360) * 0.5 * deg
 LINK_RATIO = 10.0
 """Greatest longest link by shortest of a four-bar on a tried ray."""
 
-OTHERS = {
-    1: "one leaves nearly everything free: give three",
-    2: "two leave a family for every ground angle: give three",
-    4: "for 4 poses: motion-four-bar",
-    5: "for 5 poses: motion-four-bar",
-}
-"""What to do with other numbers of poses."""
-
 
 @record
-class HandPoses:
-    """Three poses of the hand: its positions [m], the directions of the coupler there [rad], and the text given."""
+class ThreePoses:
+    """Three poses: positions of a point H of the coupler [m], its directions there [rad], and the text given."""
 
     points: Complex[np.ndarray, "3"]
     angles: Float[np.ndarray, "3"]
@@ -58,7 +48,7 @@ class PoseFourBar:
 
 
 @record
-class Synthesis:
+class ThreePoseSynthesis:
     """All arms through three poses with their pivots on one ray, and the four-bars made of them.
 
     ground_angle  of the ray from the poses' origin [rad]      tried  whether it was found by trial
@@ -66,7 +56,7 @@ class Synthesis:
     choices       every four-bar                               best   the one to build
     """
 
-    poses: HandPoses
+    poses: ThreePoses
     ground_angle: float
     tried: bool
     arms: PoseArms
@@ -154,7 +144,7 @@ class Synthesis:
 
     @property
     def hand(self) -> float:
-        """The gripping point on the coupler, from O2 towards O2' [m]."""
+        """The point H on the coupler, from O2 towards O2' [m]."""
         drawn = self.best.candidate.four_bar
         return (drawn.tracer_on_coupler or 0j).real
 
@@ -169,21 +159,7 @@ class Synthesis:
         return np.asarray(np.abs(dyad.place(dyad.first_angles(points, angles), angles) - points))
 
 
-def read_three_poses(text: str) -> HandPoses:
-    """The three poses of a text. Raises ParameterError for anything else."""
-    points, angles = read_poses("poses", text)
-    if len(points) in OTHERS:
-        given = f"{len(points)} pose{'s' if len(points) > 1 else ''}"
-        raise ParameterError(given, allowed="exactly 3", do=OTHERS[len(points)])
-    if len(points) > max(OTHERS):
-        raise ParameterError(
-            f"{len(points)} poses", allowed="exactly 3", do="no four-bar takes more than 5 exactly: choose among them"
-        )
-    require_task("pose", points, angles, 3, "knotting-four-bar")
-    return HandPoses(points, angles, text)
-
-
-def synthesised(poses: HandPoses, ground_angle: float | None) -> Synthesis:
+def synthesised(poses: ThreePoses, ground_angle: float | None) -> ThreePoseSynthesis:
     """The four-bar through three poses, the best of both cranks; ground angle [rad], or None to try them.
 
     Raises ParameterError where there are not two real arms, or where neither four-bar goes through the poses without
@@ -207,10 +183,10 @@ def synthesised(poses: HandPoses, ground_angle: float | None) -> Synthesis:
     if not kept:
         raise _only_defective(poses, ground_angle, choices)
     best = max(kept, key=lambda one: one.candidate.least_transmission)
-    return Synthesis(poses, ground_angle, tried, roots, dyads, choices, best)
+    return ThreePoseSynthesis(poses, ground_angle, tried, roots, dyads, choices, best)
 
 
-def best_ray(poses: HandPoses) -> float | None:
+def best_ray(poses: ThreePoses) -> float | None:
     """Of rays half a degree apart the one with the best transmission angle [rad]; None where none has a four-bar.
 
     The angles at the poses bound that of the whole motion: four-bars are judged from the highest bound downwards.
@@ -227,7 +203,7 @@ def best_ray(poses: HandPoses) -> float | None:
     return best
 
 
-def _bounds(poses: HandPoses) -> Float[np.ndarray, "rays 2"]:
+def _bounds(poses: ThreePoses) -> Float[np.ndarray, "rays 2"]:
     """The most that the transmission angle can be [rad], for each ray and driven arm; -1 where there is no four-bar.
 
     Left out are those with the poses on two branches, and those whose crank does not turn fully and is at the poses out
@@ -266,7 +242,7 @@ def turned_through(candidate: Candidate) -> Float[np.ndarray, "3"]:
     return np.asarray(angles - turn * np.floor(angles[-1] / turn))
 
 
-def _choices(poses: HandPoses, dyads: tuple[TwoLinkArm, ...], filters: Filters | None = None) -> list[PoseFourBar]:
+def _choices(poses: ThreePoses, dyads: tuple[TwoLinkArm, ...], filters: Filters | None = None) -> list[PoseFourBar]:
     """Every pair of arms as a four-bar, with either of them driven."""
     task = PrecisionTask(points=poses.points, coupler=poses.angles)
     found = []
@@ -278,7 +254,7 @@ def _choices(poses: HandPoses, dyads: tuple[TwoLinkArm, ...], filters: Filters |
     return found
 
 
-def _joined(poses: HandPoses, crank: TwoLinkArm, rocker: TwoLinkArm) -> FourBar | None:
+def _joined(poses: ThreePoses, crank: TwoLinkArm, rocker: TwoLinkArm) -> FourBar | None:
     """Two arms as drawn at the first pose; None where two of their pins are one."""
     A, B = (poses.points[0] - arm.second * unit(poses.angles[0]) for arm in (crank, rocker))
     try:
@@ -287,7 +263,7 @@ def _joined(poses: HandPoses, crank: TwoLinkArm, rocker: TwoLinkArm) -> FourBar 
         return None
 
 
-def _too_few(poses: HandPoses, ground_angle: float, roots: PoseArms) -> ParameterError:
+def _too_few(poses: ThreePoses, ground_angle: float, roots: PoseArms) -> ParameterError:
     count = int(np.sum(roots.found == RootKind.ARM))
     kinds = dict.fromkeys(RootKind(int(one)).words for one in roots.found if one != RootKind.ARM)
     arms = ("no real arm takes", "only one real arm takes")[count]
@@ -299,7 +275,7 @@ def _too_few(poses: HandPoses, ground_angle: float, roots: PoseArms) -> Paramete
     )
 
 
-def _rays_with_two(poses: HandPoses) -> str:
+def _rays_with_two(poses: ThreePoses) -> str:
     """Which ground angles have two real arms."""
     shape = (DIRECTIONS.size, 3)
     points, angles = (np.broadcast_to(one, shape) for one in (poses.points, poses.angles))
@@ -314,7 +290,7 @@ def _rays_with_two(poses: HandPoses) -> str:
     return f"ground_angle {' or '.join(spans)}, or their opposites, has two; the default is the best"
 
 
-def _only_defective(poses: HandPoses, ground_angle: float, choices: tuple[PoseFourBar, ...]) -> ParameterError:
+def _only_defective(poses: ThreePoses, ground_angle: float, choices: tuple[PoseFourBar, ...]) -> ParameterError:
     reasons = "; ".join(f"driven at arm {one.crank + 1}: {' and '.join(one.defects.values())}" for one in choices)
     best = best_ray(poses)
     other = "move or turn a pose" if best is None else f"ground_angle={np.degrees(best):g}deg has one"

@@ -1,11 +1,11 @@
-"""The path of an arm: its needle always goes through the middle of the gap between two warps.
+"""A two-link arm whose second link always goes through one fixed point, and its joint angles along that path.
 
-Link 2 is the needle. Its line goes through the middle G of the gap everywhere on the path, as if it slid in a swivel
-there: the arm moves like an oscillating block, and G, the pivot O and the elbow E are a triangle with two fixed sides,
+The line of link 2 goes through the point G everywhere on the path, as if it slid in a swivel there: the arm moves like
+an oscillating block, and G, the pivot O and the elbow E are a triangle with two fixed sides,
 
     b = |O - G|,     a1 = |E - O|,     r = |E - G| = a2 - rho,     rho = rho0 + s (rho1 - rho0),     0 <= s <= 1
 
-rho is how far the tip is beyond G, below 0 in front of the warps; it grows evenly with the parameter s. So with the
+rho is how far the tip is beyond G, below 0 on the elbow's side; it grows evenly with the parameter s. So with the
 angles psi of the triangle at G and chi at O,
 
     cos psi = (r + (b² - a1²)/r) / 2b           E - G = r exp(i (arg(O - G) + side psi)),    th2 = arg(G - E)
@@ -38,7 +38,7 @@ Jet: TypeAlias = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 class ArmPath:
     """Joint angles along an arm's path, and their derivatives by the path's parameter s.
 
-    s      0: at rest in front of the warps, 1: at the hand-over behind them; the arm goes out and back on the same path
+    s      0 where the path begins, 1 where it ends
     theta  angles of the first and second link, absolute [rad], without jumps; the elbow's angle is their difference
     first, second, third  derivatives of theta by s [rad]
     """
@@ -51,34 +51,34 @@ class ArmPath:
 
 
 @dataclass(frozen=True, slots=True)
-class Arm:
-    """The left arm and its path; the right one is its mirror image (`mirrored_path`).
+class SwivelledArm:
+    """An arm and its path; that of its mirror image: `mirrored_path`.
 
     pivot   O [m]             first, second  links a1, a2 [m], both above 0
-    gap     G [m]             side           of the elbow: +1 left of the line from the gap to the pivot, -1 right
+    swivel  G [m]             side           of the elbow: +1 left of the line from G to the pivot, -1 right
     begin   rho0 [m], below 0           end  rho1 [m]
     """
 
     pivot: complex
     first: float
     second: float
-    gap: complex
+    swivel: complex
     side: int
     begin: float
     end: float
 
     @property
     def base(self) -> float:
-        """Distance b of the pivot from the gap [m]."""
-        return abs(self.pivot - self.gap)
+        """Distance b of the pivot from G [m]."""
+        return abs(self.pivot - self.swivel)
 
     @property
     def stroke(self) -> float:
-        """Length of the path along the needle [m]."""
+        """Length of the path along link 2 [m]."""
         return self.end - self.begin
 
     def beyond(self, s: FloatArray) -> FloatArray:
-        """Distance rho of the tip beyond the gap's middle [m]."""
+        """Distance rho of the tip beyond G [m]."""
         return np.asarray(self.begin + s * self.stroke)
 
     def elbow(self, s: FloatArray) -> ComplexArray:
@@ -86,11 +86,11 @@ class Arm:
         return np.asarray(self.pivot + self.first * unit(self._first(s)[0]))
 
     def tip(self, s: FloatArray) -> ComplexArray:
-        """Positions of the needle's tip [m]; NaN where the arm cannot close."""
-        return np.asarray(self.gap + self.beyond(s) * unit(self._second(s)[0]))
+        """Positions of the tip P [m]; NaN where the arm cannot close."""
+        return np.asarray(self.swivel + self.beyond(s) * unit(self._second(s)[0]))
 
     def tilt(self, s: FloatArray) -> FloatArray:
-        """Angle of the needle from upright [rad], positive where the tip is farther right than the elbow."""
+        """Angle of link 2 from upright [rad], positive where the tip is farther right than the elbow."""
         return np.asarray((self._second(s)[0] + 3 * np.pi / 2) % (2 * np.pi) - np.pi)
 
     @property
@@ -114,7 +114,7 @@ class Arm:
 
     @property
     def speed_bound(self) -> float:
-        """Bound of |dz/ds| of every point of both links [m]: along the needle, and about the gap."""
+        """Bound of |dz/ds| of every point of both links [m]: along link 2, and about G."""
         far = max(self.second - self.begin, self.end)
         return math.hypot(self.stroke, far * self.turn_bound)
 
@@ -128,7 +128,7 @@ class Arm:
         r, fall, double = self.second - self.beyond(s), -self.stroke, 2 * self.first * self.base
         cosine = (self.first**2 + self.base**2 - r**2) / double, -2 * r * fall / double
         jet = _arccosine((*cosine, np.full_like(r, -2 * fall**2 / double), np.zeros_like(r)))
-        return _turned(jet, float(np.angle(self.gap - self.pivot)), -self.side)
+        return _turned(jet, float(np.angle(self.swivel - self.pivot)), -self.side)
 
     def _second(self, s: FloatArray) -> Jet:
         """th2 and its derivatives."""
@@ -139,7 +139,7 @@ class Arm:
             fall**2 * excess / (self.base * r**3),
             -3 * fall**3 * excess / (self.base * r**4),
         )
-        return _turned(_arccosine(cosine), float(np.angle(self.gap - self.pivot)), self.side)
+        return _turned(_arccosine(cosine), float(np.angle(self.swivel - self.pivot)), self.side)
 
 
 def mirrored_path(path: ArmPath) -> ArmPath:
