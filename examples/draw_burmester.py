@@ -51,7 +51,7 @@ def figure(curve: BurmesterCurve) -> Drawing:
 
 def within(branch: CurveBranch, role: str, label: str) -> Iterator[Stroke]:
     """The parts of a branch within the window."""
-    places = np.append(branch.places, branch.places[:1]) if branch.closed else branch.places
+    places = np.append(branch.points, branch.points[:1]) if branch.closed else branch.points
     for part in runs(places):
         yield Stroke(part, role, label)
 

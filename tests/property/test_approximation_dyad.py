@@ -27,7 +27,7 @@ def test_a_planted_arm_is_found_without_error(seed: int, criterion: str) -> None
     random = np.random.default_rng(seed)
     th1, th2 = random.uniform(-3, 3, (2, 1)) + np.cumsum(random.uniform(0.1, 0.4, (2, 8)), axis=-1)
     arm = TwoLinkArm(complex(*random.uniform(-1, 1, 2)), 0.0, *random.uniform(0.4, 2, 2).tolist())
-    best = dyads_along(arm.place(th1, th2), th1, criterion).found[0]
+    best = dyads_along(arm.end_position(th1, th2), th1, criterion).found[0]
     assert best.worst < 1e-8
     assert abs(best.dyad.pivot - arm.pivot) + abs(best.dyad.first - arm.first) < 1e-5
 
@@ -75,9 +75,9 @@ def test_each_criterion_is_best_by_its_own_measure() -> None:
         (PATH, ANGLES[:5], "minimax", "one angle for each point"),
         (PATH, np.degrees(ANGLES), "minimax", "radians"),
         (PATH, ANGLES, "closest", "interpolation, least squares, minimax"),
-        (PATH * 0, ANGLES, "minimax", "all timed points are one"),
+        (PATH * 0, ANGLES, "minimax", "all timed points are the same"),
         (PATH * np.nan, ANGLES, "minimax", "not finite"),
-        (PATH, ANGLES * 0 + 1, "minimax", "whole family"),
+        (PATH, ANGLES * 0 + 1, "minimax", "family"),
     ],
 )
 def test_a_wrong_task_is_answered_in_words(points: np.ndarray, angles: np.ndarray, criterion: str, words: str) -> None:

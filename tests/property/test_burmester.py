@@ -129,7 +129,7 @@ def test_a_slider_is_a_link_with_its_pivot_infinitely_far() -> None:
     assert slider.length == np.inf
     with_slider = [one for one in four_bars(found) if slider in (one.one, one.other)]
     assert with_slider
-    assert all(one.four_bar is None and "straight line" in one.said for one in with_slider)
+    assert all(one.four_bar is None and "straight line" in one.description for one in with_slider)
 
 
 def test_a_turning_block_is_a_link_with_its_pin_infinitely_far() -> None:
@@ -162,7 +162,7 @@ def test_both_cranks_of_a_four_bar_lie_on_the_curves_of_four_of_its_poses(task) 
         (curve.circle_branches, (drawn.a, drawn.b)),
     ):
         for place in places:
-            nearest = min(distance(branch.places, branch.closed, place) for branch in branches)
+            nearest = min(distance(branch.points, branch.closed, place) for branch in branches)
             assert nearest < 0.05 * max(1, abs(place))
 
 
@@ -189,7 +189,7 @@ def test_the_curves_go_through_the_poles_of_their_poses_and_infinity_along_the_a
         for j in range(i):
             turned = np.exp(1j * (angles[i] - angles[j]))
             pole = (points[i] - turned * points[j]) / (1 - turned)
-            gap = min(distance(branch.places, branch.closed, pole) for branch in curve.centre_branches)
+            gap = min(distance(branch.points, branch.closed, pole) for branch in curve.centre_branches)
             assert gap < 2e-3 * max(1, abs(pole))
     for branches, asymptote in (
         (curve.centre_branches, curve.centre_asymptote),
@@ -262,16 +262,16 @@ FIVE = np.array([0, 1, 1 + 1j, 2j, 3 + 1j])
     [
         (arms_through_five_poses, FIVE[:4], TURNS[:4], "given 4 poses; exactly 5; for 4: burmester_curve"),
         (burmester_curve, FIVE, TURNS, "given 5 poses; exactly 4; for 5: arms_through_five_poses"),
-        (burmester_curve, FIVE[:2], TURNS[:2], "exact methods take 3"),
+        (burmester_curve, FIVE[:2], TURNS[:2], "exact methods: 3"),
         (arms_through_five_poses, FIVE, TURNS[:4], "5 points and 4 angles"),
         (arms_through_five_poses, FIVE, TURNS / deg, "angles are in radians"),
-        (arms_through_five_poses, FIVE * np.array([1, 1, np.nan, 1, 1]), TURNS, "pose 3 is not a number"),
-        (arms_through_five_poses, FIVE[[0, 1, 2, 3, 1]], TURNS[[0, 1, 2, 3, 1]], "poses 2 and 5 are one"),
-        (arms_through_five_poses, FIVE, 0 * TURNS, "one angle at all poses"),
-        (arms_through_five_poses, 1j + np.exp(1j * TURNS), TURNS, "one rotation makes all poses"),
-        (arms_through_five_poses, np.cos(TURNS) + 0.3 * np.exp(1j * TURNS), TURNS, "a whole family"),
-        (burmester_curve, FIVE[:4], 0 * TURNS[:4], "one angle at all poses"),
-        (burmester_curve, 1j + np.exp(1j * TURNS[:4]), TURNS[:4], "one rotation makes all poses"),
+        (arms_through_five_poses, FIVE * np.array([1, 1, np.nan, 1, 1]), TURNS, "pose 3 is not finite"),
+        (arms_through_five_poses, FIVE[[0, 1, 2, 3, 1]], TURNS[[0, 1, 2, 3, 1]], "poses 2 and 5 are the same"),
+        (arms_through_five_poses, FIVE, 0 * TURNS, "same angle at all poses"),
+        (arms_through_five_poses, 1j + np.exp(1j * TURNS), TURNS, "all poses are rotations about one point"),
+        (arms_through_five_poses, np.cos(TURNS) + 0.3 * np.exp(1j * TURNS), TURNS, "a family"),
+        (burmester_curve, FIVE[:4], 0 * TURNS[:4], "same angle at all poses"),
+        (burmester_curve, 1j + np.exp(1j * TURNS[:4]), TURNS[:4], "all poses are rotations about one point"),
     ],
 )
 def test_what_is_no_task_of_poses(method, points, angles, said: str) -> None:

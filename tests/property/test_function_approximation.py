@@ -91,7 +91,7 @@ def test_interpolation_is_exact_at_chebyshevs_places() -> None:
         ({"criterion": "best"}, "interpolation, least squares, minimax"),
         ({"crank_start": 60.0}, "60 deg is 1.0472 rad"),
         ({"ground": -1.0}, "ground -1 m"),
-        ({"weight": lambda x: x - 1}, "above 0 all over the range"),
+        ({"weight": lambda x: x - 1}, "above 0 over the whole range"),
     ],
 )
 def test_a_wrong_question_is_answered_in_words(wrong: dict[str, object], words: str) -> None:
@@ -102,12 +102,12 @@ def test_a_wrong_question_is_answered_in_words(wrong: dict[str, object], words: 
 def test_what_is_no_four_bar_is_told_in_words() -> None:
     steep = Function(lambda x: x**3, 0.0, 1.0, 60 * deg, 300 * deg)
     starts = {"crank_start": 1.0, "rocker_start": 0.8}
-    both = "a four-bar that shows Chebyshev's places on both of its branches"
+    both = "a four-bar that meets the Chebyshev nodes on two branches"
     assert function_approximations(steep, "interpolation", **starts) == ((), (both,))
     answer = function_approximations(steep, "least squares", **starts)
     assert not answer.found
     assert "dead centre" in answer.left_out[-1]
-    assert "no four-bar goes through" in function_approximations(ROOT, "interpolation", rocker_start=0.8).left_out[0]
+    assert "no four-bar passes through" in function_approximations(ROOT, "interpolation", rocker_start=0.8).left_out[0]
 
 
 @pytest.mark.parametrize(

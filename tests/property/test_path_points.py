@@ -88,8 +88,8 @@ def test_four_timed_points_have_a_curve_of_cranks_with_those_of_given_angle_on_i
     arms = dyads_through_points(points, angles)
     assert min(abs(one.pivot - drawn.a0) + abs(one.first - abs(drawn.a)) for one in arms) < 1e-5
     curve = timed_curve(points, angles, 60)
-    pivots = np.concatenate([branch.places for branch in curve.centre_branches])
-    vectors = np.concatenate([branch.places for branch in curve.circle_branches])
+    pivots = np.concatenate([branch.points for branch in curve.centre_branches])
+    vectors = np.concatenate([branch.points for branch in curve.circle_branches])
     assert len(pivots) == len(vectors) == 60 * len(curve.loops)
     # The same crank in both: as its pivot, and as a vector.
     for guide in curve.guides()[::7]:
@@ -148,7 +148,7 @@ def test_points_on_a_line_are_told() -> None:
     points = np.array([0, 1, 2.5, 3, 4]) + 1j
     kinds = [one.kind for one in cranks_through_five_points(points, TURNS)]
     assert CrankKind.LINE in kinds
-    assert any("lie on a line" in one.said for one in timed_four_bars(points, TURNS))
+    assert any("lie on a line" in one.description for one in timed_four_bars(points, TURNS))
     arms = arms_through_points(points[:4], TURNS[:4])
     line = int(np.flatnonzero(arms.found == RootKind.LINE)[0])
     assert (arms.first[line], arms.second[line]) == (0, np.inf)
@@ -159,8 +159,8 @@ def test_points_on_a_circle_are_told() -> None:
     points = 1 + 2j + np.exp(1j * np.array([0, 0.5, 1.4, 2.2, 3.0]))
     still = next(one for one in cranks_through_five_points(points, TURNS) if one.kind is CrankKind.STILL)
     assert still.pivot == pytest.approx(1 + 2j)
-    assert any("lie on a circle" in one.said for one in timed_four_bars(points, TURNS))
-    assert any("lie on a circle" in one.said for one in timed_four_bars(points[:4], TURNS[:4]))
+    assert any("lie on a circle" in one.description for one in timed_four_bars(points, TURNS))
+    assert any("lie on a circle" in one.description for one in timed_four_bars(points[:4], TURNS[:4]))
 
 
 def test_a_pivot_infinitely_far_is_told() -> None:
@@ -171,7 +171,7 @@ def test_a_pivot_infinitely_far_is_told() -> None:
     assert arms.first[far] == pytest.approx(0.5)
     assert abs((arms.pivot[far] * np.exp(-0.3j)).real) < 1e-9
     assert len(dyads_through_points(points, TURNS[:4])) in {0, 2}
-    assert any("pivot is infinitely far" in one.said for one in timed_four_bars(points, TURNS[:4]))
+    assert any("pivot is infinitely far" in one.description for one in timed_four_bars(points, TURNS[:4]))
 
 
 def test_equal_radii_and_a_path_along_x_are_tasks_like_any_other() -> None:
@@ -179,7 +179,7 @@ def test_equal_radii_and_a_path_along_x_are_tasks_like_any_other() -> None:
     random = np.random.default_rng(5)
     planted_arm = TwoLinkArm(0.3 + 0.2j, abs(0.3 + 0.2j), 0.8, 0.6)
     th1 = np.sort(random.uniform(0, 2.5, size=4))
-    points = planted_arm.place(th1, np.array([0.4, 1.5, 1.1, 2.9]))
+    points = planted_arm.end_position(th1, np.array([0.4, 1.5, 1.1, 2.9]))
     centre = circle_centre(points[:3])
     moved = points - centre  # three of the radii are equal now
     found = dyads_through_points(moved, th1)
@@ -234,15 +234,20 @@ FIVE = np.array([0, 1, 1 + 1j, 2j, 3 + 1j])
     [
         (cranks_through_five_points, FIVE[:4], TURNS[:4], "4 timed points; exactly 5; for 4: dyads_through_points"),
         (timed_curve, FIVE, TURNS, "5 timed points; exactly 4; for 5: cranks_through_five_points"),
-        (timed_four_bars, FIVE[:2], TURNS[:2], "3 to 5 points are met exactly; give more points"),
-        (timed_four_bars, np.arange(6) + 1j, np.arange(6) / 2, "for more points search approximately"),
-        (timed_four_bars, FIVE[:3], TURNS[:3], "both pivots free"),
+        (timed_four_bars, FIVE[:2], TURNS[:2], "3 to 5 points for an exact solution; give more points"),
+        (timed_four_bars, np.arange(6) + 1j, np.arange(6) / 2, "for more points use approximate synthesis"),
+        (timed_four_bars, FIVE[:3], TURNS[:3], "do not determine the pivots"),
         (timed_four_bars, FIVE, TURNS / deg, "angles are in radians"),
-        (timed_four_bars, FIVE[[0, 1, 2, 1]], TURNS[[0, 1, 2, 1]], "timed points 2 and 4 are one"),
-        (cranks_through_five_points, FIVE, 0 * TURNS, "the crank has one angle at all points"),
-        (timed_curve, FIVE[:4], 0 * TURNS[:4], "the crank has one angle at all points"),
-        (timed_four_bars, 1j + np.exp(1j * TURNS), TURNS, "timed as the crank turns, so that a crank of any length"),
-        (timed_curve, 1j + np.exp(1j * TURNS[:4]), TURNS[:4], "timed as the crank turns"),
+        (timed_four_bars, FIVE[[0, 1, 2, 1]], TURNS[[0, 1, 2, 1]], "timed points 2 and 4 are the same"),
+        (cranks_through_five_points, FIVE, 0 * TURNS, "the crank has the same angle at all points"),
+        (timed_curve, FIVE[:4], 0 * TURNS[:4], "the crank has the same angle at all points"),
+        (
+            timed_four_bars,
+            1j + np.exp(1j * TURNS),
+            TURNS,
+            "follow the rotation of the crank, so that a crank of any length",
+        ),
+        (timed_curve, 1j + np.exp(1j * TURNS[:4]), TURNS[:4], "follow the rotation of the crank"),
     ],
 )
 def test_what_is_no_timed_path(method, points, angles, said: str) -> None:
@@ -254,5 +259,5 @@ def test_a_crank_whose_coupler_does_not_turn_says_so() -> None:
     """A parallelogram's tracer: the crank is found, its coupler's poses leave the second link free."""
     crank = TimedCrank(CrankKind.CRANK, 0j, 0.7 + 0j)
     shifted = 2 + 0.7 * np.exp(1j * (TURNS - TURNS[0]))
-    with pytest.raises(ParameterError, match="one angle at all poses"):
+    with pytest.raises(ParameterError, match="same angle at all poses"):
         second_arms(crank, shifted, TURNS)

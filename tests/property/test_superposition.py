@@ -21,7 +21,7 @@ def planted(seed: int, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, 
     links = random.uniform(0.4, 2, 2)
     th1, th2 = random.uniform(-3, 3, (2, 1)) + np.cumsum(random.uniform(0.3, 0.9, (2, count)), axis=-1)
     arm = TwoLinkArm(pivot, abs(pivot), float(links[0]), float(links[1]))
-    return arm.place(th1, th2), th1, th2, arm
+    return arm.end_position(th1, th2), th1, th2, arm
 
 
 def apart(one: TwoLinkArm, other: TwoLinkArm) -> float:

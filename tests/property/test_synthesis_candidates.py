@@ -15,7 +15,7 @@ from ilmek.synthesis.task import PrecisionTask
 def drawn_on(four_bar: FourBar, loops: tuple[CircuitLoop, ...]) -> tuple[int, float]:
     """The circuit on which a four-bar is drawn, and where."""
     for index, loop in enumerate(loops):
-        for u in loop.places(four_bar.crank_angle, 1e-6):
+        for u in loop.parameters_at(four_bar.crank_angle, 1e-6):
             if abs(loop.at(np.array([u])).b[0] - four_bar.b) < 1e-6:
                 return index, float(u)
     raise AssertionError("drawn on none of its circuits")

@@ -149,7 +149,7 @@ def test_a_function_may_be_given_by_samples() -> None:
 def test_a_rocker_at_rest_leaves_no_four_bar_and_says_so() -> None:
     found = function_generators(np.array([0, 0.5, 1.0]), np.zeros(3), crank_start=0.3, rocker_start=1.0)
     assert found.four_bars == ()
-    assert found.left_out == ("crank or rocker shrinks to a point beside the ground",)
+    assert found.left_out == ("crank or rocker degenerates to a point",)
 
 
 TURNS = np.array([0.0, 0.4, 0.9, 1.3, 1.5, 1.6])
@@ -158,7 +158,7 @@ TURNS = np.array([0.0, 0.4, 0.9, 1.3, 1.5, 1.6])
 @pytest.mark.parametrize(
     ("pairs", "starts", "said"),
     [
-        (2, {}, "through 2 pairs of angles; 3 with both start angles given.*give three at least"),
+        (2, {}, "through 2 pairs of angles; 3 with both start angles given.*give at least three"),
         (6, {}, "`function_approximations` fits the whole range"),
         (3, {}, "3 pairs of angles and 0 start angles.*no start angle given: 5 pairs"),
         (4, {"crank_start": 0.1, "rocker_start": 0.2}, "both start angles given: 3 pairs"),
@@ -176,7 +176,7 @@ def test_pairs_and_start_angles_that_do_not_go_together(pairs: int, starts: dict
     [
         ([0, 40, 80, 90, 95], [0, 30, 50, 55, 57], "95 deg would be 1.65806"),
         ([0, 0.5, 0.5, 1, 2], [0, 0.2, 0.2, 1, 3], "pairs 2 and 3 are the same"),
-        ([0, 0.5, 0.8, 1, 2], [0, 0.5, 0.8, 1, 2], "a whole family"),
+        ([0, 0.5, 0.8, 1, 2], [0, 0.5, 0.8, 1, 2], "a family"),
         ([0, 0.5, 0.8], [0, 0.5], "of shapes"),
         ([0, 0.5, np.nan, 1, 2], [0, 0.2, 0.3, 1, 3], "not finite"),
     ],

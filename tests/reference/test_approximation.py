@@ -118,14 +118,14 @@ def test_nodes_of_chebyshev_keep_the_error_near_the_least() -> None:
     [
         (lambda p: interpolation(p, np.array([0.0, 1.0]), range_nodes(0.0, 1.0)), "2 different nodes for 3 parameters"),
         (lambda p: interpolation(p, np.array([0.0, 1.0, 1.0]), range_nodes(0.0, 1.0)), "2 different nodes"),
-        (lambda p: minimax(p, np.array([0.0, 1.0, 2.0])), "3 places for 3 parameters"),
+        (lambda p: minimax(p, np.array([0.0, 1.0, 2.0])), "3 points for 3 parameters"),
         (lambda p: minimax(p, range_nodes(1.0, 0.0)), "x from 1 to 0"),
-        (lambda p: SynthesisPolynomial(p.terms, p.wanted, ((0, 1),)), "without their terms"),
-        (lambda p: SynthesisPolynomial(p.terms, p.wanted, ((0, 1), (1, 0)), p.terms), "two at most"),
+        (lambda p: SynthesisPolynomial(p.terms, p.target, ((0, 1),)), "without their terms"),
+        (lambda p: SynthesisPolynomial(p.terms, p.target, ((0, 1), (1, 0)), p.terms), "two at most"),
         (lambda p: minimax(SynthesisPolynomial(p.terms, np.log), range_nodes(0.0, 1.0)), "not finite"),
         (
-            lambda p: least_squares(SynthesisPolynomial(lambda x: np.ones((len(x), 2)), p.wanted), range_nodes(0, 1)),
-            "same",
+            lambda p: least_squares(SynthesisPolynomial(lambda x: np.ones((len(x), 2)), p.target), range_nodes(0, 1)),
+            "dependent",
         ),
     ],
 )

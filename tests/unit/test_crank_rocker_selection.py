@@ -59,7 +59,7 @@ def test_the_centric_linkage_has_the_best_transmission_angle_at_any_ratio() -> N
         (30, 180, 75, "above 0 deg, below 75 deg"),
         (30, 200, -1, "above 0 deg, below 75 deg"),
         (30, 230, 70, "above 75 deg, below 130 deg"),
-        (30, 210, 70, "75 deg only"),
+        (30, 210, 70, "only 75 deg"),
     ],
 )
 def test_says_the_allowed_interval_in_degrees(swing: float, rotation: float, beta: float | None, said: str) -> None:

@@ -78,7 +78,7 @@ def test_what_is_too_unequal_goes_and_says_so() -> None:
     said = answer(**POWER)
     results = said.as_json()["results"]
     assert results["removed_counts"] == {"link_ratio": 1}
-    assert "times the shortest, asked at most 10" in results["removed"][0]["reasons"]["link_ratio"]
+    assert "times the shortest, allowed at most 10" in results["removed"][0]["reasons"]["link_ratio"]
     none = answer(error_max="0.0001deg")
     assert none.as_json()["results"]["chosen"] is None
     assert isinstance(none.figures[0], Plot)

@@ -123,7 +123,7 @@ def test_turned_and_scaled_poses_make_the_same_four_bar(turned, factor) -> None:
     ("given", "said"),
     [
         ({"ground_angle": "40deg"}, "no real arm .* ground_angle 0deg..18.5deg or 67deg..179.5deg"),
-        ({"ground_angle": "1deg"}, "has to be taken apart.*ground_angle=109.5deg has one"),
+        ({"ground_angle": "1deg"}, "must be disassembled.*ground_angle=109.5deg has one"),
         ({"poses": "(0mm,0mm,10deg) (30mm,1mm,-25deg) (25mm,15mm,3deg)"}, "meets the positions in the order 1, 3, 2"),
         ({"poses": TURNED}, "only one real arm .* keeps its angle to the ground ray.*; no ground angle has two"),
         ({"r0": "78.105mm"}, "poses are given together with ground; either poses, .*; leave out poses, or ground"),
@@ -133,7 +133,7 @@ def test_turned_and_scaled_poses_make_the_same_four_bar(turned, factor) -> None:
         ({"poses": PUBLISHED + " (31mm,1mm,-30deg)"}, "4 poses; exactly 3; for 4 poses: motion-four-bar"),
         ({"poses": PUBLISHED + " (31mm,1mm,-30deg)" * 3}, "6 poses; exactly 3; no four-bar takes more than 5"),
         ({"poses": "(0mm,0mm,10deg)"}, "1 pose; exactly 3"),
-        ({"poses": "(0mm,0mm,10deg) (25mm,15mm,3deg) (25mm,15mm,3deg)"}, "poses 2 and 3 are one"),
+        ({"poses": "(0mm,0mm,10deg) (25mm,15mm,3deg) (25mm,15mm,3deg)"}, "poses 2 and 3 are the same"),
         ({"poses": "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25)"}, "did you mean -25deg"),
         ({"poses": "(0mm,0mm,10rad) (25mm,15mm,3rad) (30mm,1mm,-25rad)"}, "angles are in radians"),
     ],

@@ -124,12 +124,15 @@ def test_promising_pairs_come_by_their_worst_angle_at_the_poses() -> None:
     [
         ({"poses": "(0,0,0) (1mm,2mm,3deg)"}, "given 2 poses; 3, 4 or 5 are met exactly; give three at least"),
         ({"poses": FIVE + "(1mm,1mm,9deg)"}, "path-four-bar comes near any number of points"),
-        ({"poses": THREE + "(25mm,15mm,3deg)"}, "poses 2 and 4 are one; leave one out or move it"),
+        ({"poses": THREE + "(25mm,15mm,3deg)"}, "poses 2 and 4 are the same; remove one or change it"),
         ({"poses": "(0,0) (1mm,2mm) (3mm,4mm)"}, "holds 2 numbers, not 3; poses are written (0mm,0mm,10deg)"),
         ({"poses": "(0mm,0mm,10) (25mm,15mm,3) (30mm,1mm,-25)"}, "10 has no unit; did you mean 10deg"),
         ({"poses": "(0,0,10rad) (25mm,15mm,3rad) (30mm,1mm,-25rad)"}, "-25 deg would be"),
-        ({"poses": "(0,0,0) (10mm,0,0) (20mm,9mm,0) (30mm,1mm,0)"}, "the body has one angle at all poses"),
-        ({"poses": "(10mm,0,0) (0,10mm,90deg) (-10mm,0,180deg) (0,-10mm,270deg)"}, "one rotation makes all poses"),
+        ({"poses": "(0,0,0) (10mm,0,0) (20mm,9mm,0) (30mm,1mm,0)"}, "the body has the same angle at all poses"),
+        (
+            {"poses": "(10mm,0,0) (0,10mm,90deg) (-10mm,0,180deg) (0,-10mm,270deg)"},
+            "all poses are rotations about one point",
+        ),
         ({"poses": FOUR, "pivots": "(0,0) (9mm,0)"}, "pivots are given for 4 poses; three poses leave them free"),
         ({"pivots": "(0,0) (9mm,0)", "pins": "(0,0) (9mm,0)"}, "pivots and pins are given; one of them, or neither"),
         ({"pivots": "(0,0)"}, "pivots holds 1 points; two, one for each link"),

@@ -14,7 +14,7 @@ from ilmek.linkage.structure import plan
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.circuit_loops import circuit_loops
 from ilmek.synthesis.crank_rocker.dead_centres import best_ratio, links_of_ratio, transmission_angle_min
-from ilmek.synthesis.filters import Filters, defects, sift
+from ilmek.synthesis.filters import Filters, defects, filter_candidates
 from ilmek.synthesis.four_bar import FourBar, LinkLengths, from_lengths
 from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg
@@ -60,7 +60,7 @@ def test_a_position_on_the_other_circuit_is_told() -> None:
     assert not found.one_circuit
     assert found.met
     assert [one.circuit for one in found.positions] == [1, 1, 2, 1]
-    assert defects(found) == {"one_circuit": "has to be taken apart: positions 1, 2, 4 and 3 are on circuits 1 and 2"}
+    assert defects(found) == {"one_circuit": "must be disassembled: positions 1, 2, 4 and 3 are on circuits 1 and 2"}
 
 
 def test_a_circuit_told_by_the_crank_s_range() -> None:
@@ -170,7 +170,7 @@ def test_limits_are_sieved_only_where_they_are_asked() -> None:
     said = defects(found, asked)
     assert list(said) == ["full_turn", "transmission", "link_ratio", "size"]
     assert said["full_turn"] == "the crank does not turn fully: triple-rocker"
-    assert said["link_ratio"] == "longest link 1.667 times the shortest, asked at most 1.2"
+    assert said["link_ratio"] == "longest link 1.667 times the shortest, allowed at most 1.2"
     assert found.link_ratio == pytest.approx(1 / 0.6)
 
 
@@ -187,12 +187,12 @@ def test_what_is_removed_is_counted_and_explained() -> None:
     sound = planted(CRANK_ROCKER, [0.0, 0.7, 1.9, 3.2], [1] * 4)
     two = planted(CRANK_ROCKER, [0.0, 0.7, 1.9, 3.2], [1, 1, -1, 1])
     wrong = planted(CRANK_ROCKER, [0.0, 0.2, 0.5, 0.8], [1] * 4, [0, 2, 1, 3])
-    found = sift([two, sound, wrong, two])
+    found = filter_candidates([two, sound, wrong, two])
     assert found.kept == (sound,)
     assert found.counts == {"one_circuit": 2, "in_order": 1}
     assert found.words == "4 four-bars: 1 kept, 3 removed\npositions on two circuits: 2\npositions out of order: 1"
     everything = Filters(one_circuit=False, one_branch=False, in_order=False)
-    assert len(sift([two, sound, wrong], everything).kept) == 3
+    assert len(filter_candidates([two, sound, wrong], everything).kept) == 3
 
 
 @pytest.mark.parametrize("links", [TWO_RANGES])
@@ -243,7 +243,7 @@ def _dead_centres(swing: float, rotation: float) -> tuple[np.ndarray, np.ndarray
 @pytest.mark.parametrize(
     ("build", "said"),
     [
-        (PrecisionTask, "asks nothing"),
+        (PrecisionTask, "task is empty"),
         (
             lambda: PrecisionTask(points=np.array([0, 1, 1j]), crank=np.array([0.0, 1.0])),
             "points \\(3,\\), crank \\(2,\\)",

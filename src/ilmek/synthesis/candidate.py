@@ -1,6 +1,6 @@
-"""Judging a four-bar against its task: does it really do it, in one piece, in order, and how well.
+"""Check of a four-bar against its task: positions, circuit, branch, order, transmission angle, size.
 
-Circuits and branches come in closed form (`circuit_loops`), the errors by moving the four-bar through `linkage`.
+Circuits and branches are in closed form (`circuit_loops`); the errors are computed by forward simulation (`linkage`).
 [Chase and Mirth, Circuits and branches of single-degree-of-freedom planar linkages, 1993; Waldron on order and branch.]
 """
 
@@ -21,17 +21,18 @@ from ilmek.synthesis.four_bar import TRACER, FourBar
 from ilmek.synthesis.precision import PositionMatch, order, position_matches
 from ilmek.synthesis.task import PrecisionTask
 
-SWEEP = 72
-"""Crank angles at which size and transmission angle are looked at."""
+SAMPLES = 72
+"""Configurations of a circuit at which the size is computed."""
 
 
 @dataclass(frozen=True, slots=True)
 class PositionResult:
     """How a precision position is met.
 
-    crank_angle [rad, world; NaN where the linkage does not get there]
-    circuit  1 or 2; 0 where it does not get there      branch  +1, -1; 0 in a dead centre of the crank
-    point_error [m], coupler_error, rocker_error [rad]  by forward simulation; NaN where not asked, or not reached
+    crank_angle   in the ground frame [rad]; NaN where the position is not reached
+    circuit       1 or 2; 0 where the position is not reached
+    branch        +1, -1; 0 at a dead centre of the crank
+    point_error [m], coupler_error, rocker_error [rad]   by forward simulation; NaN where not required or not reached
     """
 
     crank_angle: float
@@ -43,13 +44,13 @@ class PositionResult:
 
     @property
     def reached(self) -> bool:
-        """Whether the linkage closes there."""
+        """Whether the linkage closes at this position."""
         return self.circuit > 0
 
 
 @dataclass(frozen=True, slots=True)
 class CircuitSegment:
-    """A part of a circuit: crank angles from `low` to `high` [rad] on a branch, or with branch 0 the whole of it."""
+    """A part of a circuit: crank angles from `low` to `high` [rad] on a branch; with branch 0 the whole circuit."""
 
     loop: CircuitLoop
     low: float
@@ -58,34 +59,35 @@ class CircuitSegment:
 
     @property
     def samples(self) -> FloatArray:
-        """Parameters of the circuit along the stretch."""
+        """Parameters u of the circuit along the segment, shape (samples,)."""
         if not self.branch:
-            return np.linspace(0, 2 * np.pi, SWEEP, endpoint=False)
-        ends = [float(np.max(self.loop.places(end))) for end in (self.low, self.high)]
-        return np.linspace(ends[0], ends[1], SWEEP) * self.branch
+            return np.linspace(0, 2 * np.pi, SAMPLES, endpoint=False)
+        ends = [float(np.max(self.loop.parameters_at(end))) for end in (self.low, self.high)]
+        return np.linspace(ends[0], ends[1], SAMPLES) * self.branch
 
     @property
     def cosines(self) -> tuple[float, float]:
-        """Least and greatest cosine of the crank's angle off the ground link."""
-        drawn = self.loop.four_bar
-        low, high = (end - cmath.phase(drawn.b0 - drawn.a0) for end in (self.low, self.high))
+        """Least and greatest cosine of the angle between crank and ground link."""
+        linkage = self.loop.four_bar
+        low, high = (end - cmath.phase(linkage.b0 - linkage.a0) for end in (self.low, self.high))
         cosines = [math.cos(low), math.cos(high)]
-        # A multiple of pi within: the crank passes the ground line.
+        # At a multiple of pi in the range the crank passes the ground line.
         cosines += [(-1.0) ** k for k in range(math.ceil(low / math.pi), math.floor(high / math.pi) + 1)]
         return min(cosines), max(cosines)
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A four-bar, its task, and what was found.
+    """A four-bar, its task, and the results of the check.
 
     positions     how each precision position is met
-    circuits      number of circuits that the four-bar has (0: it does not close anywhere, 1 or 2)
-    order         positions, counted from 1, as the crank meets them turning one way; () where not on one circuit
-    in_order      whether that is the order of the task
-    transmission  least and greatest angle of coupler against rocker [rad]: over the turn of a crank that turns fully,
-                  else between its first and last position
-    link_ratio    longest link by shortest      size  greatest distance of places that pins, tracer reach [m], roughly
+    circuits      number of circuits of the four-bar: 1 or 2; 0 where it closes nowhere
+    order         positions, counted from 1, as the crank meets them in one direction; () where not on one circuit
+    in_order      whether this is the order of the task
+    transmission  least and greatest angle between coupler and rocker [rad]: over the turn of a crank that rotates
+                  fully, otherwise between its first and last position
+    link_ratio    longest link / shortest link [1]
+    size          greatest distance between two positions of pins and tracer [m], from samples
     """
 
     four_bar: FourBar
@@ -101,7 +103,7 @@ class Candidate:
 
     @property
     def crank_turns(self) -> bool:
-        """Whether the crank turns fully."""
+        """Whether the crank rotates fully."""
         return self.grashof.crank_turns
 
     @property
@@ -111,41 +113,43 @@ class Candidate:
 
     @property
     def one_circuit(self) -> bool:
-        """Whether all positions that it gets to are on one circuit."""
+        """Whether all positions that are reached are on one circuit."""
         return len({one.circuit for one in self.positions} - {0}) <= 1
 
     @property
     def one_branch(self) -> bool:
-        """Whether all positions that it gets to are on one branch of one circuit."""
+        """Whether all positions that are reached are on one branch of one circuit."""
         return self.one_circuit and len({one.branch for one in self.positions} - {0}) <= 1
 
     @property
     def point_error(self) -> float:
-        """Greatest error of a point [m]; NaN where none is asked."""
+        """Greatest error of a point [m]; NaN where the task has no points."""
         return _greatest([one.point_error for one in self.positions])
 
     @property
     def angle_error(self) -> float:
-        """Greatest error of an angle of coupler or rocker [rad]; NaN where none is asked."""
+        """Greatest error of an angle of coupler or rocker [rad]; NaN where the task has no such angles."""
         return _greatest([error for one in self.positions for error in (one.coupler_error, one.rocker_error)])
 
     @property
     def met(self) -> bool:
         """Whether every position is met within the task's tolerances."""
-        within = (self.point_error, self.task.near), (self.angle_error, self.task.angle_tolerance)
+        within = (self.point_error, self.task.point_limit), (self.angle_error, self.task.angle_tolerance)
         return self.reached and not any(error > most for error, most in within)
 
     @property
     def least_transmission(self) -> float:
-        """Least acute transmission angle [rad]: of mu and pi - mu over the motion."""
+        """Least transmission angle [rad]: minimum of mu and pi - mu over the motion."""
         return min(self.transmission[0], math.pi - self.transmission[1])
 
 
 def judge(four_bar: FourBar, task: PrecisionTask) -> Candidate:
-    """Everything that is to be known of a four-bar before it is built for a task.
+    """Check a four-bar against a task.
 
-    Never fails for a four-bar that is bad: what is wrong is said in the candidate.
-    Raises ParameterError where the task asks for points and the four-bar has no tracer.
+    four_bar  as drawn at the first position      task  precision positions
+
+    Defects of the four-bar do not raise: they are reported in the candidate. Raises ParameterError where the task has
+    points and the four-bar has no tracer.
 
     >>> drawn = FourBar(0j, 4 + 0j, 1j, 3 + 3j, tracer=2 + 3j)
     >>> found = judge(drawn, PrecisionTask(points=np.array([2 + 3j, 0.9 + 2.1j]), point_tolerance=0.2))
@@ -153,29 +157,31 @@ def judge(four_bar: FourBar, task: PrecisionTask) -> Candidate:
     ('crank-rocker', 2, True, True)
     """
     if task.points is not None and four_bar.tracer is None:
-        raise ParameterError("the task asks for points, the four-bar has no tracer", do="say which point draws them")
+        raise ParameterError("the task has points, the four-bar has no tracer", do="give the tracer of the four-bar")
     loops = circuit_loops(four_bar)
     chosen = position_matches(four_bar, task, loops)
     reached = [one for one in chosen if one is not None]
-    met_in = order(reached, loops) if len(reached) == len(chosen) else None
-    stretches = _stretches(reached, loops)
+    met_order = order(reached, loops) if len(reached) == len(chosen) else None
+    segments = _segments(reached, loops)
     lengths = four_bar.lengths
     return Candidate(
         four_bar,
         task,
         four_bar.grashof,
-        _met(four_bar, task, chosen),
+        _position_results(four_bar, task, chosen),
         len(loops),
-        met_in.numbers if met_in else (),
-        met_in is not None and (met_in.kept or task.crank is not None),
-        _transmission(four_bar, stretches),
+        met_order.numbers if met_order else (),
+        met_order is not None and (met_order.kept or task.crank is not None),
+        _transmission(four_bar, segments),
         max(lengths) / min(lengths),
-        _size(four_bar, stretches),
+        _size(four_bar, segments),
     )
 
 
-def _met(four_bar: FourBar, task: PrecisionTask, chosen: Sequence[PositionMatch | None]) -> tuple[PositionResult, ...]:
-    """Each position by forward simulation at the crank angle chosen for it."""
+def _position_results(
+    four_bar: FourBar, task: PrecisionTask, chosen: Sequence[PositionMatch | None]
+) -> tuple[PositionResult, ...]:
+    """Errors of each position, by forward simulation at its crank angle."""
     count = len(chosen)
     errors = {name: np.full(count, np.nan) for name in ("point", "coupler", "rocker")}
     for branch in (+1, -1):
@@ -198,7 +204,7 @@ def _met(four_bar: FourBar, task: PrecisionTask, chosen: Sequence[PositionMatch 
 def _errors(
     four_bar: FourBar, task: PrecisionTask, branch: int, cranks: FloatArray, which: np.ndarray
 ) -> dict[str, Float[np.ndarray, " positions"]]:
-    """Errors of positions `which` at crank angles: the four-bar moved through `linkage`."""
+    """Errors of the positions `which` at crank angles [rad], by forward simulation."""
     motion = solve(plan(four_bar.mechanism(branch)), cranks)
     found = {}
     if task.points is not None:
@@ -212,8 +218,8 @@ def _errors(
     return found
 
 
-def _stretches(reached: Sequence[PositionMatch], loops: Sequence[CircuitLoop]) -> list[CircuitSegment]:
-    """Where the four-bar works: between the positions of one branch of a crank that rocks, else on all the circuit."""
+def _segments(reached: Sequence[PositionMatch], loops: Sequence[CircuitLoop]) -> list[CircuitSegment]:
+    """Working range: between the positions on one branch of a crank that rocks, otherwise the whole circuit."""
     found = []
     for index in sorted({one.loop for one in reached}):
         loop, here = loops[index], [one for one in reached if one.loop == index]
@@ -226,25 +232,25 @@ def _stretches(reached: Sequence[PositionMatch], loops: Sequence[CircuitLoop]) -
     return found
 
 
-def _transmission(four_bar: FourBar, stretches: Sequence[CircuitSegment]) -> tuple[float, float]:
-    """Least and greatest transmission angle [rad]: it grows with |A B0|, so with the crank's angle off the ground."""
-    if not stretches:
+def _transmission(four_bar: FourBar, segments: Sequence[CircuitSegment]) -> tuple[float, float]:
+    """Least and greatest transmission angle [rad]; it grows with |A B0|, so with the angle from ground to crank."""
+    if not segments:
         return math.nan, math.nan
     ground, crank, coupler, rocker = four_bar.lengths
-    cosines = [cosine for one in stretches for cosine in one.cosines]
+    cosines = [cosine for one in segments for cosine in one.cosines]
     squares = [ground**2 + crank**2 - 2 * ground * crank * cosine for cosine in (max(cosines), min(cosines))]
     mu = [(coupler**2 + rocker**2 - square) / (2 * coupler * rocker) for square in squares]
     return math.acos(min(1.0, max(-1.0, mu[0]))), math.acos(min(1.0, max(-1.0, mu[1])))
 
 
-def _size(four_bar: FourBar, stretches: Sequence[CircuitSegment]) -> float:
-    """Greatest distance between two of the places that pins and tracer get to [m]."""
-    spots = [np.array([four_bar.a0, four_bar.b0, four_bar.a, four_bar.b])]
-    for one in stretches:
+def _size(four_bar: FourBar, segments: Sequence[CircuitSegment]) -> float:
+    """Greatest distance between two positions of pins and tracer [m]."""
+    positions = [np.array([four_bar.a0, four_bar.b0, four_bar.a, four_bar.b])]
+    for one in segments:
         pose = one.loop.at(one.samples)
-        spots += [pose.a, pose.b] + ([] if four_bar.tracer is None else [pose.tracer])
-    every = np.concatenate(spots)
-    return float(np.max(np.abs(every[:, None] - every[None, :])))
+        positions += [pose.a, pose.b] + ([] if four_bar.tracer is None else [pose.tracer])
+    points = np.concatenate(positions)
+    return float(np.max(np.abs(points[:, None] - points[None, :])))
 
 
 def _greatest(errors: list[float]) -> float:

@@ -1,11 +1,11 @@
-"""The circuits of a four-bar as smooth closed curves of one parameter u, in closed form.
+"""Circuits of a four-bar as smooth closed curves of one parameter u, in closed form.
 
-    crank turns fully:    crank angle = u, one circuit for each branch
-    else, for each interval (from, to) of the crank:    crank angle = middle + half cos u,    branch = sign(sin u)
+    crank rotates fully:                             crank angle = u, one circuit per branch
+    otherwise, for each interval of the crank:       crank angle = middle + half cos u,    branch = sign(sin u)
 
-The second passes the dead centres of the crank at u = 0 and pi without a corner, because the lean of coupler against
-rocker vanishes there like the square root of the way left: B and all that follows from it are smooth in u.
-[`linkage.circuits` follows any mechanism; of a four-bar this says the same without following.]
+The second form is smooth at the dead centres of the crank, u = 0 and pi: the angle between coupler and rocker depends
+there on the square root of the crank angle's distance from the dead centre, so B and all derived quantities are smooth
+in u. `linkage.circuits` follows the circuits of any mechanism; for a four-bar both give the same.
 """
 
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from ilmek.synthesis.four_bar import FourBar
 
 @record
 class LoopConfigurations:
-    """Configurations: moving pins and tracer [m], unit vectors along the coupler and the rocker; tracer 0 if none."""
+    """Configurations: moving pins and tracer [m] (0 without tracer), unit vectors along coupler and rocker."""
 
     a: ComplexArray
     b: ComplexArray
@@ -31,7 +31,7 @@ class LoopConfigurations:
 
 @dataclass(frozen=True, slots=True)
 class CircuitLoop:
-    """A circuit: crank angles from `low` to `high` [rad, world]; `branch` of a crank that turns fully, else 0."""
+    """A circuit: crank angles from `low` to `high` [rad], ground frame; `branch` of a fully rotating crank, else 0."""
 
     four_bar: FourBar
     low: float
@@ -45,11 +45,11 @@ class CircuitLoop:
         return np.asarray(0.5 * (self.low + self.high) + 0.5 * (self.high - self.low) * np.cos(u))
 
     def branches(self, u: FloatArray) -> FloatArray:
-        """Branch at u, +1 or -1."""
+        """Branch at u [rad], +1 or -1."""
         return np.where(np.sin(u) >= 0, 1.0, -1.0) if not self.branch else np.full(np.shape(u), float(self.branch))
 
-    def places(self, crank: RealField, slack: float = 1e-9) -> Float[np.ndarray, " places"]:
-        """All u at a crank angle [rad]; none where the circuit does not get there (by more than `slack`)."""
+    def parameters_at(self, crank: RealField, slack: float = 1e-9) -> Float[np.ndarray, " places"]:
+        """All u [rad] at a crank angle [rad]; empty where it is outside the circuit by more than `slack` [rad]."""
         if self.branch:
             return np.atleast_1d(np.asarray(crank, dtype=float))
         middle, half = 0.5 * (self.low + self.high), 0.5 * (self.high - self.low)
@@ -60,22 +60,22 @@ class CircuitLoop:
         return np.array([u, -u])
 
     def at(self, u: FloatArray) -> LoopConfigurations:
-        """The configurations at u."""
-        drawn = self.four_bar
-        _, crank, coupler, rocker = drawn.lengths
-        a: ComplexArray = drawn.a0 + crank * np.exp(1j * self.crank(u))
-        d = drawn.b0 - a
+        """Configurations at u [rad], of any shape."""
+        linkage = self.four_bar
+        _, crank, coupler, rocker = linkage.lengths
+        a: ComplexArray = linkage.a0 + crank * np.exp(1j * self.crank(u))
+        d = linkage.b0 - a
         dd = np.maximum(d.real**2 + d.imag**2, 1e-200)
         along = 0.5 + 0.5 * (coupler**2 - rocker**2) / dd
         across = self.branches(u) * np.sqrt(np.maximum(coupler**2 / dd - along**2, 0.0))
         b = a + (along + 1j * across) * d
         tilt = (b - a) / coupler
-        tracer = drawn.tracer_on_coupler
-        return LoopConfigurations(a, b, 0 * a if tracer is None else a + tracer * tilt, tilt, (b - drawn.b0) / rocker)
+        tracer = linkage.tracer_on_coupler
+        return LoopConfigurations(a, b, 0 * a if tracer is None else a + tracer * tilt, tilt, (b - linkage.b0) / rocker)
 
 
 def circuit_loops(four_bar: FourBar) -> tuple[CircuitLoop, ...]:
-    """All circuits of a four-bar: one or two.
+    """All circuits of a four-bar: one or two, none where it does not close.
 
     >>> [loop.branch for loop in circuit_loops(FourBar(0j, 4 + 0j, 1j, 3 + 3j))]
     [1, -1]

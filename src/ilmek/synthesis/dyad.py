@@ -1,13 +1,13 @@
-"""Two-link arms (RR dyads) through given places: three poses, or four points timed by the first link.
+"""Two-link arms (RR dyads) through three poses, or through four points with given angles of the first link.
 
     p_i = a0 e^{i th0} + a1 e^{i th1_i} + a2 e^{i th2_i}
 
-Pivot O = a0 e^{i th0}, first link a1, second link a2, p its end; all angles absolute. Where the equation of place 1 is
-taken from the others, both tasks are pencils (A + x B) v = 0 in one length x: all solutions at once, no starting
-values, and none of the divisions at which the elimination by hand breaks down. Both are solved by the batch, one task
-like a hundred thousand, and every root says what it is: `arms_through_poses`, `arms_through_points`.
+Pivot O = a0 e^{i th0}, first link a1, second link a2, p its end; all angles absolute. With the equation of point 1
+subtracted from the others, both tasks are matrix pencils (A + x B) v = 0 in one length x. All solutions follow at once,
+without starting values and without the divisions at which the elimination by hand fails. Tasks are solved in batches of
+any size, and every root has a kind: `arms_through_poses`, `arms_through_points`.
 
-[thesis 2.1.3, there by superposition, with misprints that `ilmek reproduce --paper thesis` names; knotting report, 2]
+[thesis 2.1.3, there by superposition, with misprints listed by `ilmek reproduce --paper thesis`; knotting report, 2]
 """
 
 from dataclasses import dataclass
@@ -26,21 +26,19 @@ from ilmek.synthesis.burmester.constant_distance import FAR, require_task, timed
 from ilmek.synthesis.task import require_angles
 
 BLOCK = 4096
-"""Tasks that are solved together: more would not stay in the cache."""
-
+"""Tasks solved at a time, so that their arrays stay in the cache."""
 
 STILL = 1e-11
-"""Length of the first link, in sizes of the path, below which it is rounding."""
+"""Length of the first link, relative to the size of the path, below which it counts as 0."""
 
 
 @dataclass(frozen=True, slots=True)
 class TwoLinkArm:
     """A two-link arm.
 
-    pivot   O [m], complex      first, second  a1, a2 [m]
-    ground  a0 [m] along the ground angle: |O|, with a sign where the ground angle was given
-
-    A negative `first` or `second` is a link of that length that points away from its angle.
+    pivot          O [m], complex
+    ground         a0 [m] along the ground angle: |O|, with a sign where the ground angle was given
+    first, second  a1, a2 [m]; a negative value is a link that points opposite to its angle
     """
 
     pivot: complex
@@ -49,23 +47,23 @@ class TwoLinkArm:
     second: float
 
     def first_angles(self, points: ComplexArray, second_angles: FloatArray) -> FloatArray:
-        """Angles of the first link [rad] at the poses: arg(p - O - a2 e^{i th2})."""
+        """Angles of the first link [rad] from points [m], angles of the second [rad]: arg(p - O - a2 e^{i th2})."""
         arrow = points - self.pivot - self.second * np.exp(1j * second_angles)
         return np.asarray(np.angle(arrow * np.sign(self.first)))
 
     def second_angles(self, points: ComplexArray, first_angles: FloatArray) -> FloatArray:
-        """Angles of the second link [rad] at the points: arg(p - O - a1 e^{i th1})."""
+        """Angles of the second link [rad] from points [m], angles of the first [rad]: arg(p - O - a1 e^{i th1})."""
         arrow = points - self.pivot - self.first * np.exp(1j * first_angles)
         return np.asarray(np.angle(arrow * np.sign(self.second)))
 
-    def place(self, first_angles: FloatArray, second_angles: FloatArray) -> ComplexArray:
-        """The end of the arm p [m]."""
+    def end_position(self, first_angles: FloatArray, second_angles: FloatArray) -> ComplexArray:
+        """Position p of the arm's end [m] at angles of both links [rad], of any shape."""
         links = self.first * np.exp(1j * first_angles) + self.second * np.exp(1j * second_angles)
         return np.asarray(self.pivot + links)
 
 
 class Lengths(NamedTuple):
-    """Links of a four-bar [m]."""
+    """Link lengths of a four-bar [m]."""
 
     ground: float
     crank: float
@@ -74,7 +72,7 @@ class Lengths(NamedTuple):
 
 
 class RootKind(IntEnum):
-    """What a root of a task is, of four timed points or of three poses."""
+    """Kind of a root of a task with four timed points or three poses."""
 
     ARM = 0
     COMPLEX = 1
@@ -88,7 +86,7 @@ class RootKind(IntEnum):
 
     @property
     def words(self) -> str:
-        """The same, said to people."""
+        """Description of the kind."""
         return WORDS[self]
 
 
@@ -96,10 +94,10 @@ WORDS = {
     RootKind.ARM: "an arm",
     RootKind.COMPLEX: "no real arm",
     RootKind.STILL: "the points lie on a circle about the pivot: the first link has no length",
-    RootKind.FAR_PIVOT: "the pivot is infinitely far: the first link would turn on a slide",
+    RootKind.FAR_PIVOT: "the pivot is infinitely far: the first link would rotate on a slide",
     RootKind.LINE: "the points lie on a line: the pivot is infinitely far and the first link has no length",
     RootKind.LONG: "both links are infinitely long",
-    RootKind.FAMILY: "a whole family of arms solves this task, or no task was given",
+    RootKind.FAMILY: "a family of arms solves this task, or the task is not valid",
     RootKind.FAR_ELBOW: "the elbow is infinitely far: a line of the second link would slide through the pivot",
     RootKind.FAR_BOTH: "pivot and elbow are infinitely far: the second link keeps its angle to the ground ray",
 }
@@ -107,12 +105,12 @@ WORDS = {
 
 @record
 class PoseArms:
-    """Both roots of three-pose tasks, in the order of `ground`; what they are is in `found`.
+    """Both roots of three-pose tasks, in the order of `ground`.
 
-    pivot   O [m], complex; of a pivot infinitely far the direction of the ray, a unit vector
-    ground, second  a0, a2 [m] with their signs; infinite where they are, NaN where there is no real arm, and where any
-            will do        first  a1 [m], 0 or more
-    found   `RootKind` of each
+    pivot           O [m], complex; of an infinitely far pivot the unit vector of the ray
+    ground, second  a0, a2 [m] with their signs; inf where infinite, NaN where there is no real arm or any value holds
+    first           a1 [m], 0 or more
+    found           `RootKind` of each root
     """
 
     pivot: Complex[np.ndarray, "*batch 2"]
@@ -128,14 +126,18 @@ def arms_through_poses(
     ground_angle: RealField,
     start: ComplexField = 0j,
 ) -> PoseArms:
-    """All arms through three poses of the second link with the pivot on a ray: any batch of tasks, two roots each.
+    """All arms through three poses of the second link with the pivot on a ray: a batch of tasks, two roots each.
 
         a2 (f3 - a0 F) + f4 + a0 f2 = const
         f2 = 2 p · e0,   f3 = 2 p · e2,   f4 = -|p|²,   F = 2 cos(th2 - th0)
 
-    points [m]  of the second link's end      second_angles, ground_angle [rad]      start [m]  where the ray begins
-    The origin is put on the ray where it is nearest to the first point. Never raises for a task: a bad one is told in
-    `found`.                                                          [knotting report, 2, with F's bracket mended]
+    points         positions of the second link's end [m], complex, shape (*batch, 3)
+    second_angles  angles of the second link [rad], shape (*batch, 3)
+    ground_angle   direction of the ray [rad], shape (*batch)
+    start          start of the ray [m]; default: the origin
+
+    The origin is shifted to the point of the ray nearest to the first point. No task raises: an invalid one has the
+    kind FAMILY.                                                   [knotting report, 2, with the bracket of F corrected]
 
     >>> along = arms_through_poses(np.array([0, 3 + 0j, 5 + 0j]), np.array([0.0, 0.4, -0.2]), np.pi / 2)
     >>> [RootKind(int(one)).name for one in along.found], along.ground.round(9).tolist()  # p itself goes along x
@@ -152,7 +154,7 @@ def arms_through_poses(
     size = np.where(size > 0, size, 1.0)
     q = (moved + aside[..., None]) / size[..., None]
     roots = roots2(*_pose_pencil(q, moved / size[..., None], e0[..., None], e2))
-    found = _told_poses(roots, usable)
+    found = _pose_root_kinds(roots, usable)
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         along, second = roots.numerator / roots.denominator, roots.vectors[..., 0] / roots.vectors[..., 1]
     far = np.isin(found, (RootKind.FAR_PIVOT, RootKind.FAR_BOTH))
@@ -174,12 +176,12 @@ def arms_through_poses(
 def dyads_through_poses(
     points: Complex[np.ndarray, "3"], second_angles: Float[np.ndarray, "3"], ground_angle: float, start: complex = 0j
 ) -> tuple[TwoLinkArm, ...]:
-    """All arms through three poses of the second link with the pivot on the ray of `ground_angle`: none, 1 or 2.
+    """Arms with finite links through three poses of the second link, the pivot on a ray: none, 1 or 2.
 
-    `arms_through_poses` of one task. `first` is positive, ground and second carry signs. Sorted by ground. What is no
-    arm of finite links is left out here and said there. Two arms together are a four-bar whose coupler takes the poses:
-    `four_bar`. Raises ParameterError where the poses are no task: not finite, angles in degrees, all in one place, or
-    so placed that a whole family of arms takes them.
+    The arguments are those of `arms_through_poses`, for one task. Sorted by `ground`; `first` is positive, `ground` and
+    `second` have signs. Two arms together are a four-bar whose coupler takes the poses: `four_bar`. Raises
+    ParameterError for values that are not finite, angles in degrees, points that all coincide, and poses taken by a
+    family of arms.
     """
     _frame(points, second_angles)
     require_angles("angle of the second link", second_angles)
@@ -195,11 +197,11 @@ def dyads_through_poses(
 
 @record
 class PointArms:
-    """All roots of four-point tasks, three each, in the order of `first`; what they are is in `found`.
+    """All roots of four-point tasks, three each, in the order of `first`.
 
-    pivot  O [m], complex; of a pivot infinitely far the direction, a unit vector
-    first, second  a1 with its sign, a2 [m]; infinite where they are, NaN where there is no real arm
-    found  `RootKind` of each
+    pivot          O [m], complex; of an infinitely far pivot its direction, a unit vector
+    first, second  a1 with its sign, a2 [m]; inf where infinite, NaN where there is no real arm
+    found          `RootKind` of each root
     """
 
     pivot: Complex[np.ndarray, "*batch 3"]
@@ -211,12 +213,14 @@ class PointArms:
 def arms_through_points(
     points: Complex[np.ndarray, "*batch 4"], first_angles: Float[np.ndarray, "*batch 4"]
 ) -> PointArms:
-    """All arms whose end is at four points [m] at four angles of the first link [rad]: any batch of tasks.
+    """All arms whose end is at four points at four angles of the first link: a batch of tasks, three roots each.
 
-        |p_i - O - a1 e^{i th1_i}|² = a2²,    less the first:    (A + a1 B) (O - p_1, 1)^T = 0
+        |p_i - O - a1 e^{i th1_i}|² = a2²,    minus the first:    (A + a1 B) (O - p_1, 1)^T = 0
 
-    A and B are columns of the forms G of `burmester.constant_distance`, W = a1 e^{i th1_1} taken as its moving point.
-    Never raises for a task: a bad one is told in `found`.                                           [thesis 2.36, 2.37]
+    points  [m], complex, shape (*batch, 4)      first_angles  [rad], shape (*batch, 4)
+
+    A and B are columns of the forms G of `burmester.constant_distance`, with W = a1 e^{i th1_1} as the moving point. No
+    task raises: an invalid one has the kind FAMILY.                                                 [thesis 2.36, 2.37]
 
     >>> arms = arms_through_points(np.array([0, 2, 2 + 2j, 2j]), np.array([0.1, 0.7, 1.9, 3.0]))
     >>> [RootKind(one).name for one in arms.found], complex(np.round(arms.pivot[0], 12))  # a circle about 1 + i
@@ -230,12 +234,12 @@ def arms_through_points(
 
 
 def dyads_through_points(points: ComplexArray, first_angles: FloatArray) -> tuple[TwoLinkArm, ...]:
-    """All arms whose end is at four points at four angles of the first link: 1 or 3, seldom fewer.
+    """Arms with finite links whose end is at four points at four angles of the first link: 1 or 3, rarely fewer.
 
-    `arms_through_points` of one task. `second` is positive, `first` carries a sign. Sorted by `first`. An arm with
-    first = 0 says that the points lie on a circle about its pivot; what is no arm (a pivot infinitely far, for points
-    on a line) is left out here and said there. Raises ParameterError where the points are no task: not four, not
-    finite, all in one place, two that are one, angles in degrees, or met by a whole family of arms.
+    The arguments are those of `arms_through_points`, for one task. Sorted by `first`; `second` is positive, `first` has
+    a sign. An arm with first = 0 means that the points lie on a circle about its pivot. Raises ParameterError for a
+    number of points other than four, values that are not finite, equal points, angles in degrees, and points met by a
+    family of arms.
     """
     _frame(points, first_angles)
     require_task("timed point", points, first_angles, 4, "dyads_through_points")
@@ -250,26 +254,26 @@ def dyads_through_points(points: ComplexArray, first_angles: FloatArray) -> tupl
 
 
 def four_bar(one: TwoLinkArm, other: TwoLinkArm) -> Lengths:
-    """The four-bar of two arms through the same poses: their second links are one body, the coupler.
+    """Lengths of the four-bar formed by two arms through the same poses; their second links are the coupler.
 
-    Both joints of the coupler lie on the line through p along th2, both pivots on the ray of the ground angle, so that
-    ground and coupler are the differences of a0 and a2; the two first links are its crank and its rocker.
+    Both joints of the coupler are on the line through p along th2 and both pivots on the ray of the ground angle. So
+    ground and coupler are the differences of a0 and of a2; the first links are crank and rocker.
     """
     return Lengths(abs(other.pivot - one.pivot), abs(one.first), abs(other.second - one.second), abs(other.first))
 
 
 def _frame(points: ComplexArray, angles: FloatArray) -> tuple[complex, float]:
-    """The first point and the size of the path: the frame in which the numbers are near 1."""
+    """Origin and size of the frame in which the numbers are near 1: first point and extent of the path [m]."""
     if not (np.isfinite(points).all() and np.isfinite(angles).all()):
-        raise ParameterError("a point or an angle of the dyad's task is not a number", do="give finite places")
+        raise ParameterError("a point or an angle of the dyad's task is not finite", do="give finite values")
     origin, size = complex(points[0]), float(np.max(np.abs(points - points[0])))
     if size == 0:
-        raise ParameterError("all points of the dyad's task are one", do="give places that differ")
+        raise ParameterError("all points of the dyad's task are the same", do="give different points")
     return origin, size
 
 
 def _each(arms: PoseArms) -> tuple[np.ndarray, ...]:
-    """Pivots, grounds, first and second links, and what they are."""
+    """Pivots, grounds, first and second links, and kinds."""
     return arms.pivot, arms.ground, arms.first, arms.second, arms.found
 
 
@@ -279,7 +283,7 @@ def _pose_pencil(
     e0: Complex[np.ndarray, "*batch 1"],
     e2: Complex[np.ndarray, "*batch 3"],
 ) -> tuple[Float[np.ndarray, "*batch 2 2"], Float[np.ndarray, "*batch 2 2"]]:
-    """A and B of (A + a0 B) (a2, 1)^T = 0: poses 2 and 3 less the first; `moved` are the places since the first."""
+    """A and B of (A + a0 B) (a2, 1)^T = 0: poses 2 and 3 minus the first; `moved` are points relative to the first."""
     known = -np.asarray(dot(moved[..., 1:], q[..., 1:] + q[..., :1]))
     of_second = np.asarray(dot(q, e2))
     A = np.stack([2 * (of_second[..., 1:] - of_second[..., :1]), known], axis=-1)
@@ -289,12 +293,12 @@ def _pose_pencil(
     return A, B
 
 
-def _told_poses(roots: Roots, usable: BoolArray) -> Int8[np.ndarray, "*batch 2"]:
-    """What each root of a three-pose task is."""
+def _pose_root_kinds(roots: Roots, usable: BoolArray) -> Int8[np.ndarray, "*batch 2"]:
+    """Kind of each root of a three-pose task."""
     x, k, vectors = roots.numerator, roots.denominator, roots.vectors
     far = np.abs(k) * FAR <= np.abs(x)
     straight = roots.alone & (np.abs(vectors[..., 1]) * FAR <= np.abs(vectors[..., 0]))
-    told = [
+    cases = [
         ((roots.free | ~usable)[..., None] | np.zeros_like(far), RootKind.FAMILY),
         (~roots.real, RootKind.COMPLEX),
         (far & straight, RootKind.FAR_BOTH),
@@ -302,18 +306,18 @@ def _told_poses(roots: Roots, usable: BoolArray) -> Int8[np.ndarray, "*batch 2"]
         (~roots.alone, RootKind.FAMILY),
         (straight, RootKind.FAR_ELBOW),
     ]
-    return np.select([case for case, _ in told], [value for _, value in told], RootKind.ARM).astype(np.int8)
+    return np.select([test for test, _ in cases], [value for _, value in cases], RootKind.ARM).astype(np.int8)
 
 
 def _family() -> ParameterError:
     return ParameterError(
-        "a whole family of dyads solves this task",
-        do="move a point or an angle: equal places, or an arm that turns without bending, leave a length free",
+        "a family of dyads solves this task",
+        do="change a point or an angle: with equal points, or an arm that rotates as a rigid body, a length is free",
     )
 
 
 def _arms(points: Complex[np.ndarray, "n 4"], angles: Float[np.ndarray, "n 4"]) -> PointArms:
-    """The arms of a block of tasks."""
+    """Arms of a block of tasks."""
     usable = np.isfinite(points).all(axis=-1) & np.isfinite(angles).all(axis=-1)
     points, angles = np.where(usable[:, None], points, 0), np.where(usable[:, None], angles, 0)
     size = np.max(np.abs(points - points[:, :1]), axis=-1)
@@ -323,10 +327,10 @@ def _arms(points: Complex[np.ndarray, "n 4"], angles: Float[np.ndarray, "n 4"]) 
     A = G[..., 2]
     B = G[..., 0] * start.real[:, None, None] + G[..., 1] * start.imag[:, None, None]
     roots = roots3(A, B)
-    found = _told(roots, usable)
+    found = _point_root_kinds(roots, usable)
     with np.errstate(divide="ignore", invalid="ignore"):
         first = roots.numerator / roots.denominator
-        away = -(roots.vectors[..., 0] + 1j * roots.vectors[..., 1])  # the forms' moving point is -(O - p_1)
+        away = -(roots.vectors[..., 0] + 1j * roots.vectors[..., 1])  # the moving point of the forms is -(O - p_1)
         far = np.isin(found, (RootKind.FAR_PIVOT, RootKind.LINE))
         pivot = np.where(far, away / np.abs(away), size[:, None] * away / roots.vectors[..., 2] + points[:, :1])
         first = np.where(found == RootKind.LONG, np.inf, np.where(found == RootKind.STILL, 0.0, first * size[:, None]))
@@ -339,13 +343,13 @@ def _arms(points: Complex[np.ndarray, "n 4"], angles: Float[np.ndarray, "n 4"]) 
     return PointArms(*(np.take_along_axis(one, order, axis=-1) for one in (pivot, first, second, found)))
 
 
-def _told(roots: Roots, usable: np.ndarray) -> Int8[np.ndarray, "n 3"]:
-    """What each root is."""
+def _point_root_kinds(roots: Roots, usable: np.ndarray) -> Int8[np.ndarray, "n 3"]:
+    """Kind of each root of a four-point task."""
     x, k, vectors = roots.numerator, roots.denominator, roots.vectors
     far = np.abs(vectors[..., 2]) * FAR <= np.hypot(vectors[..., 0], vectors[..., 1])
     still = np.abs(x) <= STILL * np.abs(k)
     free = (roots.free | ~usable)[:, None] | (roots.real & ~roots.alone)
-    told = [
+    cases = [
         (free, RootKind.FAMILY),
         (~roots.real, RootKind.COMPLEX),
         (np.abs(k) * FAR <= np.abs(x), RootKind.LONG),
@@ -353,4 +357,4 @@ def _told(roots: Roots, usable: np.ndarray) -> Int8[np.ndarray, "n 3"]:
         (far, RootKind.FAR_PIVOT),
         (still, RootKind.STILL),
     ]
-    return np.select([case for case, _ in told], [value for _, value in told], RootKind.ARM).astype(np.int8)
+    return np.select([test for test, _ in cases], [value for _, value in cases], RootKind.ARM).astype(np.int8)

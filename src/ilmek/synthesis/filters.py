@@ -1,13 +1,13 @@
-"""Which candidates are worth looking at: those without defects, and within the limits that were asked.
+"""Selection of candidates: without defects and within given limits.
 
-Defects are sieved out unless that is switched off; limits only where they are said. Everything that goes is kept in
-sight, with all its reasons in words, and counted.
+Each filter against a defect is active by default; a limit is active where it is given. Removed candidates are kept with
+all reasons, and counted.
 
 >>> from ilmek.synthesis.candidate import judge
 >>> from ilmek.synthesis.four_bar import FourBar
 >>> from ilmek.synthesis.task import PrecisionTask
 >>> drawn = FourBar(0j, 4 + 0j, 1j, 3 + 3j, tracer=2 + 3j)
->>> print(sift([judge(drawn, PrecisionTask(points=np.array([2 + 3j, 0j])))]).words)
+>>> print(filter_candidates([judge(drawn, PrecisionTask(points=np.array([2 + 3j, 0j])))]).words)
 1 four-bar: 0 kept, 1 removed
 misses a position: 1
 """
@@ -27,31 +27,31 @@ from ilmek.units import deg, format_quantity
 
 @dataclass(frozen=True, slots=True)
 class Filters(Params):
-    """What a candidate must have besides doing its task: it closes at every position and is within the tolerances.
+    """Requirements on a candidate in addition to its task (to close at all positions, within the tolerances).
 
-    Raises ParameterError for a limit that no four-bar can keep.
+    Raises ParameterError for a limit that no four-bar can meet.
     """
 
-    one_circuit: bool = kind.flag(True, doc="leave out four-bars that must be taken apart between two positions")
+    one_circuit: bool = kind.flag(True, doc="remove four-bars that must be disassembled between two positions")
     one_branch: bool = kind.flag(
-        True, doc="leave out four-bars that pass a dead centre of the crank between two positions"
+        True, doc="remove four-bars that pass a dead centre of the crank between two positions"
     )
-    in_order: bool = kind.flag(True, doc="leave out four-bars whose crank meets the positions in another order")
-    full_turn: bool = kind.flag(False, doc="leave out four-bars whose crank does not turn fully")
+    in_order: bool = kind.flag(True, doc="remove four-bars whose crank meets the positions in another order")
+    full_turn: bool = kind.flag(False, doc="remove four-bars whose crank does not rotate fully")
     transmission_min: float = kind.angle(
         0.0, at_least=0.0, below=90 * deg, doc="least angle between coupler and rocker over the motion"
     )
     link_ratio_max: float | None = kind.ratio(
-        None, at_least=1.0, at_most=1e6, doc="longest link over the shortest, at most"
+        None, at_least=1.0, at_most=1e6, doc="greatest ratio of the longest to the shortest link"
     )
     size_max: float | None = kind.length(
-        None, above=0.0, at_most=1e3, doc="greatest extent of the moving four-bar, at most"
+        None, above=0.0, at_most=1e3, doc="greatest overall size of the four-bar over its motion"
     )
 
 
 @record
 class RemovedCandidate:
-    """A candidate that was sieved out: for each filter that it failed, why, in words."""
+    """A removed candidate and its reasons: name of a filter -> sentence."""
 
     candidate: Candidate
     reasons: Mapping[str, str]
@@ -59,19 +59,19 @@ class RemovedCandidate:
 
 @dataclass(frozen=True, slots=True)
 class FilterResult:
-    """What was kept, the best transmission angle first, and what was removed."""
+    """Candidates kept, the best transmission angle first, and candidates removed."""
 
     kept: tuple[Candidate, ...]
     removed: tuple[RemovedCandidate, ...]
 
     @property
     def counts(self) -> Mapping[str, int]:
-        """How many failed each filter; one may fail several."""
+        """Number of candidates that failed each filter; a candidate may fail several."""
         return Counter(reason for one in self.removed for reason in one.reasons)
 
     @property
     def words(self) -> str:
-        """How many were kept and removed, and for what: a line each."""
+        """Numbers of candidates kept and removed, and of the reasons, one per line."""
         total = len(self.kept) + len(self.removed)
         first = f"{total} four-bar{'' if total == 1 else 's'}: {len(self.kept)} kept, {len(self.removed)} removed"
         return "\n".join([first, *(f"{REASONS[name]}: {count}" for name, count in self.counts.items())])
@@ -88,15 +88,18 @@ REASONS = {
     "link_ratio": "links too unequal",
     "size": "too large",
 }
-"""Each filter's defect in a few words."""
+"""Short name of the defect of each filter."""
 
 
-FEW = 12
-"""Positions whose order is said in full."""
+LISTED_POSITIONS = 12
+"""Greatest number of positions whose order is reported completely."""
 
 
-def sift(candidates: Iterable[Candidate], filters: Filters | None = None) -> FilterResult:
-    """Candidates without defects and within limits, the best transmission angle first; the others with reasons."""
+def filter_candidates(candidates: Iterable[Candidate], filters: Filters | None = None) -> FilterResult:
+    """Divide candidates into those that pass all filters, the best transmission angle first, and the removed ones.
+
+    filters  default: `Filters()`
+    """
     filters = filters or Filters()
     kept, removed = [], []
     for one in candidates:
@@ -109,65 +112,65 @@ def sift(candidates: Iterable[Candidate], filters: Filters | None = None) -> Fil
 
 
 def defects(one: Candidate, filters: Filters | None = None) -> dict[str, str]:
-    """The filters that a candidate fails, and why, in words; empty where it passes."""
+    """Filters that a candidate fails -> reason as a sentence; filters default: `Filters()`."""
     filters = filters or Filters()
     found = _of_positions(one) | _of_motion(one, filters)
     return {name: words for name, words in found.items() if getattr(filters, name, True)}
 
 
 def _of_positions(one: Candidate) -> dict[str, str]:
-    """Defects of the kind for which the task is not done."""
+    """Failures to perform the task."""
     found = {}
     circuits = {k: met.circuit for k, met in enumerate(one.positions, 1)}
     branches = {k: met.branch for k, met in enumerate(one.positions, 1)}
-    lost = [str(k) for k, met in enumerate(one.positions, 1) if not met.reached]
-    if lost:
-        found["closes"] = f"does not close at position {', '.join(lost)}"
+    open_positions = [str(k) for k, met in enumerate(one.positions, 1) if not met.reached]
+    if open_positions:
+        found["closes"] = f"does not close at position {', '.join(open_positions)}"
     elif not one.met:
         found["met"] = f"misses {_worst(one)}"
     if not one.one_circuit:
-        found["one_circuit"] = f"has to be taken apart: positions {_grouped(circuits)} are on circuits 1 and 2"
+        found["one_circuit"] = f"must be disassembled: positions {_grouped(circuits)} are on circuits 1 and 2"
     elif not one.one_branch:
         found["one_branch"] = f"passes a dead centre of the crank: positions {_grouped(branches)} are on two branches"
-    elif not lost and not one.in_order:
+    elif not open_positions and not one.in_order:
         found["in_order"] = _out_of_order(one.order)
     return found
 
 
 def _of_motion(one: Candidate, filters: Filters) -> dict[str, str]:
-    """Limits that are not kept."""
+    """Limits that are not met."""
     found = {}
     if not one.crank_turns:
         found["full_turn"] = f"the crank does not turn fully: {one.grashof.kind}"
     if filters.transmission_min and not one.least_transmission >= filters.transmission_min:
         least, limit = (format_quantity(angle, "deg") for angle in (one.least_transmission, filters.transmission_min))
-        found["transmission"] = f"transmission angle {least}, asked at least {limit}"
+        found["transmission"] = f"transmission angle {least}, required at least {limit}"
     if filters.link_ratio_max is not None and not one.link_ratio <= filters.link_ratio_max:
         found["link_ratio"] = (
-            f"longest link {one.link_ratio:.4g} times the shortest, asked at most {filters.link_ratio_max:g}"
+            f"longest link {one.link_ratio:.4g} times the shortest, allowed at most {filters.link_ratio_max:g}"
         )
     if filters.size_max is not None and not one.size <= filters.size_max:
         size, limit = (format_quantity(length, "mm") for length in (one.size, filters.size_max))
-        found["size"] = f"size {size}, asked at most {limit}"
+        found["size"] = f"size {size}, allowed at most {limit}"
     return found
 
 
 def _out_of_order(order: tuple[int, ...]) -> str:
-    if len(order) <= FEW:
+    if len(order) <= LISTED_POSITIONS:
         return f"the crank meets the positions in the order {', '.join(map(str, order))}"
     early, late = next(pair for pair in pairwise(order) if pair[1] < pair[0])
     return f"the crank meets position {early} before {late}"
 
 
 def _grouped(values: Mapping[int, int]) -> str:
-    """Positions by what they have in common, "1, 3 and 2"."""
+    """Positions grouped by their common value, such as "1, 3 and 2"."""
     kinds = sorted({value for value in values.values() if value}, key=lambda kind: list(values.values()).index(kind))
     return " and ".join(", ".join(str(k) for k, value in values.items() if value == kind) for kind in kinds)
 
 
 def _worst(one: Candidate) -> str:
-    """The position that is missed most, and by what."""
-    near, angle = one.task.near, one.task.angle_tolerance
+    """The position with the greatest error relative to its tolerance, and this error."""
+    near, angle = one.task.point_limit, one.task.angle_tolerance
     errors = [(met.point_error / near, met.coupler_error / angle, met.rocker_error / angle) for met in one.positions]
     table = np.nan_to_num(np.array(errors), nan=-1.0)
     position, what = (int(k) for k in np.unravel_index(np.argmax(table), table.shape))

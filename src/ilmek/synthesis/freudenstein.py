@@ -1,19 +1,19 @@
-"""Function generation: four-bars whose rocker and crank take 3, 4 or 5 pairs of angles, all of them.
+"""Function generation: all four-bars whose crank and rocker take 3, 4 or 5 given pairs of angles.
 
     K + Re(Z e^{i psi_j}) - Re(W e^{i phi_j}) - Re(Q e^{i (psi_j - phi_j)}) = 0,      Q = Z conj(W)
 
-Ground 1, crank W and rocker Z at turn zero, phi_j and psi_j their turns, 2 K = 1 + |Z|^2 + |W|^2 - coupler^2. With the
-start angles said, W and Z have one unknown each, and this is Freudenstein's equation R1 cos th4 - R2 cos th2 + R3 =
-cos(th2 - th4), linear in three ratios. The equations of all pairs are linear in K, Z, W, Q together:
+Ground 1, crank W and rocker Z at rotation 0, phi_j and psi_j their rotations, 2 K = 1 + |Z|^2 + |W|^2 - coupler^2. With
+given start angles, W and Z have one unknown each, and this is Freudenstein's equation R1 cos th4 - R2 cos th2 + R3 =
+cos(th2 - th4), linear in three ratios. The equations of all pairs are linear in K, Z, W, Q:
 
     3 pairs, both start angles given    one four-bar
     4 pairs, one start angle given      a quadratic: none, 1 or 2
     5 pairs                             a cubic: 1, 2 or 3
 
-With 4 and 5 pairs what solves the linear equations is p v + q w, and Q = Z conj(W) asks that Im(Q conj(Z) W) = 0: a
-binary form in p and q, so that no root is lost at infinity. Its scale follows: the factor Q / (Z conj(W)).
-[Freudenstein, Approximate synthesis of four-bar linkages, Trans. ASME 77, 1955, for the equation and the counts; the
-solution by one linear system and one binary form is derived here.]
+With 4 and 5 pairs the solutions of the linear equations are p v + q w, and Q = Z conj(W) requires Im(Q conj(Z) W) = 0:
+a binary form in p and q, so that roots at infinity are included. The scale is the factor Q / (Z conj(W)).
+[Freudenstein, Approximate synthesis of four-bar linkages, Trans. ASME 77, 1955, for the equation and the numbers of
+solutions; the solution by one linear system and one binary form is derived here.]
 """
 
 import math
@@ -30,27 +30,27 @@ from ilmek.synthesis.task import require_angles
 from ilmek.units import deg
 
 FAMILY = 1e-12
-"""Singular value of the linear equations, of the greatest, below which they leave a whole family of four-bars."""
+"""Relative singular value of the linear equations below which they have a family of solutions."""
 
 REAL = 1e-6
-"""Imaginary part of a root, of its size or 1, below which it is real: rounding splits a double root so far."""
+"""Imaginary part of a root, relative to its magnitude or 1, below which it is real: rounding splits double roots."""
 
-NOTHING = 1e-9
-"""A link of this length against the others has shrunk to a point."""
+ZERO_LENGTH = 1e-9
+"""Relative length of a link below which it degenerates to a point."""
 
 POINTS = {3: "both start angles given", 4: "one start angle given", 5: "no start angle given"}
-"""Pairs of angles, and what has to be said with them."""
+"""Number of pairs of angles -> start angles to be given with them."""
 
 
 class Generators(NamedTuple):
-    """Four-bars drawn at the first pair of angles, the least unequal links first, and in words what is no four-bar."""
+    """Four-bars drawn at the first pair of angles, the smallest link ratio first; and degenerate solutions, named."""
 
     four_bars: tuple[FourBar, ...]
     left_out: tuple[str, ...]
 
 
 class _Forms(NamedTuple):
-    """What solves the linear equations: W, Z and Q, each p times its first number and q times its second."""
+    """Solutions of the linear equations: W, Z and Q, each p times its first number plus q times its second."""
 
     crank: Complex[np.ndarray, "2"]
     rocker: Complex[np.ndarray, "2"]
@@ -65,14 +65,15 @@ def function_generators(
     rocker_start: float | None = None,
     ground: float = 1.0,
 ) -> Generators:
-    """All four-bars whose crank and rocker take pairs of angles: start + turn for each [rad], against the ground link.
+    """All four-bars whose crank and rocker take given pairs of angles, start + rotation, relative to the ground link.
 
-    crank, rocker  turns of 3, 4 or 5 pairs      ground  A0-B0 [m], along x from the origin
-    crank_start, rocker_start  angles at turn zero: both for 3 pairs, one for 4, none for 5
+    crank, rocker              rotations of 3, 4 or 5 pairs [rad], shape (pairs,)
+    crank_start, rocker_start  angles at rotation 0 [rad]: both for 3 pairs, one for 4, none for 5
+    ground                     A0-B0 [m], along x from the origin
 
-    Each four-bar is drawn at the first pair. A crank or rocker that comes out negative points away from its start
-    angle; its turns are the same. Raises ParameterError for too few or too many pairs or start angles, pairs given
-    twice, degrees, and where a whole family of four-bars does it.
+    Each four-bar is drawn at the first pair. A crank or rocker may point opposite to its start angle; its rotations are
+    the same. Raises ParameterError for other numbers of pairs or start angles, equal pairs, angles in degrees, and
+    where a family of four-bars takes the pairs.
 
     >>> found = function_generators(np.radians([0, 40, 80]), np.radians([0, 45, 70]), crank_start=0.6, rocker_start=1.2)
     >>> [round(length, 4) for length in found.four_bars[0].lengths]
@@ -80,20 +81,20 @@ def function_generators(
     """
     crank, rocker = np.asarray(crank, dtype=float), np.asarray(rocker, dtype=float)
     _check(crank, rocker, (crank_start, rocker_start), ground)
-    arrows = _arrows(crank_start), _arrows(rocker_start)
-    forms = _forms(crank, rocker, *arrows)
+    axes = _axes(crank_start), _axes(rocker_start)
+    forms = _forms(crank, rocker, *axes)
     found: list[FourBar] = []
     left_out = []
-    for root in _roots(forms, *arrows):
+    for root in _roots(forms, *axes):
         W, Z, Q = (complex(np.dot(form, root)) for form in forms)
-        least = NOTHING * max(abs(W), abs(Z), abs(Q))
-        if min(abs(W), abs(Z), abs(Q)) <= least:
-            left_out.append(_vanished(ground=abs(Q) > least))
+        smallest = ZERO_LENGTH * max(abs(W), abs(Z), abs(Q))
+        if min(abs(W), abs(Z), abs(Q)) <= smallest:
+            left_out.append(_vanished(ground=abs(Q) > smallest))
             continue
         stretch = (Q / (Z * W.conjugate())).real
         a, b = stretch * W * np.exp(1j * crank[0]), 1 + stretch * Z * np.exp(1j * rocker[0])
-        if abs(b - a) <= NOTHING:
-            left_out.append("the coupler shrinks to a point: crank and rocker meet in one pin")
+        if abs(b - a) <= ZERO_LENGTH:
+            left_out.append("the coupler degenerates to a point: crank and rocker meet in one pin")
         elif all(abs(a * ground - other.a) + abs(b * ground - other.b) > REAL * ground for other in found):
             found.append(FourBar(0j, complex(ground), complex(a * ground), complex(b * ground)))
     return Generators(tuple(sorted(found, key=_evenness, reverse=True)), tuple(left_out))
@@ -107,9 +108,11 @@ def generators_of(
     rocker_start: float | None = None,
     ground: float = 1.0,
 ) -> Generators:
-    """All four-bars that generate a function exactly at Chebyshev's places; start angles are those at its start.
+    """All four-bars that generate a function exactly at precision points with Chebyshev spacing.
 
-    points  3, 4 or 5, with the start angles that go with them: see `function_generators`
+    points                     number of precision points, 3, 4 or 5
+    crank_start, rocker_start  angles at the start of the function [rad]; see `function_generators`
+    ground                     A0-B0 [m]
     """
     task = function.task(function.nodes(points))
     starts = {"crank_start": crank_start, "rocker_start": rocker_start}
@@ -117,24 +120,24 @@ def generators_of(
     return function_generators(crank, rocker, ground=ground, **starts)
 
 
-def _arrows(start: float | None) -> Complex[np.ndarray, " arrows"]:
-    """Unit vectors that span a link at turn zero: its direction, or both axes where that is free."""
+def _axes(start: float | None) -> Complex[np.ndarray, " axes"]:
+    """Unit vectors that span a link at rotation 0: its direction, or both axes where the direction is free."""
     return np.array([1, 1j] if start is None else [np.exp(1j * start)], dtype=complex)
 
 
 def _forms(
     crank: FloatArray,
     rocker: FloatArray,
-    crank_arrows: Complex[np.ndarray, " crank_arrows"],
-    rocker_arrows: Complex[np.ndarray, " rocker_arrows"],
+    crank_axes: Complex[np.ndarray, " crank_axes"],
+    rocker_axes: Complex[np.ndarray, " rocker_axes"],
 ) -> _Forms:
-    """What solves the linear equations of all pairs."""
-    free = len(crank_arrows) + len(rocker_arrows) > 2
-    both_arrows = _arrows(None) if free else rocker_arrows * crank_arrows.conjugate()
+    """Solutions of the linear equations of all pairs."""
+    free = len(crank_axes) + len(rocker_axes) > 2
+    both_axes = _axes(None) if free else rocker_axes * crank_axes.conjugate()
     columns = [
-        *(-(arrow * np.exp(1j * crank)).real for arrow in crank_arrows),
-        *((arrow * np.exp(1j * rocker)).real for arrow in rocker_arrows),
-        *(-(arrow * np.exp(1j * (rocker - crank))).real for arrow in both_arrows),
+        *(-(axis * np.exp(1j * crank)).real for axis in crank_axes),
+        *((axis * np.exp(1j * rocker)).real for axis in rocker_axes),
+        *(-(axis * np.exp(1j * (rocker - crank))).real for axis in both_axes),
         np.ones(len(crank)),
     ]
     _, singular, right = np.linalg.svd(np.stack(columns, axis=-1))
@@ -142,31 +145,31 @@ def _forms(
         raise _family()
     null = np.zeros((len(columns), 2))
     null[:, : len(columns) - len(crank)] = right[len(crank) :].T
-    ends = np.cumsum([0, len(crank_arrows), len(rocker_arrows), len(both_arrows)])
+    ends = np.cumsum([0, len(crank_axes), len(rocker_axes), len(both_axes)])
     parts = [null[start:stop] for start, stop in pairwise(ends)]
-    arrows = (crank_arrows, rocker_arrows, both_arrows)
-    return _Forms(*(np.asarray(arrow @ part) for arrow, part in zip(arrows, parts, strict=True)))
+    axes = (crank_axes, rocker_axes, both_axes)
+    return _Forms(*(np.asarray(axis @ part) for axis, part in zip(axes, parts, strict=True)))
 
 
 def _roots(
     forms: _Forms,
-    crank_arrows: Complex[np.ndarray, " crank_arrows"],
-    rocker_arrows: Complex[np.ndarray, " rocker_arrows"],
+    crank_axes: Complex[np.ndarray, " crank_axes"],
+    rocker_axes: Complex[np.ndarray, " rocker_axes"],
 ) -> list[Float[np.ndarray, "2"]]:
-    """All (p, q), up to a factor, with Im(Q conj(Z) W) = 0; a link whose direction is known counts as its direction."""
-    if len(crank_arrows) + len(rocker_arrows) == 2:
+    """All (p, q), up to a factor, with Im(Q conj(Z) W) = 0; a link with given direction counts as its direction."""
+    if len(crank_axes) + len(rocker_axes) == 2:
         return [np.array([1.0, 0.0])]
     factors = [forms.both]
-    factors += [forms.rocker.conj()] if len(rocker_arrows) == 2 else []
-    factors += [forms.crank] if len(crank_arrows) == 2 else []
-    known = np.prod([one[0] for one in (crank_arrows, rocker_arrows.conj()) if len(one) == 1])
-    # Seen from where the form is greatest, no root is at infinity.
+    factors += [forms.rocker.conj()] if len(rocker_axes) == 2 else []
+    factors += [forms.crank] if len(crank_axes) == 2 else []
+    known = np.prod([one[0] for one in (crank_axes, rocker_axes.conj()) if len(one) == 1])
+    # With the direction of the greatest value as infinity, no root is at infinity.
     turns = np.linspace(0, np.pi, 8, endpoint=False)
-    ways = np.stack([np.cos(turns), np.sin(turns)])
-    values = np.abs(np.imag(known * np.prod([factor @ ways for factor in factors], axis=0)))
+    directions = np.stack([np.cos(turns), np.sin(turns)])
+    values = np.abs(np.imag(known * np.prod([factor @ directions for factor in factors], axis=0)))
     if np.max(values) <= FAMILY * math.prod(float(np.linalg.norm(factor)) for factor in factors):
         raise _family()
-    far = ways[:, np.argmax(values)]
+    far = directions[:, np.argmax(values)]
     near = np.array([-far[1], far[0]])
     form = np.array([known])
     for factor in factors:
@@ -177,8 +180,8 @@ def _roots(
 
 def _vanished(*, ground: bool) -> str:
     if ground:
-        return "the ground shrinks to a point beside the other links: crank and rocker on one pivot, infinitely long"
-    return "crank or rocker shrinks to a point beside the ground"
+        return "the ground degenerates to a point: crank and rocker on one pivot, infinitely long"
+    return "crank or rocker degenerates to a point"
 
 
 def _evenness(one: FourBar) -> float:
@@ -187,19 +190,19 @@ def _evenness(one: FourBar) -> float:
 
 def _family() -> ParameterError:
     return ParameterError(
-        "a whole family of four-bars takes these pairs of angles",
-        allowed="pairs that say different things",
-        do="move a pair: rocker and crank that turn alike, or one of them at rest, leave a length free",
+        "a family of four-bars takes these pairs of angles",
+        allowed="independent pairs",
+        do="change a pair: with equal rotations of crank and rocker, or one of them at rest, a length is free",
     )
 
 
 def _check(crank: FloatArray, rocker: FloatArray, starts: tuple[float | None, float | None], ground: float) -> None:
     if crank.shape != rocker.shape or crank.ndim != 1:
-        given = f"turns of crank and rocker of shapes {crank.shape} and {rocker.shape}"
+        given = f"rotations of crank and rocker of shapes {crank.shape} and {rocker.shape}"
         raise ParameterError(given, allowed="two lists of one length")
     _check_count(len(crank), sum(start is not None for start in starts))
-    for name, turns in (("crank turn", crank), ("rocker turn", rocker)):
-        require_angles(name, turns)
+    for name, rotations in (("crank rotation", crank), ("rocker rotation", rocker)):
+        require_angles(name, rotations)
     for name, start in zip(("crank_start", "rocker_start"), starts, strict=True):
         if start is not None and not abs(start) <= 2 * math.pi:
             guess = f"{start:g} deg is {start * deg:.6g} rad" if math.isfinite(start) else ""
@@ -209,14 +212,14 @@ def _check(crank: FloatArray, rocker: FloatArray, starts: tuple[float | None, fl
     pairs = np.stack([np.exp(1j * crank), np.exp(1j * rocker)])
     for one in range(len(crank)):
         for other in range(one):
-            if np.max(np.abs(pairs[:, one] - pairs[:, other])) < NOTHING:
-                raise ParameterError(f"pairs {other + 1} and {one + 1} are the same", do="give pairs that differ")
+            if np.max(np.abs(pairs[:, one] - pairs[:, other])) < ZERO_LENGTH:
+                raise ParameterError(f"pairs {other + 1} and {one + 1} are the same", do="give different pairs")
 
 
 def _check_count(pairs: int, starts: int) -> None:
     if pairs not in POINTS:
-        whole = "`function_approximations` fits the whole range, by least squares or minimax"
-        more = whole if pairs > 5 else "give three at least"
+        whole = "`function_approximations` fits the whole range by least squares or minimax"
+        more = whole if pairs > 5 else "give at least three"
         allowed = ", ".join(f"{count} with {what}" for count, what in POINTS.items())
         raise ParameterError(f"function generation through {pairs} pairs of angles", allowed=allowed, do=more)
     if starts != 5 - pairs:

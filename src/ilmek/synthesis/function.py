@@ -1,6 +1,8 @@
-"""A function that a four-bar is to generate: y = f(x), x shown by turns of the crank, y by turns of the rocker.
+"""Function generation: y = f(x), with x as rotation of the crank and y as rotation of the rocker.
 
-crank = crank_swing (x - x0) / (x1 - x0)        rocker = rocker_swing (f(x) - y0) / (y1 - y0)
+    crank = crank_swing (x - x0) / (x1 - x0)        rocker = rocker_swing (f(x) - y0) / (y1 - y0)
+
+x0 and x1 are the ends of the range of x, y0 and y1 the values of f there; both rotations start at 0.
 """
 
 import math
@@ -21,12 +23,15 @@ from ilmek.units import deg
 
 @record
 class Function:
-    """y = f(x) from `start` to `stop`, and the turns of crank and rocker that show the two ranges [rad].
+    """A function over a range, and the rotations of crank and rocker that represent it.
 
-    f  takes and returns arrays; y0 = f(start), y1 = f(stop)
+    f             y = f(x), takes and returns arrays; y0 = f(start), y1 = f(stop)
+    start, stop   range of x
+    crank_swing   rotation of the crank over the range of x [rad], with sign
+    rocker_swing  rotation of the rocker from y0 to y1 [rad], with sign
 
-    Raises ParameterError for an empty range of x or y, values that are not finite, and swings of nothing or of more
-    than a turn.
+    Raises ParameterError for an empty range of x or y, values that are not finite, and swings of 0 or of more than a
+    turn.
 
     >>> root = Function(np.sqrt, 1.0, 9.0, 80 * deg, 60 * deg)
     >>> np.degrees(root.rocker(np.array([1.0, 4.0, 9.0]))).round(6)
@@ -54,28 +59,28 @@ class Function:
 
     @property
     def range(self) -> tuple[float, float]:
-        """What y is at both ends of x."""
+        """The values y0, y1 at both ends of x."""
         first, last = self.f(np.array([self.start, self.stop]))
         return float(first), float(last)
 
     def crank(self, x: FloatArray) -> FloatArray:
-        """Turn of the crank since `start` [rad]."""
+        """Rotation of the crank from `start` to x [rad]."""
         return np.asarray(self.crank_swing * (x - self.start) / (self.stop - self.start))
 
     def rocker(self, x: FloatArray) -> FloatArray:
-        """Turn of the rocker since `start` [rad]."""
+        """Rotation of the rocker from `start` to x [rad]."""
         first, last = self.range
         return np.asarray(self.rocker_swing * (self.f(x) - first) / (last - first))
 
     def task(self, x: FloatArray) -> PrecisionTask:
-        """The precision positions at places x. Raises ParameterError where f is not finite."""
+        """The precision positions at values x; raises ParameterError where f is not finite."""
         if not np.isfinite(self.f(x)).all():
             bad = float(np.asarray(x)[~np.isfinite(self.f(x))][0])
             raise ParameterError(f"the function is not finite at x = {bad:g}", do="choose another range of x")
         return PrecisionTask(crank=self.crank(x), rocker=self.rocker(x))
 
     def nodes(self, count: int) -> Float[np.ndarray, " count"]:
-        """Chebyshev's places for `count` precision points: the error of interpolation is spread about evenly.
+        """Chebyshev spacing of `count` precision points in x [Hartenberg and Denavit, Kinematic Synthesis of Linkages].
 
             x_i = (x0 + x1) / 2 - (x1 - x0) / 2 cos((2 i - 1) pi / (2 n))
 
@@ -87,9 +92,12 @@ class Function:
 
 
 def function_of_samples(x: FloatArray, y: FloatArray, crank_swing: float, rocker_swing: float) -> Function:
-    """The function through samples, without overshooting between them: monotone cubic interpolation.
+    """The function through samples, by monotone cubic interpolation, without overshoot between them.
 
-    Raises ParameterError for fewer than two samples, x that does not rise, or values that are not finite.
+    x, y                       samples, x ascending, shape (samples,)
+    crank_swing, rocker_swing  rotations over the ranges of x and y [rad]
+
+    Raises ParameterError for fewer than two samples, x that is not ascending, and values that are not finite.
     [Fritsch and Butland, A method for constructing local monotone piecewise cubic interpolants, 1984.]
     """
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
@@ -102,34 +110,36 @@ def function_of_samples(x: FloatArray, y: FloatArray, crank_swing: float, rocker
 
 @record
 class ErrorCurve:
-    """How a four-bar generates a function over its range: everything by x.
+    """Structural error of a four-bar over the range of a function.
 
-    wanted, generated  turns of the rocker since the start of the range [rad]; NaN where the four-bar does not close
-    error              generated less wanted [rad]      y_error  the same in units of y
+    x                    samples of x
+    required, generated  rotations of the rocker from the start of the range [rad]; NaN where it does not close
+    error, y_error       generated minus required [rad], and in units of y
     """
 
     x: Float[np.ndarray, " samples"]
-    wanted: Float[np.ndarray, " samples"]
+    required: Float[np.ndarray, " samples"]
     generated: Float[np.ndarray, " samples"]
     error: Float[np.ndarray, " samples"]
     y_error: Float[np.ndarray, " samples"]
 
     @property
     def greatest(self) -> float:
-        """Greatest error over the range [rad]; NaN where the four-bar does not close all over it."""
+        """Greatest error over the range [rad]; NaN where the four-bar does not close over the whole range."""
         return float(np.max(np.abs(self.error)))
 
 
 def error_curve(four_bar: FourBar, function: Function, drawn_at: float, samples: int = 361) -> ErrorCurve:
-    """The structural error over the range, by moving the four-bar through `linkage` on its drawn branch.
+    """Structural error over the range, by forward simulation on the drawn branch.
 
-    drawn_at  the x that the four-bar shows as it is drawn: that of its first precision point
+    drawn_at  value of x at the drawn position, that of the first precision point
+    samples   number of samples of x, evenly spaced
     """
     x = np.linspace(function.start, function.stop, samples)
-    wanted, at = function.rocker(x), np.array([drawn_at])
+    required, at = function.rocker(x), np.array([drawn_at])
     crank = four_bar.crank_angle + function.crank(x) - function.crank(at)
-    shown = four_bar.rocker_angle + wanted - function.rocker(at)
+    shown = four_bar.rocker_angle + required - function.rocker(at)
     motion = solve(plan(four_bar.mechanism()), crank)
     error = np.angle(motion.direction("rocker") * np.exp(-1j * shown))
     first, last = function.range
-    return ErrorCurve(x, wanted, wanted + error, error, error * (last - first) / function.rocker_swing)
+    return ErrorCurve(x, required, required + error, error, error * (last - first) / function.rocker_swing)

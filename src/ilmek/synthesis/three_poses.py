@@ -156,7 +156,7 @@ class ThreePoseSynthesis:
     def residuals(self, dyad: TwoLinkArm) -> FloatArray:
         """Distances of an arm's end from the poses [m]."""
         points, angles = self.poses.points, self.poses.angles
-        return np.asarray(np.abs(dyad.place(dyad.first_angles(points, angles), angles) - points))
+        return np.asarray(np.abs(dyad.end_position(dyad.first_angles(points, angles), angles) - points))
 
 
 def synthesised(poses: ThreePoses, ground_angle: float | None) -> ThreePoseSynthesis:

@@ -19,7 +19,7 @@ Six: TypeAlias = Float[np.ndarray, "6"]
 TH1 = np.array([0.3, 1.1, 2.0, 2.6])
 TH2 = np.array([-0.4, 0.5, 1.9, 3.3])
 ARM = TwoLinkArm(pivot=0.31 - 0.52j, ground=abs(0.31 - 0.52j), first=0.83, second=0.57)
-POINTS = ARM.place(TH1, TH2)
+POINTS = ARM.end_position(TH1, TH2)
 
 HALF_TOO_MUCH, WHOLE = 0.5, 1.0
 """What Eqs 2.43 and 2.44 take from the coefficients of lam1 and lam2: as printed, and right."""

@@ -9,7 +9,7 @@ from ilmek.synthesis.approximation.function_generator import FunctionApproximati
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.function import Function
 from ilmek.synthesis.selection import FourBarDesign, FourBarOption, choose, detail_of_best, solutions
-from ilmek.synthesis.task import MET, PrecisionTask
+from ilmek.synthesis.task import TOLERANCE, PrecisionTask
 
 SAME = 1e-9
 """Distance of two points, in ranges of x, below which they are one."""
@@ -68,7 +68,7 @@ def _judged(params: FunctionFourBarParams, function: Function, found: FunctionAp
     nodes = function.nodes(params.free_points) if exact else found.at
     apart = np.abs(nodes - found.drawn_at) > SAME * abs(function.stop - function.start)
     x = np.concatenate([[found.drawn_at], nodes[apart]])
-    near = params.error_max or (MET if exact else found.greatest * (1 + ROUNDING) + MET)
+    near = params.error_max or (TOLERANCE if exact else found.greatest * (1 + ROUNDING) + TOLERANCE)
     return judge(
         found.four_bar, PrecisionTask(crank=function.crank(x), rocker=function.rocker(x), angle_tolerance=near)
     )

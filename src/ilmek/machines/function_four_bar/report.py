@@ -93,7 +93,7 @@ def _error(found: FunctionApproximation) -> Plot:
 def _generated(found: FunctionApproximation) -> Plot:
     """Rotation of the rocker, required and generated."""
     x, curve = found.curve.x, found.curve
-    series = (Series("generated", x, curve.generated), Series("required", x, curve.wanted, dashed=True))
+    series = (Series("generated", x, curve.generated), Series("required", x, curve.required, dashed=True))
     axes = Axis("x"), Axis("rotation of the rocker", "deg")
     return Plot("function-four-bar-shown", "Generated function", *axes, series)
 

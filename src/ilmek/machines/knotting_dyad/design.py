@@ -114,7 +114,7 @@ class KnottingDyad:
 
     def residual(self, dyad: TwoLinkArm) -> float:
         """Greatest distance by which a dyad misses the four points [m]."""
-        closed = dyad.place(self.task.angles, self.second_angles(dyad))
+        closed = dyad.end_position(self.task.angles, self.second_angles(dyad))
         return float(np.max(np.abs(closed - self.task.points)))
 
     def elbows(self, dyad: TwoLinkArm) -> ComplexArray:

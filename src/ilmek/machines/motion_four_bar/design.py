@@ -83,7 +83,7 @@ def _link(one: Guide) -> Json:
 
 
 def _branches(branches: Sequence[CurveBranch]) -> Json:
-    return [{"closed": branch.closed, "places": branch.places} for branch in branches]
+    return [{"closed": branch.closed, "places": branch.points} for branch in branches]
 
 
 def design(params: MotionFourBarParams) -> MotionFourBar:
@@ -103,7 +103,7 @@ def design(params: MotionFourBarParams) -> MotionFourBar:
     for crank, rocker in pairs:
         joined = pair(crank, rocker, complex(poses.points[0]))
         if joined.four_bar is None:
-            other.append(joined.said)
+            other.append(joined.description)
         else:
             made = _numbers(guides, crank, rocker) if few else "curve"
             options.append(FourBarOption(judge(joined.four_bar, task), made))

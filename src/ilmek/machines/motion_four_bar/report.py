@@ -111,7 +111,7 @@ def _flags(design: MotionFourBar) -> tuple[Stroke, ...]:
 def _within(design: MotionFourBar, branch: CurveBranch, label: str) -> Iterator[Stroke]:
     """The parts of a branch that lie in the window."""
     middle = complex(np.mean(design.poses.points))
-    points = np.append(branch.places, branch.places[:1]) if branch.closed else branch.places
+    points = np.append(branch.points, branch.points[:1]) if branch.closed else branch.points
     inside = np.abs(points - middle) < WINDOW * design.extent
     cuts = np.flatnonzero(np.diff(inside.astype(int))) + 1
     for part, kept in zip(np.split(points, cuts), np.split(inside, cuts), strict=True):

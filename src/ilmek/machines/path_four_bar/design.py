@@ -111,7 +111,7 @@ def _exact(params: PathFourBarParams, points: ComplexArray) -> tuple[tuple[FourB
     found = timed_four_bars(points, timing, pivots=params.both_pivots(), samples=CURVES)
     task = PrecisionTask(points=points, crank=timing)
     candidates = [judge(one.four_bar, task) for one in found if one.four_bar is not None]
-    other = dict.fromkeys(one.said for one in found if one.four_bar is None)
+    other = dict.fromkeys(one.description for one in found if one.four_bar is None)
     return tuple(FourBarOption(one, "exact", errors(one)) for one in candidates), tuple(other)
 
 

@@ -1,15 +1,14 @@
-"""Minimax by exchange: the parameters for which the greatest error is least, with the bound that proves it.
+"""Minimax approximation by exchange: least greatest error, with a lower bound as proof.
 
-    least over d of  max_i |e_i - sum_k T_ik d_k|
+    min over d of  max_i |e_i - sum_k T_ik d_k|
 
-On a reference of n + 1 rows all errors can be levelled to one size h. As sum y_i T_i = 0 for the multipliers y of the
-reference, every d has an error of h at least somewhere (de la Vallee-Poussin); the row of the greatest error is
-exchanged for one of the reference, h grows, and where it meets the greatest error nothing is better. The signs are
-those of y, not taken for alternating: no Chebyshev system is asked for.
+On a reference of n + 1 rows all errors can be made equal to one level h. As sum y_i T_i = 0 for the multipliers y of
+the reference, every d has an error of at least h in some row (de la Vallee-Poussin). The row of the greatest error is
+exchanged for one of the reference, h grows, and where h reaches the greatest error the solution is optimal. The signs
+are those of y and need not alternate: a Chebyshev system is not required.
 
-Errors that are not linear in the parameters are made so step by step: each step goes towards the minimax of the
-tangents, no further than it gains. Where the level of the tangents is the greatest error itself, no small change of
-the parameters gains anything.
+Nonlinear errors are linearised repeatedly: each step goes towards the minimax of the tangents, within a trust region.
+Where the level of the tangents equals the greatest error, no small change of the parameters reduces it.
 [Stiefel, Numer. Math. 1 (1959) 1; Osborne and Watson, Comput. J. 12 (1969) 63; Powell, Approximation theory, 8, 9]
 """
 
@@ -25,26 +24,29 @@ from ilmek.arrays import Float, FloatArray, Int
 Parameters: TypeAlias = Float[np.ndarray, " parameters"]
 
 Errors: TypeAlias = Callable[[Parameters, FloatArray], tuple[FloatArray, FloatArray]]
-"""(parameters, x) -> error at each x, and its slopes by the parameters (x, parameters); inf where there is none."""
+"""(parameters, x) -> errors at x, and their derivatives, shape (x, parameters); inf where the error does not exist."""
 
 RANK = 1e-11
-"""Singular value, of the greatest, below which columns say the same."""
+"""Relative singular value below which columns are dependent."""
 
 LEVEL = 1e-12
-"""Part of the greatest error by which the level may miss it and the exchange is at its end."""
+"""Relative difference of level and greatest error at which the exchange ends."""
 
 STEPS = 80
-"""Tangents taken at most."""
+"""Greatest number of linearisations."""
 
 PROVEN = 1e-7
-"""Part of the greatest error by which the bound may miss it for a minimax that counts as proven."""
+"""Relative difference of bound and greatest error up to which a minimax counts as proven."""
 
 
 class MinimaxLevel(NamedTuple):
     """The minimax of linear errors e - T d.
 
-    change  d      level  h, below which no d brings the greatest error      worst  greatest error at d
-    rows    the reference      multipliers  y of its rows: sum y T = 0, sum |y| = 1, sum y e = h
+    change       d
+    level        h, lower bound of the greatest error for any d
+    worst        greatest error at d
+    rows         indices of the reference
+    multipliers  y of its rows: sum y T = 0, sum |y| = 1, sum y e = h
     """
 
     change: Parameters
@@ -55,10 +57,7 @@ class MinimaxLevel(NamedTuple):
 
 
 class Descent(NamedTuple):
-    """Where a descent ends: the parameters, the greatest error there, and the level below which its tangents do not go.
-
-    `gap` is the part of the greatest error that the level does not prove.
-    """
+    """End of a descent: parameters, level of the tangents (lower bound), and greatest error."""
 
     parameters: Parameters
     level: float
@@ -66,14 +65,14 @@ class Descent(NamedTuple):
 
     @property
     def gap(self) -> float:
-        """(worst - level) / worst; 0 for no error at all."""
+        """Optimality gap (worst - level) / worst; 0 where the error is 0."""
         return max(0.0, 1.0 - self.level / self.worst) if self.worst > 0 else 0.0
 
 
 def linear_minimax(slopes: Float[np.ndarray, "m n"], errors: Float[np.ndarray, " m"]) -> MinimaxLevel:
-    """The change d for which the greatest of |errors - slopes d| is least; of several the shortest, nearly.
+    """The change d for which the greatest of |errors - slopes d| is least; of several about the shortest.
 
-    Columns that say the same are told apart by their singular values and share the change.
+    slopes  T, shape (m, n); dependent columns share the change, by their singular values      errors  e, shape (m,)
 
     >>> x = np.linspace(0, 1, 101)  # sqrt(x) by a line: x + 1/8
     >>> best = linear_minimax(np.stack([np.ones(101), x], axis=-1), np.sqrt(x))
@@ -85,7 +84,7 @@ def linear_minimax(slopes: Float[np.ndarray, "m n"], errors: Float[np.ndarray, "
     rows, signs, multipliers = _first_reference(left[:, :rank], errors)
     change = left[:, :rank].T @ errors
     for _ in range(30 + 3 * len(errors)):
-        if len(rows) <= rank:  # as many unknowns as errors: none is left
+        if len(rows) <= rank:  # as many unknowns as errors: all errors are zero
             break
         table = np.column_stack([left[rows, :rank], signs])
         solved = np.linalg.solve(table, errors[rows])
@@ -97,10 +96,10 @@ def linear_minimax(slopes: Float[np.ndarray, "m n"], errors: Float[np.ndarray, "
         sign = float(np.sign(left_over[enters]))
         shift = -np.linalg.solve(table.T, np.append(sign * left[enters, :rank], 1.0))
         falling = -signs * shift
-        ways = np.where(falling > 0, np.abs(multipliers) / np.where(falling > 0, falling, 1.0), np.inf)
-        leaves = int(np.argmin(ways))
-        multipliers = multipliers + ways[leaves] * shift
-        multipliers[leaves] = sign * ways[leaves]
+        steps = np.where(falling > 0, np.abs(multipliers) / np.where(falling > 0, falling, 1.0), np.inf)
+        leaves = int(np.argmin(steps))
+        multipliers = multipliers + steps[leaves] * shift
+        multipliers[leaves] = sign * steps[leaves]
         rows[leaves], signs[leaves] = enters, sign
     worst = float(np.max(np.abs(errors - left[:, :rank] @ change)))
     bound = float(multipliers @ errors[rows]) if len(rows) > rank else 0.0
@@ -110,7 +109,7 @@ def linear_minimax(slopes: Float[np.ndarray, "m n"], errors: Float[np.ndarray, "
 def _first_reference(
     basis: Float[np.ndarray, "m r"], errors: Float[np.ndarray, " m"]
 ) -> tuple[Int[np.ndarray, " rows"], Float[np.ndarray, " rows"], Float[np.ndarray, " rows"]]:
-    """Rows that are independent and one more, their signs and multipliers."""
+    """Independent rows and one more, their signs and multipliers."""
     rank = basis.shape[1]
     order = np.asarray(scipy.linalg.qr(basis.T, mode="r", pivoting=True)[1], dtype=np.int64)
     rows = order[: rank + 1].copy()
@@ -122,12 +121,15 @@ def _first_reference(
 
 
 def minimax_descent(errors: Errors, start: Parameters, x: FloatArray, *, least: float = 0.0) -> Descent:
-    """The nearest minimax of errors at places x, from a start; as good as it gets where tangents gain nothing.
+    """Local minimax of errors at points x, from a start.
 
-    A step that gains too little of what its tangents promise is taken back and held shorter: no parameter alone may
-    then change an error by more than `reach`, rows of the same minimax. Where that binds, the errors are curved: the
-    same step and one of Newton's method are tried too, each followed by levelling its reference.
-    least  error that counts as none
+    errors  (parameters, x) -> errors and derivatives      start  parameters, shape (n,)
+    x       shape (points,)                                least  error that counts as 0
+
+    If the reduction of a step is too small compared with that of its tangents, the step is rejected and the trust
+    region reduced: no single parameter may then change an error by more than `reach`, by further rows of the same
+    minimax. Where this bound is active the errors are curved; the same step and a Newton step are then tried as well,
+    each followed by making the errors of the reference equal.
     """
     parameters = np.asarray(start, dtype=float)
     found, slopes = errors(parameters, x)
@@ -135,14 +137,14 @@ def minimax_descent(errors: Errors, start: Parameters, x: FloatArray, *, least: 
     if not np.isfinite(worst):
         return Descent(parameters, 0.0, np.inf)
     for _ in range(STEPS):
-        step = _held_step(found, slopes, reach)
+        step = _bounded_step(found, slopes, reach)
         promised = worst - float(np.max(np.abs(found + slopes @ step.change)))
         if worst <= least or promised <= LEVEL * worst or reach <= LEVEL * worst:
             break
         ends = [parameters + step.change]
         if np.isfinite(reach):
             curved = _curved_step(errors, parameters, x, (found, slopes), step)
-            ends += [_levelled(errors, parameters + change, x, step) for change in (step.change, curved)]
+            ends += [_with_equal_errors(errors, parameters + change, x, step) for change in (step.change, curved)]
         trials = [errors(end, x) for end in ends]
         sizes = [float(np.max(np.abs(trial[0]))) for trial in trials]
         best = int(np.argmin(sizes))
@@ -157,8 +159,8 @@ def minimax_descent(errors: Errors, start: Parameters, x: FloatArray, *, least: 
     return Descent(parameters, linear_minimax(-slopes, found).level, worst)
 
 
-def _held_step(errors: Float[np.ndarray, " m"], slopes: Float[np.ndarray, "m n"], reach: float) -> MinimaxLevel:
-    """The minimax of the tangents, held within reach."""
+def _bounded_step(errors: Float[np.ndarray, " m"], slopes: Float[np.ndarray, "m n"], reach: float) -> MinimaxLevel:
+    """The minimax of the tangents within the trust region `reach`."""
     if np.isinf(reach):
         return linear_minimax(-slopes, errors)
     bounds = np.diag(np.max(np.abs(slopes), axis=0)) * (np.max(np.abs(errors)) / reach)
@@ -166,21 +168,21 @@ def _held_step(errors: Float[np.ndarray, " m"], slopes: Float[np.ndarray, "m n"]
 
 
 def _curved_step(
-    errors: Errors, parameters: Parameters, x: FloatArray, here: tuple[FloatArray, FloatArray], step: MinimaxLevel
+    errors: Errors, parameters: Parameters, x: FloatArray, current: tuple[FloatArray, FloatArray], step: MinimaxLevel
 ) -> Parameters:
-    """Newton's step for parameters, level and multipliers on the rows that the held minimax levels; 0 if it fails.
+    """Newton step for parameters, level and multipliers on the reference of a minimax; 0 if it fails.
 
     H d + J^T w = 0,    J d - s h = -e,    s^T w = 1,    H = sum of w_i times the curvature of e_i
     """
-    held = (step.rows < len(x)) & (np.abs(step.multipliers) > RANK)
-    rows, weights = step.rows[held], step.multipliers[held]
-    found, slopes = here[0][rows], here[1][rows]
+    active = (step.rows < len(x)) & (np.abs(step.multipliers) > RANK)
+    rows, weights = step.rows[active], step.multipliers[active]
+    found, slopes = current[0][rows], current[1][rows]
     count, many, signs = len(parameters), len(rows), np.sign(weights)
     if not many:
         return np.zeros(count)
     weights = weights / np.sum(np.abs(weights))
     size = 1e-5 * np.maximum(1e-3, np.abs(parameters))
-    sides = [[errors(parameters + way * size * axis, x[rows])[1] for way in (1, -1)] for axis in np.eye(count)]
+    sides = [[errors(parameters + sign * size * axis, x[rows])[1] for sign in (1, -1)] for axis in np.eye(count)]
     curvature = np.stack([weights @ (up - down) / 2 for up, down in sides]) / size[:, None]
     table = np.zeros((count + many + 1, count + many + 1))
     table[:count, :count] = 0.5 * (curvature + curvature.T)
@@ -193,10 +195,10 @@ def _curved_step(
         return np.zeros(count)
 
 
-def _levelled(errors: Errors, parameters: Parameters, x: FloatArray, step: MinimaxLevel) -> Parameters:
-    """Parameters nearby, nearly the nearest, for which the errors of a step's reference are level again."""
-    held = (step.rows < len(x)) & (np.abs(step.multipliers) > RANK)
-    rows, signs = step.rows[held], np.sign(step.multipliers[held])
+def _with_equal_errors(errors: Errors, parameters: Parameters, x: FloatArray, step: MinimaxLevel) -> Parameters:
+    """Parameters nearby, about the nearest, for which the errors of a step's reference are equal."""
+    active = (step.rows < len(x)) & (np.abs(step.multipliers) > RANK)
+    rows, signs = step.rows[active], np.sign(step.multipliers[active])
     for _ in range(3):
         found, slopes = errors(parameters, x[rows])
         if not np.isfinite(found).all() or not len(rows):
@@ -211,9 +213,9 @@ def _levelled(errors: Errors, parameters: Parameters, x: FloatArray, step: Minim
 
 
 def extremes(error: Callable[[FloatArray], FloatArray], x: FloatArray) -> FloatArray:
-    """Places of all local extremes of an error, ends included: seen on the places x, then found to rounding.
+    """All local extrema of an error, including the ends: bracketed on x, then located by golden sections.
 
-    x rises or falls. By golden sections, all at once.
+    error  function of x      x  ascending or descending; returned itself where an error is not finite
 
     >>> extremes(lambda x: np.cos(3 * np.arccos(x)), np.linspace(-1, 1, 50)).round(7)
     array([-1. , -0.5,  0.5,  1. ])
@@ -236,22 +238,23 @@ def extremes(error: Callable[[FloatArray], FloatArray], x: FloatArray) -> FloatA
 
 
 def minimax_over_range(errors: Errors, start: Parameters, x: FloatArray, *, least: float = 0.0) -> Descent:
-    """The nearest minimax over a whole range: on places x first, then with every extreme between them added.
+    """Local minimax over a whole range: on points x first, then with all extrema in between added.
 
-    The bound is that of the tangents on the places, so it holds for the range; the worst is that of the range.
+    The arguments are those of `minimax_descent`. The lower bound of the points also holds for the range; `worst` is the
+    greatest error over the range.
     """
-    places, found = x, Descent(np.asarray(start, dtype=float), 0.0, np.inf)
+    points, found = x, Descent(np.asarray(start, dtype=float), 0.0, np.inf)
     for _ in range(12):
-        found = minimax_descent(errors, found.parameters, places, least=least)
+        found = minimax_descent(errors, found.parameters, points, least=least)
         if not np.isfinite(found.worst):
             break
-        at = extremes(partial(_error_alone, errors, found.parameters), places)
+        at = extremes(partial(_error_alone, errors, found.parameters), points)
         worst = float(np.max(np.abs(_error_alone(errors, found.parameters, at))))
         done = worst <= max(least, found.worst * (1 + 1e-9)) or found.gap > PROVEN
         found = found._replace(worst=max(worst, found.worst))
         if done:
             break
-        places = np.union1d(places, at)
+        points = np.union1d(points, at)
     return found
 
 

@@ -1,15 +1,15 @@
-"""Freudenstein's equation as a synthesis polynomial: the design error of a function generator, in three criteria.
+"""Freudenstein's equation as a synthesis polynomial: design error of a function generator, by three criteria.
 
-Both start angles said, it is linear in R1, R2, R3. With one of them free, the link W that turns from it is a vector,
-and the equation over the other link's length has four parameters and two products with a common factor,
+With both start angles given it is linear in R1, R2, R3. With one of them free, its link W is a vector, and the equation
+divided by the length of the other link has four parameters and two products with a common factor,
 
     crank start free     P0 - X cos(th4 - phi) - Y sin(th4 - phi) - s X cos phi + s Y sin phi = -cos th4
                          P0 = K / c, W = X + i Y = a e^{i alpha}, s = 1 / c
     rocker start free    P0 - X cos(psi - th2) + Y sin(psi - th2) + s X cos psi - s Y sin psi = cos th2
                          P0 = K / a, W = X + i Y = c e^{i beta}, s = 1 / a
 
-with 2 K = 1 + a^2 - b^2 + c^2, so that all answers are known: two at most through four pairs of angles, nine stationary
-ones at most for the squares. With both start angles free there are four products: see `function_generator`.
+with 2 K = 1 + a^2 - b^2 + c^2. All solutions are known: at most two through four pairs of angles, and at most nine
+stationary points of the squares. With both start angles free there are four products: see `function_generator`.
 [Freudenstein 1955; the form with vectors as in `freudenstein`; Todorov, Mech. Mach. Theory 37 (2002) 1505]
 """
 
@@ -33,14 +33,14 @@ from ilmek.synthesis.function import Function
 
 
 class GeneratorDesign(NamedTuple):
-    """A generator and what is said of its design error."""
+    """A generator and its design error."""
 
     generator: Generator
     error: Approximation
 
 
 class GeneratorDesigns(NamedTuple):
-    """Generators, the best by the criterion first, and in words what came out that is none."""
+    """Generators, the best by the criterion first; and descriptions of what was left out."""
 
     found: tuple[GeneratorDesign, ...]
     left_out: tuple[str, ...]
@@ -53,9 +53,12 @@ def design_polynomial(
     rocker_start: float | None = None,
     weight: Weight | None = None,
 ) -> SynthesisPolynomial:
-    """The synthesis polynomial of the design error over x: in R1, R2, R3, or in P0, X, Y, s where one start is free.
+    """The synthesis polynomial of the design error over x: in R1, R2, R3, or in P0, X, Y, s with one free start angle.
 
-    Raises ParameterError where both are free.
+    crank_start, rocker_start  angles at the start of the function [rad]; default: free
+    weight                     of the error at each x, above 0; default: 1
+
+    Raises ParameterError where both start angles are free.
     """
     if crank_start is not None and rocker_start is not None:
         starts = crank_start, rocker_start
@@ -68,9 +71,9 @@ def design_polynomial(
         raise ParameterError(
             "both start angles of the design error are free",
             allowed="one of them",
-            do="`function_approximations` takes both",
+            do="use `function_approximations` for two free start angles",
         )
-    # Either way: W turns by `own`, the other link stands at `other`, and only signs differ.
+    # In both cases W rotates by `own` and the other link has the angle `other`; only signs differ.
     sign = -1.0 if crank_start is None else 1.0
 
     def angles(x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -87,10 +90,10 @@ def design_polynomial(
         own, _ = angles(x)
         return sign * np.stack([np.cos(own), -np.sin(own)], axis=-1)
 
-    def wanted(x: FloatArray) -> FloatArray:
+    def target(x: FloatArray) -> FloatArray:
         return np.asarray(sign * np.cos(angles(x)[1]))
 
-    return SynthesisPolynomial(terms, wanted, ((3, 1), (3, 2)), products, weight)
+    return SynthesisPolynomial(terms, target, ((3, 1), (3, 2)), products, weight)
 
 
 def design_generators(
@@ -101,19 +104,22 @@ def design_generators(
     rocker_start: float | None = None,
     weight: Weight | None = None,
 ) -> GeneratorDesigns:
-    """All generators that are best by a criterion for the design error, one start angle at least being said.
+    """All generators that are optimal by a criterion for the design error, with at least one start angle given.
 
-    criterion  "interpolation" at Chebyshev's places, "least squares" (every stationary answer) or "minimax"
+    criterion                  "interpolation" at Chebyshev nodes, "least squares" (all stationary points) or "minimax"
+    crank_start, rocker_start  angles at the start of the function [rad]; default: free
+    weight                     of the error at each x, above 0; default: 1
+
     Raises ParameterError for another criterion, and where both start angles are free.
     """
     polynomial = design_polynomial(function, crank_start=crank_start, rocker_start=rocker_start, weight=weight)
     low, high = sorted((function.start, function.stop))
-    places = range_nodes(low, high)
+    points = range_nodes(low, high)
     if criterion == "interpolation":
         count = 4 if polynomial.products else 3
-        answers, words = interpolation(polynomial, chebyshev_nodes(low, high, count), places)
+        answers, words = interpolation(polynomial, chebyshev_nodes(low, high, count), points)
     elif criterion in {"least squares", "minimax"}:
-        answers, words = (minimax if criterion == "minimax" else least_squares)(polynomial, places)
+        answers, words = (minimax if criterion == "minimax" else least_squares)(polynomial, points)
     else:
         raise ParameterError(
             f"criterion {criterion!r} of a design error", allowed="interpolation, least squares, minimax"
@@ -123,7 +129,7 @@ def design_generators(
 
 
 def _generator(parameters: FloatArray, crank_start: float | None, rocker_start: float | None) -> Generator:
-    """The generator that parameters of the polynomial stand for."""
+    """The generator of parameters of the polynomial."""
     if crank_start is not None and rocker_start is not None:
         r1, r2, r3 = (float(ratio) for ratio in parameters)
         return Generator(r1, r2, r3, crank_start, rocker_start)

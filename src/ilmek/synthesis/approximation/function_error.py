@@ -1,4 +1,4 @@
-"""What the rocker of a four-bar misses a function by, in closed form, with its slopes by ratios and start angles.
+"""Structural error of a function-generating four-bar in closed form, with derivatives by ratios and start angles.
 
 Freudenstein's equation with ground 1, crank a, coupler b, rocker c,
 
@@ -8,8 +8,8 @@ is Re(D* e^{i th4}) = C with D = R1 - e^{i th2}, C = R2 cos th2 - R3, and so
 
     e^{i th4} = D (C + i s sqrt(|D|^2 - C^2)) / |D|^2,    error = th4 - beta - psi(x),    th2 = alpha + phi(x)
 
-Nothing in it grows without end where a link does: R1 = 0 and R2 = 0 are sliders, and a search passes through them.
-s is the branch of the four-bar times the signs of a and c. The slopes follow from the equation itself. [derived here]
+All terms stay finite for infinitely long links: R1 = 0 and R2 = 0 are sliders, and a search passes through them. s is
+the branch of the four-bar times the signs of a and c. The derivatives follow from the equation. [derived here]
 """
 
 import math
@@ -29,7 +29,7 @@ Weight: TypeAlias = Callable[[FloatArray], FloatArray]
 
 
 class GeneratorLinks(NamedTuple):
-    """Crank, coupler and rocker in ground links; crank and rocker below 0 where they point away from their angles."""
+    """Crank, coupler and rocker [ground links]; crank and rocker negative where they point opposite to their angles."""
 
     crank: float
     coupler: float
@@ -37,9 +37,9 @@ class GeneratorLinks(NamedTuple):
 
 
 class Generator(NamedTuple):
-    """A function generator; numbers or arrays of them.
+    """A function generator; numbers or arrays of one shape.
 
-    by_crank, by_rocker, both  Freudenstein's R1, R2, R3
+    by_crank, by_rocker, both  Freudenstein's R1, R2, R3 [1]
     crank_start, rocker_start  angles at the start of the function [rad]
     """
 
@@ -51,12 +51,12 @@ class Generator(NamedTuple):
 
     @property
     def numbers(self) -> Float[np.ndarray, "5"]:
-        """All five as one array."""
+        """The five numbers as an array, shape (5,)."""
         return np.array(self, dtype=float)
 
     @property
     def links(self) -> GeneratorLinks:
-        """The links of one generator; infinite where a ratio is 0."""
+        """Link lengths of one generator [ground links]; inf where a ratio is 0."""
         r1, r2, r3 = (float(ratio) for ratio in self[:3])
         if r1 == 0 or r2 == 0:
             return GeneratorLinks(math.inf, math.inf, math.inf)
@@ -64,19 +64,26 @@ class Generator(NamedTuple):
         return GeneratorLinks(a, math.sqrt(max(0.0, 1 + a * a + c * c - 2 * a * c * r3)), c)
 
     def drawn(self, function: Function, x: float, sense: int, ground: float) -> FourBar:
-        """The four-bar as it shows x, with its ground along the x axis from the origin."""
+        """The four-bar drawn at x, its ground link along the x axis from the origin.
+
+        sense  s, +1 or -1      ground  length of the ground link [m]
+        """
         at, links = np.array([x], dtype=float), self.links
         e2 = np.exp(1j * (self.crank_start + function.crank(at)))
-        a, b = links.crank * complex(e2[0]), 1 + links.rocker * complex(_rocker_arrow(self, e2, sense)[0])
+        a, b = links.crank * complex(e2[0]), 1 + links.rocker * complex(_rocker_direction(self, e2, sense)[0])
         return FourBar(0j, complex(ground), a * ground, b * ground)
 
 
 @record
 class StructuralErrors:
-    """(free parameters, x) -> weighted structural error [rad] and its slopes; inf where the four-bar does not close
-    (everywhere, if it is not at x that it does not).
+    """(free parameters, x) -> weighted structural error [rad] and its derivatives.
 
-    sense  s, +1 or -1      known  all five numbers of the `Generator`; those that are not `free` are taken from here
+    The error is inf where the four-bar does not close; everywhere, if it closes at all x but not over the whole range.
+
+    sense   s, +1 or -1
+    known   all five numbers of the `Generator`, for those that are not free
+    free    which of the five numbers are free
+    weight  of the error at each x, above 0; default: 1
     """
 
     function: Function
@@ -92,26 +99,26 @@ class StructuralErrors:
         return Generator(*numbers)
 
     def __call__(self, parameters: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Errors and slopes: `Errors` of the exchange."""
+        """Errors and derivatives, as `exchange.Errors`."""
         one = self.generator(parameters)
         e2 = np.exp(1j * (one.crank_start + self.function.crank(x)))
-        arrow = _rocker_arrow(one, e2, self.sense)
+        direction = _rocker_direction(one, e2, self.sense)
         with np.errstate(divide="ignore", invalid="ignore"):
-            slopes = _slopes(one, e2, arrow)
-        error = np.angle(arrow * np.exp(-1j * (one.rocker_start + self.function.rocker(x))))
-        lost = ~(np.isfinite(error) & np.isfinite(slopes).all(axis=-1))
-        if not lost.any() and not margin(self.function, one) > 0:
-            lost[:] = True
+            slopes = _slopes(one, e2, direction)
+        error = np.angle(direction * np.exp(-1j * (one.rocker_start + self.function.rocker(x))))
+        not_closed = ~(np.isfinite(error) & np.isfinite(slopes).all(axis=-1))
+        if not not_closed.any() and not margin(self.function, one) > 0:
+            not_closed[:] = True
         weight = np.ones(len(x)) if self.weight is None else self.weight(x)
-        error = np.where(lost, np.inf, weight * error)
-        return error, np.where(lost[:, None], 0.0, weight[:, None] * slopes)[:, self.free]
+        error = np.where(not_closed, np.inf, weight * error)
+        return error, np.where(not_closed[:, None], 0.0, weight[:, None] * slopes)[:, self.free]
 
 
 def margin(function: Function, one: Generator) -> float:
-    """How far a generator is from a dead centre of its crank over the function's range: least of 1 - C^2 / |D|^2.
+    """Margin of a generator from a dead centre of its crank over the range: least of 1 - C^2 / |D|^2 [1].
 
-    0 in line, below 0 where it does not close. C^2 - |D|^2 is convex in cos th2, so that the ends of the range and the
-    crossings of the ground line tell whether it closes everywhere.
+    0 at a dead centre, below 0 where the four-bar does not close. C^2 - |D|^2 is convex in cos th2, so the ends of the
+    range and the crossings of the ground line suffice.
     """
     turned = function.crank(np.array([function.start, function.stop], dtype=float))
     low, high = sorted(float(one.crank_start + turn) for turn in turned)
@@ -122,16 +129,21 @@ def margin(function: Function, one: Generator) -> float:
 
 
 def structural_error(function: Function, one: Generator, sense: int, x: FloatArray) -> FloatArray:
-    """Unweighted errors [rad] of generators at x, NaN where they do not close; their batch shape, then that of x."""
+    """Unweighted structural errors [rad] of generators at x, NaN where they do not close.
+
+    one  numbers of any shape      sense  s, +1 or -1      x  shape (points,)
+
+    Returns an array of the generators' shape, followed by that of x.
+    """
     each = Generator(*(np.asarray(number)[..., None] for number in one))
-    arrow = _rocker_arrow(each, np.exp(1j * (each.crank_start + function.crank(x))), sense)
-    return np.asarray(np.angle(arrow * np.exp(-1j * (each.rocker_start + function.rocker(x)))))
+    direction = _rocker_direction(each, np.exp(1j * (each.crank_start + function.crank(x))), sense)
+    return np.asarray(np.angle(direction * np.exp(-1j * (each.rocker_start + function.rocker(x)))))
 
 
 def design_table(
     function: Function, starts: tuple[RealField, RealField], x: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Columns of R1, R2, R3 and the right side of Freudenstein's equation at x, for each pair of start angles."""
+    """Columns of R1, R2, R3 and right side of Freudenstein's equation at x, for each pair of start angles [rad]."""
     th2 = np.asarray(starts[0])[..., None] + function.crank(x)
     th4 = np.asarray(starts[1])[..., None] + function.rocker(x)
     return np.stack([np.cos(th4), -np.cos(th2), np.ones_like(th2)], axis=-1), np.asarray(np.cos(th2 - th4))
@@ -140,7 +152,7 @@ def design_table(
 def design_fit(
     function: Function, starts: tuple[FloatArray, FloatArray], x: FloatArray, shares: FloatArray
 ) -> Generator:
-    """The generators of least design error for each pair of start angles; `shares` are weights of the squares at x."""
+    """Generators of least design error for each pair of start angles [rad]; `shares` weight the squares at x."""
     table, right = design_table(function, starts, x)
     root = np.sqrt(shares)
     ratios = (np.linalg.pinv(root[:, None] * table, rcond=1e-10) @ (root * right)[..., None])[..., 0]
@@ -148,25 +160,30 @@ def design_fit(
 
 
 def of_four_bar(
-    four_bar: FourBar, function: Function, drawn_at: float, said: tuple[float | None, float | None] = (None, None)
+    four_bar: FourBar,
+    function: Function,
+    drawn_at: float,
+    given_starts: tuple[float | None, float | None] = (None, None),
 ) -> tuple[int, Generator]:
-    """Sense and generator of a four-bar that is drawn as it shows x = drawn_at.
+    """Sense and generator of a four-bar drawn at x = drawn_at.
 
-    said  start angles that are kept where a link points away from them: it counts as negative then
+    given_starts  given start angles of crank and rocker [rad]: a link that points opposite to its angle is negative
     """
     at, frame = np.array([drawn_at], dtype=float), four_bar.b0 - four_bar.a0
     a, b, c = (length / abs(frame) for length in four_bar.lengths[1:])
     angles = np.angle([(four_bar.a - four_bar.a0) / frame, (four_bar.b - four_bar.b0) / frame])
     starts = angles - np.array([function.crank(at)[0], function.rocker(at)[0]])
-    signs = [1 if one is None or math.cos(start - one) > 0 else -1 for one, start in zip(said, starts, strict=True)]
-    starts = [float(start) if one is None else one for one, start in zip(said, starts, strict=True)]
+    signs = [
+        1 if one is None or math.cos(start - one) > 0 else -1 for one, start in zip(given_starts, starts, strict=True)
+    ]
+    starts = [float(start) if one is None else one for one, start in zip(given_starts, starts, strict=True)]
     a, c = signs[0] * a, signs[1] * c
     return four_bar.branch * signs[0] * signs[1], Generator(
         1 / a, 1 / c, (1 + a * a - b * b + c * c) / (2 * a * c), *starts
     )
 
 
-def _rocker_arrow(one: Generator, e2: ComplexArray, sense: int) -> ComplexArray:
+def _rocker_direction(one: Generator, e2: ComplexArray, sense: int) -> ComplexArray:
     """e^{i th4}; NaN where the four-bar does not close."""
     with np.errstate(divide="ignore", invalid="ignore"):
         across = one.by_crank - e2
@@ -175,8 +192,8 @@ def _rocker_arrow(one: Generator, e2: ComplexArray, sense: int) -> ComplexArray:
         return np.asarray(across * (along + 1j * sense * np.sqrt(square - along**2)) / square)
 
 
-def _slopes(one: Generator, e2: ComplexArray, e4: ComplexArray) -> Float[np.ndarray, "places 5"]:
-    """Slopes of the error by R1, R2, R3, crank_start, rocker_start."""
+def _slopes(one: Generator, e2: ComplexArray, e4: ComplexArray) -> Float[np.ndarray, "points 5"]:
+    """Derivatives of the error by R1, R2, R3, crank_start, rocker_start."""
     columns = (e4.real, -e2.real, np.ones(e2.shape), one.by_rocker * e2.imag - dot(1j * e2, e4))
     lever = -dot(one.by_crank - e2, 1j * e4)
     return np.stack([*(column / lever for column in columns), -np.ones(e2.shape)], axis=-1)

@@ -1,14 +1,14 @@
-"""Four-bars that generate a function as well as they can over its whole range, not only at three to five places.
+"""Approximate function generation: four-bars of least error over the whole range, not only at three to five points.
 
-Two errors are told apart. The design error is what Freudenstein's equation misses by,
+Two errors are distinguished. The design error is the residual of Freudenstein's equation,
 
     R1 cos th4 - R2 cos th2 + R3 - cos(th2 - th4),    R1 = 1 / a, R2 = 1 / c, R3 = (1 + a^2 - b^2 + c^2) / (2 a c)
 
-with ground 1, crank a, coupler b, rocker c: linear in R1, R2, R3 where both start angles are said. The structural
-error is what the rocker misses by, and it is the one that is made small. The design error is solved outright, on a
-grid of start angles where they are free; every local least of it that closes, and every four-bar through Chebyshev's
-places, starts a descent on the structural error in the closed form of the linkage (`approximation.search`). The design
-error for its own sake, in all three criteria, is in `approximation.function_design`.
+with ground 1, crank a, coupler b, rocker c: linear in R1, R2, R3 for given start angles. The structural error is the
+error of the rocker angle; it is the one that is minimised. The design error is solved in closed form, on a grid of free
+start angles. Each of its local minima that closes, and each four-bar through the Chebyshev nodes, is the start of a
+descent on the structural error in closed form (`approximation.search`). The design error itself, by all three criteria,
+is in `approximation.function_design`.
 [Freudenstein, Trans. ASME 77 (1955); Todorov, Mech. Mach. Theory 37 (2002) 1505, for Chebyshev's approximation of the
 design error; Liu and Angeles, Mech. Mach. Theory 27 (1992) 501, for the difference of the two errors]
 """
@@ -26,7 +26,7 @@ from ilmek.records import record
 from ilmek.synthesis.approximation.exchange import PROVEN, extremes
 from ilmek.synthesis.approximation.function_error import Weight, structural_error
 from ilmek.synthesis.approximation.search import (
-    PLACES,
+    SAMPLES,
     DescentEnd,
     Starts,
     gauss_nodes,
@@ -38,24 +38,26 @@ from ilmek.synthesis.function import ErrorCurve, Function, error_curve
 from ilmek.units import deg
 
 CRITERIA = ("interpolation", "least squares", "minimax")
-"""What `function_approximations` can be asked for."""
+"""Criteria of `function_approximations`."""
 
 
 @record
 class FunctionApproximation:
-    """A four-bar that generates a function nearly.
+    """A four-bar that generates a function approximately.
 
-    four_bar   drawn where it shows `drawn_at`, a place at which its error vanishes (where none does, is least)
-    criterion  for which it is best, one of CRITERIA      curve  its structural error, moved through `linkage`
-    at, errors the alternation: every local extreme of the structural error (times its weight) over the range, ends
-               included: its places x, and the structural errors there [rad]
-    greatest   greatest structural error over the range [rad]
-    rms        root of the mean square of the structural error over the range [rad]
-    worst      greatest error, times the weight where there is one [rad]
-    bound      minimax only: no small change of the links and of the free start angles brings `worst` below this [rad];
-               NaN for other criteria
-    gap        what is not proven: minimax 1 - bound / worst; least squares the cosine between the errors and their
-               slopes, which vanishes where they are stationary; interpolation the greatest error at a node [rad]
+    four_bar    drawn at x = drawn_at
+    drawn_at    x at which the error is 0, or least
+    criterion   one of CRITERIA
+    curve       structural error by forward simulation
+    at, errors  alternation: x of all local extrema of the weighted structural error over the range, including the ends,
+                and the structural errors there [rad]
+    greatest    greatest structural error over the range [rad]
+    rms         root mean square of the structural error over the range [rad]
+    worst       greatest weighted error [rad]
+    bound       minimax only: lower bound of `worst` for small changes of the links and free start angles [rad];
+                otherwise NaN
+    gap         remaining optimality gap. Minimax: 1 - bound / worst; least squares: cosine between the errors and their
+                derivatives, 0 at a stationary point; interpolation: greatest error at a node [rad]
     """
 
     four_bar: FourBar
@@ -72,12 +74,12 @@ class FunctionApproximation:
 
     @property
     def proven(self) -> bool:
-        """Whether it is locally best by its criterion, to rounding."""
+        """Whether it is a local optimum of its criterion, except for rounding."""
         return self.gap <= PROVEN
 
 
 class FunctionApproximations(NamedTuple):
-    """Four-bars, the best by their criterion first, and in words what came out that is none."""
+    """Four-bars, the best by the criterion first; and descriptions of what was left out."""
 
     found: tuple[FunctionApproximation, ...]
     left_out: tuple[str, ...]
@@ -92,18 +94,19 @@ def function_approximations(
     ground: float = 1.0,
     weight: Weight | None = None,
 ) -> FunctionApproximations:
-    """Four-bars that generate a function nearly over its whole range, all that were found, the best first.
+    """All four-bars found that generate a function approximately over its range, the best first.
 
-    criterion  "interpolation": exact at Chebyshev's places, as many as there are free numbers (3 to 5)
-               "least squares": least mean square of the structural error over the range
-               "minimax": least greatest structural error, with the bound that proves it
-    crank_start, rocker_start  angles at the start of the function [rad] against the ground; None where free
-    ground     A0-B0 [m]      weight  of the error at each x, above 0; 1 where it is not said
+    criterion                  "interpolation": exact at Chebyshev nodes, as many as there are free numbers (3 to 5);
+                               "least squares": least mean square of the structural error over the range;
+                               "minimax": least greatest structural error, with a lower bound as proof
+    crank_start, rocker_start  angles at the start of the function, relative to the ground link [rad]; default: free
+    ground                     A0-B0 [m]
+    weight                     of the error at each x, above 0; default: 1
 
-    Both start angles free give the least errors. What is found is locally best; that nothing better is elsewhere is
-    as sure as the grid of start angles is fine. Ends that are not proven are answered only where no other is.
-    Raises ParameterError for another criterion, start angles in degrees, a ground or a weight that is not above 0, a
-    function that is not finite over its range, and one that a whole family of four-bars generates.
+    Free start angles give the least errors. The results are local optima; a better one elsewhere is excluded only as
+    far as the grid of start angles is fine. Results without proof are returned only if there are no others. Raises
+    ParameterError for another criterion, start angles in degrees, a ground or weight that is not above 0, a function
+    that is not finite over its range, and a function generated by a family of four-bars.
 
     >>> root = Function(lambda x: np.sqrt(1 + x), 0.0, 3.0, 80 * deg, 60 * deg)
     >>> best = function_approximations(root, crank_start=1.0, rocker_start=0.8).found[0]
@@ -113,25 +116,25 @@ def function_approximations(
     starts = (crank_start, rocker_start)
     _check(function, criterion, starts, ground, weight)
     ends, left_out = generator_search(function, criterion, starts, weight)
-    measured = [_measured(function, criterion, end, ground, weight) for end in ends]
+    measured = [_evaluated(function, criterion, end, ground, weight) for end in ends]
     ranked = sorted(measured, key=lambda one: one.rms if criterion == "least squares" else one.worst)
     return FunctionApproximations(tuple(ranked), left_out)
 
 
-def _measured(
+def _evaluated(
     function: Function, criterion: str, end: DescentEnd, ground: float, weight: Weight | None
 ) -> FunctionApproximation:
-    """What there is to be said of a generator."""
+    """A generator with its errors."""
     error = partial(structural_error, function, end.generator, end.sense)
-    drawn_at = _vanishing(function, error)
+    drawn_at = _zero_of_error(function, error)
     four_bar = end.generator.drawn(function, drawn_at, end.sense, ground)
     x, shares = gauss_nodes(function, None)
 
     def weighted(x: FloatArray) -> FloatArray:
         return np.asarray(error(x) * (1.0 if weight is None else weight(x)))
 
-    at = extremes(weighted, range_samples(function, PLACES))
-    peaks = at if weight is None else extremes(error, range_samples(function, PLACES))
+    at = extremes(weighted, range_samples(function, SAMPLES))
+    peaks = at if weight is None else extremes(error, range_samples(function, SAMPLES))
     return FunctionApproximation(
         four_bar,
         drawn_at,
@@ -147,9 +150,9 @@ def _measured(
     )
 
 
-def _vanishing(function: Function, error: partial[FloatArray]) -> float:
-    """The first place at which the error vanishes; where it is least if it never does."""
-    x = range_samples(function, 4 * PLACES)
+def _zero_of_error(function: Function, error: partial[FloatArray]) -> float:
+    """The first x at which the error is 0, otherwise that of the least error."""
+    x = range_samples(function, 4 * SAMPLES)
     seen = error(x)
     changes = np.flatnonzero(np.sign(seen[1:]) != np.sign(seen[:-1]))
     if not len(changes):
@@ -165,7 +168,7 @@ def _check(
     ground: float,
     weight: Weight | None,
 ) -> None:
-    x = range_samples(function, PLACES)
+    x = range_samples(function, SAMPLES)
     if criterion not in CRITERIA:
         raise ParameterError(f"criterion {criterion!r} of a function's approximation", allowed=", ".join(CRITERIA))
     if not (math.isfinite(ground) and ground > 0):
@@ -176,4 +179,4 @@ def _check(
             raise ParameterError(f"{name} {start:g} rad", allowed="within a turn, 6.283 rad", do=guess)
     function.task(x)
     if weight is not None and not (np.isfinite(weight(x)).all() and np.min(weight(x)) > 0):
-        raise ParameterError("a weight of the error is not above 0", allowed="finite and above 0 all over the range")
+        raise ParameterError("a weight of the error is not above 0", allowed="finite and above 0 over the whole range")

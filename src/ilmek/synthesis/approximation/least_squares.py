@@ -1,11 +1,11 @@
-"""Least squares of errors that are not linear in their parameters, with the gradient as proof.
+"""Nonlinear least squares, with the gradient as proof.
 
-S = half the sum of errors^2. First Levenberg and Marquardt's steps, then Newton's with the curvature of the errors,
+S = half the sum of errors^2. First Levenberg-Marquardt steps, then Newton steps with the curvature of the errors,
 
     (J^T J + mu D) d = -J^T e,        (|H| + mu) z = -W^T J^T e, d = W z
 
-D the greatest squares of the columns so far; W makes the columns of J W orthonormal, and |H| is the curvature of S by z
-with its eigenvalues made positive. The first kind of step creeps round bends, the second goes round them.
+D the greatest squares of the columns so far; W makes the columns of J W orthonormal, and |H| is the Hessian of S by z
+with the absolute values of its eigenvalues. In curved valleys Newton steps need far fewer iterations.
 [Moré, The Levenberg-Marquardt algorithm, Lecture Notes in Mathematics 630, 1978, for the scaling]
 """
 
@@ -19,19 +19,19 @@ from ilmek.synthesis.approximation.exchange import Errors, Parameters
 Square = Float[np.ndarray, "n n"]
 
 STEPS = 80
-"""Steps taken at most."""
+"""Greatest number of steps."""
 
 FIRST = 12
-"""Steps after which the curvature of the errors is asked for."""
+"""Number of Levenberg-Marquardt steps before the Newton steps."""
 
 STOP = 1e-11
-"""Cosine between errors and slopes below which a sum of squares is stationary."""
+"""Cosine between errors and derivatives below which a sum of squares is stationary."""
 
 
 class Squares(NamedTuple):
-    """Where a descent ends: the parameters and the sum of squares there.
+    """End of a descent: parameters and sum of squares.
 
-    slope  greatest cosine of the angle between the errors and a column of their slopes: 0 where S is stationary
+    slope  greatest cosine between the errors and a column of their derivatives; 0 where S is stationary
     """
 
     parameters: Parameters
@@ -40,7 +40,11 @@ class Squares(NamedTuple):
 
 
 def squares_descent(errors: Errors, start: Parameters, x: FloatArray) -> Squares:
-    """The nearest least sum of squares from a start; steps into places without an error (inf) are not taken.
+    """Local minimum of the sum of squares of errors, from a start.
+
+    errors  (parameters, x) -> errors and their derivatives; inf where they do not exist: such steps are rejected
+    start   parameters, shape (n,)
+    x       points of the errors, shape (points,)
 
     >>> found = squares_descent(lambda p, x: (p * p - 2 * x, 2 * p[:, None]), np.ones(1), np.ones(1))
     >>> found.parameters.round(9), found.squares < 1e-20
@@ -76,7 +80,7 @@ def squares_descent(errors: Errors, start: Parameters, x: FloatArray) -> Squares
 
 
 def _first_step(errors: FloatArray, slopes: FloatArray, damping: float, scale: FloatArray) -> FloatArray:
-    """Levenberg and Marquardt's step, by orthogonal factors of the slopes with the damping below them."""
+    """Levenberg-Marquardt step, by least squares of the derivatives with the damping as further rows."""
     size = np.where(scale > 0, scale, 1.0)
     rows = np.vstack([slopes / size, np.sqrt(damping) * np.eye(len(size))])
     right = np.append(-errors, np.zeros(len(size)))
@@ -84,18 +88,18 @@ def _first_step(errors: FloatArray, slopes: FloatArray, damping: float, scale: F
 
 
 class _Curved(NamedTuple):
-    """S seen in parameters z in which the slopes are orthonormal: d = ways z."""
+    """S in parameters z for which the derivatives are orthonormal: d = columns z."""
 
-    ways: Square
+    columns: Square
     values: FloatArray
     vectors: Square
     gradient: FloatArray
 
     def ends(self, errors: Errors, parameters: Parameters, x: FloatArray, damping: float) -> list[Parameters]:
-        """Where Newton's damped step ends, and that brought down to the valley by least squares across the step."""
+        """End of the damped Newton step, and this end corrected by least squares across the step."""
         step = -self.vectors @ ((self.vectors.T @ self.gradient) / (np.abs(self.values) + damping))
-        end = parameters + self.ways @ step
-        lower, across = end, self.ways @ np.linalg.svd(step[None, :])[2][1:].T
+        end = parameters + self.columns @ step
+        lower, across = end, self.columns @ np.linalg.svd(step[None, :])[2][1:].T
         for _ in range(2):
             found, slopes = errors(lower, x)
             if not np.isfinite(found).all():
@@ -105,23 +109,23 @@ class _Curved(NamedTuple):
 
 
 def _curved(errors: Errors, parameters: Parameters, x: FloatArray) -> _Curved:
-    """Gradient and curvature of S, by differences of the gradient along each of `ways`."""
+    """Gradient and Hessian of S, by differences of the gradient along each of `columns`."""
     found, slopes = errors(parameters, x)
     _, sizes, right = np.linalg.svd(slopes, full_matrices=False)
-    held = sizes > 1e-12 * sizes[0]
-    ways = right[held].T / sizes[held]
+    regular = sizes > 1e-12 * sizes[0]
+    columns = right[regular].T / sizes[regular]
     length = 1e-6 * float(np.linalg.norm(found))
     rows = []
-    for way in ways.T:
-        (up, up_slopes), (down, down_slopes) = (errors(parameters + side * length * way, x) for side in (1, -1))
+    for column in columns.T:
+        (up, up_slopes), (down, down_slopes) = (errors(parameters + side * length * column, x) for side in (1, -1))
         if not (np.isfinite(up).all() and np.isfinite(down).all()):
             break
-        rows.append(ways.T @ (up_slopes.T @ up - down_slopes.T @ down) / (2 * length))
-    curvature = np.stack(rows) if len(rows) == len(ways.T) else np.eye(len(ways.T))
-    return _Curved(ways, *np.linalg.eigh(0.5 * (curvature + curvature.T)), ways.T @ (slopes.T @ found))
+        rows.append(columns.T @ (up_slopes.T @ up - down_slopes.T @ down) / (2 * length))
+    curvature = np.stack(rows) if len(rows) == len(columns.T) else np.eye(len(columns.T))
+    return _Curved(columns, *np.linalg.eigh(0.5 * (curvature + curvature.T)), columns.T @ (slopes.T @ found))
 
 
 def cosine(errors: FloatArray, slopes: FloatArray) -> float:
-    """Greatest cosine of the angle between the errors and a column of their slopes."""
+    """Greatest cosine of the angle between the errors and a column of their derivatives."""
     lengths = np.linalg.norm(errors) * np.linalg.norm(slopes, axis=0)
     return float(np.max(np.abs(slopes.T @ errors) / np.where(lengths > 0, lengths, np.inf), initial=0.0))

@@ -1,15 +1,16 @@
-"""Equations that are linear but for one or two products of unknowns: all real solutions, and all stationary ones.
+"""Equations that are linear except for one or two products of unknowns: all real solutions and stationary points.
 
     sum_k P_k f_k + sum_j lam_j g_j = F,    lam_j = P_a P_b for each product (a, b)
 
-**As many equations as unknowns.** By superposition, P = l + lam m; and so that no system has to be regular for it, in
-ratios (P : lam : 1) = N s, N what the linear equations leave free. The products are forms of degree 2 in s: one gives
-a binary quadratic, two are conics. A ratio with 0 for its last number is a solution infinitely far.
+**As many equations as unknowns.** By superposition, P = l + lam m; in homogeneous form (P : lam : 1) = N s, with N the
+null space of the linear equations, so that no system has to be regular. The conditions lam_j = P_a P_b are forms of
+degree 2 in s: one product gives a binary quadratic, two products two conics. A solution with the last number 0 is at
+infinity.
 
-**More equations, least squares.** Where one factor t is in every product, all else is linear once t = sin : cos is
-said. With q the right side and M(t) the columns left, S = least |q - M y|^2 is a quotient of forms, and dS/dt = 0 a
-form of degree 5 for one product and 9 for two: all its real roots are stationary, and there are no others. Two
-products without a common factor are given to Newton's method from many starts.
+**More equations, least squares.** If one factor t is common to all products, the problem is linear for given
+t = sin : cos. With q the right side and M(t) the other columns, S = min |q - M y|^2 is a quotient of forms, and
+dS/dt = 0 is a form of degree 5 for one product and 9 for two: its real roots are all stationary points. Two products
+without a common factor are solved by Newton's method from many starts.
 [superposition: Alizade, and thesis 2.38-2.46; the forms are derived here]
 """
 
@@ -25,38 +26,38 @@ from ilmek.num.conics import meet
 from ilmek.num.newton import newton
 
 Products: TypeAlias = tuple[tuple[int, int], ...]
-"""Each product's two parameters, by their places."""
+"""Indices of the two parameters of each product."""
 
 REAL = 1e-6
-"""Distance of a root from the real ones, below which it is one: rounding splits a double root so far."""
+"""Imaginary part below which a root counts as real: rounding splits double roots."""
 
 FAR = 1e-6
-"""Last of the ratios of a solution below which it is infinitely far: a double root is known no better."""
+"""Last homogeneous number of a solution below which it is at infinity: the accuracy of a double root."""
 
 FAMILY = 1e-12
-"""Singular value, of the greatest, below which the equations leave a family."""
+"""Relative singular value below which the equations have a family of solutions."""
 
 STARTS = 14
-"""Directions tried of each of two factors without a common one."""
+"""Starting values of each of two factors, for products without a common factor."""
 
 
 class EquationRows(NamedTuple):
-    """Columns of equations: `terms` f (rows, n), `products` g (rows, p), `wanted` F (rows)."""
+    """Columns of equations: `terms` f, shape (rows, n); `products` g, shape (rows, p); `target` F, shape (rows,)."""
 
     terms: Float[np.ndarray, "rows n"]
     products: Float[np.ndarray, "rows p"]
-    wanted: Float[np.ndarray, " rows"]
+    target: Float[np.ndarray, " rows"]
 
 
 class Solutions(NamedTuple):
-    """Parameters of each solution, and in words what is none."""
+    """Parameters of each solution, and descriptions of what was left out."""
 
     parameters: tuple[Float[np.ndarray, " n"], ...]
     left_out: tuple[str, ...]
 
 
 def scales(rows: EquationRows, products: Products) -> Float[np.ndarray, " n"]:
-    """Sizes of the parameters that make their columns even; a parameter that is only in products is sized by those."""
+    """Scales of the parameters that equilibrate their columns; a parameter only in products is scaled by these."""
     sizes = np.linalg.norm(rows.terms, axis=0)
     known = np.where(sizes > 0, sizes, 1.0)
     for k in np.flatnonzero(sizes == 0):
@@ -70,15 +71,17 @@ def scales(rows: EquationRows, products: Products) -> Float[np.ndarray, " n"]:
 
 
 def scaled(rows: EquationRows, products: Products, sizes: Float[np.ndarray, " n"]) -> EquationRows:
-    """The equations for parameters in units of `sizes`."""
+    """The equations for parameters divided by `sizes`."""
     both = np.array([sizes[a] * sizes[b] for a, b in products])
-    return EquationRows(rows.terms * sizes, rows.products * both, rows.wanted)
+    return EquationRows(rows.terms * sizes, rows.products * both, rows.target)
 
 
 def binary_roots(form: Callable[[float, float], float], degree: int) -> FloatArray:
-    """Directions theta in [0, pi) in which a binary form of (cos, sin) vanishes: its real roots, none at infinity.
+    """Angles theta in [0, pi) at which a binary form of (cos theta, sin theta) is zero: its real roots.
 
-    On the circle w = e^{2 i theta} the form is a polynomial in w, known from its values at even directions.
+    form    a homogeneous polynomial of (cos theta, sin theta)      degree  of the form
+
+    On the circle w = e^{2 i theta} the form is a polynomial in w, computed from its values at evenly spaced angles.
 
     >>> np.tan(binary_roots(lambda c, s: (s - 2 * c) * (s + c) * (s * s + c * c), 4)).round(9)
     array([ 2., -1.])
@@ -96,13 +99,13 @@ def binary_roots(form: Callable[[float, float], float], degree: int) -> FloatArr
 def solve_products(rows: EquationRows, products: Products) -> Solutions:
     """All real P that solve as many equations as there are parameters.
 
-    Raises ParameterError where the equations leave a whole family.
+    Raises ParameterError where the equations have a family of solutions.
     """
     count, many = rows.terms.shape[1], len(products)
     sizes = scales(rows, products)
     even = scaled(rows, products, sizes)
-    unit = float(np.linalg.norm(even.wanted)) or 1.0
-    table = np.column_stack([even.terms, even.products, -even.wanted / unit])
+    unit = float(np.linalg.norm(even.target)) or 1.0
+    table = np.column_stack([even.terms, even.products, -even.target / unit])
     _, singular, right = np.linalg.svd(table)
     if singular[-1] <= FAMILY * singular[0]:
         raise _family()
@@ -119,11 +122,11 @@ def solve_products(rows: EquationRows, products: Products) -> Solutions:
         if abs(whole[-1]) <= FAR * float(np.linalg.norm(whole)):
             far += 1
             continue
-        parameters = _polished(even, products, unit * whole[:count] / whole[-1])
+        parameters = _refined(even, products, unit * whole[:count] / whole[-1])
         if all(np.max(np.abs(parameters - other)) > REAL * np.max(np.abs(other)) for other in found):
             found.append(parameters)
-    # Always there, and no solutions: the common factor 0 with 1 = 0, and a factor that is in products only alone.
-    always = int(many == 2 and hub_of(products) is not None) + int(np.sum(~np.any(even.terms, axis=0)))
+    # Spurious roots at infinity: the common factor 0 with 1 = 0, and a factor that occurs only in products.
+    always = int(many == 2 and common_factor(products) is not None) + int(np.sum(~np.any(even.terms, axis=0)))
     far = max(0, far - always)
     words = [f"{far} infinitely far"] if far else []
     words += [f"{complex_ones} complex"] if complex_ones else []
@@ -136,7 +139,7 @@ def _form(u: FloatArray, v: FloatArray) -> FloatArray:
 
 
 def _common_roots(forms: list[FloatArray], many: int) -> tuple[list[FloatArray], int]:
-    """Real ratios s at which all forms vanish, and how many are complex."""
+    """Real s at which all forms are zero, and the number of complex ones."""
     if many == 0:
         return [np.ones(1)], 0
     largest = [float(np.max(np.abs(form))) for form in forms]
@@ -153,8 +156,8 @@ def _common_roots(forms: list[FloatArray], many: int) -> tuple[list[FloatArray],
     return [point.real for point, real in zip(met.points, met.real, strict=True) if real], complex_ones
 
 
-def _polished(rows: EquationRows, products: Products, parameters: FloatArray) -> FloatArray:
-    """Newton's method on the equations themselves; steps that come no nearer are not taken."""
+def _refined(rows: EquationRows, products: Products, parameters: FloatArray) -> FloatArray:
+    """Newton's method on the equations; steps that do not reduce the error are rejected."""
     found, slopes = errors_of(rows, products, parameters)
     for _ in range(4):
         after = parameters - np.linalg.lstsq(slopes, found, rcond=None)[0]
@@ -166,8 +169,13 @@ def _polished(rows: EquationRows, products: Products, parameters: FloatArray) ->
 
 
 def errors_of(rows: EquationRows, products: Products, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """What the equations miss, F - sum P f - sum lam g, and its slopes by the parameters; any batch of parameters."""
-    found = rows.wanted - parameters @ rows.terms.T
+    """Errors F - sum P f - sum lam g of the equations, and their derivatives by the parameters.
+
+    parameters  shape (..., n)
+
+    Returns errors, shape (..., rows), and derivatives, shape (..., rows, n).
+    """
+    found = rows.target - parameters @ rows.terms.T
     slopes = np.broadcast_to(-rows.terms, (*parameters.shape[:-1], *rows.terms.shape)).copy()
     for j, (a, b) in enumerate(products):
         found = found - (parameters[..., a] * parameters[..., b])[..., None] * rows.products[:, j]
@@ -176,8 +184,8 @@ def errors_of(rows: EquationRows, products: Products, parameters: FloatArray) ->
     return found, slopes
 
 
-def hub_of(products: Products) -> int | None:
-    """A parameter that is once in every product: with it said, all is linear."""
+def common_factor(products: Products) -> int | None:
+    """Index of a parameter that occurs once in every product; None where there is none."""
     if any(a == b for a, b in products):
         return None
     common = set.intersection(*(set(pair) for pair in products)) if products else set()
@@ -187,7 +195,7 @@ def hub_of(products: Products) -> int | None:
 def stationary(rows: EquationRows, products: Products) -> Solutions:
     """All real P at which the sum of squares of more equations than parameters is stationary, the least sum first.
 
-    Raises ParameterError where columns say the same.
+    Raises ParameterError for linearly dependent columns.
     """
     sizes = scales(rows, products)
     even = _shortened(scaled(rows, products, sizes))
@@ -195,13 +203,13 @@ def stationary(rows: EquationRows, products: Products) -> Solutions:
     if np.linalg.matrix_rank(linear, tol=1e-11) < linear.shape[1]:
         raise _family()
     words: list[str] = []
-    hub = hub_of(products)
+    common = common_factor(products)
     if not products:
-        starts = np.linalg.lstsq(even.terms, even.wanted, rcond=None)[0][None, :]
-    elif hub is not None:
-        starts, words = _by_form(even, products, hub)
+        starts = np.linalg.lstsq(even.terms, even.target, rcond=None)[0][None, :]
+    elif common is not None:
+        starts, words = _from_form(even, products, common)
     else:
-        starts, words = _by_grid(even, products), [f"sought from {STARTS**2} starts: more may be hidden"]
+        starts, words = _from_grid(even, products), [f"searched from {STARTS**2} starts: there may be more solutions"]
     unit = max(1.0, float(np.max(np.abs(starts), initial=1.0)))
     ends = newton(lambda p: gradient(even, products, p), starts, tolerance=1e-11 * unit, steps=60)
     found: list[FloatArray] = []
@@ -213,7 +221,7 @@ def stationary(rows: EquationRows, products: Products) -> Solutions:
 
 
 def gradient(rows: EquationRows, products: Products, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Gradient and curvature of half the sum of squares; any batch of parameters."""
+    """Gradient, shape (..., n), and Hessian, shape (..., n, n), of half the sum of squares; parameters (..., n)."""
     found, slopes = errors_of(rows, products, parameters)
     curvature = np.swapaxes(slopes, -1, -2) @ slopes
     for j, (a, b) in enumerate(products):
@@ -224,28 +232,28 @@ def gradient(rows: EquationRows, products: Products, parameters: FloatArray) -> 
 
 
 def _shortened(rows: EquationRows) -> EquationRows:
-    """As many equations as columns, with the same squares."""
+    """As many equations as columns, with the same sum of squares."""
     count, many = rows.terms.shape[1], rows.products.shape[1]
-    table = np.linalg.qr(np.column_stack([rows.terms, rows.products, rows.wanted])).R
+    table = np.linalg.qr(np.column_stack([rows.terms, rows.products, rows.target])).R
     return EquationRows(table[:, :count], table[:, count : count + many], table[:, -1])
 
 
-def _by_form(rows: EquationRows, products: Products, hub: int) -> tuple[FloatArray, list[str]]:
-    """Stationary parameters from the roots of the form dS/dt = 0."""
-    partners = [b if a == hub else a for a, b in products]
-    others = [k for k in range(rows.terms.shape[1]) if k != hub and k not in partners]
+def _from_form(rows: EquationRows, products: Products, common: int) -> tuple[FloatArray, list[str]]:
+    """Stationary parameters from the roots of the form dS/dt = 0, and descriptions of what was left out."""
+    partners = [b if a == common else a for a, b in products]
+    others = [k for k in range(rows.terms.shape[1]) if k != common and k not in partners]
 
     def solved(c: float, s: float) -> tuple[FloatArray, FloatArray, float]:
-        """Parameters but for the factor, errors and the determinant of the columns, with t = s / c."""
+        """Parameters except the factor, errors and determinant of the columns, with t = s / c."""
         columns = np.column_stack([rows.terms[:, others], c * rows.terms[:, partners] + s * rows.products])
-        right = c * rows.wanted - s * rows.terms[:, hub]
+        right = c * rows.target - s * rows.terms[:, common]
         volume = float(np.prod(np.diag(np.linalg.qr(columns).R)[len(others) :] ** 2))
         found = np.linalg.lstsq(columns, right, rcond=None)[0]
         return found, right - columns @ found, volume
 
     def slope(c: float, s: float) -> float:
         found, errors, volume = solved(c, s)
-        return float(-errors @ (rows.terms[:, hub] + rows.products @ found[len(others) :])) * volume**2
+        return float(-errors @ (rows.terms[:, common] + rows.products @ found[len(others) :])) * volume**2
 
     turns = binary_roots(slope, 4 * len(products) + 1)
     starts, far = [], 0
@@ -256,19 +264,19 @@ def _by_form(rows: EquationRows, products: Products, hub: int) -> tuple[FloatArr
             continue
         found = solved(c, s)[0]
         whole = np.empty(rows.terms.shape[1])
-        whole[hub], whole[others], whole[partners] = s / c, found[: len(others)] / c, found[len(others) :]
+        whole[common], whole[others], whole[partners] = s / c, found[: len(others)] / c, found[len(others) :]
         starts.append(whole)
     words = [f"{far} infinitely far"] if far else []
     return np.array(starts).reshape(-1, rows.terms.shape[1]), words
 
 
-def _by_grid(rows: EquationRows, products: Products) -> FloatArray:
-    """Starts: the least squares with one factor of each product said, in all directions."""
+def _from_grid(rows: EquationRows, products: Products) -> FloatArray:
+    """Starts: least squares with one factor of each product given, on a grid of its values."""
     firsts = [a for a, _ in products]
     turns = np.tan(np.pi * (np.arange(STARTS) + 0.5) / STARTS - np.pi / 2)
     starts = []
     for values in itertools.product(turns, repeat=len(firsts)):
-        columns, right = rows.terms.copy(), rows.wanted.copy()
+        columns, right = rows.terms.copy(), rows.target.copy()
         for j, (a, b) in enumerate(products):
             columns[:, b] += values[j] * rows.products[:, j]
             right = right - values[j] * rows.terms[:, a]
@@ -281,6 +289,6 @@ def _by_grid(rows: EquationRows, products: Products) -> FloatArray:
 
 def _family() -> ParameterError:
     return ParameterError(
-        "the equations of the approximation leave a whole family of solutions, or say the same twice",
-        do="move a node, or leave out a term that the others make up",
+        "the equations of the approximation have a family of solutions, or are dependent",
+        do="move a node, or remove a term that depends on the others",
     )

@@ -1,8 +1,8 @@
-"""The search for function generators: where it begins, how it descends, and what of its ends is a four-bar.
+"""Search for function generators: starts, descent, and selection of the results.
 
-Starts are the four-bars through Chebyshev's places, the answers of least design error, and where start angles are free
-the local leasts of the structural error on a grid of them, each with its design fitted. Squares come first; a minimax
-goes on from their ends.
+Starts are the four-bars through the Chebyshev nodes, the solutions of least design error, and for free start angles the
+local minima of the structural error on a grid of them, each with fitted links. A minimax starts from the ends of the
+least-squares descents.
 """
 
 import math
@@ -32,47 +32,47 @@ Starts: TypeAlias = tuple[float | None, float | None]
 """Start angles of crank and rocker [rad], None where free."""
 
 Free: TypeAlias = Bool[np.ndarray, "5"]
-"""Which numbers of a generator are free."""
+"""Which of the five numbers of a generator are free."""
 
-PLACES = 129
-"""Places of the range on which a minimax begins; its extremes are added to them."""
+SAMPLES = 129
+"""Points of the range at which a minimax begins; the extrema are added to them."""
 
 NODES = 48
-"""Gauss's nodes for the integral of the squares."""
+"""Gauss nodes of the integral of the squares."""
 
 GRID = {1: 90, 2: 24}
-"""Directions tried of each free start angle, by how many are free; half a turn is enough, as links may be negative."""
+"""Number of free start angles -> grid points of each; half a turn suffices, as links may be negative."""
 
 STARTS = 8
-"""Local leasts on the grid from which descents are begun."""
+"""Local minima on the grid at which descents start."""
 
 DEAD = 1e-5
-"""Margin at which a four-bar stands in a dead centre: the rocker within 0.2 degrees of the line to the crank's pin."""
+"""Margin at which a four-bar counts as at a dead centre: rocker within 0.2 degrees of the line to the crank's pin."""
 
-NOTHING = 1e-10
-"""Error [rad] that counts as none."""
+ZERO_ERROR = 1e-10
+"""Error [rad] that counts as 0."""
 
-UNEVEN = 1000.0
-"""Longest by shortest link at which a four-bar runs off to infinity instead of ending."""
+MAX_LINK_RATIO = 1000.0
+"""Link ratio at which a descent counts as divergent."""
 
 SAME = 1e-4
-"""Distance of their pins, in ground links, below which two four-bars are one: flat minima are known no better."""
+"""Relative distance of their pins below which two four-bars count as the same: the accuracy of flat minima."""
 
-NONE = {
-    True: "no four-bar goes through Chebyshev's places with this start angle",
-    False: "no four-bar of least design error closes all over the range, whatever its free start angles",
+NO_START = {
+    True: "no four-bar passes through the Chebyshev nodes with this start angle",
+    False: "no four-bar of least design error closes over the whole range, for any free start angles",
 }
-"""What is said where there is nothing to begin with: of interpolation, and of other criteria."""
+"""Message without any start: for interpolation (True) and for other criteria."""
 
 UNPROVEN = {
-    True: "a four-bar that shows Chebyshev's places on both of its branches",
-    False: "a search that came to no end: a valley without a floor, or one too flat to be followed",
+    True: "a four-bar that meets the Chebyshev nodes on two branches",
+    False: "a search that does not converge: no minimum, or too flat a valley",
 }
-"""What is said of an end that is not proven: of interpolation, and of other criteria."""
+"""Message for an end without proof: for interpolation (True) and for other criteria."""
 
 
 class DescentEnd(NamedTuple):
-    """Where a descent stands: a generator with its sense, what is not proven, and a minimax's bound [rad]."""
+    """State of a descent: a generator with its sense, the optimality gap, and the bound of a minimax [rad]."""
 
     sense: int
     generator: Generator
@@ -81,13 +81,13 @@ class DescentEnd(NamedTuple):
 
 
 def range_samples(function: Function, count: int) -> FloatArray:
-    """Places over the range, denser towards its ends."""
+    """`count` points x over the range, denser towards its ends."""
     middle, half = 0.5 * (function.start + function.stop), 0.5 * abs(function.stop - function.start)
     return np.asarray(middle - half * np.cos(np.linspace(0, np.pi, count)))
 
 
 def gauss_nodes(function: Function, weight: Weight | None) -> tuple[FloatArray, FloatArray]:
-    """Gauss's nodes over the range and the weights with which squares there add up to their mean over it."""
+    """Gauss nodes over the range, and the weights with which squares at them sum to their (weighted) mean."""
     nodes, shares = np.polynomial.legendre.leggauss(NODES)
     x = 0.5 * (function.start + function.stop) + 0.5 * (function.stop - function.start) * nodes
     return x, 0.5 * shares * (1.0 if weight is None else weight(x) ** 2)
@@ -96,15 +96,18 @@ def gauss_nodes(function: Function, weight: Weight | None) -> tuple[FloatArray, 
 def generator_search(
     function: Function, criterion: str, starts: Starts, weight: Weight | None
 ) -> tuple[list[DescentEnd], tuple[str, ...]]:
-    """Generators that are best nearby by a criterion, each once, and in words what came out that is none.
+    """Generators that are local optima by a criterion, without duplicates; and descriptions of what was left out.
 
-    What is not proven is among them only where nothing else is. Raises ParameterError where a whole family of
-    four-bars goes through Chebyshev's places.
+    criterion  see `function_generator`      starts  start angles of crank and rocker [rad], None where free
+    weight     of the error at each x
+
+    Ends without proof are included only if there are no others. Raises ParameterError where a family of four-bars
+    passes through the Chebyshev nodes.
     """
     left_out: list[str] = []
     ends = [DescentEnd(*start, 0.0, math.nan) for start in _starts(function, starts, weight, left_out, criterion)]
     if not ends:
-        left_out.append(NONE[criterion == "interpolation"])
+        left_out.append(NO_START[criterion == "interpolation"])
     free = np.array([True, True, True, *(start is None for start in starts)])
     for descent in DESCENTS[criterion]:
         ended = _different(function, [descent(function, end, free, weight) for end in ends], left_out, criterion)
@@ -115,7 +118,7 @@ def generator_search(
 def _starts(
     function: Function, starts: Starts, weight: Weight | None, left_out: list[str], criterion: str
 ) -> Iterator[tuple[int, Generator]]:
-    """Senses and generators from which descents begin."""
+    """Senses and generators at which descents start."""
     points = 3 + sum(start is None for start in starts)
     at = float(function.nodes(points)[0])
     exact = generators_of(function, points, crank_start=starts[0], rocker_start=starts[1])
@@ -129,7 +132,7 @@ def _starts(
             answers = design_generators(
                 function, "least squares", crank_start=starts[0], rocker_start=starts[1], weight=weight
             ).found
-        except ParameterError:  # a range so small that terms look alike; the grid does not mind
+        except ParameterError:  # terms are dependent on a very small range; the grid is used instead
             answers = ()
         for design in answers:
             if design.error.kind == "minimum" and margin(function, design.generator) > DEAD:
@@ -140,13 +143,13 @@ def _starts(
 
 def _better_sense(function: Function, one: Generator) -> int:
     """The sense with the smaller structural error."""
-    x = range_samples(function, PLACES)
+    x = range_samples(function, SAMPLES)
     worst = [float(np.max(np.abs(structural_error(function, one, sense, x)))) for sense in (+1, -1)]
     return +1 if worst[0] <= worst[1] else -1
 
 
 def _grid(function: Function, starts: Starts, weight: Weight | None) -> Iterator[tuple[int, Generator]]:
-    """The local leasts of the structural error among the generators of least design error on the grid."""
+    """Local minima of the structural error among the generators of least design error on the grid."""
     directions = np.linspace(0, np.pi, GRID[sum(start is None for start in starts)], endpoint=False)
     axes = [directions if start is None else np.array([start]) for start in starts]
     alpha, beta = np.meshgrid(*axes, indexing="ij")
@@ -170,7 +173,7 @@ def _grid(function: Function, starts: Starts, weight: Weight | None) -> Iterator
 
 
 def _least_squares(function: Function, end: DescentEnd, free: Free, weight: Weight | None) -> DescentEnd:
-    """The nearest least mean square of the structural error."""
+    """Local minimum of the mean square of the structural error."""
     errors = StructuralErrors(function, end.sense, end.generator.numbers, free)
     x, shares = gauss_nodes(function, weight)
     root = np.sqrt(shares)
@@ -180,23 +183,23 @@ def _least_squares(function: Function, end: DescentEnd, free: Free, weight: Weig
         return root * found, root[:, None] * slopes
 
     best = squares_descent(shared, errors.known[free], x)
-    gap = best.slope if best.squares > NOTHING**2 else 0.0
+    gap = best.slope if best.squares > ZERO_ERROR**2 else 0.0
     return DescentEnd(end.sense, errors.generator(best.parameters), gap, math.nan)
 
 
 def _minimax(function: Function, end: DescentEnd, free: Free, weight: Weight | None) -> DescentEnd:
-    """The nearest least greatest structural error, and the bound that proves it."""
+    """Local minimum of the greatest structural error, with its lower bound."""
     errors = StructuralErrors(function, end.sense, end.generator.numbers, free, weight)
-    best = minimax_over_range(errors, errors.known[free], range_samples(function, PLACES), least=NOTHING)
-    gap = best.gap if best.worst > NOTHING else 0.0
+    best = minimax_over_range(errors, errors.known[free], range_samples(function, SAMPLES), least=ZERO_ERROR)
+    gap = best.gap if best.worst > ZERO_ERROR else 0.0
     return DescentEnd(end.sense, errors.generator(best.parameters), gap, best.level)
 
 
 def _interpolated(function: Function, end: DescentEnd, free: Free, _: Weight | None) -> DescentEnd:
-    """The same, with the error at Chebyshev's places: a four-bar may show some of them on its other branch."""
+    """The same with the error at the Chebyshev nodes: a four-bar may meet some of them on its other branch."""
     nodes = function.nodes(int(np.sum(free)))
-    missed = float(np.max(np.abs(structural_error(function, end.generator, end.sense, nodes))))
-    return DescentEnd(end.sense, end.generator, missed, math.nan)
+    error = float(np.max(np.abs(structural_error(function, end.generator, end.sense, nodes))))
+    return DescentEnd(end.sense, end.generator, error, math.nan)
 
 
 DESCENTS = {
@@ -204,13 +207,13 @@ DESCENTS = {
     "least squares": (_least_squares,),
     "minimax": (_least_squares, _minimax),
 }
-"""What follows the starts, for each criterion."""
+"""Criterion -> descents after the starts."""
 
 
 def _different(function: Function, ends: list[DescentEnd], left_out: list[str], criterion: str) -> list[DescentEnd]:
-    """Ends that are four-bars, each once, the proven ones if there are any; what goes is said."""
+    """Ends that are four-bars, without duplicates, only those with proof if there are any; others go to `left_out`."""
     kept: list[DescentEnd] = []
-    places: list[ComplexArray] = []
+    points: list[ComplexArray] = []
     for end in ends:
         words = _defect(function, end)
         if words:
@@ -218,9 +221,9 @@ def _different(function: Function, ends: list[DescentEnd], left_out: list[str], 
             continue
         drawn = end.generator.drawn(function, function.start, end.sense, 1.0)
         at = np.array([drawn.a, drawn.b])
-        if all(np.max(np.abs(at - other)) > SAME * np.max(np.abs(at)) for other in places):
+        if all(np.max(np.abs(at - other)) > SAME * np.max(np.abs(at)) for other in points):
             kept.append(end)
-            places.append(at)
+            points.append(at)
     proven = [end for end in kept if end.gap <= PROVEN]
     if len(proven) < len(kept):
         left_out.append(UNPROVEN[criterion == "interpolation"])
@@ -228,13 +231,13 @@ def _different(function: Function, ends: list[DescentEnd], left_out: list[str], 
 
 
 def _defect(function: Function, end: DescentEnd) -> str:
-    """Why a generator is none; empty where it is one."""
+    """Defect of a generator as text; empty without one."""
     links = np.abs([1.0, *end.generator.links])
-    if not np.max(links) <= UNEVEN * np.min(links):
-        return f"a four-bar that runs off: its links become more than {UNEVEN:g} to 1"
+    if not np.max(links) <= MAX_LINK_RATIO * np.min(links):
+        return f"a four-bar that diverges: its link ratio exceeds {MAX_LINK_RATIO:g}"
     free = margin(function, end.generator)
     if free < 0:
-        return "a four-bar that does not close all over the range"
+        return "a four-bar that does not close over the whole range"
     if not free > DEAD:
-        return "a four-bar that the range takes into a dead centre"
+        return "a four-bar with a dead centre in the range"
     return ""

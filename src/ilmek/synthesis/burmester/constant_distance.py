@@ -1,17 +1,17 @@
-"""What keeps its distance: the one equation behind poses, timed points and the arms through them.
+"""Constant distance of a moving from a fixed point: the equation of poses, timed points and arms through them.
 
-A body is moved from its first place by z -> α z + t, with α = e^{iδ}. Its point w keeps its distance from the fixed
-point m where
+A body is displaced from its first pose by z -> α z + t, with α = e^{iδ}. Its point w keeps its distance from the fixed
+point m if
 
     |α w + t - m|² - |w - m|²  =  2 m̃ᵀ G w̃  =  0,      w̃ = (x_w, y_w, 1),   m̃ = (x_m, y_m, 1)
     m̃ᵀ G w̃  =  |t|²/2 + Re(conj(t) α w) - Re(conj(t) m) + Re(conj(w) m (1 - conj(α)))
 
-linear in each of the two: w̃ and m̃ are homogeneous, and a point infinitely far (last number 0) is a point like any
-other: a pin on a straight line, or a line of the body through a fixed point.
+which is linear in each of the two. w̃ and m̃ are homogeneous; a point at infinity (last number 0) is regular: a pin on
+a straight line, or a line of the body through a fixed point.
 
-Motion generation asks for w and m of a coupler's poses. A path with given timing is the same equation: with the first
-point as origin the arm p = m + W e^{iφ} + Z has |Z| constant where the point W of a body that turns by φ and shifts by
--p keeps its distance from -m.               [Bottema and Roth, Theoretical Kinematics, 8.2-8.4; thesis 2.36 for paths]
+Motion generation requires w and m for poses of a coupler. A path with given timing has the same equation: with the
+first point as origin, the arm p = m + W e^{iφ} + Z has a constant |Z| if the point W of a body that rotates by φ and
+translates by -p keeps its distance from -m. [Bottema and Roth, Theoretical Kinematics, 8.2-8.4; thesis 2.36 for paths]
 """
 
 import math
@@ -25,22 +25,22 @@ from ilmek.plane.vectors import unit
 from ilmek.synthesis.task import require_angles
 
 FAR = 1e9
-"""Distance, in sizes of the task, beyond which a point counts as infinitely far."""
+"""Distance, relative to the size of the task, beyond which a point counts as infinitely far."""
 
 ANGLES = 1e-9
-"""Angle [rad] below which a body has not turned."""
+"""Rotation [rad] below which a body counts as not rotated."""
 
 FAMILIES = {
     "pose": (
-        "the body has one angle at all poses, so that parallel links guide it wherever one does",
-        "one rotation makes all poses, so that any point of the body goes on a circle",
+        "the body has the same angle at all poses, so that parallel links guide it wherever one link does",
+        "all poses are rotations about one point, so that every point of the body moves on a circle",
     ),
     "timed point": (
-        "the crank has one angle at all points",
-        "the points lie on one circle, timed as the crank turns, so that a crank of any length meets them",
+        "the crank has the same angle at all points",
+        "the points lie on one circle and follow the rotation of the crank, so that a crank of any length meets them",
     ),
 }
-"""What leaves a task without an answer of its own: equal angles, and one rotation."""
+"""Reasons of a family of solutions: equal angles, and one rotation."""
 
 METHODS = {
     "pose": {
@@ -57,67 +57,72 @@ METHODS = {
 
 
 class TaskFrame(NamedTuple):
-    """Origin [m] and size [m] of a task: in this frame its numbers are near 1."""
+    """Origin [m] and size [m] of a task; in this frame its numbers are near 1."""
 
     origin: complex
     size: float
 
-    def out(self, places: ComplexArray) -> ComplexArray:
-        """Places of the frame as places of the world [m]."""
-        return np.asarray(places * self.size + self.origin)
+    def to_world(self, points: ComplexArray) -> ComplexArray:
+        """Points of the frame, converted to the ground frame [m]."""
+        return np.asarray(points * self.size + self.origin)
 
-    def spot(self, place: complex) -> complex:
-        """One place of the frame as a place of the world [m]."""
-        return complex(place * self.size + self.origin)
+    def point_to_world(self, point: complex) -> complex:
+        """One point of the frame, converted to the ground frame [m]."""
+        return complex(point * self.size + self.origin)
 
-    def into(self, places: ComplexArray | complex) -> ComplexArray:
-        """Places of the world [m] in the frame."""
-        return np.asarray((places - self.origin) / self.size)
+    def to_frame(self, points: ComplexArray | complex) -> ComplexArray:
+        """Points of the ground frame [m], converted to this frame."""
+        return np.asarray((points - self.origin) / self.size)
 
 
 def forms(
     turns: Float[np.ndarray, "*batch moves"], shifts: Complex[np.ndarray, "*batch moves"]
 ) -> Float[np.ndarray, "*batch moves 3 3"]:
-    """G of each displacement z -> e^{i turn} z + shift [rad, any length].
+    """Matrix G of each displacement z -> e^{i turn} z + shift.
+
+    turns  [rad]      shifts  complex, in any unit of length; both of shape (*batch, moves)
 
     >>> G = forms(np.array([np.pi]), np.array([2 + 0j]))[0]  # half a turn about 1: from w = 3 + 7i to -1 - 7i
     >>> round(float(np.array([1, 5, 1]) @ G @ np.array([3, 7, 1])), 9)  # from m = 1 + 5i: (148 - 8) / 2
     70.0
     """
-    spun = shifts * unit(-turns)
-    lost, side = 2 * np.sin(turns / 2) ** 2, np.sin(turns)  # 1 - conj(α), without loss at small turns
+    rotated_shifts = shifts * unit(-turns)
+    one_minus_cosine, sine = 2 * np.sin(turns / 2) ** 2, np.sin(turns)  # 1 - conj(α), accurate at small angles
     rows = [
-        [lost, side, -shifts.real],
-        [-side, lost, -shifts.imag],
-        [spun.real, spun.imag, 0.5 * (shifts.real**2 + shifts.imag**2)],
+        [one_minus_cosine, sine, -shifts.real],
+        [-sine, one_minus_cosine, -shifts.imag],
+        [rotated_shifts.real, rotated_shifts.imag, 0.5 * (shifts.real**2 + shifts.imag**2)],
     ]
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
 def pose_forms(points: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> tuple[FloatArray, TaskFrame]:
-    """G of poses 2 to n from pose 1, in the frame whose origin is the body's point at pose 1.
+    """Matrices G of poses 2 to n relative to pose 1, and their frame, with the body's point at pose 1 as origin.
 
-    points [m]  places of one point of the body      angles [rad]  of one line of the body
+    points  positions of one point of the body [m], complex      angles  of one line of the body [rad]
     """
     frame = TaskFrame(complex(points[0]), float(np.max(np.abs(points - points[0]))) or 1.0)
-    return forms(angles[1:] - angles[0], frame.into(points[1:])), frame
+    return forms(angles[1:] - angles[0], frame.to_frame(points[1:])), frame
 
 
 def timed_forms(
     points: Complex[np.ndarray, "*batch n"], crank_angles: Float[np.ndarray, "*batch n"], size: FloatArray
 ) -> FloatArray:
-    """G of points 2 to n against point 1, between W / size and -(m - p_1) / size."""
+    """Matrices G of points 2 to n relative to point 1, between W / size and -(m - p_1) / size.
+
+    points  [m], complex      crank_angles  [rad]      size  of the task [m], shape (*batch)
+    """
     shifts = (points[..., :1] - points[..., 1:]) / size[..., None]
     return forms(crank_angles[..., 1:] - crank_angles[..., :1], shifts)
 
 
-def homogeneous(places: ComplexArray) -> Float[np.ndarray, "... 3"]:
-    """(x, y, 1) of places."""
-    return np.stack([places.real, places.imag, np.ones(places.shape)], axis=-1)
+def homogeneous(points: ComplexArray) -> Float[np.ndarray, "... 3"]:
+    """Homogeneous coordinates (x, y, 1) of points."""
+    return np.stack([points.real, points.imag, np.ones(points.shape)], axis=-1)
 
 
 def affine_point(vector: Num[np.ndarray, "3"]) -> tuple[complex, bool]:
-    """The place of (x, y, k), and whether it is finite; of one infinitely far it is the direction, a unit vector."""
+    """The point (x, y) / k, and whether it is finite; of a point at infinity the direction, a unit vector."""
     x, y, k = (float(one) for one in vector)
     reach = math.hypot(x, y)
     if abs(k) * FAR <= reach:
@@ -125,40 +130,49 @@ def affine_point(vector: Num[np.ndarray, "3"]) -> tuple[complex, bool]:
     return complex(x, y) / k, True
 
 
-def still_points(places: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> list[complex]:
-    """The poles: points that do not move from one pose to another; those of the poses that are turned most first."""
+def poles_of_poses(points: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> list[complex]:
+    """Poles of all pairs of poses, the greatest rotation first: points that coincide in both poses.
+
+    points  of the body, complex, any unit      angles  of the body [rad]
+    """
     pairs = [(i, j) for j in range(len(angles)) for i in range(j)]
     turned = {(i, j): complex(unit(angles[j] - angles[i])) for i, j in pairs}
     pairs = sorted((pair for pair in pairs if abs(1 - turned[pair]) > ANGLES), key=lambda pair: -abs(1 - turned[pair]))
-    return [complex((places[j] - turned[i, j] * places[i]) / (1 - turned[i, j])) for i, j in pairs]
+    return [complex((points[j] - turned[i, j] * points[i]) / (1 - turned[i, j])) for i, j in pairs]
 
 
-def family(kind: str, places: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> ParameterError:
-    """Why a task is met by more than points or a curve, as an error to raise; places in the task's frame."""
-    alike, turned = FAMILIES[kind]
-    poles = still_points(places, angles)
+def family(kind: str, points: Complex[np.ndarray, " n"], angles: Float[np.ndarray, " n"]) -> ParameterError:
+    """The error for a task with a family of solutions, with its reason.
+
+    kind  "pose" or "timed point"      points  in the task's frame      angles  [rad]
+    """
+    same_angle, one_rotation = FAMILIES[kind]
+    poles = poles_of_poses(points, angles)
     if not poles:
-        return ParameterError(f"{alike}: no task, or a whole family", do="give angles that differ")
-    away = places - poles[0]
+        return ParameterError(f"{same_angle}: no solution, or a family of them", do="give different angles")
+    away = points - poles[0]
     if np.max(np.abs(away - away[0] * unit(angles - angles[0]))) <= ANGLES * np.max(np.abs(away)):
-        return ParameterError(f"{turned}: a whole family solves this task", do="move a point or an angle")
+        return ParameterError(f"{one_rotation}: a family solves this task", do="change a point or an angle")
     return ParameterError(
-        "a whole family of links solves this task", do="move a point or an angle: two of them say the same"
+        "a family of links solves this task", do="change a point or an angle: two of them are dependent"
     )
 
 
-def require_task(kind: str, points: ComplexArray, angles: FloatArray, wanted: int, name: str) -> None:
-    """Raise ParameterError unless points and angles are `wanted` finite, different places with angles in radians."""
-    given, allowed = len(points), f"exactly {wanted}"
+def require_task(kind: str, points: ComplexArray, angles: FloatArray, count: int, name: str) -> None:
+    """Raise ParameterError unless a task has `count` finite, different points with angles in radians.
+
+    kind  "pose" or "timed point"      points  [m], complex      angles  [rad]      name  of the method, for the message
+    """
+    given, allowed = len(points), f"exactly {count}"
     if len(angles) != given:
         raise ParameterError(f"{given} points and {len(angles)} angles", allowed="one angle for each point")
-    if given != wanted:
+    if given != count:
         other = METHODS[kind].get(given)
-        do = (other and f"for {other}") or "exact methods take " + "; ".join(METHODS[kind].values())
+        do = (other and f"for {other}") or "exact methods: " + "; ".join(METHODS[kind].values())
         raise ParameterError(f"{name} was given {given} {kind}s", allowed=allowed, do=do)
     bad = np.flatnonzero(~np.isfinite(points))
     if len(bad):
-        raise ParameterError(f"the point of {kind} {bad[0] + 1} is not a number", do="give finite places")
+        raise ParameterError(f"the point of {kind} {bad[0] + 1} is not finite", do="give finite points")
     require_angles(f"angle of a {kind}", angles)
     size = float(np.max(np.abs(points - points[0]))) or 1.0
     turned = np.asarray(unit(angles))
@@ -166,5 +180,5 @@ def require_task(kind: str, points: ComplexArray, angles: FloatArray, wanted: in
         same = (np.abs(points[:late] - points[late]) <= size / FAR) & (np.abs(turned[:late] - turned[late]) <= 1 / FAR)
         if same.any():
             raise ParameterError(
-                f"{kind}s {int(np.argmax(same)) + 1} and {late + 1} are one", do="leave one out or move it"
+                f"{kind}s {int(np.argmax(same)) + 1} and {late + 1} are the same", do="remove one or change it"
             )

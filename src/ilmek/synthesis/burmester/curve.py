@@ -6,10 +6,10 @@ is a cubic through the poles of the poses. A line through one pole P meets it in
 
     c3(φ) r² + c2(φ) r + c1(φ) = 0,
 
-so that the curve is drawn in order by turning the line: where the discriminant is zero (a quartic in e^{2iφ}) the line
-touches it, and a stretch between two such angles, out on one root and home on the other, is one closed part of the
-curve in the projective plane. Going through infinity is nothing special there; for drawing, the curve is cut at it and
-its asymptote told.                     [Bottema and Roth, Theoretical Kinematics, 8.3; the opposite poles: Burmester]
+so that rotating the line gives the points of the curve in order. Where the discriminant (a quartic in e^{2iφ}) is zero,
+the line touches the curve. A range between two such angles, outward on one root and back on the other, is one closed
+part of the curve in the projective plane. Points at infinity are regular there; for drawing, the curve is cut at
+infinity and its asymptote reported.    [Bottema and Roth, Theoretical Kinematics, 8.3; the opposite poles: Burmester]
 """
 
 import math
@@ -30,54 +30,53 @@ from ilmek.synthesis.burmester.constant_distance import (
     TaskFrame,
     family,
     homogeneous,
+    poles_of_poses,
     pose_forms,
     require_task,
-    still_points,
 )
 from ilmek.synthesis.burmester.links import FAMILY, Guide, guides
 
 SAMPLES = 360
-"""Points of each closed part of a curve, if it is not said."""
+"""Default number of points on each closed part of a curve."""
 
 ON_CIRCLE = 1e-6
-"""Distance from the unit circle of a root e^{2iφ} that is the angle of a touching line: a double one splits so far."""
+"""Distance of a root e^{2iφ} from the unit circle below which φ is the angle of a tangent: double roots split."""
 
-POLISHED = 3
-"""Newton's steps on to the cubic."""
-
+NEWTON_STEPS = 3
+"""Newton steps to the cubic."""
 
 LINE = 1e-6
-"""Size of all three coefficients, in units of the task, that says that the turned line is part of the cubic."""
+"""Relative magnitude of all three coefficients below which the line is a component of the cubic."""
 
-ROUNDS = 6
-"""Times that the samples are spread anew."""
+RESAMPLINGS = 6
+"""Number of redistributions of the samples along the curve."""
 
-SLOWEST = 0.3
-"""Share of the mean gap that every gap counts more, lest the samples crowd."""
+MIN_SPACING = 0.3
+"""Share of the mean gap that is added to every gap, so that samples do not accumulate."""
 
 CurveArc: TypeAlias = Callable[[FloatArray], FloatArray]
 """A closed part of the centre-point curve: a parameter from 0 to 2 pi -> homogeneous points."""
 
 
 class Asymptote(NamedTuple):
-    """The straight line that a curve nears at infinity: its point next to the origin [m] and its angle [rad]."""
+    """Asymptote of a curve: its point nearest to the origin [m], complex, and its angle [rad]."""
 
     foot: complex
     angle: float
 
 
 class CurveBranch(NamedTuple):
-    """A stretch of a curve that can be drawn: places [m] in order; if `closed`, the last joins the first.
+    """A finite part of a curve: points [m] in order; if `closed`, the last is connected to the first.
 
-    An open one comes from infinity and goes there, along the asymptote.
+    An open branch begins and ends towards infinity, along the asymptote.
     """
 
-    places: Complex[np.ndarray, " n"]
+    points: Complex[np.ndarray, " n"]
     closed: bool
 
 
 class CurveLoop(NamedTuple):
-    """A closed part of both curves in the projective plane, in the task's frame: pivots and pins, row by row."""
+    """A closed part of both curves in the projective plane: homogeneous pivots and pins in the task's frame, by row."""
 
     centres: Float[np.ndarray, "n 3"]
     circles: Float[np.ndarray, "n 3"]
@@ -87,9 +86,10 @@ class CurveLoop(NamedTuple):
 class BurmesterCurve:
     """Centre-point and circle-point curve: one or two closed parts, sampled in order.
 
-    loops   pivots and pins in the task's frames, unit vectors whose sign does not jump; zeros where any pin will do
-    centre_frame, circle_frame  of pivots and of pins
-    centre_asymptote, circle_asymptote  None where the curve falls apart into a circle and the line at infinity
+    loops                               pivots and pins in the task's frames, unit vectors with continuous signs; zeros
+                                        where the pin is not determined
+    centre_frame, circle_frame          frames of pivots and of pins
+    centre_asymptote, circle_asymptote  None where the curve degenerates to a circle and the line at infinity
     """
 
     loops: tuple[CurveLoop, ...]
@@ -100,12 +100,12 @@ class BurmesterCurve:
 
     @property
     def centre_branches(self) -> tuple[CurveBranch, ...]:
-        """The pivots [m] as drawn."""
+        """Branches of the centre-point curve, for drawing [m]."""
         return tuple(branch for loop in self.loops for branch in _branches(loop.centres, self.centre_frame))
 
     @property
     def circle_branches(self) -> tuple[CurveBranch, ...]:
-        """The pins at the first pose [m] as drawn."""
+        """Branches of the circle-point curve at the first pose, for drawing [m]."""
         return tuple(branch for loop in self.loops for branch in _branches(loop.circles, self.circle_frame))
 
     def guides(self) -> tuple[Guide, ...]:
@@ -114,38 +114,45 @@ class BurmesterCurve:
 
 
 def burmester_curve(points: ComplexArray, angles: FloatArray, samples: int = SAMPLES) -> BurmesterCurve:
-    """Where the links through four poses have their pivots and their pins: for every pivot its pin.
+    """Pivots and pins of all links that guide a body through four poses; every pivot has a pin.
 
-    points [m]  of one point of the body      angles [rad]  of the body      samples  of each closed part
-    Raises ParameterError for poses that are not four, not finite, two that are one, angles in degrees, all at one
-    angle, or turned about one point.
+    points   positions of one point of the body [m], complex, shape (4,)
+    angles   of the body [rad], shape (4,)
+    samples  on each closed part, 8 or more
+
+    Raises ParameterError for another number of poses, values that are not finite, equal poses, angles in degrees, equal
+    angles at all poses, and poses that are rotations about one point.
     """
     require_task("pose", points, angles, 4, "burmester_curve")
     G, frame = pose_forms(points, angles)
-    places = frame.into(points)
-    found = curve(G, (frame, frame), still_points(places, angles), samples)
+    scaled = frame.to_frame(points)
+    found = curve(G, (frame, frame), poles_of_poses(scaled, angles), samples)
     if found is None:
-        raise family("pose", places, angles)
+        raise family("pose", scaled, angles)
     return found
 
 
 def curve(
     G: Float[np.ndarray, "3 3 3"], frames: tuple[TaskFrame, TaskFrame], poles: Sequence[complex], samples: int
 ) -> BurmesterCurve | None:
-    """The curves of three forms, by poles of the centre-point cubic (in its frame); None where all is pivot."""
+    """Centre-point and circle-point curve of three forms; None where every point is a pivot.
+
+    frames   of pivots and of pins      poles  points of the centre-point cubic, in its frame
+    samples  on each closed part, 8 or more; otherwise ParameterError is raised
+    """
     if samples < 8:
         raise ParameterError(f"{samples} samples of a curve", allowed="8 or more")
     chosen = None
     for pole in poles:
-        seen = _ways(G, homogeneous(np.asarray(pole)))
+        seen = _arcs_from_pole(G, homogeneous(np.asarray(pole)))
         chosen = chosen or seen
         if seen is not None and not seen.lines:
             chosen = seen
             break
     if chosen is None:
         return None
-    ways = (*chosen.parts, *chosen.lines)
-    loops = tuple(_even(G, way, samples) for way in ways)
+    arcs = (*chosen.parts, *chosen.lines)
+    loops = tuple(_evenly_sampled(G, arc, samples) for arc in arcs)
     across = np.swapaxes(G, -1, -2)
     return BurmesterCurve(loops, *frames, _asymptote(G, frames[0]), _asymptote(across, frames[1]))
 
@@ -158,17 +165,17 @@ def _value(G: FloatArray, m: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 class CurveFromPole(NamedTuple):
-    """Closed parts of a cubic as seen from a pole: those that a turning line draws, and lines through the pole.
+    """Closed parts of a cubic, computed from a pole: those traced by the rotating line, and lines through the pole.
 
-    With a line there the parts may jump at it: another pole serves better.
+    With a line the other parts may be discontinuous at it; then another pole is preferred.
     """
 
     parts: tuple[CurveArc, ...]
     lines: tuple[CurveArc, ...]
 
 
-def _ways(G: FloatArray, start: FloatArray) -> CurveFromPole | None:
-    """The closed parts of the centre-point curve; None where the cubic is zero all over."""
+def _arcs_from_pole(G: FloatArray, start: FloatArray) -> CurveFromPole | None:
+    """The closed parts of the centre-point curve; None where the cubic is identically zero."""
     fixed = np.einsum("a,iab->ib", start, G)
 
     def quadratic(phi: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -213,7 +220,7 @@ def _ways(G: FloatArray, start: FloatArray) -> CurveFromPole | None:
 def _positive(
     function: Callable[[FloatArray], FloatArray], zeros: FloatArray, narrowest: float
 ) -> list[tuple[float, float]]:
-    """Middle and half width of the spans between zeros, of period pi, where a function is positive."""
+    """Middle and half width of the intervals between zeros, of period pi, in which a function is positive."""
     found = []
     for low, high in zip(zeros, np.append(zeros[1:], zeros[0] + math.pi), strict=True):
         middle, half = (low + high) / 2, (high - low) / 2
@@ -227,7 +234,7 @@ def _direction(phi: FloatArray) -> FloatArray:
 
 
 def _touching(discriminant: Callable[[FloatArray], FloatArray]) -> FloatArray:
-    """Angles in [0, pi) at which a function that is a cubic's discriminant in e^{2iφ} is zero."""
+    """Angles in [0, pi) at which the discriminant, a quartic in e^{2iφ}, is zero."""
     nodes = math.pi * np.arange(5) / 5
     terms = np.fft.fft(discriminant(nodes)) / 5  # of e^{2iφ n}, n = 0, 1, 2, -2, -1
     roots = np.roots(terms[[2, 1, 0, 4, 3]])
@@ -235,10 +242,10 @@ def _touching(discriminant: Callable[[FloatArray], FloatArray]) -> FloatArray:
     return np.sort(np.mod(np.angle(roots[on]) / 2, math.pi))
 
 
-def _loop(G: FloatArray, way: FloatArray) -> CurveLoop:
-    """Points of the centre-point curve to the last digit, and their pins."""
-    m = way / np.linalg.norm(way, axis=-1, keepdims=True)
-    for _ in range(POLISHED):
+def _loop(G: FloatArray, arc: FloatArray) -> CurveLoop:
+    """Points of the centre-point curve, refined by Newton steps, and their pins."""
+    m = arc / np.linalg.norm(arc, axis=-1, keepdims=True)
+    for _ in range(NEWTON_STEPS):
         value, gradient = _value(G, m)
         steep = np.sum(gradient**2, axis=-1)
         step = value / np.where(steep > FAMILY, steep, np.inf)
@@ -246,58 +253,60 @@ def _loop(G: FloatArray, way: FloatArray) -> CurveLoop:
         m /= np.linalg.norm(m, axis=-1, keepdims=True)
     rows = np.einsum("na,iab->nib", m, G)
     alone = np.max(np.abs(adjugate(rows)), axis=(-2, -1)) > FAMILY * np.max(np.abs(G)) ** 2
-    return CurveLoop(_followed(m), _followed(np.where(alone[:, None], null_vector(rows), 0.0)))
+    return CurveLoop(
+        _with_continuous_signs(m), _with_continuous_signs(np.where(alone[:, None], null_vector(rows), 0.0))
+    )
 
 
-def _even(G: FloatArray, way: CurveArc, samples: int) -> CurveLoop:
-    """A closed part with its samples about as far apart for the pivots and the pins together."""
+def _evenly_sampled(G: FloatArray, arc: CurveArc, samples: int) -> CurveLoop:
+    """A closed part with samples spaced about evenly, for pivots and pins together."""
     tau = 2 * math.pi * np.arange(samples) / samples
-    loop = _loop(G, way(tau))
-    for _ in range(ROUNDS):
+    loop = _loop(G, arc(tau))
+    for _ in range(RESAMPLINGS):
         gaps = _gaps(loop.centres) + _gaps(loop.circles)
         if np.sum(gaps) < LINE:
             return CurveLoop(loop.centres[:1], loop.circles[:1])
-        along = np.cumsum(np.append(0.0, gaps + SLOWEST * np.mean(gaps)))
+        along = np.cumsum(np.append(0.0, gaps + MIN_SPACING * np.mean(gaps)))
         tau = np.interp(np.arange(samples) * along[-1] / samples, along, np.append(tau, 2 * math.pi))
-        loop = _loop(G, way(tau))
+        loop = _loop(G, arc(tau))
     return loop
 
 
 def _gaps(vectors: FloatArray) -> FloatArray:
-    """Angle from each point of the projective plane to the next, the first after the last."""
+    """Angle [rad] from each point of the projective plane to the next, cyclically."""
     after = np.roll(vectors, -1, axis=0)
     return np.asarray(
         np.arctan2(np.linalg.norm(product(vectors, after), axis=-1), np.abs(np.sum(vectors * after, axis=-1)))
     )
 
 
-def _followed(vectors: FloatArray) -> FloatArray:
-    """The same points, the sign of each like that of the one before."""
+def _with_continuous_signs(vectors: FloatArray) -> FloatArray:
+    """The same points with continuous signs."""
     turned = np.sign(np.sum(vectors[1:] * vectors[:-1], axis=-1))
     return np.asarray(vectors * np.cumprod(np.append(1.0, np.where(turned == 0, 1.0, turned)))[:, None])
 
 
 def _branches(loop: FloatArray, frame: TaskFrame) -> list[CurveBranch]:
-    """A closed part of the projective plane, cut where it goes through infinity."""
+    """The finite branches of a closed part of the projective plane, cut at infinity."""
     far = np.abs(loop[:, 2]) * FAR <= np.hypot(loop[:, 0], loop[:, 1])
     count, side = len(loop), np.where(far, 0.0, np.sign(loop[:, 2]))
     closes = 1.0 if loop[-1] @ loop[0] >= 0 else -1.0
     cuts = [k for k in range(count) if side[k] * (side[k - 1] if k else closes * side[-1]) <= 0]
     finite = side != 0
-    places = frame.out((loop[:, 0] + 1j * loop[:, 1]) / np.where(finite, loop[:, 2], 1.0))
+    points = frame.to_world((loop[:, 0] + 1j * loop[:, 1]) / np.where(finite, loop[:, 2], 1.0))
     if not cuts:
-        return [CurveBranch(places, closed=True)]
+        return [CurveBranch(points, closed=True)]
     found = []
     for low, high in zip(cuts, [*cuts[1:], cuts[0] + count], strict=True):
         index = np.arange(low, high) % count
         index = index[finite[index]]
         if len(index):
-            found.append(CurveBranch(places[index], closed=False))
+            found.append(CurveBranch(points[index], closed=False))
     return found
 
 
 def _asymptote(G: FloatArray, frame: TaskFrame) -> Asymptote | None:
-    """The tangent of the cubic at its real point at infinity: (x² + y²)(l x + m y) leads, so that lies at (m, -l)."""
+    """Tangent of the cubic at its real point at infinity, (m, -l), from the leading terms (x² + y²)(l x + m y)."""
     (across, along), _ = _value(G, np.eye(3)[:2])
     size, turned, shifted = math.hypot(across, along), np.max(np.abs(G[:, :2, :2])), np.max(np.abs(G[:, :2, 2]))
     if size <= FAMILY * turned**2 * shifted:
@@ -306,7 +315,7 @@ def _asymptote(G: FloatArray, frame: TaskFrame) -> Asymptote | None:
     square = line[0] ** 2 + line[1] ** 2
     if square == 0:
         return None
-    foot = frame.spot(-line[2] * complex(line[0], line[1]) / square)
+    foot = frame.point_to_world(-line[2] * complex(line[0], line[1]) / square)
     angle = math.atan2(line[0], -line[1]) % math.pi
     normal = 1j * unit(angle)
     return Asymptote(complex((foot * np.conj(normal)).real * normal), angle)

@@ -1,8 +1,8 @@
-"""Choice from a family of one parameter: the best member within any mix of limits, or which limits clash.
+"""Choice from a family with one parameter: the best member within given limits, or the limits that exclude each other.
 
-The members are handed in as a function from the parameter, for a crank-rocker the ratio a / b, to whatever quantities
-limits and objective name; what those are, this module need not know. Members over the whole family are tabulated, and
-the best place is then looked at ever more closely: a limit is met to about 1e-9 of itself, from inside.
+The members are given as a function from the parameter (for a crank-rocker the ratio a / b) to named quantities, to
+which limits and objective refer. Members over the whole family are tabulated, and the interval about the best one is
+refined repeatedly. A limit is met to about 1e-9 of its value.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -17,21 +17,26 @@ from ilmek.errors import ParameterError
 from ilmek.units import format_quantity
 
 Table: TypeAlias = Mapping[str, FloatArray]
-"""Quantity -> its values, one a member."""
+"""Quantity -> its values, one per member."""
 
 Tabulate: TypeAlias = Callable[[FloatArray], Table]
 """Parameters of members -> their quantities."""
 
 TOLERANCE = 1e-9
-"""Part of a limit by which it may be overstepped where no member keeps it better: by rounding."""
+"""Relative violation of a limit that is allowed, by rounding, where no member meets it better."""
 
-NEARER, ROUNDS = 32, 6
-"""Members of a closer look, between the neighbours of the best so far; closer looks."""
+MEMBERS, REFINEMENTS = 32, 6
+"""Members of a refinement, between the neighbours of the best one so far; number of refinements."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """A quantity that must be at least (sign +1) or at most (-1) a bound [SI]; name and unit as its giver says them."""
+    """A limit of a quantity.
+
+    quantity  its name in the table        bound  [SI]
+    sign      +1: at least, -1: at most
+    name      of the limit, for messages   unit   of the bound, for messages
+    """
 
     quantity: str
     bound: float
@@ -40,21 +45,21 @@ class Limit:
     unit: str = "1"
 
     def shortage(self, table: Table) -> FloatArray:
-        """By which part of the bound each member fails it; 0 or less where it holds, infinite where it has no value."""
+        """Violation relative to the bound [1], one per member; 0 or less where the limit is met, inf for NaN values."""
         short = self.sign * (self.bound - table[self.quantity]) / (abs(self.bound) or 1.0)
         return np.nan_to_num(short, nan=np.inf)
 
     def kept(self, table: Table) -> BoolArray:
-        """Whether each member keeps it, but for rounding."""
+        """Whether each member meets the limit, except for rounding."""
         return np.asarray(self.shortage(table) <= TOLERANCE)
 
     @property
     def words(self) -> str:
-        """`ratio_max=0.3`."""
+        """The limit as text, such as `ratio_max=0.3`."""
         return f"{self.name}={format_quantity(self.bound, self.unit)}"
 
     def reached(self, table: Table, among: BoolArray) -> str:
-        """The best that some members reach, in words."""
+        """The best value among some members, as text."""
         values = table[self.quantity][among]
         best = np.nanmax(values) if self.sign > 0 else np.nanmin(values)
         return f"{'at most' if self.sign > 0 else 'at least'} {format_quantity(float(best), self.unit)}"
@@ -68,7 +73,7 @@ class Objective:
     sign: int
 
     def cost(self, table: Table) -> FloatArray:
-        """What is to be small."""
+        """Quantity to be minimised, one value per member."""
         return -self.sign * table[self.quantity]
 
 
@@ -79,13 +84,16 @@ def choose(
     limits: Sequence[Limit] = (),
     preferred: Sequence[Limit] = (),
 ) -> float:
-    """The parameter of the best member that keeps every limit.
+    """The parameter of the best member that meets all limits.
 
-    members    parameters over the whole family, ascending; its ends are not left
-    preferred  limits that hold only where some member keeps them as well as all others
+    tabulate   parameters -> quantities
+    members    parameters over the whole family, ascending, shape (members,); the result is within their range
+    objective  quantity to be maximised or minimised
+    limits     limits to be met
+    preferred  limits that apply only if a member meets them together with all others
 
-    Raises ParameterError where no member keeps the limits, which names the fewest that clash and what each leaves of
-    the others; two wherever two do.
+    Raises ParameterError where no member meets the limits. It names the smallest set of limits that exclude each other,
+    and the best value of each with the others met.
 
     >>> square = lambda x: {"side": x, "area": x**2}
     >>> sides = np.linspace(0, 10, 101)
@@ -97,10 +105,10 @@ def choose(
         limits = [*limits, *preferred]
     best = _best(objective, limits, table)
     seen, low, high = members, members[0], members[-1]
-    for _ in range(ROUNDS):
+    for _ in range(REFINEMENTS):
         low, high = seen[max(best - 1, 0)], seen[min(best + 1, seen.size - 1)]
-        # The best so far stays among them, so that no look is worse than the last.
-        seen = np.unique(np.append(np.linspace(low, high, NEARER + 1), seen[best]))
+        # The best member so far is kept, so that no refinement is worse than the last.
+        seen = np.unique(np.append(np.linspace(low, high, MEMBERS + 1), seen[best]))
         nearer = tabulate(seen)
         best = _best(objective, limits, nearer)
     if not _all_kept(limits, nearer)[best]:
@@ -109,20 +117,20 @@ def choose(
 
 
 def clash(table: Table, limits: Sequence[Limit]) -> ParameterError:
-    """The fewest limits that no member keeps together, in words: one that none reaches, else two, else more."""
+    """The error that names the smallest set of limits that no member meets together."""
     kept = [limit.kept(table) for limit in limits]
     groups = (some for number in range(1, len(limits)) for some in combinations(range(len(limits)), number))
-    clashing = (some for some in groups if not _every([kept[place] for place in some], table).any())
-    return _words(table, [limits[place] for place in next(clashing, range(len(limits)))])
+    clashing = (some for some in groups if not _every([kept[index] for index in some], table).any())
+    return _clash_error(table, [limits[index] for index in next(clashing, range(len(limits)))])
 
 
-def _words(table: Table, limits: Sequence[Limit]) -> ParameterError:
+def _clash_error(table: Table, limits: Sequence[Limit]) -> ParameterError:
     if len(limits) == 1:
         everyone = np.ones(_length(table), dtype=bool)
         return ParameterError(
             f"no crank-rocker of the family has {limits[0].words}",
             allowed=f"it reaches {limits[0].reached(table, everyone)}",
-            do="ease that limit, or change swing or crank_rotation",
+            do="relax this limit, or change swing or crank_rotation",
         )
     reached = []
     for limit in limits:
@@ -130,12 +138,12 @@ def _words(table: Table, limits: Sequence[Limit]) -> ParameterError:
         with_others = " and ".join(other.words for other in others)
         reach = limit.reached(table, _all_kept(others, table))
         reached.append(f"{limit.name} can be {reach} with {with_others}")
-    said = " and ".join(limit.words for limit in limits)
-    return ParameterError(f"{said} clash", allowed="; ".join(reached), do="ease one of them")
+    given = " and ".join(limit.words for limit in limits)
+    return ParameterError(f"{given} clash", allowed="; ".join(reached), do="relax one of them")
 
 
 def _best(objective: Objective, limits: Sequence[Limit], table: Table) -> int:
-    """Place of the best member: the one that fails the limits least, and of those that keep them the objective's."""
+    """Index of the best member: least violation of the limits, then best objective."""
     failure = np.zeros(_length(table))
     for limit in limits:
         failure = np.maximum(failure, limit.shortage(table))
@@ -147,7 +155,7 @@ def _all_kept(limits: Iterable[Limit], table: Table) -> BoolArray:
 
 
 def _every(kept: Sequence[BoolArray], table: Table) -> BoolArray:
-    """Members that are in every set; all of them where there is none."""
+    """Members that meet all of several conditions; all members without conditions."""
     every: BoolArray = np.logical_and.reduce([np.ones(_length(table), dtype=bool), *kept])
     return every
 

@@ -1,16 +1,16 @@
-"""The circuit check of a crank-rocker: both dead centres must be reached without taking it apart.
+"""Circuit check of a crank-rocker: both dead centres must be on one circuit.
 
-The classical problem gives the crank Z1 and the rocker Z2 at the extended dead centre, for any ratio of the coupler to
-the crank, L = b / a, by two linear equations; the ground link is 1:
+The classical problem gives the crank Z1 and the rocker Z2 at the extended dead centre by two linear equations, for any
+ratio of coupler to crank, L = b / a, with the ground link 1:
 
     (1 + L) Z1 - Z2 = 1,       (1 - L) e^{i phi} Z1 - e^{i psi} Z2 = 1
 
-They know nothing of the way between the dead centres. A crank-rocker's joint B never crosses the ground line, so that
+They do not include the motion between the dead centres. The joint B of a crank-rocker never crosses the ground line, so
 
-    Im Z2  and  Im(Z2 e^{i psi})  must be of one sign
+    Im Z2  and  Im(Z2 e^{i psi})  must have the same sign
 
-Without this check a search over L finds better transmission angles than the best there is, all of linkages whose
-rocker would have to jump from one side of the ground line to the other. With it nothing beats `best_ratio`.
+Without this check a search over L finds better transmission angles than the optimum, of linkages whose rocker would
+have to jump across the ground line. With it no member is better than `best_ratio`.
 """
 
 from typing import NamedTuple
@@ -28,9 +28,11 @@ class ExtendedPose(NamedTuple):
 
 
 def extended(swing: RealField, rotation: RealField, ratio: RealField) -> ExtendedPose:
-    """Crank and rocker at the extended dead centre, whatever they are good for, for any ratio a / b above 0.
+    """Crank and rocker at the extended dead centre, for any ratio a / b above 0, without circuit check.
 
-    Infinite or NaN where the two equations have no one solution.      [the two equations, by Cramer's rule]
+    swing, rotation  psi, phi [rad]; any shapes that broadcast
+
+    Infinite or NaN where the two equations have no unique solution.      [the two equations, by Cramer's rule]
 
     >>> found = extended(np.radians(30), np.pi, 0.3)
     >>> [round(float(abs(vector)), 4) for vector in found]
@@ -44,15 +46,16 @@ def extended(swing: RealField, rotation: RealField, ratio: RealField) -> Extende
 
 
 def on_one_circuit(swing: RealField, rocker: ComplexField) -> BoolArray:
-    """Whether a rocker A -> B at one dead centre and the same turned by `swing` at the other lie on one circuit.
+    """Whether a rocker A -> B at one dead centre and the same rotated by `swing` at the other lie on one circuit.
 
-    On the ground line, where the linkage stands in a toggle: False.
+    swing  psi [rad]      rocker  vector A -> B, complex, any unit
+
+    False on the ground line, where the linkage is at a toggle position.
 
     >>> bool(on_one_circuit(np.radians(30), np.exp(1j * np.radians(120))))
     True
     >>> bool(on_one_circuit(np.radians(30), np.exp(1j * np.radians(170))))
     False
     """
-    here = np.imag(rocker)
-    there = np.imag(rocker * np.exp(1j * np.asarray(swing)))
-    return np.asarray(here * there > 0)
+    heights = np.imag(rocker), np.imag(rocker * np.exp(1j * np.asarray(swing)))
+    return np.asarray(heights[0] * heights[1] > 0)

@@ -1,7 +1,7 @@
-"""The family of crank-rockers of one swing and one turn of the crank, as arrays: its members and what each is worth.
+"""The family of crank-rockers with one swing and one rotation of the crank, as arrays of members and their quantities.
 
-Members are evenly apart in the ratio a / b, which names them for every phi (`beta` does not), half a step from both
-ends of the open interval: nearer than that to an end stand toggles, of use to nobody.
+Members are evenly spaced in the ratio a / b, which identifies them for every phi (`beta` does not). The first and last
+are half a step from the ends of the open interval; at the ends themselves the linkages are at a toggle position.
 """
 
 import numpy as np
@@ -22,12 +22,12 @@ from ilmek.synthesis.crank_rocker.motion import beat_acceleration, rocker_extrem
 from ilmek.synthesis.crank_rocker.selection import require_rotation
 
 COUNT = 1000
-"""Members of a family, unsaid."""
+"""Default number of members of a family."""
 
 
 @record
 class CrankRockerFamily:
-    """Crank-rockers with one swing and one turn of the crank [rad], by ascending ratio crank / coupler."""
+    """Crank-rockers with one swing and one rotation of the crank [rad], by ascending ratio crank / coupler."""
 
     swing: float
     rotation: float
@@ -38,18 +38,20 @@ class CrankRockerFamily:
 
     @property
     def links(self) -> LinkRatios:
-        """Their links, in ground links."""
+        """Link lengths [ground links], one value per member."""
         return links_of_ratio(self.swing, self.rotation, self.ratio)
 
     @property
     def beta(self) -> FloatArray:
-        """Crank angles of the extended dead centre [rad]."""
+        """Crank angles of the extended dead centre [rad], one per member."""
         return np.broadcast_to(beta_of_ratio(self.swing, self.rotation, self.ratio), self.ratio.shape)
 
     def geometry(self, reach: RealField | None = None) -> dict[str, FloatArray]:
-        """What lengths alone say, by name; reach: of the rocker's far end from its pivot, unsaid its pin.
+        """Geometric quantities by name, one value per member.
 
-        crank_coupler_ratio, transmission_angle_min [rad], link_ratio, grashof_margin and size [ground links]
+        reach  distance of the rocker's far end from its pivot [ground links]; default: that of its pin
+
+        crank_coupler_ratio [1], transmission_angle_min [rad], link_ratio [1], grashof_margin and size [ground links]
         """
         links = self.links
         return {
@@ -61,7 +63,7 @@ class CrankRockerFamily:
         }
 
     def kinematics(self, speed: float) -> dict[str, FloatArray]:
-        """The rocker at a speed of the crank [rad/s], by name: greatest speed, greatest acceleration, that at the beat.
+        """Quantities of the rocker's motion by name at a constant speed of the crank [rad/s], one value per member.
 
         rocker_speed_max [rad/s], rocker_acceleration_max, rocker_acceleration_at_beat [rad/s^2]
         """
@@ -76,9 +78,13 @@ class CrankRockerFamily:
 def family(
     swing: float, rotation: float, count: int = COUNT, *, within: OpenInterval | None = None
 ) -> CrankRockerFamily:
-    """Members over the whole family, or over the part of it with ratios crank / coupler `within`, ends included.
+    """Members of the family of a swing and a rotation of the crank.
 
-    Raises ParameterError where no crank-rocker has this swing and turn of the crank.
+    swing, rotation  psi, phi [rad]
+    count            number of members
+    within           range of the ratio crank / coupler, ends included; default: the whole family
+
+    Raises ParameterError where no crank-rocker has this swing and rotation of the crank.
 
     >>> family(np.radians(30), np.pi, 4).ratio.round(9).tolist()
     [0.125, 0.375, 0.625, 0.875]
@@ -91,7 +97,7 @@ def family(
 
 
 def link_ratio(links: LinkRatios) -> RealField:
-    """Longest link by the shortest, the ground among them.
+    """Longest link / shortest link [1], including the ground link.
 
     >>> float(link_ratio(LinkRatios(0.25, 0.5, 0.75)))
     4.0
@@ -102,13 +108,15 @@ def link_ratio(links: LinkRatios) -> RealField:
 
 
 def size(links: LinkRatios, beta: RealField, reach: RealField | None = None) -> RealField:
-    """Greatest distance of places that its points get to, in ground links.
+    """Overall size: greatest distance between positions of the linkage's points over a turn [ground links].
 
         max(1 + a,  2 a + b,  a + |1 + r e^{i angle(AB at the beat)}|,  c,  r,  2 max(c, r) sin(swing / 2))
 
-    reach  r: of the rocker's far end E from A, on the line A-B; unsaid: B
-    From the crank's circle to A, to B and to E where they are farthest from D; from A to B and to E;
-    from end to end of the stroke of B and of E, which is longer than c and r for swings above 60 degrees.     [derived]
+    beta   crank angle of the extended dead centre [rad]
+    reach  r: distance of the rocker's far end E from A, on the line A-B; default: that of B
+
+    The terms are the distances from the crank's circle to A, to B and to E at their farthest from D; from A to B and to
+    E; and the stroke of B or E from end to end, longer than c and r for swings above 60 degrees.      [derived]
 
     >>> float(size(LinkRatios(0.25, 0.5, 0.75), 0.7))
     1.25
@@ -117,6 +125,6 @@ def size(links: LinkRatios, beta: RealField, reach: RealField | None = None) -> 
     reach = rocker if reach is None else reach
     along = ((crank + coupler) * np.exp(1j * np.asarray(beta)) - 1) / rocker
     stroke = 2 * np.maximum(rocker, reach) * np.sin(np.abs(dead_centres(links).swing) / 2)
-    places = (1 + crank, 2 * crank + coupler, crank + np.abs(1 + reach * along), rocker, reach, stroke)
-    greatest: RealField = np.max(np.stack(np.broadcast_arrays(*places)), axis=0)
+    distances = (1 + crank, 2 * crank + coupler, crank + np.abs(1 + reach * along), rocker, reach, stroke)
+    greatest: RealField = np.max(np.stack(np.broadcast_arrays(*distances)), axis=0)
     return greatest

@@ -1,8 +1,8 @@
-"""How crank-rockers move: rocker's speed and acceleration, their greatest values over a turn, for arrays of linkages.
+"""Motion of crank-rockers: speed and acceleration of the rocker and their greatest values, for arrays of linkages.
 
-Frame and names are those of `crank_rocker`: ground D = 0 to A = 1, crank DC = a, coupler CB = b, rocker AB = c, B above
-the ground line. The crank turns at constant speed, which is 1 here: the rocker's angular velocity is in crank speeds
-omega, its angular acceleration in omega^2, both counter-clockwise. Formulas are those of an RRR dyad, in `linkage`.
+Frame and names are those of `dead_centres`: ground D = 0 to A = 1, crank DC = a, coupler CB = b, rocker AB = c, B above
+the ground line. The crank has the constant speed omega = 1: angular velocities are in omega, angular accelerations in
+omega^2, counter-clockwise. The formulas are those of the RRR dyad in `linkage`.
 """
 
 from typing import NamedTuple
@@ -15,15 +15,16 @@ from ilmek.num.periodic_maxima import summits
 from ilmek.synthesis.crank_rocker.dead_centres import LinkRatios, dead_centres
 
 PIVOT = 1 + 0j
-"""The rocker's pivot A; the crank's is the origin, and their distance the unit of length."""
+"""Pivot A of the rocker; the pivot of the crank is the origin, and the ground link the unit of length."""
 
 
 class CrankRockerMotion(NamedTuple):
     """A crank-rocker at crank angles, at unit speed of the crank.
 
-    pin              the crank pin C                             lean   coupler x rocker: b c sin(transmission angle)
-    coupler, rocker  the links C -> B and A -> B
-    omega, alpha     angular velocity and acceleration of coupler and of rocker
+    pin              position of the crank pin C [ground links], complex
+    coupler, rocker  vectors C -> B and A -> B [ground links], complex
+    lean             coupler x rocker: b c sin(transmission angle)
+    omega, alpha     angular velocity [omega] and acceleration [omega^2] of coupler and of rocker
     """
 
     pin: ComplexField
@@ -35,16 +36,16 @@ class CrankRockerMotion(NamedTuple):
 
 
 class RockerExtremes(NamedTuple):
-    """Greatest sizes over a turn of the rocker's angular velocity [omega] and acceleration [omega^2]."""
+    """Greatest magnitudes over a turn of the rocker's angular velocity [omega] and acceleration [omega^2]."""
 
     speed: FloatArray
     acceleration: FloatArray
 
 
 def moved(links: LinkRatios, angle: RealField) -> CrankRockerMotion:
-    """Crank-rockers at crank angles [rad]; links and angles of any shapes that broadcast.
+    """Motion of crank-rockers at crank angles [rad]; links [ground links] and angles of any shapes that broadcast.
 
-    [position, speed and acceleration of the RRR dyad hung on the crank pin and on A]
+    [position, velocity and acceleration of the RRR dyad attached to the crank pin and to A]
 
     >>> at = moved(LinkRatios(0.25, 0.7, 0.75), 0.3)
     >>> ahead, behind = (np.angle(moved(LinkRatios(0.25, 0.7, 0.75), 0.3 + h).rocker) for h in (1e-6, -1e-6))
@@ -63,10 +64,10 @@ def moved(links: LinkRatios, angle: RealField) -> CrankRockerMotion:
 
 
 def sharp_angles(links: LinkRatios) -> FloatArray:
-    """Crank angles near which motion and forces may be narrow peaks [rad], (..., 4).
+    """Crank angles near which motion and forces may have narrow peaks [rad], shape (..., 4).
 
-    The crank on the ground line, at 0 and at pi, where the transmission angle is least or greatest; and the dead
-    centres, of which the folded one is a jerk where coupler and crank are nearly alike.
+    They are 0 and pi, where the crank is on the ground line and the transmission angle is least or greatest, and the
+    dead centres; the folded one has a high acceleration where coupler and crank are nearly equal.
     """
     beta, back = dead_centres(links).beta, dead_centres(links).beta + dead_centres(links).rotation
     zero = np.zeros_like(np.asarray(beta, dtype=float))
@@ -75,9 +76,11 @@ def sharp_angles(links: LinkRatios) -> FloatArray:
 
 
 def rocker_extremes(links: LinkRatios) -> RockerExtremes:
-    """Greatest angular speed and acceleration of the rocker, (members) as the links, at unit speed of the crank.
+    """Greatest angular speed and acceleration of the rocker at unit speed of the crank, one value per member.
 
-    Suprema to about 1e-9 of themselves, see `num.periodic_maxima`; the crank must turn fully.
+    links  [ground links], shape (members,); the crank must rotate fully
+
+    The suprema are accurate to about 1e-9, see `num.periodic_maxima`.
 
     >>> float(rocker_extremes(LinkRatios(*np.array([[0.2], [0.66], [0.77]]))).speed[0].round(4))
     0.2778
@@ -94,10 +97,10 @@ def rocker_extremes(links: LinkRatios) -> RockerExtremes:
 def beat_acceleration(links: LinkRatios) -> RealField:
     """Angular acceleration of the rocker at the extended dead centre [omega^2].
 
-        alpha = a (a + b) / (b c sin mu) > 0: away from the beat,   mu the angle between coupler and rocker there
+        alpha = a (a + b) / (b c sin mu) > 0: away from the beat-up,   mu the angle between coupler and rocker there
 
-    [the crank pin's and the coupler's centripetal accelerations, both along the line D, C, B: omega^2 a and, because
-    the coupler turns by -omega a / b, omega^2 a^2 / b; their sum over sin mu is the tangential acceleration of B]
+    [centripetal accelerations of crank pin and coupler, both along the line D, C, B: omega^2 a and, because the coupler
+    rotates at -omega a / b, omega^2 a^2 / b; their sum divided by sin mu is the tangential acceleration of B]
     """
     crank, coupler, rocker = links
     straight = crank + coupler

@@ -1,14 +1,15 @@
-"""Choosing a crank-rocker of the family: what may be asked, what is chosen where nothing is asked.
+"""Selection of a crank-rocker of the family: allowed parameters, and defaults by three criteria.
 
-The three criteria of [paper] (see `crank_rocker`), in the order in which they are tried:
+The three criteria of [paper] (see `dead_centres`), in their order:
 
-1. Grashof, strictly: every member inside the open intervals of `crank_rocker` has it.
-2. Transmission angle: it deviates from 90 deg by at most 40 deg, or else by at most 50 deg.
-3. Ratio crank / coupler: the greatest not above 0.3, because a greater one beats harder and a yet greater one shakes
-   the loom [paper, criterion ii, after Talavasek and Svaty]. Below 0.1 the linkage becomes small beside its ground.
+1. Grashof condition, strictly: every member inside the open intervals of `dead_centres` meets it.
+2. Transmission angle: its deviation from 90 deg is at most 40 deg, otherwise at most 50 deg.
+3. Ratio crank / coupler: the greatest one up to 0.3. A greater ratio gives a stronger beat-up, but too great a ratio
+   causes vibration of the loom [paper, criterion ii, after Talavasek and Svaty]. Below 0.1 the linkage is small
+   compared with its ground link.
 
-For any swing and any ratio the greatest transmission angle is that of the centric crank-rocker, phi = 180 deg: there
-the two extremes of the angle are equal. So `CENTRIC` is the turn of the crank to choose where none is asked.
+For any swing and ratio the centric crank-rocker, phi = 180 deg, has the greatest transmission angle: the two extremes
+of the angle are equal there. So `CENTRIC` is the default rotation of the crank.
 """
 
 import math
@@ -32,24 +33,24 @@ from ilmek.synthesis.crank_rocker.dead_centres import (
 from ilmek.units import deg, format_quantity
 
 CENTRIC = math.pi
-"""Turn of the crank between dead centres with the best transmission angle at any ratio [rad]."""
+"""Rotation of the crank between dead centres with the best transmission angle at any ratio [rad]."""
 
 DEVIATIONS = (40 * deg, 50 * deg)
-"""Deviations of the transmission angle from 90 deg that are tolerated, the wanted one first [paper, criterion i]."""
+"""Allowed deviations of the transmission angle from 90 deg [rad], the preferred one first [paper, criterion i]."""
 
 RATIO_LIMIT = 0.3
-"""Greatest ratio crank / coupler that loom makers use [paper, criterion ii]."""
+"""Greatest ratio crank / coupler in use by loom makers [paper, criterion ii]."""
 
 RATIO_FLOOR = 0.1
-"""Least ratio crank / coupler that is chosen unasked."""
+"""Least ratio crank / coupler that is selected by default."""
 
 SAME_ANGLE = 1e-9
-"""Angles nearer than this are one [rad]: at phi = pi + psi the family changes its free parameter."""
+"""Difference below which angles count as equal [rad]: at phi = pi + psi the free parameter of the family changes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A crank-rocker of the family: its ratios to the ground link and the crank angle of its beat [rad]."""
+    """A crank-rocker of the family: link lengths [ground links] and crank angle beta of the beat-up [rad]."""
 
     crank: float
     coupler: float
@@ -58,15 +59,18 @@ class Member:
 
     @property
     def links(self) -> LinkRatios:
-        """The ratios alone."""
+        """Link lengths [ground links]."""
         return LinkRatios(self.crank, self.coupler, self.rocker)
 
 
 def member(swing: float, rotation: float = CENTRIC, beta: float | None = None) -> Member:
-    """The crank-rocker with this swing and turn of the crank [rad]; beta as asked, or chosen by the three criteria.
+    """The crank-rocker with a given swing and rotation of the crank.
 
-    At phi = pi + psi only beta = pi - phi/2 exists and the coupler is free: beta given there means the member with
-    the greatest transmission angle, b = sqrt(a(1+a)) [paper, Eq 12].
+    swing, rotation  psi, phi [rad]
+    beta             crank angle of the extended dead centre [rad]; default: selected by the three criteria
+
+    At phi = pi + psi only beta = pi - phi/2 exists and the coupler is free. With this beta given, the member with the
+    greatest transmission angle, b = sqrt(a(1+a)), is selected [paper, Eq 12].
 
     Raises ParameterError, with the allowed interval in degrees, where no such crank-rocker exists.
 
@@ -85,10 +89,12 @@ def member(swing: float, rotation: float = CENTRIC, beta: float | None = None) -
 
 
 def select_ratio(swing: float, rotation: float = CENTRIC, limit: float = RATIO_LIMIT) -> float:
-    """Ratio crank / coupler by the three criteria: the greatest up to `limit` whose transmission angle will do.
+    """Ratio crank / coupler by the three criteria: the greatest up to `limit` with an allowed transmission angle.
 
-    The least transmission angle has one maximum over the ratio (`best_ratio`), so that the ratios that will do form
-    an interval. Where no ratio will do, the one with the best transmission angle is taken: checks then say so.
+    swing, rotation  psi, phi [rad]
+
+    The least transmission angle has one maximum over the ratio (`best_ratio`), so the allowed ratios form an interval.
+    If it is empty, the ratio with the best transmission angle is returned.
     """
     least = max(RATIO_FLOOR, float(ratio_limits(swing, rotation).low))
     best = max(least, float(best_ratio(swing, rotation)))
@@ -105,13 +111,13 @@ def select_ratio(swing: float, rotation: float = CENTRIC, limit: float = RATIO_L
 
 
 def require_rotation(swing: float, rotation: float) -> None:
-    """Raise ParameterError unless crank-rockers with this swing and turn of the crank exist."""
+    """Raise ParameterError unless crank-rockers with this swing and rotation of the crank [rad] exist."""
     if not 0 < swing < math.pi:
         raise ParameterError(f"swing={_shown(swing)} is out of bounds", allowed="allowed: above 0 deg, below 180 deg")
     low, high = rotation_limits(swing)
     if not low + SAME_ANGLE < rotation < high - SAME_ANGLE:
         raise ParameterError(
-            f"no crank-rocker swings {_shown(swing)} with crank_rotation={_shown(rotation)}",
+            f"no crank-rocker has swing={_shown(swing)} with crank_rotation={_shown(rotation)}",
             allowed=f"allowed: above {_shown(low)}, below {_shown(high)}",
             do=f"{_shown(CENTRIC)} gives the best transmission angle",
         )
@@ -123,12 +129,12 @@ def _coupler_is_free(swing: float, rotation: float) -> bool:
 
 def _require_forced_beta(rotation: float, beta: float) -> None:
     forced = math.pi - rotation / 2
-    # A value typed in degrees to four decimals is meant to be the forced one.
+    # A value given in degrees with four decimals counts as the forced one.
     if abs(beta - forced) > 1e-4 * deg:
         raise ParameterError(
             f"beta={_shown(beta)} does not exist at crank_rotation = 180 deg + swing = {_shown(rotation)}",
-            allowed=f"allowed: {_shown(forced)} only; the coupler is free there instead",
-            do="leave beta out",
+            allowed=f"allowed: only {_shown(forced)}; the coupler is free there instead",
+            do="omit beta",
         )
 
 
@@ -138,8 +144,8 @@ def _require_beta(swing: float, rotation: float, beta: float) -> None:
         slip = " (a bare number is in radians)" if beta > math.pi and low < beta * deg < high else ""
         raise ParameterError(
             f"beta={_shown(beta)} gives no crank-rocker for swing={_shown(swing)}, crank_rotation={_shown(rotation)}",
-            allowed=f"allowed: above {_shown(low)}, below {_shown(high)}; at the ends it stands in a toggle",
-            do=f"leave beta out to have it chosen{slip}",
+            allowed=f"allowed: above {_shown(low)}, below {_shown(high)}; at the ends it is at a toggle position",
+            do=f"omit beta to have it selected{slip}",
         )
 
 

@@ -1,14 +1,15 @@
 # ruff: noqa: PLR0917 - compiled functions take their arguments by position
-"""From a start to the nearest best four-bar of a path: Levenberg-Marquardt within limits, compiled, many starts a call.
+"""Local optimisation of a four-bar for a path: Levenberg-Marquardt method within limits, compiled, for many starts.
 
-    least  sum |P(x, th_k) - p_k|^2    over the ten numbers x and, where there is no timing, the crank's angles th_k
+    minimise  sum |P(x, th_k) - p_k|^2    over the ten numbers x and, without timing, the crank angles th_k
 
-Each point knows its own angle only, so that the angles leave the normal equations one by one (Schur complement of an
-arrow matrix); what remains is ten by ten, and its step is kept within the limits by `num.quadratic`.
+Each point depends only on its own angle, so the angles are eliminated from the normal equations one by one (Schur
+complement of an arrow matrix). The remaining system is ten by ten; its step is kept within the limits by
+`num.quadratic`.
 
     (H' - sum_k h_k h_k^T / d_k) s = -g + sum_k h_k b_k / d_k,    t_k = -(b_k + h_k s) / d_k
 
-H' and d_k carry the damping, lambda times the diagonal.     [Marquardt 1963; Nielsen 1999 for lambda from step to step]
+H' and d_k include the damping, lambda times the diagonal. [Marquardt 1963; Nielsen 1999 for the update of lambda]
 """
 
 import numpy as np
@@ -16,17 +17,17 @@ import numpy as np
 from ilmek.arrays import Complex, Float, Int
 from ilmek.num.compiled import compiled
 from ilmek.num.quadratic import limited_step
-from ilmek.synthesis.path.limits import GRACE, LIMITS, Rows, Slack, excess, limit_rows
+from ilmek.synthesis.path.limits import LIMITS, TOLERANCE, Rows, Slack, excess, limit_rows
 from ilmek.synthesis.path.model import SIZE, START, Angles, Design, Points, normal_equations, squared_error
 
 EXACT = 1e-29
-"""Squared error a point, in squared sizes of the path, that is rounding: the search of a start ends there."""
+"""Squared error per point, in squared sizes of the path, at the level of rounding; the descent ends there."""
 
-STILL = 1e-13
-"""Part of the error that a step must take away; eight steps that take less end the search of a start."""
+MIN_REDUCTION = 1e-13
+"""Relative reduction of the error by a step; after eight successive steps with less the descent ends."""
 
-FLOOR = 1e-13
-"""Added to the diagonals against a number that does not move the path."""
+RIDGE = 1e-13
+"""Term added to the diagonals, for numbers that do not affect the path."""
 
 
 @compiled
@@ -43,14 +44,14 @@ def descend(
     state: Float[np.ndarray, "5"],
     rounds: int,
 ) -> None:
-    """Go on from `design` and `angles`, in place, for at most `rounds` evaluations.
+    """Descent from `design` and `angles`, in place, for at most `rounds` evaluations.
 
-    state  squared error, damping, its next growth, and still steps so far (8 or more: at rest), and
-           evaluations so far; kept between calls
+    state  squared error, damping, its next growth factor, number of successive small steps (8 or more: ended), and
+           number of evaluations; kept between calls
     """
     count = blocks.max() + 1
     H, g = np.empty((SIZE, SIZE)), np.empty(SIZE)
-    mixed, own, pull = np.empty((count, SIZE)), np.empty(count), np.empty(count)
+    mixed_hessian, angle_hessian, angle_gradient = np.empty((count, SIZE)), np.empty(count), np.empty(count)
     A, b, step, turn = np.empty((SIZE, SIZE)), np.empty(SIZE), np.empty(SIZE), np.empty(count)
     rows, slack = np.empty((LIMITS, SIZE)), np.empty(LIMITS)
     trial, ahead = design.copy(), angles.copy()
@@ -60,46 +61,46 @@ def descend(
             state[3] = 8.0
             return
         if fresh:
-            normal_equations(design, angles, points, blocks, branch, H, g, mixed, own, pull)
+            normal_equations(design, angles, points, blocks, branch, H, g, mixed_hessian, angle_hessian, angle_gradient)
             limit_rows(design, low, high, kind, kappa, rows, slack)
-        gain = _reduced(H, g, mixed, own, pull, low, high, state[1], A, b)
+        gain = _reduced(H, g, mixed_hessian, angle_hessian, angle_gradient, low, high, state[1], A, b)
         if not _step_within(A, b, rows, slack, design, low, high, kind, kappa, step, trial):
             state[1] *= 10.0
             fresh = False
             continue
-        _own_steps(mixed, own, pull, state[1], step, turn)
+        _angle_steps(mixed_hessian, angle_hessian, angle_gradient, state[1], step, turn)
         for k in range(points.size):
             ahead[k] = angles[k] + (turn[blocks[k]] if blocks[k] >= 0 else step[START])
-        gain -= _taken(A, b, step)
+        gain -= _quadratic_model(A, b, step)
         error = squared_error(trial, ahead, points, branch)
         state[4] += 1.0
         fresh = error < state[0]
-        _settle(state, error, gain)
+        _update_damping(state, error, gain)
         if fresh:
             _copy(trial, design)
             _copy(ahead, angles)
 
 
 @compiled
-def _own_steps(
-    mixed: Float[np.ndarray, "blocks 10"],
-    own: Float[np.ndarray, " blocks"],
-    pull: Float[np.ndarray, " blocks"],
+def _angle_steps(
+    mixed_hessian: Float[np.ndarray, "blocks 10"],
+    angle_hessian: Float[np.ndarray, " blocks"],
+    angle_gradient: Float[np.ndarray, " blocks"],
     damping: float,
     step: Design,
     turn: Float[np.ndarray, " blocks"],
 ) -> None:
-    """The steps of the free angles that go with a step of the ten numbers, into `turn`."""
-    for k in range(own.size):
-        total = pull[k]
+    """Steps of the free angles for a step of the ten numbers, written to `turn`."""
+    for k in range(angle_hessian.size):
+        total = angle_gradient[k]
         for i in range(SIZE):
-            total += mixed[k, i] * step[i]
-        turn[k] = -total / (own[k] * (1.0 + damping) + FLOOR)
+            total += mixed_hessian[k, i] * step[i]
+        turn[k] = -total / (angle_hessian[k] * (1.0 + damping) + RIDGE)
 
 
 @compiled
-def _taken(A: Float[np.ndarray, "10 10"], b: Design, step: Design) -> float:
-    """What a step adds to the quadratic of the ten numbers."""
+def _quadratic_model(A: Float[np.ndarray, "10 10"], b: Design, step: Design) -> float:
+    """Change of the quadratic model by a step of the ten numbers."""
     total = 0.0
     for i in range(SIZE):
         total += step[i] * b[i]
@@ -115,11 +116,11 @@ def _copy(source: Angles, target: Angles) -> None:
 
 
 @compiled
-def _settle(state: Float[np.ndarray, "5"], error: float, gain: float) -> None:
-    """The next damping after a step that promised to take 2 gain off the squared error, and led to `error`."""
+def _update_damping(state: Float[np.ndarray, "5"], error: float, gain: float) -> None:
+    """Update the damping after a step with a predicted reduction of the squared error by 2 gain, and its `error`."""
     if error < state[0]:
         ratio = (state[0] - error) / max(2.0 * gain, 1e-300)
-        state[3] = state[3] + 1.0 if state[0] - error <= STILL * state[0] else 0.0
+        state[3] = state[3] + 1.0 if state[0] - error <= MIN_REDUCTION * state[0] else 0.0
         state[1] = max(state[1] * max(0.1, 1.0 - (2.0 * ratio - 1.0) ** 3), 1e-12)
         state[0], state[2] = error, 2.0
         return
@@ -133,30 +134,30 @@ def _settle(state: Float[np.ndarray, "5"], error: float, gain: float) -> None:
 def _reduced(
     H: Float[np.ndarray, "10 10"],
     g: Design,
-    mixed: Float[np.ndarray, "blocks 10"],
-    own: Float[np.ndarray, " blocks"],
-    pull: Float[np.ndarray, " blocks"],
+    mixed_hessian: Float[np.ndarray, "blocks 10"],
+    angle_hessian: Float[np.ndarray, " blocks"],
+    angle_gradient: Float[np.ndarray, " blocks"],
     low: Design,
     high: Design,
     damping: float,
     A: Float[np.ndarray, "10 10"],
     b: Design,
 ) -> float:
-    """The damped equations of the ten numbers alone into A and b; half of what the angles alone take off."""
+    """Damped equations of the ten numbers, written to A and b; returns half the reduction by the angles alone."""
     gain = 0.0
     for i in range(SIZE):
         b[i] = g[i]
         for j in range(SIZE):
             A[i, j] = H[i, j]
-        A[i, i] += damping * H[i, i] + FLOOR
-    for k in range(own.size):
-        weight = 1.0 / (own[k] * (1.0 + damping) + FLOOR)
-        gain += 0.5 * weight * pull[k] * pull[k]
+        A[i, i] += damping * H[i, i] + RIDGE
+    for k in range(angle_hessian.size):
+        weight = 1.0 / (angle_hessian[k] * (1.0 + damping) + RIDGE)
+        gain += 0.5 * weight * angle_gradient[k] * angle_gradient[k]
         for i in range(SIZE):
-            scaled = weight * mixed[k, i]
-            b[i] -= scaled * pull[k]
+            scaled = weight * mixed_hessian[k, i]
+            b[i] -= scaled * angle_gradient[k]
             for j in range(SIZE):
-                A[i, j] -= scaled * mixed[k, j]
+                A[i, j] -= scaled * mixed_hessian[k, j]
     for i in range(SIZE):
         if low[i] == high[i]:
             for j in range(SIZE):
@@ -179,17 +180,17 @@ def _step_within(
     step: Design,
     trial: Design,
 ) -> bool:
-    """The best step within the limits, and where it leads; False where there is none."""
+    """Best step within the limits and its end, written to `step` and `trial`; False where there is none."""
     if limited_step(A, b, rows, slack, step) < 0:
         return False
     for i in range(SIZE):
         trial[i] = min(max(design[i] + step[i], low[i]), high[i])
-    beyond = excess(trial, kind, kappa)
-    if beyond > 0.0:  # a step along the tangent leaves the curved limit by its square: the shortest link gives way
+    violation = excess(trial, kind, kappa)
+    if violation > 0.0:  # the curved limit is violated to second order: shorten the shortest link
         shortest = 1 if kind > 0 else 0
-        trial[shortest] = max(trial[shortest] - beyond, low[shortest])
-        beyond = excess(trial, kind, kappa)
-    return beyond <= GRACE
+        trial[shortest] = max(trial[shortest] - violation, low[shortest])
+        violation = excess(trial, kind, kappa)
+    return violation <= TOLERANCE
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""One answer to the task of a path: the four-bar, how near it comes to each point, and which limits hold it."""
+"""Result of path synthesis: the four-bar, its error at each point, and the active limits."""
 
 import cmath
 import math
@@ -17,19 +17,20 @@ from ilmek.synthesis.path.model import NAMES, SIZE, TURN, coupler_point
 from ilmek.synthesis.path.task import PathTask
 from ilmek.synthesis.task import PrecisionTask
 
-ONCE = 2 * math.pi
+FULL_TURN = 2 * math.pi
 
-AT = 1e-7
-"""Distance from a limit, in sizes of the path, at which it is active."""
+ACTIVE = 1e-7
+"""Distance from a limit, in sizes of the path, up to which it is active."""
 
 
 @dataclass(frozen=True, slots=True)
 class Search:
-    """How an answer was searched for: the same seed and starts give the same answers.
+    """Record of a search; the same seed and starts give the same result.
 
-    seed, starts    random starts that were begun, in all
-    evaluations     of the four-bar at all points or, for long paths, at a part of them
-    agreed          starts that ended at this squared error
+    seed          of the random starts
+    starts        total number of starts
+    evaluations   number of evaluations at all points, or for long paths at a part of them
+    agreed        number of starts that ended at this squared error
     """
 
     seed: int
@@ -42,12 +43,13 @@ class Search:
 class PathFit:
     """A four-bar for the points of a path.
 
-    four_bar      drawn at the first point; its tracer is where it comes nearest (or at the timing's angle)
-    design        the ten numbers by name [m, rad], as `PathTask.bounds` names them
-    crank_angles  of the crank against the world's x at each point [rad], going on from the first
-    errors        tracer less point, at each point [m], complex
-    active        the limits at which the search ended, in words
-    least_transmission  least angle [rad] between coupler and rocker, or its supplement, over a whole turn
+    four_bar            drawn at the first point
+    design              the ten numbers by name [m; rad]; the names are those of `PathTask.bounds`
+    crank_angles        crank angle in the ground frame at each point [rad], continuous from the first
+    errors              position of the tracer minus the point, at each point [m], complex
+    active              active limits, as sentences
+    least_transmission  least angle between coupler and rocker, or its supplement, over a whole turn [rad]
+    search              record of the search
     """
 
     four_bar: FourBar
@@ -65,13 +67,17 @@ class PathFit:
 
     @property
     def greatest_error(self) -> float:
-        """Distance from the point that is missed most [m]."""
+        """Greatest distance from a point [m]."""
         return float(np.max(np.abs(self.errors)))
 
 
 class SearchEnd(NamedTuple):
-    """Where a search ended: the ten numbers [m, rad], the crank's angles against the ground link [rad], the branch, and
-    the block of each point, whose points are met at one angle.
+    """End of a search.
+
+    design  the ten numbers [m; rad]
+    angles  crank angle relative to the ground link at each point [rad]
+    branch  +1 or -1
+    blocks  index of the block of each point; points of one block are met at one crank angle
     """
 
     design: Float[np.ndarray, "10"]
@@ -81,7 +87,7 @@ class SearchEnd(NamedTuple):
 
 
 def path_fit(task: PathTask, pose: SearchEnd, search: Search) -> PathFit:
-    """The answer from where a search ended."""
+    """The result of the end of a search."""
     design, angles, branch, blocks = pose
     drawn = _drawn(design, float(angles[0]), branch)
     reached = np.array([coupler_point(design, float(angle), branch) for angle in angles])
@@ -99,24 +105,24 @@ def path_fit(task: PathTask, pose: SearchEnd, search: Search) -> PathFit:
 
 
 def judged(task: PathTask, fit: PathFit) -> Candidate:
-    """The four-bar as every method's are judged: circuit, branch and order of each point, by forward simulation.
+    """Check of the four-bar by forward simulation: circuit, branch and order of each point (`candidate.judge`).
 
-    Points count as met within the fit's own greatest error, at its own crank angles.
+    Points count as met within the greatest error of the fit, at its crank angles.
     """
-    crank = fit.crank_angles[0] + np.clip(fit.crank_angles - fit.crank_angles[0], -ONCE, ONCE)
-    near = fit.greatest_error * (1 + 1e-6) + AT * task.size
+    crank = fit.crank_angles[0] + np.clip(fit.crank_angles - fit.crank_angles[0], -FULL_TURN, FULL_TURN)
+    near = fit.greatest_error * (1 + 1e-6) + ACTIVE * task.size
     return judge(fit.four_bar, PrecisionTask(points=task.points, crank=crank, point_tolerance=near))
 
 
 def least_transmission(design: Float[np.ndarray, "10"]) -> float:
-    """Least of mu and its supplement [rad] over a turn: cos mu = (r3^2 + r4^2 - (r1 -+ r2)^2) / (2 r3 r4)."""
+    """Least of mu and its supplement over a turn [rad]: cos mu = (r3^2 + r4^2 - (r1 -+ r2)^2) / (2 r3 r4)."""
     r1, r2, r3, r4 = (float(length) for length in design[:4])
     cosines = ((r3**2 + r4**2 - reach**2) / (2 * r3 * r4) for reach in (r1 - r2, r1 + r2))
     return min(math.acos(min(1.0, abs(cosine))) for cosine in cosines)
 
 
 def _drawn(design: Float[np.ndarray, "10"], angle: float, branch: int) -> FourBar:
-    """The four-bar at a crank angle against its ground link."""
+    """The four-bar drawn at a crank angle relative to its ground link [rad]."""
     at_b = design.copy()
     at_b[4], at_b[5] = design[2], 0.0
     a0, turn = complex(design[6], design[7]), cmath.exp(1j * design[TURN])
@@ -126,23 +132,23 @@ def _drawn(design: Float[np.ndarray, "10"], angle: float, branch: int) -> FourBa
 
 
 def _active(task: PathTask, design: Float[np.ndarray, "10"], blocks: Int[np.ndarray, " points"]) -> tuple[str, ...]:
-    """The limits that hold a design, in words."""
+    """Active limits of a design, as sentences."""
     low, high = task.limits()
-    near, words = AT * task.size, []
-    for place in range(SIZE):
-        name, unit = NAMES[place], "rad" if place >= TURN else "m"
-        if low[place] == high[place]:
+    near, active = ACTIVE * task.size, []
+    for index in range(SIZE):
+        name, unit = NAMES[index], "rad" if index >= TURN else "m"
+        if low[index] == high[index]:
             continue
-        if design[place] - low[place] <= near:
-            words.append(f"{name} at its lower bound {low[place]:.6g} {unit}")
-        if high[place] - design[place] <= near:
-            words.append(f"{name} at its upper bound {high[place]:.6g} {unit}")
+        if design[index] - low[index] <= near:
+            active.append(f"{name} at its lower bound {low[index]:.6g} {unit}")
+        if high[index] - design[index] <= near:
+            active.append(f"{name} at its upper bound {high[index]:.6g} {unit}")
     if excess(design, task.sign, task.kappa) >= -near:
         least = f"transmission angle at its limit {math.degrees(task.transmission):.4g} deg"
-        words.append(least if task.transmission else "the crank only just turns fully (Grashof)")
+        active.append(least if task.transmission else "full rotation of the crank at its limit (Grashof)")
     if task.timing is None:
-        words += [
+        active += [
             f"order: points {k + 1} and {k + 2} met at one crank angle"
             for k in np.flatnonzero(blocks[1:] == blocks[:-1])
         ]
-    return tuple(words)
+    return tuple(active)

@@ -1,11 +1,11 @@
 # ruff: noqa: PLR0917 - compiled functions take their arguments by position
-"""What a four-bar of a path may be: bounds on its numbers, a crank that turns fully, a transmission angle: compiled.
+"""Limits in path synthesis: bounds of the numbers, full rotation of the crank, transmission angle: compiled.
 
     D <= kind (r1 - r2),   r1 + r2 <= E,    D, E = sqrt(r3^2 + r4^2 -+ 2 kappa r3 r4),    kappa = cos(least mu)
 
-D and E are what coupler and rocker span at the least and at the greatest transmission angle; r1 - r2 and r1 + r2 are
-the distances A-B0 between which they must be. kind is +1 for crank-rockers, -1 for double-cranks. With kappa = 1 these
-are Grashof's inequalities: D = |r3 - r4|, E = r3 + r4.
+D and E are the distances |A B0| at the least and at the greatest allowed transmission angle; r1 - r2 and r1 + r2 are
+the extreme distances |A B0|. kind is +1 for crank-rockers, -1 for double-cranks. With kappa = 1 these are the Grashof
+inequalities: D = |r3 - r4|, E = r3 + r4.
 """
 
 import math
@@ -17,17 +17,17 @@ from ilmek.num.compiled import compiled
 from ilmek.synthesis.path.model import SIZE, Design
 
 LIMITS = 2 * SIZE + 3
-"""Upper and lower bound of each number, then the three rows of the turning crank."""
+"""Upper and lower bound of each number, and the three rows for the rotation of the crank."""
 
-GRACE = 1e-12
-"""By how much, in sizes of the path, the crank's limits may be overstepped."""
+TOLERANCE = 1e-12
+"""Allowed violation of the crank's limits, in sizes of the path."""
 
 Rows = Float[np.ndarray, "23 10"]
 Slack = Float[np.ndarray, "23"]
 
 
 def spans(coupler: RealField, rocker: RealField, kappa: RealField) -> tuple[RealField, RealField]:
-    """D and E [m], of any shape; compiled as `_spans`."""
+    """D and E [m] of coupler and rocker [m], of any shape; compiled as `_spans`."""
     squares, slant = coupler * coupler + rocker * rocker, 2.0 * kappa * coupler * rocker
     return np.sqrt(np.maximum(squares - slant, 0.0)), np.sqrt(squares + slant)
 
@@ -37,14 +37,14 @@ _spans = compiled(spans)
 
 @compiled
 def excess(design: Design, kind: int, kappa: float) -> float:
-    """By how much [m] the crank's limits are overstepped; 0 or less where they hold."""
+    """Violation of the crank's limits [m]; 0 or less where they are met."""
     D, E = _spans(design[2], design[3], kappa)
     return float(max(D - kind * (design[0] - design[1]), design[0] + design[1] - E))
 
 
 @compiled
 def limit_rows(design: Design, low: Design, high: Design, kind: int, kappa: float, rows: Rows, slack: Slack) -> None:
-    """The limits about a design: rows (step) <= slack, the transmission angle's in their tangents."""
+    """Linearised limits about a design, rows @ step <= slack, written to `rows` and `slack`."""
     rows[:] = 0.0
     for i in range(SIZE):
         rows[2 * i, i], rows[2 * i + 1, i] = 1.0, -1.0

@@ -1,11 +1,11 @@
 # ruff: noqa: PLR0917 - compiled functions take their arguments by position
-"""Where the search for a path starts: random four-bars whose free numbers are fitted at once, compiled.
+"""Starts of the path search: random four-bars whose other numbers are fitted by linear least squares, compiled.
 
-With the link ratios and the crank's angles guessed, P is linear in the rest,
+With random link ratios and crank angles, P is linear in the other numbers:
 
     P = z0 + a (r2/r1) u + b e3,    a = r1 e^{i th0},   b = c e^{i th0}
 
-so that one linear least squares gives size, place, turn and tracer. A start is six guesses, not nineteen.
+so that one linear least squares fit gives size, position, orientation and tracer.
 """
 
 import math
@@ -15,22 +15,22 @@ import numpy as np
 from ilmek.arrays import Complex, Float, Int
 from ilmek.num.compiled import compiled
 from ilmek.num.quadratic import back_solve, cholesky
-from ilmek.synthesis.path.limits import GRACE, excess
+from ilmek.synthesis.path.limits import TOLERANCE, excess
 from ilmek.synthesis.path.model import START, TURN, Angles, Design, Points, coupler_direction, squared_error
 
-DICE = 8
-"""Random numbers in [0, 1) that a start takes: branch, first angle, span, sense, two warps and their phases."""
+RANDOM_NUMBERS = 8
+"""Random numbers in [0, 1) per start: branch, first angle, span, sense, two amplitudes and their phases."""
 
 RIDGE = 1e-4
-"""Weight that keeps size and tracer of a start from running away where the points do not fix them."""
+"""Regularisation of size and tracer of a start where the points do not determine them."""
 
 WARP = 0.95
-"""Unevenness of the crank's angle along the path, at most: 1 would make it stand still somewhere."""
+"""Greatest non-uniformity of the crank angle along the path; with 1 the crank would come to rest."""
 
 
 @compiled
 def start_all(
-    dice: Float[np.ndarray, "starts 8"],
+    random: Float[np.ndarray, "starts 8"],
     links: Float[np.ndarray, "starts 4"],
     along: Angles,
     timed: bool,
@@ -45,22 +45,23 @@ def start_all(
     branches: Int[np.ndarray, " starts"],
     errors: Float[np.ndarray, " starts"],
 ) -> None:
-    """One start for each row of dice; its squared error is inf where it cannot be brought within the limits.
+    """One start for each row of random numbers, written to the last four arguments.
 
-    links  lengths of ground, crank, coupler, rocker, within the crank's limits; only their ratios count
-    along  the timing [rad] where `timed`, else the place of each point along the path, 0 to 1
+    links   lengths of ground, crank, coupler, rocker, within the crank's limits; only their ratios count
+    along   the timing [rad] where `timed`, otherwise the position of each point along the path, 0 to 1
+    errors  squared errors; inf where the start cannot be brought within the limits
     """
     for k in range(branches.size):
-        branches[k] = 1 if dice[k, 0] < 0.5 else -1
+        branches[k] = 1 if random[k, 0] < 0.5 else -1
         for i in range(4):
             designs[k, i] = links[k, i] / links[k, 0]
-        _guess_angles(dice[k], along, timed, closed, low, high, designs[k], angles[k])
+        _guess_angles(random[k], along, timed, closed, low, high, designs[k], angles[k])
         errors[k] = _fit_rest(designs[k], angles[k], points, branches[k], low, high, kind, kappa)
 
 
 @compiled
 def _guess_angles(
-    dice: Float[np.ndarray, "8"],
+    random: Float[np.ndarray, "8"],
     along: Angles,
     timed: bool,
     closed: bool,
@@ -69,27 +70,27 @@ def _guess_angles(
     design: Design,
     angles: Angles,
 ) -> None:
-    """The crank's angle at each point: the timing from a start at will, or along the path, unevenly, either way."""
+    """Crank angle at each point: the timing from a random start, or non-uniform along the path in either direction."""
     turn = 2.0 * math.pi
     design[START] = 0.0
     if timed:
         free = low[START] < high[START]
-        design[START] = turn * dice[1] if free else low[START]
+        design[START] = turn * random[1] if free else low[START]
         design[START] = min(max(design[START], low[START]), high[START])
         for k in range(along.size):
             angles[k] = design[START] + along[k]
         return
-    span = turn if closed else turn * (0.08 + 0.87 * dice[2])
-    sense = 1.0 if dice[3] < 0.5 else -1.0
-    once, twice = WARP * dice[4], (WARP - WARP * dice[4]) * dice[6]
+    span = turn if closed else turn * (0.08 + 0.87 * random[2])
+    sense = 1.0 if random[3] < 0.5 else -1.0
+    once, twice = WARP * random[4], (WARP - WARP * random[4]) * random[6]
     for k in range(along.size):
-        uneven = _wave(along[k], once, turn * dice[5]) + 0.5 * _wave(2.0 * along[k], twice, turn * dice[7])
-        angles[k] = turn * dice[1] + sense * span * (along[k] + uneven)
+        uneven = _wave(along[k], once, turn * random[5]) + 0.5 * _wave(2.0 * along[k], twice, turn * random[7])
+        angles[k] = turn * random[1] + sense * span * (along[k] + uneven)
 
 
 @compiled
 def _wave(along: float, warp: float, phase: float) -> float:
-    """Part of a turn by which the crank is ahead; its slope is between -warp and warp."""
+    """Lead of the crank as a share of a turn; its slope is between -warp and warp."""
     turn = 2.0 * math.pi
     return warp * (math.sin(turn * along + phase) - math.sin(phase)) / turn
 
@@ -98,7 +99,7 @@ def _wave(along: float, warp: float, phase: float) -> float:
 def _fit_rest(
     design: Design, angles: Angles, points: Points, branch: int, low: Design, high: Design, kind: int, kappa: float
 ) -> float:
-    """Size, place, turn and tracer by linear least squares, then within the bounds; the squared error."""
+    """Fit size, position, orientation and tracer by linear least squares, within the bounds; the squared error."""
     upright = low[TURN] == high[TURN]
     ray = complex(math.cos(low[TURN]), math.sin(low[TURN])) if upright else complex(1.0, 0.0)
     columns, left, use = _columns(design, angles, branch, ray), points.copy(), np.ones(6, np.bool_)
@@ -116,7 +117,7 @@ def _fit_rest(
     b = complex(found[2], found[3]) * complex(a.real / size, -a.imag / size)
     design[TURN] = low[TURN] if upright else math.atan2(a.imag, a.real)
     design[4], design[5], design[6], design[7] = b.real, b.imag, found[4], found[5]
-    if not _sized(design, size, low, high) or not excess(design, kind, kappa) <= GRACE:
+    if not _sized(design, size, low, high) or not excess(design, kind, kappa) <= TOLERANCE:
         return math.inf
     error = squared_error(design, angles, points, branch)
     return error if error >= 0.0 else math.inf
@@ -124,7 +125,7 @@ def _fit_rest(
 
 @compiled
 def _columns(design: Design, angles: Angles, branch: int, ray: complex) -> Complex[np.ndarray, "6 points"]:
-    """What one unit of Re a, Im a, Re b, Im b, x and y adds to P at each angle; Re a along `ray`."""
+    """Derivatives of P by Re a, Im a, Re b, Im b, x and y at each angle; Re a along `ray`."""
     columns = np.empty((6, angles.size), np.complex128)
     for k in range(angles.size):
         u = complex(math.cos(angles[k]), math.sin(angles[k]))
@@ -137,7 +138,7 @@ def _columns(design: Design, angles: Angles, branch: int, ray: complex) -> Compl
 
 @compiled
 def _sized(design: Design, size: float, low: Design, high: Design) -> bool:
-    """Link ratios made links of about this size, tracer and pivot put within their bounds; False where none fits."""
+    """Scale the links to about this size and clip tracer and pivot to their bounds; False where no size fits."""
     smallest, largest = 0.0, math.inf
     for i in range(4):
         smallest, largest = max(smallest, low[i] / design[i]), min(largest, high[i] / design[i])
@@ -150,7 +151,7 @@ def _sized(design: Design, size: float, low: Design, high: Design) -> bool:
 
 @compiled
 def _least_squares(columns: Complex[np.ndarray, "6 points"], left: Points, use: np.ndarray) -> Float[np.ndarray, "6"]:
-    """Real factors of the used columns whose sum is nearest to `left`, a little drawn to nothing; 0 for the others."""
+    """Real factors of the used columns by regularised least squares against `left`; 0 for the others."""
     normal, found, factor = np.zeros((6, 6)), np.zeros(6), np.empty((6, 6))
     for i in range(6):
         for j in range(6):

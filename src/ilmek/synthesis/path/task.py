@@ -1,4 +1,4 @@
-"""The task of a path: points that a coupler point is to meet, and within which limits."""
+"""Task of path synthesis: points to be met by a coupler point, and limits."""
 
 import math
 from collections.abc import Mapping
@@ -13,36 +13,38 @@ from ilmek.synthesis.path.links import random_links
 from ilmek.synthesis.path.model import NAMES, SIZE, START, TURN
 
 FEWEST, MOST = 4, 200
-"""Points of a path."""
+"""Least and greatest number of points of a path."""
 
 KINDS = {"crank-rocker": +1, "double-crank": -1}
 
 SHORTEST, LONGEST = 1e-2, 10.0
-"""Bounds of a link, in sizes of the path, where none are given; the tracer and the pivot lie within LONGEST too."""
+"""Default bounds of a link, in sizes of the path; LONGEST also limits tracer and pivot."""
 
-LEAST = 1e-6
-"""Lower bound of a link, in sizes of the path, in place of nothing: a link has a length."""
+MIN_LINK = 1e-6
+"""Least lower bound of a link, in sizes of the path: a link has a length."""
 
-ONCE = 2 * math.pi * (1 + 1e-9)
-"""The most that the crank turns over the points [rad]."""
+MAX_ROTATION = 2 * math.pi * (1 + 1e-9)
+"""Greatest rotation of the crank over the points [rad]."""
 
 
 @record
 class PathTask:
     """Points to be met by the tracer of a four-bar, in this order.
 
-    points   [m], complex, 4 to 200
-    timing   crank angles [rad] at the points, of which the differences count; None where the crank is free
-    closed   the path goes on from the last point to the first, once a turn of the crank
-    ordered  the crank meets the points in their order within one turn; no matter where there is a timing
-    bounds   (low, high) by name: ground, crank, coupler, rocker [m], tracer on the coupler along, across [m] (from pin
-             A, x to pin B), pivot of the crank x, y [m], turn of the ground link [rad], start [rad]: added to the
-             timing, (0, 0) where the timing is against the ground link. Equal bounds fix a number. Left out: links
-             0.01 to 10 sizes of the path (its greatest extent), tracer and pivot within 10 sizes, turn and start free
-    kind     crank-rocker (crank shortest) or double-crank (ground shortest); the crank turns fully in both
-    transmission  least angle [rad] between coupler and rocker, or its supplement, over the whole turn
+    points        [m], complex, shape (points,), 4 to 200 points
+    timing        crank angles at the points [rad]; their differences count; default: free crank
+    closed        whether the path continues from the last point to the first, once per turn of the crank
+    ordered       whether the crank must meet the points in order within one turn; always so with a timing
+    bounds        name -> (low, high): ground, crank, coupler, rocker [m]; tracer in the coupler's frame along, across
+                  [m] (from pin A, x to pin B); pivot of the crank x, y [m]; angle of the ground link turn [rad]; start
+                  [rad], added to the timing ((0, 0): timing relative to the ground link). Equal bounds fix a number.
+                  Defaults: links 0.01 to 10 sizes of the path (its greatest extent), tracer and pivot within 10 sizes,
+                  turn and start free
+    kind          crank-rocker (crank shortest) or double-crank (ground shortest); the crank rotates fully in both
+    transmission  least angle between coupler and rocker, or its supplement, over the whole turn [rad]
 
-    Raises ParameterError for what is no task: see the messages.
+    Raises ParameterError for another number of points, points that are not finite or coincide, a timing that is not
+    monotonic or longer than a turn, and for bounds or limits that are unknown or exclude each other.
     """
 
     points: NumberArray
@@ -86,80 +88,80 @@ class PathTask:
         return math.cos(self.transmission)
 
     def limits(self) -> tuple[FloatArray, FloatArray]:
-        """Lower and upper bounds of the ten numbers, in the order of `path.model.NAMES` [m, rad]."""
+        """Lower and upper bounds of the ten numbers [m; rad], in the order of `path.model.NAMES`."""
         middle, reach = self.points.mean(), LONGEST * self.size
         low, high = np.full(SIZE, -reach), np.full(SIZE, reach)
         low[:4] = SHORTEST * self.size
-        for place, centre in ((6, middle.real), (7, middle.imag)):
-            low[place], high[place] = centre - reach, centre + reach
+        for index, centre in ((6, middle.real), (7, middle.imag)):
+            low[index], high[index] = centre - reach, centre + reach
         low[START - 1 :], high[START - 1 :] = -np.inf, np.inf
         for name, (least, most) in self.bounds.items():
             low[NAMES.index(name)], high[NAMES.index(name)] = least, most
         if self.timing is None:
             low[START] = high[START] = 0.0
-        low[:4] = np.maximum(low[:4], LEAST * self.size)
+        low[:4] = np.maximum(low[:4], MIN_LINK * self.size)
         return low, high
 
 
 def _check_points(points: ComplexArray, timed: bool) -> None:
-    """Raise ParameterError where the points are no path."""
+    """Raise ParameterError where the points do not define a path."""
     if points.ndim != 1 or not FEWEST <= len(points) <= MOST:
-        few = "for two or three, and for five at most with timing, synthesise exactly (dyads, timed paths)"
-        do = few if points.size < FEWEST else "leave points out: a hand-drawn curve needs no more than 60"
+        few = "use exact synthesis for two or three points, with timing for up to five (dyads, timed paths)"
+        do = few if points.size < FEWEST else "give fewer points: 60 suffice for a hand-drawn curve"
         raise ParameterError(f"a path of {points.size} points", allowed=f"{FEWEST} to {MOST} points", do=do)
     bad = np.flatnonzero(~np.isfinite(points))
     if len(bad):
-        raise ParameterError(f"point {bad[0] + 1} of the path is {points[bad[0]]}", allowed="finite places")
+        raise ParameterError(f"point {bad[0] + 1} of the path is {points[bad[0]]}", allowed="finite points")
     if np.all(points == points[0]):
-        raise ParameterError("all points of the path are one", do="give places that differ")
+        raise ParameterError("all points of the path are the same", do="give different points")
     same = np.flatnonzero(points[1:] == points[:-1])
     if len(same) and not timed:
         given = f"points {same[0] + 1} and {same[0] + 2} of the path are the same"
-        raise ParameterError(given, do="leave one of them out, or give a timing where the tracer is to rest")
+        raise ParameterError(given, do="remove one of them, or give a timing for a dwell of the tracer")
 
 
 def _check_timing(timing: FloatArray, count: int) -> None:
-    """Raise ParameterError where crank angles are not the timing of a path."""
+    """Raise ParameterError unless the crank angles are a valid timing."""
     if timing.shape != (count,) or not np.isfinite(timing).all():
-        raise ParameterError(f"timing of {timing.size} angles for {count} points", allowed="one finite angle a point")
+        raise ParameterError(f"timing of {timing.size} angles for {count} points", allowed="one finite angle per point")
     steps = np.diff(timing)
     if not ((steps > 0).all() or (steps < 0).all()):
-        raise ParameterError("the crank angles of the timing go to and fro", allowed="they rise, or they fall")
+        raise ParameterError("the crank angles of the timing are not monotonic", allowed="ascending or descending")
     turned = abs(timing[-1] - timing[0])
-    if turned > ONCE:
-        given = f"the crank turns by {turned:.4g} rad over the timing"
-        raise ParameterError(given, allowed="once (6.283 rad) at most", do=_degrees(turned))
+    if turned > MAX_ROTATION:
+        given = f"the crank rotates by {turned:.4g} rad over the timing"
+        raise ParameterError(given, allowed="at most one turn (6.283 rad)", do=_degrees(turned))
 
 
 def _check_bounds(bounds: Mapping[str, tuple[float, float]]) -> None:
-    """Raise ParameterError for bounds that are unknown or exclude each other."""
+    """Raise ParameterError for bounds of unknown names, and for bounds in the wrong order or out of range."""
     for name, (low, high) in bounds.items():
         if name not in NAMES:
-            raise ParameterError(f"a bound on {name!r}", allowed="bounds are on: " + ", ".join(NAMES))
+            raise ParameterError(f"bound of {name!r}", allowed="bounds of: " + ", ".join(NAMES))
         if not low <= high:
-            raise ParameterError(f"{name} from {low:g} to {high:g}", allowed="the lower bound first, the upper after")
+            raise ParameterError(f"{name} from {low:g} to {high:g}", allowed="lower bound first, then upper bound")
         if name in NAMES[:4] and not (low >= 0 and high > 0):
             raise ParameterError(f"{name} from {low:g} m to {high:g} m", allowed="a length is above 0")
         angle = max((abs(end) for end in (low, high) if math.isfinite(end)), default=0.0)
-        if name in NAMES[TURN:] and angle > 2 * ONCE:
+        if name in NAMES[TURN:] and angle > 2 * MAX_ROTATION:
             given = f"{name} from {low:g} rad to {high:g} rad"
             raise ParameterError(given, allowed="within two turns (12.57 rad)", do=_degrees(angle))
 
 
 def _check_crank(task: PathTask) -> None:
-    """Raise ParameterError where no lengths within the bounds let the crank turn so, naming the limits that clash."""
+    """Raise ParameterError where no lengths within the bounds meet the crank's limits; names those that clash."""
     low, high = (ends[:4] / task.size for ends in task.limits())
     if _possible(low, high, task.sign, task.kappa):
         return
     clash = []
-    for place, name in enumerate(NAMES[:4]):
-        wide_low, wide_high = low.copy(), high.copy()
-        wide_low[place], wide_high[place] = LEAST, np.inf
-        if _possible(wide_low, wide_high, task.sign, task.kappa):
-            clash.append(f"{name} {low[place] * task.size:.6g} m to {high[place] * task.size:.6g} m")
+    for index, name in enumerate(NAMES[:4]):
+        free_low, free_high = low.copy(), high.copy()
+        free_low[index], free_high[index] = MIN_LINK, np.inf
+        if _possible(free_low, free_high, task.sign, task.kappa):
+            clash.append(f"{name} {low[index] * task.size:.6g} m to {high[index] * task.size:.6g} m")
     if task.kappa < 1 and _possible(low, high, task.sign, 1.0):
         clash.append(f"a transmission angle of {math.degrees(task.transmission):.4g} deg")
-    named = " and ".join(clash) or "the bounds of its links, more than one of them,"
+    named = " and ".join(clash) or "several bounds of its links"
     raise ParameterError(f"no {task.kind} is within the limits: {named} clash", do="widen one of them")
 
 
@@ -168,5 +170,5 @@ def _possible(low: FloatArray, high: FloatArray, kind: int, kappa: float) -> boo
 
 
 def _degrees(angle: RealField) -> str:
-    """The guess that an angle was meant in degrees."""
+    """Hint that an angle was probably given in degrees."""
     return f"if {angle:.4g} deg was meant, convert: {angle:.4g} * pi / 180"
