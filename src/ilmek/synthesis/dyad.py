@@ -10,7 +10,7 @@ any size, and every root has a kind: `arms_through_poses`, `arms_through_points`
 [thesis 2.1.3, there by superposition, with misprints listed by `ilmek reproduce --paper thesis`; knotting report, 2]
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -229,7 +229,7 @@ def arms_through_points(
     batch = points.shape[:-1]
     flat, angles = points.reshape(-1, 4), first_angles.reshape(-1, 4)
     parts = [_arms(flat[k : k + BLOCK], angles[k : k + BLOCK]) for k in range(0, max(len(flat), 1), BLOCK)]
-    whole = [np.concatenate([getattr(part, name) for part in parts]) for name in PointArms.__slots__]
+    whole = [np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(PointArms)]
     return PointArms(*(one.reshape(*batch, 3) for one in whole))
 
 
