@@ -14,7 +14,8 @@
         shaft: Shaft = group()
 
 A record may hold arrays and mappings: two are equal only where they are the same object, every one can be hashed, and
-its representation is a short line. Records of plain values that are compared by value are frozen dataclasses.
+its representation is a short line. Records of plain values that are compared by value are frozen dataclasses, or
+`value_record` where they hold further records and would print long.
 
 Report, JSON, its reference and the columns of studies are made from the declared results: `layout` finds them on a
 class, `declared_results` lists them without a record.
@@ -22,12 +23,10 @@ class, `declared_results` lists them without a record.
 
 import types
 import typing
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cache
 from typing import Any, Generic, TypeVar, dataclass_transform, overload
-
-import numpy as np
 
 T = TypeVar("T")
 
@@ -73,11 +72,15 @@ def group(prefix: str = "") -> Any:
 _LONGEST = 60
 """Characters of a field's value in a representation."""
 
+_LONGEST_LINE = 280
+"""Characters of a representation after which further fields are left out."""
+
 
 @dataclass_transform(eq_default=False, frozen_default=True, field_specifiers=(result, group, field))
 def record(cls: type[T]) -> type[T]:
     """The class as a frozen, slotted dataclass with equality by identity and a short representation.
 
+    >>> import numpy as np
     >>> @record
     ... class Curve:
     ...     name: str
@@ -92,14 +95,31 @@ def record(cls: type[T]) -> type[T]:
     return made
 
 
-def brief(value: Any) -> str:
-    """A record in one line: plain values as they are, arrays by type and shape, records and collections by size."""
-    shown = ", ".join(f"{one.name}={_shown(getattr(value, one.name))}" for one in fields(value))
-    return f"{type(value).__name__}({shown})"
+@dataclass_transform(frozen_default=True, field_specifiers=(result, group, field))
+def value_record(cls: type[T]) -> type[T]:
+    """The class as a frozen, slotted dataclass with equality by value and a short representation."""
+    made = dataclass(frozen=True, slots=True, repr=False)(cls)
+    if "__repr__" not in vars(cls):
+        made.__repr__ = brief  # type: ignore[method-assign]
+    return made
+
+
+def brief(value: Any, names: Iterable[str] | None = None) -> str:
+    """A record in one line: plain values as they are, arrays by type and shape, records and collections by size.
+
+    names  of the fields that are shown; default: all. Those beyond _LONGEST_LINE characters are left out.
+    """
+    head, shown = f"{type(value).__name__}(", ""
+    for name in (one.name for one in fields(value)) if names is None else names:
+        item = f"{', ' if shown else ''}{name}={_shown(getattr(value, name))}"
+        if len(head) + len(shown) + len(item) > _LONGEST_LINE:
+            return f"{head}{shown}, ...)"
+        shown += item
+    return f"{head}{shown})"
 
 
 def _shown(value: Any) -> str:
-    if isinstance(value, np.ndarray):
+    if hasattr(value, "dtype") and hasattr(value, "shape"):  # an array; numpy is not imported for a record
         return f"{value.dtype}[{'x'.join(str(size) for size in value.shape)}]"
     if value is None or isinstance(value, bool | int | float | complex | str):
         text = repr(value)

@@ -17,7 +17,7 @@ An end cam has only the lower flank, and a spring; the groove of a barrel has bo
 
 import math
 from abc import abstractmethod
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import ClassVar, Literal
 
@@ -30,6 +30,7 @@ from ilmek.cams.trace import CamCurves, CamTrace
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import Extremum, infimum
 from ilmek.plane.vectors import unit
+from ilmek.records import value_record
 from ilmek.units import format_quantity
 
 Space = Float[np.ndarray, "*batch 3"]
@@ -100,7 +101,7 @@ class Barrel(CamCurves):
         return trace, np.asarray(point[0] + side * self.roller_radius * trace.normal)
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class BarrelCam(Barrel):
     """A barrel or end cam with a roller that slides along its axis; lengths in m.
 
@@ -131,7 +132,7 @@ class BarrelCam(Barrel):
         return replace(self, prime_radius=prime_radius)
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class BarrelArmCam(Barrel):
     """A barrel or end cam with a roller on an arm that swings about a radial line; the programme is in rad.
 

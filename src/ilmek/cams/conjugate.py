@@ -11,7 +11,7 @@ gamma - psi1. Both plates are described in the frame of the shaft.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -25,10 +25,11 @@ from ilmek.cams.programme import CamProgramme
 from ilmek.cams.sizing import CamLimits, smallest_prime
 from ilmek.cams.trace import CamTrace
 from ilmek.errors import ParameterError
+from ilmek.records import value_record
 from ilmek.units import format_quantity
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class ConjugatePair:
     """Two conjugate plates; the second is touched at the cam angle + `lag` [rad] of its own programme."""
 

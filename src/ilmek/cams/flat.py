@@ -12,7 +12,7 @@ Harmonic rise and fall over half a turn each make a circle of radius Rb + L/2.  
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -23,6 +23,7 @@ from ilmek.cams.trace import CamCurves, CamTrace
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import infimum, supremum
 from ilmek.plane.vectors import unit
+from ilmek.records import value_record
 from ilmek.units import format_quantity
 
 
@@ -39,7 +40,7 @@ def curvature_radius(s: RealField, dds: RealField, base_radius: float) -> RealFi
     return base_radius + s + dds
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class FlatCam(CamCurves):
     """A plate cam with a translating flat-faced follower; lengths in m.
 

@@ -6,15 +6,14 @@ curvature is not above the roller's. The clearance lies between the roller and t
 width cuts it along one path, a smaller cutter along two. Valid for plates and for developed barrels.
 """
 
-from dataclasses import dataclass
-
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.trace import CamRole
 from ilmek.errors import ParameterError
+from ilmek.records import value_record
 from ilmek.units import format_quantity
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class Groove:
     """The groove round a cam's pitch curve, wider than the roller by `clearance` [m].
 

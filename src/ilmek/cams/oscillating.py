@@ -14,7 +14,7 @@ the transmission angle from 90 deg.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -24,6 +24,7 @@ from ilmek.cams.programme import CamProgramme, FollowerMotion
 from ilmek.cams.trace import CamCurves, CamTrace, trace_of_point
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import unit
+from ilmek.records import value_record
 from ilmek.units import format_quantity
 
 
@@ -50,7 +51,7 @@ def arm_angle(reach: RealField, pivot: float, arm: float) -> RealField:
     return np.arccos((pivot**2 + arm**2 - reach**2) / (2 * pivot * arm))
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class OscillatingCam(CamCurves):
     """A plate cam with an oscillating roller or knife-edge follower; the programme's displacement is in rad.
 

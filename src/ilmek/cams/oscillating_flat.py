@@ -16,7 +16,7 @@ the pivot along the face), 0 for a face through the pivot. side +1: face above t
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -27,10 +27,11 @@ from ilmek.cams.trace import CamCurves, CamTrace
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import infimum, supremum
 from ilmek.plane.vectors import unit
+from ilmek.records import value_record
 from ilmek.units import format_quantity
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class OscillatingFlatCam(CamCurves):
     """A plate cam with an oscillating flat-faced follower; the programme's displacement is in rad.
 

@@ -5,7 +5,7 @@ follower moves and touches as a roller of its radius; only the Hertz contact is 
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -15,10 +15,11 @@ from ilmek.cams import profile
 from ilmek.cams.programme import CamProgramme, FollowerMotion
 from ilmek.cams.trace import CamCurves, CamTrace, trace_of_point
 from ilmek.errors import ParameterError
+from ilmek.records import value_record
 from ilmek.units import format_quantity
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class PlateCam(CamCurves):
     """A plate cam with a translating roller or knife-edge follower; lengths in m, frame and signs as in `profile`.
 

@@ -20,6 +20,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.cams.segments import CamSegment, OpenSegment, blend, bounds, dwell, even, fall, free, rise
 from ilmek.errors import ParameterError
+from ilmek.records import value_record
 from ilmek.units import deg, format_quantity
 
 __all__ = [
@@ -80,7 +81,7 @@ class Jump:
         return f"the {_DERIVATIVES[self.order]} jumps {step} at {at}, {self.where}"
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class CamProgramme:
     """Segments that fill one turn and return to the initial displacement.
 

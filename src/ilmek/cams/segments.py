@@ -12,12 +12,13 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.cams.laws import LAWS, REST, Law, law_of
 from ilmek.cams.laws.law import LawValues
+from ilmek.records import value_record
 
 _BESIDE = 1e-12
 """Share of a part at which a one-sided value is taken beside a break inside it."""
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class CamSegment:
     """A part of the turn: `change` [m] of the follower over `span` [rad] by a law.
 

@@ -12,7 +12,7 @@ that moves straight (B = s) has tan mu = s'/rho and kappa = -rho s'' / (rho^2 + 
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -22,6 +22,7 @@ from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion
 from ilmek.cams.trace import CamCurves, CamTrace
 from ilmek.errors import ParameterError
 from ilmek.plane.vectors import cross
+from ilmek.records import value_record
 from ilmek.units import format_quantity
 
 
@@ -59,7 +60,7 @@ def trace_of_strip(
     )
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class WedgeCam(CamCurves):
     """A wedge: a plate that moves to and fro and lifts a roller or a knife edge; lengths in m.
 

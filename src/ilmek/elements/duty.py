@@ -16,7 +16,7 @@ from ilmek.arrays import FloatArray
 from ilmek.elements.motors import MOTORS, STEPPER, Motor
 from ilmek.elements.reducers import DIRECT, PLANETARY, Reducer
 from ilmek.errors import ParameterError
-from ilmek.records import record
+from ilmek.records import record, value_record
 
 INERTIA_RATIO = 10.0
 """Greatest ratio of the load's inertia to the rotor's for a servo; 5 for stiff control [usual practice]."""
@@ -69,7 +69,7 @@ class MotorDuty:
     reserve: float
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class ServoDrive:
     """A motor, its reducer and their duty."""
 

@@ -13,14 +13,13 @@ coupler and rocker joined at B (branch +1), attached to crank and ground: RRR
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from itertools import combinations
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.groups import follower, geared, general, prp, rpp, rpr, rrp, rrr, shift, turn
 from ilmek.linkage.groups.group import Group, Step
 from ilmek.linkage.model import GROUND, Mechanism, degrees_of_freedom
-from ilmek.records import brief
+from ilmek.records import value_record
 
 CLOSED_FORMS: tuple[Callable[[Group], Step | None], ...] = (
     turn.recognise,
@@ -36,15 +35,12 @@ CLOSED_FORMS: tuple[Callable[[Group], Step | None], ...] = (
 """Recognisers of the groups with a closed form, in order of precedence."""
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class Plan:
     """A mechanism and the steps that solve it, in order."""
 
     mechanism: Mechanism
     steps: tuple[Step, ...]
-
-    def __repr__(self) -> str:
-        return brief(self)
 
     def step_of(self, body: str) -> Step:
         """The step that solves a body."""

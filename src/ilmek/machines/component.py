@@ -73,6 +73,9 @@ class Component:
     beat: Callable[[LoomTask], PlannedBeat] | None = None
     own_figures: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<Component {self.name}: {self.summary[:200]}>"
+
     def report(self, design: Any, *, in_a_loom: bool = False) -> Report:
         """The report of a design, with those of the machines in it.
 

@@ -19,6 +19,7 @@ from typing import Any, TypeVar
 
 from ilmek.errors import ParameterError
 from ilmek.params.parameter import Parameter, Setting, Value
+from ilmek.records import brief
 
 P = TypeVar("P", bound="Params")
 
@@ -64,6 +65,13 @@ def overrides(namespaces: Namespaces, *, doc: str) -> Any:
 @dataclass(frozen=True, slots=True)
 class Params:
     """Base of every machine's parameters: a frozen dataclass whose fields are declared by `ilmek.params`."""
+
+    def __init_subclass__(cls) -> None:
+        cls.__repr__ = Params.__repr__  # type: ignore[method-assign] # the decorator of a dataclass keeps it
+
+    def __repr__(self) -> str:
+        """Only the parameters that differ from their defaults."""
+        return brief(self, (one.name for one in fields(self) if getattr(self, one.name) != _default(one)))
 
     def __post_init__(self) -> None:
         for parameter in declared(type(self)):
@@ -118,6 +126,10 @@ class Params:
             else:
                 values[one.name] = value
         return values
+
+
+def _default(one: Field[Any]) -> Any:
+    return one.default if one.default_factory is MISSING else one.default_factory()
 
 
 def _sorted_settings(

@@ -1,14 +1,13 @@
 """The results of records, collected for a report."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
-from ilmek.records import layout
+from ilmek.records import layout, record
 from ilmek.report.json import Json
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class Result:
     """A number (or text, or group of them) that a design reports; `name` is stable and documented."""
 

@@ -3,6 +3,8 @@
 import re
 from dataclasses import dataclass
 
+from ilmek.records import value_record
+
 
 @dataclass(frozen=True, slots=True)
 class Column:
@@ -13,7 +15,7 @@ class Column:
     digits: int = 4
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class Table:
     """Rows of SI numbers and texts under columns.
 

@@ -16,6 +16,7 @@ from ilmek.errors import ParameterError
 from ilmek.linkage.quality import Grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
+from ilmek.records import value_record
 from ilmek.synthesis.circuit_loops import CircuitLoop, circuit_loops
 from ilmek.synthesis.four_bar import TRACER, FourBar
 from ilmek.synthesis.precision import PositionMatch, order, position_matches
@@ -76,7 +77,7 @@ class CircuitSegment:
         return min(cosines), max(cosines)
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class Candidate:
     """A four-bar, its task, and the results of the check.
 

@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from ilmek.errors import ParameterError
+from ilmek.records import value_record
 from ilmek.report import Check, at_least, at_most
 from ilmek.timing.crossings import passing_share, zone_windows
 from ilmek.timing.relations import Exclusion, Moment, Presence, Relation, Spans, Zone, fixed
@@ -33,7 +33,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class Cyclogram:
     """Tracks over one turn of the master shaft, which takes `period` [s], and what must hold between them.
 

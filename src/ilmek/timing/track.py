@@ -17,7 +17,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.errors import ParameterError
-from ilmek.records import record
+from ilmek.records import record, value_record
 from ilmek.units import format_quantity, turn
 
 Curve: TypeAlias = Callable[[RealField], RealField]
@@ -69,7 +69,7 @@ class MotionLaw(Protocol):
         """What the law was made with, by which files keep it beside its name."""
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class TrackSegment:
     """A motion from `begin` to `finish` [SI] while the master turns from `start` to `end` [rad], by a law."""
 
@@ -136,7 +136,7 @@ class ActuatorLimits:
             raise ParameterError(f"least time of a motion {self.time:g} s", allowed="0 s or more")
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class Track:
     """One actuator over a turn of the master shaft.
 

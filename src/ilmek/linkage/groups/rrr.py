@@ -8,7 +8,6 @@ The dyad is at a dead centre where its links are in line: (C - A) x (C - B) = 0.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotio
 from ilmek.linkage.groups.pairs import PinnedPair
 from ilmek.linkage.model import Pin
 from ilmek.linkage.status import TOUCHING
+from ilmek.records import value_record
 from ilmek.units import format_quantity
 
 
@@ -82,7 +82,7 @@ def misfit(A: ComplexField, B: ComplexField, a: RealField, b: RealField) -> Real
     return gap
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class RRRDyad(PinnedPair):
     """Two links, of lengths a and b [m], on known bodies and joined by the free pin.
 

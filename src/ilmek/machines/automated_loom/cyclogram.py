@@ -12,7 +12,6 @@ the four steps of 90 degrees and the harmonic law; where within them shuttle, be
 """
 
 import math
-from dataclasses import dataclass
 
 from ilmek.cams.laws import LAWS, law_of
 from ilmek.machines.beat import Beat
@@ -22,6 +21,7 @@ from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.cyclogram import relations as head_relations
 from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.moves import carriage
+from ilmek.records import value_record
 from ilmek.report import CamTable
 from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, Track, TrackEvent, TrackSegment, Zone, riding
 from ilmek.timing.s_curve import s_curve
@@ -36,7 +36,7 @@ GAP = 2 * deg
 _HALF = turn / 2
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class RowTiming:
     """What the cyclogram of a row is made of.
 

@@ -1,6 +1,6 @@
 """The knotting dyad's design: every arm through the four timed points, and the one to build."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -32,7 +32,7 @@ SOLUTION = (
 )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class ArmTask:
     """The four timed points that an arm is made for: those given, or four of the path of the best arm for the knot.
 

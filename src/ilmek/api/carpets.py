@@ -1,0 +1,147 @@
+"""Carpets: picture to knot chart, chart to files, the whole job."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from ilmek.arrays import Rgb
+from ilmek.carpet import chart as charting
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.quality import Quality, parse_quality
+from ilmek.carpet.sizes import CarpetSize, parse_size
+from ilmek.carpet.yarn import Yarn
+from ilmek.errors import OutputError, PictureError
+from ilmek.io import picture as pictures
+from ilmek.io import yarn_file
+from ilmek.io.chart.pdf import write_chart_pdf
+from ilmek.io.chart.png import ChartPicture, read_chart_png, write_chart_png
+from ilmek.io.picture import Picture
+from ilmek.jobs import weave as weaving
+from ilmek.jobs.loom import read_loom_order
+from ilmek.jobs.order import read_order
+from ilmek.jobs.weave import WeaveResult
+from ilmek.params import Setting
+from ilmek.progress import SILENT, Progress
+
+PNG_CHANNELS = 3
+
+
+def read_picture(path: str | Path) -> Picture:
+    """The picture in a file as sRGB: `rgb` of shape rows x columns x 3, and `notes` on conversions.
+
+    Raises PictureError where there is no picture that can be read.
+    """
+    return pictures.read_picture(Path(path))
+
+
+def read_yarns(path: str | Path | None = None) -> tuple[Yarn, ...]:
+    """The yarns of a TOML or CSV list; default: the wool list that is built in. Raises YarnError."""
+    return yarn_file.default_yarns() if path is None else yarn_file.read_yarns(Path(path))
+
+
+def make_chart(
+    picture: str | Path | Picture | Rgb,
+    size: str | CarpetSize,
+    quality: str | Quality,
+    yarns: str | Path | Sequence[Yarn] | None = None,
+    *,
+    knot: str = "symmetric",
+    colours: int | None = None,
+    keep_lone: bool = False,
+    progress: Progress = SILENT,
+) -> Chart:
+    """The knot chart of a picture.
+
+    picture  a path, a picture, or its pixels: rows x columns x 3, 0 to 255
+    size     like "120x180cm" or "seccade"      quality  like "40x40/dm"
+    yarns    a path or a list; default: the wool list that is built in      knot  "symmetric" or "asymmetric"
+    colours  how many yarns of the list are used at most; default: all      keep_lone  single knots stay as they are
+
+    Raises PictureError, CarpetError or YarnError; Cancelled.
+    """
+    return charting.make_chart(
+        _pixels(picture),
+        parse_size(size) if isinstance(size, str) else size,
+        parse_quality(quality) if isinstance(quality, str) else quality,
+        read_yarns(yarns) if yarns is None or isinstance(yarns, str | Path) else tuple(yarns),
+        knot=knot,
+        colours=colours,
+        keep_lone=keep_lone,
+        progress=progress,
+    )
+
+
+def _pixels(picture: str | Path | Picture | Rgb) -> Rgb:
+    if isinstance(picture, str | Path):
+        return read_picture(picture).rgb
+    if isinstance(picture, Picture):
+        return picture.rgb
+    if not (isinstance(picture, np.ndarray) and picture.ndim == 3 and picture.shape[2] == PNG_CHANNELS):
+        given = f"{picture.shape} pixels" if isinstance(picture, np.ndarray) else f"a {type(picture).__name__}"
+        raise PictureError(f"{given} given for a picture", allowed="a path, a picture, or rows x columns x 3 bytes")
+    if picture.dtype != np.uint8:
+        raise PictureError(
+            f"pixels of type {picture.dtype}", allowed="uint8, 0 to 255", do="(255 * rgb).astype('uint8')"
+        )
+    return picture
+
+
+def write_chart(path: str | Path, chart: Chart) -> None:
+    """Write a chart as .png (one pixel one knot) or .pdf (with symbols and row numbers).
+
+    Raises OutputError for another ending.
+    """
+    path = Path(path)
+    writers = {".png": write_chart_png, ".pdf": write_chart_pdf}
+    if path.suffix.lower() not in writers:
+        raise OutputError(f"chart {path} ends in {path.suffix!r}", allowed=".png or .pdf")
+    writers[path.suffix.lower()](path, chart)
+
+
+def read_chart(path: str | Path) -> ChartPicture:
+    """The knots of a chart .png written by `write_chart`, with its yarns, size and quality. Raises PictureError."""
+    return read_chart_png(Path(path))
+
+
+def weave(
+    picture: str | Path,
+    out: str | Path,
+    *,
+    size: str = "seccade",
+    quality: str = "25x25/dm",
+    knot: str = "symmetric",
+    yarns: str | Path | None = None,
+    colours: int | None = None,
+    keep_lone: bool = False,
+    pile_height: Setting = "8mm",
+    heads: int | None = None,
+    deadline: str | None = None,
+    warp_pitch: Setting = None,
+    loom: Mapping[str, Setting] = MappingProxyType({}),
+    force: bool = False,
+    progress: Progress = SILENT,
+) -> WeaveResult:
+    """Picture to chart, yarn, loom, programme and report in the folder `out`, whole or not at all.
+
+    size, quality, knot, yarns, colours, keep_lone  as of `make_chart`; `yarns` is a path
+    heads, deadline  knotting heads, or the time for the whole carpet like "72h"; default: 4 heads, or as many as fit
+    warp_pitch       distance of two warps; default: that of the quality
+    loom             parameters of the loom by name, those of its machines dotted: {"shedding.law": "modified-sine"}
+    force            replace a folder that ilmek made
+
+    Settings are texts with units or numbers in SI. Raises any IlmekError; then nothing is written; Cancelled.
+    """
+    order = read_order(
+        Path(picture),
+        size=size,
+        quality=quality,
+        knot=knot,
+        yarn_file=None if yarns is None else Path(yarns),
+        colours=colours,
+        keep_lone=keep_lone,
+        pile_height=pile_height,
+    )
+    wanted = read_loom_order(order, heads=heads, deadline=deadline, warp_pitch=warp_pitch, loom=loom)
+    return weaving.weave(order, wanted, Path(out), force=force, progress=progress)

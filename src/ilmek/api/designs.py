@@ -1,0 +1,46 @@
+"""Machines of the catalogue, designed from their parameters, and the verification manual."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from ilmek.jobs.design import design_machine
+from ilmek.jobs.machines import machine_list
+from ilmek.jobs.reproduce import ReproductionResult, reproduce_papers
+from ilmek.params import Setting
+from ilmek.progress import SILENT, Progress
+from ilmek.report import Report
+
+
+def list_machines() -> dict[str, str]:
+    """The machines that `design` takes: name -> summary."""
+    return machine_list()
+
+
+def design(
+    name: str,
+    parameters: Mapping[str, Setting] = MappingProxyType({}),
+    /,
+    *,
+    progress: Progress = SILENT,
+    **settings: Setting,
+) -> Report:
+    """Design a machine of the catalogue and report it.
+
+    name        of the machine, like "beat-up"; see `list_machines`
+    parameters  values by name, nested ones by dotted names: {"pile_handler.rise": "30deg"}
+    settings    the same as keywords: design("beat-up", swing=30 * deg)
+
+    Values are texts with units or numbers in SI. `report["drive_torque_max"]` gives a result in SI, `report.failed` the
+    checks that do not hold. Raises ParameterError for an unknown machine or parameter and for a value out of bounds;
+    errors of the machine; Cancelled.
+    """
+    return design_machine(name, {**parameters, **settings}, progress=progress).report
+
+
+def reproduce(*papers: str, progress: Progress = SILENT) -> ReproductionResult:
+    """Compute every number that the papers of the verification manual print, and judge it.
+
+    papers  names like "beat-up"; default: all
+    Raises ParameterError for an unknown paper; Cancelled.
+    """
+    return reproduce_papers(papers, progress=progress)

@@ -1,0 +1,306 @@
+"""The public names: few, documented, forgiving towards what people type, and safe to compare and print."""
+
+import dataclasses
+import math
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ilmek
+from ilmek.lazy import lazy_names
+from ilmek.machines.catalogue import MACHINES
+from ilmek.params import Params
+from ilmek.units import deg, mm
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "reference" / "python.md"
+LONGEST = 300
+"""Characters of a representation."""
+
+FOUR_BAR = ilmek.four_bar(300 * mm, 60 * mm, 200 * mm, 230 * mm)
+INERTIAS = {"crank": ilmek.bar(0, 60 * mm, mass=0.1), "rocker": ilmek.bar(0, 230 * mm, mass=0.4)}
+
+
+def cam() -> ilmek.PlateCam:
+    lift = 40 * mm
+    parts = ilmek.rise(100 * deg, lift), ilmek.dwell(80 * deg), ilmek.fall(100 * deg, lift), ilmek.dwell(80 * deg)
+    return ilmek.plate_cam(ilmek.cam_programme(*parts), roller_radius=10 * mm)
+
+
+# names
+
+
+@pytest.mark.parametrize("name", ilmek.__all__)
+def test_public_name_exists(name: str) -> None:
+    assert getattr(ilmek, name).__doc__
+
+
+def test_public_names_are_few_and_listed() -> None:
+    assert len(ilmek.__all__) <= 60
+    assert set(ilmek.__all__) <= set(dir(ilmek))
+
+
+def test_type_checkers_see_the_same_names() -> None:
+    text = Path(ilmek.__file__).read_text(encoding="utf-8")
+    seen = dict(re.findall(r"from ([\w.]+) import (\w+) as \2", text))
+    declared = re.findall(r"^    from ([\w.]+) import (\w+) as (\w+)$", text, re.MULTILINE)
+    assert seen
+    assert {name: module for module, name, _ in declared} | {"units": "ilmek.units"} == ilmek.PUBLIC
+    assert all(name == alias for _, name, alias in declared)
+
+
+def test_unknown_name_offers_the_nearest() -> None:
+    with pytest.raises(AttributeError, match="did you mean 'four_bar'"):
+        _ = ilmek.fourbar
+
+
+def test_lazy_module_is_a_module() -> None:
+    get, _ = lazy_names("ilmek", {"units": "ilmek.units"})
+    assert get("units").mm == mm
+
+
+def test_reference_page_lists_every_public_name_once() -> None:
+    rows = re.findall(r"^\| `(\w+)` \| (.+) \|$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+    assert sorted(name for name, _ in rows) == sorted(ilmek.__all__)
+    assert all(len(meaning) > 10 for _, meaning in rows)
+
+
+# what people type
+
+
+@pytest.mark.parametrize(
+    ("typed", "message"),
+    [
+        (lambda: ilmek.four_bar(300, 60, 200, 230), "300 m.*write 300 \\* mm"),
+        (lambda: ilmek.slider_crank(60, 0.2), "60 m.*write 60 \\* mm"),
+        (lambda: ilmek.four_bar("300mm", 0.06, 0.2, 0.23), "text '300mm'.*40 \\* mm"),
+        (lambda: ilmek.solve(FOUR_BAR, np.linspace(0, 360)), "360 rad.*degrees"),
+        (lambda: ilmek.solve(FOUR_BAR, np.linspace(0, 360, 3600, endpoint=False)), "degrees"),
+        (lambda: ilmek.solve(FOUR_BAR, np.arange(0, 360, 10)), "degrees"),
+        (lambda: ilmek.solve(FOUR_BAR, 90), "90 rad.*degrees"),
+        (lambda: ilmek.solve(FOUR_BAR, {"crank": np.linspace(0, 360)}), "degrees"),
+        (lambda: ilmek.solve("press.toml", 0.0), "str given for a mechanism"),
+        (lambda: ilmek.simulate(FOUR_BAR, INERTIAS, 1.0, position=90), "degrees"),
+        (lambda: ilmek.rise(100, 40 * mm, "harmonic"), "write 100 \\* deg"),
+        (lambda: ilmek.rise(100 * deg, 40, "harmonic"), "write 40 \\* mm"),
+        (lambda: ilmek.rise(100 * deg, 40 * mm, "modified sine"), "'modified-sine'"),
+        (lambda: ilmek.rise(100 * deg, ilmek.motion_law("harmonic"), 40 * mm), "the span, the lift and then the law"),
+        (lambda: ilmek.fall("harmonic", 100 * deg, 40 * mm), "the span, the lift and then the law"),
+        (lambda: ilmek.fall("100deg", 40 * mm, "harmonic"), "100 \\* deg"),
+        (lambda: ilmek.dwell(80), "write 80 \\* deg"),
+        (lambda: ilmek.dwell(ilmek.motion_law("harmonic")), "law 'harmonic'"),
+        (lambda: ilmek.crank_rocker(30), "write 30 \\* deg"),
+        (lambda: ilmek.plate_cam(cam().programme, 50), "write 50 \\* mm"),
+        (lambda: ilmek.plate_cam(cam().programme, 50 * mm, pressure_angle=30 * deg), "leave one"),
+        (lambda: ilmek.motion_four_bars([0, 1, 2], [0, 1]), "one angle for each point"),
+        (lambda: ilmek.motion_four_bars([0, 25, 30], [0.1, 0.2, 0.3]), "write 30 \\* mm"),
+        (lambda: ilmek.design("beat_up"), "did you mean beat-up"),
+        (lambda: ilmek.make_chart(3, "30x40cm", "10x10/dm"), "a int given for a picture"),
+        (lambda: ilmek.make_chart(np.zeros((8, 8, 3)), "30x40cm", "10x10/dm"), "uint8"),
+        (lambda: ilmek.make_chart(np.zeros((8, 8), np.uint8), "30x40cm", "10x10/dm"), "rows x columns x 3"),
+        (lambda: ilmek.write_chart("chart.txt", chart()), "png or .pdf"),
+    ],
+)
+def test_slip_is_caught_with_what_was_given_and_a_guess(typed: object, message: str) -> None:
+    with pytest.raises(ilmek.IlmekError, match=message):
+        typed()  # type: ignore[operator]
+
+
+@pytest.mark.parametrize("angles", [0.0, 7.3, [0, 0.1], np.linspace(0, 20 * math.pi, 721), 1])
+def test_angles_in_radians_pass(angles: object) -> None:
+    assert len(ilmek.solve(FOUR_BAR, angles)) == np.size(angles)  # type: ignore[arg-type]
+
+
+def test_a_law_is_a_name_or_a_law() -> None:
+    law = ilmek.motion_law("modified-sine", constant_velocity=0.5)
+    assert ilmek.rise(1.0, 0.04, law).law is law
+    assert ilmek.rise(1.0, 0.04, "harmonic") == ilmek.rise(1.0, 0.04, ilmek.motion_law("harmonic"))
+    assert ilmek.fall(1.0, 0.04, "harmonic").change == -0.04
+
+
+def test_mechanism_file_is_solved_as_it_is() -> None:
+    file = ilmek.read_mechanism(str(ROOT / "examples" / "jansen_leg.toml"))
+    angles = np.linspace(0, 6, 7)
+    again = ilmek.solve(file.mechanism, angles)
+    assert np.array_equal(
+        ilmek.solve(file, angles).angle(file.mechanism.moving[-1]), again.angle(again.plan.mechanism.moving[-1])
+    )
+
+
+def test_mechanism_is_written_and_read(tmp_path: Path) -> None:
+    path = tmp_path / "four_bar.toml"
+    ilmek.write_mechanism(str(path), FOUR_BAR, INERTIAS)
+    assert ilmek.read_mechanism(path).mechanism == FOUR_BAR
+
+
+def test_table_has_a_column_for_each_quantity_of_the_motion() -> None:
+    motion = ilmek.solve(FOUR_BAR, np.linspace(0, 6, 13), speed=10.0)
+    table = motion.table()
+    assert {len(column) for column in table.values()} == {13}
+    assert np.array_equal(table["crank [rad]"], np.linspace(0, 6, 13))
+    assert np.array_equal(table["rocker angle [rad]"], motion.angle("rocker"))
+    assert np.array_equal(table["coupler.B ay [m/s^2]"], motion.point("coupler", "B").acceleration.imag)
+
+
+def test_forces_balance_the_power() -> None:
+    forces = ilmek.inverse_dynamics(ilmek.solve(FOUR_BAR, np.linspace(0, 6, 37), speed=10.0), INERTIAS)
+    assert forces.power_error < 1e-9
+
+
+def test_coasting_run_keeps_its_energy() -> None:
+    run = ilmek.simulate(FOUR_BAR, INERTIAS, 1.0, speed=10.0)
+    assert np.ptp(run.kinetic) < 1e-6 * run.kinetic[0]
+
+
+def test_plate_cam_keeps_its_pressure_angle() -> None:
+    assert ilmek.largest_pressure_angle(cam()).value == pytest.approx(30 * deg, abs=1e-6)
+    assert ilmek.plate_cam(cam().programme, 70 * mm).prime_radius == 70 * mm
+
+
+def test_crank_rocker_builds_a_four_bar() -> None:
+    links = ilmek.crank_rocker(30 * deg, ground=300 * mm)
+    rocker = ilmek.solve(ilmek.four_bar(*links), np.linspace(0, 2 * math.pi, 3601)).angle("rocker")
+    assert np.ptp(rocker) == pytest.approx(30 * deg, abs=1e-6)
+
+
+def test_four_bars_for_a_motion_take_the_poses() -> None:
+    found = ilmek.motion_four_bars([0, (25 + 15j) * mm, (30 + 1j) * mm], [10 * deg, 3 * deg, -25 * deg])
+    assert found
+    assert max(one.point_error for one in found) < 1e-9
+
+
+def test_four_bars_for_a_function() -> None:
+    found = ilmek.function_four_bars(
+        lambda x: np.sqrt(1 + x), 0, 3, 80 * deg, 60 * deg, crank_start=1, rocker_start=0.8
+    )
+    assert found[0].greatest == pytest.approx(0.8363 * deg, rel=1e-3)
+
+
+POINTS = [0, 1 + 0.2j, 2 + 0.1j, 2.2 + 0.8j, 1.5 + 1.6j, 0.4 + 1.1j, 0.1 + 1.9j, 1.1 + 0.4j]
+
+
+def test_path_search_ends_at_its_time_limit() -> None:
+    (found,) = ilmek.path_four_bars(POINTS, time_limit=1e-9, count=1)
+    assert found.search.starts == 192
+
+
+def test_path_search_reports_and_is_cancelled() -> None:
+    shares: list[float] = []
+    ilmek.path_four_bars(POINTS, progress=ilmek.Progress(lambda _, share: shares.append(share)), time_limit=1e-9)
+    assert shares == [0.0, 0.2]
+    with pytest.raises(ilmek.Cancelled):
+        ilmek.path_four_bars(POINTS, progress=ilmek.Progress(cancelled=lambda: True))
+
+
+def test_path_search_needs_time() -> None:
+    with pytest.raises(ilmek.IlmekError, match="time_limit 0 s"):
+        ilmek.path_four_bars(POINTS, time_limit=0)
+
+
+def chart() -> ilmek.Chart:
+    return ilmek.make_chart(ROOT / "examples" / "medallion.png", "30x40cm", "10x10/dm", colours=4)
+
+
+def test_chart_of_a_path_a_picture_and_its_pixels() -> None:
+    path = ROOT / "examples" / "medallion.png"
+    picture = ilmek.read_picture(str(path))
+    charts = [
+        ilmek.make_chart(one, "30x40cm", "10x10/dm", colours=4) for one in (str(path), path, picture, picture.rgb)
+    ]
+    assert all(np.array_equal(one.knots, charts[0].knots) for one in charts)
+
+
+def test_chart_is_written_and_read(tmp_path: Path) -> None:
+    made, path = chart(), str(tmp_path / "chart.png")
+    ilmek.write_chart(path, made)
+    assert np.array_equal(ilmek.read_chart(path).knots, made.knots)
+
+
+def test_machine_is_designed_from_numbers_and_texts() -> None:
+    report = ilmek.design("beat-up", {"beta": "48deg"}, swing=30 * deg)
+    assert report["drive_torque_max"] > 0
+    assert report.parameters["swing"] == 30 * deg
+    assert set(ilmek.list_machines()) == set(MACHINES)
+
+
+def test_catalogue_is_a_mapping_that_names_the_nearest() -> None:
+    assert "beat_up" not in MACHINES
+    assert MACHINES.get("beat_up") is None
+    with pytest.raises(KeyError, match="did you mean beat-up"):
+        MACHINES["beat_up"]
+
+
+def test_papers_are_reproduced() -> None:
+    assert set(ilmek.reproduce("beat-up").verdicts) == {"beat-up"}
+
+
+def test_carpet_is_woven(tmp_path: Path) -> None:
+    woven = ilmek.weave(
+        str(ROOT / "examples" / "medallion.png"), str(tmp_path / "out"), size="30x40cm", quality="10x10/dm", heads=2
+    )
+    assert woven.loomed.programme.heads == 2
+    assert (tmp_path / "out" / "report.html").exists()
+
+
+# records
+
+
+def records(value: object, seen: dict[int, object]) -> Iterator[object]:
+    """Every dataclass reachable from a value."""
+    if isinstance(value, str | bytes | int | float | complex | type | np.ndarray | None) or id(value) in seen:
+        return
+    seen[id(value)] = value
+    below: list[object] = []
+    if isinstance(value, Mapping):
+        below += value.values()
+    elif isinstance(value, tuple | list | set | frozenset):
+        below += value
+    elif dataclasses.is_dataclass(value):
+        yield value
+        below += [getattr(value, one.name) for one in dataclasses.fields(value)]
+    for one in below:
+        yield from records(one, seen)
+
+
+def check_records(*values: object) -> None:
+    for one in records(values, {}):
+        again = dataclasses.replace(one) if not isinstance(one, Params) else one  # type: ignore[type-var]
+        assert one == one, type(one)  # noqa: PLR0124 - that it does not raise
+        assert isinstance(one == again, bool), type(one)
+        assert isinstance(hash(one), int)
+        assert len(repr(one)) <= LONGEST, repr(one)
+
+
+@pytest.mark.parametrize("name", sorted(MACHINES))
+def test_records_of_a_design_compare_and_print(name: str) -> None:
+    machine = MACHINES[name]
+    design = machine.design(machine.params.read({}))
+    check_records(machine, design, machine.report(design))
+
+
+def test_public_records_compare_and_print() -> None:
+    motion = ilmek.solve(FOUR_BAR, np.linspace(0, 6, 13), speed=10.0)
+    check_records(
+        motion,
+        motion.plan,
+        ilmek.inverse_dynamics(motion, INERTIAS),
+        ilmek.simulate(FOUR_BAR, INERTIAS, 0.1, speed=10.0),
+        ilmek.read_mechanism(ROOT / "examples" / "jansen_leg.toml"),
+        cam(),
+        chart(),
+        ilmek.read_picture(ROOT / "examples" / "medallion.png"),
+        ilmek.path_four_bars(POINTS, time_limit=1e-9),
+        ilmek.motion_four_bars([0, (25 + 15j) * mm, (30 + 1j) * mm], [10 * deg, 3 * deg, -25 * deg]),
+        ilmek.Gravity(-9.81j),
+        ilmek.PointForce("rocker", "B", np.ones(3) + 0j),
+        ilmek.Torque("rocker", np.ones(3)),
+    )
+
+
+def test_parameters_print_what_differs_from_the_defaults() -> None:
+    params = MACHINES["beat-up"].params
+    assert repr(params()) == "BeatUpParams()"
+    assert repr(params(swing=0.4)) == "BeatUpParams(swing=0.4)"
