@@ -82,7 +82,7 @@ def plate_cam(
     limit = 30 * deg if pressure_angle is None else pressure_angle
     check_angle(ParameterError, "pressure_angle of the cam", limit)
     trial = PlateCam(programme, _possible(programme, roller_radius, offset), offset, roller_radius)
-    return trial.resized(smallest_prime(trial, CamLimits(rise=limit, back=limit)).prime_radius)
+    return trial.resized(smallest_prime(trial, CamLimits(rise=limit, fall=limit)).prime_radius)
 
 
 def largest_pressure_angle(cam: PlateCam) -> Extremum:
