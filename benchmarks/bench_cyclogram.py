@@ -55,17 +55,18 @@ def weights(cyclogram: Cyclogram) -> dict[str, float]:
 
 
 def plain(cyclogram: Cyclogram) -> float:
-    """The largest weighted acceleration by the plain way."""
+    """The largest weighted acceleration by a general optimiser."""
     known, by = unknowns(cyclogram), weights(cyclogram)
     rows = standing_rows(known, period_free=False)
-    rows += [row for exclusion in cyclogram.exclusions for way in exclusion_rows(known, exclusion) for row in way[0]]
+    orders = [order for exclusion in cyclogram.exclusions for order in exclusion_rows(known, exclusion)]
+    rows += [row for order in orders for row in order[0]]
     parts = [(track, part) for track in cyclogram.tracks for part in track.segments]
     betas = np.array([known.beta(track, part).weights for track, part in parts])
     sizes = np.array([abs(part.stroke) * part.law.acceleration_peak / by[track.name] for track, part in parts])
     sizes *= cyclogram.speed**2
     least = [track.limits.time * cyclogram.speed for track, _ in parts]
     left, constant = np.array([row.form.weights for row in rows]), np.array([row.form.constant for row in rows])
-    start = known.present
+    start = known.current
     start[0] = float(np.max(sizes / (betas @ start) ** 2))
 
     def room(x: FloatArray) -> FloatArray:

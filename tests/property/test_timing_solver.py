@@ -24,8 +24,8 @@ from ilmek.timing.cyclogram import (
     TrackEvent,
     TrackSegment,
     Zone,
+    check_cyclogram,
     fixed,
-    judged,
     riding,
 )
 from ilmek.timing.solver import least_acceleration, least_period, require_possible
@@ -62,7 +62,7 @@ def one_after_the_other() -> Cyclogram:
 
 def test_no_random_feasible_cyclogram_is_better() -> None:
     best = least_acceleration(one_after_the_other())
-    assert all(check.ok for check in judged(best.cyclogram))
+    assert all(check.ok for check in check_cyclogram(best.cyclogram))
     rng, feasible = np.random.default_rng(3), []
     base = [part for track in best.cyclogram.tracks for part in track.segments]
     ends = np.array([angle for part in base for angle in (part.start, part.end)])
@@ -72,7 +72,7 @@ def test_no_random_feasible_cyclogram_is_better() -> None:
             other = press(sorted(shaken[:4]), sorted(shaken[4:]))
         except ParameterError:
             continue
-        if all(check.ok for check in judged(other)):
+        if all(check.ok for check in check_cyclogram(other)):
             feasible.append(largest(other))
     assert len(feasible) > 5
     assert min(feasible) >= best.after * (1 - 1e-9)
@@ -116,7 +116,7 @@ def test_a_chain_has_the_closed_form(strokes, gaps) -> None:
     solved = least_acceleration(chain(strokes, gaps))
     assert solved.after == pytest.approx(expected, rel=1e-8)
     assert sum(one.share for one in solved.binding if one.kind == "motion") == pytest.approx(1.0)
-    assert all(check.ok for check in judged(solved.cyclogram))
+    assert all(check.ok for check in check_cyclogram(solved.cyclogram))
     costs = [one.cost for one in solved.binding if one.kind == "relation"]
     assert costs == pytest.approx([2 / room] * len(costs), rel=1e-6)  # d ln A / d gap
 
@@ -135,7 +135,7 @@ def test_the_shortest_turn_of_a_chain_has_the_closed_form(strokes, speed, a) -> 
     for track in solved.cyclogram.tracks:
         assert peak_speed(track, solved.after) <= speed * (1 + 1e-8)
         assert peak_acceleration(track, solved.after) <= a * (1 + 1e-8)
-    assert all(check.ok for check in judged(solved.cyclogram))
+    assert all(check.ok for check in check_cyclogram(solved.cyclogram))
 
 
 def test_a_multiplier_is_what_a_degree_more_costs() -> None:
@@ -163,8 +163,8 @@ def test_overlapping_presences_are_parted_the_better_way(goal) -> None:
     after = Relation(Moment("b", "out"), fixed(0.4), 0.0, "not before")
     start = Cyclogram("two", 1.0, tracks, (after,), (apart,))
     solved = goal(start)
-    assert not any(check.ok for check in judged(start) if "never" in check.name)
-    assert all(check.ok for check in judged(solved.cyclogram))
+    assert not any(check.ok for check in check_cyclogram(start) if "never" in check.name)
+    assert all(check.ok for check in check_cyclogram(solved.cyclogram))
     orders = [0.1, 0.2, 0.3, 0.35], [4.0, 4.5, 5.0, 5.5]
     ways = [replace(start, tracks=(moved("a", order, 0.1, limits=limits), start.tracks[1])) for order in orders]
     forced = [goal(way).after for way in ways]
@@ -174,7 +174,7 @@ def test_overlapping_presences_are_parted_the_better_way(goal) -> None:
 def test_held_tracks_windows_events_and_delays() -> None:
     tool = moved("tool", [1.0, 1.5, 2.0, 2.5], 0.1, limits=ActuatorLimits(acceleration=40.0, speed=3.0, jerk=8000.0))
     tool = replace(tool, events=(riding("there", tool.segments[0], 1.0), TrackEvent("cut", 1.7)))
-    held = moved("crank", [0.0, 1.0, 1.0, 2.0], 0.05, held=True, limits=ActuatorLimits(time=0.02))
+    held = moved("crank", [0.0, 1.0, 1.0, 2.0], 0.05, locked=True, limits=ActuatorLimits(time=0.02))
     relations = (
         Relation(Moment("tool", "cut", "event"), Moment("tool", "there", "event"), 0.0, "valve", delay=0.01),
         Relation(Moment("tool", "home"), Moment("tool", "cut", "event"), 5 * deg, "cut first", most=60 * deg),
@@ -185,7 +185,7 @@ def test_held_tracks_windows_events_and_delays() -> None:
     start = Cyclogram("cell", 0.5, (tool, held), relations, (geometry,))
     for solve in (least_acceleration, least_period):
         solved = solve(start)
-        assert all(check.ok for check in judged(solved.cyclogram)), solve
+        assert all(check.ok for check in check_cyclogram(solved.cyclogram)), solve
         assert solved.cyclogram.track("crank").segments == held.segments
         moved_tool, w = solved.cyclogram.track("tool"), solved.cyclogram.speed
         out = moved_tool.segment("out")
@@ -220,8 +220,8 @@ def test_a_relation_loop_is_named() -> None:
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        ({"held": True}, "nothing may move"),
-        ({}, "no limit of axis is known"),
+        ({"locked": True}, "no motion is free"),
+        ({}, "no limit is given for axis"),
         ({"law": LAWS["uniform"], "limits": ActuatorLimits(acceleration=1.0)}, "never keeps its limit of acceleration"),
     ],
 )  # fmt: skip

@@ -119,7 +119,7 @@ def by_linear_programmes(path: JointPath, limits: AxesLimits, count: int) -> flo
     """
     u = np.linspace(0.0, 1.0, count + 1)
     h = u[1]
-    q1, q2, q3 = (one[1:-1] for one in path.led(u))
+    q1, q2, q3 = (one[1:-1] for one in path.derivatives(u))
     eye = np.eye(count + 1)
     mid, first, second = eye[1:-1], (eye[2:] - eye[:-2]) / (2 * h), (eye[2:] - 2 * eye[1:-1] + eye[:-2]) / h**2
     bends, jerks, w = [], [], np.full(count + 1, 1e-3)
@@ -128,7 +128,7 @@ def by_linear_programmes(path: JointPath, limits: AxesLimits, count: int) -> flo
         bends.append((p2 * mid + p1 * first / 2) / limits.acceleration[axis])
         jerks.append((p3 * mid + 1.5 * p2 * first + p1 * second / 2) / limits.jerk[axis])
     quick = np.max((np.stack([q1[:, 0], q1[:, 1]], 1) / limits.speed) ** 2, axis=1)
-    ends = np.max(np.cbrt(np.abs(path.led(u[[0, -1]])[2]) / limits.jerk), axis=1) ** -2  # there Q' = Q'' = 0
+    ends = np.max(np.cbrt(np.abs(path.derivatives(u[[0, -1]])[2]) / limits.jerk), axis=1) ** -2  # there Q' = Q'' = 0
     top = np.r_[ends[0], 1 / quick, ends[1]]
     weight = np.full(count + 1, h)
     weight[[0, -1]] = h / 2

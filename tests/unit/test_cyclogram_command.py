@@ -15,7 +15,7 @@ from ilmek.cams.laws import LAWS
 from ilmek.cli import main
 from ilmek.io.cyclogram_file import read_cyclogram
 from ilmek.jobs.cyclogram import columns
-from ilmek.timing.cyclogram import judged
+from ilmek.timing.cyclogram import check_cyclogram
 from ilmek.timing.track import sample
 from ilmek.units import deg, turn
 from ilmek.viz.svg import svg
@@ -31,7 +31,7 @@ def run(*arguments: str) -> tuple[int, str, str]:
 def test_the_example_is_overlapped_to_a_fifth_of_its_acceleration() -> None:
     found = solved()
     assert found.before / found.after == pytest.approx(5.192, abs=5e-4)
-    assert all(check.ok for check in judged(found.cyclogram))
+    assert all(check.ok for check in check_cyclogram(found.cyclogram))
 
 
 def test_a_solved_cyclogram_is_written_read_and_found_solved(tmp_path: Path) -> None:
@@ -42,7 +42,7 @@ def test_a_solved_cyclogram_is_written_read_and_found_solved(tmp_path: Path) -> 
     assert "die: up starts after die: pressed: 1 deg less would reduce the period by" in said
     again = read_cyclogram(quick)
     assert again.period == pytest.approx(0.4278743, rel=1e-6)
-    assert all(check.ok for check in judged(again))
+    assert all(check.ok for check in check_cyclogram(again))
     html = page.read_text(encoding="utf-8")
     assert 'class="wide timed"' in html
     assert "https://" not in html.replace("https://ilmek.invalid", "").replace("http://www.w3.org", "")
@@ -133,7 +133,7 @@ def test_cyclograms_of_machines_hold_and_are_solved(name: str, tmp_path: Path) -
     assert "FAIL" not in said
     again = read_cyclogram(place)
     assert again.relations
-    assert all(check.ok for check in judged(again))
+    assert all(check.ok for check in check_cyclogram(again))
 
 
 @pytest.mark.parametrize(

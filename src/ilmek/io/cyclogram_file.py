@@ -163,7 +163,7 @@ def _track(name: str, entry: FileEntry) -> Track:
         bare = Track(name, entry.text("actuator", ""), parts, (), unit, entry.quantity("revolves", unit, 0.0))
         events = tuple(_event(bare, event, one) for event, one in entry.table("events").entries())
         limits = _limits(entry.table("limits"), unit)
-        return Track(name, bare.actuator, parts, events, unit, bare.revolves, limits, held=entry.flag("held"))
+        return Track(name, bare.actuator, parts, events, unit, bare.revolves, limits, locked=entry.flag("held"))
 
 
 def _motion(name: str, entry: FileEntry, unit: str) -> TrackSegment:
@@ -270,7 +270,7 @@ def _track_data(track: Track) -> dict[str, Any]:
         "actuator": track.actuator,
         "unit": track.unit,
         "revolves": _written(track.revolves, track.unit) if track.revolves else 0,
-        "held": track.held,
+        "held": track.locked,
         "limits": limits,
         "motions": {part.name: _motion_data(part, track.unit) for part in track.segments},
         "events": _events_data(track.events),

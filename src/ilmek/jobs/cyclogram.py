@@ -12,7 +12,7 @@ from ilmek.io.cyclogram_file import cyclogram_data, read_cyclogram
 from ilmek.machines.catalogue import MACHINES
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Column, Report, Result, Table, at_most
-from ilmek.timing.cyclogram import Cyclogram, Track, judged
+from ilmek.timing.cyclogram import Cyclogram, Track, check_cyclogram
 from ilmek.timing.figures import draw
 from ilmek.timing.solver import Binding, Solution, least_acceleration, least_period, require_possible
 from ilmek.timing.track import peak_acceleration, peak_speed, sample
@@ -68,7 +68,7 @@ def report(cyclogram: Cyclogram, solution: Solution | None = None) -> Report:
 
     Raises ParameterError if its constraints contradict each other, so that no timing can satisfy them.
     """
-    checks = (*judged(cyclogram), *_limit_checks(cyclogram))
+    checks = (*check_cyclogram(cyclogram), *_limit_checks(cyclogram))
     if solution is None and not all(check.ok for check in checks):
         require_possible(cyclogram)
     notes = {
@@ -115,7 +115,7 @@ def columns(cyclogram: Cyclogram, steps: int) -> dict[str, FloatArray]:
 
 def binding_words(solution: Solution) -> list[str]:
     """The binding constraints, one line each, in the order of the turn."""
-    return [f"{one.said}: {_cost(one, solution)}" for one in solution.binding]
+    return [f"{one.label}: {_cost(one, solution)}" for one in solution.binding]
 
 
 def _cost(one: Binding, solution: Solution) -> str:
@@ -157,7 +157,7 @@ def _peaks(cyclogram: Cyclogram) -> dict[str, Any]:
 
 
 def _improvement(solution: Solution) -> list[Result]:
-    binding = [{"said": one.said, "kind": one.kind, "share": one.share, "cost": one.cost} for one in solution.binding]
+    binding = [{"said": one.label, "kind": one.kind, "share": one.share, "cost": one.cost} for one in solution.binding]
     return [
         Result("goal", solution.goal, "", "quantity that was minimised"),
         Result("before", solution.before, solution.unit, f"{solution.measure}, as given"),
@@ -168,7 +168,7 @@ def _improvement(solution: Solution) -> list[Result]:
 
 def _binding_table(solution: Solution) -> Table:
     columns = (Column("constraint"), Column("kind"), Column("effect"))
-    rows = tuple((one.said, one.kind, _cost(one, solution)) for one in solution.binding)
+    rows = tuple((one.label, one.kind, _cost(one, solution)) for one in solution.binding)
     return Table("binding", "Binding constraints, in the order of the turn", columns, rows, brief=True)
 
 

@@ -1,9 +1,10 @@
-"""What a solver of cyclograms may change, and what it must keep, as rows of a linear programme.
+"""Unknowns and constraints of a cyclogram's solver, as rows of a linear programme.
 
-Unknown are the starts and ends of all motions of tracks that are not held, events that stand by themselves in a
-relation, and one number r that is to be large. Every row says  form >= 0:  a relation, an exclusion (the instant at
-which a motion passes a position is linear in its start and end), the order of a track, a limit, or that a motion takes
-at least its share of r:
+The unknowns are the starts and ends of all motions of tracks that are not locked, the events of relations that belong
+to
+no motion, and one number r to be maximised. Every row states form >= 0. It is a relation, an exclusion (the instant at
+which a motion passes a position is linear in its start and end), the order of a track, a limit, or the least master
+angle of a motion, proportional to r:
 
     at a given period      beta >= r w sqrt(|h| Ca / weight)       r = 1/sqrt(largest acceleration over its weight)
     for the least period   beta >= r |h| Cv / V,  r sqrt(|h| Ca / A),  r cbrt(|h| Cj / J),  r t          r = w
@@ -26,7 +27,7 @@ from ilmek.units import turn
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Form:
-    """A number that depends linearly on the unknowns: constant + weights . x; r is the first unknown."""
+    """A linear function of the unknowns: constant + weights . x; r is the first unknown."""
 
     weights: FloatArray
     constant: float = 0.0
@@ -38,7 +39,7 @@ class Form:
         return Form(self.weights - other.weights, self.constant - other.constant)
 
     def shifted(self, by: float) -> "Form":
-        """The form and a constant more."""
+        """The form plus a constant."""
         return Form(self.weights, self.constant + by)
 
     def scaled(self, by: float) -> "Form":
@@ -48,48 +49,48 @@ class Form:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Constraint:
-    """form >= 0, what it is in words, and its kind: relation, exclusion, order, turn, limit or motion."""
+    """form >= 0, its label, and its kind: relation, exclusion, order, turn, limit or motion."""
 
     form: Form
-    said: str
+    label: str
     kind: str
 
 
 @record
 class Unknowns:
-    """The places of the unknowns, and the forms of all instants.
+    """Indices of the unknowns, and the forms of all instants [rad].
 
-    place   (track, motion, edge) -> place; edge is start, end or event
+    index   (track, motion, edge) -> index; edge is start, end or event
     """
 
     cyclogram: Cyclogram
-    place: Mapping[tuple[str, str, str], int] = field(repr=False)
+    index: Mapping[tuple[str, str, str], int] = field(repr=False)
 
     @property
     def size(self) -> int:
-        """How many there are."""
-        return 1 + len(self.place)
+        """Number of unknowns, r included."""
+        return 1 + len(self.index)
 
     @property
-    def present(self) -> FloatArray:
-        """Their values now; r is 0."""
-        found = (moment_angle(self.cyclogram, Moment(*key)) for key in self.place)
+    def current(self) -> FloatArray:
+        """Their present values [rad], (unknowns,); r is 0."""
+        found = (moment_angle(self.cyclogram, Moment(*key)) for key in self.index)
         return np.array([0.0, *found])
 
     def constant(self, value: float) -> Form:
-        """A number."""
+        """The constant form of a value."""
         return Form(np.zeros(self.size), value)
 
     def growth(self, rate: float) -> Form:
-        """Rate times r."""
+        """The form rate * r."""
         return Form(np.eye(1, self.size)[0] * rate)
 
     def moment(self, moment: Moment) -> Form:
-        """An instant."""
+        """The form of an instant."""
         key = (moment.track, moment.motion, moment.edge)
-        if key in self.place:
-            return Form(np.eye(self.size)[self.place[key]])
-        if moment.edge in ("past", "event") and not self.cyclogram.track(moment.track).held:
+        if key in self.index:
+            return Form(np.eye(self.size)[self.index[key]])
+        if moment.edge in ("past", "event") and not self.cyclogram.track(moment.track).locked:
             track = self.cyclogram.track(moment.track)
             if moment.edge == "past":
                 segment = track.segment(moment.motion)
@@ -100,18 +101,18 @@ class Unknowns:
         return self.constant(moment_angle(self.cyclogram, moment))
 
     def share(self, track: Track, segment: TrackSegment, u: float) -> Form:
-        """The instant at a share of a motion's time."""
+        """The instant at a share u [-] of a motion's time."""
         start = self.moment(Moment(track.name, segment.name, "start"))
         return start + self.beta(track, segment).scaled(u)
 
     def beta(self, track: Track, segment: TrackSegment) -> Form:
-        """The master angle that a motion takes."""
+        """The master angle of a motion."""
         start, end = (self.moment(Moment(track.name, segment.name, edge)) for edge in ("start", "end"))
         return end - start
 
-    def at(self, track: Track, place: TrackInstant) -> Form:
-        """The instant of a place on a track's motions."""
-        return self.share(track, track.segments[place.motion], place.share).shifted(turn * place.turns)
+    def at(self, track: Track, instant: TrackInstant) -> Form:
+        """The form of an instant on a track's motions."""
+        return self.share(track, track.segments[instant.motion], instant.share).shifted(turn * instant.turns)
 
 
 def unknowns(cyclogram: Cyclogram) -> Unknowns:
@@ -119,7 +120,7 @@ def unknowns(cyclogram: Cyclogram) -> Unknowns:
     keys = [
         (track.name, segment.name, edge)
         for track in cyclogram.tracks
-        if not track.held
+        if not track.locked
         for segment in track.segments
         for edge in ("start", "end")
     ]
@@ -129,21 +130,24 @@ def unknowns(cyclogram: Cyclogram) -> Unknowns:
         for moment in moments
         if moment.edge == "event" and _stands_alone(cyclogram.track(moment.track), moment.motion)
     ]
-    return Unknowns(cyclogram, {key: place for place, key in enumerate(dict.fromkeys(keys), 1)})
+    return Unknowns(cyclogram, {key: number for number, key in enumerate(dict.fromkeys(keys), 1)})
 
 
 def _stands_alone(track: Track, event: str) -> bool:
-    return not track.held and not track.event(event).on
+    return not track.locked and not track.event(event).on
 
 
 def standing_rows(known: Unknowns, *, period_free: bool) -> list[Constraint]:
-    """Rows of all relations, and of the order of each track in the turn."""
+    """Rows of all relations, and of the order of each track in the turn.
+
+    period_free  the period is unknown: r is the speed of the master shaft [rad/s]
+    """
     rows = [row for relation in known.cyclogram.relations for row in _relation(known, relation, period_free)]
-    rows += [row for track in known.cyclogram.tracks if not track.held for row in _order(known, track)]
-    events = [key for key in known.place if key[2] == "event"]
+    rows += [row for track in known.cyclogram.tracks if not track.locked for row in _order(known, track)]
+    events = [key for key in known.index if key[2] == "event"]
     for key in events:
-        at, said = known.moment(Moment(*key)), f"{key[0]}: {key[1]} within the turn"
-        rows += [Constraint(at, said, "turn"), Constraint(known.constant(turn) - at, said, "turn")]
+        at, label = known.moment(Moment(*key)), f"{key[0]}: {key[1]} within the turn"
+        rows += [Constraint(at, label, "turn"), Constraint(known.constant(turn) - at, label, "turn")]
     return rows
 
 
@@ -152,11 +156,11 @@ def _relation(known: Unknowns, relation: Relation, period_free: bool) -> Iterato
     gap = (known.moment(relation.then) - known.moment(relation.first)).shifted(turn * relation.turns)
     delay = relation.delay
     late = known.growth(delay) if period_free else known.constant(delay * known.cyclogram.speed)
-    said = relation.said(units)
+    label = relation.label(units)
     if relation.gap > -math.inf:
-        yield Constraint((gap - late).shifted(-relation.gap), said, "relation")
+        yield Constraint((gap - late).shifted(-relation.gap), label, "relation")
     if relation.most < math.inf:
-        yield Constraint(known.constant(relation.most) - gap, f"{said}, at most", "relation")
+        yield Constraint(known.constant(relation.most) - gap, f"{label}, at most", "relation")
 
 
 def _order(known: Unknowns, track: Track) -> Iterator[Constraint]:
@@ -184,29 +188,29 @@ def _order(known: Unknowns, track: Track) -> Iterator[Constraint]:
 
 
 def exclusion_rows(known: Unknowns, exclusion: Exclusion) -> Iterator[tuple[tuple[Constraint, ...], ...]]:
-    """For every two stays the ways to keep them apart: the one there is now, or both orders where they overlap."""
+    """Rows that keep two stays apart, for every pair of stays: the present order, or both orders where they overlap."""
     for a in _stays(known, exclusion.first):
         for b in _stays(known, exclusion.second):
-            yield _ways(known, exclusion, a, b)
+            yield _alternatives(known, exclusion, a, b)
 
 
-def _ways(
+def _alternatives(
     known: Unknowns, exclusion: Exclusion, a: tuple[Form, Form], b: tuple[Form, Form]
 ) -> tuple[tuple[Constraint, ...], ...]:
-    x, said = known.present, exclusion.said(known.cyclogram.units)
+    x, label = known.current, exclusion.label(known.cyclogram.units)
     now = [float(form.weights @ x) + form.constant for form in (*a, *b)]
     after = -math.floor((now[2] - now[0]) / turn)
-    ways = []
+    alternatives = []
     for shift in (after, after - 1):
         gaps = (b[0] - a[1]).shifted(turn * shift), (a[0] - b[1]).shifted(turn * (1 - shift))
-        ways.append(tuple(Constraint(gap.shifted(-exclusion.gap), said, "exclusion") for gap in gaps))
+        alternatives.append(tuple(Constraint(gap.shifted(-exclusion.gap), label, "exclusion") for gap in gaps))
         if shift == after and min(float(gap.weights @ x) + gap.constant for gap in gaps) >= 0:
             break
-    return tuple(ways)
+    return tuple(alternatives)
 
 
 def _stays(known: Unknowns, presence: Presence) -> list[tuple[Form, Form]]:
-    """Where something comes into a place and where it goes out; a whole turn where it never leaves."""
+    """Entry and exit of every stay of a presence; a whole turn where it never leaves."""
     if isinstance(presence, Spans):
         return [(known.constant(window.start), known.constant(window.end)) for window in presence.windows]
     track = known.cyclogram.track(presence.track)

@@ -1,7 +1,7 @@
-"""Where the motions of a track pass a position, and when it is between two: roots of the law, not samples.
+"""Instants at which a track passes a position, and stays between two positions: exact roots of the law.
 
-A motion from begin to finish passes position p at the share u of its time with begin + (finish - begin) s(u) = p, so at
-the master angle start + u (end - start): linear in start and end, whatever the law. That is what the solver lives by.
+A motion from begin to finish passes the position p at the share u of its time with begin + (finish - begin) s(u) = p.
+The master angle is start + u (end - start): linear in start and end for any law. The solver depends on this.
 """
 
 from collections.abc import Iterator
@@ -18,12 +18,12 @@ from ilmek.units import format_quantity, turn
 
 _GRID = np.linspace(0.0, 1.0, 129)
 _SAME, _AT_END = 1e-9, 1e-12
-"""Positions [SI] that are one; displacements of a law that are its end."""
+"""Tolerances: of equal positions [SI], and of the ends of a law [-]."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrackInstant:
-    """An instant on a track's motions: number of the motion, share of its time, turns later."""
+    """An instant on a track's motions: index of the motion, share of its time [-], whole turns later."""
 
     motion: int
     share: float
@@ -36,14 +36,14 @@ class TrackInstant:
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """A stay of a track in a zone: where it comes in and where it goes out."""
+    """A stay of a track in a zone: entry and exit."""
 
     entry: TrackInstant
     exit: TrackInstant
 
 
 def turning_shares(law: MotionLaw) -> FloatArray:
-    """Shares of the time at which a law turns back, with both ends: 0 and 1 alone for one that only rises."""
+    """Shares of the time [-], ascending, at which a law reverses, with both ends; 0 and 1 for a monotonic law."""
     v = np.asarray(law.v(_GRID), dtype=float)
     still = np.abs(v) <= _SAME
     signs = np.where(still, 0.0, np.sign(v))
@@ -55,13 +55,17 @@ def turning_shares(law: MotionLaw) -> FloatArray:
 
 
 def crossing_shares(segment: TrackSegment, position: RealField) -> tuple[float, ...]:
-    """Shares of a motion's time at which it is at a position [SI], ascending; to rounding."""
+    """Shares of a motion's time [-] at which it is at a position [SI], ascending, exact to rounding."""
     found = (_crossed(segment, piece, float(position)) for piece in _pieces(segment))
     return tuple(sorted({u for u in found if u is not None}))
 
 
 def passing_share(track: str, segment: TrackSegment, position: float, unit: str = "mm") -> float:
-    """The share at which a motion first is at a position [SI]. Raises ParameterError where it never is."""
+    """The share of a motion's time [-] at which it first reaches a position [SI].
+
+    track, unit  name and unit of the track for the message
+    Raises ParameterError where the motion never passes the position.
+    """
     shares = crossing_shares(segment, position)
     if not shares:
         ends = " to ".join(format_quantity(end, unit) for end in (segment.begin, segment.finish))
@@ -72,7 +76,7 @@ def passing_share(track: str, segment: TrackSegment, position: float, unit: str 
 
 
 def zone_windows(track: Track, low: float, high: float) -> Windows:
-    """Windows of the master angle in which a track is strictly between two positions [SI], their edges to rounding."""
+    """Windows of the master angle [rad] in which a track is strictly between two positions [SI], exact to rounding."""
     stays = passages(track, low, high)
     if stays is None:
         return WHOLE
@@ -80,7 +84,7 @@ def zone_windows(track: Track, low: float, high: float) -> Windows:
 
 
 def passages(track: Track, low: float, high: float) -> tuple[Passage, ...] | None:
-    """The stays of a track strictly between two positions [SI] in the order of the turn; None where it never leaves."""
+    """Stays of a track strictly between two positions [SI], in the order of the turn; None where it never leaves."""
     if not track.segments:
         return None if low < 0 < high else ()
     found: list[Passage] = []
@@ -126,21 +130,21 @@ def _inside(segment: TrackSegment, low: float, high: float) -> Iterator[tuple[fl
         if _within(segment.begin, low, high):
             yield 0.0, 1.0
         return
-    held: tuple[float, float] | None = None
+    last: tuple[float, float] | None = None
     for piece in _pieces(segment):
         span = _piece_inside(segment, piece, low, high)
-        if held and span and span[0] == held[1]:
-            held = (held[0], span[1])
+        if last and span and span[0] == last[1]:
+            last = (last[0], span[1])
             continue
-        if held:
-            yield held
-        held = span
-    if held:
-        yield held
+        if last:
+            yield last
+        last = span
+    if last:
+        yield last
 
 
 def _pieces(segment: TrackSegment) -> Iterator[tuple[float, float]]:
-    """Ranges of the share in which the motion goes one way."""
+    """Ranges of the share in which the motion is monotonic."""
     shares = turning_shares(segment.law)
     return zip(shares[:-1].tolist(), shares[1:].tolist(), strict=True)
 

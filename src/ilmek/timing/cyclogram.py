@@ -1,4 +1,4 @@
-"""The cyclogram: every actuator's track on one master shaft, and the relations that must hold between them."""
+"""The cyclogram: the tracks of all actuators over one master shaft, and the relations between them."""
 
 import math
 from collections.abc import Iterable
@@ -25,8 +25,8 @@ __all__ = [
     "Zone",
     "check_all",
     "check_apart",
+    "check_cyclogram",
     "fixed",
-    "judged",
     "moment_angle",
     "present",
     "riding",
@@ -35,10 +35,11 @@ __all__ = [
 
 @value_record
 class Cyclogram:
-    """Tracks over one turn of the master shaft, which takes `period` [s], and what must hold between them.
+    """Tracks over one turn of the master shaft, and the relations and exclusions between them.
 
+    period  of the turn [s]
     Raises ParameterError for a period that is not positive, two tracks of one name, and a relation or an exclusion
-    that names what is not there.
+    that refers to an unknown track, motion or event.
     """
 
     name: str
@@ -71,7 +72,7 @@ class Cyclogram:
 
     @property
     def units(self) -> dict[str, str]:
-        """Unit to show the positions of each track in."""
+        """Display unit of the positions of each track, by name."""
         return {track.name: track.unit for track in self.tracks}
 
     @property
@@ -81,9 +82,9 @@ class Cyclogram:
 
 
 def moment_angle(cyclogram: Cyclogram, moment: Moment) -> float:
-    """Master angle of a moment [rad]; beyond the turn on a motion that runs through its end.
+    """Master angle of a moment [rad]; above 2 pi on a motion that runs through the end of the turn.
 
-    Raises ParameterError for a track, motion, event or edge that is not there, and a position never passed.
+    Raises ParameterError for an unknown track, motion, event or edge, and for a position that is never passed.
     """
     if moment.edge == "angle":
         return moment.at
@@ -100,25 +101,25 @@ def moment_angle(cyclogram: Cyclogram, moment: Moment) -> float:
 
 
 def present(cyclogram: Cyclogram, presence: Presence) -> Windows:
-    """Windows of the master angle in which something is in a place. Raises ParameterError for an unknown track."""
+    """Windows of the master angle [rad] of a presence. Raises ParameterError for an unknown track."""
     if isinstance(presence, Spans):
         return presence.windows
     return zone_windows(cyclogram.track(presence.track), presence.low, presence.high)
 
 
 def check_all(cyclogram: Cyclogram, relations: Iterable[Relation]) -> tuple[Check, ...]:
-    """The checks of relations, in order: the gap [rad] against what is demanded at least, then at most."""
+    """The checks of relations, in order: the gap [rad] against its least, then against its greatest value."""
     return tuple(check for relation in relations for check in _checks(cyclogram, relation))
 
 
 def check_apart(cyclogram: Cyclogram, exclusion: Exclusion) -> Check:
-    """The least angle between the windows of two presences [rad], negative where they overlap, against the gap."""
+    """The check of an exclusion: the least angle [rad] between two presences (negative: overlap), against the gap."""
     apart = separation(present(cyclogram, exclusion.first), present(cyclogram, exclusion.second))
-    return at_least(exclusion.said(cyclogram.units), round(apart, 9), round(exclusion.gap, 9), "deg", exclusion.why)
+    return at_least(exclusion.label(cyclogram.units), round(apart, 9), round(exclusion.gap, 9), "deg", exclusion.why)
 
 
-def judged(cyclogram: Cyclogram) -> tuple[Check, ...]:
-    """A check for every relation and every exclusion of the cyclogram."""
+def check_cyclogram(cyclogram: Cyclogram) -> tuple[Check, ...]:
+    """The checks of all relations and all exclusions of a cyclogram."""
     apart = (check_apart(cyclogram, exclusion) for exclusion in cyclogram.exclusions)
     return (*check_all(cyclogram, cyclogram.relations), *apart)
 
@@ -126,9 +127,9 @@ def judged(cyclogram: Cyclogram) -> tuple[Check, ...]:
 def _checks(cyclogram: Cyclogram, relation: Relation) -> Iterable[Check]:
     then, first = (moment_angle(cyclogram, moment) for moment in (relation.then, relation.first))
     gap = round(then + turn * relation.turns - first, 9)
-    said = relation.said(cyclogram.units)
+    label = relation.label(cyclogram.units)
     if relation.gap > -math.inf:
         least = round(relation.gap + relation.delay * cyclogram.speed, 9)
-        yield at_least(said, gap, least, "deg", relation.why)
+        yield at_least(label, gap, least, "deg", relation.why)
     if relation.most < math.inf:
-        yield at_most(f"{said}, at most", gap, round(relation.most, 9), "deg", relation.why)
+        yield at_most(f"{label}, at most", gap, round(relation.most, 9), "deg", relation.why)

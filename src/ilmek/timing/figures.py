@@ -1,4 +1,4 @@
-"""Cyclograms as figures: tracks with their laws, the places where two must not be, and what comes after what."""
+"""Figures of cyclograms: tracks with their laws, presences that exclude each other, and relations."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -12,11 +12,11 @@ from ilmek.timing.track import MotionLaw, Track, TrackSegment, joints, laid, sam
 from ilmek.timing.windows import Windows, common
 from ilmek.units import deg, format_number, turn
 
-_PLACES = np.linspace(0.0, 1.0, 65)
+_SHARES = np.linspace(0.0, 1.0, 65)
 
 
 def draw(cyclogram: Cyclogram, title: str, note: str = "", step: float = 1 * deg) -> Timing:
-    """The cyclogram as a figure: each track as a share of its stroke, sampled each `step` [rad] and at every joint."""
+    """The figure of a cyclogram: each track over its stroke, sampled every `step` [rad] and at every joint."""
     lanes = tuple(_lane(cyclogram, track, step) for track in cyclogram.tracks)
     laws = {law_label(part.law): part.law for track in cyclogram.tracks for part in track.segments}
     curves = tuple(_curve(name, law) for name, law in laws.items())
@@ -24,7 +24,7 @@ def draw(cyclogram: Cyclogram, title: str, note: str = "", step: float = 1 * deg
 
 
 def law_label(law: MotionLaw) -> str:
-    """The law's name with its plain parameters."""
+    """The law's name with its scalar parameters."""
     plain = [format_number(value) for value in law.parameters.values() if isinstance(value, float) and value]
     return f"{law.name} ({', '.join(plain)})" if plain else law.name
 
@@ -44,17 +44,17 @@ def _move(part: TrackSegment) -> Move:
 
 
 def _curve(name: str, law: MotionLaw) -> LawCurve:
-    """The law at even places; beside its ends, where the acceleration may jump, it is one-sided."""
-    return LawCurve(name, _PLACES, *(np.asarray(one(_PLACES), dtype=float) for one in (law.s, law.v, law.a)))
+    """The curves of a law at even shares of the time."""
+    return LawCurve(name, _SHARES, *(np.asarray(one(_SHARES), dtype=float) for one in (law.s, law.v, law.a)))
 
 
 def _shades(cyclogram: Cyclogram, name: str) -> Iterator[Shade]:
-    """The stays of a track in places that others need too; where two are there at once, bad."""
+    """The stays of a track in zones of exclusions; bad: where both presences overlap."""
     for exclusion in cyclogram.exclusions:
         for own, other in _sides(exclusion):
             if isinstance(own, Zone) and own.track == name:
                 here = present(cyclogram, own)
-                label = own.name or own.said(cyclogram.units).removeprefix(f"{name} ")
+                label = own.name or own.label(cyclogram.units).removeprefix(f"{name} ")
                 yield from _shaded(here, label, bad=False)
                 yield from _shaded(common(here, present(cyclogram, other)), label, bad=True)
 
@@ -69,7 +69,7 @@ def _shaded(windows: Windows, label: str, *, bad: bool) -> Iterator[Shade]:
 
 def _links(cyclogram: Cyclogram) -> Iterator[Link]:
     """Relations between two tracks within the turn."""
-    numbers = {track.name: place for place, track in enumerate(cyclogram.tracks)}
+    numbers = {track.name: number for number, track in enumerate(cyclogram.tracks)}
     for relation in cyclogram.relations:
         if _drawable(relation):
             ends = [_end(cyclogram, numbers, moment) for moment in (relation.first, relation.then)]

@@ -1,9 +1,9 @@
-"""Interference from real geometry: the master angles in which a tool is in a region, their edges to rounding.
+"""Interference from geometry: windows of the master angle in which a tool is in a region, exact to rounding.
 
-A *margin* is a function of the master angle that is negative where the tool is in the region: distance of a point from
-a polygon, height of the shed less that of the tool in it, position less a threshold. Its sign is found on a grid that
-has every joint of the motion in it, a minimum between two places of the grid that may dip below zero is followed down,
-and every change of sign is then closed in on.
+A *margin* is a function of the master angle that is negative where the tool is in the region, for example the distance
+of a point from a polygon, or the height of the shed minus the height of the tool. Its sign is sampled on a grid that
+contains every joint of the motion. Minima between grid points that may be negative are searched, then every change of
+sign is refined.
 """
 
 from collections.abc import Callable
@@ -21,22 +21,23 @@ Margin: TypeAlias = Callable[[FloatArray], FloatArray]
 """Master angles [rad], (angles) -> margins, (angles)."""
 
 STEP = 0.5 * deg
-"""Of the grid: a stay in a region between two of its places is found where the margin dips once there."""
+"""Grid step [rad]; a stay between two grid points is found if the margin has one minimum there."""
 
 
 def windows_where(margin: Margin, joints: FloatArray | None = None, step: float = STEP) -> Windows:
-    """Windows of the master angle in which a margin is negative.
+    """Windows of the master angle [rad] in which a margin is negative.
 
-    margin  at master angles in [0, 2 pi]; the same at both ends
-    joints  angles at which it is not smooth, where another motion begins
-    Raises ParameterError where the margin is nowhere a finite number, or not everywhere.
+    margin  function of master angles in [0, 2 pi] [rad], periodic
+    joints  angles [rad] at which the margin is not smooth
+    step    of the grid [rad]
+    Raises ParameterError where the margin is not finite.
     """
     inner = np.empty(0) if joints is None else np.clip(joints, 0.0, turn)
     grid = np.unique(np.concatenate([np.linspace(0.0, turn, round(turn / step) + 1), inner]))
     value = np.asarray(margin(grid), dtype=float)
     if not np.isfinite(value).all():
         at = grid[~np.isfinite(value)][0] / deg
-        raise ParameterError(f"the margin is no number at {at:g} deg", allowed="a finite number all over the turn")
+        raise ParameterError(f"the margin is no number at {at:g} deg", allowed="a finite number over the whole turn")
     grid, value = _with_minima(margin, grid, value)
     inside = value < 0
     if inside.all():
@@ -48,12 +49,12 @@ def windows_where(margin: Margin, joints: FloatArray | None = None, step: float 
 
 
 def _with_minima(margin: Margin, grid: FloatArray, value: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The grid with the minima, and the maxima, between its places at which the sign differs."""
+    """The grid with the minima and maxima between its points at which the sign differs."""
     for sign in (1.0, -1.0):
         v = sign * value
         low = np.flatnonzero((v[1:-1] >= 0) & (v[1:-1] <= v[:-2]) & (v[1:-1] <= v[2:])) + 1
         step = np.abs(np.diff(v))
-        low = low[v[low] <= 2 * np.maximum(step[low - 1], step[low])]  # a smooth dip goes no deeper than that
+        low = low[v[low] <= 2 * np.maximum(step[low - 1], step[low])]  # bound of a smooth minimum
         at, least = bracketed_minima(_signed(margin, sign), grid[low - 1], grid[low + 1])
         at, least = at[least < 0], least[least < 0]
         grid, order = np.unique(np.concatenate([grid, at]), return_index=True)
@@ -66,10 +67,11 @@ def _signed(margin: Margin, sign: float) -> Margin:
 
 
 def distance_from(points: ComplexArray, corners: ComplexArray) -> FloatArray:
-    """Distance of points from a polygon [m]: negative inside, zero on its sides.
+    """Signed distance of points from a polygon [m]: negative inside, 0 on its sides.
 
-    corners  in either sense, the first not said again
-    Raises ParameterError for less than three.
+    points   complex [m], any shape
+    corners  complex [m], (corners,), in either sense; the first is not repeated
+    Raises ParameterError for fewer than three corners.
     """
     if len(corners) < 3:
         raise ParameterError(f"a region of {len(corners)} corners", allowed="three or more")
@@ -89,10 +91,14 @@ def _odd(at: ComplexArray, corners: ComplexArray, side: ComplexArray) -> BoolArr
     return np.asarray(crossed.sum(axis=-1) % 2 == 1)
 
 
-def in_region(way: Callable[[FloatArray], ComplexArray], corners: ComplexArray, radius: float = 0.0) -> Margin:
-    """The margin of a round tool of a radius [m], its centre at way(angle) [m], to a polygon."""
+def in_region(path: Callable[[FloatArray], ComplexArray], corners: ComplexArray, radius: float = 0.0) -> Margin:
+    """The margin of a round tool to a polygon.
+
+    path     centre of the tool [m], complex, as a function of the master angle [rad]
+    corners  of the polygon [m], complex, (corners,)      radius  of the tool [m]
+    """
 
     def margin(angle: FloatArray) -> FloatArray:
-        return distance_from(way(angle), corners) - radius
+        return distance_from(path(angle), corners) - radius
 
     return margin

@@ -1,4 +1,4 @@
-"""What must hold between the tracks of a cyclogram: one instant after another, and never both in one place."""
+"""Relations between the tracks of a cyclogram: an instant after another, and exclusions of two presences."""
 
 import math
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ from ilmek.timing.windows import Windows
 from ilmek.units import deg, format_quantity, turn
 
 Units: TypeAlias = Mapping[str, str]
-"""Unit to show the positions of a track in, by its name."""
+"""Display unit of the positions of a track, by its name."""
 
 LARGEST = 100 * turn
 """Largest gap between two moments [rad]."""
@@ -23,8 +23,8 @@ class Moment:
     """An instant of a track, or of the turn.
 
     track, motion   a motion of a track, or an event of it
-    edge            start or end of the motion; event; past: the motion passes position `at` [SI], the first time;
-                    angle: none of a track, but the master angle `at` [rad]
+    edge            start or end of the motion; event; past: the motion first passes the position `at` [SI];
+                    angle: the master angle `at` [rad], without a track
     """
 
     track: str
@@ -32,8 +32,8 @@ class Moment:
     edge: str = "start"
     at: float = 0.0
 
-    def said(self, units: Units) -> str:
-        """The instant as a person says it; units of the positions by track."""
+    def label(self, units: Units) -> str:
+        """The instant in words; units: display units by track."""
         if self.edge == "angle":
             return format_quantity(self.at, "deg")
         if self.edge == "past":
@@ -49,10 +49,12 @@ def fixed(angle: float) -> Moment:
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """`then` comes at least `gap` and at most `most` [rad of the master] after `first`; `why` says what it guards.
+    """`then` comes at least `gap` and at most `most` [rad of the master] after `first`.
 
-    turns   how many turns later `then` is meant: 1 for the next knot's
-    delay   time [s] on top of `gap`, for what does not go with the master: a valve, a magnet
+    why     the reason, for the report
+    turns   whole turns by which `then` is later: 1 for that of the next knot
+    delay   time [s] added to `gap`, for actuators with a delay of their own: a valve, a magnet
+    Raises ParameterError where gap > most or delay < 0, and for gaps above 100 turns.
     """
 
     then: Moment
@@ -66,16 +68,16 @@ class Relation:
     def __post_init__(self) -> None:
         if not (self.gap <= self.most and self.gap < math.inf and 0 <= self.delay < math.inf):
             raise ParameterError(
-                f"{self.said({})}: at least {self.gap / deg:g} deg, at most {self.most / deg:g} deg",
-                allowed="no more at least than at most, and a delay of 0 s or more",
+                f"{self.label({})}: at least {self.gap / deg:g} deg, at most {self.most / deg:g} deg",
+                allowed="the least gap at most the greatest, and a delay of 0 s or more",
             )
         _require_small(self.gap if self.gap > -math.inf else 0.0)
         _require_small(self.most if self.most < math.inf else 0.0)
 
-    def said(self, units: Units) -> str:
-        """The relation without its numbers; units of the positions by track."""
+    def label(self, units: Units) -> str:
+        """The relation in words, without its numbers; units: display units by track."""
         later = {0: "", 1: " of the turn before"}.get(self.turns, f" of {self.turns} turns before")
-        return f"{self.then.said(units)} after {self.first.said(units)}{later}"
+        return f"{self.then.label(units)} after {self.first.label(units)}{later}"
 
 
 def _require_small(gap: float) -> None:
@@ -85,15 +87,15 @@ def _require_small(gap: float) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """A track strictly between two positions [SI]: a tool in a place that another needs too."""
+    """The presence of a track strictly between two positions [SI], for example a tool in the space of another."""
 
     track: str
     low: float = -math.inf
     high: float = math.inf
     name: str = ""
 
-    def said(self, units: Units) -> str:
-        """The zone as a person says it; units of the positions by track."""
+    def label(self, units: Units) -> str:
+        """The zone in words; units: display units by track."""
         if self.name:
             return f"{self.track} {self.name}"
         low, high = (format_quantity(end, units.get(self.track, "")) for end in (self.low, self.high))
@@ -104,23 +106,27 @@ class Zone:
 
 @dataclass(frozen=True, slots=True)
 class Spans:
-    """Fixed windows of the master angle, from the geometry of what the master itself turns; see `interference`."""
+    """Fixed windows of the master angle [rad], from the geometry of a linkage on the master; see `interference`."""
 
     name: str
     windows: Windows
 
-    def said(self, units: Units) -> str:  # noqa: ARG002 - as every presence is asked
+    def label(self, units: Units) -> str:  # noqa: ARG002 - the signature of a presence
         """Its name."""
         return self.name
 
 
 Presence: TypeAlias = Zone | Spans
-"""When something is in a place."""
+"""Presence of a tool in a region, over the master angle."""
 
 
 @dataclass(frozen=True, slots=True)
 class Exclusion:
-    """Never both: between the windows of two presences lie at least `gap` [rad of the master]; `why` says why."""
+    """Two presences exclude each other: their windows are at least `gap` [rad of the master] apart.
+
+    why  the reason, for the report
+    Raises ParameterError for a gap above 100 turns.
+    """
 
     first: Presence
     second: Presence
@@ -130,6 +136,6 @@ class Exclusion:
     def __post_init__(self) -> None:
         _require_small(self.gap)
 
-    def said(self, units: Units) -> str:
-        """The exclusion without its number; units of the positions by track."""
-        return f"never both {self.first.said(units)} and {self.second.said(units)}"
+    def label(self, units: Units) -> str:
+        """The exclusion in words, without its number; units: display units by track."""
+        return f"never both {self.first.label(units)} and {self.second.label(units)}"

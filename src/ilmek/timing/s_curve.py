@@ -1,7 +1,7 @@
-"""A jerk-limited move of one axis from rest to rest: the shortest that keeps speed, acceleration and jerk.
+"""Time-optimal move of one axis from rest to rest within limits of speed, acceleration and jerk.
 
-Seven phases: jerk +J, acceleration held, jerk -J, cruise, and the same mirrored. With r the time of a jerk (ramp), h
-that of held acceleration and c that of the cruise:
+Seven phases: jerk +J, constant acceleration, jerk -J, cruise, and the same mirrored. r is the time of a jerk phase
+(ramp), h that of constant acceleration (hold), c that of the cruise:
 
     v = J r (r + h),    d = v (2 r + h + c),    T = 4 r + 2 h + c
 
@@ -23,9 +23,9 @@ from ilmek.errors import ParameterError
 
 @dataclass(frozen=True, slots=True)
 class AxisLimits:
-    """Limits of one axis: speed [SI/s], acceleration [SI/s^2], jerk [SI/s^3]; inf: not limited.
+    """Limits of one axis: speed [SI/s], acceleration [SI/s^2], jerk [SI/s^3]; inf: no limit.
 
-    Raises ParameterError where one is not above 0, or neither acceleration nor jerk is finite.
+    Raises ParameterError unless all are above 0 and acceleration or jerk is finite.
     """
 
     speed: float
@@ -43,9 +43,11 @@ class AxisLimits:
 
 @dataclass(frozen=True, slots=True)
 class SCurve:
-    """A move over `distance` [SI], of either sign: times of each jerk, of held acceleration and of the cruise [s].
+    """A jerk-limited move from rest to rest.
 
-    jerk  of the phases 1, 3, 5 and 7, its magnitude; inf where the acceleration jumps
+    distance            [SI], of either sign
+    ramp, hold, cruise  times of a jerk phase, of constant acceleration, and of the cruise [s]
+    jerk                magnitude in the phases 1, 3, 5 and 7 [SI/s^3]; inf where the acceleration jumps
     """
 
     distance: float
@@ -61,17 +63,17 @@ class SCurve:
 
     @property
     def speed(self) -> float:
-        """Largest speed [SI/s], its magnitude; 0 for no distance."""
+        """Magnitude of the largest speed [SI/s]; 0 for no distance."""
         spent = 2 * self.ramp + self.hold + self.cruise
         return abs(self.distance) / spent if spent > 0 else 0.0
 
     def at(self, time: FloatArray) -> FloatArray:
-        """Position, speed, acceleration and jerk at times [s], stacked in this order; at rest outside the move.
+        """Position, speed, acceleration and jerk at times [s], stacked, (4, times); at rest outside the move.
 
-        Where two phases meet the jerk is that of the later one. Raises ParameterError for a jerk without limit.
+        Where two phases meet, the jerk is that of the later one. Raises ParameterError for an infinite jerk.
         """
         if math.isinf(self.jerk):
-            raise ParameterError("the course of a move whose jerk is not limited", allowed="a finite jerk limit")
+            raise ParameterError("the motion of a move without a jerk limit", allowed="a finite jerk limit")
         times = (self.ramp, self.hold, self.ramp, self.cruise, self.ramp, self.hold, self.ramp)
         jerks = math.copysign(self.jerk, self.distance) * np.array([0, 1, 0, -1, 0, -1, 0, 1, 0])
         ends = np.append(0.0, np.cumsum(times))
@@ -88,7 +90,7 @@ class SCurve:
 
 
 def s_curve(distance: float, limits: AxisLimits) -> SCurve:
-    """The shortest move over a distance [SI] of either sign. Raises ParameterError where it is not finite.
+    """The fastest move over a distance [SI] of either sign. Raises ParameterError unless the distance is finite.
 
     >>> move = s_curve(1.0, AxisLimits(speed=1.0, acceleration=2.0, jerk=8.0))
     >>> move.ramp, move.hold, move.cruise, move.time
@@ -106,7 +108,7 @@ def s_curve(distance: float, limits: AxisLimits) -> SCurve:
 
 
 def move_time(distance: float, limits: AxisLimits) -> float:
-    """Time of the shortest move [s].
+    """Time of the fastest move [s] over a distance [SI].
 
     >>> move_time(0.5, AxisLimits(1.0, 2.0)), move_time(0.25, AxisLimits(1.0, 4.0))
     (1.0, 0.5)
@@ -115,14 +117,14 @@ def move_time(distance: float, limits: AxisLimits) -> float:
 
 
 def _ramp(speed: float, acceleration: float, jerk: float) -> tuple[float, float]:
-    """Time of a jerk phase, and of constant acceleration between two, to reach a speed."""
+    """Times of a jerk phase and of constant acceleration [s] to reach a speed."""
     if speed * jerk < acceleration**2:
         return math.sqrt(speed / jerk), 0.0
     return acceleration / jerk, speed / acceleration - acceleration / jerk
 
 
 def _top_speed(length: float, acceleration: float, jerk: float) -> float:
-    """Speed that a move over a length reaches where speed is not limited."""
+    """Largest speed of a move over a length without a speed limit."""
     top = math.cbrt(jerk * length**2 / 4)
     if top * jerk <= acceleration**2:
         return top
@@ -131,7 +133,7 @@ def _top_speed(length: float, acceleration: float, jerk: float) -> float:
 
 
 def _after(state: FloatArray, jerk: FloatArray | float, time: FloatArray | float) -> FloatArray:
-    """Position, speed and acceleration after a time of constant jerk."""
+    """State (position, speed, acceleration) after a time of constant jerk."""
     position, speed, acceleration = state
     return np.stack(
         [

@@ -1,12 +1,11 @@
-"""Motions stretched and overlapped as far as the relations let them: least acceleration, or the shortest turn.
+"""Optimal timing of a cyclogram: least peak acceleration, or shortest period, within all relations.
 
-The peak acceleration of a motion is |h| Ca (w/beta)^2, so that a bound on it is a least angle beta; with the rows of
-`constraints` both tasks are linear programmes, and their answer is the best there is, not a good one. It is proved by
-the multipliers: they say what binds, and by how much. Where two presences overlap at the start, both orders are tried;
-any other order of the process is kept.
+The peak acceleration of a motion is |h| Ca (w/beta)^2, so a bound on it is a lower bound of its angle beta. With the
+rows of `constraints` both tasks are linear programmes, so the solution is a global optimum; the multipliers prove it
+and show which rows bind. Where two presences overlap at the start, both orders are tried. Every other order is kept.
 
-After the largest acceleration is least, the motions that settle it are kept and the largest of the others is made
-least, and so on: no motion is quicker than it needs to be.
+After the largest acceleration is minimised, the motions that determine it are fixed and the largest of the others is
+minimised, and so on: no motion is faster than necessary.
 """
 
 import itertools
@@ -25,21 +24,21 @@ from ilmek.timing.track import Track, TrackSegment, peak_acceleration
 from ilmek.units import format_quantity, parse_unit, turn
 
 ORDERS = 4096
-"""Orders of overlapping presences that are tried, at most."""
+"""Largest number of orders of overlapping presences that are tried."""
 
 _BINDS, _ACTIVE = 1e-7, 1e-7
 
 
 @dataclass(frozen=True, slots=True)
 class Binding:
-    """What keeps the answer from being better.
+    """A binding row: it limits the solution.
 
-    said    in words          kind   relation, exclusion, order, turn, limit or motion
-    share   of a motion in the critical path, all of them together 1; nan of all else
-    cost    relative growth of the answer for each radian that the row asks more [1/rad]
+    label   in words          kind   relation, exclusion, order, turn, limit or motion
+    share   of a motion in the critical path [-], their sum is 1; NaN for other rows
+    cost    relative growth of the objective per radian added to the row [1/rad]
     """
 
-    said: str
+    label: str
     kind: str
     share: float
     cost: float
@@ -47,12 +46,12 @@ class Binding:
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """A cyclogram solved.
+    """An optimised cyclogram.
 
     goal           acceleration or period
-    before, after  the number made small: the period [s], or the largest acceleration over its weight
-    measure        what the number is, in words, and the unit to show it in
-    binding        what binds, in the order of the turn
+    before, after  the objective: the period [s], or the largest acceleration over its weight
+    measure, unit  description of the objective, and its display unit
+    binding        the binding rows, in the order of the turn
     """
 
     cyclogram: Cyclogram
@@ -71,11 +70,11 @@ class _Answer:
 
 
 def least_acceleration(cyclogram: Cyclogram) -> Solution:
-    """The motions placed so that the largest acceleration is least at the cyclogram's period, within all limits.
+    """The cyclogram with the least peak acceleration at its period, within all limits.
 
-    Accelerations are weighed by the tracks' limits; a track without one, by its largest acceleration now. Where no
-    track has a limit and all move in one dimension they are not weighed.
-    Raises ParameterError where nothing may move, and, naming them, for relations that cannot hold together.
+    Accelerations are divided by the tracks' limits; for a track without a limit, by its present peak. They are not
+    weighted where no track has a limit and all have one dimension.
+    Raises ParameterError where no motion is free, and for contradicting relations, which it names.
     """
     known = unknowns(cyclogram)
     weights, measure, unit = _weights(cyclogram)
@@ -98,19 +97,19 @@ def least_acceleration(cyclogram: Cyclogram) -> Solution:
 
 
 def least_period(cyclogram: Cyclogram) -> Solution:
-    """The motions placed so that the turn is shortest within the tracks' limits; then with least accelerations.
+    """The cyclogram with the shortest period within the tracks' limits, then with the least accelerations.
 
-    Raises ParameterError for a moving track without a limit, where nothing may move, and, naming them, for relations
-    that cannot hold together.
+    Raises ParameterError for a moving track without a limit, where no motion is free, and for contradicting relations,
+    which it names.
     """
     known = unknowns(cyclogram)
     _moving(cyclogram)
-    free = [track.name for track in cyclogram.tracks if track.segments and not track.held and not _is_limited(track)]
+    free = [track.name for track in cyclogram.tracks if track.segments and not track.locked and not _is_limited(track)]
     if free:
         raise ParameterError(
-            f"no limit of {', '.join(free)} is known, so that no turn is too short for it",
+            f"no limit is given for {', '.join(free)}, so the period has no lower bound",
             allowed="a limit of speed, acceleration, jerk or time for every track that moves",
-            do="give one, or hold the track",
+            do="give a limit, or lock the track",
         )
     motions = [
         _stretch(known, track, part, value, what)
@@ -127,45 +126,45 @@ def least_period(cyclogram: Cyclogram) -> Solution:
 
 
 def require_possible(cyclogram: Cyclogram) -> None:
-    """Raise ParameterError, naming them, where relations and exclusions cannot hold together, wherever motions lie."""
+    """Raise ParameterError where relations and exclusions contradict each other for any timing; it names them."""
     known = unknowns(cyclogram)
-    if len(known.place):
+    if len(known.index):
         rows = standing_rows(known, period_free=False)
         motions = [_stretch(known, track, part, 1.0) for track, part in _moving(cyclogram)]
         _best(known, rows, motions)
 
 
 def _moving(cyclogram: Cyclogram) -> list[tuple[Track, TrackSegment]]:
-    """The motions that may be changed. Raises ParameterError where there are none."""
-    found = [(track, part) for track in cyclogram.tracks if not track.held for part in track.segments if part.stroke]
+    """The motions that are free. Raises ParameterError where there are none."""
+    found = [(track, part) for track in cyclogram.tracks if not track.locked for part in track.segments if part.stroke]
     if not found:
-        raise ParameterError(f"{cyclogram.name}: nothing may move", do="give a track motions, or hold less")
+        raise ParameterError(f"{cyclogram.name}: no motion is free", do="give a track motions, or unlock a track")
     return found
 
 
 def _stretch(known: Unknowns, track: Track, part: TrackSegment, rate: float, limit: str = "") -> Constraint:
-    """The row: a motion takes the angle rate r, at least; by which limit."""
-    said = f"{track.name}: {part.name}{f' at its limit of {limit}' if limit else ''}"
-    return Constraint(known.beta(track, part) - known.growth(rate), said, "motion")
+    """The row beta >= rate * r of a motion, and the limit that causes it."""
+    label = f"{track.name}: {part.name}{f' at its limit of {limit}' if limit else ''}"
+    return Constraint(known.beta(track, part) - known.growth(rate), label, "motion")
 
 
 def _bound(known: Unknowns, track: Track, part: TrackSegment, limit: str, beta: float) -> Constraint:
-    """The row: a motion takes an angle, at least, by a limit at the period that is given."""
-    said = f"{track.name}: {part.name} at its limit of {limit}"
-    return Constraint(known.beta(track, part).shifted(-beta), said, "limit")
+    """The row of the least angle of a motion by a limit at the given period."""
+    label = f"{track.name}: {part.name} at its limit of {limit}"
+    return Constraint(known.beta(track, part).shifted(-beta), label, "limit")
 
 
 def _peak(track: Track, part: TrackSegment) -> float:
     if not math.isfinite(part.law.acceleration_peak):
         raise ParameterError(
-            f"{track.name}: {part.name} moves by the law {part.law.name}, whose acceleration has no bound",
-            do="take another law, or hold the track",
+            f"{track.name}: {part.name} moves by the law {part.law.name}, whose acceleration is infinite",
+            do="use another law, or lock the track",
         )
     return part.law.acceleration_peak
 
 
 def _limited(track: Track, part: TrackSegment) -> Iterator[tuple[str, float]]:
-    """Each limit, and the least time by it that a motion takes [s]."""
+    """Each limit of a motion, and the least time by it [s]."""
     limits, law, h = track.limits, part.law, abs(part.stroke)
     times = {
         "speed": h * law.velocity_peak / limits.speed,
@@ -179,7 +178,7 @@ def _limited(track: Track, part: TrackSegment) -> Iterator[tuple[str, float]]:
         if not math.isfinite(time):
             raise ParameterError(
                 f"{track.name}: {part.name} never keeps its limit of {what} by the law {part.law.name}",
-                do="take another law, raise the limit, or leave it out",
+                do="use another law, raise the limit, or omit it",
             )
         if time > 0:
             yield what, time
@@ -191,8 +190,8 @@ def _is_limited(track: Track) -> bool:
 
 
 def _weights(cyclogram: Cyclogram) -> tuple[dict[str, float], str, str]:
-    """What each track's acceleration is measured by; in words, and the unit of the quotient."""
-    tracks = [track for track in cyclogram.tracks if not track.held and any(part.stroke for part in track.segments)]
+    """Weights of the tracks' accelerations, description of the quotient, and its unit."""
+    tracks = [track for track in cyclogram.tracks if not track.locked and any(part.stroke for part in track.segments)]
     limits = {track.name: track.limits.acceleration for track in tracks}
     if not any(map(math.isfinite, limits.values())):
         if len({parse_unit(track.unit).dimension for track in tracks}) == 1:
@@ -212,41 +211,41 @@ def _level(cyclogram: Cyclogram, weights: dict[str, float]) -> float:
 def _best(
     known: Unknowns, rows: list[Constraint], motions: list[Constraint]
 ) -> tuple[float, list[Constraint], _Answer]:
-    """The largest r over all orders of presences that overlap now; with the rows of that order, and its answer."""
-    ways = [way for exclusion in known.cyclogram.exclusions for way in exclusion_rows(known, exclusion)]
-    if math.prod(map(len, ways)) > ORDERS:
+    """The largest r over all orders of overlapping presences, with the rows of that order and the solution."""
+    alternatives = [one for exclusion in known.cyclogram.exclusions for one in exclusion_rows(known, exclusion)]
+    if math.prod(map(len, alternatives)) > ORDERS:
         raise ParameterError(
-            f"{sum(len(way) > 1 for way in ways)} pairs of presences overlap, too many to try every order",
-            do="place the motions roughly in the order that is wanted",
+            f"{sum(len(one) > 1 for one in alternatives)} pairs of presences overlap: too many orders to try",
+            do="arrange the motions roughly in the required order",
         )
     best: tuple[float, list[Constraint], _Answer] | None = None
-    for chosen in itertools.product(*ways):
+    for chosen in itertools.product(*alternatives):
         all_rows = [*rows, *(row for one in chosen for row in one)]
         answer = _maximum([*all_rows, *motions])
         if answer is not None and (best is None or answer.x[0] > best[0]):
             best = (float(answer.x[0]), all_rows, answer)
     if best is None or best[0] < 1e-9:
-        _blame([*rows, *(row for way in ways for row in way[0]), *motions], known)
+        _blame([*rows, *(row for one in alternatives for row in one[0]), *motions], known)
     assert best is not None
     return best
 
 
 def _maximum(rows: Sequence[Constraint]) -> _Answer | None:
-    """The largest r within rows; None where nothing is within them."""
+    """The largest r within rows; None where they are infeasible."""
     weights = np.array([row.form.weights for row in rows])
     least = -np.array([row.form.constant for row in rows])
     goal = -np.eye(1, weights.shape[1])[0]
     bounds = [(0.0, None), *[(None, None)] * (weights.shape[1] - 1)]
     found = scipy.optimize.linprog(goal, A_ub=-weights, b_ub=-least, bounds=bounds, method="highs-ds")
     if found.status == 3:
-        raise ParameterError("nothing binds the cyclogram", do="give limits, or relations")
+        raise ParameterError("no row limits the cyclogram", do="give limits, or relations")
     if found.status != 0:
         return None
     return _Answer(np.asarray(found.x), -np.asarray(found.ineqlin.marginals))
 
 
 def _even(known: Unknowns, rows: list[Constraint], motions: list[Constraint], first: _Answer) -> _Answer:
-    """The answer with the motions that do not settle r stretched too, the largest of the rest made least each time."""
+    """The solution in which the accelerations of the non-binding motions are minimised too, the largest first."""
     kept: list[Constraint] = []
     loose, answer = list(motions), first
     while loose:
@@ -263,15 +262,15 @@ def _even(known: Unknowns, rows: list[Constraint], motions: list[Constraint], fi
 
 
 def _frozen(known: Unknowns, row: Constraint, r: float) -> Constraint:
-    """The row of a motion at this r, whatever r becomes."""
+    """The row of a motion with r fixed to this value."""
     rate = row.form.weights[0]
     return Constraint(
-        Form(row.form.weights - known.growth(rate).weights, row.form.constant + rate * r), row.said, row.kind
+        Form(row.form.weights - known.growth(rate).weights, row.form.constant + rate * r), row.label, row.kind
     )
 
 
 def _polished(rows: Sequence[Constraint], x: FloatArray) -> FloatArray:
-    """The answer moved so that the rows it stands at hold to rounding."""
+    """The solution corrected so that its active rows hold to rounding."""
     weights = np.array([row.form.weights for row in rows])
     left = weights @ x + np.array([row.form.constant for row in rows])
     tight = np.abs(left) < _ACTIVE
@@ -280,22 +279,23 @@ def _polished(rows: Sequence[Constraint], x: FloatArray) -> FloatArray:
 
 
 def _placed(known: Unknowns, x: FloatArray, period: float) -> Cyclogram:
-    """The cyclogram with its motions and events where the unknowns say."""
+    """The cyclogram with the motions and events of the solution."""
 
     def at(track: str, name: str, edge: str) -> float:
-        value = float(x[known.place[track, name, edge]])
+        value = float(x[known.index[track, name, edge]])
         return 0.0 if abs(value) < 1e-9 else turn if abs(value - turn) < 1e-9 else value
 
     tracks = []
     for track in known.cyclogram.tracks:
-        if track.held:
+        if track.locked:
             tracks.append(track)
             continue
         parts = [
             replace(part, start=at(track.name, part.name, "start"), end=at(track.name, part.name, "end"))
             for part in track.segments
         ]
-        for first, then in itertools.pairwise(range(len(parts))):  # an end that is a start to rounding is that start
+        # An end equal to the next start up to rounding is set to it.
+        for first, then in itertools.pairwise(range(len(parts))):
             if abs(parts[first].end - parts[then].start) < 1e-9:
                 parts[first] = replace(parts[first], end=parts[then].start)
         spans = {part.name: part for part in parts}
@@ -304,7 +304,7 @@ def _placed(known: Unknowns, x: FloatArray, period: float) -> Cyclogram:
             if event.on:
                 angle = spans[event.on].angle(event.share)
                 events.append(replace(event, angle=angle % turn if spans[event.on].end > turn else angle))
-            elif (track.name, event.name, "event") in known.place:
+            elif (track.name, event.name, "event") in known.index:
                 events.append(replace(event, angle=at(track.name, event.name, "event")))
             else:
                 events.append(event)
@@ -313,19 +313,19 @@ def _placed(known: Unknowns, x: FloatArray, period: float) -> Cyclogram:
 
 
 def _binding(rows: Sequence[Constraint], answer: _Answer, power: int) -> tuple[Binding, ...]:
-    """What binds, in the order of the turn; the answer goes with r to -power."""
+    """The binding rows, in the order of the turn; the objective is proportional to r^-power."""
     r, found = answer.x[0], []
     for row, y in zip(rows, answer.multipliers, strict=True):
         if y > _BINDS * r:
             share = float(-y * row.form.weights[0]) if row.kind == "motion" else math.nan
-            places = answer.x[1:][row.form.weights[1:] != 0]
-            found.append((float(places.min(initial=turn)), Binding(row.said, row.kind, share, float(power * y / r))))
+            angles = answer.x[1:][row.form.weights[1:] != 0]
+            found.append((float(angles.min(initial=turn)), Binding(row.label, row.kind, share, float(power * y / r))))
     return tuple(binding for _, binding in sorted(found, key=lambda one: one[0]))
 
 
 def _blame(rows: Sequence[Constraint], known: Unknowns) -> None:
-    """Raise ParameterError that names the rows which cannot hold together: those with a multiplier when all are
-    relaxed by the same angle, as little as it takes. Of gaps alone they are a loop of positive length.
+    """Raise ParameterError that names the contradicting rows: those with a multiplier when all rows are relaxed by the
+    least common angle. If they are all gaps, they form a loop of positive length.
     """
     weights = np.array([[*row.form.weights, 1.0] for row in rows])
     least = -np.array([row.form.constant for row in rows])
@@ -333,16 +333,16 @@ def _blame(rows: Sequence[Constraint], known: Unknowns) -> None:
     bounds = [(1e-6, None), *[(None, None)] * (weights.shape[1] - 2), (0.0, None)]
     found = scipy.optimize.linprog(goal, A_ub=-weights, b_ub=-least, bounds=bounds, method="highs-ds")
     if found.status != 0:
-        raise ParameterError(f"{known.cyclogram.name}: its numbers are too far apart to be solved")
+        raise ParameterError(f"{known.cyclogram.name}: numbers of too different magnitude for the solver")
     y = -np.asarray(found.ineqlin.marginals)
-    guilty = [place for place in np.argsort(-y, kind="stable") if y[place] > _BINDS]
+    guilty = [row for row in np.argsort(-y, kind="stable") if y[row] > _BINDS]
     over = found.fun / max(float(y.max()), _BINDS)
-    limited = any(rows[place].kind == "limit" for place in guilty)
-    said = list(dict.fromkeys(rows[place].said for place in guilty if rows[place].kind != "motion"))
+    limited = any(rows[row].kind == "limit" for row in guilty)
+    labels = list(dict.fromkeys(rows[row].label for row in guilty if rows[row].kind != "motion"))
     raise ParameterError(
-        f"{known.cyclogram.name}: a relation loop in the cyclogram cannot hold: {'; '.join(said)}",
-        allowed=f"together they ask for {format_quantity(over, 'deg')} more than there is"
+        f"{known.cyclogram.name}: a relation loop in the cyclogram cannot hold: {'; '.join(labels)}",
+        allowed=f"together they require {format_quantity(over, 'deg')} more than available"
         if over > 1e-5
         else "together they leave no angle for the motions",
-        do="loosen one of them, or give the turn more time" if limited else "loosen one of them",
+        do="relax one of them, or give a longer period" if limited else "relax one of them",
     )

@@ -1,4 +1,4 @@
-"""A track of a cyclogram: what one actuator does while the master shaft turns once.
+"""A track of a cyclogram: the motion of one actuator over one turn of the master shaft.
 
     position(q) = begin + (finish - begin) s(u),      u = (q - start)/(end - start)            inside a segment
     position(q) = where the last segment ended                                                 between them: a dwell
@@ -26,11 +26,11 @@ _SAME = 1e-9
 
 @runtime_checkable
 class MotionLaw(Protocol):
-    """A rise of 1 in a time of 1: s, v, a on u in [0, 1] and the largest |v| and |a|. `ilmek.cams.laws.Law` is one."""
+    """A rise of 1 in a time of 1: s, v, a on u in [0, 1], and peaks. `ilmek.cams.laws.Law` is one."""
 
     @property
     def name(self) -> str:
-        """The law's name, by which files keep it."""
+        """The law's name, as written in files."""
 
     @property
     def s(self) -> Curve:
@@ -66,7 +66,7 @@ class MotionLaw(Protocol):
 
     @property
     def parameters(self) -> Mapping[str, float | tuple[float, ...]]:
-        """What the law was made with, by which files keep it beside its name."""
+        """The law's parameters, as written in files."""
 
 
 @value_record
@@ -82,16 +82,16 @@ class TrackSegment:
 
     @property
     def stroke(self) -> float:
-        """What it moves [SI], with its sign."""
+        """Displacement [SI], signed."""
         return self.finish - self.begin
 
     @property
     def beta(self) -> float:
-        """The master angle it takes [rad]."""
+        """Master angle of the motion [rad]."""
         return self.end - self.start
 
     def angle(self, share: float) -> float:
-        """Master angle at a share of its time [rad]."""
+        """Master angle [rad] at a share [-] of its time."""
         return self.start + share * self.beta
 
 
@@ -99,8 +99,8 @@ class TrackSegment:
 class TrackEvent:
     """A named instant of a track: master angle [rad].
 
-    on, share   the motion it rides on, and the share of that motion's time at which it comes: it goes along where the
-                motion is shifted or stretched; without them it stands by itself
+    on, share   a motion, and the share [-] of its time at which the event occurs: the event follows that motion;
+                default: the event is independent
     """
 
     name: str
@@ -110,7 +110,7 @@ class TrackEvent:
 
 
 def riding(name: str, segment: TrackSegment, share: float = 1.0) -> TrackEvent:
-    """The event at a share of a motion's time, 0 its start, 1 its end."""
+    """The event at a share [-] of a motion's time: 0 at its start, 1 at its end."""
     return TrackEvent(
         name, segment.angle(share) % turn if segment.end > turn else segment.angle(share), segment.name, share
     )
@@ -118,9 +118,9 @@ def riding(name: str, segment: TrackSegment, share: float = 1.0) -> TrackEvent:
 
 @dataclass(frozen=True, slots=True)
 class ActuatorLimits:
-    """What an actuator can do: largest speed, acceleration and jerk [SI/s, SI/s^2, SI/s^3], least time of a motion [s].
+    """Limits of an actuator: speed, acceleration and jerk [SI/s, SI/s^2, SI/s^3], least time of a motion [s].
 
-    Raises ParameterError for a limit that is not positive, or a time below 0.
+    Raises ParameterError for a limit that is not positive, and for a time below 0.
     """
 
     speed: float = math.inf
@@ -131,7 +131,7 @@ class ActuatorLimits:
     def __post_init__(self) -> None:
         for name in ("speed", "acceleration", "jerk"):
             if not getattr(self, name) > 0:
-                raise ParameterError(f"{name} limit {getattr(self, name):g}", allowed="above 0; leave it out for none")
+                raise ParameterError(f"{name} limit {getattr(self, name):g}", allowed="above 0; omit it for none")
         if not 0 <= self.time < math.inf:
             raise ParameterError(f"least time of a motion {self.time:g} s", allowed="0 s or more")
 
@@ -141,14 +141,13 @@ class Track:
     """One actuator over a turn of the master shaft.
 
     segments   its motions, ascending and apart; dwells are implied between them
-    unit       the unit positions are shown in (SI inside)
-    revolves   the position may end a whole number of these higher or lower than it began (a shaft that turns on);
-               0: it must return
+    unit       display unit of the positions (SI inside)
+    revolves   the position may change by a whole number of these per turn (a rotating shaft) [SI]; 0: it must return
     limits     of its actuator
-    held       a solver leaves it as it is
+    locked     the solver does not change the track
 
     Raises ParameterError where segments overlap, leave the turn, do not join, or do not return, and where an event is
-    not where the motion it rides on puts it.
+    not at the given share of its motion.
     """
 
     name: str
@@ -158,7 +157,7 @@ class Track:
     unit: str = "mm"
     revolves: float = 0.0
     limits: ActuatorLimits = ActuatorLimits()
-    held: bool = False
+    locked: bool = False
 
     def __post_init__(self) -> None:
         names = [segment.name for segment in self.segments]
@@ -193,7 +192,7 @@ class Track:
 
     @property
     def gain(self) -> float:
-        """What the position gains in a turn [SI]: 0, or a whole number of `revolves`."""
+        """Change of the position per turn [SI]: 0, or a whole multiple of `revolves`."""
         return self.segments[-1].finish - self.segments[0].begin if self.segments and self.revolves else 0.0
 
     @property
@@ -205,7 +204,7 @@ class Track:
 
 @record
 class TrackMotion:
-    """Position of a track over the master angle, and its first two derivatives by the angle [SI per rad]."""
+    """Position of a track [SI] at master angles [rad], and its derivatives by the angle [SI/rad, SI/rad^2]."""
 
     angle: FloatArray
     position: FloatArray
@@ -214,7 +213,7 @@ class TrackMotion:
 
 
 def sample(track: Track, angle: FloatArray) -> TrackMotion:
-    """The track's motion at master angles in [0, 2 pi] [rad]; at the joint of two segments the later one counts."""
+    """The track's motion at master angles in [0, 2 pi] [rad]; at the joint of two segments, that of the later one."""
     position = np.full(angle.shape, track.segments[0].begin if track.segments else 0.0)
     slope, bend = np.zeros(angle.shape), np.zeros(angle.shape)
     for segment in laid(track):
@@ -230,7 +229,7 @@ def sample(track: Track, angle: FloatArray) -> TrackMotion:
 
 
 def laid(track: Track) -> Iterator[TrackSegment]:
-    """The motions as they lie over the turn: the end of one that runs through its end lies at its beginning too."""
+    """The motions over the turn; one that runs through its end appears at the start of the turn too."""
     last = track.segments[-1] if track.segments else None
     if last is not None and last.end > turn + _SAME:
         gone = track.gain
@@ -241,7 +240,7 @@ def laid(track: Track) -> Iterator[TrackSegment]:
 
 
 def joints(track: Track) -> FloatArray:
-    """Master angles in [0, 2 pi] between which the track's law is one, ascending; both ends among them [rad]."""
+    """Master angles in [0, 2 pi] [rad], ascending with both ends, between which the track is smooth."""
     ends = [angle for segment in laid(track) for angle in (segment.start, segment.end)]
     return np.unique(np.clip(np.array([0.0, *ends, turn]), 0.0, turn))
 
@@ -262,7 +261,7 @@ def peak_acceleration(track: Track, period: float) -> float:
 def shortest_period(track: Track, speed_limit: float, acceleration_limit: float) -> float:
     """The shortest period of the master shaft [s] at which the track keeps both limits [SI/s, SI/s^2].
 
-    Speeds go with 1/T and accelerations with 1/T^2, so that T = max(V(1 s)/V_limit, sqrt(A(1 s)/A_limit)) s.
+    Speeds are proportional to 1/T and accelerations to 1/T^2, so T = max(V(1 s)/V_limit, sqrt(A(1 s)/A_limit)) s.
     """
     return max(peak_speed(track, 1.0) / speed_limit, math.sqrt(peak_acceleration(track, 1.0) / acceleration_limit))
 
@@ -312,5 +311,5 @@ def _require_joined(track: Track, first: TrackSegment, then: TrackSegment, revol
             f"{track.name}: {first.name} ends at {format_quantity(first.finish, track.unit)}, "
             f"{then.name} begins at {format_quantity(then.begin, track.unit)}",
             allowed="a track never jumps, nor from the end of the turn to its beginning",
-            do="let one begin where the other ends",
+            do="start one at the end of the other",
         )

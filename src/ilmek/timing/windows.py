@@ -1,4 +1,4 @@
-"""Windows: ranges of the master angle in which something holds, as sets on the circle of a turn."""
+"""Windows: ranges of the master angle, as sets on the circle of a turn."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -12,9 +12,9 @@ _SAME = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Window:
-    """Master angles between `start`, in [0, 2 pi), and `end` [rad], which may lie in the next turn; both ends apart.
+    """Master angles from `start`, in [0, 2 pi), to `end` [rad], which may lie in the next turn.
 
-    Raises ParameterError where it starts outside of the turn, has no length, or is longer than a turn.
+    Raises ParameterError unless 0 <= start < 2 pi and start < end <= start + 2 pi.
     """
 
     start: float
@@ -28,19 +28,19 @@ class Window:
 
     @property
     def length(self) -> float:
-        """Its length [rad]."""
+        """Length [rad]."""
         return self.end - self.start
 
 
 Windows: TypeAlias = tuple[Window, ...]
-"""Windows that are apart, ascending."""
+"""Disjoint windows, ascending."""
 
 WHOLE: Windows = (Window(0.0, turn),)
 """The whole turn."""
 
 
 def windows_of(spans: Iterable[tuple[float, float]]) -> Windows:
-    """What spans of master angles [rad] cover together, each from any turn; those that touch are joined.
+    """The union of spans (start, end) of master angles [rad] of any turn; touching spans are joined.
 
     >>> windows_of([(1.0, 2.0), (6.0, 6.5), (1.5, 3.0)])
     (Window(start=1.0, end=3.0), Window(start=6.0, end=6.5))
@@ -57,7 +57,7 @@ def windows_of(spans: Iterable[tuple[float, float]]) -> Windows:
 
 
 def common(first: Windows, second: Windows) -> Windows:
-    """Where both hold: of tools that must not be in one place together, the interference.
+    """The intersection: for two tools that exclude each other, the interference.
 
     >>> common((Window(6.0, 7.0),), (Window(0.5, 3.0),))
     (Window(start=0.5, end=0.7168146928204138),)
@@ -68,7 +68,7 @@ def common(first: Windows, second: Windows) -> Windows:
 
 
 def outside(windows: Windows) -> Windows:
-    """The rest of the turn.
+    """The complement: the rest of the turn.
 
     >>> outside((Window(1.0, 2.0), Window(6.0, 6.5)))
     (Window(start=0.21681469282041377, end=1.0), Window(start=2.0, end=6.0))
@@ -80,9 +80,9 @@ def outside(windows: Windows) -> Windows:
 
 
 def separation(first: Windows, second: Windows) -> float:
-    """The least master angle between a window of one and a window of the other [rad], either way round the turn.
+    """The least master angle [rad] between a window of one and a window of the other, in either direction.
 
-    Negative where they overlap: how far one must be moved. A whole turn where one of them is empty.
+    Negative where they overlap: the shift that separates them. A whole turn where one of them is empty.
 
     >>> round(separation((Window(1.0, 2.0),), (Window(2.5, 3.0),)), 12)
     0.5
@@ -91,7 +91,7 @@ def separation(first: Windows, second: Windows) -> float:
 
 
 def _apart(a: Window, b: Window) -> float:
-    """Angle between the end of one and the start of the other; negative: the shortest way out of one another."""
+    """Angle between the end of one and the start of the other; negative: the least shift that separates them."""
     ahead = (b.start - a.start) % turn
     after, before = ahead - a.length, turn - ahead - b.length
     if after + before < 0:  # no turn has room for both
@@ -106,7 +106,7 @@ def _spans(windows: Windows) -> Iterable[tuple[float, float]]:
 
 
 def _cut(spans: Iterable[tuple[float, float]]) -> Iterable[tuple[float, float]]:
-    """The spans within the turn, those that run through its end in two."""
+    """The spans within the turn; those that run through its end are split."""
     for start, end in spans:
         if end - start >= turn:
             yield 0.0, turn

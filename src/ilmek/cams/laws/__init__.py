@@ -71,11 +71,11 @@ def law_of(name: str, parameters: Mapping[str, Any] = NONE) -> Law:
             allowed = ", ".join(defaults) or "none"
             raise ParameterError(f"law {name} has no {given!r}", allowed=allowed, do=_perhaps(given, defaults))
     values = {key: _value(name, key, parameters.get(key, default), default) for key, default in defaults.items()}
-    return _made(name, tuple(values.items()))
+    return _built(name, tuple(values.items()))
 
 
 @lru_cache(maxsize=512)
-def _made(name: str, values: tuple[tuple[str, float | tuple[float, ...]], ...]) -> Law:
+def _built(name: str, values: tuple[tuple[str, float | tuple[float, ...]], ...]) -> Law:
     return FAMILIES[name].make(**dict(values))
 
 

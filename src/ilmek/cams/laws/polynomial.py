@@ -127,23 +127,23 @@ def _check(conditions: Sequence[Condition]) -> None:
     for condition in conditions:
         u, order, value = condition
         if not math.isfinite(value):
-            raise ParameterError(f"polynomial: {_said(condition)}", allowed="a finite number")
+            raise ParameterError(f"polynomial: {_shown(condition)}", allowed="a finite number")
         other = seen.setdefault((u, order), value)
         if other != value:
-            both = f"{_said(Condition(u, order, other))} and {_said(condition)}"
+            both = f"{_shown(Condition(u, order, other))} and {_shown(condition)}"
             raise ParameterError(f"polynomial: {both} contradict each other", do="give one of them")
     if len(seen) < len(conditions):
         raise ParameterError("polynomial: a condition is given twice", do="give it once")
 
 
 def _not_met(conditions: Sequence[Condition]) -> ParameterError:
-    said = ", ".join(_said(condition) for condition in conditions)
+    shown = ", ".join(_shown(condition) for condition in conditions)
     return ParameterError(
-        f"polynomial: no polynomial of degree {len(conditions) - 1} meets {said}, or more than one does",
+        f"polynomial: no polynomial of degree {len(conditions) - 1} meets {shown}, or more than one does",
         allowed="a value of s, and all lower derivatives wherever a derivative is given",
         do="move a point, or give the missing derivatives",
     )
 
 
-def _said(condition: Condition) -> str:
+def _shown(condition: Condition) -> str:
     return f"{_NAMES[condition.order]}({condition.u:g}) = {condition.value:g}"

@@ -47,7 +47,7 @@ class _Ramps:
         """Jerk; at a break the mean of both sides."""
         at: FloatArray = np.asarray(u, dtype=float)
         inner = zip(_SIGNS[1:-1], self.breaks[1:-1], strict=True)
-        steps = (sign * np.heaviside(at - place, 0.5) for sign, place in inner)
+        steps = (sign * np.heaviside(at - break_, 0.5) for sign, break_ in inner)
         return np.asarray(self.jerk * sum(steps, start=np.ones_like(at)))
 
 

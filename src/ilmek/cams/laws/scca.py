@@ -160,8 +160,8 @@ def _peak(even: float, cosine: float, constant: float, sine: float) -> float:
     """Ca, for which the rise from the middle to the end is 1/2."""
     p, q = _BY_ANGLE * cosine, _BY_ANGLE * sine
     hold = constant + q
-    way = (p + hold) * even + hold * cosine + p**2 + constant * (hold - 0.5 * constant) + q * sine - q**2
-    return 0.5 / way
+    rise = (p + hold) * even + hold * cosine + p**2 + constant * (hold - 0.5 * constant) + q * sine - q**2
+    return 0.5 / rise
 
 
 def _top(waves: _Waves) -> float:

@@ -43,7 +43,7 @@ __all__ = [
 def cyclograms(loom: LoomDesign) -> tuple[Cyclogram, ...]:
     """The cyclograms of a knot and of a row with their relations; cams and crank of the row are as made."""
     knot, row = loom.cyclograms
-    made = tuple(replace(track, held=track.name in (EVEN, ODD, BEATER)) for track in row.tracks)
+    made = tuple(replace(track, locked=track.name in (EVEN, ODD, BEATER)) for track in row.tracks)
     return knot, replace(row, tracks=made)
 
 

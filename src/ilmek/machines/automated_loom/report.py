@@ -89,7 +89,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         at_most("shuttle: acceleration", acceleration, params.shuttle_acceleration, "m/s^2", "shuttle_acceleration"),
         at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
         *(replace(check, name=f"row: {check.name}") for check in check_all(row, row.relations)),
-        *(replace(check_apart(knot, one), name=f"knot: {one.said(knot.units)}") for one in knot.exclusions),
+        *(replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}") for one in knot.exclusions),
         *_frame_checks(found.listed.frame),
     )
 

@@ -1,12 +1,12 @@
-"""The quickest speed along a path as an optimisation over a spline, solved by a banded interior-point method.
+"""The time-optimal speed along a path as an optimisation over a spline, by a banded interior-point method.
 
-    least ∫ du / sqrt(w)   so that   c + k / sqrt(w) + R w >= 0 at every place,     w = u'² a cubic spline of u
+    minimise ∫ du / sqrt(w)   so that   c + k / sqrt(w) + R w >= 0 at every point,     w = u'² a cubic spline of u
 
 R acts on w and its first two derivatives. The objective is convex, every c + R w is linear. k / sqrt(w) is convex, so
 its tangent lies below it: a step that keeps the tangent's constraint keeps the true one, and no iterate ever breaks a
-limit. Newton's matrix takes the constraints by their tangents, is positive definite, and is banded, for a place sees
-four coefficients only: a step costs a time in proportion to the places. The integral is a sum over the same places, so
-that w cannot vanish at one of them, where a jerk would cost nothing.
+limit. Newton's matrix uses the tangents of the constraints. It is positive definite and banded, because only four
+coefficients act at a point: the time of a step is proportional to the number of points. The integral is a sum over the
+same points, so w cannot vanish at one of them.
                        [primal-dual steps: S. Boyd and L. Vandenberghe, Convex Optimization, 11.7; tangents of a convex
                        function: A. Yuille and A. Rangarajan, The concave-convex procedure, 2003]
 """
@@ -20,39 +20,39 @@ from scipy.linalg import solveh_banded
 from ilmek.arrays import Float, FloatArray, IntArray
 
 ORDER = 4
-"""Coefficients of a cubic that a place sees."""
+"""Number of coefficients of a cubic spline that act at a point."""
 
 GAP, STEPS = 1e-6, 300
-"""Duality gap over the time at which the search ends, and the most steps."""
+"""Duality gap over the time at which the search ends, and largest number of steps."""
 
 _TO_WALL, _SPREAD, _SHRINK = 0.95, 10.0, 0.1
-"""Share of the way to the nearest constraint that a step takes; how far products of slack and multiplier may spread
-about their mean; the least factor by which that mean is brought down in a step."""
+"""Share of the distance to the nearest constraint that a step covers; allowed spread of the products of slack and
+multiplier about their mean; least factor by which that mean is reduced in a step."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SpeedTask:
-    """What is sought: places in order of u, the same number in every interval of the knots.
+    """The optimisation task; the points are in order of u, the same number in every interval of the knots.
 
-    knots   of u, ascending        basis  values of the four B-splines at the places
+    knots   of u, ascending [-]    basis  values of the four B-splines at the points
     weight  of the integral        rows   R by coefficient        constant, root   c and k
     """
 
     knots: Float[np.ndarray, " knots"]
-    basis: Float[np.ndarray, "places 4"]
-    weight: Float[np.ndarray, " places"]
-    rows: Float[np.ndarray, "places constraints 4"]
-    constant: Float[np.ndarray, "places constraints"]
-    root: Float[np.ndarray, "places constraints"]
+    basis: Float[np.ndarray, "points 4"]
+    weight: Float[np.ndarray, " points"]
+    rows: Float[np.ndarray, "points constraints 4"]
+    constant: Float[np.ndarray, "points constraints"]
+    root: Float[np.ndarray, "points constraints"]
 
     @property
     def seen(self) -> IntArray:
-        """The coefficients that every place sees."""
+        """The coefficients that act at each point, (points, 4)."""
         intervals = len(self.knots) - 1
         return _seen(intervals, len(self.basis) // intervals)
 
     def time(self, w: FloatArray) -> float:
-        """The integral, of w at the places."""
+        """The time [s] for w [1/s²] at the points."""
         return float(np.sum(self.weight / np.sqrt(w)))
 
     def scaled(self, scale: float) -> "SpeedTask":
@@ -62,7 +62,7 @@ class SpeedTask:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _State:
-    """Coefficients, and what follows from them: w at the places, and the slacks."""
+    """Coefficients, w at the points, and the slacks of the constraints."""
 
     x: FloatArray
     w: FloatArray
@@ -70,7 +70,7 @@ class _State:
 
 
 def local_basis(knots: FloatArray, share: FloatArray, order: int = 0) -> FloatArray:
-    """The four B-splines, or a derivative of them, at shares of every interval: (places, 4)."""
+    """The four B-splines, or their derivative of an order, at shares [-] of every interval, (points, 4)."""
     width = np.diff(knots)[:, None]
     u = (knots[:-1, None] + width * share).ravel()
     every = np.eye(len(knots) + ORDER - 2)
@@ -83,15 +83,15 @@ def clamped(knots: FloatArray) -> FloatArray:
     return np.pad(knots, ORDER - 1, mode="edge")
 
 
-def _seen(intervals: int, places: int) -> IntArray:
-    return np.repeat(np.arange(intervals), places)[:, None] + np.arange(ORDER)
+def _seen(intervals: int, points: int) -> IntArray:
+    return np.repeat(np.arange(intervals), points)[:, None] + np.arange(ORDER)
 
 
 def quickest(task: SpeedTask, start: float) -> FloatArray:
-    """Coefficients of the best w; a constant w = `start` must keep all constraints with room to spare."""
+    """Coefficients of the optimal w [1/s²]; the constant w = `start` must strictly fulfil all constraints."""
     scaled = task.scaled(start)
     state = _state(scaled, np.ones(len(task.knots) + ORDER - 2))
-    assert state is not None  # the caller's promise: w = start is inside
+    assert state is not None  # precondition: w = start is strictly feasible
     mean = scaled.time(state.w) / state.slack.size
     duals = mean / state.slack
     shrink = 0.3
@@ -112,7 +112,7 @@ def quickest(task: SpeedTask, start: float) -> FloatArray:
 
 
 def _state(task: SpeedTask, x: FloatArray) -> _State | None:
-    """What follows from coefficients; None where w is not above 0, or a constraint does not hold."""
+    """The state of coefficients; None where w is not above 0, or a constraint does not hold."""
     local = x[task.seen]
     w = (task.basis * local).sum(1)
     if not w.min() > 0:
@@ -124,7 +124,7 @@ def _state(task: SpeedTask, x: FloatArray) -> _State | None:
 def _newton(
     task: SpeedTask, state: _State, duals: FloatArray, mean: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Step of the coefficients, and the changes of slacks and duals that go with it."""
+    """Step of the coefficients, and the changes of slacks and multipliers with it."""
     intervals, seen = len(task.knots) - 1, task.seen
     bent = -0.5 * task.root / state.w[:, None] ** 1.5
     gradients = task.rows + bent[..., None] * task.basis[:, None]
@@ -146,7 +146,7 @@ def _blocks(left: FloatArray, right: FloatArray, intervals: int) -> FloatArray:
 
 
 def _banded(blocks: FloatArray) -> FloatArray:
-    """Lower bands of the overlapping sum of the blocks; the ridge keeps a coefficient that nothing needs."""
+    """Lower bands of the overlapping sum of the blocks; the ridge regularises unused coefficients."""
     intervals = len(blocks)
     bands = np.zeros((ORDER, intervals + ORDER - 1))
     for row in range(ORDER):
@@ -157,17 +157,17 @@ def _banded(blocks: FloatArray) -> FloatArray:
 
 
 def _to_wall(values: FloatArray, change: FloatArray) -> float:
-    """Share of a change that brings values above 0 nearly to 0."""
+    """Share of a change that reduces a positive value nearly to 0."""
     falling = change < 0
     return float(_TO_WALL * np.min(-values[falling] / change[falling], initial=np.inf))
 
 
 def _moved(task: SpeedTask, state: _State, step: FloatArray, change: FloatArray) -> tuple[_State, float]:
-    """The state after the longest share of a step that keeps inside, and that share; 0 where none does."""
+    """The state after the largest feasible share of a step, and that share; 0 where there is none."""
     share = min(1.0, _to_wall(state.slack, change))
     while share > 1e-9:
-        there = _state(task, state.x + share * step)
-        if there is not None and (there.slack > 0.01 * state.slack).all():
-            return there, share
+        moved = _state(task, state.x + share * step)
+        if moved is not None and (moved.slack > 0.01 * state.slack).all():
+            return moved, share
         share *= 0.7
     return state, 0.0

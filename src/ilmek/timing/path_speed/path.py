@@ -1,14 +1,14 @@
-"""A way of several axes by one parameter, their limits, and the rates of a motion along it.
+"""A path of several axes over one parameter, the axes' limits, and the rates of a motion along it.
 
 With s' = sqrt(b(s)) the rates of an axis q(s) are
 
     q' s'      q'' b + q' b_s / 2      sqrt(b) (q''' b + 3/2 q'' b_s + 1/2 q' b_ss)              [chain rule]
 
-At rest b is 0 and b_ss infinite. So the way is led by another parameter u on [0, 1],
+At rest b is 0 and b_ss infinite. So another parameter u on [0, 1] is used,
 
     s = s0 + L (10 u³ - 15 u⁴ + 6 u⁵),     w = u'²
 
-whose first two derivatives vanish at both ends: the same formulas hold in u, and rest is kept by any finite w.
+whose first two derivatives vanish at both ends. The same formulas hold in u, and any finite w gives rest at the ends.
 """
 
 from dataclasses import dataclass, field
@@ -25,9 +25,9 @@ Three: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AxesLimits:
-    """Greatest speed, acceleration and jerk of every axis; speed and acceleration may be infinite.
+    """Largest speed, acceleration and jerk of every axis [SI/s, SI/s^2, SI/s^3]; inf for no limit, but of the jerk.
 
-    Raises ParameterError where one is not above 0, a jerk is infinite, or they are of different numbers.
+    Raises ParameterError for a limit that is not above 0, an infinite jerk, and arrays of different lengths.
     """
 
     speed: Float[np.ndarray, " axes"]
@@ -45,13 +45,13 @@ class AxesLimits:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JointPath:
-    """A way of the axes by a parameter s: a quintic between two nodes, with continuous first two derivatives.
+    """A path of the axes over a parameter s: quintic between two nodes, with two continuous derivatives.
 
     s          parameter at the nodes, ascending        positions  of the axes there [m or rad]
     slopes     first derivatives by s                   bends      second derivatives by s
-    Of a smooth way the third derivative is met to the third order of the nodes' distance.
+    For a smooth path the error of the third derivative is of the third order of the nodes' distance.
 
-    Raises ParameterError for less than two nodes, s not ascending, numbers that are not finite, and no motion at all.
+    Raises ParameterError for fewer than two nodes, s not ascending, numbers that are not finite, and axes at rest.
     """
 
     s: Float[np.ndarray, " nodes"]
@@ -65,7 +65,7 @@ class JointPath:
         if len(self.s) < 2 or not (np.diff(self.s) > 0).all() or not np.isfinite(nodes).all():
             raise ParameterError("nodes of a path", allowed="two or more, s ascending, all numbers finite")
         if not (np.ptp(self.positions, axis=0).any() or self.slopes.any()):
-            raise ParameterError("a path on which no axis moves", allowed="one that moves", do="leave it out")
+            raise ParameterError("a path on which no axis moves", allowed="one that moves", do="omit the path")
         values = np.stack([self.positions, self.slopes, self.bends], axis=1)
         object.__setattr__(self, "_curve", PPoly.from_bernstein_basis(BPoly.from_derivatives(self.s, values)))
 
@@ -75,11 +75,11 @@ class JointPath:
         return float(self.s[-1] - self.s[0])
 
     def at(self, s: FloatArray, order: int = 0) -> FloatArray:
-        """Positions, or their derivatives of an order by s: (..., axes)."""
+        """Positions [m or rad] at s, or their derivatives of an order by s, (*s, axes)."""
         return np.asarray(self._curve(s, nu=order))
 
-    def led(self, u: FloatArray) -> Three:
-        """The first three derivatives of the axes by u on [0, 1]."""
+    def derivatives(self, u: FloatArray) -> Three:
+        """The first three derivatives of the axes by u in [0, 1], (*u, axes) each."""
         g, *slopes = (self.length * one[..., None] for one in rise(u))
         g1, g2, g3 = slopes
         q1, q2, q3 = (self.at(self.s[0] + g[..., 0], order) for order in (1, 2, 3))
@@ -87,7 +87,7 @@ class JointPath:
 
 
 def rise(u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """10 u³ - 15 u⁴ + 6 u⁵ from 0 to 1, and its first three derivatives."""
+    """10 u³ - 15 u⁴ + 6 u⁵ on u in [0, 1], and its first three derivatives."""
     return (
         u**3 * (10 + u * (6 * u - 15)),
         30 * (u * (1 - u)) ** 2,
@@ -97,9 +97,10 @@ def rise(u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 
 
 def rates(slopes: Three, square: Three) -> Three:
-    """Speed, acceleration and jerk by time, of what has the slopes by a parameter whose speed's square is given.
+    """Speed, acceleration and jerk by time of a function of a parameter.
 
-    slopes  first three derivatives by the parameter        square  of its speed, and its first two derivatives by it
+    slopes  first three derivatives of the function by the parameter
+    square  w, the square of the parameter's speed [1/s²], and its first two derivatives by the parameter
     """
     q1, q2, q3 = slopes
     w, w1, w2 = square

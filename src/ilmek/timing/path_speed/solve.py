@@ -1,15 +1,14 @@
-"""The quickest motion of several axes along a given way, from rest to rest, within speed, acceleration and jerk.
+"""Time-optimal motion of several axes along a given path, from rest to rest, within speed, acceleration and jerk.
 
 In the parameter u of `path_speed.path`, with w = u'², the limits of an axis are
 
     Q' sqrt(w) <= V      |Q'' w + Q' w_u / 2| <= A      |Q''' w + 3/2 Q'' w_u + 1/2 Q' w_uu| <= J / sqrt(w)
 
-of which the first two are linear in w [D. Verscheure and others, IEEE Trans. Automatic Control 54 (2009) 2318, who
-have them for torques], and the third has a convex right-hand side. w is a cubic spline, so that speed, acceleration
-and jerk are continuous; `path_speed.barrier` finds it. The limits hold at four places of every interval. Where they are
-overstepped between them the interval is divided or tightened and the spline found again; the rest is taken off by
-slowing down, so that every limit holds to 1e-3. Optimal within the spline, and but for local optima: the jerk's limit
-is not convex.
+The first two are linear in w [D. Verscheure and others, IEEE Trans. Automatic Control 54 (2009) 2318, for torques]; the
+third has a convex right-hand side. w is a cubic spline, so speed, acceleration and jerk are continuous;
+`path_speed.barrier` finds it. The limits hold at four points of every interval. Where they are exceeded between the
+points, the interval is divided or its limits are tightened, and the spline is computed again. The motion is then slowed
+down until every limit holds. The result is a local optimum within the spline: the jerk's limit is not convex.
 """
 
 from dataclasses import dataclass, replace
@@ -25,20 +24,20 @@ from ilmek.timing.path_speed.path import AxesLimits, JointPath, Three, rates, ri
 __all__ = ["AxesLimits", "JointPath", "PathMotion", "Trajectory", "quickest_motion"]
 
 INTERVALS, COARSE = 300, 80
-"""Intervals of the spline, and of the first one, which tells where they are needed."""
+"""Intervals of the spline, and of the first coarse spline, which places the knots."""
 
 TOLERANCE, GROSS, ROUNDS = 1e-3, 1.05, 6
-"""Overstepping between the places that is left to slowing down; use of a limit from which an interval is divided; how
-often the spline is found at most."""
+"""Relative excess between the points that is left to slowing down; use of a limit above which an interval is divided;
+largest number of rounds."""
 
-_PLACES, _SHARES = np.array([0.0, 1 / 3, 2 / 3, 1.0]), np.array([1.0, 3.0, 3.0, 1.0]) / 8
+_POINTS, _SHARES = np.array([0.0, 1 / 3, 2 / 3, 1.0]), np.array([1.0, 3.0, 3.0, 1.0]) / 8
 _FINE = np.linspace(0.0, 1.0, 21)
 _GAUSS, _WEIGHT = np.polynomial.legendre.leggauss(5)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trajectory:
-    """A motion at times [s]: the path's parameter and its rates by time, (times); those of the axes, (times, axes)."""
+    """A motion at times [s]: the path's parameter and its rates by time, (times,); those of the axes, (times, axes)."""
 
     time: FloatArray
     s: FloatArray
@@ -55,8 +54,8 @@ class Trajectory:
 class PathMotion:
     """The motion along a path, from rest to rest.
 
-    knots, times   of the spline, and when they are passed [s]      square  w(u) = u'² [1/s²], cubic between the knots
-    usage          greatest speed, acceleration and jerk over their limits on a fine grid, (3, axes): at most 1
+    knots, times   of the spline [-], and the times at them [s]     square  w(u) = u'² [1/s²], cubic between the knots
+    usage          largest speed, acceleration and jerk over their limits on a fine grid, (3, axes): at most 1
     """
 
     path: JointPath
@@ -72,27 +71,27 @@ class PathMotion:
         return float(self.times[-1])
 
     def even(self, count: int) -> Trajectory:
-        """The motion at `count` times evenly apart, both ends among them."""
+        """The motion at `count` even times, with both ends."""
         return self.at(np.linspace(0.0, self.duration, count))
 
     def at(self, time: FloatArray) -> Trajectory:
-        """The motion at times [s]; before and after it is at rest."""
+        """The motion at times [s], (times,); at rest before and after."""
         u = self._parameter(np.clip(time, 0.0, self.duration))
         g, *slopes = (self.path.length * one for one in rise(u))
         s = self.path.s[0] + g
         square = _derivatives(self.square, u)
         moves = (time >= 0) & (time <= self.duration)
         s1, s2, s3 = (np.where(moves, one, 0.0) for one in rates((slopes[0], slopes[1], slopes[2]), square))
-        every = rates(self.path.led(u), (square[0][:, None], square[1][:, None], square[2][:, None]))
+        every = rates(self.path.derivatives(u), (square[0][:, None], square[1][:, None], square[2][:, None]))
         speed, acceleration, jerk = (np.where(moves[:, None], one, 0.0) for one in every)
         return Trajectory(time, s, s1, s2, s3, self.path.at(s), speed, acceleration, jerk)
 
     def _parameter(self, time: FloatArray) -> FloatArray:
         """U at times, by Newton's method on t(u) = ∫ du / sqrt(w) from the knot before."""
-        place = np.clip(np.searchsorted(self.times, time, side="right") - 1, 0, len(self.knots) - 2)
-        low, high = self.knots[place], self.knots[place + 1]
-        gone = time - self.times[place]
-        u = low + (high - low) * gone / np.diff(self.times)[place]
+        interval = np.clip(np.searchsorted(self.times, time, side="right") - 1, 0, len(self.knots) - 2)
+        low, high = self.knots[interval], self.knots[interval + 1]
+        gone = time - self.times[interval]
+        u = low + (high - low) * gone / np.diff(self.times)[interval]
         for _ in range(6):
             late = _passing(self.square, low, u) - gone
             u = np.clip(u - late * np.sqrt(self.square(u)), low, high)
@@ -100,10 +99,10 @@ class PathMotion:
 
 
 def quickest_motion(path: JointPath, limits: AxesLimits, intervals: int = INTERVALS) -> PathMotion:
-    """The quickest motion along a path, from rest to rest, within the limits of every axis.
+    """The fastest motion along a path, from rest to rest, within the limits of every axis.
 
-    intervals  of the spline: the time lost goes with the square of their size
-    Raises ParameterError where limits and path have different numbers of axes, and for less than ten intervals.
+    intervals  of the spline; the excess time is proportional to the square of their width
+    Raises ParameterError where limits and path have different numbers of axes, and for fewer than ten intervals.
 
     >>> one = np.ones((5, 1))
     >>> straight = JointPath(np.linspace(0, 2, 5), np.linspace(0, 2, 5)[:, None], one, 0 * one)
@@ -122,7 +121,7 @@ def quickest_motion(path: JointPath, limits: AxesLimits, intervals: int = INTERV
 
 
 def _found(path: JointPath, limits: AxesLimits, knots: FloatArray, rounds: int) -> tuple[FloatArray, BSpline]:
-    """The best w, and its knots; each round after the first divides or tightens the intervals that overstepped."""
+    """The optimal w, and its knots; each further round divides or tightens the intervals that exceed a limit."""
     share = np.ones((len(knots) - 1, 1 + 4 * len(limits.jerk)))
     while True:
         square = _best(path, limits, knots, share)
@@ -137,16 +136,16 @@ def _found(path: JointPath, limits: AxesLimits, knots: FloatArray, rounds: int) 
 
 
 def _best(path: JointPath, limits: AxesLimits, knots: FloatArray, share: FloatArray) -> BSpline:
-    """The best w where every interval may use a share of the limits."""
-    task, tight = _task(path, limits, knots), np.repeat(share, len(_PLACES), axis=0)
+    """The optimal w where every interval may use a share of the limits."""
+    task, tight = _task(path, limits, knots), np.repeat(share, len(_POINTS), axis=0)
     task = replace(task, constant=task.constant * tight, root=task.root * tight)
     x = quickest(task, 0.8 * float(share.min()) ** 2 / _slowness(path, limits, knots) ** 2)
     return BSpline(clamped(knots), x, 3)
 
 
 def _slowness(path: JointPath, limits: AxesLimits, knots: FloatArray) -> float:
-    """Factor to time by which u = t must be slowed down for every limit to hold."""
-    q1, q2, q3 = (np.abs(one) for one in path.led(_at(knots, np.append(_FINE, _PLACES))))
+    """Factor of time by which the motion u = t must be slowed down to keep every limit."""
+    q1, q2, q3 = (np.abs(one) for one in path.derivatives(_at(knots, np.append(_FINE, _POINTS))))
     return float(
         max(
             np.max(q1 / limits.speed),
@@ -157,9 +156,9 @@ def _slowness(path: JointPath, limits: AxesLimits, knots: FloatArray) -> float:
 
 
 def _task(path: JointPath, limits: AxesLimits, knots: FloatArray) -> SpeedTask:
-    """The limits at the places, each over its own: one of the speeds, then accelerations and jerks both ways."""
-    q1, q2, q3 = (one[..., None] for one in path.led(_at(knots, _PLACES)))
-    b0, b1, b2 = (local_basis(knots, _PLACES, order) for order in range(3))
+    """The limits at the points, each over its value: speeds together, then accelerations and jerks of both signs."""
+    q1, q2, q3 = (one[..., None] for one in path.derivatives(_at(knots, _POINTS)))
+    b0, b1, b2 = (local_basis(knots, _POINTS, order) for order in range(3))
     quick = np.max((q1[..., 0] / limits.speed) ** 2, axis=1)[:, None, None] * b0[:, None]
     bend = (q2 * b0[:, None] + q1 * b1[:, None] / 2) / limits.acceleration[:, None]
     jerk = (q3 * b0[:, None] + 1.5 * q2 * b1[:, None] + q1 * b2[:, None] / 2) / limits.jerk[:, None]
@@ -171,7 +170,7 @@ def _task(path: JointPath, limits: AxesLimits, knots: FloatArray) -> SpeedTask:
 
 
 def _overstep(path: JointPath, limits: AxesLimits, knots: FloatArray, square: BSpline) -> FloatArray:
-    """Greatest use of every constraint in every interval, over what is allowed: (intervals, constraints)."""
+    """Largest use of every constraint in every interval, (intervals, constraints)."""
     used = _used(path, limits, _at(knots, _FINE), square)
     speed = np.max(used[0] ** 2, axis=1)[:, None]
     every = np.concatenate([speed, used[1], -used[1], used[2], -used[2]], axis=1)
@@ -179,28 +178,28 @@ def _overstep(path: JointPath, limits: AxesLimits, knots: FloatArray, square: BS
 
 
 def _used(path: JointPath, limits: AxesLimits, u: FloatArray, square: BSpline) -> Three:
-    """Speed, acceleration and jerk over their limits, with their signs."""
+    """Speed, acceleration and jerk over their limits, signed, (points, axes) each."""
     w, w1, w2 = (one[:, None] for one in _derivatives(square, u))
-    speed, acceleration, jerk = rates(path.led(u), (w, w1, w2))
+    speed, acceleration, jerk = rates(path.derivatives(u), (w, w1, w2))
     return speed / limits.speed, acceleration / limits.acceleration, jerk / limits.jerk
 
 
 def _knots(path: JointPath, square: BSpline, intervals: int) -> FloatArray:
-    """Knots where they are needed: a third each evenly in u, evenly in time, and by how the way bends."""
+    """Knots: a third each even in u, even in time, and by the curvature of the path."""
     u = np.linspace(0.0, 1.0, 16 * COARSE + 1)
     middle = (u[1:] + u[:-1]) / 2
-    led = rise(middle)
-    s = path.s[0] + path.length * led[0]
+    leading = rise(middle)
+    s = path.s[0] + path.length * leading[0]
     slope, bend, twist = (np.linalg.norm(path.at(s, order), axis=1) for order in (1, 2, 3))
     slope = np.maximum(slope, 1e-6 * slope.max())
-    shares = (np.ones(len(middle)), 1 / np.sqrt(square(middle)), (bend / slope + np.sqrt(twist / slope)) * led[1])
+    shares = (np.ones(len(middle)), 1 / np.sqrt(square(middle)), (bend / slope + np.sqrt(twist / slope)) * leading[1])
     density = sum(one / one.sum() for one in shares if one.any())
     grown = np.append(0.0, np.cumsum(density))
     return np.interp(np.linspace(0.0, grown[-1], intervals + 1), grown, u)
 
 
 def _timed(path: JointPath, limits: AxesLimits, knots: FloatArray, square: BSpline) -> PathMotion:
-    """The motion of a spline, slowed down until every limit holds on the fine grid, or sped up until one is reached."""
+    """The motion of a spline, scaled in time until the tightest limit is just kept on the fine grid."""
     u = np.append(_at(knots, _FINE), _beside_nodes(path))
     used = [np.abs(one).max(axis=0) for one in _used(path, limits, u, square)]
     slow = max(used[0].max(), np.sqrt(used[1].max()), np.cbrt(used[2].max()))
@@ -222,7 +221,7 @@ def _beside_nodes(path: JointPath) -> FloatArray:
 
 
 def _passing(square: BSpline, low: FloatArray, high: FloatArray) -> FloatArray:
-    """Times from one u to another of the same interval [s], by Gauss's five points."""
+    """Times [s] from one u to another of the same interval, by Gauss's five points."""
     half = (high - low) / 2
     u = low[..., None] + half[..., None] * (1 + _GAUSS)
     return np.asarray(half * np.sum(_WEIGHT / np.sqrt(square(u)), axis=-1))
@@ -235,5 +234,5 @@ def _derivatives(square: BSpline, u: FloatArray) -> Three:
 
 
 def _at(knots: FloatArray, share: FloatArray) -> FloatArray:
-    """Places at shares of every interval."""
+    """Points at shares of every interval."""
     return np.asarray((knots[:-1, None] + np.diff(knots)[:, None] * share).ravel())
