@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from ilmek.cams.laws import SMOOTH_LAWS
+from ilmek.cams.loaded_plate_cam import torque_at
 from ilmek.errors import ParameterError
 from ilmek.machines.weaver import MACHINE, WeaverParams, design, mass_of, step_time, travel_time
-from ilmek.machines.weaver.cams import torque_at
 from ilmek.machines.weaver.cyclogram import DRAW_TURN
 from ilmek.machines.weaver.motions import HANDLER, SLEY
 from ilmek.timing.s_curve import AxisLimits, move_time, s_curve

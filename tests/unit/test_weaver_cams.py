@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from ilmek.cams import limits as cam_limits
+from ilmek.cams.loaded_plate_cam import FASTER, WALL, torque_at
 from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.machines.weaver import MACHINE, Weaver, WeaverParams, design
-from ilmek.machines.weaver.cams import FASTER, WALL, programme_of, torque_at
+from ilmek.machines.weaver.cams import programme_of
 from ilmek.machines.weaver.limits import cut_share, cycle_limits
 from ilmek.machines.weaver.motions import HANDLER, SLEY
 from ilmek.timing.track import sample

@@ -11,7 +11,7 @@ import numpy as np
 from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.plane.curves import hull
-from ilmek.plane.vectors import cross
+from ilmek.plane.vectors import cross, dot
 from ilmek.report import Contour
 from ilmek.units import format_quantity
 
@@ -96,6 +96,20 @@ def area(contour: Contour) -> float:
     corners = points - points[0]
     flat = 0.5 * float(np.sum(cross(corners, np.roll(corners, -1))))
     return flat + float(np.sum(_slivers(np.abs(following - points), contour.bulges)))
+
+
+def polygon_moments(corners: Complex[np.ndarray, " corners"]) -> tuple[float, float]:
+    """Area [m^2] and polar moment about the origin [m^4] of a polygon, of the triangles that its edges make with it.
+
+    Both are negative where the corners run clockwise.
+    >>> area, polar = polygon_moments(np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j]))
+    >>> area, round(polar, 12)
+    (4.0, 2.666666666667)
+    """
+    following = np.roll(corners, -1)
+    twice = cross(corners, following)
+    polar = twice * (dot(corners, corners) + dot(corners, following) + dot(following, following)) / 12
+    return float(np.sum(twice) / 2), float(np.sum(polar))
 
 
 def _slivers(chord: Float[np.ndarray, " pieces"], bulge: Float[np.ndarray, " pieces"]) -> Float[np.ndarray, " pieces"]:

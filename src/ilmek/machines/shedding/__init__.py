@@ -8,6 +8,7 @@ the limit behind it is 1 mm, not 0.1 mm; 550 kg weigh 5395 N, not 5489 N; only t
 time, so that 600 x 10 N never act together.
 """
 
+from ilmek.elements.square_shaft import SquareShaft
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.shedding.analysis import SheddingAnalysis, analyse, results
@@ -16,7 +17,6 @@ from ilmek.machines.shedding.figures import figures
 from ilmek.machines.shedding.in_loom import fit, parts, work
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.report import checks, tables, warnings
-from ilmek.machines.shedding.shaft import Shaft
 from ilmek.machines.shedding.workshop import cam_tables, plates
 
 __all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design"]
@@ -29,7 +29,7 @@ MACHINE = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(SheddingDesign, CamStack, Shaft, SheddingDrive, SheddingAnalysis),
+    reported=(SheddingDesign, CamStack, SquareShaft, SheddingDrive, SheddingAnalysis),
     checks=checks,
     tables=tables,
     figures=figures,

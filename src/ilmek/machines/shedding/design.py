@@ -24,11 +24,12 @@ from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, jumps, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.elements.duty import LoadCycle, MotorDuty, duty
 from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor
+from ilmek.elements.square_shaft import SquareShaft, SquareShaftTask, square_shaft
 from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
 from ilmek.machines.shedding.phases import Shed, chosen_shed
-from ilmek.machines.shedding.shaft import Shaft, shaft_for
 from ilmek.machines.shedding.warp import lifting_work
 from ilmek.num.piecewise import Extremum, supremum
+from ilmek.plane.contours import polygon_moments
 from ilmek.records import computed, record, result
 from ilmek.report import Json
 
@@ -92,7 +93,7 @@ class SheddingDesign:
     shed: Shed
     across_max: Extremum
     stack: CamStack
-    shaft: Shaft
+    shaft: SquareShaft
     drive: SheddingDrive
     shuttle_window: tuple[float, float]
 
@@ -197,16 +198,17 @@ def design(params: SheddingParams) -> SheddingDesign:
     thickness = params.cam_thickness or params.warp_pitch / 2
     guide_radius = cam.prime_radius + params.lift - params.roller_radius + params.guide_height
     thicknesses = thickness, params.warp_pitch - thickness
+    _, polar = polygon_moments(cam.surface(np.arange(_POINTS) * (TURN / _POINTS))[::-1])
     areas = limits.area(cam), math.pi * guide_radius**2
     mass, inertia = (
         params.warps * params.density * sum(part * thick for part, thick in zip(parts, thicknesses, strict=True))
-        for parts in (areas, (polar_moment(cam), math.pi / 2 * guide_radius**4))
+        for parts in (areas, (polar, math.pi / 2 * guide_radius**4))
     )
     shed = chosen_shed(params, even)
     drive = _drive(params, shed, inertia)
     across = supremum(shed.across, shed.knots)
     torque = max(drive.torque_max.value, -drive.torque_min.value)
-    shaft = shaft_for(params, mass, across.value, torque)
+    shaft = square_shaft(_shaft_task(params, mass, across.value, torque))
     bored = [
         max(part - shaft.bar**2, 0.0) * thick * params.density for part, thick in zip(areas, thicknesses, strict=True)
     ]
@@ -225,16 +227,31 @@ def design(params: SheddingParams) -> SheddingDesign:
     )
 
 
-def polar_moment(cam: PlateCam) -> float:
-    """Second moment of the cam's face about its axis, bore included [m^4]: integral of r^4 / 4 over the angle."""
-    surface = cam.surface(np.arange(_POINTS) * (TURN / _POINTS))
-    after = np.roll(surface, -1)
-    across = np.abs((np.conj(surface) * after).imag)
-    squares = np.abs(surface) ** 2 + np.abs(after) ** 2 + (np.conj(surface) * after).real
-    return float(np.sum(across * squares)) / 12
-
-
 _POINTS = 1440
+
+
+def _shaft_task(params: SheddingParams, mass: float, across: float, torque: float) -> SquareShaftTask:
+    """The shaft's task: the mass [kg] of the stack, bores filled, the pull of the warps [N], their torque [N m]."""
+    return SquareShaftTask(
+        length=params.shaft_length or params.warps * params.warp_pitch,
+        spans=params.spans,
+        speed=params.speed,
+        mass=mass,
+        pull=across,
+        pull_angle=params.pull_angle,
+        torque=torque,
+        load=params.shaft_load,
+        safety=params.safety,
+        modulus=params.modulus,
+        strength=params.strength,
+        tensile=params.tensile,
+        slope=params.slope_limit,
+        deflection=params.deflection_limit,
+        twist=params.twist_limit,
+        bar=params.shaft_bar,
+        bearing=params.bearing,
+        bearing_life=params.bearing_life,
+    )
 
 
 def _drive(params: SheddingParams, shed: Shed, inertia: float) -> SheddingDrive:

@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for
 from ilmek.machines.weaver import moves
-from ilmek.machines.weaver.cams import CamShaftDrive, HeadCam, cams_for, drive_for
+from ilmek.machines.weaver.cams import cams_for
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, optimised
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
@@ -54,7 +55,7 @@ class Weaver:
     carriage_window: float = result("s", "time in which no tool is in the warps")
     travel: float = result("s", "time of each further pitch", name="carriage_travel_time")
     colour_change: float = result("s", "mean time to bring another tube in line", name="colour_change_time")
-    cams: tuple[HeadCam, ...]
+    cams: tuple[LoadedPlateCam, ...]
     drive: CamShaftDrive
 
     shortest = computed(

@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
+from ilmek.cams.loaded_plate_cam import torque_at
 from ilmek.elements.drive_parts import belt_motor_part, motor_part, positive_work, reducer_part
 from ilmek.machines.loom_task import LoomTask
-from ilmek.machines.weaver.cams import torque_at
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.limits import head_mass
 from ilmek.machines.weaver.moves import carriage, selector

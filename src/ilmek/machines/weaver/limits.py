@@ -17,10 +17,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
 from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import FULL_STEPS, Motor, smallest_motor
 from ilmek.elements.yarns import WOOL
-from ilmek.machines.weaver.cams import PRESSURE_LIMIT, STEEL
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.motions import HANDLER
 from ilmek.num.brackets import bracketed_roots

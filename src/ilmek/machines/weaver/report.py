@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL, CamShaftDrive, LoadedPlateCam
 from ilmek.elements.plates import round_bore, zero_mark
 from ilmek.machines.electronic_cam import cam_table
-from ilmek.machines.weaver.cams import PRESSURE_LIMIT, STEEL, CamShaftDrive, HeadCam, stack_width
+from ilmek.machines.weaver.cams import stack_width
 from ilmek.machines.weaver.cyclogram import relations
 from ilmek.machines.weaver.design import HAND_KNOT, Weaver
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE, Grippers
@@ -41,7 +42,7 @@ OUTLINE = 4
 """Every n-th sample of a cam's contour is a point of its drawing."""
 
 
-def _each(unit: str, meaning: str, value: Callable[[HeadCam], float]) -> Computed[Any]:
+def _each(unit: str, meaning: str, value: Callable[[LoadedPlateCam], float]) -> Computed[Any]:
     """A value of each cam, by its name."""
     return computed(unit, meaning, lambda it: {cam.name: value(cam) for cam in it.cams}, shown=False)
 
@@ -51,7 +52,7 @@ class CamResults:
     """The results of the cams."""
 
     params: WeaverParams
-    cams: tuple[HeadCam, ...]
+    cams: tuple[LoadedPlateCam, ...]
 
     cam_lift = _each("mm", "lift of each cam's follower", lambda cam: cam.lift)
     cam_prime_radius = _each("mm", "prime radius", lambda cam: cam.cam.prime_radius)
@@ -325,7 +326,7 @@ def cam_tables(weaver: Weaver) -> tuple[CamTable, ...]:
     )
 
 
-def _plate(weaver: Weaver, cam: HeadCam) -> Plate:
+def _plate(weaver: Weaver, cam: LoadedPlateCam) -> Plate:
     shaft, surface = weaver.params.shaft, cam.trace.surface[::-1]
     bore = round_bore(shaft)
     lift = format_quantity(cam.lift, "mm")

@@ -1,10 +1,10 @@
-"""The square shaft of the shedding cams: its load, its least sides, the bar chosen, its bearings.
+"""A square shaft on equal spans: its load, its least sides, the bar chosen, its bearings.
 
-    w = safety |weight + warps e^(i angle)| / l,   span = l / spans
+    w = safety |weight + pull e^(i angle)| / l,   span = l / spans
 
-Weight and the pull of the warps act in their own directions; a square bar is as stiff in all directions, so that slope
-and deflection of each add as vectors, and turning with the shaft changes nothing. Supports between the ends are
-bearings, or steadies: rollers under the round guide cams on the side away from the warps, between the warps.
+Weight and the pull across the shaft act in their own directions; a square bar is as stiff in all directions, so that
+slope and deflection of each add as vectors, and turning with the shaft changes nothing. Supports between the ends are
+bearings, or steadies: rollers under round seats of the shaft.
 Each span is taken as simply supported, which is on the safe side for a shaft that is continuous over its supports; a
 bearing carries w span, at the ends half of that, without the safety.                [thesis 3.2, eq. 3.4, 3.5; ISO 281]
 """
@@ -19,15 +19,49 @@ from ilmek.elements.fatigue import Loading, endurance_limit, goodman
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.sections import square_section
 from ilmek.elements.whirl import uniform_speed
-from ilmek.machines.shedding.params import SheddingParams
 from ilmek.records import computed, group, record, result
 from ilmek.report import Json
 from ilmek.units import turn
 
 
 @record
+class SquareShaftTask:
+    """What a square shaft bears, and what it must keep.
+
+    length, spans   of the shaft [m], and its number of equal spans         speed   of the shaft [rad/s]
+    mass, pull      on the shaft evenly, its own included [kg]; force across it [N]
+    pull_angle      of the pull from the weight [rad]                       torque  greatest on it [N m]
+    load            per length [N/m] in place of mass and pull; None: by these
+    safety          factor on the load; None: 1 on a given load, 2 on a computed one
+    modulus, strength, tensile  Young's modulus, yield and tensile strength [Pa]
+    slope, deflection, twist    allowed [rad, m, rad]
+    bar             side of the bar [m]; None: the smallest of stock
+    bearing         by designation; None: the lightest with the required `bearing_life` [s]
+    """
+
+    length: float
+    spans: int
+    speed: float
+    mass: float
+    pull: float
+    pull_angle: float
+    torque: float
+    load: float | None
+    safety: float | None
+    modulus: float
+    strength: float
+    tensile: float
+    slope: float
+    deflection: float
+    twist: float
+    bar: float | None
+    bearing: str | None
+    bearing_life: float
+
+
+@record
 class ShaftLoads:
-    """Loads of the shaft by weight and by warps, each in its own direction, with the safety.
+    """Loads of the shaft by weight and by pull, each in its own direction, with the safety.
 
     weight, pull  loads [N/m]; the shaft's slope [rad] and deflection [m] are split in their ratio
     angle         of the pull from the weight [rad]
@@ -65,8 +99,8 @@ class ShaftBearings:
 
 
 @record
-class Shaft:
-    """The square shaft; `torque`: the largest of the warps, with the safety [N m]; `loads`: None for a given load."""
+class SquareShaft:
+    """The square shaft; `torque`: the largest, with the safety [N m]; `loads`: None for a given load."""
 
     load: float = result("kN/m", "load of the shaft, with its safety", name="shaft_load")
     length: float = result("m", "length of the shaft between its first and last support", name="shaft_length")
@@ -93,7 +127,7 @@ class Shaft:
         name="shaft_side",
     )
 
-    @computed("", "weight and warps apart, with the safety [N/m, m, rad]; null where the load is given")
+    @computed("", "weight and pull apart, with the safety [N/m, m, rad]; null where the load is given")
     def shaft_directions(self) -> Json:
         if self.directions is None:
             return None
@@ -108,30 +142,26 @@ class Shaft:
         }
 
 
-def shaft_for(params: SheddingParams, mass: float, across: float, torque: float) -> Shaft:
-    """The shaft under the weight of a mass [kg], the force of the warps across it [N] and their torque [N m].
-
-    Cams are weighed with their bores filled, which is the shaft's own weight. Raises ParameterError for a bearing that
-    is not in the table.
-    """
-    length, modulus = params.shaft_length or params.warps * params.warp_pitch, params.modulus
-    load, safety, directions = params.shaft_load, params.safety or 1.0, None
+def square_shaft(task: SquareShaftTask) -> SquareShaft:
+    """The shaft for a task. Raises ParameterError for a bearing that is not in the table."""
+    length, modulus, torque = task.length, task.modulus, task.torque
+    load, safety, directions = task.load, task.safety or 1.0, None
     if load is None:
-        safety = params.safety or 2.0
-        directions = ShaftLoads(safety * mass * GRAVITY / length, safety * across / length, params.pull_angle)
+        safety = task.safety or 2.0
+        directions = ShaftLoads(safety * task.mass * GRAVITY / length, safety * task.pull / length, task.pull_angle)
         load = abs(directions.resultant) / safety
-    load, span = load * safety, length / params.spans
+    load, span = load * safety, length / task.spans
     moment = float(uniform.moment_max(load, span))
-    by_slope = shafts.square_side(shafts.inertia_for_slope(load, span, modulus, params.slope_limit))
-    by_deflection = shafts.square_side(shafts.inertia_for_deflection(load, span, modulus, params.deflection_limit))
-    by_twist = shafts.side_for_twist(torque, length, modulus, params.twist_limit)
-    by_strength = shafts.side_for_strength(moment, safety * torque, params.strength)
+    by_slope = shafts.square_side(shafts.inertia_for_slope(load, span, modulus, task.slope))
+    by_deflection = shafts.square_side(shafts.inertia_for_deflection(load, span, modulus, task.deflection))
+    by_twist = shafts.side_for_twist(torque, length, modulus, task.twist)
+    by_strength = shafts.side_for_strength(moment, safety * torque, task.strength)
     least = max(by_slope, by_deflection, by_twist, by_strength)
-    bar = params.shaft_bar or _bar(least)
-    while params.shaft_bar is None and _endurance(params, moment, safety * torque, bar) < 1:
+    bar = task.bar or _bar(least)
+    while task.bar is None and _endurance(task, moment, safety * torque, bar) < 1:
         bar = _bar(bar + _STEP)
     inertia = float(uniform.square_inertia(bar))
-    return Shaft(
+    return SquareShaft(
         load=load,
         length=length,
         span=span,
@@ -145,38 +175,38 @@ def shaft_for(params: SheddingParams, mass: float, across: float, torque: float)
         deflection=float(uniform.deflection_max(load, span, modulus, inertia)),
         twist=shafts.square_twist(torque, length, modulus, bar),
         stress=shafts.square_stress(moment, safety * torque, bar),
-        endurance=_endurance(params, moment, safety * torque, bar),
-        critical=uniform_speed(1, "hinged", span, modulus * inertia, mass / length),
+        endurance=_endurance(task, moment, safety * torque, bar),
+        critical=uniform_speed(1, "hinged", span, modulus * inertia, task.mass / length),
         directions=directions,
-        seat=seat_for(params, load / safety * span, safety * torque, bar),
+        seat=seat_for(task, load / safety * span, safety * torque, bar),
     )
 
 
-def _endurance(params: SheddingParams, moment: float, torque: float, bar: float) -> float:
+def _endurance(task: SquareShaftTask, moment: float, torque: float, bar: float) -> float:
     """Safety of the hot rolled bar against fatigue: the load is fixed, the bar rotates; the torque alternates."""
     section = square_section(bar)
-    limit = endurance_limit(params.tensile, section.size, "hot-rolled")
-    return goodman(Loading(moment, 0.0, torque_amplitude=torque), section, endurance=limit, tensile=params.tensile)
+    limit = endurance_limit(task.tensile, section.size, "hot-rolled")
+    return goodman(Loading(moment, 0.0, torque_amplitude=torque), section, endurance=limit, tensile=task.tensile)
 
 
-def seat_for(params: SheddingParams, span_load: float, torque: float, bar: float) -> ShaftBearings:
+def seat_for(task: SquareShaftTask, span_load: float, torque: float, bar: float) -> ShaftBearings:
     """Bearings for the load of a span [N], on journals turned from the bar [m] that bear the torque [N m].
 
     A journal in torsion alone: d = (16 sqrt(3) T / (pi sigma))^(1/3), von Mises. A support between the ends carries a
     whole span, an end half of one; the bearings of the steadies are taken no larger than those of the ends.
     """
-    reaction = span_load if params.spans > 1 else span_load / 2
-    journal = float((16 * math.sqrt(3) * torque / (math.pi * params.strength)) ** (1 / 3))
-    revolutions = params.bearing_life * params.speed / turn
-    if params.bearing is None:
+    reaction = span_load if task.spans > 1 else span_load / 2
+    journal = float((16 * math.sqrt(3) * torque / (math.pi * task.strength)) ** (1 / 3))
+    revolutions = task.bearing_life * task.speed / turn
+    if task.bearing is None:
         bearing = bearings.smallest_bearing(reaction, revolutions, kind=INSERT, bore=journal)
         bearing = bearing if bearing is not None and bearing.bore <= bar else None
     else:
-        bearing = bearings.find_bearing(params.bearing)
+        bearing = bearings.find_bearing(task.bearing)
     if bearing is None:
         return ShaftBearings(reaction, journal, None, 0.0)
     lives = bearings.life(bearing.dynamic, bearings.equivalent_load(bearing, reaction), bearing.kind)
-    return ShaftBearings(reaction, journal, bearing, lives * turn / params.speed)
+    return ShaftBearings(reaction, journal, bearing, lives * turn / task.speed)
 
 
 _STEP = 1e-3
