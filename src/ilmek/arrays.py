@@ -1,11 +1,11 @@
-"""Array types, named once.
+"""Array types of the package.
 
-A *field* is a value or an array of values of any batch shape; the leaf formulas take and return fields, so that one
-formula serves a single pose and a million.
+A *field* is a value or an array of values of any batch shape; formulas take and return fields, so that one
+formula applies to one pose or a million.
 
 Shapes and kinds of arrays are declared by `Float[np.ndarray, "rows columns"]` and its like. They are those of jaxtyping
 for a type checker, and where jaxtyping is loaded before this module: in the tests that check shapes (jaxtyping and
-beartype). Everywhere else nothing reads them, and loading jaxtyping would take half the time of loading numpy.
+beartype). Elsewhere they are not used; loading jaxtyping would take half the time of loading numpy.
 """
 
 import sys
@@ -41,7 +41,7 @@ if TYPE_CHECKING or "jaxtyping" in sys.modules:
 else:
 
     class Unchecked:
-        """An array type whose kind and shape nothing reads: `Unchecked[np.ndarray, "n 2"]` is `np.ndarray`."""
+        """An array type without checks of kind and shape: `Unchecked[np.ndarray, "n 2"]` is `np.ndarray`."""
 
         def __class_getitem__(cls, array_and_shape: tuple[type, str]) -> type:
             """The type of the array alone."""
@@ -56,8 +56,8 @@ IntArray: TypeAlias = Int[np.ndarray, "..."]
 NumberArray: TypeAlias = Num[np.ndarray, "..."]
 
 if TYPE_CHECKING:
-    # To a type checker numbers of Python and of NumPy are one; it weighs every kind of one operand against every kind
-    # of the other, and with all kinds named below takes five times as long.
+    # For a type checker numbers of Python and NumPy are equal. It compares every kind of one operand with every kind of
+    # the other; with all kinds below it takes five times as long.
     RealField: TypeAlias = float | Num[np.ndarray, "..."]
     ComplexField: TypeAlias = complex | Num[np.ndarray, "..."]
 else:
@@ -71,4 +71,4 @@ Rgb: TypeAlias = UInt8[np.ndarray, "height width 3"]
 """A picture: sRGB, 8 bits a channel, row 0 on top."""
 
 Indices: TypeAlias = UInt8[np.ndarray, "rows columns"]
-"""A knot chart: the yarn's place in the list, one a knot, row 0 on top."""
+"""A knot chart: index of the yarn in the list for each knot, row 0 on top."""

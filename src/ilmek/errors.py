@@ -1,16 +1,16 @@
-"""What can go wrong, as a tree.
+"""Errors of the package, as a tree.
 
-    IlmekError                  anything a user can mend; the command line prints it in one line and ends with 2
+    IlmekError                  an error that a user can correct; the command line prints it in one line and ends with 2
     ├── UnitError               a quantity that cannot be read, or has the wrong dimension
     ├── ParameterError          a machine parameter that is unknown, out of bounds or contradictory
-    ├── MechanismError          a mechanism that cannot close, has no plan, or stands at a dead centre
+    ├── MechanismError          a mechanism that cannot close, has no plan, or is at a dead centre
     ├── PictureError            a picture that cannot be read or is not usable as a carpet
     ├── YarnError               a yarn list that cannot be read or used
     ├── CarpetError             a size, quality or knot that does not exist or does not fit
     ├── LoomError               a loom or programme that cannot make this carpet
     └── OutputError             a file or folder that cannot be written whole
 
-A message says what was given, what is allowed and what to do, in that order.
+A message states what was given, what is allowed and what to do, in that order.
 """
 
 import difflib
@@ -18,11 +18,11 @@ from collections.abc import Iterable
 
 
 class IlmekError(Exception):
-    """A mistake that the user can mend.
+    """An error that the user can correct.
 
-    given    what was found wrong, with the value as the user wrote it
-    allowed  what would be right ("" when the first part says it)
-    do       the next step ("" when it is plain)
+    given    the wrong input, with its value as written
+    allowed  the allowed input ("" if it follows from the first part)
+    do       the next step ("" if it is obvious)
     """
 
     def __init__(self, given: str, *, allowed: str = "", do: str = "") -> None:
@@ -41,10 +41,10 @@ class ParameterError(IlmekError):
 
 
 class MechanismError(IlmekError):
-    """A mechanism that cannot close, cannot be solved, or stands at a dead centre.
+    """A mechanism that cannot close, cannot be solved, or is at a dead centre.
 
-    about  the entry of the model that is meant, as a path like ("joints", "A0"); empty where it is the whole, or a
-           motion. A file's reader finds its line by it
+    about  the entry of the model concerned, as a path like ("joints", "A0"); empty for the whole mechanism or a motion.
+           The reader of a file finds the line by it
     """
 
     def __init__(self, given: str, *, allowed: str = "", do: str = "", about: tuple[str, ...] = ()) -> None:
@@ -73,10 +73,10 @@ class OutputError(IlmekError):
 
 
 def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str:
-    """The hint that names the known name nearest to a misspelt one; `otherwise` where none is near.
+    """A hint with the known name nearest to a misspelt one; `otherwise` if none is near.
 
     >>> did_you_mean("lenght", ["length", "width"])
     "did you mean 'length'?"
     """
-    near = difflib.get_close_matches(name, list(known), n=1)
-    return f"did you mean {near[0]!r}?" if near else otherwise
+    nearest = difflib.get_close_matches(name, list(known), n=1)
+    return f"did you mean {nearest[0]!r}?" if nearest else otherwise

@@ -1,8 +1,8 @@
-"""Progress of long work, and its end before time.
+"""Progress and cancellation of long work.
 
-Long work takes a `Progress` and calls it with the share that is done; a part of the work is given a part of it. The
-caller hears the stage and the share of the whole job. Between two calls the caller can cancel: the next one raises
-`Cancelled`, and the work unwinds as after any other error, so that no file is left half-written.
+Long work takes a `Progress` and calls it with the completed share; parts of the work get parts of it. The caller
+receives the stage and the share of the whole job. After a cancellation by the caller the next call raises `Cancelled`,
+and the work ends as after any other error, so that no file is left incomplete.
 """
 
 from collections.abc import Callable
@@ -15,12 +15,12 @@ class Cancelled(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Where work reports how far it is. The default reports nothing and is never cancelled.
+    """Receiver of the progress of work. The default reports nothing and is never cancelled.
 
-    report         called with the stage and the share of the whole job that is done, 0 to 1
-    cancelled      whether the work is to end, like `threading.Event().is_set`
-    stage          what is being done
-    begin, finish  shares of the whole job between which this work lies
+    report         called with the stage and the completed share of the whole job, 0 to 1
+    cancelled      whether the work must end, for example `threading.Event().is_set`
+    stage          name of the present stage
+    begin, finish  shares of the whole job at the begin and end of this work
 
     >>> whole = Progress(lambda stage, share: print(stage, share))
     >>> chart = whole.part(0.25, 0.75, "chart")
@@ -40,15 +40,15 @@ class Progress:
     finish: float = 1.0
 
     def __call__(self, share: float) -> None:
-        """Report the share of this work that is done, 0 to 1. Raises Cancelled."""
+        """Report the completed share of this work, 0 to 1. Raises Cancelled."""
         if self.cancelled():
             raise Cancelled(f"{self.stage}: cancelled" if self.stage else "cancelled")
         self.report(self.stage, self.begin + share * (self.finish - self.begin))
 
     def part(self, begin: float, finish: float, stage: str = "") -> "Progress":
-        """The progress of the part of this work between two shares, which begins now. Raises Cancelled.
+        """The progress of the part of this work between two shares, from now on. Raises Cancelled.
 
-        stage  what is being done; default: the stage of the whole
+        stage  name of the stage; default: the stage of the whole
         """
         length = self.finish - self.begin
         begun = replace(

@@ -1,6 +1,6 @@
 """Units: factors to SI, reading and writing quantities.
 
-Inside ilmek every number is an SI float and every angle is in radians. Units enter and leave at the edges, by the
+Inside ilmek every number is an SI float and every angle is in radians. Units are converted at the boundaries, by the
 functions here or by a factor: `60 * mm`, `170 * deg`, `15.5 * rpm`.
 
 >>> round(parse_quantity("60mm", "m"), 12)
@@ -20,7 +20,7 @@ from typing import TypeAlias
 from ilmek.errors import UnitError
 
 Dimension: TypeAlias = tuple[int, int, int, int]
-"""Exponents of metre, kilogram, second and radian. The radian counts, so that degrees are never taken for lengths."""
+"""Exponents of metre, kilogram, second and radian, so that angles are not mistaken for numbers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ _SIGNS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·µμ", "0123456789-*uu")
 def parse_unit(text: str) -> Unit:
     """The unit written as products and quotients of known ones, `kg/m^3`, `N*m`, `m/s²`, `/dm`; "" is 1.
 
-    Raises UnitError for an unknown unit, naming the nearest known one.
+    Raises UnitError with the nearest known unit for an unknown one.
     """
     factor, dimension, sign = 1.0, _NONE, 1
     written = text.translate(_SIGNS).strip()
@@ -99,19 +99,19 @@ def parse_unit(text: str) -> Unit:
 
 
 def parse_quantity(text: str, unit: str) -> float:
-    """The SI value of `text`, which must have the dimension of `unit`; a bare number is taken as SI.
+    """The SI value of `text`, which must have the dimension of `unit`; a number without a unit is in SI.
 
-    Raises UnitError where the text is no finite number with a unit of that dimension.
+    Raises UnitError if the text is not a finite number with a unit of that dimension.
     """
     matched = _NUMBER.match(text)
     example = f"write it like {_example(unit)}"
     if matched is None:
         raise UnitError(f"{text!r} is not a quantity", allowed=example)
-    wanted = parse_unit(unit)
+    required = parse_unit(unit)
     written = parse_unit(matched[2])
-    if matched[2] and written.dimension != wanted.dimension:
+    if matched[2] and written.dimension != required.dimension:
         kind = f"a quantity in {unit}" if unit not in ("", "1") else "a plain number"
-        raise UnitError(f"{text!r} has the wrong unit", allowed=f"{kind} is wanted", do=example)
+        raise UnitError(f"{text!r} has the wrong unit", allowed=f"{kind} is required", do=example)
     value = float(matched[1]) * (written.factor if matched[2] else 1.0)
     if not math.isfinite(value):
         raise UnitError(f"{text!r} is too large a number", allowed=example)
@@ -119,7 +119,7 @@ def parse_quantity(text: str, unit: str) -> float:
 
 
 def printed_unit(unit: str) -> str:
-    """A unit with raised powers and the product's dot, as `parse_unit` reads it too; nothing for 1.
+    """A unit with superscript powers and product dots, readable by `parse_unit`; "" for 1.
 
     >>> printed_unit("kg/m^3"), printed_unit("N*m"), printed_unit("1/dm"), printed_unit("1")
     ('kg/m³', 'N·m', '/dm', '')
@@ -163,7 +163,7 @@ def format_number(value: float, digits: int = 4) -> str:
 
 
 def has_unit(text: str) -> bool:
-    """Whether a quantity's text has a unit behind its number.
+    """Whether the text of a quantity has a unit after its number.
 
     >>> has_unit("40/dm"), has_unit("40")
     (True, False)
@@ -173,7 +173,7 @@ def has_unit(text: str) -> bool:
 
 
 def similar_units(unit: str) -> tuple[str, ...]:
-    """Units of the same dimension in which people give a number without naming the unit.
+    """Units of the same dimension in which numbers are often given without a unit.
 
     >>> similar_units("m"), similar_units("rad/s")
     (('mm', 'cm'), ('rpm',))
@@ -190,6 +190,6 @@ def _example(unit: str) -> str:
 
 
 def _allowed_units(part: str) -> str:
-    near = difflib.get_close_matches(part, _UNITS, n=1, cutoff=0.5)
-    hint = f"did you mean {near[0]!r}? " if near else ""
+    nearest = difflib.get_close_matches(part, _UNITS, n=1, cutoff=0.5)
+    hint = f"did you mean {nearest[0]!r}? " if nearest else ""
     return f"{hint}known units: {' '.join(name for name in _UNITS if name != '1')}"

@@ -8,7 +8,7 @@ from hypothesis.extra import numpy as hnp
 
 from ilmek.arrays import FloatArray, IntArray
 from ilmek.num.pareto import front
-from ilmek.num.periodic_maxima import summits
+from ilmek.num.periodic_maxima import periodic_maxima
 
 # Few different numbers, so that members are often alike in some costs or in all.
 costs = hnp.arrays(
@@ -47,7 +47,7 @@ def test_a_narrow_peak_at_a_sharp_angle_is_climbed(centre: float, width: float, 
             "flat": 0 * angle,
         }
 
-    found = summits(curves, np.full((2, 1), centre))
+    found = periodic_maxima(curves, np.full((2, 1), centre))
     np.testing.assert_allclose(found["peak"], [3.0, 6.0], rtol=1e-8)
     np.testing.assert_allclose(found["wave"], 1.0, rtol=1e-9)
     assert found["flat"].tolist() == [0.0, 0.0]
@@ -59,11 +59,11 @@ def test_the_higher_of_two_rivals_wins_though_samples_favour_the_lower() -> None
         return {"two": high + 0.999 * low}
 
     # The lower one has a sample on its top.
-    assert summits(curves, np.array([[4.0]]))["two"][0] == pytest.approx(1.0, rel=1e-9)
+    assert periodic_maxima(curves, np.array([[4.0]]))["two"][0] == pytest.approx(1.0, rel=1e-9)
 
 
 def test_a_curve_that_is_not_finite_has_no_greatest_value() -> None:
     def curves(_row: IntArray, angle: FloatArray) -> dict[str, FloatArray]:
         return {"broken": np.where(angle > 3, np.nan, angle)}
 
-    assert np.isnan(summits(curves, np.zeros((1, 1)))["broken"]).all()
+    assert np.isnan(periodic_maxima(curves, np.zeros((1, 1)))["broken"]).all()

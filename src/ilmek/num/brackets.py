@@ -1,4 +1,4 @@
-"""Roots and minima within brackets, many at once, to the last digit."""
+"""Roots and minima within brackets, many at once, to machine precision."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -10,14 +10,14 @@ from ilmek.arrays import Bool, Float
 Reals: TypeAlias = Float[np.ndarray, " brackets"]
 
 GOLDEN = 0.6180339887498949
-"""Share of a bracket that a step of the golden section keeps."""
+"""Ratio of successive brackets of the golden section."""
 
 
 def bracketed_roots(f: Callable[[Reals], Reals], low: Reals, high: Reals, *, steps: int = 200) -> Reals:
-    """Root of f within each bracket, to rounding; NaN where f has one sign at both ends, or is not finite there.
+    """Root of f within each bracket, to rounding; NaN where f has equal signs at both ends, or is not finite there.
 
-    f(low) and f(high) of opposite signs, or one of them zero      low may lie above high
-    Inverse quadratic interpolation where it is safe, else halving [Chandrupatla, A new hybrid quadratic / bisection
+    f  (brackets,) -> (brackets,)      low, high  ends of the brackets (brackets,), in either order
+    Inverse quadratic interpolation where it is safe, else bisection [Chandrupatla, A new hybrid quadratic / bisection
     algorithm for finding the zero of a nonlinear function without using derivatives, 1997].
 
     >>> bracketed_roots(lambda x: x * x - 2, np.array([0.0, 2.0]), np.array([2.0, 3.0]))
@@ -47,9 +47,9 @@ def bracketed_roots(f: Callable[[Reals], Reals], low: Reals, high: Reals, *, ste
 
 
 def bracketed_minima(f: Callable[[Reals], Reals], low: Reals, high: Reals, *, steps: int = 60) -> tuple[Reals, Reals]:
-    """Where f is least within each bracket, and its value there, by golden sections; kinks do not matter.
+    """Argument and value of a minimum of f within each bracket, by golden sections; f may have kinks.
 
-    f has one minimum in each bracket, or one of several is found. 60 steps shrink a bracket to rounding.
+    Of several minima in a bracket one is found. 60 steps reduce a bracket to rounding.
 
     >>> at, least = bracketed_minima(lambda x: np.abs(x - 0.3), np.array([0.0]), np.array([1.0]))
     >>> at.round(12).tolist(), least.round(12).tolist()
@@ -68,7 +68,7 @@ def bracketed_minima(f: Callable[[Reals], Reals], low: Reals, high: Reals, *, st
 
 
 def _next_share(x1: Reals, x2: Reals, x3: Reals, f1: Reals, f2: Reals, f3: Reals) -> Reals:  # noqa: PLR0917
-    """Where between x1 and x2 to look next: by the inverse parabola through all three where it is monotone there."""
+    """Next fraction between x1 and x2: by the inverse parabola through the points if monotone, else 1/2."""
     xi, phi = (x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2)
     smooth = (phi * phi < xi) & ((1 - phi) ** 2 < 1 - xi)
     parabola = f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)

@@ -1,6 +1,6 @@
-"""Compiled kernels: the leaf formulas in a loop, as machine code.
+"""Compiled kernels: formulas in a loop, as machine code.
 
-Kernels stand at module level and are decorated with `compiled`. Nothing is compiled, and no compiler is loaded (0.5 s),
+Kernels are functions of modules with the decorator `compiled`. Nothing is compiled, and no compiler is loaded (0.5 s),
 before a kernel is called; the machine code is kept for the next run (`ilmek.num.machine_code`).
 """
 
@@ -22,7 +22,7 @@ class Kernel:
         self.function = function
 
     def __call__(self, *args: object) -> object:
-        """The function's value, by machine code."""
+        """The function's value, computed by machine code."""
         return self.dispatcher(*args)
 
     @functools.cached_property
@@ -32,7 +32,7 @@ class Kernel:
 
     @property
     def _numba_type_(self) -> object:
-        """The type by which the compiler knows this kernel inside another one."""
+        """The type of this kernel for the compiler of another one."""
         return self.dispatcher._numba_type_
 
 

@@ -1,10 +1,9 @@
-"""Where two conics meet: all four points of the projective plane, batch by batch.
+"""Intersections of two conics: all four points of the projective plane, for batches of pairs.
 
-    sᵀ C s = 0   and   sᵀ D s = 0,      s = (s_1, s_2, s_3), of which only the ratios count
+    sᵀ C s = 0   and   sᵀ D s = 0,      s = (s_1, s_2, s_3), homogeneous coordinates
 
-The resultant of the two is a quartic in one ratio; its roots are eigenvalues, and Newton's method on the conics
-themselves takes the points to the last digits. Points infinitely far are no exception, since the plane is first turned
-by a fixed rotation that has nothing to do with any task.
+The resultant of the two is a quartic in one ratio. Its roots are eigenvalues; Newton's method on the conics refines the
+points to the last digits. Points at infinity are no exception, since a fixed rotation is applied to the plane first.
 """
 
 from typing import NamedTuple, TypeAlias
@@ -19,23 +18,23 @@ from ilmek.num.pencil3 import product
 Conic: TypeAlias = Float[np.ndarray, "*batch 3 3"]
 
 TURN = Rotation.from_euler("zyx", [0.7133, -0.4719, 1.1327]).as_matrix()
-"""The fixed rotation: no task has a meeting point where it would be needed to be elsewhere, but by chance."""
+"""The fixed rotation, generic: no practical intersection is at infinity after it."""
 
 STEPS = 4
-"""Newton's steps at most."""
+"""Maximum number of Newton steps."""
 
 SAME = 1e-13
-"""Resultant of two conics, in their own units, that says that they have a line in common."""
+"""Greatest resultant of two conics, normalised, at which they count as having a common line."""
 
 TWICE = 1e-9
-"""Distance of unit vectors at which a double root, told as two, is one."""
+"""Greatest distance of unit vectors that count as one double root."""
 
 
 class Intersections(NamedTuple):
-    """Points s [unit vectors] where two conics meet.
+    """Intersections s [unit vectors] of two conics.
 
-    points  four of each pair, complex: with multiplicity, all of them
-    real    whether the point is real and not told before      share  the conics have a line or more in common
+    points  four of each pair, complex, with multiplicity
+    real    whether the point is real and not a repetition      share  whether the conics have a common line
     """
 
     points: Complex[np.ndarray, "*batch 4 3"]
@@ -44,7 +43,7 @@ class Intersections(NamedTuple):
 
 
 def meet(C: Conic, D: Conic) -> Intersections:
-    """All four points of two conics given by symmetric matrices; conics that share a line have no four.
+    """All four intersections of two conics given by symmetric matrices; undefined for conics with a common line.
 
     >>> found = meet(np.diag([1.0, 1.0, -5.0]), np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -4]]))  # x² + y² = 5, xy = 2
     >>> places = found.points.real / found.points.real[:, 2:]
@@ -58,7 +57,7 @@ def meet(C: Conic, D: Conic) -> Intersections:
     real = np.max(np.abs(s.imag), axis=-1) <= REAL
     s = np.where(real[..., None], s.real + 0j, s)
     s = _polished(C[..., None, :, :], D[..., None, :, :], s)
-    return Intersections(s @ TURN.T, real & ~_told_before(s, real), share)
+    return Intersections(s @ TURN.T, real & ~_is_repeated(s, real), share)
 
 
 def _first(C: Conic, D: Conic) -> tuple[NumberArray, BoolArray]:
@@ -76,7 +75,7 @@ def _first(C: Conic, D: Conic) -> tuple[NumberArray, BoolArray]:
 
 
 def _square(conic: NumberArray) -> NumberArray:
-    """What a conic has without x: coefficients of 1, y, y²."""
+    """Terms of a conic without x: coefficients of 1, y, y²."""
     return np.stack([conic[..., 2, 2], 2 * conic[..., 1, 2], conic[..., 1, 1]], axis=-1)
 
 
@@ -104,7 +103,7 @@ def _roots(quartic: NumberArray) -> NumberArray:
 
 
 def _polished(C: NumberArray, D: NumberArray, s: NumberArray) -> NumberArray:
-    """Newton's method on both conics, at right angles to s; a step that does not come nearer is not taken."""
+    """Newton's method on both conics, normal to s; steps that do not reduce the error are rejected."""
     best, step = _off(C, D, s)
     for _ in range(STEPS):
         tried = _unit(s - step)
@@ -116,7 +115,7 @@ def _polished(C: NumberArray, D: NumberArray, s: NumberArray) -> NumberArray:
 
 
 def _off(C: NumberArray, D: NumberArray, s: NumberArray) -> tuple[NumberArray, NumberArray]:
-    """How far s is off both conics, and Newton's step."""
+    """Residual of both conics at s, and Newton's step."""
     by_c, by_d = (np.sum(conic * s[..., None, :], axis=-1) for conic in (C, D))
     off_c, off_d = (0.5 * np.sum(s * by, axis=-1, keepdims=True) for by in (by_c, by_d))
     normal = np.conj(s)
@@ -131,13 +130,13 @@ def _unit(s: NumberArray) -> NumberArray:
 
 
 def _upright(s: NumberArray) -> NumberArray:
-    """The same point with its largest number real."""
+    """The same point with a real largest component."""
     largest = np.take_along_axis(s, np.argmax(np.abs(s), axis=-1)[..., None], axis=-1)
     return np.asarray(s * np.conj(largest) / np.abs(largest))
 
 
-def _told_before(s: NumberArray, real: BoolArray) -> BoolArray:
-    """Whether a real point is one of those before it: the two halves of a double root."""
+def _is_repeated(s: NumberArray, real: BoolArray) -> BoolArray:
+    """Whether a real point is close to an earlier one: the second half of a double root."""
     apart = product(s.real[..., :, None, :], s.real[..., None, :, :])
-    near = np.sum(apart * apart, axis=-1) < TWICE**2
-    return np.asarray(np.any(np.tril(near & real[..., None, :], -1), axis=-1))
+    close = np.sum(apart * apart, axis=-1) < TWICE**2
+    return np.asarray(np.any(np.tril(close & real[..., None, :], -1), axis=-1))

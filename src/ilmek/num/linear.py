@@ -11,7 +11,7 @@ Vectors: TypeAlias = Float[np.ndarray, "*batch n"]
 
 
 def solve_many(matrix: Matrices, right: Vectors) -> Vectors:
-    """Solution x of matrix x = right, system by system; NaN where a system is singular or not finite.
+    """Solution x (..., n) of matrix (..., n, n) x = right (..., n); NaN where a system is singular or not finite.
 
     >>> solve_many(np.array([[[2.0, 0.0], [0.0, 4.0]], [[1.0, 1.0], [1.0, 1.0]]]), np.ones((2, 2)))
     array([[0.5 , 0.25],
@@ -22,7 +22,7 @@ def solve_many(matrix: Matrices, right: Vectors) -> Vectors:
     safe = np.where(usable[..., None, None], matrix, np.eye(size))
     try:
         found = np.linalg.solve(safe, right[..., None])[..., 0]
-    except np.linalg.LinAlgError:  # one exactly singular system spoils the batch: leave those out
+    except np.linalg.LinAlgError:  # one exactly singular system fails the whole batch: leave such systems out
         regular = np.linalg.matrix_rank(safe) == size
         usable &= regular
         safe = np.where(regular[..., None, None], safe, np.eye(size))
@@ -31,7 +31,7 @@ def solve_many(matrix: Matrices, right: Vectors) -> Vectors:
 
 
 def reciprocal_condition(matrix: Matrices) -> Float[np.ndarray, "*batch"]:
-    """Smallest by largest singular value: 1 at best, 0 where singular, NaN where not finite.
+    """Ratio of the smallest to the largest singular value: 1 at best, 0 if singular, NaN if not finite.
 
     >>> reciprocal_condition(np.array([[[2.0, 0.0], [0.0, 4.0]]]))
     array([0.5])

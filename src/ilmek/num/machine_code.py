@@ -41,7 +41,7 @@ CHECKSUM = hashlib.sha256().digest_size
 
 
 def dispatcher(function: FunctionType) -> Any:
-    """Numba's dispatcher of a kernel's function; its machine code is kept where there is a private folder for it."""
+    """Numba's dispatcher of a kernel's function; its machine code is kept if there is a private folder."""
     made = numba.njit(**OPTIONS)(function)
     folder = private_folder()
     if folder:
@@ -51,7 +51,7 @@ def dispatcher(function: FunctionType) -> Any:
 
 
 def private_folder() -> Path | None:
-    """The user's folder of compiled kernels; None where it does not belong to the user, or others may enter it."""
+    """The user's folder of compiled kernels; None if it does not belong to the user, or others have access."""
     try:
         folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "ilmek" / "kernels"
         folder.parent.mkdir(parents=True, exist_ok=True)
@@ -77,7 +77,7 @@ class KernelCache(NullCache):
         return self.folder / f"{name}.kernel"
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """The compiled kernel; None, so that it is compiled, where no whole entry is kept."""
+        """The compiled kernel; None without a complete entry, so that it is compiled."""
         try:
             target_context.refresh()
             kept = self.file(sig, target_context.codegen()).read_bytes()
@@ -88,7 +88,7 @@ class KernelCache(NullCache):
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep it, whole or not at all; a full disk is no reason to fail."""
+        """Write an entry atomically; a full disk is no error."""
         if data.lifted or data.library.has_dynamic_globals:
             return
         with suppress(OSError):

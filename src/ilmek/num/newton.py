@@ -12,10 +12,11 @@ System: TypeAlias = Callable[[Vectors], tuple[Vectors, Matrices]]
 
 
 def newton(system: System, start: Vectors, *, tolerance: float, steps: int = 30) -> Vectors:
-    """Root x of f(x) = 0 for every system of the batch, NaN where none is reached.
+    """Root x (..., n) of f(x) = 0 for every system of the batch; NaN without convergence.
 
-    A system has converged when a step no longer moves any unknown by more than `tolerance`; that step is still taken,
-    so that by quadratic convergence the error is far below it. Steps are not damped: the start must be near.
+    system  x -> f(x) (..., n) and f'(x) (..., n, n)      start  (..., n), near the root: steps are not damped
+    A system has converged after a step of at most `tolerance` in every unknown; by quadratic convergence the error is
+    far below it.
 
     >>> newton(lambda x: (x * x - 2, 2 * x[..., None]), np.array([[1.0], [3.0]]), tolerance=1e-9).round(12)
     array([[1.41421356],
@@ -28,6 +29,6 @@ def newton(system: System, start: Vectors, *, tolerance: float, steps: int = 30)
         step = solve_many(slope, value)
         found = found - step
         moved = np.max(np.abs(step), axis=-1)
-        if not (moved > tolerance).any():  # a lost system is NaN and stays so
+        if not (moved > tolerance).any():  # a diverged system remains NaN
             break
     return np.where((moved <= tolerance)[..., None], found, np.nan)

@@ -1,4 +1,4 @@
-"""Pareto's front: the members that no other beats in everything."""
+"""Pareto front: the non-dominated members."""
 
 from bisect import bisect_right
 
@@ -7,16 +7,18 @@ import numpy as np
 from ilmek.arrays import Bool, Float
 
 BLOCK = 512
-"""Members compared at a time with the front so far."""
+"""Members compared per step with the present front."""
 
 
 def front(costs: Float[np.ndarray, "members costs"]) -> Bool[np.ndarray, " members"]:
-    """Whether each member is on the front: no other is at most as dear in every cost, and cheaper in one. Exact.
+    """Whether each member is on the front, that is, not dominated. Exact.
 
-    costs  what is to be small; what is to be great is handed in with its sign changed
-    Members alike in every cost are on the front together, or not at all; one with a cost that is NaN never is.
-    In the dictionary's order of their costs, only an earlier member can beat a later one, and unless they are alike it
-    does so where it is not dearer in the second cost and all that follow.
+    A member dominates another if no cost is higher and at least one is lower.
+
+    costs  (members, costs), to be minimised; quantities to be maximised are given with the opposite sign
+    Members with equal costs are on the front together or not at all; a member with a NaN cost is not on the front.
+    In lexicographic order only an earlier member can dominate a later one: if they differ, and neither the second nor a
+    further cost is higher.
 
     >>> front(np.array([[1.0, 3.0], [2.0, 2.0], [3.0, 1.0], [2.0, 3.0], [2.0, 2.0]])).tolist()
     [True, True, True, False, True]
@@ -24,51 +26,51 @@ def front(costs: Float[np.ndarray, "members costs"]) -> Bool[np.ndarray, " membe
     usable = np.flatnonzero(~np.isnan(costs).any(axis=1))
     rows, alike = np.unique(costs[usable], axis=0, return_inverse=True)
     on_front = np.zeros(len(costs), dtype=bool)
-    on_front[usable] = _unbeaten(rows[:, 1:])[alike.ravel()]
+    on_front[usable] = _non_dominated(rows[:, 1:])[alike.ravel()]
     return on_front
 
 
-def _unbeaten(rows: Float[np.ndarray, "rows costs"]) -> Bool[np.ndarray, " rows"]:
-    """The rows for which no earlier one is at most as great in every cost."""
-    unbeaten = np.zeros(len(rows), dtype=bool)
+def _non_dominated(rows: Float[np.ndarray, "rows costs"]) -> Bool[np.ndarray, " rows"]:
+    """The rows for which no earlier row has at most the same value in every cost."""
+    non_dominated = np.zeros(len(rows), dtype=bool)
     if rows.shape[1] == 1:
-        unbeaten[1:] = rows[1:, 0] < np.minimum.accumulate(rows[:-1, 0])
-        unbeaten[:1] = True
-        return unbeaten
+        non_dominated[1:] = rows[1:, 0] < np.minimum.accumulate(rows[:-1, 0])
+        non_dominated[:1] = True
+        return non_dominated
     if rows.shape[1] == 2:
-        return _under_the_stair(rows)
+        return _non_dominated_pairs(rows)
     kept = np.empty((0, rows.shape[1]))
     for start in range(0, len(rows), BLOCK):
         part = np.arange(start, min(start + BLOCK, len(rows)))
-        part = part[~_not_dearer(kept, rows[part]).any(axis=1)]
-        part = part[~np.tril(_not_dearer(rows[part], rows[part]), -1).any(axis=1)]
-        unbeaten[part] = True
+        part = part[~_weakly_dominates(kept, rows[part]).any(axis=1)]
+        part = part[~np.tril(_weakly_dominates(rows[part], rows[part]), -1).any(axis=1)]
+        non_dominated[part] = True
         kept = np.concatenate([kept, rows[part]])
-    return unbeaten
+    return non_dominated
 
 
-def _under_the_stair(rows: Float[np.ndarray, "rows 2"]) -> Bool[np.ndarray, " rows"]:
-    """The same for two costs: the best so far are a stair, and a row is compared with the one step at its place."""
-    unbeaten = np.zeros(len(rows), dtype=bool)
+def _non_dominated_pairs(rows: Float[np.ndarray, "rows 2"]) -> Bool[np.ndarray, " rows"]:
+    """The same for two costs: the present front is a staircase, and a row is compared with one step of it."""
+    non_dominated = np.zeros(len(rows), dtype=bool)
     across: list[float] = []
     heights: list[float] = []
-    for place, (first, second) in enumerate(rows.tolist()):
+    for index, (first, second) in enumerate(rows.tolist()):
         step = bisect_right(across, first)
         if step and heights[step - 1] <= second:
             continue
-        unbeaten[place] = True
-        # Steps farther on and as high or higher are hidden by the new one.
+        non_dominated[index] = True
+        # The new step replaces further steps that are not lower.
         end = step
         while end < len(across) and heights[end] >= second:
             end += 1
         across[step:end], heights[step:end] = [first], [second]
-    return unbeaten
+    return non_dominated
 
 
-def _not_dearer(
+def _weakly_dominates(
     others: Float[np.ndarray, "others costs"], members: Float[np.ndarray, "members costs"]
 ) -> Bool[np.ndarray, "members others"]:
-    """Whether each of the others is at most as dear as each member in every cost."""
+    """Whether each of the others has at most the same value as each member in every cost."""
     found = np.ones((len(members), len(others)), dtype=bool)
     for theirs, mine in zip(others.T, members.T, strict=True):
         found &= theirs <= mine[:, None]

@@ -1,4 +1,4 @@
-"""Real roots of a matrix pencil: where A + x B is singular, and what it then sends to nothing."""
+"""Real eigenvalues x and null vectors v of a matrix pencil, (A + x B) v = 0."""
 
 from typing import NamedTuple, TypeAlias
 
@@ -10,9 +10,9 @@ from ilmek.arrays import Complex, Float
 Square: TypeAlias = Float[np.ndarray, "n n"]
 
 REAL = 1e-6
-"""Imaginary part, of the size of the root or of 1, below which a root is real: rounding splits a double root so far."""
+"""Greatest imaginary part of a real root, relative to the root or 1: rounding splits a double root that far."""
 
-NOTHING = 1e-12
+ZERO = 1e-12
 """Size, relative to the pencil's, of an eigenvalue's numerator or denominator that counts as zero."""
 
 
@@ -24,16 +24,16 @@ class Root(NamedTuple):
 
 
 def roots(A: Square, B: Square) -> Complex[np.ndarray, " m"]:
-    """All finite roots of det(A + x B) = 0, by generalised eigenvalues; infinite ones (B singular) are left out.
+    """All finite roots of det(A + x B) = 0, by generalised eigenvalues; without infinite ones (B singular).
 
-    A pencil that is singular for every x has no roots of its own: the array is empty then.
+    Empty for a pencil that is singular for every x.
 
     >>> roots(np.diag([1.0, -6.0]), np.diag([0.0, 2.0]))
     array([3.+0.j])
     """
     size = max(float(np.max(np.abs(A))), 1e-300), max(float(np.max(np.abs(B))), 1e-300)
     numerator, denominator = scipy.linalg.eigvals(A / size[0], -B / size[1], homogeneous_eigvals=True)
-    small = np.abs(numerator) < NOTHING, np.abs(denominator) < NOTHING
+    small = np.abs(numerator) < ZERO, np.abs(denominator) < ZERO
     if np.any(small[0] & small[1]):
         return np.empty(0, dtype=complex)
     finite = ~small[1]
@@ -42,7 +42,7 @@ def roots(A: Square, B: Square) -> Complex[np.ndarray, " m"]:
 
 
 def real_roots(A: Square, B: Square) -> tuple[Root, ...]:
-    """The real roots in ascending order, with their vectors; a double root may be told twice.
+    """The real roots in ascending order, with their vectors; a double root may appear twice.
 
     >>> [round(root.value, 12) for root in real_roots(np.diag([1.0, -6.0]), np.eye(2))]
     [-1.0, 6.0]

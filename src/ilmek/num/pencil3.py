@@ -2,8 +2,8 @@
 
     det(k A + x B) = k³ det A + k² x tr(adj(A) B) + k x² tr(adj(B) A) + x³ det B
 
-Roots are ratios x : k, so that an infinite one (k = 0) is a root like any other: the pencil is first turned in the
-plane of (x, k) to where its determinant is large, and no root is near infinity then.
+Roots are ratios x : k, so that an infinite one (k = 0) is a root like any other: the pencil is first rotated
+in the plane of (x, k) to a direction with a large determinant, so that no root is near infinity.
 """
 
 from typing import NamedTuple
@@ -16,21 +16,21 @@ from ilmek.num.pencil import REAL
 Rows = Num[np.ndarray, "*batch 3 3"]
 
 TURNS = np.pi * np.array([0.0, 0.25, 0.5, 0.75, 0.1, 0.6])
-"""Directions in the plane of (x, k) that are tried; a cubic vanishes in three directions at most."""
+"""Directions in the plane of (x, k) for the rotation; a cubic vanishes in three directions at most."""
 
 SINGULAR = 1e-9
-"""Singular value, in units of the pencil, that counts as nothing."""
+"""Greatest singular value, relative to the pencil, that counts as zero."""
 
 POLISHED = 3
-"""Newton's steps on the determinant itself after the eigenvalues."""
+"""Number of Newton steps on the determinant after the eigenvalues."""
 
 
 class Roots(NamedTuple):
     """The n roots of each pencil of n x n matrices.
 
     numerator, denominator  x and k of x : k = root, x² + k² = 1
-    vectors  unit v with (k A + x B) v = 0          real  whether the root is real; the others hold no meaning
-    alone    False where v is not the only one      free  the pencil is singular for every x: it has no roots
+    vectors  unit v with (k A + x B) v = 0          real  whether the root is real; other rows have no meaning
+    alone    whether the null space has dimension 1      free  whether the pencil is singular for every x, without roots
     """
 
     numerator: Float[np.ndarray, "*batch n"]
@@ -74,7 +74,7 @@ def null_vector(rows: Rows) -> Float[np.ndarray, "*batch 3"]:
 
 
 def roots3(A: Float[np.ndarray, "*batch 3 3"], B: Float[np.ndarray, "*batch 3 3"]) -> Roots:
-    """All roots of det(k A + x B) = 0, pencil by pencil, by eigenvalues and Newton's method.
+    """All roots of det(k A + x B) = 0 for each pencil, by eigenvalues and Newton's method.
 
     >>> found = roots3(np.diag([1.0, -6.0, -4.0]), np.diag([1.0, 2.0, 2.0]))
     >>> np.sort(found.numerator / found.denominator).round(12)
@@ -114,7 +114,7 @@ def _at(form: NumberArray, x: NumberArray, k: NumberArray) -> NumberArray:
 
 
 def _singular(rows: NumberArray) -> Bool[np.ndarray, "*batch"]:
-    """Whether a matrix has no rank 3; singular values are only asked for where the determinant is small."""
+    """Whether the rank is below 3; singular values are computed for small determinants only."""
     small = np.asarray(np.abs(determinant(rows)) < 1e3 * SINGULAR)
     if small.any():
         small[small] = np.linalg.svd(rows[small], compute_uv=False)[..., -1] < SINGULAR
@@ -130,7 +130,7 @@ def _companion_roots(form: NumberArray) -> NumberArray:
 
 
 def _polished(X: NumberArray, Y: NumberArray, y: NumberArray) -> NumberArray:
-    """Newton's method on det(X + y Y), which knows the roots better than the cubic's coefficients do."""
+    """Newton's method on det(X + y Y), which has the roots more exactly than the cubic's coefficients."""
     for _ in range(POLISHED):
         rows = X + y[..., None, None] * Y
         slope = np.sum(np.swapaxes(adjugate(rows), -1, -2) * Y, axis=(-2, -1))

@@ -21,16 +21,16 @@ def periodic_derivative(
     """
     count = len(samples)
     if count < 3:
-        raise IlmekError(f"{count} samples of a period", allowed="at least 3 are needed for a derivative")
+        raise IlmekError(f"{count} samples of a period", allowed="at least 3 for a derivative")
     factor = (2j * np.pi / period * np.fft.fftfreq(count, 1 / count)) ** order
     if count % 2 == 0 and order % 2:
-        factor[count // 2] = 0  # the highest frequency has no definite slope
+        factor[count // 2] = 0  # the derivative of the highest frequency is undefined
     derived = np.fft.ifft(factor * np.fft.fft(samples))
     return derived if np.iscomplexobj(samples) else derived.real
 
 
 def periodic_mean(samples: Float[np.ndarray, " samples"]) -> float:
-    """Mean over one period from samples at equal steps: the trapezium rule, spectrally accurate there.
+    """Mean over one period from samples at equal steps: the trapezium rule, with spectral accuracy.
 
     >>> periodic_mean(np.array([1.0, 3.0, 1.0, 3.0]))
     2.0

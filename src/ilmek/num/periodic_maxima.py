@@ -1,8 +1,8 @@
-"""Greatest values over a turn of many periodic curves at once: one row a member, suprema rather than best samples.
+"""Maxima over a turn of many periodic curves at once: one row per member, suprema rather than greatest samples.
 
-Each member has samples of its own, evenly over the turn and ever closer to the angles where its curves may be sharp.
-A sample not below its neighbours that rivals the member's greatest one brackets a summit; all summits of all members
-climb together by parabolas through three points.
+Each member has its own samples, even over the turn and dense near the angles where its curves may be sharp. A local
+maximum of the samples near the member's greatest one brackets a maximum; all maxima of all members are refined together
+by parabolas through three points.
 """
 
 from collections.abc import Callable, Mapping
@@ -14,80 +14,80 @@ from ilmek.arrays import BoolArray, FloatArray, IntArray
 from ilmek.units import turn
 
 RowCurves: TypeAlias = Callable[[IntArray, FloatArray], Mapping[str, FloatArray]]
-"""Members (m, 1) and angles (m, k) [rad] -> named values (m, k); of period 2 pi and smooth near their summits."""
+"""Members (m, 1) and angles (m, k) [rad] -> named values (m, k); of period 2 pi and smooth near their maxima."""
 
 EVEN, CLOSE, NEAREST = 48, 8, 2.0**-8
-"""Even samples over the turn; samples on each side of a sharp angle, each nearer than the last by one ratio; and the
-nearest over the farthest of them, which is 0.4 of an even step away."""
+"""Even samples over the turn; samples on each side of a sharp angle, at distances of a geometric sequence; and the
+ratio of the nearest to the farthest of them, which is at 0.4 of an even step."""
 
 RIVAL, MARGIN = 0.5, 3.0
-"""Part of the span below the greatest sample within which local maxima are looked at, and how many times the gain that
-a hill without flanks may have is granted to each."""
+"""Share of the range below the greatest sample within which local maxima are refined, and safety factor on the greatest
+possible rise between samples."""
 
 BLOCK = 8192
-"""Samples worked off at a time: more would leave the processor's cache."""
+"""Samples per block: more would exceed the processor's cache."""
 
 ROUNDS, NARROW, FLAT = 12, 16.0, 1e-6
-"""Most parabolas fitted to a summit; how much narrower each may be than the last; and the fall of its neighbours below
-a summit, as a part of it, at which it is reached."""
+"""Greatest number of parabolas per maximum; ratio of successive widths; and relative fall of the neighbours below a
+maximum at which it has converged."""
 
 
-def summits(curves: RowCurves, sharp: FloatArray) -> dict[str, FloatArray]:
-    """The greatest value over a turn of each curve of each member, to about 1e-8 of itself, hardly ever more than 1e-5.
+def periodic_maxima(curves: RowCurves, sharp: FloatArray) -> dict[str, FloatArray]:
+    """The greatest value over a turn of each curve of each member, (members,), to about 1e-8, rarely 1e-5, of itself.
 
-    sharp  angles [rad], (members, any number), near which a member's curves may be narrow
-    A curve that is not finite somewhere has no greatest value: NaN.
+    curves  see `RowCurves`      sharp  angles [rad], (members, k), near which a member's curves may have narrow peaks
+    NaN for a curve with a NaN sample.
 
     >>> heights = np.array([1.0, 2.0])
-    >>> found = summits(lambda row, at: {"wave": heights[row] * np.cos(at - 0.3 * row)}, np.zeros((2, 1)))
+    >>> found = periodic_maxima(lambda row, at: {"wave": heights[row] * np.cos(at - 0.3 * row)}, np.zeros((2, 1)))
     >>> found["wave"].round(9).tolist()
     [1.0, 2.0]
     """
     grids = _samples(sharp)
     greatest: dict[str, list[FloatArray]] = {}
-    hills: dict[str, list[Hills]] = {}
+    brackets: dict[str, list[Brackets]] = {}
     for part in _blocks(*grids.shape):
         row = np.arange(part.start, part.stop)
         for name, values in curves(row[:, None], grids[part]).items():
             greatest.setdefault(name, []).append(np.max(values, axis=1))
-            hills.setdefault(name, []).append(_hills(values, grids[part], row))
+            brackets.setdefault(name, []).append(_local_brackets(values, grids[part], row))
     found = {name: np.concatenate(parts) for name, parts in greatest.items()}
     if found:
-        _climb(curves, found, hills)
+        _refine(curves, found, brackets)
     return found
 
 
 def _samples(sharp: FloatArray) -> FloatArray:
-    """Angles of each member, ascending, all of one number."""
+    """Angles of each member [rad], ascending, of equal number."""
     step = turn / EVEN
-    near = 0.4 * step * NEAREST ** (np.arange(CLOSE) / (CLOSE - 1))
-    offsets = np.concatenate([-near, [0.0], near])
+    distances = 0.4 * step * NEAREST ** (np.arange(CLOSE) / (CLOSE - 1))
+    offsets = np.concatenate([-distances, [0.0], distances])
     close = np.mod(sharp[:, :, None] + offsets, turn).reshape(len(sharp), -1)
     even = np.broadcast_to((np.arange(EVEN) + 0.5) * step, (len(sharp), EVEN))
     return np.sort(np.concatenate([even, close], axis=1), axis=1)
 
 
-Hills: TypeAlias = tuple[IntArray, FloatArray, FloatArray]
-"""Of each local maximum its member, and angles and values (number, 3) about it."""
+Brackets: TypeAlias = tuple[IntArray, FloatArray, FloatArray]
+"""For each local maximum its member, and three angles [rad] and values around it, (maxima, 3)."""
 
 
-def _hills(values: FloatArray, angle: FloatArray, row: IntArray) -> Hills:
-    """The local maxima of a block's samples that may rival the greatest."""
+def _local_brackets(values: FloatArray, angle: FloatArray, row: IntArray) -> Brackets:
+    """The local maxima of a block's samples that may exceed the greatest sample."""
     top = np.max(values, axis=1)
     floor = top - RIVAL * (top - np.min(values, axis=1))
-    where, place = np.nonzero(_local_maxima(values) & (values >= floor[:, None]))
+    where, column = np.nonzero(_local_maxima(values) & (values >= floor[:, None]))
     width = values.shape[1]
-    about = (place[:, None] + np.arange(-1, 2)) % width
+    about = (column[:, None] + np.arange(-1, 2)) % width
     angles, heights = angle[where[:, None], about], values[where[:, None], about]
-    # Neighbours across the end of the turn lie on the sample's own side of it.
-    angles[:, 0] -= turn * (place == 0)
-    angles[:, 2] += turn * (place == width - 1)
+    # Neighbours across the end of the turn are moved to the sample's side of it.
+    angles[:, 0] -= turn * (column == 0)
+    angles[:, 2] += turn * (column == width - 1)
     rivals = _may_exceed(angles, heights, top[where])
     return row[where[rivals]], angles[rivals], heights[rivals]
 
 
 def _may_exceed(x: FloatArray, y: FloatArray, top: FloatArray) -> BoolArray:
-    """Whether hills through three points may be higher than `top`: a hill lies below its chords drawn on."""
+    """Whether concave maxima through three points may exceed `top`: they lie below the extended chords."""
     left, right = x[:, 1] - x[:, 0], x[:, 2] - x[:, 1]
     up, down = y[:, 1] - y[:, 0], y[:, 1] - y[:, 2]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -97,7 +97,7 @@ def _may_exceed(x: FloatArray, y: FloatArray, top: FloatArray) -> BoolArray:
 
 
 def _local_maxima(values: FloatArray) -> BoolArray:
-    """Samples above their left neighbour and not below their right one, round the turn."""
+    """Samples above their left neighbour and not below their right one, periodic."""
     rises = np.empty((values.shape[0], values.shape[1] + 1), dtype=bool)
     np.greater(values[:, 1:], values[:, :-1], out=rises[:, 1:-1])
     rises[:, 0] = rises[:, -1] = values[:, 0] > values[:, -1]
@@ -105,14 +105,16 @@ def _local_maxima(values: FloatArray) -> BoolArray:
     return maxima
 
 
-def _climb(curves: RowCurves, greatest: dict[str, FloatArray], hills: Mapping[str, list[Hills]]) -> None:
-    """Raise the greatest values to the summits of all hills; those of all curves are climbed together."""
-    row, x, y = (np.concatenate(column) for column in zip(*(one for of in hills.values() for one in of), strict=True))
-    curve = np.repeat(np.arange(len(hills)), [sum(one[0].size for one in of) for of in hills.values()])
+def _refine(curves: RowCurves, greatest: dict[str, FloatArray], brackets: Mapping[str, list[Brackets]]) -> None:
+    """Refine the maxima of all curves together and raise the greatest values to them."""
+    row, x, y = (
+        np.concatenate(column) for column in zip(*(one for of in brackets.values() for one in of), strict=True)
+    )
+    curve = np.repeat(np.arange(len(brackets)), [sum(one[0].size for one in of) for of in brackets.values()])
     for _ in range(ROUNDS):
         if not row.size:
             break
-        tried = _tries(x, y)
+        tried = _next_angles(x, y)
         found = np.empty_like(tried)
         for part in _blocks(*tried.shape):
             values = list(curves(row[part, None], tried[part]).values())
@@ -130,13 +132,13 @@ def _climb(curves: RowCurves, greatest: dict[str, FloatArray], hills: Mapping[st
 
 
 def _blocks(rows: int, width: int) -> list[slice]:
-    """Rows worked off at a time."""
+    """Rows per block."""
     size = max(1, BLOCK // width)
     return [slice(start, min(rows, start + size)) for start in range(0, rows, size)]
 
 
-def _tries(x: FloatArray, y: FloatArray) -> FloatArray:
-    """Where to look next within three points: both middles, and the parabola's vertex with neighbours."""
+def _next_angles(x: FloatArray, y: FloatArray) -> FloatArray:
+    """Next angles within three points: both midpoints, and the parabola's vertex with neighbours."""
     left, right = x[:, 1] - x[:, 0], x[:, 2] - x[:, 1]
     up, down = y[:, 1] - y[:, 0], y[:, 2] - y[:, 1]
     with np.errstate(divide="ignore", invalid="ignore"):

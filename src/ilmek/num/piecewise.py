@@ -168,9 +168,9 @@ def integrals(curves: SidedCurves, pieces: Pieces, *, nodes: int = PART_NODES) -
     >>> round(float(np.sum(found)) / np.pi, 12)
     1.0
     """
-    places, weights = _gauss(nodes)
+    points, weights = _gauss(nodes)
     half = 0.5 * pieces.widths[:, None]
-    x = pieces.starts[:, None] + half * (1 + places)
+    x = pieces.starts[:, None] + half * (1 + points)
     sides = pieces.sides(x, np.arange(len(x))[:, None])
     values = curves(np.ravel(x), np.ravel(sides))
     return {name: np.sum(half * weights * np.reshape(value, x.shape), axis=1) for name, value in values.items()}

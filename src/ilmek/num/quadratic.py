@@ -1,10 +1,10 @@
 # ruff: noqa: PLR0917 - compiled functions take their arguments by position
-"""The lowest point of a convex quadratic within linear limits: a few unknowns, compiled, called from other kernels.
+"""Minimum of a convex quadratic under linear inequalities: a few unknowns, compiled, called from other kernels.
 
-    least  1/2 s^T H s + g^T s    with  rows s <= slack,    H positive definite,  slack >= 0
+    minimise  1/2 s^T H s + g^T s    subject to  rows s <= slack,    H positive definite,  slack >= 0
 
-By active sets from s = 0, which is allowed: go to the lowest point on the limits held so far, stop at the first new
-one and hold it too; where the lowest point is reached, let go of the limit that pulls the wrong way.
+By active sets from the feasible s = 0: step to the minimum on the active constraints, stop at the first new constraint
+and activate it; at the minimum release the constraint with the most negative multiplier.
                                                               [Nocedal and Wright, Numerical Optimization, alg. 16.3]
 """
 
@@ -19,18 +19,18 @@ Matrix = Float[np.ndarray, "n n"]
 Vector = Float[np.ndarray, " n"]
 
 ROUNDS = 40
-"""Changes of the active set at most; the last allowed step is kept."""
+"""Maximum number of changes of the active set; the last feasible step is kept."""
 
 LEAST = 1e-18
-"""Pivot of H, against its diagonal, below which it is not positive definite."""
+"""Least pivot of a positive definite H, relative to its diagonal."""
 
 SAME = 1e-10
-"""Pivot of a limit's row, against its own size, below which the limits already held say the same."""
+"""Least pivot of a constraint that is independent of the active ones, relative to its own size."""
 
 
 @compiled
 def cholesky(matrix: Matrix, size: int, least: float, factor: Matrix) -> bool:
-    """Lower L with L L^T = matrix (its leading `size` rows) into `factor`; False where a pivot is below `least`."""
+    """Lower L with L L^T = matrix (its leading `size` rows), written to `factor`; False if a pivot is below `least`."""
     for i in range(size):
         for j in range(i + 1):
             total = matrix[i, j]
@@ -66,35 +66,35 @@ def limited_step(
     slack: Float[np.ndarray, " m"],
     step: Vector,
 ) -> int:
-    """The lowest point s into `step`; number of limits held there, -1 where H is not positive definite."""
+    """Write the minimum s to `step`; the number of active constraints, -1 if H is not positive definite."""
     n = g.size
     factor, within = np.empty((n, n)), np.empty((n, n))
     if not cholesky(H, n, LEAST, factor):
         return -1
-    held = np.empty(n, np.int64)
-    count = held.size - n  # a plain 0 would be compiled for twice, as that number and as any
-    pulls, move = np.empty(n), np.empty(n)
+    active = np.empty(n, np.int64)
+    count = active.size - n  # a literal 0 would be compiled twice, as a constant and as an integer
+    multipliers, move = np.empty(n), np.empty(n)
     spread = np.empty((n, n))
     for i in range(n):
         step[i] = 0.0
     for _ in range(ROUNDS):
-        if not _towards(H, g, rows, step, factor, held, count, spread, within, pulls, move):
+        if not _towards(H, g, rows, step, factor, active, count, spread, within, multipliers, move):
             return count - 1
-        reach, blocking = _first_limit(rows, slack, step, move, held, count)
+        reach, blocking = _first_limit(rows, slack, step, move, active, count)
         for i in range(n):
             step[i] += reach * move[i]
         if blocking >= 0:
             if count == n:
                 return count
-            held[count] = blocking
+            active[count] = blocking
             count += 1
             continue
-        worst = _pulling_wrong(pulls, count)
+        worst = _most_negative(multipliers, count)
         if worst < 0:
             return count
         count -= 1
         for k in range(worst, count):
-            held[k] = held[k + 1]
+            active[k] = active[k + 1]
     return count
 
 
@@ -105,17 +105,17 @@ def _towards(
     rows: Float[np.ndarray, "m n"],
     step: Vector,
     factor: Matrix,
-    held: Int[np.ndarray, " n"],
+    active: Int[np.ndarray, " n"],
     count: int,
     spread: Matrix,
     within: Matrix,
-    pulls: Vector,
+    multipliers: Vector,
     move: Vector,
 ) -> bool:
-    """Way to the lowest point on the held limits into `move`, their multipliers into `pulls`; False where they say
-    the same twice.
+    """Write the step to the minimum on the active constraints to `move`, and their multipliers; False if the
+    constraints are dependent.
 
-    v = -H^-1 (H s + g),    (A H^-1 A^T) pulls = A v,    move = v - H^-1 A^T pulls
+    v = -H^-1 (H s + g),    (A H^-1 A^T) multipliers = A v,    move = v - H^-1 A^T multipliers
     """
     n = g.size
     for i in range(n):
@@ -126,17 +126,17 @@ def _towards(
     if count == 0:
         return True
     crossed = np.zeros((count, count))
-    _spread(rows, factor, held, count, spread, crossed)
+    _spread(rows, factor, active, count, spread, crossed)
     if not cholesky(crossed, count, SAME, within):
         return False
     for k in range(count):
-        pulls[k] = 0.0
+        multipliers[k] = 0.0
         for i in range(n):
-            pulls[k] += rows[held[k], i] * move[i]
-    back_solve(within, count, pulls)
+            multipliers[k] += rows[active[k], i] * move[i]
+    back_solve(within, count, multipliers)
     for k in range(count):
         for i in range(n):
-            move[i] -= pulls[k] * spread[k, i]
+            move[i] -= multipliers[k] * spread[k, i]
     return True
 
 
@@ -144,30 +144,30 @@ def _towards(
 def _spread(
     rows: Float[np.ndarray, "m n"],
     factor: Matrix,
-    held: Int[np.ndarray, " n"],
+    active: Int[np.ndarray, " n"],
     count: int,
     spread: Matrix,
     crossed: Float[np.ndarray, "count count"],
 ) -> None:
-    """H^-1 A^T of the held limits into the rows of `spread`, A H^-1 A^T into `crossed`."""
+    """Write H^-1 A^T of the active constraints to the rows of `spread`, and A H^-1 A^T to `crossed`."""
     n = rows.shape[1]
     column = np.empty(n)
     for m in range(count):
         for i in range(n):
-            column[i] = rows[held[m], i]
+            column[i] = rows[active[m], i]
         back_solve(factor, n, column)
         for i in range(n):
             spread[m, i] = column[i]
             for k in range(count):
-                crossed[k, m] += rows[held[k], i] * column[i]
+                crossed[k, m] += rows[active[k], i] * column[i]
 
 
 @compiled
-def _pulling_wrong(pulls: Vector, count: int) -> int:
-    """The held limit whose multiplier is furthest below 0; -1 where none is."""
+def _most_negative(multipliers: Vector, count: int) -> int:
+    """The active constraint with the most negative multiplier; -1 for none."""
     worst = -1
     for k in range(count):
-        if pulls[k] < 0.0 and (worst < 0 or pulls[k] < pulls[worst]):
+        if multipliers[k] < 0.0 and (worst < 0 or multipliers[k] < multipliers[worst]):
             worst = k
     return worst
 
@@ -178,10 +178,10 @@ def _first_limit(
     slack: Float[np.ndarray, " m"],
     step: Vector,
     move: Vector,
-    held: Int[np.ndarray, " n"],
+    active: Int[np.ndarray, " n"],
     count: int,
 ) -> tuple[float, int]:
-    """Part of `move` that is allowed, at most 1, and the limit that ends it (-1: none)."""
+    """Feasible share of `move`, at most 1, and the constraint that limits it (-1: none)."""
     reach, blocking = 1.0, -1
     for row in range(slack.size):
         climb, used = 0.0, 0.0
@@ -192,7 +192,7 @@ def _first_limit(
             continue
         holding = False
         for k in range(count):
-            holding = holding or held[k] == row
+            holding = holding or active[k] == row
         if not holding:
             reach, blocking = max(0.0, (slack[row] - used) / climb), row
     return reach, blocking

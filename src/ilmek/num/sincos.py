@@ -1,7 +1,7 @@
 """Sine and cosine by arithmetic alone: no branch, no table, no call, so that a compiled loop over them is vectorised.
 
     k = nearest integer to x / (pi/2),    r = x - k pi/2 in three parts,    |r| <= pi/4 (and rounding)
-    sin r and cos r by polynomials,       then turned by k quarters
+    sin r and cos r by polynomials,       then rotated by k quarter turns
 
 [Cody and Waite, Software Manual for the Elementary Functions, chapter 8; polynomials: Moshier, Cephes, sin.c.]
 """
@@ -31,7 +31,7 @@ def sincos(x: RealField) -> tuple[RealField, RealField]:
     p = (p * q - 2.75573141792967388112e-7) * q + 2.48015872888517045348e-5
     p = (p * q - 1.38888888888730564116e-3) * q + 4.16666666666665929218e-2
     c = 1.0 - (0.5 * q - q * q * p)
-    half = (0.5 * k - 0.25 + NEAREST) - NEAREST  # floor(k / 2): a tie is nowhere near
+    half = (0.5 * k - 0.25 + NEAREST) - NEAREST  # floor(k / 2), never at a tie
     odd = k - 2.0 * half  # 0 or 1
     quarter = (0.5 * half - 0.25 + NEAREST) - NEAREST
     sign = 1.0 - 2.0 * (half - 2.0 * quarter)

@@ -1,4 +1,4 @@
-"""Closed contours of straight pieces and arcs: area, length, points on them, and the usual ones of plates.
+"""Closed contours of straight pieces and arcs: area, length, points, and common contours of plates.
 
 The piece from p to q with the bulge b = tan(sweep/4) is the arc of radius |q - p| (1 + b^2)/(4 |b|), left of the chord
 where b < 0 and right of it where b > 0; b = 1 is a half turn to the left.
@@ -16,10 +16,10 @@ from ilmek.report import Contour
 from ilmek.units import format_quantity
 
 STRAIGHT = 1e-8
-"""Bulge below which a piece is straight: its centre is too far away for the digits of a number."""
+"""Bulge below which a piece counts as straight: the centre is too far away for double precision."""
 
 _NEARLY_STRAIGHT = 1e-2
-"""Bulge below which the sliver of an arc is reckoned by its series."""
+"""Bulge below which the area of a circular segment is computed by its series."""
 
 
 def circle(at: complex, radius: float) -> Contour:
@@ -37,7 +37,7 @@ def polygon(corners: Complex[np.ndarray, " corners"]) -> Contour:
 
 
 def rounded_hull(corners: Complex[np.ndarray, " corners"], radius: float) -> Contour:
-    """All points within `radius` of the convex hull of the corners [m]: two corners make a bar with round ends.
+    """All points within `radius` [m] of the convex hull of the corners [m]: two corners give a bar with round ends.
 
     Raises ParameterError for a radius that is not above 0.
     >>> bar = rounded_hull(np.array([0, 0.2 + 0j]), 0.02)
@@ -67,8 +67,8 @@ def keyed_bore(radius: float, width: float, depth: float) -> Contour:
     (0.0128, 4)
     """
     if not 0 < width < 2 * radius:
-        said, allowed = (format_quantity(value, "mm") for value in (width, 2 * radius))
-        raise ParameterError(f"a keyway {said} wide", allowed=f"above 0 mm, less than the bore of {allowed}")
+        given, allowed = (format_quantity(value, "mm") for value in (width, 2 * radius))
+        raise ParameterError(f"a keyway {given} wide", allowed=f"above 0 mm, less than the bore of {allowed}")
     half = width / 2
     at = math.sqrt(radius**2 - half**2)
     points = np.array([at + 1j * half, at - 1j * half, radius + depth - 1j * half, radius + depth + 1j * half])
@@ -77,7 +77,7 @@ def keyed_bore(radius: float, width: float, depth: float) -> Contour:
 
 
 def counter_clockwise(contour: Contour) -> Contour:
-    """The same line, run counter-clockwise.
+    """The same contour with counter-clockwise direction.
 
     >>> counter_clockwise(polygon(np.array([0, 1j, 1 + 1j]))).points.tolist()
     [(1+1j), 1j, 0j]
@@ -88,9 +88,9 @@ def counter_clockwise(contour: Contour) -> Contour:
 
 
 def area(contour: Contour) -> float:
-    """Area inside [m^2], negative where the contour runs clockwise.
+    """Enclosed area [m^2], negative for a clockwise contour.
 
-    The corners' polygon, and for each arc the sliver between arc and chord: R^2 (sweep - sin sweep)/2.
+    The polygon of the corners, and for each arc the circular segment R^2 (sweep - sin sweep)/2.
     """
     points, following = contour.points, np.roll(contour.points, -1)
     corners = points - points[0]
@@ -113,7 +113,7 @@ def polygon_moments(corners: Complex[np.ndarray, " corners"]) -> tuple[float, fl
 
 
 def _slivers(chord: Float[np.ndarray, " pieces"], bulge: Float[np.ndarray, " pieces"]) -> Float[np.ndarray, " pieces"]:
-    """Areas between arcs and chords [m^2]; c^2 (b/3 + b^3/15 - b^5/105) where b is small, which loses no digits."""
+    """Areas between arcs and chords [m^2]; c^2 (b/3 + b^3/15 - b^5/105) for small b, without cancellation."""
     small = np.abs(bulge) < _NEARLY_STRAIGHT
     b = np.where(small, 1.0, bulge)
     radius, sweep = chord * (1 + b**2) / (4 * b), 4 * np.arctan(b)
@@ -122,7 +122,7 @@ def _slivers(chord: Float[np.ndarray, " pieces"], bulge: Float[np.ndarray, " pie
 
 
 def length(contour: Contour) -> float:
-    """Length of the line [m]: chord (1 + b^2) atan(b)/b for each piece."""
+    """Length of the contour [m]: chord (1 + b^2) atan(b)/b for each piece."""
     chord = np.abs(np.roll(contour.points, -1) - contour.points)
     b = np.where(contour.bulges == 0, 1.0, contour.bulges)
     longer = np.where(contour.bulges == 0, 1.0, (1 + b**2) * np.arctan(b) / b)
@@ -130,9 +130,9 @@ def length(contour: Contour) -> float:
 
 
 def along(contour: Contour, chord_error: float) -> Complex[np.ndarray, " points"]:
-    """Points on the contour [m], each of its own among them, whose polyline leaves it by no more than `chord_error`.
+    """Points on the contour [m], including its own, with a deviation of their polyline of at most `chord_error` [m].
 
-    A piece of n chords over the sweep leaves its arc by R (1 - cos(sweep/2n)).
+    The deviation of n chords over the sweep is R (1 - cos(sweep/2n)).
     """
     parts = []
     following = np.roll(contour.points, -1)
@@ -143,7 +143,7 @@ def along(contour: Contour, chord_error: float) -> Complex[np.ndarray, " points"
 
 
 def _chords(chord: float, bulge: float, chord_error: float) -> int:
-    """How many chords an arc needs; one where its whole sagitta, b c/2, is within the error."""
+    """Number of chords of an arc; one where its sagitta b c/2 is within the error."""
     if bulge * chord / 2 <= chord_error:
         return 1
     radius = chord * (1 + bulge**2) / (4 * bulge)
@@ -151,7 +151,7 @@ def _chords(chord: float, bulge: float, chord_error: float) -> int:
 
 
 def on_piece(start: complex, end: complex, bulge: float, share: FloatArray) -> Complex[np.ndarray, " points"]:
-    """Points [m] at shares 0 to 1 of an arc's or a straight piece's length.
+    """Points [m] at fractions u from 0 to 1 of the length of an arc or a straight piece.
 
         p + (q - p) e^{-i (1 - u) a} sin(u a)/sin(a),   a = sweep/2 = 2 atan b
 
@@ -174,7 +174,7 @@ def arc_centre(start: complex, end: complex, bulge: float) -> complex:
 
 
 def bounds(contour: Contour) -> tuple[complex, complex]:
-    """Lower left and upper right corner [m] of the box that the contour fills, arcs' summits included.
+    """Lower left and upper right corner [m] of the bounding box, with the extremes of arcs.
 
     >>> bounds(circle(1 + 0j, 1.0))
     (-1j, (2+1j))

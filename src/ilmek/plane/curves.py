@@ -1,4 +1,4 @@
-"""Plane curves: curvature, where a polyline crosses itself, the hull of points."""
+"""Plane curves: curvature, self-crossings of a polyline, convex hull."""
 
 import numpy as np
 
@@ -17,25 +17,25 @@ def curvature(first: ComplexField, second: ComplexField) -> RealField:
 
 
 def crossing_segments(points: Complex[np.ndarray, " points"], closed: bool) -> Int[np.ndarray, "pairs 2"]:
-    """Pairs of segments of a polyline that cross within both, neighbours left out: segment k is from point k to k + 1.
+    """Pairs of segments of a polyline that cross, (pairs, 2), without neighbours; segment k is from point k to k + 1.
 
-    closed  the last point is the first one again
+    closed  the last point equals the first
     Two segments cross where each has the other's ends on different sides.
 
     >>> crossing_segments(np.array([0, 2 + 2j, 2 + 0j, 0 + 2j]), closed=False).tolist()
     [[0, 2]]
     """
-    start, way = points[:-1], np.diff(points)
-    count = len(way)
+    start, chord = points[:-1], np.diff(points)
+    count = len(chord)
     pairs = []
     for rows in np.array_split(np.arange(count), max(1, count // 256)):
         base = start[rows, None]
-        before = cross(way[rows, None], start[None, :] - base)
-        after = cross(way[rows, None], points[None, 1:] - base)
-        own = cross(way[None, :], base - start[None, :])
-        other = cross(way[None, :], points[rows + 1, None] - start[None, :])
-        apart = np.arange(count)[None, :] - rows[:, None]
-        far = (apart > 1) & ~((apart == count - 1) & closed)
+        before = cross(chord[rows, None], start[None, :] - base)
+        after = cross(chord[rows, None], points[None, 1:] - base)
+        own = cross(chord[None, :], base - start[None, :])
+        other = cross(chord[None, :], points[rows + 1, None] - start[None, :])
+        separation = np.arange(count)[None, :] - rows[:, None]
+        far = (separation > 1) & ~((separation == count - 1) & closed)
         found = np.argwhere((before * after < 0) & (own * other < 0) & far)
         found[:, 0] += rows[0]
         pairs.append(found)
@@ -43,7 +43,7 @@ def crossing_segments(points: Complex[np.ndarray, " points"], closed: bool) -> I
 
 
 def hull(points: Complex[np.ndarray, " points"]) -> Complex[np.ndarray, " corners"]:
-    """Corners of the convex hull, counter-clockwise from the leftmost; points in line: two, of one position: one.
+    """Corners of the convex hull, counter-clockwise from the leftmost; two for collinear points, one for equal points.
 
     >>> hull(np.array([0, 1, 1 + 1j, 1j, 0.5 + 0.5j]))
     array([0.+0.j, 1.+0.j, 1.+1.j, 0.+1.j])
@@ -55,7 +55,7 @@ def hull(points: Complex[np.ndarray, " points"]) -> Complex[np.ndarray, " corner
 def hull_indices(points: Complex[np.ndarray, " points"]) -> Int[np.ndarray, " corners"]:
     """Indices of the points on the convex hull, counter-clockwise from the leftmost.      [Andrew's monotone chain]
 
-    points  two or more; of points in line only the two ends are on the hull
+    points  two or more; of collinear points only the two ends are on the hull
 
     >>> hull_indices(np.array([0j, 1 + 0j, 0.5 + 0.1j, 1j])).tolist()
     [0, 1, 3]
@@ -66,7 +66,7 @@ def hull_indices(points: Complex[np.ndarray, " points"]) -> Int[np.ndarray, " co
 
 
 def _chain(plane: list[complex], order: list[int]) -> list[int]:
-    """The lower chain of the hull of points, taken in this order."""
+    """The lower chain of the hull of points in this order."""
     chain: list[int] = []
     for index in order:
         while len(chain) > 1 and cross(plane[chain[-1]] - plane[chain[-2]], plane[index] - plane[chain[-2]]) <= 0:

@@ -1,6 +1,6 @@
-"""Convex outlines with round edges: how far points and outlines stand from one another, below 0 inside one another.
+"""Convex outlines with round edges: distances of points and outlines, below 0 for penetration.
 
-Corners run counter-clockwise; two corners are a bar with round ends, one is a disc. Everything takes any batch shape.
+Corners are counter-clockwise; two corners are a bar with round ends, one is a disc. Functions take any batch shape.
 """
 
 from dataclasses import dataclass
@@ -15,9 +15,9 @@ from ilmek.plane.vectors import cross, dot
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Outline:
-    """All points within `radius` [m] of the convex hull of the corners [m]. A hollow outline is given as several.
+    """All points within `radius` [m] of the convex hull of the corners [m]. Concave outlines are given as several.
 
-    Raises IlmekError where there is no corner, one is not finite, or the radius is negative.
+    Raises IlmekError for no corner, a corner that is not finite, or a negative radius.
     >>> Outline((0, 2, 2 + 1j, 1 + 0.2j, 1j)).corners.tolist()
     [0j, (2+0j), (2+1j), 1j]
     """
@@ -36,7 +36,7 @@ class Outline:
 
     @property
     def area(self) -> float:
-        """Area [m^2]: the corners' polygon, a strip along its edges, and a disc for its corners."""
+        """Area [m^2]: the polygon of the corners, strips along its edges, and a disc."""
         edges = np.roll(self.corners, -1) - self.corners
         polygon = 0.5 * float(np.sum(cross(self.corners, np.roll(self.corners, -1))))
         return polygon + float(np.sum(np.abs(edges))) * self.radius + np.pi * self.radius**2
@@ -50,10 +50,10 @@ def to_segments(
     >>> to_segments(np.array([3 + 4j]), np.array([0j]), np.array([0j])).tolist()
     [5.0]
     """
-    way, arm = ends - starts, points - starts
-    squared = dot(way, way)
-    share = np.clip(dot(arm, way) / np.where(squared > 0, squared, 1.0), 0.0, 1.0)
-    distance: Float[np.ndarray, "*batch"] = np.abs(arm - share * way)
+    edge, arm = ends - starts, points - starts
+    squared = dot(edge, edge)
+    share = np.clip(dot(arm, edge) / np.where(squared > 0, squared, 1.0), 0.0, 1.0)
+    distance: Float[np.ndarray, "*batch"] = np.abs(arm - share * edge)
     return distance
 
 
@@ -64,35 +64,35 @@ def to_outline(points: Complex[np.ndarray, "*batch"], outline: Outline) -> Float
     [-0.6, 1.9]
     """
     corners, following = outline.corners, np.roll(outline.corners, -1)
-    spread = points[..., None]
-    distance = np.min(to_segments(spread, corners, following), axis=-1)
+    columns = points[..., None]
+    distance = np.min(to_segments(columns, corners, following), axis=-1)
     if len(corners) > 2:
         edges = following - corners
-        within = np.all(cross(edges, spread - corners) > 0, axis=-1)
+        within = np.all(cross(edges, columns - corners) > 0, axis=-1)
         distance = np.where(within, -distance, distance)
-    apart: Float[np.ndarray, "*batch"] = distance - outline.radius
-    return apart
+    distance_outside: Float[np.ndarray, "*batch"] = distance - outline.radius
+    return distance_outside
 
 
 def between(
     first: Complex[np.ndarray, "*batch a"], second: Complex[np.ndarray, "*batch b"]
 ) -> Float[np.ndarray, "*batch"]:
-    """Distance of two convex polygons by their corners [m]; overlapping, minus the shortest way to part them.
+    """Distance of two convex polygons by their corners [m]; for overlap minus the penetration depth.
 
-    Corners counter-clockwise; two are a bar, one a point.
+    first, second  corners [m], counter-clockwise; two are a segment, one is a point
     >>> square = np.array([0, 1, 1 + 1j, 1j])
     >>> between(square, square + 3).tolist(), between(square, square + 0.75 + 0.5j).tolist()
     (2.0, -0.25)
     """
-    apart = np.minimum(_corners_to_edges(first, second), _corners_to_edges(second, first))
-    parted = np.maximum(_parting(first, second), _parting(second, first))
-    overlapping = (parted < 0) & np.isfinite(parted)
-    distance: Float[np.ndarray, "*batch"] = np.where(overlapping, parted, apart)
+    distance_outside = np.minimum(_corners_to_edges(first, second), _corners_to_edges(second, first))
+    separation = np.maximum(_separation(first, second), _separation(second, first))
+    overlapping = (separation < 0) & np.isfinite(separation)
+    distance: Float[np.ndarray, "*batch"] = np.where(overlapping, separation, distance_outside)
     return distance
 
 
 def nearest(first: Complex[np.ndarray, " a"], second: Complex[np.ndarray, " b"]) -> tuple[complex, complex]:
-    """The nearest points of two convex polygons that stand apart: one on each.
+    """The nearest points [m] of two separate convex polygons: one on each.
 
     >>> nearest(np.array([0, 1, 1 + 1j, 1j]), np.array([3 + 0.5j]))
     ((1+0.5j), (3+0.5j))
@@ -105,9 +105,9 @@ def nearest(first: Complex[np.ndarray, " a"], second: Complex[np.ndarray, " b"])
 
 def _foot(corners: Complex[np.ndarray, " a"], polygon: Complex[np.ndarray, " b"]) -> tuple[complex, complex]:
     """The point of a polygon's edges nearest to any of the corners, and that corner."""
-    starts, way = polygon[None, :], (np.roll(polygon, -1) - polygon)[None, :]
-    arm, squared = corners[:, None] - starts, dot(way, way)
-    feet = starts + np.clip(dot(arm, way) / np.where(squared > 0, squared, 1.0), 0.0, 1.0) * way
+    starts, edge = polygon[None, :], (np.roll(polygon, -1) - polygon)[None, :]
+    arm, squared = corners[:, None] - starts, dot(edge, edge)
+    feet = starts + np.clip(dot(arm, edge) / np.where(squared > 0, squared, 1.0), 0.0, 1.0) * edge
     at = np.unravel_index(np.argmin(np.abs(corners[:, None] - feet)), feet.shape)
     return complex(feet[at]), complex(corners[at[0]])
 
@@ -119,10 +119,10 @@ def _corners_to_edges(
     return np.asarray(np.min(to_segments(first[..., :, None], starts, ends), axis=(-2, -1)))
 
 
-def _parting(
+def _separation(
     first: Complex[np.ndarray, "*batch a"], second: Complex[np.ndarray, "*batch b"]
 ) -> Float[np.ndarray, "*batch"]:
-    """The farthest that any edge of the first keeps the second away, below 0 if none does; -inf for a point."""
+    """Greatest separation [m] along the normals of the first's edges, below 0 for none; -inf for a point."""
     edges = np.roll(first, -1, axis=-1) - first
     lengths = np.abs(edges)
     arms = second[..., None, :] - first[..., :, None]

@@ -15,7 +15,7 @@ def dot(u: ComplexField, v: ComplexField) -> RealField:
 
 
 def cross(u: ComplexField, v: ComplexField) -> RealField:
-    """Vector product u x v = Im(conj(u) v): positive where v lies on the left of u.
+    """Vector product u x v = Im(conj(u) v): positive for v on the left of u.
 
     >>> float(cross(1 + 0j, 2j))
     2.0
@@ -24,7 +24,7 @@ def cross(u: ComplexField, v: ComplexField) -> RealField:
 
 
 def oblique(v: ComplexField, e: ComplexField, f: ComplexField) -> RealField:
-    """Share x of v along e in oblique axes, v = x e + y f: (v x f) / (e x f); the share along f is `oblique(v, f, e)`.
+    """Component x of v along e in oblique axes, v = x e + y f: (v x f) / (e x f); along f it is `oblique(v, f, e)`.
 
     Infinite or NaN where e and f are parallel.
     >>> float(oblique(3 + 4j, 1 + 0j, 1 + 1j)), float(oblique(3 + 4j, 1 + 1j, 1 + 0j))
@@ -35,7 +35,7 @@ def oblique(v: ComplexField, e: ComplexField, f: ComplexField) -> RealField:
 
 
 def unit(angle: RealField) -> ComplexField:
-    """Unit vector e^{i angle} from an angle [rad]; twice as quick as `np.exp(1j * angle)`.
+    """Unit vector e^{i angle} from an angle [rad]; twice as fast as `np.exp(1j * angle)`.
 
     >>> complex(np.round(unit(np.pi / 2), 12))
     1j

@@ -12,7 +12,7 @@ from ilmek.arrays import BoolArray, FloatArray, IntArray, RealField
 from ilmek.dynamics.inertia import bar_mass, bar_moment
 from ilmek.machines.beat_up.params import BEATER_RATIO, LIMITS, OBJECTIVES, BeatUpParams, front_objectives
 from ilmek.num.pareto import front
-from ilmek.num.periodic_maxima import summits
+from ilmek.num.periodic_maxima import periodic_maxima
 from ilmek.records import computed, record
 from ilmek.report import Json
 from ilmek.synthesis.crank_rocker.choice import Limit, Objective, choose
@@ -152,7 +152,7 @@ def tabulate(params: BeatUpParams, links: LinkRatios, beta: RealField) -> Table:
         return loaded(load, made.rows(row), angle)
 
     with np.errstate(divide="ignore", invalid="ignore"):
-        most = summits(curves, sharp_angles(links))
+        most = periodic_maxima(curves, sharp_angles(links))
         beat = loaded(load, made, beta)
     return {
         "crank_coupler_ratio": made.crank / made.coupler,

@@ -11,7 +11,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray, IntArray, RealField
 from ilmek.linkage.groups import rrr
-from ilmek.num.periodic_maxima import summits
+from ilmek.num.periodic_maxima import periodic_maxima
 from ilmek.synthesis.crank_rocker.dead_centres import LinkRatios, dead_centres
 
 PIVOT = 1 + 0j
@@ -91,7 +91,7 @@ def rocker_extremes(links: LinkRatios) -> RockerExtremes:
         at = moved(LinkRatios(*(column[row] for column in columns)), angle)
         return {"speed": np.abs(at.omega[1]), "acceleration": np.abs(at.alpha[1])}
 
-    return RockerExtremes(**summits(curves, sharp_angles(LinkRatios(*columns))))
+    return RockerExtremes(**periodic_maxima(curves, sharp_angles(LinkRatios(*columns))))
 
 
 def beat_acceleration(links: LinkRatios) -> RealField:
