@@ -1,4 +1,4 @@
-"""Shaking force and moment of a four-bar on its frame, and the counterweights against them."""
+"""Shaking force and moment of a four-bar on its frame, and its counterweights."""
 
 import cmath
 from collections.abc import Mapping
@@ -22,12 +22,12 @@ from ilmek.units import turn
 
 @record
 class Balance:
-    """The shaking force over a turn, the crank's pivot D its point of reference.
+    """Shaking force over a turn and its balance; the reference point of moments is the crank's pivot D.
 
-    before, after   without the counterweight and with it, over the angles of the motion
-    first           parts of its first harmonic that turn with the crank and against it, before [N]
+    before, after   without and with the counterweight, at the samples of the motion
+    first           parts of the first harmonic that rotate with the crank and against it, before [N]
     counterweight   static moment on the crank [kg m], complex in its frame
-    whole           static moments on crank and rocker that would cancel the force altogether [kg m]
+    whole           static moments on crank and rocker that cancel the force completely [kg m]
     """
 
     before: Shaking
@@ -67,13 +67,13 @@ def _most(values: NumberArray) -> float:
 
 
 def _direction(static_moment: complex) -> float:
-    """Angle in [0, 2 pi) [rad], rounding below 0 taken for 0."""
+    """Angle of a static moment in [0, 2 pi) [rad]; rounding below 0 counts as 0."""
     angle = cmath.phase(static_moment) % turn
     return 0.0 if turn - angle < ROUNDING else angle
 
 
 ROUNDING = 1e-10
-"""An angle this near to a turn is rounding [rad]."""
+"""Distance from a full turn that counts as rounding [rad]."""
 
 
 def balance(

@@ -2,7 +2,7 @@
 
     M = M_0 tanh((omega_0 - omega) / (s omega_0))          a motor or drive that limits its torque to M_0
 
-omega_0 the speed without load, s the slip at which it would give M_0 were its curve straight.
+omega_0 is the speed without load, s the slip at which a linear characteristic would reach M_0.
 """
 
 import math
@@ -22,15 +22,15 @@ from ilmek.records import computed, record, result
 from ilmek.units import turn
 
 REACHED = 0.95
-"""Part of the speed at which the start is over."""
+"""Share of the speed at which the start ends."""
 
 MOST_TURNS = 100
-"""Turns after which a start is given up."""
+"""Greatest duration of a start, in turns at the speed."""
 
 STEADY_TURNS, STEADY_SAMPLES = 4, 120
 RTOL = 1e-9
 ROUNDING = 1e-10
-"""A mean torque below this part of the greatest is rounding."""
+"""Mean torque relative to the greatest that counts as rounding."""
 
 
 @record
@@ -53,10 +53,14 @@ class LastTurn:
 class MotorRun:
     """A machine under its motor.
 
-    duty      of the torque at constant speed
-    start     the run from rest to 95 % of the speed; `started`: whether it reached that
-    steady    turns at speed, after it, and the last of them; None where it does not start
-    All are None where the linkage stands so near a toggle that its inertia has no usable Fourier series.
+    duty       torque over a turn at constant speed
+    flywheel   [kg m²]      torque  limit M_0 [N m]
+    start      run from rest towards 95 % of the speed
+    started    whether it reached 95 %
+    steady     turns at speed after the start; None where it does not start
+    last_turn  the last of them
+
+    The runs are None where the linkage is so near a toggle position that its inertia has no usable Fourier series.
     """
 
     duty: CyclicTorque
@@ -110,10 +114,15 @@ def motor_run(
     torque: Callable[[FloatArray], FloatArray],
     task: MotorTask,
 ) -> MotorRun:
-    """The run of a mechanism by a motor on its crank, and the motor and flywheel that it needs.
+    """The run of a mechanism by a motor on its crank, and the motor and flywheel that it requires.
 
-    gravity  acceleration [m/s²]        torque  on the crank at crank angles [rad], at the speed [N m]
-    It reaches its speed in the time that twice the greatest inertia would take, or does not start.
+    plan      of the mechanism, its input the body "crank"      inertias  body -> inertia
+    gravity   acceleration [m/s²], complex
+    torque    torque on the crank [N m] at crank angles [rad], at constant speed
+    task      motor and flywheel
+
+    The start lasts at most 4 J omega_0 / M_0, with J the greatest inertia over a turn, and at most 100 turns at the
+    speed. A machine that has not reached 95 % of its speed by then does not start.
     """
     speed, wheel = task.speed, task.flywheel
     required = cyclic_torque(lambda angle, _: torque(angle))

@@ -48,7 +48,7 @@ class CircuitLoop:
         """Branch at u [rad], +1 or -1."""
         return np.where(np.sin(u) >= 0, 1.0, -1.0) if not self.branch else np.full(np.shape(u), float(self.branch))
 
-    def parameters_at(self, crank: RealField, slack: float = 1e-9) -> Float[np.ndarray, " places"]:
+    def parameters_at(self, crank: RealField, slack: float = 1e-9) -> Float[np.ndarray, " parameters"]:
         """All u [rad] at a crank angle [rad]; empty where it is outside the circuit by more than `slack` [rad]."""
         if self.branch:
             return np.atleast_1d(np.asarray(crank, dtype=float))

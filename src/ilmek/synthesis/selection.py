@@ -1,4 +1,4 @@
-"""Four-bars that do a task: which are kept, in which order, why others are removed, and which one is drawn."""
+"""Selection of the four-bars found for a task: filtered, ranked, one of them drawn; the removed ones with reasons."""
 
 import math
 from collections import Counter
@@ -15,7 +15,7 @@ from ilmek.synthesis.filters import REASONS, Filters, defects
 from ilmek.synthesis.four_bar import FourBar
 
 OF_POSITIONS = ("crank_angle", "circuit", "point_error", "coupler_error", "rocker_error")
-"""What a solution lists of each position."""
+"""Quantities of each position that a solution lists."""
 
 PINS = ("a0", "b0", "a", "b", "tracer")
 
@@ -27,7 +27,7 @@ NAMED = (
 
 
 def ratio_limit(default: float | None) -> Any:
-    """Declare the filter `link_ratio_max` with another default."""
+    """Declare the filter `link_ratio_max` [1] with another default."""
     return field(default=default, metadata=Filters.__dataclass_fields__["link_ratio_max"].metadata)
 
 
@@ -48,9 +48,9 @@ class FourBarTaskParams(Filters):
 
 @record
 class FourBarOption:
-    """A judged four-bar.
+    """A four-bar with its check.
 
-    made     how it was found      details  what its method reports of it, by the names of the JSON [SI]
+    made     how it was found      details  results of its method, by the names of the JSON [SI]
     """
 
     candidate: Candidate
@@ -82,7 +82,7 @@ class FourBarOption:
 
 
 def dimensions(four_bar: FourBar) -> dict[str, Any]:
-    """Links [m], pins and tracer as drawn [m], branch and class of a four-bar, by the names of the JSON."""
+    """Links [m], pins and tracer as drawn [m], branch and Grashof type of a four-bar, by the names of the JSON."""
     pins = {name: getattr(four_bar, name) for name in (*PINS, "tracer_on_coupler")}
     return {**four_bar.lengths._asdict(), **pins, "branch": four_bar.branch, "grashof": four_bar.grashof.kind}
 
@@ -107,10 +107,11 @@ def solutions(extra: str = "") -> Any:
 class FourBarSelection:
     """The four-bars found for a task, filtered and ranked.
 
-    kept    without defects and within the limits, the best first; `more` others are not listed
-    removed with the reason for each filter that it failed
-    other   descriptions of what was found and is no four-bar
-    number  of the one that is drawn, from 1; None where none is kept
+    kept     without defects and within the limits, the best first
+    more     number of further ones that are not listed
+    removed  with the reason for each filter that they failed
+    other    descriptions of degenerate solutions
+    number   of the one that is drawn, from 1; None where none is kept
     """
 
     kept: tuple[FourBarOption, ...]
@@ -183,8 +184,11 @@ def choose(
 ) -> FourBarSelection:
     """The options filtered and ranked.
 
-    other    descriptions of what was found and is no four-bar      filters  default: those of the parameters
+    options  four-bars found
+    other    descriptions of degenerate solutions
+    filters  default: those of the parameters
     rank     sort key, ascending; default: the greatest of the least transmission angles first
+
     Raises ParameterError where there are solutions, but fewer than `params.chosen`.
     """
     required = filters or params.filters()

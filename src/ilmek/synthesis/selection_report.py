@@ -1,4 +1,4 @@
-"""Tables, checks and warnings that all machines share that synthesise four-bars for a task."""
+"""Tables, checks and warnings of all machines that synthesise four-bars for a task."""
 
 import math
 
@@ -11,7 +11,7 @@ TRANSMISSION = 40 * deg
 RULE = "rule of thumb for rockers"
 
 LISTED, BRIEF = 20, 6
-"""Removed four-bars that the table lists, and that a terminal lists; the JSON has them all."""
+"""Greatest number of removed four-bars in the table, and on a terminal; the JSON contains all."""
 
 LINKS = ("ground [mm]", "crank [mm]", "coupler [mm]", "rocker [mm]")
 
@@ -69,15 +69,15 @@ def _removed(choice: FourBarSelection, name: str) -> Table:
 def checks(design: FourBarDesign) -> tuple[Check, ...]:
     """Whether there is a solution, and its transmission angle."""
     choice = design.choice
-    there = at_least("four-bars without defects", len(choice.kept) + choice.more, 1, "1", "the task")
+    found = at_least("four-bars without defects", len(choice.kept) + choice.more, 1, "1", "the task")
     if choice.best is None:
-        return (there,)
+        return (found,)
     least = choice.best.candidate.least_transmission
-    return there, at_least("transmission angle", least, TRANSMISSION, "deg", RULE)
+    return found, at_least("transmission angle", least, TRANSMISSION, "deg", RULE)
 
 
 def warnings(design: FourBarDesign) -> tuple[str, ...]:
-    """Why there is no solution, or that coupler and rocker come too near to one line."""
+    """Reason why there is no solution, or a warning that coupler and rocker come too near to one line."""
     choice = design.choice
     if choice.best is None:
         if not choice.removed:

@@ -1,7 +1,7 @@
-"""The four-bar through three poses of its coupler: both arms of the poses, joined, and judged at either crank.
+"""Four-bar through three poses of its coupler: both arms of the poses, joined, and checked with either one driven.
 
-Each arm (`synthesis.dyad`) carries the coupler through the poses, its pivot on the ray of the ground angle. Two of them
-side by side are a four-bar: their second links are one body, the first links its crank and its rocker.
+Each arm (`synthesis.dyad`) guides the coupler through the poses, its pivot on the ray of the ground angle. Two arms
+form a four-bar: their second links are the coupler, their first links crank and rocker.
 """
 
 from collections.abc import Mapping
@@ -22,15 +22,15 @@ from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg, format_quantity, turn
 
 DIRECTIONS = np.arange(360) * 0.5 * deg
-"""Ground rays that are tried by default; a ray and its opposite are one line, and have the same arms."""
+"""Ground rays that are tried by default [rad]; a ray and its opposite are one line and have the same arms."""
 
 LINK_RATIO = 10.0
-"""Greatest longest link by shortest of a four-bar on a tried ray."""
+"""Greatest ratio of the longest to the shortest link on a tried ray."""
 
 
 @record
 class ThreePoses:
-    """Three poses: positions of a point H of the coupler [m], its directions there [rad], and the text given."""
+    """Three poses: positions of a point H of the coupler [m], angles of the coupler [rad], and the text given."""
 
     points: Complex[np.ndarray, "3"]
     angles: Float[np.ndarray, "3"]
@@ -39,7 +39,7 @@ class ThreePoses:
 
 @record
 class PoseFourBar:
-    """A four-bar of two arms: their numbers from 0, the driven one first; judged, with its defects by filter."""
+    """A four-bar of two arms: their indices, the driven one first; its check, and its defects by filter."""
 
     crank: int
     rocker: int
@@ -49,11 +49,11 @@ class PoseFourBar:
 
 @record
 class ThreePoseSynthesis:
-    """All arms through three poses with their pivots on one ray, and the four-bars made of them.
+    """All arms through three poses with their pivots on one ray, and the four-bars formed of them.
 
-    ground_angle  of the ray from the poses' origin [rad]      tried  whether it was found by trial
-    arms          both roots of the task                       dyads  the real arms among them
-    choices       every four-bar                               best   the one to build
+    ground_angle  of the ray from the origin of the poses [rad]      tried  whether it was found by trial
+    arms          both roots of the task                             dyads  the real arms among them
+    choices       all four-bars                                      best   the selected one
     """
 
     poses: ThreePoses
@@ -108,7 +108,7 @@ class ThreePoseSynthesis:
     def four_bar_as_json(self, one: PoseFourBar) -> dict[str, Json]:
         """A four-bar of two arms."""
         candidate, poses = one.candidate, self.poses
-        # Of the coupler against the other arm's first link.
+        # Angles of the other arm's first link relative to the coupler.
         angles = self.dyads[one.rocker].first_angles(poses.points, poses.angles) - poses.angles
         drawn, along = candidate.four_bar, candidate.four_bar.tracer_on_coupler
         return {
@@ -150,7 +150,7 @@ class ThreePoseSynthesis:
 
     @property
     def crank_angles(self) -> Float[np.ndarray, "3"]:
-        """Of the driven link at the poses, turning in one direction [rad]; the last within the first turn."""
+        """Angles of the driven link at the poses, rotating in one direction [rad]; the last in [0, 2 pi)."""
         return turned_through(self.best.candidate)
 
     def residuals(self, dyad: TwoLinkArm) -> FloatArray:
@@ -160,10 +160,12 @@ class ThreePoseSynthesis:
 
 
 def synthesised(poses: ThreePoses, ground_angle: float | None) -> ThreePoseSynthesis:
-    """The four-bar through three poses, the best of both cranks; ground angle [rad], or None to try them.
+    """The four-bar through three poses with the better one of two cranks.
 
-    Raises ParameterError where there are not two real arms, or where neither four-bar goes through the poses without
-    defects; it states what there is, and which ground angles have one.
+    ground_angle  [rad]; None: the best of rays half a degree apart
+
+    Raises ParameterError where there are fewer than two real arms, or no four-bar through the poses without defects.
+    The message names the ground angles that have one.
     """
     tried = ground_angle is None
     if ground_angle is None:
@@ -187,9 +189,10 @@ def synthesised(poses: ThreePoses, ground_angle: float | None) -> ThreePoseSynth
 
 
 def best_ray(poses: ThreePoses) -> float | None:
-    """Of rays half a degree apart the one with the best transmission angle [rad]; None where none has a four-bar.
+    """The ray with the best transmission angle among rays half a degree apart [rad]; None where none has a four-bar.
 
-    The angles at the poses bound that of the whole motion: four-bars are judged from the highest bound downwards.
+    The angles at the poses are upper bounds of that over the whole motion: four-bars are checked from the highest bound
+    downwards.
     """
     bounds = _bounds(poses)
     best, most = None, 0.0
@@ -204,19 +207,19 @@ def best_ray(poses: ThreePoses) -> float | None:
 
 
 def _bounds(poses: ThreePoses) -> Float[np.ndarray, "rays 2"]:
-    """The most that the transmission angle can be [rad], for each ray and driven arm; -1 where there is no four-bar.
+    """Upper bound of the transmission angle [rad] for each ray and driven arm; -1 where there is no four-bar.
 
-    Left out are those with the poses on two branches, and those whose crank does not turn fully and is at the poses out
-    of order.
+    Left out are four-bars with the poses on two branches, and those whose crank does not rotate fully and meets the
+    poses out of order.
     """
     shape = (DIRECTIONS.size, 3)
     points, angles = (np.broadcast_to(one, shape) for one in (poses.points, poses.angles))
     arms = arms_through_poses(points, angles, DIRECTIONS)
-    there = np.all(arms.found == RootKind.ARM, axis=-1)[:, None]
-    pivot, first, second = (np.where(there, one, 1.0) for one in (arms.pivot, arms.first, arms.second))
+    real = np.all(arms.found == RootKind.ARM, axis=-1)[:, None]
+    pivot, first, second = (np.where(real, one, 1.0) for one in (arms.pivot, arms.first, arms.second))
     turned = np.asarray(unit(angles))[:, None]
     links = points[:, None] - pivot[..., None] - second[..., None] * turned
-    # Sines of the coupler against the first link of the other arm.
+    # Sines of the angle between the coupler and the first link of the other arm.
     sines = (np.imag(links * np.conj(turned)) / first[..., None])[:, ::-1]
     across = np.diff(pivot, axis=-1) * np.array([1, -1])
     cranks = np.angle(links * np.conj(across)[..., None])
@@ -225,16 +228,16 @@ def _bounds(poses: ThreePoses) -> Float[np.ndarray, "rays 2"]:
         (np.abs(coupler - rocker) <= span) & (span <= coupler + rocker)
         for span in (np.abs(ground - first), ground + first)
     )
-    # A crank that passes the stretched pose is half a turn from the ground line there: its angle must not be cut there.
+    # A crank that passes the stretched pose is half a turn from the ground line there: no branch cut at that angle.
     steps = np.diff(np.where(stretched[..., None], np.mod(cranks, turn), cranks))
     in_order = np.all(steps > 0, axis=-1) | np.all(steps < 0, axis=-1) | (folded & stretched)
     one_branch = np.abs(np.sum(np.sign(sines), axis=-1)) == 3
-    likely = there & one_branch & in_order
+    likely = real & one_branch & in_order
     return np.where(likely, np.arcsin(np.minimum(np.min(np.abs(sines), axis=-1), 1.0)), -1.0)
 
 
 def turned_through(candidate: Candidate) -> Float[np.ndarray, "3"]:
-    """Crank angles at the positions of a candidate that meets them in order, turning in one direction [rad]."""
+    """Crank angles at the positions of a candidate that meets them in order, rotating in one direction [rad]."""
     angles = np.array([met.crank_angle for met in candidate.positions])
     if candidate.crank_turns:
         onward, back = (np.mod(sign * (angles - angles[0]), turn) for sign in (+1, -1))
@@ -255,7 +258,7 @@ def _choices(poses: ThreePoses, dyads: tuple[TwoLinkArm, ...], filters: Filters 
 
 
 def _joined(poses: ThreePoses, crank: TwoLinkArm, rocker: TwoLinkArm) -> FourBar | None:
-    """Two arms as drawn at the first pose; None where two of their pins are one."""
+    """Two arms as a four-bar drawn at the first pose; None where two of its pins coincide."""
     A, B = (poses.points[0] - arm.second * unit(poses.angles[0]) for arm in (crank, rocker))
     try:
         return FourBar(crank.pivot, rocker.pivot, complex(A), complex(B), complex(poses.points[0]))
@@ -279,10 +282,10 @@ def _rays_with_two(poses: ThreePoses) -> str:
     """Which ground angles have two real arms."""
     shape = (DIRECTIONS.size, 3)
     points, angles = (np.broadcast_to(one, shape) for one in (poses.points, poses.angles))
-    there = np.all(arms_through_poses(points, angles, DIRECTIONS).found == RootKind.ARM, axis=-1)
-    if not there.any():
+    real = np.all(arms_through_poses(points, angles, DIRECTIONS).found == RootKind.ARM, axis=-1)
+    if not real.any():
         return "no ground angle has two: move or turn a pose"
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(int)))
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], real, [False]]).astype(int)))
     spans = [
         f"{np.degrees(DIRECTIONS[start]):g}deg..{np.degrees(DIRECTIONS[stop - 1]):g}deg"
         for start, stop in edges.reshape(-1, 2)
