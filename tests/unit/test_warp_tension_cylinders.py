@@ -11,9 +11,9 @@ from ilmek.elements.beam.solve import bend
 from ilmek.elements.bearings import find_bearing
 from ilmek.errors import ParameterError
 from ilmek.machines.warp_tension import MACHINE, WarpTensionDesign, WarpTensionParams
+from ilmek.machines.warp_tension.analysis import history, tension_of
 from ilmek.machines.warp_tension.cylinders import cylinders, slots_of, spacer_load, stub_stress, tension_beyond
 from ilmek.machines.warp_tension.design import keeps_limits, lightest_tube
-from ilmek.machines.warp_tension.tension import history, tension_of
 from ilmek.units import deg, mm, turn
 from ilmek.weaving.shed import shed_lengthening
 

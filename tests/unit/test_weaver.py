@@ -9,10 +9,10 @@ import pytest
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.cams.loaded_plate_cam import torque_at
 from ilmek.errors import ParameterError
-from ilmek.machines.weaver import MACHINE, WeaverParams, design, mass_of, step_time, travel_time
+from ilmek.machines.weaver import MACHINE, WeaverParams, design, mass_of
 from ilmek.machines.weaver.cyclogram import DRAW_TURN
 from ilmek.machines.weaver.motions import HANDLER, SLEY
-from ilmek.timing.s_curve import AxisLimits, move_time, s_curve
+from ilmek.timing.s_curve import AxisLimits, move_time, s_curve, travel_time
 from ilmek.timing.track import sample
 from ilmek.units import deg
 
@@ -93,7 +93,7 @@ def test_no_move_takes_longer_than_the_window_and_its_further_pitches(cycle, pit
         carriage_jerk=jerk,
     )
     window = 0.44 * cycle
-    room, travel = max(window, step_time(params)), travel_time(params, window)
+    room, travel = max(window, move_time(pitch, params.carriage)), travel_time(pitch, window, params.carriage)
     limits = AxisLimits(speed, pull, jerk)
     pitches = [*range(1, 60), *range(60, 3000, 37)]
     excess = [move_time(d * pitch, limits) - room - (d - 1) * travel for d in pitches]

@@ -57,6 +57,10 @@ PLANETARY = tuple(
 """Stock planetary reducers of one and of two stages, with usual efficiencies."""
 
 
+RATIOS = (1.0, *(reducer.ratio for reducer in PLANETARY))
+"""Gears to choose from: none, and the stock planetary ones of one and two stages."""
+
+
 def worm_efficiency(lead_angle: float, friction_angle: float) -> float:
     """Efficiency of a worm: tan g / tan(g + r) of its lead angle g and the angle of friction r [rad].
 

@@ -116,6 +116,40 @@ def move_time(distance: float, limits: AxisLimits) -> float:
     return s_curve(distance, limits).time
 
 
+def travel_time(pitch: float, window: float, limits: AxisLimits) -> float:
+    """Time t of each further pitch p [SI] of a longer move [s], such that no move of d pitches takes longer than this:
+
+        move_time(d p) <= W + (d - 1) t   for every d,   W = max(window, move_time(p))
+
+    Where the window [s] is long enough for start and stop, t is p / v; a shorter one lengthens t. move_time is concave
+    in the distance, so that the t required for d pitches, (move_time(d p) - W)/(d - 1), rises to one maximum and then
+    falls, and bisection finds it; beyond the distance at which the speed is reached it only tends to p / v.
+    """
+    room = max(window, move_time(pitch, limits))
+
+    def required(pitches: int) -> float:
+        return (move_time(pitches * pitch, limits) - room) / (pitches - 1)
+
+    # From this distance on a move reaches its speed.
+    ramp, hold = math.sqrt(limits.speed / limits.jerk), limits.speed / limits.acceleration
+    reach = limits.speed * max(2 * ramp, hold + limits.acceleration / limits.jerk)
+    low, high = 2, 2 + math.ceil(reach / pitch)
+    while low < high:
+        middle = (low + high) // 2
+        low, high = (middle + 1, high) if required(middle + 1) > required(middle) else (low, middle)
+    return max(pitch / limits.speed, required(low))
+
+
+def mean_move_time(positions: int, pitch: float, limits: AxisLimits) -> float:
+    """Mean time between two of n positions in a line, a pitch [SI] apart [s]; 0 for a single one.
+
+    Of the n (n - 1) / 2 pairs, n - d are d pitches apart.
+    """
+    n = positions
+    total = sum((n - d) * move_time(d * pitch, limits) for d in range(1, n))
+    return total / max(n * (n - 1) / 2, 1)
+
+
 def _ramp(speed: float, acceleration: float, jerk: float) -> tuple[float, float]:
     """Times of a jerk phase and of constant acceleration [s] to reach a speed."""
     if speed * jerk < acceleration**2:

@@ -20,7 +20,6 @@ from ilmek.machines.warp_tension.design import TAKE_UP_LAW
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.cyclogram import relations as head_relations
 from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION, SLEY
-from ilmek.machines.weaver.moves import carriage
 from ilmek.records import value_record
 from ilmek.report import CamTable
 from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, Track, TrackEvent, TrackSegment, Zone, riding
@@ -64,7 +63,7 @@ def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
     The step, jerk-limited, begins when the last tool is out of the warps, and runs into the next turn where it must.
     """
     tied, limits = head.cyclogram, head.params
-    move = s_curve(limits.knot_pitch, carriage(limits))
+    move = s_curve(limits.knot_pitch, limits.carriage)
     out = max(tied.track(name).segment(motion).end for name, motion in _OUT)
     law = law_of("s-curve", {"ramp": min(0.25, move.ramp / move.time), "cruise": move.cruise / move.time})
     step = TrackSegment("step", out, out + turn * move.time / period, 0.0, limits.knot_pitch, law)

@@ -20,9 +20,10 @@ from ilmek.machines.component import Child
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding import SheddingDesign
 from ilmek.machines.warp_tension import WarpTensionDesign
-from ilmek.machines.weaver import Weaver, step_time, travel_time
+from ilmek.machines.weaver import Weaver
 from ilmek.records import record
 from ilmek.timing.cyclogram import Cyclogram
+from ilmek.timing.s_curve import move_time, travel_time
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.tension import usual_tension
 
@@ -174,8 +175,10 @@ def times_at(head: Weaver, knot_pitch: float, weft: float) -> Times:
     A step to the next knot that is longer than the head leaves for it lengthens the knot.
     """
     moved = replace(head.params, knot_pitch=knot_pitch)
-    late = max(0.0, step_time(moved) - head.carriage_window)
-    return Times(head.cycle + late, head.colour_change, travel_time(moved, head.carriage_window), weft)
+    late = max(0.0, move_time(moved.knot_pitch, moved.carriage) - head.carriage_window)
+    return Times(
+        head.cycle + late, head.colour_change, travel_time(moved.knot_pitch, head.carriage_window, moved.carriage), weft
+    )
 
 
 def tension_of(params: AutomatedLoomParams) -> float:

@@ -19,6 +19,7 @@ from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, PointForce
 from ilmek.dynamics.shapes import link
 from ilmek.elements.motors import Motor, Reducer, smallest_motor
+from ilmek.elements.reducers import RATIOS
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
@@ -28,9 +29,6 @@ from ilmek.machines.knotting_dyad.motion import ArmMotion, KnotCycle, cycle_of, 
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.records import computed, record, result
 from ilmek.report import Json, results_of
-
-RATIOS = (1.0, 3.0, 4.0, 5.0, 7.0, 10.0, 16.0, 20.0, 25.0, 35.0, 50.0, 70.0, 100.0)
-"""Gears to choose from: none, and the usual planetary ones of one and two stages."""
 
 JOINTS = ("first link", "second link")
 

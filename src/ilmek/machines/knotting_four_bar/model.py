@@ -16,6 +16,7 @@ from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, PointForce
 from ilmek.elements.motors import Motor, Reducer, geared_motor
+from ilmek.elements.reducers import RATIOS
 from ilmek.errors import ParameterError
 from ilmek.linkage.groups import rrr
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
@@ -30,9 +31,6 @@ from ilmek.units import format_quantity, turn
 
 PIN_BODIES = {"O1": "crank", "O2": "coupler", "O2'": "coupler", "O1'": "rocker"}
 """Pins, and the body on which their forces are reported."""
-
-RATIOS = (1.0, 3.0, 4.0, 5.0, 7.0, 10.0, 16.0, 20.0, 25.0, 35.0, 50.0, 70.0, 100.0)
-"""Gears to choose from: none, and the usual planetary ones of one and two stages."""
 
 
 @record

@@ -18,7 +18,8 @@ from ilmek.elements.gears import EqualGears, equal_gears
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.linkage.clearance import Clearance, OutlinedBody, clearance
 from ilmek.linkage.configuration_path import InputPath
-from ilmek.linkage.model import GROUND, Body, Coupling, Mechanism, Pin, Rotation
+from ilmek.linkage.mirror import GEARS, coupled, mirrored, other
+from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.solve import solve
@@ -31,13 +32,7 @@ from ilmek.records import computed, group, record, result
 from ilmek.report import Json
 from ilmek.weaving.knots.two_hands import TwoHandKnot, knot_of_hands, pitch_range
 
-GEARS = "gears"
 BODIES = ("crank", "coupler", "rocker")
-
-
-def other(name: str) -> str:
-    """The name of a body or point of the second side."""
-    return f"{name} *"
 
 
 @record
@@ -194,47 +189,6 @@ def both_sides(
         moving=run(speed=params.speed, acceleration=params.acceleration),
         standing=run(speed=0.0, acceleration=0.0),
         knot=float(angles[int(np.argmax(facing * hand))]),
-    )
-
-
-def mirrored(mechanism: Mechanism, mirror: float) -> Mechanism:
-    """The mirror image of a four-bar in the upright line x = mirror: its points are on its links' lines."""
-    ground = {other(name): 2 * mirror - point.conjugate() for name, point in mechanism.body(GROUND).points.items()}
-    return Mechanism(
-        name=other(mechanism.name),
-        bodies=(
-            Body(GROUND, ground),
-            *(
-                Body(other(body.name), {other(name): point.conjugate() for name, point in body.points.items()})
-                for body in mechanism.bodies
-                if body.name != GROUND
-            ),
-        ),
-        joints=tuple(
-            Pin(other(pin.name), *(name if name == GROUND else other(name) for name in pin.bodies))
-            for pin in mechanism.joints
-        ),
-        inputs=(Rotation(other("crank"), other("O1")),),
-        branches={other(name): -branch for name, branch in mechanism.branches.items()},
-    )
-
-
-def coupled(mechanism: Mechanism, mirror: float) -> Mechanism:
-    """Both sides as one mechanism: the second crank is driven by the first through equal gears.
-
-    The first crank at 0 meets the second at half a turn: mirror images of one another at every angle.
-    """
-    image = mirrored(mechanism, mirror)
-    ground = {**mechanism.body(GROUND).points, **image.body(GROUND).points}
-    moving = [body for side in (mechanism, image) for body in side.bodies if body.name != GROUND]
-    mesh = Coupling(GEARS, "gears", ("crank", "O1"), (other("crank"), other("O1")), -1.0, 0.0, math.pi)
-    return Mechanism(
-        name="knotting four-bar of two sides",
-        bodies=(Body(GROUND, ground), *moving),
-        joints=(*mechanism.joints, *image.joints),
-        inputs=mechanism.inputs,
-        branches={**mechanism.branches, **image.branches},
-        couplings=(mesh,),
     )
 
 

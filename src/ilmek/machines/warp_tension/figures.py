@@ -6,8 +6,7 @@ import numpy as np
 
 from ilmek.elements.beam import uniform
 from ilmek.elements.figures import deflection_plot, tube_drawing
-from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis
-from ilmek.machines.warp_tension.tension import history
+from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis, history
 from ilmek.report import Axis, Drawing, Figure, Plot, Series, Stroke
 from ilmek.units import turn
 

@@ -12,7 +12,6 @@ from ilmek.machines.weaver.cyclogram import relations
 from ilmek.machines.weaver.design import Weaver, design
 from ilmek.machines.weaver.in_loom import params_for, parts, work
 from ilmek.machines.weaver.limits import head_mass, mass_of
-from ilmek.machines.weaver.moves import step_time, travel_time
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.report import WeaverAnalysis, analyse, cam_tables, checks, figures, plates, tables, warnings
 from ilmek.timing.cyclogram import Cyclogram
@@ -25,8 +24,6 @@ __all__ = [
     "design",
     "head_mass",
     "mass_of",
-    "step_time",
-    "travel_time",
 ]
 
 

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for
-from ilmek.machines.weaver import moves
 from ilmek.machines.weaver.cams import cams_for
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, optimised
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
@@ -14,6 +13,7 @@ from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, SIDE_MOTION, S
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.records import computed, record, result
 from ilmek.timing.cyclogram import Cyclogram
+from ilmek.timing.s_curve import mean_move_time, move_time, travel_time
 from ilmek.timing.track import ActuatorLimits, Track, peak_acceleration, peak_speed, shortest_period
 from ilmek.units import turn
 from ilmek.weaving.knots.proof import TiedKnot
@@ -89,9 +89,10 @@ class Weaver:
         lambda it: it.params.billed - 2 * it.params.cut_waste,
     )
     cut_waste = computed("mm", "pile yarn cut off for a knot", lambda it: it.drawn - it.yarn_in_knot)
-    colour_change_longest = computed(
-        "s", "time from the first tube to the last", lambda it: moves.colour_change_longest(it.params)
-    )
+
+    @computed("s", "time from the first tube to the last")
+    def colour_change_longest(self) -> float:
+        return move_time((self.params.tubes - 1) * self.params.tube_pitch, self.params.selector)
 
     @computed("", "the track that sets the shortest cycle", name="cycle_time_set_by")
     def limiting(self) -> str:
@@ -118,10 +119,10 @@ def design(params: WeaverParams) -> Weaver:
         handler_radius=radius,
         grippers=grippers,
         tied=tied_by(cycle, grippers, params.jaw),
-        carriage_step=moves.step_time(params),
+        carriage_step=move_time(params.knot_pitch, params.carriage),
         carriage_window=window,
-        travel=moves.travel_time(params, window),
-        colour_change=moves.colour_change_time(params),
+        travel=travel_time(params.knot_pitch, window, params.carriage),
+        colour_change=mean_move_time(params.tubes, params.tube_pitch, params.selector),
         cams=cams,
         drive=drive_for(cams, cycle.speed),
     )

@@ -7,7 +7,6 @@ from ilmek.elements.drive_parts import belt_motor_part, motor_part, positive_wor
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.limits import head_mass
-from ilmek.machines.weaver.moves import carriage, selector
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.report import NOT_WEIGHED, Part, Work
 from ilmek.timing.s_curve import s_curve
@@ -57,8 +56,8 @@ def work(weaver: Weaver) -> tuple[Work, ...]:
     A move takes the kinetic energy at its greatest speed, m v² / 2.
     """
     params = weaver.params
-    step = s_curve(params.knot_pitch, carriage(params))
-    change = s_curve(params.tubes * params.tube_pitch / 3, selector(params))
+    step = s_curve(params.knot_pitch, params.carriage)
+    change = s_curve(params.tubes * params.tube_pitch / 3, params.selector)
     return (
         Work("knotting", positive_work(lambda angle: torque_at(weaver.cams, angle)), "knot"),
         Work("carriages", 0.5 * head_mass(weaver) * step.speed**2, "knot"),

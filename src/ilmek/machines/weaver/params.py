@@ -23,6 +23,7 @@ from ilmek.machines.weaver.motions import (
     require_order,
 )
 from ilmek.params import Params, kind, nested
+from ilmek.timing.s_curve import AxisLimits
 from ilmek.units import deg, format_quantity, g, m, mm, turn
 
 LEAST_STEP = 10 * deg
@@ -198,6 +199,16 @@ class WeaverParams(Params):
             return self.knot_yarn
         pile = PileParams(pile_height=self.pile_height, cut_waste=self.cut_waste, warp_diameter=self.warp_diameter)
         return knot_length(self.knot, self.quality, self.yarn_density, pile)
+
+    @property
+    def carriage(self) -> AxisLimits:
+        """Limits of the carriage along the row."""
+        return AxisLimits(self.carriage_speed, self.carriage_acceleration, self.carriage_jerk)
+
+    @property
+    def selector(self) -> AxisLimits:
+        """Limits of the colour selector."""
+        return AxisLimits(self.selector_speed, self.selector_acceleration, self.selector_jerk)
 
     @property
     def cutting_time(self) -> float:
