@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import ilmek
-from ilmek.lazy import lazy_names
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import Params
 from ilmek.units import deg, mm
@@ -28,38 +27,6 @@ def cam() -> ilmek.PlateCam:
     lift = 40 * mm
     parts = ilmek.rise(100 * deg, lift), ilmek.dwell(80 * deg), ilmek.fall(100 * deg, lift), ilmek.dwell(80 * deg)
     return ilmek.plate_cam(ilmek.cam_programme(*parts), roller_radius=10 * mm)
-
-
-# names
-
-
-@pytest.mark.parametrize("name", ilmek.__all__)
-def test_public_name_exists(name: str) -> None:
-    assert getattr(ilmek, name).__doc__
-
-
-def test_public_names_are_few_and_listed() -> None:
-    assert len(ilmek.__all__) <= 60
-    assert set(ilmek.__all__) <= set(dir(ilmek))
-
-
-def test_type_checkers_see_the_same_names() -> None:
-    text = Path(ilmek.__file__).read_text(encoding="utf-8")
-    seen = dict(re.findall(r"from ([\w.]+) import (\w+) as \2", text))
-    declared = re.findall(r"^    from ([\w.]+) import (\w+) as (\w+)$", text, re.MULTILINE)
-    assert seen
-    assert {name: module for module, name, _ in declared} | {"units": "ilmek.units"} == ilmek.PUBLIC
-    assert all(name == alias for _, name, alias in declared)
-
-
-def test_unknown_name_offers_the_nearest() -> None:
-    with pytest.raises(AttributeError, match="did you mean 'four_bar'"):
-        _ = ilmek.fourbar
-
-
-def test_lazy_module_is_a_module() -> None:
-    get, _ = lazy_names("ilmek", {"units": "ilmek.units"})
-    assert get("units").mm == mm
 
 
 def test_reference_page_lists_every_public_name_once() -> None:

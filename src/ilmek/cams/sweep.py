@@ -8,7 +8,7 @@ and ds = L v(u)/beta all bounds are searched on one grid of u, and refined only 
 import itertools
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -87,6 +87,9 @@ class CamSweep:
     torque_max: PerDesign
 
 
+_FIELDS = tuple(one.name for one in fields(CamRequirements))
+
+
 def requirements(count: int, **given: object) -> CamRequirements:
     """Requirements of `count` designs from numbers and arrays (count,), by the names and units of `CamRequirements`.
 
@@ -95,10 +98,10 @@ def requirements(count: int, **given: object) -> CamRequirements:
     >>> requirements(2, law=0, lift=0.02, rise=np.array([1.5, 4.0]), limit=0.5).fall.round(4).tolist()
     [1.5, 2.2832]
     """
-    fields = dict.fromkeys(CamRequirements.__slots__, 0.0) | given
+    values = dict.fromkeys(_FIELDS, 0.0) | given
     if "fall" not in given:
-        fields["fall"] = np.minimum(fields["rise"], TURN - np.asarray(fields["rise"]))  # type: ignore[call-overload]
-    arrays = {name: np.broadcast_to(np.asarray(value, dtype=float), (count,)) for name, value in fields.items()}
+        values["fall"] = np.minimum(values["rise"], TURN - np.asarray(values["rise"]))  # type: ignore[call-overload]
+    arrays = {name: np.broadcast_to(np.asarray(value, dtype=float), (count,)) for name, value in values.items()}
     return CamRequirements(**(arrays | {"law": arrays["law"].astype(np.int64)}))
 
 
@@ -150,7 +153,7 @@ _Value = Callable[[_Stroke, FloatArray, Callable[[FloatArray], FloatArray]], Flo
 
 def _of_law(law: Law, designs: CamRequirements, here: Int[np.ndarray, " rows"]) -> FloatArray:
     """Prime radius, tangent of the pressure angle, largest curvature, area, torque of the designs of one law."""
-    column = {name: getattr(designs, name)[here][:, None] for name in CamRequirements.__slots__ if name != "law"}
+    column = {name: getattr(designs, name)[here][:, None] for name in _FIELDS if name != "law"}
     lift, offset, roller = column["lift"], column["offset"], column["roller_radius"]
     rising = _Stroke(law, np.zeros_like(lift), lift, column["rise"])
     falling = _Stroke(law, lift, -lift, column["fall"])

@@ -14,7 +14,7 @@ import secrets
 import sqlite3
 import zlib
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -210,7 +210,7 @@ def _meta(programme: Programme, label: Label) -> dict[str, Any]:
     counts = np.zeros(programme.yarns, np.int64)
     for first in range(0, programme.rows, 256):
         counts += np.bincount(programme.knots[first : first + 256].ravel(), minlength=programme.yarns)
-    work = {name: getattr(programme.work, name).tolist() for name in HeadWork.__slots__}
+    work = {one.name: getattr(programme.work, one.name).tolist() for one in fields(HeadWork)}
     return {
         "size": asdict(label.size),
         "quality": asdict(label.quality),

@@ -2,7 +2,7 @@
 
 import itertools
 import random
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +43,7 @@ class InspectionResult:
             "warp_pitch": label.warp_pitch,
             "times": {name: getattr(programme.times, name) for name in programme.times.__slots__},
             "yarn": [{"name": y.name, "knots": n} for y, n in zip(label.yarns, totals.counts, strict=True)],
-            "work": {name: getattr(work, name) for name in work.__slots__},
+            "work": {one.name: getattr(work, one.name) for one in fields(work)},
             "row": {
                 "number": row.number + 1,
                 "time": self.time,

@@ -1,0 +1,66 @@
+"""The public names of a package: one table, names that exist, and a package that stays cheap to import."""
+
+import importlib
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import ilmek
+
+PACKAGE = Path(ilmek.__file__).parent
+INITS = [PACKAGE / "__init__.py", *sorted(PACKAGE.glob("*/__init__.py"))]
+LAZY = [
+    ".".join(("ilmek", *path.parent.relative_to(PACKAGE).parts))
+    for path in INITS
+    if "lazy_names" in path.read_text(encoding="utf-8")
+]
+"""Packages whose public names are imported when they are first used."""
+
+
+@pytest.mark.parametrize("package", LAZY)
+def test_public_names_exist_and_are_documented(package: str) -> None:
+    module = importlib.import_module(package)
+    assert module.__all__ == list(module.PUBLIC)
+    assert len(module.__all__) <= (60 if package == "ilmek" else 30)
+    for name in module.__all__:
+        assert getattr(module, name).__doc__, name
+    assert set(module.__all__) <= set(dir(module))
+
+
+@pytest.mark.parametrize("package", LAZY)
+def test_no_public_name_is_that_of_a_module(package: str) -> None:
+    module = importlib.import_module(package)
+    folder = Path(module.__file__ or "").parent
+    modules = {path.stem for path in folder.iterdir() if path.suffix == ".py" or path.is_dir()}
+    assert (set(module.__all__) & modules) <= {"units"}
+
+
+@pytest.mark.parametrize("package", LAZY)
+def test_type_checkers_see_the_same_names(package: str) -> None:
+    module = importlib.import_module(package)
+    text = Path(module.__file__ or "").read_text(encoding="utf-8")
+    seen = re.findall(r"^    from ([\w.]+) import (\w+) as (\w+)$", text, re.MULTILINE)
+    assert {name: source for source, name, _ in seen} | _modules(module.PUBLIC) == module.PUBLIC
+    assert sorted(name for _, name, _ in seen) == sorted(module.PUBLIC)
+    assert all(name == alias for _, name, alias in seen)
+
+
+def _modules(public: dict[str, str]) -> dict[str, str]:
+    """Those of the public names that are modules."""
+    return {name: source for name, source in public.items() if source.endswith(f".{name}")}
+
+
+def test_packages_are_cheap_to_import() -> None:
+    script = (
+        f"import {', '.join(LAZY)}; import sys; print([m for m in ('numpy', 'scipy', 'numba') if m in sys.modules])"
+    )
+    shown = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert shown.stdout.strip() == "[]"
+
+
+def test_unknown_name_offers_the_nearest() -> None:
+    with pytest.raises(AttributeError, match="did you mean 'four_bar'"):
+        _ = ilmek.fourbar
