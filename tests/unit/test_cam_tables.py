@@ -74,7 +74,7 @@ def read_neutral(text: str) -> Course:
 def read_iec(text: str) -> Course:
     """The function block's own arithmetic, for masters of any turn."""
     steps = int(re.search(r"steps : DINT := (\d+)", text).group(1))  # type: ignore[union-attr]
-    gained = float(re.search(r"gained : LREAL := ([-+.\dE]+)", text).group(1))  # type: ignore[union-attr]
+    gained = float(re.search(r"advance : LREAL := ([-+.\dE]+)", text).group(1))  # type: ignore[union-attr]
     values = re.search(r"OF LREAL := \[(.*?)\]", text, re.DOTALL).group(1)  # type: ignore[union-attr]
     table = np.array([float(value) for value in values.split(",")])
     assert len(table) == steps + 1
@@ -218,7 +218,7 @@ def test_a_course_that_jumps_at_the_end_of_the_turn_is_refused() -> None:
     ramp = CamTable(
         "ramp", "Ramp", lambda a: np.stack([a, np.ones_like(a), 0 * a]), np.array([0.0, math.tau]), "mm", 1.0
     )
-    with pytest.raises(OutputError, match="ramp ends a turn 6283 mm from where it began; a cam table runs on"):
+    with pytest.raises(OutputError, match="ramp ends a turn 6283 mm from its beginning; a cam table continues"):
         sample(ramp, SamplingRule("linear"), 1e-6)
 
 
@@ -235,4 +235,4 @@ def test_remarks_say_where_the_axis_stands() -> None:
     sampled = sample(table, FORMATS["lenze"].rule, 1e-6)
     text = FORMATS["lenze"].write(table, sampled)
     assert sampled.offset > 1e-3
-    assert f"the axis stands at {sampled.offset * 1e3:.12g} mm where the table says 0" in text
+    assert f"position 0 of the table is {sampled.offset * 1e3:.12g} mm of the axis" in text

@@ -168,7 +168,7 @@ def test_chart_without_a_folder_takes_a_free_one(tmp_path: Path, monkeypatch: py
 def test_notes_tell_what_was_done_to_the_picture(tmp_path: Path) -> None:
     Image.new("RGBA", (300, 100), (200, 30, 30, 128)).save(tmp_path / "a.png")
     result = run("chart", str(tmp_path / "a.png"), *SMALL, "--json", "-")
-    assert "note: transparent parts laid on white" in result.stderr
+    assert "note: transparent parts put on white" in result.stderr
     assert "drawn 78% narrower" in result.stderr
     assert len(json.loads(result.stdout)["notes"]) == 2
 
@@ -233,7 +233,7 @@ def test_damaged_programme_is_one_line(woven: tuple[Path, Any], tmp_path: Path) 
     (tmp_path / "cut.ilmek").write_bytes(whole[: len(whole) // 2])
     result = CliRunner().invoke(main, ["inspect", str(tmp_path / "cut.ilmek")])
     assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
-    assert "is cut short" in result.stderr
+    assert "is truncated" in result.stderr
 
 
 @pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), sqlite3.OperationalError("disk is full")])

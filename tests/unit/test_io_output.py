@@ -95,14 +95,14 @@ def test_force_never_loses_a_foreign_file(tmp_path: Path, made_by_ilmek: bool) -
         make(tmp_path / "out", "a")
     (tmp_path / "out").mkdir(exist_ok=True)
     (tmp_path / "out/thesis.txt").write_text("years of work")
-    with pytest.raises(OutputError, match=r"did not make: thesis\.txt"):
+    with pytest.raises(OutputError, match=r"did not write: thesis\.txt"):
         make(tmp_path / "out", "b", force=True)
     assert (tmp_path / "out/thesis.txt").read_text() == "years of work"
 
 
 def test_a_foreign_file_that_comes_meanwhile_is_kept(tmp_path: Path) -> None:
     make(tmp_path / "out", "a")
-    with pytest.raises(OutputError, match=r"did not make: late\.txt"), output_folder(tmp_path / "out", force=True):
+    with pytest.raises(OutputError, match=r"did not write: late\.txt"), output_folder(tmp_path / "out", force=True):
         (tmp_path / "out/late.txt").write_text("late")
     assert listing(tmp_path) == ["out", f"out/{MANIFEST}", "out/a", "out/late.txt"]
 

@@ -39,7 +39,7 @@ def test_alpha_is_laid_on_white(tmp_path: Path) -> None:
     picture = read_picture(tmp_path / "a.png")
     assert (picture.rgb[:6] == 255).all()
     assert np.array_equal(picture.rgb[6:], RGB[6:])
-    assert picture.notes == ("transparent parts laid on white",)
+    assert picture.notes == ("transparent parts put on white",)
 
 
 def test_alpha_that_hides_nothing_is_not_mentioned(tmp_path: Path) -> None:
@@ -70,7 +70,7 @@ def test_rgb_of_16_bits(tmp_path: Path) -> None:
     (tmp_path / "a.png").write_bytes(png(20, 12, 16, 2, raw))
     picture = read_picture(tmp_path / "a.png")
     assert np.array_equal(picture.rgb, RGB)
-    assert picture.notes == ("16 bits a channel brought to 8",)
+    assert picture.notes == ("16 bits per channel reduced to 8",)
 
 
 def test_grey_in_floating_point_is_scaled(tmp_path: Path) -> None:
@@ -134,8 +134,8 @@ def bad_pictures(folder: Path) -> dict[str, tuple[Path, str]]:
     contents = {
         "empty": (b"", "is empty"),
         "text": (b"a carpet", "is not a picture"),
-        "cut": (whole[: len(whole) // 2], "damaged or cut off"),
-        "header only": (whole[:40], "damaged or cut off|not a picture"),
+        "cut": (whole[: len(whole) // 2], "damaged or truncated"),
+        "header only": (whole[:40], "damaged or truncated|not a picture"),
         "wrong checksum": (whole[:30] + b"\0\0\0\0" + whole[34:], "damaged|not a picture"),
         "bomb": (png(60_000, 60_000, 8, 0, b"\0"), "at most 150 megapixels"),
         "just too large": (png(LARGEST // 8 + 1, 8, 8, 0, b"\0"), "at most 150 megapixels"),

@@ -71,7 +71,7 @@ BAD = {
     "header only": ("a.csv", "name,srgb,nm\n", "no yarn"),
     "no header": ("a.csv", "red,#800000,2\nblue,#000080,2\n", "line 1: unknown column 'red'"),
     "near column": ("a.csv", "nane,srgb,nm\nred,#800000,2\n", "did you mean 'name'"),
-    "column twice": ("a.csv", "name,nm,nm\nred,2,2\n", "'nm' comes twice"),
+    "column twice": ("a.csv", "name,nm,nm\nred,2,2\n", "'nm' is given twice"),
     "too many cells": ("a.csv", "name,srgb,nm\nred,#800000,2,5\n", "line 2 has 4 cells"),
     "not a number": ("a.csv", "name,srgb,nm\nred,#800000,2\nblue,#000080,two\n", "line 3: nm 'two' is not a number"),
     "open quote": ("a.csv", 'name,srgb,nm\n"red,#800000,2\n', "line"),

@@ -79,7 +79,7 @@ MISTAKES = {
     "no number": ('"60mm"', "true", "line 6, bodies.crank.points.A.0: true is not a quantity"),
     "not finite": ('"60mm"', "nan", "line 6, bodies.crank.points.A.0: nan is not a finite number"),
     "infinite": ('"60mm"', "-inf", "line 6, bodies.crank.points.A.0: -inf is not a finite number"),
-    "one coordinate": ('["60mm", 0]', '["60mm"]', "line 6, bodies.crank.points.A: has 1 entries; it is 2: x and y"),
+    "one coordinate": ('["60mm", 0]', '["60mm"]', "line 6, bodies.crank.points.A: has 1 entries; 2: x and y"),
     "negative mass": ('"200g"', "-1", "line 5, bodies.crank: mass of a body is -1"),
     "zero length": ('["20cm", 0]', "[0, 0]", "line 9, bodies.coupler: link 'coupler' has zero length"),
     "unknown key": ("mass =", "weight =", "line 7, bodies.crank.weight: unknown key 'weight'; keys: points, mass"),
@@ -94,7 +94,7 @@ MISTAKES = {
     "unknown joint": ('A0 = "crank"', 'C = "crank"', "line 21, inputs.C: four-bar has no joint 'C'"),
     "wrong body driven": ('A0 = "crank"', 'A0 = "rocker"', "line 21, inputs.A0: input turns 'rocker' about 'A0'"),
     "no joint": ('{ pin = ["crank", "coupler"] }', '["crank"]', "line 16, joints.A: ['crank'] is not a table"),
-    "neither": ('pin = ["crank"', 'pn = ["crank"', "line 16, joints.A: says none of pin, slide"),
+    "neither": ('pin = ["crank"', 'pn = ["crank"', "line 16, joints.A: has none of pin, slide"),
     "joined to itself": (
         '["crank", "coupler"]',
         '["crank", "crank"]',
@@ -140,9 +140,9 @@ def test_what_cannot_be_solved_is_told_with_its_line(before, after, said):
 
 def test_json_tells_line_and_key_too():
     text = '{"bodies": {"ground": {"points": {}},\n "ground": {"points": {}}},\n"joints": {}, "inputs": {}}'
-    with pytest.raises(MechanismError, match=r"^m.json, line 2, bodies.ground: comes twice; it stands in line 1 too"):
+    with pytest.raises(MechanismError, match=r"^m.json, line 2, bodies.ground: is given twice; first given in line 1"):
         parse_mechanism(text, name="m.json", toml=False)
-    with pytest.raises(MechanismError, match=r"^m.json, line 2, joints.A: says none of pin, slide"):
+    with pytest.raises(MechanismError, match=r"^m.json, line 2, joints.A: has none of pin, slide"):
         parse_mechanism('{"bodies": {},\n"joints": {"A": {}}, "inputs": {}}', name="m.json", toml=False)
     with pytest.raises(MechanismError, match=r"^m.json, line 1, column 2: expecting property name"):
         parse_mechanism("{", name="m.json", toml=False)

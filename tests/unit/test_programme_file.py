@@ -124,7 +124,7 @@ def test_a_newer_format(written: Path) -> None:
 def test_a_file_cut_short(written: Path, share: float) -> None:
     data = written.read_bytes()
     written.write_bytes(data[: int(len(data) * share)])
-    with pytest.raises(LoomError, match="is cut short"):
+    with pytest.raises(LoomError, match="is truncated"):
         open_programme(written)
 
 

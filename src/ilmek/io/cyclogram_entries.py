@@ -1,4 +1,4 @@
-"""Entries of a file of tables, asked for one by one; what does not fit is named by its line and its key."""
+"""Entries of a file of tables, read one by one; errors name the line and the key."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -16,23 +16,23 @@ _MISSING = object()
 
 @dataclass(frozen=True, slots=True)
 class FileEntry:
-    """A table of a file, where it stands in it, and the file."""
+    """A table of a file, its path in the file, and the file."""
 
     data: Any
     path: Path
-    sheet: SourceText
+    source: SourceText
 
     def __post_init__(self) -> None:
         if not isinstance(self.data, Mapping):
             self.refuse(ParameterError(f"{shown(self.data)} is not a table"))
 
     def refuse(self, error: IlmekError, key: str = "") -> NoReturn:
-        """Raise the error once more, with the line and the key."""
-        self.sheet.refuse((*self.path, key) if key else self.path, error)
+        """Raise the error again with the line and the key."""
+        self.source.refuse((*self.path, key) if key else self.path, error)
 
     @contextmanager
-    def blamed(self) -> Iterator[None]:
-        """While inside, an error of the model gets the line of this table; one that has a line already keeps it."""
+    def located(self) -> Iterator[None]:
+        """Add the line of this table to errors raised inside that have no line yet."""
         try:
             yield
         except MechanismError:
@@ -41,30 +41,30 @@ class FileEntry:
             self.refuse(error)
 
     def keys(self, *known: str, needs: tuple[str, ...] = ()) -> None:
-        """Refuse a key that is unknown, naming the nearest, or missing."""
+        """Raise an error for an unknown key, with the nearest known one, or for a missing key."""
         table = {key: value for key, value in self.data.items() if key != "$schema"}
         for key, error in key_faults(table, known, needs=needs):
             self.refuse(error, key)
 
     def has(self, key: str) -> bool:
-        """Whether the key is there."""
+        """Whether the key exists."""
         return key in self.data
 
     def entries(self) -> Iterator[tuple[str, "FileEntry"]]:
-        """The tables in it by name."""
+        """The inner tables by name."""
         for key, value in self.data.items():
-            yield key, FileEntry(value, (*self.path, key), self.sheet)
+            yield key, FileEntry(value, (*self.path, key), self.source)
 
     def table(self, key: str) -> "FileEntry":
-        """A table in it; empty where it is not there."""
-        return FileEntry(self.data.get(key, {}), (*self.path, key), self.sheet)
+        """An inner table; empty if it is missing."""
+        return FileEntry(self.data.get(key, {}), (*self.path, key), self.source)
 
     def rows(self, key: str) -> list["FileEntry"]:
-        """A list of tables in it; empty where it is not there."""
+        """An inner list of tables; empty if it is missing."""
         rows = self.data.get(key, [])
         if not isinstance(rows, list):
             self.refuse(ParameterError(f"{shown(rows)} is not a list of tables", do=f"write [[{key}]]"), key)
-        return [FileEntry(row, (*self.path, key, place), self.sheet) for place, row in enumerate(rows)]
+        return [FileEntry(row, (*self.path, key, index), self.source) for index, row in enumerate(rows)]
 
     def text(self, key: str, default: str | None = None) -> str:
         """A text."""
@@ -74,21 +74,21 @@ class FileEntry:
         return value
 
     def flag(self, key: str) -> bool:
-        """True or false; false where it is not there."""
+        """True or false; default: false."""
         value = self.data.get(key, False)
         if not isinstance(value, bool):
             self.refuse(ParameterError(f"{shown(value)} is neither true nor false"), key)
         return value
 
     def whole(self, key: str) -> int:
-        """A whole number; 0 where it is not there."""
+        """A whole number of at most 1000 in magnitude; default: 0."""
         value = self.data.get(key, 0)
         if isinstance(value, bool) or not isinstance(value, int) or abs(value) > 1000:
-            self.refuse(ParameterError(f"{shown(value)} is not a small whole number"), key)
+            self.refuse(ParameterError(f"{shown(value)} is not a whole number", allowed="-1000 to 1000"), key)
         return value
 
     def quantity(self, key: str, unit: str, default: object = _MISSING) -> float:
-        """A number in SI, or a text with its unit."""
+        """A quantity [SI], given as a number in SI or a text with its unit."""
         value = self.data.get(key, default)
         if value is _MISSING:
             self.refuse(ParameterError(f"has no {key!r}", allowed=f"a quantity in {unit}"))
@@ -97,19 +97,19 @@ class FileEntry:
         return self._number(value, unit, key)
 
     def pairs(self, key: str, unit: str) -> list[tuple[float, float]]:
-        """A list of pairs of quantities."""
+        """A list of pairs of quantities [SI]."""
         rows = self.data[key]
         if not isinstance(rows, list) or any(not isinstance(row, list) or len(row) != 2 for row in rows):
             self.refuse(ParameterError(f"{shown(rows)} is not a list of pairs", allowed="[[start, end], ...]"), key)
         return [(self._number(row[0], unit, key), self._number(row[1], unit, key)) for row in rows]
 
     def law(self, key: str) -> Law:
-        """A law by its name, or by a table with its name and parameters."""
+        """A motion law, given by its name or by a table with its name and parameters."""
         value = self.data[key]
         table = {"name": value} if isinstance(value, str) else value
-        inner = FileEntry(table, (*self.path, key), self.sheet)
+        inner = FileEntry(table, (*self.path, key), self.source)
         name = inner.text("name")
-        with inner.blamed():
+        with inner.located():
             return law_of(name, {given: number for given, number in inner.data.items() if given != "name"})
 
     def _number(self, value: Any, unit: str, key: str) -> float:

@@ -1,10 +1,10 @@
-"""Cyclograms in and out, as TOML or JSON: tracks with their laws, relations, exclusions, limits.
+"""Cyclograms as TOML or JSON: tracks with their laws, relations, exclusions, limits.
 
     name = "press"
     period = "1s"
 
     [tracks.die]
-    actuator = "cam 1"                          # unit = "mm"; held, revolves, limits where there are some
+    actuator = "cam 1"                          # unit = "mm"; optional: held, revolves, limits
     limits = { acceleration = "60m/s^2" }
 
     [tracks.die.motions]                        # a law with parameters: { name = "scca", ... }
@@ -23,8 +23,8 @@
     second = { track = "feeder", above = "50mm" }
     gap = "2deg"
 
-Numbers are SI and radians; text takes its unit. What is written is read again without loss, every number to its last
-bit: an angle or a position is written in its unit where that gives the same number again, else as it is.
+Numbers are SI and radians; text has its unit. Written files are read again without loss, every number to its last bit:
+an angle or a position is written in its unit if that gives the same number again, else in SI.
 """
 
 import itertools
@@ -63,7 +63,7 @@ from ilmek.timing.windows import windows_of
 from ilmek.units import parse_quantity, parse_unit
 
 LARGEST = 1_000_000
-"""Most bytes of a cyclogram file."""
+"""Largest size of a cyclogram file [bytes]."""
 
 _EDGES = {"starts": "start", "ends": "end", "event": "event", "past": "past"}
 _LIMITS = {"speed": "/s", "acceleration": "/s^2", "jerk": "/s^3"}
@@ -72,7 +72,7 @@ _LIMITS = {"speed": "/s", "acceleration": "/s^2", "jerk": "/s^3"}
 def read_cyclogram(path: Path) -> Cyclogram:
     """The cyclogram of a .toml or .json file.
 
-    Raises ParameterError, naming the file, the line and the key, for whatever is wrong with it.
+    Raises ParameterError with the file, the line and the key for any error in the file.
     """
     noun = "cyclogram file, .toml or .json"
     try:
@@ -85,16 +85,16 @@ def read_cyclogram(path: Path) -> Cyclogram:
 
 
 def parse_cyclogram(text: str, *, name: str = "cyclogram", toml: bool = True) -> Cyclogram:
-    """The cyclogram of a TOML or JSON text; `name` is what messages call the text. Raises as `read_cyclogram`."""
-    data, places = _data(text, name, toml)
+    """The cyclogram of a TOML or JSON text; messages call it `name`. Raises as `read_cyclogram`."""
+    data, lines = _data(text, name, toml)
     try:
-        return _cyclogram(FileEntry(data, (), SourceText(name, places)))
+        return _cyclogram(FileEntry(data, (), SourceText(name, lines)))
     except MechanismError as error:
         raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
 
 
 def write_cyclogram(path: Path, cyclogram: Cyclogram) -> None:
-    """Write a .toml or .json file, whole or not at all. Raises OutputError; ParameterError for another ending."""
+    """Write a .toml or .json file. Raises OutputError; ParameterError for another suffix."""
     writers = {".toml": cyclogram_toml, ".json": cyclogram_json}
     writer = writers.get(path.suffix.lower())
     if writer is None:
@@ -121,17 +121,19 @@ def cyclogram_json(cyclogram: Cyclogram) -> str:
 
 
 def _data(text: str, name: str, toml: bool) -> tuple[Any, KeyLines]:
-    """The data and the line of each key. Raises ParameterError, naming the line, for a text that is none."""
+    """The data and the line of each key. Raises ParameterError with the line for invalid text."""
     try:
         return (tomllib.loads(text), toml_lines(text)) if toml else (json.loads(text), json_lines(text))
     except tomllib.TOMLDecodeError as error:
-        said, _, place = str(error).removesuffix(")").rpartition(" (at ")
-        raise ParameterError(f"{name}, {place or 'end'}: {said[:1].lower()}{said[1:]}", do="mend that line") from None
+        reason, _, at = str(error).removesuffix(")").rpartition(" (at ")
+        raise ParameterError(
+            f"{name}, {at or 'end'}: {reason[:1].lower()}{reason[1:]}", do="correct that line"
+        ) from None
     except json.JSONDecodeError as error:
-        raise ParameterError(f"{name}, line {error.lineno}: {error.msg.lower()}", do="mend that line") from None
+        raise ParameterError(f"{name}, line {error.lineno}: {error.msg.lower()}", do="correct that line") from None
     except IlmekError as error:
         raise ParameterError(f"{name}, {error.given}", allowed=error.allowed, do="give each its own name") from None
-    except (RecursionError, ValueError):  # brackets in brackets, or a number of thousands of digits
+    except (RecursionError, ValueError):  # deeply nested brackets, or a number of thousands of digits
         raise ParameterError(f"{name} is no cyclogram, though it may be {'TOML' if toml else 'JSON'}") from None
 
 
@@ -142,21 +144,21 @@ def _cyclogram(root: FileEntry) -> Cyclogram:
     known = Cyclogram(root.text("name", "cyclogram"), root.quantity("period", "s"), tracks) if tracks else None
     if known is None:
         root.refuse(ParameterError("has no tracks", allowed="at least one table [tracks.NAME]"))
-    with root.blamed():
+    with root.located():
         relations = tuple(_relation(entry, units) for entry in root.rows("relations"))
         exclusions = tuple(_exclusion(entry, units) for entry in root.rows("exclusions"))
         for relation, entry in zip(relations, root.rows("relations"), strict=True):
-            with entry.blamed():
+            with entry.located():
                 replace(known, relations=(relation,))
         for exclusion, entry in zip(exclusions, root.rows("exclusions"), strict=True):
-            with entry.blamed():
+            with entry.located():
                 replace(known, exclusions=(exclusion,))
         return Cyclogram(known.name, known.period, tracks, relations, exclusions)
 
 
 def _track(name: str, entry: FileEntry) -> Track:
     entry.keys("actuator", "unit", "revolves", "limits", "held", "motions", "events")
-    with entry.blamed():
+    with entry.located():
         unit = entry.text("unit", "mm")
         parse_unit(unit)
         parts = tuple(_motion(part, one, unit) for part, one in entry.table("motions").entries())
@@ -174,13 +176,13 @@ def _motion(name: str, entry: FileEntry, unit: str) -> TrackSegment:
 
 def _event(track: Track, name: str, entry: FileEntry) -> TrackEvent:
     entry.keys("angle", "on", "share", "passing")
-    with entry.blamed():
+    with entry.located():
         if not entry.has("on"):
             return TrackEvent(name, entry.quantity("angle", "rad"))
         segment = track.segment(entry.text("on"))
         if entry.has("passing"):
-            place = entry.quantity("passing", track.unit)
-            return riding(name, segment, passing_share(track.name, segment, place, track.unit))
+            position = entry.quantity("passing", track.unit)
+            return riding(name, segment, passing_share(track.name, segment, position, track.unit))
         made = riding(name, segment, entry.quantity("share", "1", 1.0))
         angle = entry.quantity("angle", "rad", made.angle)
         return TrackEvent(name, angle, made.on, made.share)
@@ -188,14 +190,14 @@ def _event(track: Track, name: str, entry: FileEntry) -> TrackEvent:
 
 def _limits(entry: FileEntry, unit: str) -> ActuatorLimits:
     entry.keys(*_LIMITS, "time")
-    with entry.blamed():
+    with entry.located():
         found = {key: entry.quantity(key, unit + per, math.inf) for key, per in _LIMITS.items()}
         return ActuatorLimits(**found, time=entry.quantity("time", "s", 0.0))
 
 
 def _relation(entry: FileEntry, units: Mapping[str, str]) -> Relation:
     entry.keys("then", "first", "gap", "most", "turns", "delay", "why", needs=("then", "first"))
-    with entry.blamed():
+    with entry.located():
         least = -math.inf if entry.has("most") else 0.0
         return Relation(
             _moment(entry.table("then"), units),
@@ -220,7 +222,7 @@ def _moment(entry: FileEntry, units: Mapping[str, str]) -> Moment:
 
 
 def _known(entry: FileEntry, units: Mapping[str, str]) -> str:
-    """The track that an entry names; it is there."""
+    """The track that an entry names. Raises ParameterError for an unknown one."""
     track = entry.text("track")
     if track not in units:
         entry.refuse(ParameterError(f"there is no track {track!r}", allowed=f"tracks: {', '.join(units)}"), "track")
@@ -229,7 +231,7 @@ def _known(entry: FileEntry, units: Mapping[str, str]) -> str:
 
 def _exclusion(entry: FileEntry, units: Mapping[str, str]) -> Exclusion:
     entry.keys("first", "second", "gap", "why", needs=("first", "second"))
-    with entry.blamed():
+    with entry.located():
         first, second = (_presence(entry.table(key), units) for key in ("first", "second"))
         return Exclusion(first, second, entry.quantity("gap", "rad", 0.0), entry.text("why", "never both"))
 
@@ -237,7 +239,7 @@ def _exclusion(entry: FileEntry, units: Mapping[str, str]) -> Exclusion:
 def _presence(entry: FileEntry, units: Mapping[str, str]) -> Presence:
     if entry.has("windows"):
         entry.keys("name", "windows")
-        with entry.blamed():
+        with entry.located():
             return Spans(entry.text("name", "windows"), windows_of(entry.pairs("windows", "rad")))
     entry.keys("track", "above", "below", "name", needs=("track",))
     track = _known(entry, units)
@@ -292,7 +294,7 @@ def _law_data(law: MotionLaw) -> str | dict[str, Any]:
 
 
 def _events_data(events: Sequence[TrackEvent]) -> dict[str, Any]:
-    """Events by name; another one of a name gets a number behind it."""
+    """Events by name; further ones of the same name get a number."""
     found: dict[str, Any] = {}
     for event in events:
         numbered = (f"{event.name} {number}" for number in itertools.count(2))
@@ -337,7 +339,7 @@ def _presence_data(one: Presence, units: Mapping[str, str]) -> dict[str, Any]:
 
 
 def _written(value: float, unit: str) -> str | float:
-    """The number in its unit where that is read as the same number again, else as it is."""
+    """The number in its unit if that is read as the same number again, else in SI."""
     shown = value / parse_unit(unit).factor
     tries: Sequence[str] = [f"{shown:.{digits}g}{unit}" for digits in (4, 8, 12, 16, 17)]
     shows = unit not in ("", "1") and math.isfinite(shown)

@@ -1,8 +1,8 @@
-"""Plates as DXF: contours of lines and exact arcs in mm, on layers as a workshop's programs want them.
+"""Plates as DXF: contours of lines and exact arcs in mm, on layers by their use.
 
 PROFILE      the outline to cut            BORE    holes and cutouts        CUTTER_PATH  paths of the cutter's centre
 PITCH        pitch curves, paths of eyes   MARK    lines to scribe          CENTRE       centre marks
-DIMENSION    main dimensions               TEXT    what it is, of what, how many
+DIMENSION    main dimensions               TEXT         title, material, number of pieces
 """
 
 from collections.abc import Iterable
@@ -41,10 +41,12 @@ LAYERS = {
 
 @dataclass(frozen=True, slots=True)
 class DxfFacts:
-    """What a DXF file of a plate says when it is read back, SI.
+    """Quantities of a DXF file of a plate that is read back.
 
-    area    inside the profile [m^2]       bored   of holes and cutouts [m^2]
-    points  of the profile                 errors  that the audit finds
+    area    inside the profile [m^2]
+    bored   area of holes and cutouts [m^2]
+    points  number of points of the profile
+    errors  number of errors found by the audit
     """
 
     area: float
@@ -54,7 +56,7 @@ class DxfFacts:
 
 
 def write_dxf(path: Path, plate: Plate) -> PlateShape:
-    """Write a plate to a file; gives its shape as it is written. An OSError passes through."""
+    """Write a plate to a file. Returns its shape as written. Raises OSError."""
     shape = plate_shape(plate)
     document = dxf_document(plate, shape)
     with path.open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream:
@@ -67,7 +69,7 @@ def dxf_document(plate: Plate, shape: PlateShape) -> Drawing:
     document = new("R2010", setup=["linetypes", "styles", "dimstyles"], units=MM)
     for name, (colour, linetype, weight) in LAYERS.items():
         document.layers.add(name, color=colour, linetype=linetype, lineweight=weight)
-    document.layers.get("0").dxf.lineweight = LAYERS["DIMENSION"][2]  # where lines of dimensions stand in their blocks
+    document.layers.get("0").dxf.lineweight = LAYERS["DIMENSION"][2]  # the layer of dimension lines inside their blocks
     height = text_height(shape)
     document.header["$LTSCALE"] = height / 4
     space = document.modelspace()
@@ -87,7 +89,7 @@ def dxf_document(plate: Plate, shape: PlateShape) -> Drawing:
 
 
 def read_dxf(path: Path) -> DxfFacts:
-    """A plate's DXF file, read back and audited. Raises OutputError where it is none."""
+    """Read back and audit the DXF file of a plate. Raises OutputError for a file without exactly one profile."""
     try:
         document = readfile(path)
     except (OSError, DXFError) as error:
@@ -121,7 +123,7 @@ def _contour(line: LWPolyline) -> Contour:
 
 
 def _mark_centres(space: Modelspace, plate: Plate, shape: PlateShape) -> None:
-    """Crosses at the holes, and at the origin where something is cut out about it."""
+    """Crosses at the holes, and at the origin if a cutout surrounds it."""
     reaches = [(hole.at, hole.radius) for hole in plate.holes]
     inside = [max(abs(corner) for corner in shape.box(cutout)) for cutout in shape.cutouts]
     if inside and all(at != 0 for at, _ in reaches):
@@ -132,9 +134,9 @@ def _mark_centres(space: Modelspace, plate: Plate, shape: PlateShape) -> None:
 
 
 def _write_texts(space: Modelspace, plate: Plate, shape: PlateShape, low: complex, height: float) -> None:
-    """What the plate is, under the drawing and its dimensions."""
+    """Title, material, thickness, number and area of the plate, below the drawing and its dimensions."""
     pieces = f"{plate.number} piece{'s' if plate.number > 1 else ''}"
-    known = f"area {format_quantity(area(shape.outline) - shape.bored, 'cm^2', 6)}, holes taken off"
+    known = f"area {format_quantity(area(shape.outline) - shape.bored, 'cm^2', 6)}, without holes"
     lines = (
         f"{plate.title} ({plate.name})",
         f"{plate.material}, {format_quantity(plate.thickness, 'mm')} thick, {pieces}",
@@ -146,6 +148,6 @@ def _write_texts(space: Modelspace, plate: Plate, shape: PlateShape, low: comple
 
 def _put(space: Modelspace, lines: Iterable[str], low: complex, height: float) -> None:
     x, y = _xy(low)
-    for place, line in enumerate(lines):
+    for index, line in enumerate(lines):
         text = space.add_text(line, height=height, dxfattribs={"layer": "TEXT", "style": "OpenSans"})
-        text.set_placement((x, y - (2.5 + 1.7 * place) * height), align=TextEntityAlignment.LEFT)
+        text.set_placement((x, y - (2.5 + 1.7 * index) * height), align=TextEntityAlignment.LEFT)

@@ -19,13 +19,13 @@ _LAYER = {"layer": "DIMENSION"}
 
 
 def text_height(shape: PlateShape) -> float:
-    """Height of letters [mm], of the usual series: about a fiftieth of the plate."""
-    wanted = shape.size / mm / 50
-    return min(_HEIGHTS, key=lambda height: abs(math.log(height / wanted)))
+    """Height of letters of the standard series [mm], about 1/50 of the plate's size."""
+    target = shape.size / mm / 50
+    return min(_HEIGHTS, key=lambda height: abs(math.log(height / target)))
 
 
 def dimension(document: Drawing, space: Modelspace, plate: Plate, shape: PlateShape) -> complex:
-    """Add the dimensions; gives the lower left corner of what they take up [m]."""
+    """Add the dimensions. Returns the lower left corner of their bounding box [m]."""
     height = text_height(shape)
     _add_style(document, height)
     gap = 4 * height * mm
@@ -71,13 +71,13 @@ def _straight(space: Modelspace, first: complex, second: complex, base: complex,
 
 
 def _pairs(holes: tuple[Hole, ...]) -> Iterator[tuple[complex, complex]]:
-    """Holes whose distance is said, the left one first: every two of up to three, otherwise each and the next."""
+    """Pairs of holes whose distance is given, the left one first: all pairs of up to three holes, else neighbours."""
     centres = sorted((hole.at for hole in holes), key=lambda at: (round(at.real, 9), at.imag))
     yield from combinations(centres, 2) if len(centres) <= 3 else pairwise(centres)
 
 
 def _clear(outline: Contour, first: complex, second: complex, gap: float) -> float:
-    """Distance [m] to the side of a line from hole to hole, away from the middle, that is clear of the outline."""
+    """Offset of a dimension line from the line between two holes, outside of the outline [m]."""
     points = along(outline, 1e-4)
     beside = ((points - first) * np.conj((second - first) / abs(second - first))).imag
     left, right = float(beside.max()), float(-beside.min())
@@ -85,14 +85,14 @@ def _clear(outline: Contour, first: complex, second: complex, gap: float) -> flo
 
 
 def _kinds(holes: tuple[Hole, ...]) -> Iterator[tuple[Hole, int]]:
-    """One hole of each size, and how many there are."""
+    """One hole of each size, and the number of holes of that size."""
     sizes = [round(hole.radius, 9) for hole in holes]
     for size in dict.fromkeys(sizes):
         yield holes[sizes.index(size)], sizes.count(size)
 
 
 def _diameter(space: Modelspace, hole: Hole, count: int, angle: float, height: float) -> None:
-    """A diameter with its line led out of the hole."""
+    """A diameter with its line outside of the hole."""
     outside = hole.at + (hole.radius + 3 * height * mm) * np.exp(1j * math.radians(angle))
     space.add_diameter_dim(
         center=_xy(hole.at),
@@ -106,7 +106,7 @@ def _diameter(space: Modelspace, hole: Hole, count: int, angle: float, height: f
 
 
 def _size_of(space: Modelspace, shape: PlateShape, cutout: Contour, gap: float) -> None:
-    """Width and height of what is cut out."""
+    """Width and height of a cutout."""
     low, high = shape.box(cutout)
     _straight(space, low, complex(high.real, low.imag), low - 0.5j * gap, 0.0)
     _straight(space, low, complex(low.real, high.imag), low - 0.5 * gap, 90.0)

@@ -1,4 +1,4 @@
-"""JSON out: SI, radians, full precision; a number that is not finite becomes null."""
+"""JSON output in SI and radians with full precision; a number that is not finite becomes null."""
 
 import json
 from pathlib import Path
@@ -21,5 +21,5 @@ def json_text(data: Any) -> str:
 
 
 def write_json(path: Path, data: Any) -> None:
-    """Write the data to a file, whole or not at all. Raises OutputError."""
+    """Write the data to a file. Raises OutputError."""
     write_whole(path, json_text(data))

@@ -1,7 +1,7 @@
-r"""Where each key of a TOML or JSON text stands: its line.
+r"""The line of each key of a TOML or JSON text.
 
-The readers of the standard library give values without places; this one gives places without values, for texts that
-those readers accept. A value's path is the keys that lead to it, a list's entries counted from 0:
+The readers of the standard library give values without lines; this one gives lines without values, for texts that those
+readers accept. A value's path is the sequence of keys to it; entries of a list count from 0:
 
 >>> toml_lines('name = "arm"\n[bodies.ground.points]\nA = [0,\n 1]')[("bodies", "ground", "points", "A", 1)]
 4
@@ -21,7 +21,7 @@ from ilmek.errors import IlmekError
 
 Path: TypeAlias = tuple[str | int, ...]
 KeyLines: TypeAlias = dict[Path, int]
-"""Path of a key or a list's entry -> line, counted from 1; the whole, (), stands in line 1."""
+"""Path of a key or a list's entry -> line, counted from 1; the path of the whole text, (), is in line 1."""
 
 _TOKEN = re.compile(
     r'''(?P<string>"""(?:\\.|[^\\])*?"{3,5}|\'\'\'.*?\'{3,5}|"(?:\\.|[^"\\])*"|'[^']*')'''
@@ -46,18 +46,18 @@ def toml_lines(text: str) -> KeyLines:
             path = prefix + scan.keys("=")
             scan.put(path, line)
             scan.value(path)
-    return scan.places
+    return scan.lines
 
 
 def json_lines(text: str) -> KeyLines:
-    """The line of every key of a JSON text that `json` accepts. Raises IlmekError for a key that comes twice."""
+    """The line of every key of a JSON text that `json` accepts. Raises IlmekError for a key that is given twice."""
     scan = _Scan(_tokens(text), json.loads, once=True)
     scan.value(())
-    return scan.places
+    return scan.lines
 
 
 def _tokens(text: str) -> deque[tuple[str, str, int]]:
-    """Kind, text and line of every token but comments."""
+    """Kind, text and line of every token except comments."""
     found: deque[tuple[str, str, int]] = deque()
     line, at = 1, 0
     for token in _TOKEN.finditer(text):
@@ -70,15 +70,15 @@ def _tokens(text: str) -> deque[tuple[str, str, int]]:
 
 @dataclass(slots=True)
 class _Scan:
-    """What is left of the tokens, and the places found so far.
+    """The tokens left, and the lines found so far.
 
-    once  a path may be put only once: JSON's own reader lets a key come twice
+    once  a path may occur only once; Python's JSON reader accepts a key given twice
     """
 
     left: deque[tuple[str, str, int]]
     decode: Callable[[str], str]
     once: bool = False
-    places: KeyLines = field(default_factory=lambda: {(): 1})
+    lines: KeyLines = field(default_factory=lambda: {(): 1})
     arrays: dict[Path, int] = field(default_factory=dict)
 
     @property
@@ -91,28 +91,28 @@ class _Scan:
         return self.left.popleft()
 
     def take_if(self, mark: str) -> bool:
-        """Whether the next token was this mark, which is then gone."""
+        """Whether the next token is this mark, which is then removed."""
         if self.left and self.left[0][:2] == ("mark", mark):
             self.take()
             return True
         return False
 
     def skip_newlines(self) -> bool:
-        """Whether anything is left behind the newlines, which are then gone."""
+        """Remove newlines; whether any token is left."""
         while self.left and self.left[0][0] == "newline":
             self.take()
         return bool(self.left)
 
     def put(self, path: Path, line: int) -> None:
-        """Note a path and those that lead to it."""
-        if self.once and path in self.places:
+        """Record the line of a path and of its parents."""
+        if self.once and path in self.lines:
             key = ".".join(str(key) for key in path)
-            raise IlmekError(f"line {line}, {key}: comes twice", allowed=f"it stands in line {self.places[path]} too")
+            raise IlmekError(f"line {line}, {key}: is given twice", allowed=f"first given in line {self.lines[path]}")
         for size in range(1, len(path) + 1):
-            self.places.setdefault(path[:size], line)
+            self.lines.setdefault(path[:size], line)
 
     def keys(self, end: str) -> Path:
-        """The dotted keys before a mark, which is taken too."""
+        """The dotted keys before a mark, which is removed too."""
         found: list[str] = []
         while not self.take_if(end):
             kind, text, _ = self.take()
@@ -121,18 +121,18 @@ class _Scan:
         return tuple(found)
 
     def opened(self, keys: Path, many: bool) -> Path:
-        """The path of a table's heading, with the number of the entry for each list of tables on the way."""
+        """The path of a table's heading, with the index of the entry for each list of tables."""
         path: Path = ()
-        for place, key in enumerate(keys):
+        for depth, key in enumerate(keys):
             path += (key,)
-            if many and place == len(keys) - 1:
+            if many and depth == len(keys) - 1:
                 self.arrays[path] = self.arrays.get(path, -1) + 1
             if path in self.arrays:
                 path += (self.arrays[path],)
         return path
 
     def value(self, path: Path) -> None:
-        """A value: what a list or table holds is noted, the rest passed over."""
+        """Skip a value; the entries of a list or table are recorded."""
         self.skip_newlines()
         if self.take_if("["):
             self._entries(path)

@@ -1,4 +1,4 @@
-"""Mechanisms in and out, as TOML or JSON: the same keys, the same schema (`ilmek.data/mechanism.schema.json`).
+"""Mechanisms as TOML or JSON: the same keys, the same schema (`ilmek.data/mechanism.schema.json`).
 
     name = "needle drive"
 
@@ -7,7 +7,7 @@
 
     [bodies.crank]
     points = { O = [0, 0], A = ["40mm", 0] }
-    mass = "0.2kg"                              # with centre and moment: what dynamics needs
+    mass = "0.2kg"                              # with centre and moment, for dynamics
 
     [joints]
     O = { pin = ["ground", "crank"] }
@@ -19,8 +19,8 @@
     [branches]
     B = 1
 
-Numbers are SI and radians; text takes its unit. What is written is read again without loss: every number to its last
-bit, every name, every order.
+Numbers are SI and radians; text has its unit. Written files are read again without loss: every number to its last bit,
+every name, every order.
 """
 
 import json
@@ -57,16 +57,16 @@ from ilmek.linkage.structure import Plan, plan
 from ilmek.records import brief
 
 LARGEST = 1_000_000
-"""Most bytes of a mechanism file."""
+"""Largest size of a mechanism file [bytes]."""
 
 
 @dataclass(frozen=True, slots=True)
 class MechanismFile:
-    """What a file holds: the mechanism, and the inertias of the bodies that have some."""
+    """Contents of a file: the mechanism, and the inertias of those bodies that have some."""
 
     mechanism: Mechanism
     inertias: Mapping[str, Inertia] = field(default_factory=dict)
-    sheet: SourceText = field(default_factory=lambda: SourceText("mechanism", {(): 1}), compare=False, repr=False)
+    source: SourceText = field(default_factory=lambda: SourceText("mechanism", {(): 1}), compare=False, repr=False)
 
     def __hash__(self) -> int:
         return hash((self.mechanism, tuple(self.inertias)))
@@ -75,15 +75,15 @@ class MechanismFile:
         return brief(self)
 
     def plan(self) -> Plan:
-        """The mechanism's plan. Raises MechanismError, naming the file, the line and the key, where it has none."""
-        with _blamed(self.sheet):
+        """The mechanism's plan. Raises MechanismError with the file, the line and the key if it cannot be solved."""
+        with _located(self.source):
             return plan(self.mechanism)
 
 
 def read_mechanism(path: Path) -> MechanismFile:
     """The mechanism of a .toml or .json file.
 
-    Raises MechanismError, naming the file, the line and the key, for whatever is wrong with it.
+    Raises MechanismError with the file, the line and the key for any error in the file.
     """
     try:
         text = read_text(
@@ -97,15 +97,15 @@ def read_mechanism(path: Path) -> MechanismFile:
 
 
 def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) -> MechanismFile:
-    """The mechanism of a TOML or JSON text; `name` is what messages call the text. Raises as `read_mechanism`."""
-    data, places = _toml(text, name) if toml else _json(text, name)
-    sheet = SourceText(name, places)
-    read = Reader(schema(), sheet).read(data)
-    return _built(read, sheet)
+    """The mechanism of a TOML or JSON text; messages call it `name`. Raises as `read_mechanism`."""
+    data, lines = _toml(text, name) if toml else _json(text, name)
+    source = SourceText(name, lines)
+    read = Reader(schema(), source).read(data)
+    return _built(read, source)
 
 
 def write_mechanism(path: Path, mechanism: Mechanism, inertias: Mapping[str, Inertia] | None = None) -> None:
-    """Write a .toml or .json file, whole or not at all. Raises OutputError; MechanismError for another ending."""
+    """Write a .toml or .json file. Raises OutputError; MechanismError for another suffix."""
     writers = {".toml": mechanism_toml, ".json": mechanism_json}
     writer = writers.get(path.suffix.lower())
     if writer is None:
@@ -135,9 +135,11 @@ def _toml(text: str, name: str) -> tuple[Any, KeyLines]:
     try:
         return tomllib.loads(text), toml_lines(text)
     except tomllib.TOMLDecodeError as error:
-        said, _, place = str(error).removesuffix(")").rpartition(" (at ")
-        raise MechanismError(f"{name}, {place or 'end'}: {said[:1].lower()}{said[1:]}", do="mend that line") from None
-    except (RecursionError, ValueError):  # brackets in brackets, or a number of thousands of digits
+        reason, _, at = str(error).removesuffix(")").rpartition(" (at ")
+        raise MechanismError(
+            f"{name}, {at or 'end'}: {reason[:1].lower()}{reason[1:]}", do="correct that line"
+        ) from None
+    except (RecursionError, ValueError):  # deeply nested brackets, or a number of thousands of digits
         raise MechanismError(f"{name} is no mechanism, though it may be TOML") from None
 
 
@@ -145,9 +147,9 @@ def _json(text: str, name: str) -> tuple[Any, KeyLines]:
     try:
         return json.loads(text), json_lines(text)
     except json.JSONDecodeError as error:
-        said = f"{error.msg[:1].lower()}{error.msg[1:]}"
+        reason = f"{error.msg[:1].lower()}{error.msg[1:]}"
         raise MechanismError(
-            f"{name}, line {error.lineno}, column {error.colno}: {said}", do="mend that line"
+            f"{name}, line {error.lineno}, column {error.colno}: {reason}", do="correct that line"
         ) from None
     except IlmekError as error:
         raise MechanismError(f"{name}, {error.given}", allowed=error.allowed, do="give each its own name") from None
@@ -156,26 +158,26 @@ def _json(text: str, name: str) -> tuple[Any, KeyLines]:
 
 
 @contextmanager
-def _blamed(sheet: SourceText, *path: str) -> Iterator[None]:
-    """While inside, an error of the model gets the line of what it is about, or of `path`."""
+def _located(source: SourceText, *path: str) -> Iterator[None]:
+    """Add the line of the entry that an error concerns, or of `path`, to errors raised inside."""
     try:
         yield
     except IlmekError as error:
-        sheet.refuse(getattr(error, "about", ()) or path, error)
+        source.refuse(getattr(error, "about", ()) or path, error)
 
 
-def _built(data: Mapping[str, Any], sheet: SourceText) -> MechanismFile:
-    """The records from data that fit the schema."""
+def _built(data: Mapping[str, Any], source: SourceText) -> MechanismFile:
+    """The records from data that satisfy the schema."""
     bodies, inertias = [], {}
     for name, table in data["bodies"].items():
-        with _blamed(sheet, "bodies", name):
-            bodies.append(Body(name, {point: complex(*place) for point, place in table["points"].items()}))
+        with _located(source, "bodies", name):
+            bodies.append(Body(name, {point: complex(*at) for point, at in table["points"].items()}))
             if table.keys() & {"mass", "centre", "moment"}:
                 centre = complex(*table.get("centre", (0, 0)))
                 inertias[name] = Inertia(table.get("mass", 0.0), centre, table.get("moment", 0.0))
     joints = tuple(_joint(name, table) for name, table in data["joints"].items())
     sliding = {joint.name for joint in joints if isinstance(joint, Slide)}
-    with _blamed(sheet):
+    with _located(source):
         mechanism = Mechanism(
             bodies=tuple(bodies),
             joints=joints,
@@ -187,7 +189,7 @@ def _built(data: Mapping[str, Any], sheet: SourceText) -> MechanismFile:
         )
         for entry in mechanism.inputs:
             _check_driven(mechanism, entry, data["inputs"][entry.joint])
-    return MechanismFile(mechanism, inertias, sheet)
+    return MechanismFile(mechanism, inertias, source)
 
 
 def _joint(name: str, table: Mapping[str, Any]) -> Joint:
@@ -210,7 +212,7 @@ def _input(joint: str, body: str, slides: bool) -> Input:
 
 
 def _check_driven(mechanism: Mechanism, entry: Input, body: str) -> None:
-    """Raise MechanismError where an input at a slide names another body than the sliding one."""
+    """Raise MechanismError if an input at a slide names another body than the sliding one."""
     joint = mechanism.joint(entry.joint)
     if isinstance(joint, Slide) and body != joint.body:
         given = f"slide {joint.name!r} is driven by {body!r}"
@@ -218,7 +220,7 @@ def _check_driven(mechanism: Mechanism, entry: Input, body: str) -> None:
 
 
 def _data(mechanism: Mechanism, inertias: Mapping[str, Inertia]) -> dict[str, Any]:
-    """The records as data that fit the schema."""
+    """The records as data that satisfy the schema."""
     joined = {entry.joint: _driven(mechanism, entry) for entry in mechanism.inputs}
     data: dict[str, Any] = {
         "name": mechanism.name,
@@ -227,7 +229,7 @@ def _data(mechanism: Mechanism, inertias: Mapping[str, Inertia]) -> dict[str, An
         "couplings": {coupling.name: _coupling_data(coupling) for coupling in mechanism.couplings},
         "inputs": joined,
         "branches": dict(mechanism.branches),
-        "pose": {body: {"origin": _place(at), "angle": float(angle)} for body, (at, angle) in mechanism.pose.items()},
+        "pose": {body: {"origin": _xy(at), "angle": float(angle)} for body, (at, angle) in mechanism.pose.items()},
     }
     return {key: value for key, value in data.items() if value != {} or key in schema()["required"]}
 
@@ -238,9 +240,9 @@ def _driven(mechanism: Mechanism, entry: Input) -> str:
 
 
 def _body_data(body: Body, inertia: Inertia | None) -> dict[str, Any]:
-    data: dict[str, Any] = {"points": {name: _place(point) for name, point in body.points.items()}}
+    data: dict[str, Any] = {"points": {name: _xy(point) for name, point in body.points.items()}}
     if inertia is not None:
-        data |= {"mass": float(inertia.mass), "centre": _place(inertia.centre), "moment": float(inertia.moment)}
+        data |= {"mass": float(inertia.mass), "centre": _xy(inertia.centre), "moment": float(inertia.moment)}
     return data
 
 
@@ -255,5 +257,5 @@ def _coupling_data(one: Coupling) -> dict[str, Any]:
     return {one.kind: [list(one.first), list(one.second)], "carrier": one.carrier, **numbers}
 
 
-def _place(point: complex) -> list[float]:
+def _xy(point: complex) -> list[float]:
     return [float(point.real), float(point.imag)]

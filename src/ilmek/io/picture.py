@@ -1,6 +1,6 @@
-"""Pictures in: any that Pillow opens safely, as 8-bit sRGB, with a note of everything that was done to it.
+"""Pictures of all formats that Pillow opens safely, as 8-bit sRGB, with a note on every conversion.
 
-Formats that would start another program (EPS, WMF) or are no pictures to weave (HDF5, GRIB, BUFR, MPEG) are left out.
+Formats that start another program (EPS, WMF) or are no pictures (HDF5, GRIB, BUFR, MPEG) are excluded.
 """
 
 import difflib
@@ -21,13 +21,13 @@ FORMATS = (
     "PNG", "JPEG", "MPO", "TIFF", "BMP", "DIB", "GIF", "WEBP", "AVIF", "JPEG2000", "PPM", "TGA", "PCX", "DCX", "ICO",
     "ICNS", "QOI", "PSD", "SGI", "SUN", "XBM", "XPM", "MSP", "IM", "SPIDER", "DDS", "BLP",
 )  # fmt: skip
-"""The formats that are read, by Pillow's names."""
+"""Formats that are read, by Pillow's names."""
 
 SMALLEST = 8
-"""Least width and height [pixels]."""
+"""Smallest width and height [pixels]."""
 
 LARGEST = 150_000_000
-"""Most pixels; more is taken for a decompression bomb."""
+"""Largest number of pixels; more is regarded as a decompression bomb."""
 
 _SIXTEEN_BITS = re.compile(r"'(?:RGB[AX]?|LA|CMYK);16[BLN]'")  # in Pillow's description of the file's pixels
 _ORIENTATION = 0x0112
@@ -38,7 +38,7 @@ _Step: TypeAlias = tuple[Image.Image, tuple[str, ...]]
 
 @record
 class Picture:
-    """A picture as sRGB, 8 bits a channel, row 0 on top; notes say what was done to the file's pixels."""
+    """A picture as sRGB with 8 bits per channel, row 0 on top; notes on the conversions."""
 
     rgb: Rgb
     notes: tuple[str, ...] = ()
@@ -47,17 +47,17 @@ class Picture:
 def read_picture(path: Path) -> Picture:
     """The picture in a file.
 
-    The first frame is taken, EXIF rotation applied, an embedded colour profile converted to sRGB, 16 bits brought to 8,
-    CMYK and grey brought to RGB, transparency laid on white; each with a note. Raises PictureError where there is no
-    picture of at least 8 x 8 pixels and at most 150 megapixels.
+    The first frame is used, EXIF rotation applied, an embedded colour profile converted to sRGB, 16 bits reduced to 8,
+    CMYK and grey converted to RGB, transparency put on white; each with a note. Raises PictureError unless the file is
+    a picture of at least 8 x 8 pixels and at most 150 megapixels.
     """
     data = _read_bytes(path)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # Pillow's warnings are covered by the notes and by the limit of our own
+        warnings.simplefilter("ignore")  # the notes and the limit of pixels cover Pillow's warnings
         try:
             with Image.open(io.BytesIO(data)) as opened:
                 if opened.format not in FORMATS:
-                    raise PictureError(f"{path} is of the format {opened.format}, which is not read", do=_USE)
+                    raise PictureError(f"{path} has the format {opened.format}, which is not supported", do=_USE)
                 _check_size(path, opened.width, opened.height)
                 return _decoded(opened)
         except PictureError:
@@ -67,8 +67,10 @@ def read_picture(path: Path) -> Picture:
         except Image.DecompressionBombError:
             raise PictureError(f"{path} is too large a picture", allowed=_LIMIT, do="scale it down") from None
         except Exception as error:
-            # A decoder fed with a damaged file raises whatever it trips over.
-            raise PictureError(f"{path} is damaged or cut off ({_words(error)})", do="save or copy it again") from None
+            # A decoder may raise any error for a damaged file.
+            raise PictureError(
+                f"{path} is damaged or truncated ({_words(error)})", do="save or copy it again"
+            ) from None
 
 
 _USE = "use a PNG, JPEG, TIFF, WebP, BMP or GIF file"
@@ -93,16 +95,16 @@ def _not_a_file(path: Path) -> str:
     if path.exists():
         return f"{path} is not a file"
     if path.is_symlink():
-        return f"{path} is a link that leads to no file"
+        return f"{path} is a broken link"
     folder = path.parent
     near = difflib.get_close_matches(path.name, [p.name for p in folder.iterdir()], 1) if folder.is_dir() else []
     return f"{path} does not exist" + (f" (did you mean {folder / near[0]}?)" if near else "")
 
 
 def _words(error: Exception) -> str:
-    """What a library said, in few words."""
-    said = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-    return re.sub(r"\s*\(.*\)$", "", said.split("\n")[0])[:120] or "its decoder fails"
+    """The message of a library, shortened."""
+    message = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    return re.sub(r"\s*\(.*\)$", "", message.split("\n")[0])[:120] or "its decoder fails"
 
 
 def _check_size(path: Path, width: int, height: int) -> None:
@@ -116,8 +118,8 @@ def _check_size(path: Path, width: int, height: int) -> None:
 def _decoded(opened: Image.Image) -> Picture:
     image, notes = _first_frame(opened)
     for step in (_upright, _eight_bits, _on_white_in_srgb):
-        image, said = step(image)
-        notes += said
+        image, added = step(image)
+        notes += added
     return Picture(np.array(image, dtype=np.uint8), notes)
 
 
@@ -127,11 +129,11 @@ def _first_frame(image: Image.Image) -> _Step:
     notes = [f"the first of {frames} frames is used"] if frames > 1 else []
     if frames > 1:
         image.seek(0)
-    if _is_turned(image):  # asked before loading, which turns a TIFF at once and forgets that it did
-        notes.append("turned upright as its EXIF data say")
+    if _is_turned(image):  # before loading, which turns a TIFF and drops its orientation
+        notes.append("turned upright according to its EXIF data")
     image.load()
     if deep:
-        notes.append("16 bits a channel brought to 8")
+        notes.append("16 bits per channel reduced to 8")
     return image, tuple(notes)
 
 
@@ -153,7 +155,7 @@ def _eight_bits(image: Image.Image) -> _Step:
     brought = Image.fromarray(eight, "L")
     brought.info = image.info
     whole = (low, high) == (0.0, 65535.0)
-    return brought, ("16 bits brought to 8" if whole else "grey scaled from darkest to lightest",)
+    return brought, ("16 bits reduced to 8" if whole else "grey scaled from darkest to lightest",)
 
 
 def _range(grey: np.ndarray) -> tuple[float, float]:
@@ -163,7 +165,7 @@ def _range(grey: np.ndarray) -> tuple[float, float]:
 
 
 def _on_white_in_srgb(image: Image.Image) -> _Step:
-    """Colours as sRGB by the embedded profile or the mode's own rule; what is transparent, on white."""
+    """Colours as sRGB by the embedded profile or by the mode; transparent parts on white."""
     cover = _cover(image)
     flat = image.convert("RGBA").convert("RGB") if image.mode in ("P", "PA", "RGBa", "La", "LA", "RGBA") else image
     flat, notes = _in_srgb(flat, image.info.get("icc_profile"))
@@ -171,11 +173,11 @@ def _on_white_in_srgb(image: Image.Image) -> _Step:
         return flat, notes
     white = Image.new("RGB", flat.size, "white")
     white.paste(flat, mask=cover)
-    return white, (*notes, "transparent parts laid on white")
+    return white, (*notes, "transparent parts put on white")
 
 
 def _cover(image: Image.Image) -> Image.Image | None:
-    """The alpha channel, where it hides something."""
+    """The alpha channel if it hides something, else None."""
     if not image.has_transparency_data:
         return None
     alpha = image.convert("RGBA").getchannel("A")
@@ -193,10 +195,10 @@ def _in_srgb(image: Image.Image, profile: bytes | None) -> _Step:
                 assert converted is not None
                 return converted, () if name.startswith("sRGB") else (f"colours converted from {name!r} to sRGB",)
         except (ImageCms.PyCMSError, OSError, ValueError, TypeError):
-            return image.convert("RGB"), ("its colour profile is damaged and left aside",)
+            return image.convert("RGB"), ("its colour profile is damaged and ignored",)
     if mode == "LAB":
         lab = ImageCms.createProfile("LAB")
         converted = ImageCms.profileToProfile(image, lab, _RGB_PROFILE, outputMode="RGB")
         assert converted is not None
-        return converted, ("CIELAB brought to sRGB",)
-    return image.convert("RGB"), ("CMYK without a colour profile brought to sRGB",) if mode == "CMYK" else ()
+        return converted, ("CIELAB converted to sRGB",)
+    return image.convert("RGB"), ("CMYK without a colour profile converted to sRGB",) if mode == "CMYK" else ()

@@ -1,4 +1,4 @@
-"""A plate's lines made ready to be written: every curve as arcs, counter-clockwise, and how far that leaves it."""
+"""The contours of a plate for output: every curve as counter-clockwise arcs, with their largest deviation."""
 
 from collections.abc import Mapping
 
@@ -12,17 +12,17 @@ from ilmek.report import Contour, Plate
 from ilmek.units import um
 
 TOLERANCE = 1e-6
-"""What arcs may leave a curve's points by, as a share of the plate's size."""
+"""Allowed deviation of arcs from the points of a curve, as a share of the plate's size."""
 
 MOST = 1 * um
-"""What arcs may leave a curve's points by at most [m]."""
+"""Largest allowed deviation of arcs from the points of a curve [m]."""
 
 
 @record
 class PlateShape:
     """A plate's lines as contours of arcs [m].
 
-    error  the farthest that a point of the plate's outline stands from its contour [m]
+    error  largest distance of a point of the outline from its contour [m]
     bored  area of holes and cutouts [m^2]
     """
 

@@ -2,9 +2,9 @@
 
     meta   key, value    carpet, loom, totals, and both cyclograms with their laws by name; as JSON
     row    number, time, data    loom row (0 at the carpet's bottom edge), its time [s], and zlib of
-                                 colours (one byte a knot, by column) + keys (three bytes a part, see `loom.schedule`)
+                                 colours (a byte per knot, by column) + keys (three bytes per part, see `loom.schedule`)
 
-The file is written under another name and put in place by one rename, so that it is whole or not there at all.
+The file is written under a temporary name and renamed at the end, so that it is complete or does not exist.
 """
 
 import contextlib
@@ -33,7 +33,7 @@ from ilmek.progress import SILENT, Progress
 from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
 
 APPLICATION, VERSION = 0x696C6D6B, 1
-"""In the file's header: the letters `ilmk`, and the version of the format."""
+"""Application id (the letters `ilmk`) and version of the format, in the file's header."""
 
 _LEVEL = 6
 _PAGE = 8192
@@ -46,7 +46,7 @@ CREATE TABLE row (number INTEGER PRIMARY KEY, time REAL NOT NULL, data BLOB NOT 
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """What a programme is for: the carpet, its yarns in the order of the chart, the loom's warp pitch [m], and the
+    """Description of a programme: the carpet, its yarns in the order of the chart, the loom's warp pitch [m], and the
     cyclograms of a knot and of a row.
     """
 
@@ -60,7 +60,12 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class Totals:
-    """The whole carpet: weaving time [s]; knots, colour changes, pitches moved by all heads; knots of each yarn."""
+    """Totals of the carpet.
+
+    duration  weaving time [s]
+    travel    pitches moved by all heads
+    counts    knots of each yarn
+    """
 
     duration: float
     knots: int
@@ -70,14 +75,14 @@ class Totals:
 
     @property
     def changes_per_knot(self) -> float:
-        """Colour changes for each knot."""
+        """Colour changes per knot."""
         return self.changes / self.knots
 
 
 def write_programme(path: Path, programme: Programme, label: Label, *, progress: Progress = SILENT) -> None:
-    """Write a programme, whole or not at all.
+    """Write a programme; on an error no file is left.
 
-    Raises OutputError where the file cannot be written, LoomError where the label's yarns are not the programme's.
+    Raises OutputError if the file cannot be written, LoomError if the label's yarns are not the programme's.
     """
     if len(label.yarns) != programme.yarns:
         raise LoomError(f"{len(label.yarns)} yarns for a programme of {programme.yarns}")
@@ -86,16 +91,16 @@ def write_programme(path: Path, programme: Programme, label: Label, *, progress:
         _fill(work, programme, label, progress)
         work.replace(path)
     except (OSError, sqlite3.Error) as error:
-        said = getattr(error, "strerror", None) or str(error)
-        raise OutputError(f"{path} cannot be written: {said}", do="nothing was written") from error
+        reason = getattr(error, "strerror", None) or str(error)
+        raise OutputError(f"{path} cannot be written: {reason}", do="nothing was written") from error
     finally:
         work.unlink(missing_ok=True)
 
 
 def open_programme(path: Path) -> "ProgrammeFile":
-    """A programme to read from; close it, or use it as a context.
+    """Open a programme for reading; close it, or use it as a context manager.
 
-    Raises LoomError where the file is missing, no programme, of a newer format, cut short or damaged.
+    Raises LoomError if the file is missing, no programme, of a newer format, truncated or damaged.
     """
     _check_header(path)
     connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
@@ -109,10 +114,10 @@ def open_programme(path: Path) -> "ProgrammeFile":
 
 
 class ProgrammeFile:
-    """An open programme: what it is for, and its rows one by one.
+    """An open programme: its label, its totals, and its rows one by one.
 
     label, times, heads, edges, rows, columns    as in `Label` and `loom.programme.Programme`
-    totals, work                                 of the whole carpet, and by head
+    totals, work                                 totals of the carpet, and the work of each head
     """
 
     __slots__ = (
@@ -140,7 +145,7 @@ class ProgrammeFile:
         self.work = HeadWork(**{name: np.array(values) for name, values in meta["work"].items()})
 
     def row(self, number: int) -> KnotRow:
-        """Loom row `number`, 0 at the carpet's bottom edge. Raises LoomError beyond the carpet or where damaged."""
+        """Loom row `number`, 0 at the carpet's bottom edge. Raises LoomError beyond the carpet or if it is damaged."""
         data = self._fetch("data", number)
         try:
             raw = zlib.decompress(data)
@@ -152,7 +157,7 @@ class ProgrammeFile:
         return KnotRow(number, plain[: self.columns], plain[self.columns :].reshape(self._keys), self.edges, self.heads)
 
     def row_time(self, number: int) -> float:
-        """Time of a loom row, its wefts included [s]. Raises LoomError as `row`."""
+        """Time of a loom row with its wefts [s]. Raises LoomError as `row`."""
         return float(self._fetch("time", number))
 
     def _fetch(self, column: str, number: int) -> Any:
@@ -167,7 +172,7 @@ class ProgrammeFile:
         return found[0]
 
     def close(self) -> None:
-        """Close the file; rows already read stay usable."""
+        """Close the file; rows that were read stay usable."""
         self._connection.close()
 
     def __enter__(self) -> "ProgrammeFile":
@@ -181,7 +186,7 @@ class ProgrammeFile:
 
 def _fill(work: Path, programme: Programme, label: Label, progress: Progress) -> None:
     with contextlib.closing(sqlite3.connect(work, isolation_level=None)) as connection:
-        # The file is nobody's until the rename: no journal is wanted.
+        # Nobody reads the file before the rename: no journal is needed.
         for pragma in (f"page_size={_PAGE}", "journal_mode=OFF", "synchronous=OFF", f"application_id={APPLICATION}"):
             connection.execute(f"PRAGMA {pragma}").fetchall()
         connection.execute(f"PRAGMA user_version={VERSION}")
@@ -293,9 +298,9 @@ def _segment_from(part: Mapping[str, Any]) -> TrackSegment:
 
 
 def _check_header(path: Path) -> None:
-    """Raise LoomError unless the file is there, a programme of a known version, and of its full length."""
+    """Raise LoomError unless the file exists, is a programme of a known version, and is complete."""
     try:
-        if path.is_fifo():  # it would be waited for
+        if path.is_fifo():  # opening it would block
             raise LoomError(f"{path} cannot be read: Is a pipe", allowed="a programme written by ilmek")
         with path.open("rb") as file:
             header = file.read(100)
@@ -314,7 +319,7 @@ def _check_header(path: Path) -> None:
     page = _number(header, 16, 2)
     expected = (65536 if page == 1 else page) * _number(header, 28, 4)
     if length < expected:
-        raise LoomError(f"{path} is cut short", allowed=f"{expected} bytes; it has {length}", do=_AGAIN)
+        raise LoomError(f"{path} is truncated", allowed=f"{expected} bytes; it has {length}", do=_AGAIN)
 
 
 def _number(header: bytes, at: int, width: int) -> int:
@@ -326,5 +331,5 @@ def _as_loom_error(path: Path) -> Iterator[None]:
     try:
         yield
     except (sqlite3.Error, KeyError, TypeError, ValueError, AttributeError, IlmekError) as error:
-        said = str(error) or type(error).__name__
-        raise LoomError(f"{path} is damaged ({said})", allowed="a whole programme", do=_AGAIN) from error
+        reason = str(error) or type(error).__name__
+        raise LoomError(f"{path} is damaged ({reason})", allowed="a whole programme", do=_AGAIN) from error

@@ -1,8 +1,8 @@
-"""Data held against a schema: the first value that does not fit is named by its key and its line.
+"""Validation of data by a schema; an error names the key and the line of the first invalid value.
 
-A schema is plain data in the words of JSON Schema. Those known here: type, properties, required, additionalProperties,
-items, minItems, maxItems, enum, oneOf (told apart by their first required key), $ref within the schema. One word is
-ours, and other readers pass it over: `unit`, for a quantity, which may be a number in SI or a text with its unit.
+A schema is data in the vocabulary of JSON Schema. Supported: type, properties, required, additionalProperties, items,
+minItems, maxItems, enum, oneOf (distinguished by the first required key), $ref within the schema. One keyword is added,
+which other validators ignore: `unit`, for a quantity, given as a number in SI or a text with its unit.
 """
 
 import math
@@ -21,29 +21,29 @@ _NAMES = {"object": "a table", "array": "a list", "string": "text in quotes", "n
 
 @record
 class SourceText:
-    """Where data come from: what a person calls them, and the line of each key."""
+    """The source of data: its name in messages, and the line of each key."""
 
     name: str
-    places: KeyLines
+    lines: KeyLines
 
     def refuse(self, path: Path, error: IlmekError) -> NoReturn:
-        """Raise the error once more, with the line and the key before its words; the nearest key that has a line."""
-        while path and path not in self.places:
+        """Raise the error again, preceded by the line and the key; a key without a line takes that of its table."""
+        while path and path not in self.lines:
             path = path[:-1]
         key = ".".join(str(key) for key in path)
-        said = f"{self.name}, line {self.places[path]}{f', {key}' if key else ''}: {error.given}"
-        raise MechanismError(said, allowed=error.allowed, do=error.do) from None
+        given = f"{self.name}, line {self.lines[path]}{f', {key}' if key else ''}: {error.given}"
+        raise MechanismError(given, allowed=error.allowed, do=error.do) from None
 
 
 @record
 class Reader:
-    """Data read by a schema."""
+    """Reads data by a schema."""
 
     schema: Schema
-    sheet: SourceText
+    source: SourceText
 
     def read(self, data: Any) -> Any:
-        """The data with every quantity as an SI number. Raises MechanismError at the first value that does not fit."""
+        """The data with every quantity as an SI number. Raises MechanismError for the first invalid value."""
         return self._value(data, self.schema, ())
 
     def _value(self, value: Any, schema: Schema, path: Path) -> Any:
@@ -53,8 +53,8 @@ class Reader:
         if "unit" in schema:
             return self._quantity(value, schema["unit"], path)
         kind: str = schema["type"]
-        wanted: Any = {"object": dict, "array": list, "string": str}[kind]
-        if not isinstance(value, wanted):
+        expected: Any = {"object": dict, "array": list, "string": str}[kind]
+        if not isinstance(value, expected):
             self._refuse(path, f"{shown(value)} is not {_NAMES[kind]}", schema.get("description", ""))
         if kind == "object":
             return self._table(value, schema, path)
@@ -73,7 +73,7 @@ class Reader:
                 self._refuse(path, f"{shown(value)} is not a table")
             picked = next((one for key, one in choices.items() if key in value), None)
             if picked is None:
-                self._refuse(path, f"says none of {', '.join(choices)}", "one of them tells what it is")
+                self._refuse(path, f"has none of {', '.join(choices)}", "one of them is required")
             return dict(picked)
         return schema
 
@@ -81,14 +81,14 @@ class Reader:
         known, others = schema.get("properties", {}), schema.get("additionalProperties", False)
         allowed = known if others is False else table
         for key, error in key_faults(table, allowed, needs=schema.get("required", ())):
-            self.sheet.refuse((*path, key) if key else path, error)
+            self.source.refuse((*path, key) if key else path, error)
         return {key: self._value(value, known.get(key, others), (*path, key)) for key, value in table.items()}
 
     def _list(self, entries: list[Any], schema: Schema, path: Path) -> list[Any]:
         count = schema["minItems"]
         if len(entries) != count:
-            self._refuse(path, f"has {len(entries)} entries", f"it is {count}: {schema['description']}")
-        return [self._value(entry, schema["items"], (*path, place)) for place, entry in enumerate(entries)]
+            self._refuse(path, f"has {len(entries)} entries", f"{count}: {schema['description']}")
+        return [self._value(entry, schema["items"], (*path, index)) for index, entry in enumerate(entries)]
 
     def _one_of(self, value: Any, choices: Iterable[Any], path: Path) -> Any:
         if isinstance(value, bool) or value not in choices or not isinstance(value, int):
@@ -99,18 +99,20 @@ class Reader:
         try:
             return read_quantity(value, unit)
         except IlmekError as error:
-            self.sheet.refuse(path, error)
+            self.source.refuse(path, error)
 
     def _refuse(self, path: Path, given: str, allowed: str = "", do: str = "") -> NoReturn:
-        self.sheet.refuse(path, MechanismError(given, allowed=allowed, do=do))
+        self.source.refuse(path, MechanismError(given, allowed=allowed, do=do))
 
 
 def key_faults(
     table: Mapping[str, Any], known: Iterable[str], *, needs: Iterable[str] = (), noun: str = "key"
 ) -> Iterator[tuple[str, IlmekError]]:
-    """What is wrong with the keys of a table: those that are missing, with "", and those that are unknown.
+    """Errors of the keys of a table: missing keys, with "", and unknown ones.
 
-    known  the keys allowed, in the order in which a message names them      noun  what a message calls a key
+    known  allowed keys, in the order of the message
+    needs  required keys
+    noun   name of a key in messages
     """
     known, needs = tuple(known), tuple(needs)
     for key in needs:
@@ -125,8 +127,8 @@ def key_faults(
 def read_quantity(value: Any, unit: str) -> float:
     """A number in SI, or a text with its unit, as a number in SI.
 
-    unit  a unit of the quantity's kind; "" or "1" for a plain number
-    Raises UnitError for a text that is no such quantity, ParameterError for any other value that is no finite number.
+    unit  a unit of the same dimension; "" or "1" for a plain number
+    Raises UnitError for a text that is no such quantity, ParameterError for another value that is no finite number.
     """
     if isinstance(value, str):
         return parse_quantity(value, unit)
@@ -158,7 +160,7 @@ def finite_number(value: Any) -> float | None:
 
 def shown(value: Any) -> str:
     """The value, shortened for a message."""
-    said = (
+    text = (
         {True: "true", False: "false", None: "null"}.get(value, "") if isinstance(value, bool | None) else repr(value)
     )
-    return said if len(said) <= 40 else f"{said[:37]}..."
+    return text if len(text) <= 40 else f"{text[:37]}..."

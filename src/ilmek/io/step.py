@@ -1,7 +1,7 @@
-"""Plates as STEP solids (AP214, mm): the contours of the DXF, extruded. The only place that knows OCP.
+"""Plates as STEP solids (AP214, mm): the contours of the DXF, extruded. The only module that imports OCP.
 
-OCP is the extra `step`; where it is not installed, importing this module fails with ImportError. Its releases rename
-things, so that everything used of it is imported here, and the extra is pinned below the next one.
+OCP is the extra `step`; without it, importing this module raises ImportError. Its releases rename classes; therefore
+all imports of it are here, and the extra is pinned below the next release.
 """
 
 from pathlib import Path
@@ -29,15 +29,15 @@ from ilmek.report import Contour, Plate
 from ilmek.units import mm
 
 for _printer in Message.DefaultMessenger_s().Printers():
-    _printer.SetTraceLevel(Message_Gravity.Message_Fail)  # it tells of each transfer on standard output otherwise
+    _printer.SetTraceLevel(Message_Gravity.Message_Fail)  # otherwise each transfer is printed on standard output
 
 
 def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
-    """Write a plate as a solid. Raises OutputError where the solid is not sound or cannot be written."""
+    """Write a plate as a solid. Raises OutputError if the solid is invalid or cannot be written."""
     solid = _solid(plate, shape)
     if not BRepCheck_Analyzer(solid).IsValid():
-        raise OutputError(f"{plate.name} makes no sound solid", do="look at its outline: does it cross itself?")
-    writer = STEPControl_Writer()  # it makes the settings known that are set next
+        raise OutputError(f"{plate.name} gives no valid solid", do="check whether its outline crosses itself")
+    writer = STEPControl_Writer()  # its constructor registers the settings below
     Interface_Static.SetCVal_s("write.step.unit", "MM")
     Interface_Static.SetCVal_s("write.step.product.name", plate.name)
     writer.Transfer(solid, STEPControl_StepModelType.STEPControl_AsIs)
@@ -50,7 +50,7 @@ def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
 
 
 def read_step_volume(path: Path) -> float:
-    """Volume [m^3] of the solid in a file, read back. Raises OutputError where there is none."""
+    """Volume of the solid in a file, read back [m^3]. Raises OutputError if there is none."""
     reader = STEPControl_Reader()
     if reader.ReadFile(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise OutputError(f"{path} cannot be read back as STEP")
@@ -61,7 +61,7 @@ def read_step_volume(path: Path) -> float:
 
 
 def _solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
-    """The plate from z = 0 up."""
+    """The plate, extruded from z = 0."""
     face = BRepBuilderAPI_MakeFace(_wire(shape.outline), True)
     for cut in (*shape.cutouts, *(circle(bore.at, bore.radius) for bore in plate.holes)):
         hole = _wire(cut)
@@ -71,11 +71,11 @@ def _solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
 
 
 def _wire(contour: Contour) -> TopoDS_Wire:
-    """A contour's closed wire in the plane z = 0; arcs stay arcs."""
+    """A contour as a closed wire in the plane z = 0; arcs are exact."""
     wire = BRepBuilderAPI_MakeWire()
     points = [_point(complex(at)) for at in contour.points]
-    for place, bulge in enumerate(contour.bulges):
-        start, end = place, (place + 1) % len(points)
+    for start, bulge in enumerate(contour.bulges):
+        end = (start + 1) % len(points)
         if abs(bulge) < STRAIGHT:
             edge = BRepBuilderAPI_MakeEdge(points[start], points[end])
         else:

@@ -1,4 +1,4 @@
-"""Columns of numbers as CSV, for a spreadsheet or another program."""
+"""Columns of numbers as CSV."""
 
 import csv
 import io
@@ -9,7 +9,7 @@ from ilmek.arrays import FloatArray
 
 
 def csv_text(columns: Mapping[str, FloatArray]) -> str:
-    """Columns by heading as CSV text; every number to its last digit, an empty cell where it is not finite.
+    """Columns by heading as CSV text with full precision; a number that is not finite is an empty cell.
 
     >>> import numpy as np
     >>> print(csv_text({"angle [rad]": np.array([0.1, 0.2]), "x [m]": np.array([1.0, np.nan])}), end="")

@@ -1,4 +1,4 @@
-"""Text files in: read whole, or refused in words."""
+"""Reading of text files."""
 
 from pathlib import Path
 
@@ -8,8 +8,9 @@ from ilmek.errors import IlmekError
 def read_text(path: Path, *, noun: str, largest: int, error: type[IlmekError], do: str) -> str:
     """The text of a UTF-8 file of at most `largest` bytes.
 
-    Raises `error`, its words to be put behind the file's name: noun says what the file is to be, do what to do where
-    there is none.
+    noun  the expected kind of file, in messages
+    do    remedy for a missing file
+    Raises `error`; the caller adds the file's name.
     """
     if path.is_dir():
         raise error("is a folder", do=f"give a {noun}")

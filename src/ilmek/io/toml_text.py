@@ -1,4 +1,4 @@
-"""TOML out: tables of tables of plain values, laid out for people, every number exact.
+"""TOML output: nested tables of plain values in a readable layout, with exact numbers.
 
 >>> print(toml_text({"name": "arm", "joints": {"A0": {"pin": ["ground", "arm"]}}, "bodies": {"arm": {"points": {}}}}))
 name = "arm"
@@ -20,10 +20,10 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def toml_text(data: Mapping[str, Any]) -> str:
-    """The data as TOML text: text, whole and real numbers, lists, and tables, nested to any depth.
+    """The data as TOML text: texts, integers, reals, lists and tables, nested to any depth.
 
-    An entry of a table of tables has a heading of its own where it holds a table again, else one line. Reals are
-    written with as many digits as it takes to read the same number again.
+    An entry of a table of tables has its own heading if it contains a table, else one line. Reals are written with
+    enough digits to read the same number again.
     """
     plain = [_line(key, value) for key, value in data.items() if not isinstance(value, Mapping)]
     parts = ["\n".join(plain)] if plain else []
@@ -34,7 +34,7 @@ def toml_text(data: Mapping[str, Any]) -> str:
 
 
 def toml_section(path: Sequence[str], table: Mapping[str, Any], *, many: bool = False) -> str:
-    """A table, or an entry of a list of tables, under a heading of its own; what it holds stands in one line each.
+    """A table, or an entry of a list of tables, under its own heading; one line per entry.
 
     >>> print(toml_section(("tracks", "the die"), {"unit": "mm"}))
     [tracks."the die"]
@@ -46,7 +46,7 @@ def toml_section(path: Sequence[str], table: Mapping[str, Any], *, many: bool = 
 
 
 def _tables(heading: str, table: Mapping[str, Any]) -> list[str]:
-    """A table under its heading; entries that hold tables stand behind it, each under its own."""
+    """A table under its heading; entries that contain tables follow, each under its own heading."""
     deep = {
         key: value
         for key, value in table.items()
@@ -78,5 +78,5 @@ def _value(value: Any) -> str:
 
 
 def _text(text: str) -> str:
-    """A string between quotes, escaped as TOML and JSON both know it."""
+    """A string in quotes with escapes that both TOML and JSON accept."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,10 +1,10 @@
-"""The temporary folder beside an output folder, and the cleaning up of those whose run was killed.
+"""The temporary folder beside an output folder, and the removal of those that killed runs left behind.
 
-A run holds a lock on its folder as long as it lives; the system lets go of it however the run ends. So a folder that
-can be locked belongs to nobody, and the next run to the same place removes it. A run takes a new folder only once it
-holds its lock and still finds it there: one that a cleaner was quicker to lock is left to the cleaner.
+A run holds a lock on its temporary folder; the system releases it however the run ends. A folder that can be locked
+therefore has no owner, and the next run with the same output removes it. A run uses a new folder only if it holds its
+lock and the folder still exists; otherwise another run has removed it.
 
-Where locks do not exist (some network file systems, Windows) nothing is cleaned.
+Without locks (some network file systems, Windows) nothing is removed.
 """
 
 import contextlib
@@ -19,16 +19,16 @@ from pathlib import Path
 from typing import Any
 
 _LOCKS: Any = importlib.import_module("fcntl") if importlib.util.find_spec("fcntl") else None
-"""Locks of files and folders; not on Windows."""
+"""Locks of files and folders; None on Windows."""
 
 _TRIES = 20
 
 
 @contextlib.contextmanager
-def work_folder(place: Path) -> Iterator[Path]:
-    """A new, empty, hidden folder beside `place`, locked; removed at the end, if it is still there."""
+def work_folder(target: Path) -> Iterator[Path]:
+    """A new, empty, hidden, locked folder beside `target`; removed at the end if it still exists."""
     for _ in range(_TRIES):
-        work = place.parent / f".{_stem(place)}.{secrets.token_hex(4)}.part"
+        work = target.parent / f".{_stem(target)}.{secrets.token_hex(4)}.part"
         work.mkdir()
         try:
             with locked(work) as mine:
@@ -37,18 +37,18 @@ def work_folder(place: Path) -> Iterator[Path]:
                     return
         finally:
             shutil.rmtree(work, ignore_errors=True)
-    raise OSError(f"no temporary folder could be kept beside {place}")
+    raise OSError(f"no temporary folder could be made beside {target}")
 
 
 @contextlib.contextmanager
 def locked(folder: Path) -> Iterator[bool]:
-    """Hold a folder's lock; False where another holds it or it is gone; True where there are no locks."""
+    """Hold a folder's lock. Yields False if another run holds it or the folder is gone, True if there are no locks."""
     try:
         handle = os.open(folder, os.O_RDONLY)
     except FileNotFoundError:
         yield False
         return
-    except OSError:  # Windows opens no folders
+    except OSError:  # Windows cannot open folders
         yield True
         return
     try:
@@ -57,13 +57,13 @@ def locked(folder: Path) -> Iterator[bool]:
         os.close(handle)
 
 
-def _stem(place: Path) -> str:
-    """The name, or, where it leaves no room for more letters, one made of it."""
-    return place.name if len(os.fsencode(place.name)) <= 200 else sha256(os.fsencode(place.name)).hexdigest()[:32]
+def _stem(target: Path) -> str:
+    """The name, or a digest of it if it is too long for a suffix."""
+    return target.name if len(os.fsencode(target.name)) <= 200 else sha256(os.fsencode(target.name)).hexdigest()[:32]
 
 
 def _lock(handle: int) -> bool | None:
-    """Whether the lock was free; None where there are no locks."""
+    """Whether the lock was free; None if there are no locks."""
     if _LOCKS is None:
         return None
     try:
@@ -82,15 +82,15 @@ def _is_at(handle: int, folder: Path) -> bool:
         return False
 
 
-def clean_up(place: Path) -> None:
-    """Remove what killed runs left beside `place`: unfinished folders, and, where `place` stands, its predecessor."""
-    ours = re.compile(rf"\.{re.escape(_stem(place))}\.[0-9a-f]{{8}}\.(part|old)")
+def clean_up(target: Path) -> None:
+    """Remove folders that killed runs left beside `target`: unfinished ones and a replaced one if `target` exists."""
+    ours = re.compile(rf"\.{re.escape(_stem(target))}\.[0-9a-f]{{8}}\.(part|old)")
     try:
-        left = [entry for entry in place.parent.iterdir() if ours.fullmatch(entry.name)]
+        left = [entry for entry in target.parent.iterdir() if ours.fullmatch(entry.name)]
     except OSError:
         return
     for folder in left:
-        if folder.is_symlink() or not folder.is_dir() or (folder.suffix == ".old" and not place.is_dir()):
+        if folder.is_symlink() or not folder.is_dir() or (folder.suffix == ".old" and not target.is_dir()):
             continue
         with contextlib.suppress(OSError):
             _remove_if_free(folder)

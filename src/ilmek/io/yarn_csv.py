@@ -1,4 +1,4 @@
-"""The yarn bill as CSV: one line a yarn, for a spreadsheet or a supplier."""
+"""The yarn bill as CSV: one line per yarn."""
 
 import csv
 import io
@@ -9,11 +9,11 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.units import g
 
 COLUMNS = ("yarn", "use", "srgb", "knots", "length [m]", "mass [g]", "price")
-"""The heading; price is empty where the list gives none."""
+"""The heading; price is empty if the list gives none."""
 
 
 def write_yarn_csv(path: Path, bill: YarnBill, yarns: tuple[Yarn, ...]) -> None:
-    """Write the bill to a file in UTF-8; lengths to the decimetre, masses to the decigram."""
+    """Write the bill in UTF-8, lengths to 0.1 m and masses to 0.1 g."""
     colours = {yarn.name: yarn.hex for yarn in yarns}
     text = io.StringIO()
     lines = csv.writer(text, lineterminator="\n")

@@ -1,17 +1,17 @@
-"""Yarn lists in: TOML (a `[[yarn]]` table each) or CSV (a header line, a yarn a line).
+"""Yarn lists from TOML (one `[[yarn]]` table per yarn) or CSV (a header line, one line per yarn).
 
     [[yarn]]
     name = "madder red"
     srgb = "#8c1f28"          # or lab = [31.5, 45.0, 27.0]: CIELAB under D65
-    nm = 5.0                  # metric count of the single strand: metres a gram
+    nm = 5.0                  # metric count of the single strand [m/g]
     ply = 3
-    price = 14.5              # a kilogram; may be left out
+    price = 14.5              # per kilogram; optional
 
-A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price; commas, semicolons or tabs between them.
-Empty lines, and lines that begin with #, are left out.
+A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price; separated by commas, semicolons or tabs.
+Empty lines and lines that begin with # are ignored.
 
-A record is one yarn as read: a mapping with the fields `name`, `srgb` ("#8b1a1a") or `lab` ([L, a, b]), `nm`, `ply` and
-`price`, numbers or texts.
+A record is one yarn as read from the file: a mapping with the fields `name`, `srgb` ("#8b1a1a") or `lab` ([L, a, b]),
+`nm`, `ply` and `price`, numbers or texts.
 """
 
 import re
@@ -31,13 +31,13 @@ from ilmek.io.schema import finite_number, key_faults
 from ilmek.io.text_file import read_text
 
 LARGEST = 1_000_000
-"""Most bytes of a yarn list; 255 yarns need far less."""
+"""Largest size of a yarn list [bytes]; 255 yarns need far less."""
 
 Record: TypeAlias = Mapping[str, object]
 
 FIELDS = ("name", "srgb", "lab", "nm", "ply", "price")
 
-_MISSING = "check the path, or leave --yarns out for the wool list that is built in"
+_MISSING = "check the path, or leave out --yarns to use the built-in wool list"
 
 
 def read_yarns(path: Path) -> tuple[Yarn, ...]:
@@ -63,12 +63,12 @@ def _toml_records(text: str) -> Sequence[Record]:
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise YarnError(f"not TOML: {error}", do="mend that line") from None
-    except (RecursionError, ValueError):  # brackets in brackets, or a number of thousands of digits
+        raise YarnError(f"not TOML: {error}", do="correct that line") from None
+    except (RecursionError, ValueError):  # deeply nested brackets, or a number of thousands of digits
         raise YarnError("not a yarn list, though it may be TOML", do="write each yarn as a [[yarn]] table") from None
-    strangers = [key for key in data if key != "yarn"]
-    if strangers:
-        raise YarnError(f"unknown entry {strangers[0]!r}", do="write each yarn as a [[yarn]] table")
+    unknown = [key for key in data if key != "yarn"]
+    if unknown:
+        raise YarnError(f"unknown entry {unknown[0]!r}", do="write each yarn as a [[yarn]] table")
     records = data.get("yarn", [])
     if not isinstance(records, list) or not all(isinstance(record, dict) for record in records):
         raise YarnError("'yarn' is not a list of tables", do="write each yarn as a [[yarn]] table")
@@ -76,12 +76,12 @@ def _toml_records(text: str) -> Sequence[Record]:
 
 
 def _check_columns(names: Sequence[str], line: int) -> None:
-    for place, name in enumerate(names):
+    for index, name in enumerate(names):
         if name not in FIELDS:
             hint = did_you_mean(name, FIELDS, otherwise="the first line names the columns")
             raise YarnError(f"line {line}: unknown column {name!r}", allowed=f"columns: {', '.join(FIELDS)}", do=hint)
-        if name in names[:place]:
-            raise YarnError(f"line {line}: the column {name!r} comes twice", do="give each column once")
+        if name in names[:index]:
+            raise YarnError(f"line {line}: the column {name!r} is given twice", do="give each column once")
 
 
 def _csv_records(text: str) -> Sequence[Record]:
@@ -93,9 +93,13 @@ def _csv_records(text: str) -> Sequence[Record]:
 
 def _csv_record(names: Sequence[str], cells: Sequence[str], line: int, delimiter: str) -> Record:
     if len(cells) > len(names):
-        raise YarnError(f"line {line} has {len(cells)} cells", allowed=f"{len(names)} columns", do="quote a comma")
-    said = {name: cell for name, cell in zip(names, cells, strict=False) if cell}
-    return {name: _csv_value(name, cell, line, delimiter) for name, cell in said.items()}
+        raise YarnError(
+            f"line {line} has {len(cells)} cells",
+            allowed=f"{len(names)} columns",
+            do="put quotes around a cell with a comma",
+        )
+    filled = {name: cell for name, cell in zip(names, cells, strict=False) if cell}
+    return {name: _csv_value(name, cell, line, delimiter) for name, cell in filled.items()}
 
 
 def _csv_value(name: str, cell: str, line: int, delimiter: str) -> object:
@@ -105,11 +109,11 @@ def _csv_value(name: str, cell: str, line: int, delimiter: str) -> object:
     try:
         values = [float(word) for word in re.split(r"[\s,;/]+", numbers.strip())]
     except ValueError:
-        raise YarnError(f"line {line}: {name} {cell!r} is not a number", do="mend that cell") from None
+        raise YarnError(f"line {line}: {name} {cell!r} is not a number", do="correct that cell") from None
     if name == "lab":
         return values
     if len(values) != 1:
-        raise YarnError(f"line {line}: {name} {cell!r} is not one number", do="mend that cell")
+        raise YarnError(f"line {line}: {name} {cell!r} is not one number", do="correct that cell")
     return int(values[0]) if name == "ply" and values[0].is_integer() else values[0]
 
 
@@ -120,27 +124,27 @@ def yarns_from_records(records: Sequence[Record]) -> tuple[Yarn, ...]:
         raise YarnError(
             f"the yarn list has {count}", allowed=f"2 to {MOST_YARNS} yarns", do="a design needs two colours"
         )
-    yarns = tuple(_yarn(record, place) for place, record in enumerate(records, start=1))
+    yarns = tuple(_yarn(record, number) for number, record in enumerate(records, start=1))
     seen: dict[str, int] = {}
-    for place, yarn in enumerate(yarns, start=1):
-        first = seen.setdefault(yarn.name.casefold(), place)
-        if first != place:
+    for number, yarn in enumerate(yarns, start=1):
+        first = seen.setdefault(yarn.name.casefold(), number)
+        if first != number:
             raise YarnError(
-                f"yarns {first} and {place} are both named {yarn.name!r}", do="give each yarn a name of its own"
+                f"yarns {first} and {number} are both named {yarn.name!r}", do="give each yarn its own name"
             )
     return yarns
 
 
-def _yarn(record: Record, place: int) -> Yarn:
-    """The yarn of one record; `place` counts from 1."""
+def _yarn(record: Record, number: int) -> Yarn:
+    """The yarn of a record; `number` counts from 1."""
     name = str(record.get("name") or "").strip()
-    called = f"yarn {place} ({name})" if name else f"yarn {place}"
+    called = f"yarn {number} ({name})" if name else f"yarn {number}"
     for _, error in key_faults(record, FIELDS, noun="field"):
         raise YarnError(f"{called}: {error.given}", allowed=error.allowed, do=error.do)
     if not name:
         raise YarnError(f"{called} has no name", do='give it one, like name = "madder red"')
     if not name.isprintable():
-        raise YarnError(f"yarn {place} has the name {name!r}", allowed="letters, digits and signs on one line")
+        raise YarnError(f"yarn {number} has the name {name!r}", allowed="letters, digits and signs on one line")
     srgb, lab = _colour(record, called)
     count = _number(record, "nm", called)
     if count is None:
@@ -155,7 +159,7 @@ _BOUNDS = {"nm": (0.05, 500.0), "ply": (1.0, 64.0), "price": (0.0, 1e6)}
 
 
 def _number(record: Record, field: str, called: str) -> float | None:
-    """A number of the record within its bounds; None where it is missing or empty."""
+    """A number of the record within its bounds; None if it is missing or empty."""
     given = record.get(field)
     if given is None or (isinstance(given, str) and not given.strip()):
         return None
@@ -171,11 +175,11 @@ _Lab = tuple[float, float, float]
 
 
 def _colour(record: Record, called: str) -> tuple[_Srgb, _Lab]:
-    """The colour of a record as sRGB codes and as CIELAB, whichever of the two it gives."""
+    """The colour of a record as sRGB codes and as CIELAB; the record gives one of them."""
     coded, measured = record.get("srgb") or None, record.get("lab") or None
     if (coded is None) == (measured is None):
-        said = "no colour" if coded is None else "both srgb and lab"
-        raise YarnError(f"{called} has {said}", allowed="one of srgb and lab", do='like srgb = "#8b1a1a"')
+        given = "no colour" if coded is None else "both srgb and lab"
+        raise YarnError(f"{called} has {given}", allowed="one of srgb and lab", do='like srgb = "#8b1a1a"')
     if coded is not None:
         srgb = _srgb(coded, called)
         lightness, a, b = srgb_to_lab(np.array(srgb, dtype=np.uint8)).tolist()
@@ -186,7 +190,7 @@ def _colour(record: Record, called: str) -> tuple[_Srgb, _Lab]:
 
 
 def _srgb(given: object, called: str) -> _Srgb:
-    """`#8b1a1a`, also without its #, or short, `#811`: each digit twice."""
+    """Codes of `#8b1a1a`, also without #, or of the short form `#811` (each digit doubled)."""
     written = re.sub(r"^#(.)(.)(.)$", r"#\1\1\2\2\3\3", str(given).strip())
     matched = re.fullmatch(r"#?([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})", written)
     if matched is None:

@@ -1,4 +1,4 @@
-"""Cam tables for controllers, each format in a file of its own."""
+"""Cam tables for controllers; one module per format."""
 
 from collections.abc import Mapping
 
@@ -19,4 +19,4 @@ FORMATS: Mapping[str, Format] = {
         lenze.FORMAT,
     )
 }
-"""By name."""
+"""Formats by name."""

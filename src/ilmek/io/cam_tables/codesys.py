@@ -1,8 +1,8 @@
-"""CODESYS SoftMotion: an MC_CAM_REF of the type XYVA, a polynomial of the fifth degree from point to point.
+"""CODESYS SoftMotion: an MC_CAM_REF of the type XYVA, with a polynomial of the fifth degree between two points.
 
-Velocity and acceleration are derivatives by the master. No more than 128 points: so many does SMC_ReadCAM take by
-default (gc_SMC_FILE_MAXCAMEL). The two columns X, Y that the cam editor imports are not written: it lays polynomials of
-the fifth degree through them, which swing where there are many. [CODESYS, SM3_Basic: MC_CAM_REF, SMC_CAMXYVA]
+Velocity and acceleration are derivatives with respect to the master. SMC_ReadCAM accepts at most 128 points by default
+(gc_SMC_FILE_MAXCAMEL). The two columns X, Y of the cam editor's import are not written: its polynomials of the fifth
+degree through many points oscillate. [CODESYS, SM3_Basic: MC_CAM_REF, SMC_CAMXYVA]
 """
 
 from ilmek.io.cam_tables.format import Format, comment, identifier, number, remarks, rows
@@ -10,7 +10,7 @@ from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.report import CamTable
 
 MOST = 128
-"""Points of a cam that a file may hold."""
+"""Largest number of points of a cam."""
 
 _LIST = """\
 VAR_GLOBAL
@@ -23,14 +23,14 @@ END_VAR
 
 
 def write(table: CamTable, sampled: SampledTable) -> str:
-    """The list of global variables: points, and the cam that MC_CamTableSelect takes."""
+    """The list of global variables: the points, and the cam for MC_CamTableSelect."""
     points = rows(table, sampled)
-    said = [
+    entries = [
         f"(dX := {number(x)}, dY := {number(y)}, dV := {number(v)}, dA := {number(a)})"
         for x, y, v, a in zip(points.x, points.y, points.v, points.a, strict=True)
     ]
     text = _LIST.format(
-        name=identifier(table.name), last=len(said) - 1, count=len(said), points=",\n        ".join(said)
+        name=identifier(table.name), last=len(entries) - 1, count=len(entries), points=",\n        ".join(entries)
     )
     return comment(remarks(table, sampled)) + text
 

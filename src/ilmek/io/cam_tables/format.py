@@ -1,4 +1,4 @@
-"""What a format of cam tables is, and how all of them write numbers and names."""
+"""The record of a format of cam tables, and the notation of numbers and names that all formats share."""
 
 import re
 from collections.abc import Callable, Sequence
@@ -14,9 +14,11 @@ from ilmek.units import deg, parse_unit, turn
 
 @record
 class TablePoints:
-    """A table's points in the units of a controller: degrees of the master, the table's unit of the slave.
+    """A table's points in the units of a controller.
 
-    x  master      y  slave      v, a  first and second derivative of y by x
+    x     master angle [deg]
+    y     position of the slave, in the table's unit
+    v, a  first and second derivative of y with respect to x
     """
 
     x: Float[np.ndarray, " nodes"]
@@ -26,17 +28,20 @@ class TablePoints:
 
 
 def no_more(table: CamTable, sampled: SampledTable) -> dict[str, float]:  # noqa: ARG001 - one of many
-    """Nothing more to set: the `settings` of most formats."""
+    """The `settings` of most formats: none."""
     return {}
 
 
 @record
 class Format:
-    """A controller's format.
+    """A format of cam tables.
 
-    name   of the format, and of its files: NAME.name.suffix       title  what it is, for a person
-    rule   how the controller goes from point to point, and how many points it takes
-    write  the file's text      advice  what to set in the controller      settings  the numbers to set, by name
+    name, suffix  of its files: NAME.name.suffix
+    title         description
+    rule          interpolation of the controller, and the number of points that it accepts
+    write         the file's text
+    advice        settings of the controller, in words
+    settings      settings of the controller, as numbers by name
     """
 
     name: str
@@ -57,7 +62,7 @@ def rows(table: CamTable, sampled: SampledTable) -> TablePoints:
 
 
 def number(value: float) -> str:
-    """A number that is a real one in every language: with a point, no sign of zero.
+    """A number as a real literal in every language: with a decimal point, without a negative zero.
 
     >>> number(1.0), number(-0.0), number(1e-7), number(2 / 3)
     ('1.0', '0.0', '1.0E-07', '0.666666666667')
@@ -68,7 +73,7 @@ def number(value: float) -> str:
 
 
 def identifier(name: str) -> str:
-    """A name as programming languages take it.
+    """A name as an identifier of programming languages.
 
     >>> identifier("side-gripper motion"), identifier("2nd cam")
     ('side_gripper_motion', 'cam_2nd_cam')
@@ -78,14 +83,14 @@ def identifier(name: str) -> str:
 
 
 def remarks(table: CamTable, sampled: SampledTable) -> tuple[str, ...]:
-    """What a person should know of a table, in lines for a comment."""
+    """Remarks on a table, in lines for a comment."""
     factor = parse_unit(table.unit).factor
-    gained = f"; it gains {number(table.revolves / factor)} {table.unit} a turn" if table.revolves else ""
+    gained = f"; it advances {number(table.revolves / factor)} {table.unit} per turn" if table.revolves else ""
     return (
         f"{table.title} ({table.name})",
         f"master 0 to 360 deg, slave in {table.unit}, from 0{gained}",
-        f"the axis stands at {number(sampled.offset / factor)} {table.unit} where the table says 0",
-        f"{len(sampled.nodes.angle)} points, {sampled.interpolation} between them",
+        f"position 0 of the table is {number(sampled.offset / factor)} {table.unit} of the axis",
+        f"{len(sampled.nodes.angle)} points, {sampled.interpolation} interpolation",
         f"error at most {sampled.error / factor:.3g} {table.unit}",
     )
 
@@ -96,6 +101,6 @@ def comment(lines: Sequence[str]) -> str:
 
 
 def wrapped(items: Sequence[str], count: int = 8) -> str:
-    """Items with commas between, so many a line."""
+    """Items separated by commas, `count` per line."""
     lines = [", ".join(items[start : start + count]) for start in range(0, len(items), count)]
     return ",\n    ".join(lines)

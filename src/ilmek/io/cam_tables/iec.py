@@ -1,7 +1,7 @@
-"""IEC 61131-3 structured text: a function block that carries its own table, for any controller of that language.
+"""IEC 61131-3 structured text: a function block that contains its table, for any controller of that language.
 
-Even steps, straight lines between them: the index is a division, and no library is asked for. The block counts whole
-turns of a master that runs on, and a slave that gains a stroke a turn gains it.
+The steps are even and the interpolation is linear, so that no library is needed. The block counts the turns of the
+master; a slave that advances by a stroke per turn does so.
 """
 
 from ilmek.io.cam_tables.format import Format, comment, identifier, number, remarks, rows, wrapped
@@ -18,23 +18,23 @@ VAR_OUTPUT
 END_VAR
 VAR CONSTANT
     steps : DINT := {steps};
-    gained : LREAL := {gained}; (* {unit} a turn *)
+    advance : LREAL := {advance}; (* {unit} per turn *)
     table : ARRAY[0..{steps}] OF LREAL := [
     {values}];
 END_VAR
 VAR
     turns : DINT;
-    place : LREAL;
+    x : LREAL;
     index : DINT;
 END_VAR
 turns := TRUNC(master / 360.0);
 IF master < 360.0 * DINT_TO_LREAL(turns) THEN
     turns := turns - 1;
 END_IF;
-place := (master / 360.0 - DINT_TO_LREAL(turns)) * DINT_TO_LREAL(steps);
-index := MIN(TRUNC(place), steps - 1);
-position := table[index] + (place - DINT_TO_LREAL(index)) * (table[index + 1] - table[index])
-    + gained * DINT_TO_LREAL(turns);
+x := (master / 360.0 - DINT_TO_LREAL(turns)) * DINT_TO_LREAL(steps);
+index := MIN(TRUNC(x), steps - 1);
+position := table[index] + (x - DINT_TO_LREAL(index)) * (table[index + 1] - table[index])
+    + advance * DINT_TO_LREAL(turns);
 END_FUNCTION_BLOCK
 """
 
@@ -46,7 +46,7 @@ def write(table: CamTable, sampled: SampledTable) -> str:
         name=identifier(table.name),
         unit=table.unit,
         steps=len(points.y) - 1,
-        gained=number(float(points.y[-1])),
+        advance=number(float(points.y[-1])),
         values=wrapped([number(value) for value in points.y]),
     )
     return comment(remarks(table, sampled)) + block

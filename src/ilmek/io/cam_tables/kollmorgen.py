@@ -1,7 +1,7 @@
-"""Kollmorgen KAS: the CSV that its cam editor imports, a cyclic spline through the points.
+"""Kollmorgen KAS: the CSV that its cam editor imports, interpolated by a cyclic spline.
 
-The import divides both columns by their largest value; the scales to set beside it are therefore 360 and the largest
-position. A course that never is above 0 has no such value: it is written mirrored, and its scale is negative.
+The import divides both columns by their largest value; the scales to set are therefore 360 and the largest position. A
+motion that is never above 0 has no such value: it is written mirrored, and its scale is negative.
 [Kollmorgen KAS, Import Cam Profile]
 """
 
@@ -12,14 +12,14 @@ from ilmek.units import parse_unit
 
 
 def scales(table: CamTable, sampled: SampledTable) -> dict[str, float]:
-    """The scales of input and output that make the import's course the table's, in degrees and the table's unit."""
+    """Scales of master [deg] and slave (in the table's unit) that restore the table after the import."""
     positions = sampled.nodes.s / parse_unit(table.unit).factor
     highest = float(positions.max())
     return {"master_scale": 360.0, "slave_scale": highest if highest > 0 else float(positions.min())}
 
 
 def write(table: CamTable, sampled: SampledTable) -> str:
-    """The rows X;Y;SPLINE between the marks of the table."""
+    """The rows X;Y;SPLINE between the table's marks."""
     points = rows(table, sampled)
     sign = 1.0 if points.y.max() > 0 else -1.0
     lines = [f"{number(x)};{number(sign * y)};SPLINE" for x, y in zip(points.x, points.y, strict=True)]

@@ -1,6 +1,6 @@
-"""Lenze Cam Loader: ASCII, a point a line, straight lines between the points.
+"""Lenze Cam Loader: ASCII, one point per line, linear interpolation.
 
-The optional third column, the motor's torque for acceleration, is left out: it belongs to the drive, not to the cam.
+The optional third column, the motor's torque for acceleration, is not written: it depends on the drive, not on the cam.
 [Lenze, Global Drive Cam Loader, 4.2.1]
 """
 
@@ -10,11 +10,11 @@ from ilmek.report import CamTable
 
 
 def write(table: CamTable, sampled: SampledTable) -> str:
-    """Master and slave with a blank between, ascending; the first lines carry the remarks."""
+    """Master and slave, separated by a blank, ascending; the first lines have the remarks."""
     points = rows(table, sampled)
-    said = [f" // {remark}" for remark in remarks(table, sampled)]
-    said += [""] * (len(points.x) - len(said))
-    lines = zip(points.x, points.y, said, strict=False)
+    notes = [f" // {remark}" for remark in remarks(table, sampled)]
+    notes += [""] * (len(points.x) - len(notes))
+    lines = zip(points.x, points.y, notes, strict=False)
     return "".join(f"{number(x)} {number(y)}{remark}\n" for x, y, remark in lines)
 
 

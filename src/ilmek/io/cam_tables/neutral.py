@@ -1,4 +1,4 @@
-"""The neutral table: CSV with a heading, for a spreadsheet or any controller that goes straight from point to point."""
+"""The neutral table: CSV with a heading, for a spreadsheet or a controller with linear interpolation."""
 
 from ilmek.io.cam_tables.format import Format, rows
 from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
@@ -7,7 +7,7 @@ from ilmek.report import CamTable
 
 
 def write(table: CamTable, sampled: SampledTable) -> str:
-    """Master angle, position, velocity and acceleration by the master angle, with their units in the heading."""
+    """Master angle, position, and its derivatives with respect to the master angle, with units in the heading."""
     unit, points = table.unit, rows(table, sampled)
     return csv_text(
         {

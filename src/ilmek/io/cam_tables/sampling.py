@@ -1,7 +1,7 @@
-"""Points for a cam table: where they must stand so that the controller keeps the course within a tolerance.
+"""Points of a cam table such that the controller follows the motion within a tolerance.
 
-A table begins at position 0 whatever the axis' place, since a controller that is coupled relatively jumps by what the
-first point says; the offset is told beside it. The last point is the first, a turn and its gain later.
+A table begins at position 0 whatever the position of the axis, because a relatively coupled controller jumps by the
+first point; the offset is reported. The last point is the first one, a turn and its advance later.
 """
 
 import math
@@ -16,28 +16,29 @@ from ilmek.report import CamTable
 from ilmek.units import format_quantity, turn
 
 _SIDE = 1e-9
-"""How far from a joint its one-sided values are taken [rad]."""
+"""Distance from a joint at which its one-sided values are evaluated [rad]."""
 
 _INSIDE, _FINE, _LEAST_FINE = 8, 20000, 33
-"""Places of an interval at which the error is looked at while points are added; of the turn, at the end, and then of
-each interval at least.
+"""Points at which the error is evaluated: per interval while points are added; per turn at the end;
+at least per interval at the end.
 """
 
 _SPARE = 0.95
-"""Share of the tolerance that points are placed by, since the fine grid at the end finds a little more."""
+"""Share of the tolerance used to place points, because the fine grid at the end finds a slightly larger error."""
 
 _LEAST_STEP = math.radians(1e-3)
-"""Intervals are not divided below this [rad]: a controller's clock does not resolve them."""
+"""Smallest interval that is divided [rad]; a controller's clock does not resolve smaller ones."""
 
 _ROUNDS, _CUTS = 24, 16
 
 
 @dataclass(frozen=True, slots=True)
 class SamplingRule:
-    """What a controller asks of its table.
+    """Requirements of a controller on its table.
 
-    interpolation  how it goes from point to point      even   points equally far apart
-    least, most    how many points it takes
+    interpolation  name of `INTERPOLATIONS`
+    even           equidistant points
+    least, most    number of points that it accepts
     """
 
     interpolation: str
@@ -48,11 +49,13 @@ class SamplingRule:
 
 @dataclass(frozen=True, slots=True)
 class SampledTable:
-    """A table's points, and what a controller makes of them.
+    """A table's points, and the error of a controller that interpolates them.
 
-    nodes   from position 0       offset  position of the course at the master angle 0, which the nodes are less by [SI]
-    error   largest distance of the controller's course from the exact one, on a fine grid between all points [SI]
-    at      master angle of it [rad]
+    nodes      points from position 0
+    offset     position of the motion at master angle 0, subtracted from the nodes [SI]
+    error      largest error of the controller's motion, on a fine grid between all points [SI]
+    at         master angle of the largest error [rad]
+    tolerance  allowed error [SI]
     """
 
     nodes: Nodes
@@ -64,25 +67,25 @@ class SampledTable:
 
     @property
     def kept(self) -> bool:
-        """Whether the tolerance is kept."""
+        """Whether the error is within the tolerance."""
         return self.error <= self.tolerance
 
 
 def stroke(table: CamTable) -> float:
-    """Largest less least position over the turn [SI], or what it gains."""
+    """Range of positions over the turn [SI], or the advance per turn if larger."""
     angle = np.concatenate([np.linspace(0.0, turn, 1441), np.clip(table.knots, 0.0, turn)])
     return max(float(np.ptp(table.course(angle)[0])), abs(table.revolves))
 
 
 def sample(table: CamTable, rule: SamplingRule, tolerance: float) -> SampledTable:
-    """The points that keep the tolerance [SI], or come nearest to it with as many as the controller takes.
+    """The points that satisfy the tolerance [SI], or the best that the controller accepts.
 
-    Raises OutputError for a course that jumps from the end of the turn to its beginning.
+    Raises OutputError for a motion that jumps from the end of the turn to its beginning.
     """
     _require_closed(table, tolerance)
     interpolation = INTERPOLATIONS[rule.interpolation]
-    place = _even if rule.even else _where_needed
-    nodes = place(table, rule, interpolation, _SPARE * tolerance)
+    distribute = _even if rule.even else _adaptive
+    nodes = distribute(table, rule, interpolation, _SPARE * tolerance)
     angle = _between(nodes.angle, max(_LEAST_FINE, _FINE // len(nodes.angle)))
     wrong = _errors(table, nodes, interpolation, angle)
     worst = int(np.argmax(wrong))
@@ -95,8 +98,8 @@ def _require_closed(table: CamTable, tolerance: float) -> None:
     gap = _position(table, turn - _SIDE) - _position(table, 0.0) - table.revolves
     if abs(gap) > max(tolerance, 1e-9 * stroke(table)):
         raise OutputError(
-            f"{table.name} ends a turn {format_quantity(gap, table.unit)} from where it began",
-            allowed="a cam table runs on into its next turn without a jump",
+            f"{table.name} ends a turn {format_quantity(gap, table.unit)} from its beginning",
+            allowed="a cam table continues into its next turn without a jump",
         )
 
 
@@ -105,22 +108,22 @@ def _position(table: CamTable, angle: float) -> float:
 
 
 def _nodes(table: CamTable, angle: Float[np.ndarray, " nodes"]) -> Nodes:
-    """The course at these angles, from position 0; at a joint the mean of both sides, both ends of the turn alike."""
+    """The motion at these angles [rad], from position 0; at joints and ends of the turn the mean of both sides."""
     before = np.where(angle <= 0, turn - _SIDE, angle - _SIDE)
     after = np.where(angle >= turn, _SIDE, angle + _SIDE)
     rows = 0.5 * (table.course(before) + table.course(after))
     s = table.course(angle)[0] - _position(table, 0.0)
     s[0], s[-1] = 0.0, table.revolves
-    return Nodes(angle, s, _settled(rows[1]), _settled(rows[2]))
+    return Nodes(angle, s, _without_noise(rows[1]), _without_noise(rows[2]))
 
 
-def _settled(values: Float[np.ndarray, " nodes"]) -> Float[np.ndarray, " nodes"]:
-    """The values, those at 0 that are rounding, or half of what a nanoradian makes of the jerk."""
+def _without_noise(values: Float[np.ndarray, " nodes"]) -> Float[np.ndarray, " nodes"]:
+    """The values, with 0 for those below 1e-7 of the largest: rounding, or the jerk over a nanoradian."""
     return np.where(np.abs(values) > 1e-7 * np.abs(values).max(initial=0.0), values, 0.0)
 
 
 def _even(table: CamTable, rule: SamplingRule, interpolation: Interpolation, tolerance: float) -> Nodes:
-    """The fewest even points that keep the tolerance; the most there are where none does."""
+    """The fewest equidistant points that satisfy the tolerance; the largest number if none does."""
     counts = [count for count in _EVEN if rule.least - 1 <= count < rule.most] or [_EVEN[0]]
     for count in counts:
         nodes = _nodes(table, np.arange(count + 1) * (turn / count))
@@ -133,8 +136,8 @@ _EVEN = (36, 72, 120, 180, 240, 360, 450, 720, 900, 1440, 1800, 2400, 3600, 7200
 """Numbers of even steps."""
 
 
-def _where_needed(table: CamTable, rule: SamplingRule, interpolation: Interpolation, tolerance: float) -> Nodes:
-    """Points at all joints, and between them where the error asks for more."""
+def _adaptive(table: CamTable, rule: SamplingRule, interpolation: Interpolation, tolerance: float) -> Nodes:
+    """Points at all joints, and more between them until the error is within the tolerance."""
     nodes = _nodes(table, _first(table, rule))
     for _ in range(_ROUNDS):
         wrong = _errors(table, nodes, interpolation, _between(nodes.angle, _INSIDE)).max(axis=1)
@@ -150,7 +153,7 @@ def _where_needed(table: CamTable, rule: SamplingRule, interpolation: Interpolat
 
 
 def _first(table: CamTable, rule: SamplingRule) -> Float[np.ndarray, " nodes"]:
-    """The joints of the course and both ends of the turn; more where the controller wants more, even ones if fewer."""
+    """Joints of the motion and ends of the turn; more if the controller needs more, equidistant if fewer."""
     joints = np.unique(np.concatenate([[0.0], np.mod(table.knots, turn), [turn]]))
     joints = joints[np.append(True, np.diff(joints) > _LEAST_STEP)]
     joints[-1] = turn
@@ -164,7 +167,7 @@ def _first(table: CamTable, rule: SamplingRule) -> Float[np.ndarray, " nodes"]:
 def _within(
     parts: Int[np.ndarray, " steps"], wrong: Float[np.ndarray, " steps"], room: int
 ) -> Int[np.ndarray, " steps"]:
-    """The same division, the worst intervals only, where there is no room for all."""
+    """The same division; only of the worst intervals if the number of points is limited."""
     if np.sum(parts - 1) <= room:
         return parts
     halved = np.ones(len(parts), dtype=int)
@@ -174,14 +177,14 @@ def _within(
 
 
 def _divided(angle: Float[np.ndarray, " nodes"], parts: Int[np.ndarray, " steps"]) -> Float[np.ndarray, " more"]:
-    """The angles, and those that part each step evenly into so many."""
+    """The angles, with each step divided evenly into the given number of parts."""
     steps = zip(angle[:-1], np.diff(angle), parts, strict=True)
     pieces = [low + step * np.arange(count) / count for low, step, count in steps]
     return np.append(np.concatenate(pieces), angle[-1])
 
 
 def _between(angle: Float[np.ndarray, " nodes"], count: int) -> Float[np.ndarray, "a b"]:
-    """So many places inside of each step."""
+    """`count` angles inside each step."""
     shares = (np.arange(count) + 0.5) / count
     return np.asarray(angle[:-1, None] + np.diff(angle)[:, None] * shares)
 

@@ -1,8 +1,8 @@
 """TwinCAT NC camming: a table of positions, and a motion function.
 
 The table of positions has uneven steps and is interpolated by the cyclic spline (MC_INTERPOLATIONTYPE_SPLINE). The
-motion function joins its points by polynomials of the fifth degree, of the kind motion to motion, with velocity and
-acceleration as derivatives by the master. [Beckhoff, TF5050: MC_CAM_REF, MC_MotionFunctionPoint]
+motion function connects its points by polynomials of the fifth degree, of the kind motion to motion, with velocity and
+acceleration as derivatives with respect to the master. [Beckhoff, TF5050: MC_CAM_REF, MC_MotionFunctionPoint]
 """
 
 from ilmek.io.cam_tables.format import Format, comment, identifier, number, remarks, rows, wrapped
@@ -37,18 +37,18 @@ def write_positions(table: CamTable, sampled: SampledTable) -> str:
 def write_motion(table: CamTable, sampled: SampledTable) -> str:
     """The motion function: a point with its derivatives, and the polynomial to the next."""
     points = rows(table, sampled)
-    said = [
-        f"(PointIndex := {place}, FunctionType := MOTIONFUNCTYPE_POLYNOM5_MM, PointType := MOTIONPOINTTYPE_MOTION,"
+    entries = [
+        f"(PointIndex := {index}, FunctionType := MOTIONFUNCTYPE_POLYNOM5_MM, PointType := MOTIONPOINTTYPE_MOTION,"
         f" RelIndexNextPoint := 1, MasterPos := {number(x)}, SlavePos := {number(y)}, SlaveVelo := {number(v)},"
         f" SlaveAcc := {number(a)}, SlaveJerk := 0.0)"
-        for place, (x, y, v, a) in enumerate(zip(points.x, points.y, points.v, points.a, strict=True), start=1)
+        for index, (x, y, v, a) in enumerate(zip(points.x, points.y, points.v, points.a, strict=True), start=1)
     ]
     text = _LIST.format(
         name=identifier(table.name),
-        type=f"ARRAY[1..{len(said)}] OF MC_MotionFunctionPoint",
-        points=wrapped(said, 1),
+        type=f"ARRAY[1..{len(entries)}] OF MC_MotionFunctionPoint",
+        points=wrapped(entries, 1),
         table="MC_TABLETYPE_MOTIONFUNCTION",
-        rows=len(said),
+        rows=len(entries),
         columns=1,
     )
     return comment(remarks(table, sampled)) + text

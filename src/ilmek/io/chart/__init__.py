@@ -1,1 +1,1 @@
-"""The knot chart as files: a picture of its cells and printed sheets."""
+"""Knot charts as PNG and as printed sheets (PDF)."""

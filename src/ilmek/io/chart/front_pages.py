@@ -15,13 +15,13 @@ from ilmek.units import format_number
 _LEFT, _TOP, _WIDTH, _HEIGHT = 54.0, 800.0, 487.0, 620.0
 _GREY = (0.36, 0.40, 0.44)
 _LINE, _LINES = 19.0, 36
-"""Height of a legend entry [pt], and how many stand in a column; two columns a page."""
+"""Height of a legend entry [pt], and entries per column; two columns per page."""
 _SMALL = 6.5
 """Size of a long name's letters [pt]."""
 
 
 def draw_overview(canvas: Any, chart: Chart, plan: SheetLayout, name: str) -> None:
-    """The carpet in true proportion under the grid of sheets, each number a link to its sheet."""
+    """Draw the carpet in true proportion under the grid of sheets; each number is a link to its sheet."""
     canvas.bookmarkPage("overview")
     canvas.addOutlineEntry("The whole carpet", "overview", 0)
     canvas.setFont(STRONG, 16)
@@ -56,18 +56,18 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
 
 
 def _count(number: int) -> str:
-    """A whole number with its thousands apart."""
+    """A whole number with its thousands separated."""
     return f"{number:,}".replace(",", "\u202f")
 
 
 def _thumbnail(chart: Chart) -> Image.Image:
-    """The chart as a picture of at most 1200 pixels a side."""
+    """The chart as a picture of at most 1200 pixels per side."""
     picture = Image.fromarray(np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots])
     return picture.reduce(max(1, -(-max(picture.size) // 1200)))
 
 
 def _sheet_grid(canvas: Any, plan: SheetLayout, wide: float, high: float) -> None:
-    """Borders of the sheets, white under black so that they are seen on any colour, and their numbers."""
+    """Draw the borders of the sheets, white under black to be visible on any colour, and their numbers."""
     boxes = [
         (s.left * wide, s.low * high, (s.right - s.left) * wide, (s.high - s.low) * high, s.number)
         for s in plan.sheets()
@@ -89,8 +89,8 @@ def _sheet_grid(canvas: Any, plan: SheetLayout, wide: float, high: float) -> Non
 
 
 def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
-    """Swatch with the symbol as on the chart, symbol alone, name, count and share of every yarn that has knots."""
-    used = [place for place, count in enumerate(chart.counts) if count]
+    """Draw the legend: swatch with symbol, symbol alone, name, count and share of every yarn that is used."""
+    used = [index for index, count in enumerate(chart.counts) if count]
     canvas.bookmarkPage("legend")
     canvas.addOutlineEntry("Legend", "legend", 0)
     for first in range(0, len(used), 2 * _LINES):
@@ -98,36 +98,36 @@ def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
         canvas.setFont(STRONG, 13)
         canvas.drawString(_LEFT, _TOP, f"Legend: {len(used)} colours, {_count(chart.knots.size)} knots")
         columns = 1 if len(used) <= _LINES else 2
-        for line, place in enumerate(used[first : first + 2 * _LINES]):
+        for line, index in enumerate(used[first : first + 2 * _LINES]):
             column, down = divmod(line, _LINES)
             width = (330.0, 231.5)[columns - 1]
             y = _TOP - 28.0 - _LINE * down
-            _entry(canvas, chart, inks, place, (_LEFT + column * (width + 24.0), y, width))
+            _entry(canvas, chart, inks, index, (_LEFT + column * (width + 24.0), y, width))
         canvas.showPage()
 
 
-def _entry(canvas: Any, chart: Chart, inks: Inks, place: int, box: tuple[float, float, float]) -> None:
+def _entry(canvas: Any, chart: Chart, inks: Inks, index: int, box: tuple[float, float, float]) -> None:
     x, y, width = box
-    canvas.setFillColorRGB(*inks.fills[place])
+    canvas.setFillColorRGB(*inks.fills[index])
     canvas.setStrokeGray(0.4)
     canvas.setLineWidth(0.4)
     canvas.rect(x, y - 4.0, 24.0, 14.0, stroke=1, fill=1)
     canvas.setFont(SIGNS, 10)
-    canvas.setFillGray(1.0 if inks.white[place] else 0.0)
-    canvas.drawCentredString(x + 12.0, y, inks.symbols[place])
+    canvas.setFillGray(1.0 if inks.white[index] else 0.0)
+    canvas.drawCentredString(x + 12.0, y, inks.symbols[index])
     canvas.setFillGray(0.1)
-    canvas.drawCentredString(x + 38.0, y, inks.symbols[place])
+    canvas.drawCentredString(x + 38.0, y, inks.symbols[index])
     canvas.setFont(TEXT, 9)
-    count = chart.counts[place]
+    count = chart.counts[index]
     share = 100 * count / chart.knots.size
     canvas.drawRightString(x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")
     counted = _count(count)
     canvas.drawRightString(x + width - 44.0, y, counted)
-    _write_name(canvas, chart.yarns[place].name, (x + 52.0, y), width - 106.0 - canvas.stringWidth(counted, TEXT, 9))
+    _write_name(canvas, chart.yarns[index].name, (x + 52.0, y), width - 106.0 - canvas.stringWidth(counted, TEXT, 9))
 
 
 def _write_name(canvas: Any, name: str, at: tuple[float, float], room: float) -> None:
-    """A name in one line, or smaller in two."""
+    """Write a name in one line, or smaller in two."""
     x, y = at
     if canvas.stringWidth(name, TEXT, 9) <= room:
         canvas.drawString(x, y, name)
@@ -139,7 +139,7 @@ def _write_name(canvas: Any, name: str, at: tuple[float, float], room: float) ->
 
 
 def _fitted(canvas: Any, text: str, room: float) -> str:
-    """The text in small letters, its middle cut out where it is too long: names often differ at the end."""
+    """The text in small letters; a long one loses its middle, because names often differ at the end."""
     half = len(text) // 2
     head, tail = text[:half], text[half:]
     while canvas.stringWidth(shown := f"{head}…{tail}" if len(head + tail) < len(text) else text, TEXT, _SMALL) > room:

@@ -20,7 +20,7 @@ _GREY, _LIGHT = (0.36, 0.40, 0.44), (0.55, 0.58, 0.62)
 
 @dataclass(frozen=True, slots=True)
 class Inks:
-    """How each yarn is printed: fill colour 0 to 1, symbol, and whether the symbol is white."""
+    """Print of each yarn: fill colour 0 to 1, symbol, and whether the symbol is white."""
 
     fills: tuple[tuple[float, float, float], ...]
     symbols: str
@@ -34,12 +34,12 @@ class Inks:
 
 
 def _luminance(srgb: tuple[int, int, int]) -> float:
-    """Relative luminance, of black 0 and of white 1; black and white contrast equally at 0.179   [WCAG 2.2, 1.4.3]."""
+    """Relative luminance, black 0, white 1; black and white contrast equally at 0.179   [WCAG 2.2, 1.4.3]."""
     return float(LINEAR[list(srgb)] @ np.array([0.2126, 0.7152, 0.0722]))
 
 
 def draw_sheet(canvas: Any, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
-    """Draw a sheet and end its page."""
+    """Draw a sheet on a page of its own."""
     rows = slice(chart.rows - sheet.shown_high, chart.rows - sheet.low)
     cells = chart.knots[rows, sheet.left : sheet.shown_right][::-1]
     canvas.bookmarkPage(f"sheet-{sheet.number}")
@@ -78,7 +78,7 @@ def runs(cells: Indices) -> dict[int, list[tuple[int, int, int]]]:
 
 
 def _fill_cells(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -> None:
-    """One filled path a yarn, one rectangle a run; the unit is a cell."""
+    """One filled path per yarn, one rectangle per run; the unit is a cell."""
     canvas.saveState()
     canvas.scale(plan.cell_width, plan.cell_height)
     for yarn, pieces in sorted(runs(cells).items()):
@@ -89,11 +89,11 @@ def _fill_cells(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -> N
 
 
 def _write_symbols(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -> None:
-    """Each row as two pieces of text, black and white, spaced so that every sign stands in its cell."""
+    """Each row as two texts, black and white, spaced so that every symbol is in its cell."""
     size = min(0.74 * plan.cell_height, 0.98 * plan.cell_width)
     indent = (plan.cell_width - ADVANCE * size) / 2
     rise = (plan.cell_height - 0.72 * size) / 2
-    canvas.saveState()  # the spacing of the signs would hold for all text that follows
+    canvas.saveState()  # restores the character spacing
     for white in (False, True):
         signs = np.array([sign if pale == white else " " for sign, pale in zip(inks.symbols, inks.white, strict=True)])
         text = canvas.beginText()
@@ -110,7 +110,7 @@ def _write_symbols(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -
 
 
 def _shade_overlap(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
-    """A pale veil on the knots that belong to the next sheets."""
+    """Lighten the knots that belong to the next sheets."""
     width, height = sheet.right - sheet.left, sheet.high - sheet.low
     canvas.saveState()
     canvas.setFillColorRGB(1, 1, 1, alpha=0.55)
@@ -123,7 +123,7 @@ def _shade_overlap(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
 
 
 def _draw_lines(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
-    """Hairlines round each cell, a bold line each 10 knots of the carpet, a dashed one where the overlap begins."""
+    """Hairlines around each cell, a bold line every 10 knots of the carpet."""
     wide, high = plan.cell_width, plan.cell_height
     columns, rows = sheet.shown_right - sheet.left, sheet.shown_high - sheet.low
     upright = [(number * wide, 0.0, number * wide, rows * high) for number in range(columns + 1)]
@@ -140,7 +140,7 @@ def _draw_lines(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
 
 
 def _write_numbers(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
-    """Every row's number at both sides, each fifth knot's above and below; tens in bold."""
+    """Row numbers at both sides, every fifth knot number above and below; tens in bold."""
     wide, high = plan.cell_width, plan.cell_height
     right, top = (sheet.shown_right - sheet.left) * wide, (sheet.shown_high - sheet.low) * high
     small = min(5.2, 0.8 * high)
@@ -164,7 +164,7 @@ def _ink(canvas: Any, number: int, size: float, own: bool) -> None:
 
 
 def _mark_middle(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
-    """Arrowheads on the edges at the carpet's middle column and middle row, where the sheet has them."""
+    """Arrowheads on the edges at the carpet's middle column and row, if the sheet contains them."""
     right, top = (sheet.shown_right - sheet.left) * plan.cell_width, (sheet.shown_high - sheet.low) * plan.cell_height
     x = (plan.columns / 2 - sheet.left) * plan.cell_width
     y = (plan.rows / 2 - sheet.low) * plan.cell_height
@@ -187,7 +187,7 @@ def _triangle(path: Any, *corners: tuple[float, float]) -> None:
 
 
 def _write_title(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
-    """What the sheet shows, and where its neighbours are (each a link)."""
+    """Write the title of the sheet, and links to its neighbours."""
     canvas.setFillColorRGB(0.1, 0.1, 0.1)
     canvas.setFont(STRONG, 11)
     canvas.drawString(_LEFT, _TOP, sheet.title)

@@ -1,9 +1,10 @@
-"""Knot charts for the weaver: a PDF of A4 sheets, all in vectors.
+"""Knot charts for the weaver: a PDF of A4 sheets in vector graphics.
 
-First the whole carpet with the sheets' numbers, then the legend (swatch, symbol, name, count), then the sheets in the
-order of weaving. A sheet shows each knot as a cell in true proportion with the yarn's colour and symbol, a bold line
-each 10 knots, row numbers (from the bottom, as woven) and knot numbers on the edges, arrowheads at the carpet's middle,
-and the neighbours' sheet numbers; the 3 knots that belong to the next sheet are shaded. Same chart, same file.
+The first page shows the whole carpet with the sheets' numbers, then follow the legend (swatch, symbol, name, count) and
+the sheets in the order of weaving. A sheet shows each knot as a cell in true proportion with the yarn's colour and
+symbol, a bold line every 10 knots, row numbers (from the bottom, as woven) and knot numbers on the edges, arrowheads at
+the carpet's middle, and the neighbours' sheet numbers; the 3 knots that belong to the next sheet are shaded. The same
+chart gives the same file.
 """
 
 from collections.abc import Iterator
@@ -26,7 +27,7 @@ from ilmek.progress import SILENT, Progress
 def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title: str = "") -> None:
     """Write the chart to `path`.
 
-    A sheet takes about a hundredth of a second; see `chart_cut` for their number, which grows with the knots.
+    A sheet takes about 0.01 s; `chart_cut` gives the number of sheets.
     """
     register_fonts()
     plan = chart_cut(chart)
@@ -45,13 +46,13 @@ def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title
 
 
 def chart_cut(chart: Chart) -> SheetLayout:
-    """How the chart is cut into sheets: `.count` tells how many there will be."""
+    """The division of the chart into sheets; `.count` is their number."""
     return cut(chart.rows, chart.columns, chart.quality.across / chart.quality.along)
 
 
 @contextmanager
 def _plain_streams() -> Iterator[None]:
-    """Streams as bytes, not as text of 5 letters for 4 bytes: smaller, and several times quicker to write."""
+    """Write streams as bytes, not as base-85 text: smaller, and several times faster."""
     config: Any = rl_config
     before = config.useA85
     config.useA85 = 0

@@ -1,8 +1,7 @@
-"""Knot charts as indexed PNG: one pixel one knot, the palette the yarns.
+"""Knot charts as indexed PNG: one pixel per knot, one palette entry per yarn.
 
-The file is a picture to everybody and a chart to ilmek: the palette holds the yarns' colours in their order, the pHYs
-chunk the knots per metre both ways (so that viewers that heed it show knots in true proportion), and text chunks the
-title and, as JSON under `ilmek-chart`, yarns, size, quality and knot.
+The pHYs chunk has the knots per metre in both directions, so that viewers that use it show true proportions. Text
+chunks have the title and, as JSON under `ilmek-chart`, yarns, size, quality and knot.
 """
 
 import json
@@ -24,7 +23,7 @@ _METRE = 0.0254
 
 @record
 class ChartPicture:
-    """What a chart PNG holds: indices, yarn names and colours in their order; size [m], quality [knots/m], knot."""
+    """Contents of a chart PNG: indices, yarn names and colours in their order; size [m], quality [knots/m], knot."""
 
     knots: Indices
     names: tuple[str, ...]
@@ -59,7 +58,7 @@ def write_chart_png(path: Path, chart: Chart) -> None:
 
 def read_chart_png(path: Path) -> ChartPicture:
     """Read a chart that `write_chart_png` wrote. Raises PictureError for any other file."""
-    no_chart = PictureError(f"{path} is no knot chart", allowed="a chart.png written by ilmek is wanted")
+    no_chart = PictureError(f"{path} is no knot chart", allowed="a chart.png written by ilmek")
     try:
         with Image.open(path, formats=("PNG",)) as picture:
             picture.load()
@@ -72,7 +71,7 @@ def read_chart_png(path: Path) -> ChartPicture:
 
 
 def _chart(knots: Indices, facts: dict[str, object]) -> ChartPicture:
-    """The chart by its text. Raises KeyError, TypeError or ValueError where the text is not a chart's."""
+    """The chart from the JSON of its text chunk. Raises KeyError, TypeError or ValueError for invalid JSON data."""
     yarns, size, quality = facts["yarns"], facts["size"], facts["quality"]
     if not (isinstance(yarns, list) and isinstance(size, list) and isinstance(quality, list)):
         raise TypeError("yarns, size and quality are lists")

@@ -1,6 +1,6 @@
-"""How a knot chart is cut into A4 sheets.
+"""Division of a knot chart into A4 sheets.
 
-Sheets are numbered as the carpet is woven: from the lower left, along the row, then up. Rows are counted from the
+Sheets are numbered in the order of weaving: from the lower left, along the row, then up. Rows are counted from the
 bottom and knots from the left, both from 1. A sheet shows its own knots and, shaded, the next 3 to the right and above.
 """
 
@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from ilmek.records import record
 
 OVERLAP = 3
-"""Knots of the next sheet that are shown too."""
+"""Number of knots of the next sheet that are shown too."""
 
 _ROOM = (482.0, 694.0)
 _SMALLEST = 7.4
-"""Room for the knots on a sheet, width and height [pt]; the least side of a knot's cell [pt]."""
+"""Width and height of the area for knots on a sheet [pt]; least side of a knot's cell [pt]."""
 
 
 @record
@@ -35,7 +35,7 @@ class ChartSheet:
 
     @property
     def title(self) -> str:
-        """Which part of the carpet it is, as weavers count."""
+        """The part of the carpet shown, rows and knots counted from 1."""
         return f"rows {self.low + 1}–{self.high}, knots {self.left + 1}–{self.right}"
 
 
@@ -54,7 +54,7 @@ class SheetLayout:
 
     @property
     def count(self) -> int:
-        """How many sheets."""
+        """Number of sheets."""
         return self.across * self.up
 
     def sheets(self) -> Iterator[ChartSheet]:
@@ -95,9 +95,9 @@ def cut(rows: int, columns: int, proportion: float) -> SheetLayout:
     return SheetLayout(rows, columns, across, up, sheet_columns, sheet_rows, width, width * proportion)
 
 
-def _tens(room: float, wanted: int) -> int:
-    """Knots of a sheet that has room for so many: all, or else tens beside the overlap, equal on all sheets."""
-    if wanted <= room:
-        return wanted
+def _tens(room: float, total: int) -> int:
+    """Knots per sheet with space for `room` knots: all, or a multiple of 10, equal on all sheets."""
+    if total <= room:
+        return total
     most = max(10, int((room - OVERLAP) // 10) * 10)
-    return math.ceil(wanted / math.ceil(wanted / most) / 10) * 10
+    return math.ceil(total / math.ceil(total / most) / 10) * 10

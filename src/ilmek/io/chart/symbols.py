@@ -1,8 +1,8 @@
-"""Symbols for the yarns of a chart: one sign a yarn, the same for the same place in the list everywhere.
+"""Symbols for the yarns of a chart: one symbol per yarn, by its index in the list.
 
-The signs come from DejaVu Sans Mono, a free font that may be embedded and that comes with the package; all are equally
-wide, so that a row of them is one piece of text. Letters and digits come first, without those taken for one another
-(I O Q 0 1 l); then shapes, Greek, arrows, signs and Cyrillic.
+The symbols are of DejaVu Sans Mono, a free font that may be embedded and that comes with the package. All have the same
+width, so that a row of them is one text. Letters and digits come first, without those easily confused (I O Q 0 1 l);
+then shapes, Greek, arrows, signs and Cyrillic.
 """
 
 from functools import lru_cache
@@ -16,20 +16,20 @@ SYMBOLS = (
     "←↑→↓↔↕↖↗↘↙⇐⇑⇒⇓⇔⇕∞∂∀∃∇∈∋√∫∴∵≈≡≤≥⊂⊃⊆⊇⊕⊖⊗⊘⊙⊞⊟⊠⊡∩∪∧∨◐◑◒◓◖◗◧◨◩◪◰◱◲◳▣▤▥▦▧▨▩◉◎▶◀◢◣◤◥"
     "БДЖЗИЛФЦЧШЭЮЯ☀☂☎☘☠☮☯☺☻☾♀♂♔♕♖♗♘♙♚♛♜♝♞♟♪♫⚀⚁⚂⚃⚄⚅✂✈✉✎✓✗✚✠✢✦✧✪✭✱✶✹❀❄❖❤$€£¥¢¶ßæðøþđłŋ«»¿¡"
 )[:255]
-"""Signs by the yarn's place in the list; a list holds at most 255 yarns."""
+"""Symbols by the yarn's index in the list; a list has at most 255 yarns."""
 
 SIGNS, TEXT, STRONG = "ilmek-signs", "ilmek-text", "ilmek-strong"
 """Names of the fonts of a PDF: symbols, text, headings."""
 
 ADVANCE = 0.60205
-"""Width of every sign, as a share of the size."""
+"""Width of every symbol, as a share of the size."""
 
 _FONTS = Path(__file__).parents[2] / "fonts"
 _FILES = {SIGNS: "DejaVuSansMono.ttf", TEXT: "DejaVuSans.ttf", STRONG: "DejaVuSans-Bold.ttf"}
 
 
 def symbols(yarns: int) -> str:
-    """The signs of the first `yarns` yarns.
+    """The symbols of the first `yarns` yarns.
 
     >>> symbols(4)
     'ABCD'
@@ -39,6 +39,6 @@ def symbols(yarns: int) -> str:
 
 @lru_cache(maxsize=1)
 def register_fonts() -> None:
-    """Make the three fonts known to reportlab."""
+    """Register the three fonts with reportlab."""
     for name, file in _FILES.items():
         pdfmetrics.registerFont(TTFont(name, str(_FONTS / file)))
