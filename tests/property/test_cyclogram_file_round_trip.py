@@ -113,7 +113,7 @@ def test_the_example_through_a_file(tmp_path: Path, ending: str) -> None:
         ('share = 1.0 }', 'share = 2.0 }', "a share from 0 to 1"),
         ('time = "60ms"', 'time = "-60ms"', "tracks.ejector.limits: least time of a motion -0.06 s"),
         ('speed = "3m/s"', 'speed = "3rpm"', "limits.speed: '3rpm' has the wrong unit"),
-        ("turns = 1", "turns = 0.5", "relations.3.turns: 0.5 is not a small whole number"),
+        ("turns = 1", "turns = 0.5", "relations.3.turns: 0.5 is not a whole number"),
         ("[tracks.die]", "[tracks.die", "line 17, column 12: "),
     ],
 )  # fmt: skip
