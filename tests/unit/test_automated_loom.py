@@ -254,7 +254,7 @@ def test_a_chart_of_another_carpet() -> None:
 
 
 def test_a_deadline_that_no_number_of_heads_meets() -> None:
-    with pytest.raises(LoomError, match="7 heads are all that fit this width; they weave it in"):
+    with pytest.raises(LoomError, match="7 heads fit this width; they weave it in"):
         programme_for(chart(), 5, AutomatedLoomParams(), deadline=8 * hour)
 
 

@@ -25,7 +25,7 @@ def test_distinct_colours_are_counted() -> None:
     flat, counts = np.unique(rgb.reshape(-1, 3), axis=0, return_counts=True)
     assert len(colours.labs) == len(flat)
     for colour, count in zip(flat.astype(int), counts, strict=True):
-        place = colours.place[colour[0] << 16 | colour[1] << 8 | colour[2]] - 1
+        place = colours.index[colour[0] << 16 | colour[1] << 8 | colour[2]] - 1
         assert colours.counts[place] == count
         assert colours.labs[place] == pytest.approx(srgb_to_lab(colour.astype(np.uint8)))
 

@@ -51,10 +51,10 @@ def test_one_number_stands_for_the_knots_per_area() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("0x25/dm", "is no carpet"),
-        ("0/dm", "is no carpet"),
-        ("-5/m2", "is no carpet"),
-        ("0 kpsi", "is no carpet"),
+        ("0x25/dm", "is too coarse"),
+        ("0/dm", "is too coarse"),
+        ("-5/m2", "is too coarse"),
+        ("0 kpsi", "is too coarse"),
         ("600x600/dm", "warp every 0.08333 mm"),
         ("25x25", "unknown quality"),
         ("25", "25x25/dm"),

@@ -100,7 +100,7 @@ def test_a_deadline_shorter_than_the_wefts() -> None:
 
 def test_a_deadline_beyond_the_heads_that_fit() -> None:
     knots = np.zeros((450, 300), np.uint8)
-    with pytest.raises(LoomError, match=r"4 heads are all that fit this width; they weave it in 20 h"):
+    with pytest.raises(LoomError, match=r"4 heads fit this width; they weave it in 20 h"):
         heads_for(knots, 1, 15 * hour, TIMES, 4)
     assert heads_for(knots, 1, 20.1 * hour, TIMES, 4) == 4
     assert heads_for(knots, 1, 100 * hour, TIMES, 4) == 1

@@ -1,8 +1,8 @@
-"""Yarn bill: what to buy for a chart.
+"""Yarn bill: the yarn to buy for a chart.
 
     metres = knots × length per knot,   kilograms = metres × linear density,   linear density = ply / (1000 Nm)
 
-per colour of the pile, and warp and two wefts for the ground.
+for each colour of the pile; the ground needs warp and two wefts.
 """
 
 from dataclasses import dataclass
@@ -15,8 +15,9 @@ from ilmek.carpet.yarn import Yarn
 
 @dataclass(frozen=True, slots=True)
 class YarnNeed:
-    """One line of the bill: the yarn and its use (pile, warp, weft), knots (0 for the ground), length [m], mass [kg],
-    price (None where no price per kg is known).
+    """A line of the bill: yarn and use (pile, warp, weft), knots (0 for the ground), length [m], mass [kg], price.
+
+    price  None where no price per kg is known
     """
 
     name: str
@@ -36,12 +37,12 @@ class YarnBill:
 
     @property
     def needs(self) -> tuple[YarnNeed, ...]:
-        """All lines."""
+        """All lines, pile first."""
         return self.pile + self.ground
 
     @property
     def knots(self) -> int:
-        """All knots."""
+        """Number of knots."""
         return sum(need.knots for need in self.pile)
 
     @property
@@ -56,20 +57,23 @@ class YarnBill:
 
     @property
     def price(self) -> float | None:
-        """Price of the pile yarns; None unless all of them have one."""
+        """Price of the pile yarns; None unless every one has a price."""
         prices = [need.price for need in self.pile if need.price is not None]
         return sum(prices) if len(prices) == len(self.pile) else None
 
 
 def pile_need(yarn: Yarn, knots: int, length_per_knot: float) -> YarnNeed:
-    """The line of a pile yarn: knots × length per knot, × linear density, × price per kg."""
+    """The line of a pile yarn, for its number of knots and the length per knot [m]."""
     length = knots * length_per_knot
     mass = length * yarn.linear_density
     return YarnNeed(yarn.name, "pile", knots, length, mass, None if yarn.price is None else mass * yarn.price)
 
 
 def yarn_bill(chart: Chart, pile: PileParams | None = None, ground: GroundParams | None = None) -> YarnBill:
-    """The yarn that a chart takes."""
+    """The yarn bill of a chart.
+
+    pile, ground  parameters; default: those of `PileParams` and `GroundParams`
+    """
     needs = tuple(
         pile_need(yarn, knots, knot_length(chart.knot, chart.quality, yarn.linear_density, pile))
         for yarn, knots in zip(chart.yarns, chart.counts, strict=True)

@@ -1,7 +1,7 @@
-"""Chart: picture, size, quality and yarns in, one yarn a knot out.
+"""Chart: one yarn per knot, from a picture, a size, a quality and a yarn list.
 
-The picture is averaged onto the knot grid (`design`), each distinct colour gets the yarn nearest by CIEDE2000
-(`palette`), and lone knots are merged into a neighbour (`isolated_knots`).
+The picture is averaged onto the knot grid (`design`), each distinct colour gets the yarn of the least CIEDE2000
+difference (`palette`), and lone knots take the yarn of a neighbour (`isolated_knots`).
 """
 
 from collections.abc import Sequence
@@ -25,9 +25,11 @@ from ilmek.records import record
 class Chart:
     """A knot chart.
 
-    knots  the yarn's place in `yarns`, one a knot; row 0 is the top of the picture      knot  symmetric or asymmetric
-    mean_delta_e  mean CIEDE2000 of the knots' yarns to the averaged picture             merged  lone knots merged
+    knots          index in `yarns` of each knot's yarn, (rows, columns); row 0 is the top of the picture
+    knot           symmetric or asymmetric
+    mean_delta_e   mean CIEDE2000 of the knots' yarns to the averaged picture
     least_delta_e  the same if each knot had its nearest yarn of the list: the optimum
+    merged         number of lone knots that were changed
     """
 
     knots: Indices
@@ -46,7 +48,7 @@ class Chart:
 
     @property
     def columns(self) -> int:
-        """Knots in a row."""
+        """Knots per row."""
         return int(self.knots.shape[1])
 
     @property
@@ -56,17 +58,17 @@ class Chart:
 
     @property
     def colours(self) -> int:
-        """Yarns that at least one knot has."""
+        """Number of yarns that at least one knot has."""
         return sum(count > 0 for count in self.counts)
 
     @property
     def lone_fraction(self) -> float:
-        """Knots unlike all their neighbours, of all knots."""
+        """Share of lone knots [-]."""
         return count_lone(self.knots) / self.knots.size
 
     @property
     def changes_per_knot(self) -> float:
-        """Changes of yarn along the rows, of all knots."""
+        """Changes of yarn along the rows, per knot [-]."""
         return int(np.count_nonzero(self.knots[:, 1:] != self.knots[:, :-1])) / self.knots.size
 
 
@@ -83,12 +85,13 @@ def make_chart(
 ) -> Chart:
     """The knot chart of a picture.
 
-    colours  the best so many yarns of the list are taken, in its order; None: all    keep_lone  leave lone knots
-    Raises PictureError for an empty picture, CarpetError for a knot or grid that cannot be, YarnError for a list of
-    less than 2 or more than 255 yarns, or a `colours` it cannot give.
+    rgb        picture, uint8 (height, width, 3)      keep_lone  leave lone knots unchanged
+    colours    number of yarns to choose from the list; default: all
+    Raises PictureError for an empty picture, CarpetError for an unknown knot and a grid out of bounds, YarnError for a
+    list of less than 2 or more than 255 yarns, and for `colours` out of bounds.
     """
     if rgb.size == 0:
-        raise PictureError("the picture is empty", allowed="at least one pixel each way")
+        raise PictureError("the picture is empty", allowed="at least 1 × 1 pixels")
     if not 2 <= len(yarns) <= MOST_YARNS:
         raise YarnError(f"the yarn list has {len(yarns)} yarns", allowed=f"2 to {MOST_YARNS} yarns")
     kind = parse_knot(knot)
@@ -96,7 +99,7 @@ def make_chart(
     distinct = distinct_colours(picture)
     chosen = tuple(yarns)
     if colours is not None:
-        chosen = tuple(yarns[place] for place in best_yarns(distinct, yarn_labs(yarns), colours))
+        chosen = tuple(yarns[number] for number in best_yarns(distinct, yarn_labs(yarns), colours))
     labs = yarn_labs(chosen)
     yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.4, 0.8))
     knots = paint(picture, distinct, yarn_of)

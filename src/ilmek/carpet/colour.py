@@ -1,7 +1,7 @@
 """Colour: sRGB, linear light, CIE XYZ and CIELAB under D65.
 
-Pictures are sRGB of 8 bits; light adds up only in linear light; differences are judged in CIELAB
-(see `colour_difference`).
+Pictures are sRGB of 8 bits. Light is averaged in linear light; differences are computed in CIELAB
+(`colour_difference`).
 All functions take arrays whose last axis holds the three components.
 
 Sources: IEC 61966-2-1 (sRGB: transfer curve, primaries and white); CIE 15 (CIELAB).
@@ -63,7 +63,7 @@ def xyz_to_lab(xyz: Components) -> Components:
 
 
 def lab_to_xyz(lab: Components) -> Components:
-    """XYZ of CIELAB: the inverse of `xyz_to_lab`."""
+    """XYZ (white Y = 1) of CIELAB: the inverse of `xyz_to_lab`."""
     y = (lab[..., 0] + 16) / 116
     f = np.stack([y + lab[..., 1] / 500, y, y - lab[..., 2] / 200], axis=-1)
     return np.asarray(WHITE * np.where(f > 6 / 29, f**3, (116 * f - 16) / _KAPPA))

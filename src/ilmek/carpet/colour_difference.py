@@ -1,14 +1,15 @@
-"""Colour difference: CIEDE2000 of two CIELAB colours, exact, in machine code.
+"""Colour difference: CIEDE2000 of two CIELAB colours, exact, compiled.
 
     dE² = (dL/SL)² + (dC/SC)² + (dH/SH)² + RT (dC/SC)(dH/SH)                    [Sharma, Wu, Dalal 2005, eq. 22]
 
 The hue angles of the paper are not formed. With the unit vectors u1, u2 of the two (a', b) the same quantities are
 
     dH = ± sqrt(C1' C2') |u1 - u2|     (2 sin of half the angle between them), sign of the turn from u1 to u2
-    mean hue = direction of u1 + u2,  for a wide angle of the normal to u1 - u2, which loses no digits
+    mean hue = direction of u1 + u2; for a wide angle, of the normal to u1 - u2, which loses no digits
 
-so the discontinuity at opposite hues is met by comparing two products, not by rounded angles. The cosines of multiples
-of the mean hue are polynomials in its cosine and sine. Where a chroma is zero dH = 0 and the mean hue has no effect.
+so the discontinuity at opposite hues is decided by comparing two products, not by rounded angles. The cosines of
+multiples of the mean hue are polynomials in its cosine and sine. Where a chroma is zero dH = 0 and the mean hue has no
+effect.
 
 Source: G. Sharma, W. Wu, E. N. Dalal, The CIEDE2000 color-difference formula: implementation notes, supplementary test
 data, and mathematical observations, Color Research and Application 30 (2005) 21-30.
@@ -34,7 +35,7 @@ _RT_YELLOW = 2 * math.sin(math.radians(60) * math.exp(-((95 / 25) ** 2)))
 
 @compiled
 def saturation(chroma: float) -> float:
-    """sqrt(C^7 / (C^7 + 25^7)), which G and RC are made of."""
+    """sqrt(C^7 / (C^7 + 25^7)), a factor of G and RC."""
     seventh = chroma * chroma * chroma
     seventh *= seventh * chroma
     return math.sqrt(seventh / (seventh + _25_TO_7))
@@ -50,7 +51,7 @@ def lightness_weight(mean_lightness: float) -> float:
 @compiled
 def mean_hue(x1: float, y1: float, x2: float, y2: float) -> tuple[float, float, float]:
     """Direction (cosine, sine) of the mean hue of two unit vectors, and the sign of the turn from the first to the
-    second. Exactly opposite hues: the mean of the two angles in 0 to 360 degrees, as the paper has it [eq. 14].
+    second. Exactly opposite hues: the mean of the two angles in 0 to 360 degrees, as in the paper [eq. 14].
     """
     ahead, behind = x1 * y2, x2 * y1
     turn = 1.0 if ahead > behind else -1.0
@@ -137,7 +138,7 @@ def _nearest(
     for i in range(len(colours)):
         lightness, a, b = colours[i]
         chroma = math.sqrt(a * a + b * b)
-        # Begin with the nearest in the plain distance: most others then fall to the bound.
+        # Start with the nearest by Euclidean distance: the bound then excludes most others.
         best, least = 0, math.inf
         for j in range(len(yarns)):
             plain = (yarns[j, 0] - lightness) ** 2 + (yarns[j, 1] - a) ** 2 + (yarns[j, 2] - b) ** 2
@@ -158,7 +159,7 @@ def _nearest(
 
 
 def delta_e_2000(first: Float[np.ndarray, "*#batch 3"], second: Float[np.ndarray, "*#batch 3"]) -> FloatArray:
-    """CIEDE2000 of CIELAB colours, broadcast over all axes but the last."""
+    """CIEDE2000 of CIELAB colours (*batch, 3), broadcast over all axes but the last."""
     one, other = np.broadcast_arrays(first, second)
     out = np.empty(one.shape[:-1])
     flat = np.ascontiguousarray
@@ -169,9 +170,10 @@ def delta_e_2000(first: Float[np.ndarray, "*#batch 3"], second: Float[np.ndarray
 def nearest(
     colours: Float[np.ndarray, "colours 3"], yarns: Float[np.ndarray, "yarns 3"]
 ) -> tuple[UInt8[np.ndarray, " colours"], Float[np.ndarray, " colours"]]:
-    """The yarn nearest to each colour by CIEDE2000 and its difference; of equals the first in the list.
+    """Index of the yarn nearest to each colour by CIEDE2000, and its difference; for equal ones the first in the list.
 
-    At most 256 yarns. Yarns that cannot be the nearest are left out by a proven lower bound; the answer is exact.
+    colours, yarns  CIELAB, at most 256 yarns
+    Yarns are excluded only by a proven lower bound, so the result is exact.
     """
     index = np.empty(len(colours), dtype=np.uint8)
     delta = np.empty(len(colours))

@@ -1,10 +1,10 @@
-"""Design: from a picture to one colour a knot.
+"""Design: one colour per knot from a picture.
 
-Each knot sees its own rectangle of the picture. Light is added up in linear light, each pixel by the share of it that
-the rectangle covers (a box filter; exact, separable, any ratio up or down), and the mean is rounded to sRGB codes. The
-design fills the carpet: where the picture's proportions differ from the carpet's it is stretched, by `distortion`.
+Each knot covers a rectangle of the picture. Its colour is the mean of the linear light over the rectangle (a box
+filter: exact, separable, for any ratio), rounded to sRGB codes. The design fills the carpet: where the proportions of
+picture and carpet differ, the picture is stretched by `distortion`.
 
-Knots are not square when the quality differs across and along; the grid takes care of that.
+Knots are not square where the quality differs across and along; the grid accounts for that.
 """
 
 import numpy as np
@@ -19,12 +19,12 @@ from ilmek.progress import SILENT, Progress
 
 MOST_KNOTS = 200_000_000
 LARGEST_DISTORTION = 0.02
-"""A stretch that the eye forgives; above it a job should warn."""
+"""Largest distortion that is not noticeable; above it a job should warn."""
 
 _BAND = 128
 _STEPS = 4096
 
-# Linear light at which the code above begins to be the nearer one, and the code at each of _STEPS even steps of light.
+# Linear light above which the next code is nearer, and the code at each of _STEPS even steps of light.
 _THRESHOLDS = np.append(decode((np.arange(255) + 0.5) / 255), np.inf)
 _GUESSES = np.searchsorted(_THRESHOLDS, np.arange(_STEPS + 1) / _STEPS).astype(np.int64)
 
@@ -32,7 +32,7 @@ _GUESSES = np.searchsorted(_THRESHOLDS, np.arange(_STEPS + 1) / _STEPS).astype(n
 def knot_grid(size: CarpetSize, quality: Quality) -> tuple[int, int]:
     """(rows, columns) of knots: length × along and width × across, each rounded.
 
-    Raises CarpetError where that is less than two knots a side or more than MOST_KNOTS.
+    Raises CarpetError for less than two knots per side or more than MOST_KNOTS.
 
     >>> knot_grid(CarpetSize(1.2, 1.8), Quality(250.0, 250.0))
     (450, 300)
@@ -54,8 +54,7 @@ def knot_grid(size: CarpetSize, quality: Quality) -> tuple[int, int]:
 
 
 def distortion(rgb: Rgb, size: CarpetSize) -> float:
-    """How much wider the picture is drawn than it is, against its height: 0 for true proportions, 0.5 for half as wide
-    again, negative where it is drawn narrower.
+    """Relative stretch of the picture's width against its height [-]; negative where it is compressed.
 
     >>> round(distortion(np.zeros((180, 100, 3), np.uint8), CarpetSize(1.2, 1.8)), 9)
     0.2
@@ -66,7 +65,7 @@ def distortion(rgb: Rgb, size: CarpetSize) -> float:
 
 @compiled
 def _encoded(light: float) -> int:
-    """The sRGB code nearest to a linear light, by the encoded value."""
+    """The sRGB code nearest to a linear light (0 to 1), by the encoded value."""
     code: int = _GUESSES[int(min(max(light, 0.0), 1.0) * _STEPS)]
     while light > _THRESHOLDS[code]:
         code += 1
@@ -75,7 +74,7 @@ def _encoded(light: float) -> int:
 
 @compiled
 def _resample(rgb: Rgb, out: Rgb, first: int, rows: int) -> None:
-    # In units of 1/rows (1/columns) of a pixel both pixels and knots begin and end at whole numbers: shares are exact.
+    # In units of 1/rows (1/columns) of a pixel, pixels and knots begin and end at integers: the shares are exact.
     height, width = rgb.shape[0], rgb.shape[1]
     columns = out.shape[1]
     line = np.empty((width, 3))
@@ -101,7 +100,7 @@ def _resample(rgb: Rgb, out: Rgb, first: int, rows: int) -> None:
 
 
 def resampled(rgb: Rgb, rows: int, columns: int, progress: Progress = SILENT) -> UInt8[np.ndarray, "rows columns 3"]:
-    """The picture on a grid of rows × columns by box averages in linear light; itself where it has that grid."""
+    """The picture on a grid of rows × columns by box averages in linear light; unchanged if it has that grid."""
     rgb = np.ascontiguousarray(rgb)
     if rgb.shape[:2] == (rows, columns):
         return rgb

@@ -1,10 +1,10 @@
 """Ground: the warp and the two wefts of a row.
 
-Every row of knots is held by a straight, thick weft (Turkish alt atkı), which goes nearly as the crow flies between the
-two planes of warps, and a sinuous, thin one (üst atkı), which goes round every warp.
+Two wefts follow every row of knots: a straight, thick weft (Turkish alt atkı), nearly straight between the two planes
+of warps, and a sinuous, thin weft (üst atkı), which passes alternately over and under the warps.
 
-Default counts follow the density: the warp is the usual one of its pitch [`ilmek.elements.yarns`]. The straight weft is
-taken as heavy as a warp and the sinuous one half as heavy; both are parameters.
+Default counts follow the density: the warp is the usual one of its pitch [`ilmek.elements.yarns`]. By default the
+straight weft has the density of a warp and the sinuous weft half of it; both are parameters.
 
 Sources: warp counts and the rule `warps = 2 × knots across, length = carpet + up to 60 cm`, iran-carpet.com 1726, 1804;
 the two wefts, haliciomer.com.tr.
@@ -24,7 +24,7 @@ from ilmek.units import mm
 
 @dataclass(frozen=True, slots=True)
 class GroundParams(Params):
-    """Warp and wefts. A density left out follows the quality (see the module)."""
+    """Warp and wefts. The default densities follow the quality (see the module)."""
 
     fringe: float = param(0.10, unit="mm", at_least=0.0, at_most=1.0, doc="warp left at each end as fringe")
     loom_waste: float = param(0.40, unit="mm", at_least=0.0, at_most=10.0, doc="warp lost in the loom, both ends")
@@ -36,15 +36,18 @@ class GroundParams(Params):
     sinuous_weft_density: float | None = param(
         None, unit="g/m", above=0.0, at_most=0.05, doc="mass per length of the sinuous weft"
     )
-    weft_turn: float = param(20 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="weft for the turn at the edge, a pick")
+    weft_turn: float = param(20 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="weft for the turn of a pick")
     weft_share: float = param(
-        0.5, at_least=0.0, at_most=1.0, doc="share of the crossing that the sinuous weft bends, the warps bend the rest"
+        0.5,
+        at_least=0.0,
+        at_most=1.0,
+        doc="share of the sinuous weft in the amplitude of a crossing, the rest the warps",
     )
 
 
 @dataclass(frozen=True, slots=True)
 class GroundYarn:
-    """A ground yarn's need: name, length [m], mass [kg]."""
+    """Need of a ground yarn: name, length [m], mass [kg]."""
 
     name: str
     length: float
@@ -54,7 +57,9 @@ class GroundYarn:
 def sinuous_length(width: float, pitch: float, amplitude: float) -> float:
     """Length of a sinuous weft across `width` [m].
 
-    Its axis is y = A sin(pi x / p), from one side of the warps (pitch p) to the other, so over one pitch
+    pitch  of the warps p [m]      amplitude  A [m]
+
+    Its axis is y = A sin(pi x / p), so its length over one pitch is
 
         s = (2/pi) sqrt(p² + pi² A²) E(m),   m = pi² A² / (p² + pi² A²),   E the complete elliptic integral.
 
@@ -67,8 +72,10 @@ def sinuous_length(width: float, pitch: float, amplitude: float) -> float:
 
 
 def warp_need(columns: int, length: float, density: float, params: GroundParams) -> GroundYarn:
-    """Warp for `columns` knots across on a carpet `length` [m] long: two a knot and the selvedges, each as long as
-    the carpet, both fringes and the loom's waste.
+    """Warp for `columns` knots across: two per knot and the selvedges.
+
+    length  of the carpet [m]; each warp is longer by both fringes and the loom's waste
+    density  of a warp [kg/m]
     """
     total = (2 * columns + params.selvedge_warps) * (length + 2 * params.fringe + params.loom_waste)
     return GroundYarn("warp", total, total * density)
@@ -79,8 +86,8 @@ def ground_yarns(
 ) -> tuple[GroundYarn, GroundYarn, GroundYarn]:
     """Warp, straight weft and sinuous weft of a carpet of rows × columns knots.
 
-    The sinuous weft's axis stands weft_share · (D + w)/2 from the plane of the warps where it passes one (D the warp's
-    diameter, w its own); the rest of the way round is made by the warps, which it bends.
+    Where the sinuous weft passes a warp, its axis is weft_share · (D + w)/2 from the plane of the warps (D diameter of
+    the warp, w of the weft); the warps bend by the rest.
     """
     params = params or GroundParams()
     warp = params.warp_density or warp_density(quality.warp_pitch)

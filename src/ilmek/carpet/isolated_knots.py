@@ -1,12 +1,11 @@
 """Lone knots: a knot unlike all its neighbours (left, right, above, below; fewer at an edge).
 
-A lone knot cannot be seen on the carpet and costs the weaver two yarn changes; it takes the yarn of that neighbour
-which is nearest to the knot's own colour.
+A lone knot is not visible on the carpet and costs two yarn changes. It takes the yarn of the neighbour whose colour is
+nearest to the knot's own.
 
-One pass from the top is enough, and there is no oscillation: a lone knot shares its yarn with no neighbour, so that
-changing it leaves none of them lone, and after the change it shares the yarn of one. A knot that is not lone shares
-its yarn with a neighbour that is, for the same reason, not lone either and is never changed. Hence no lone knot is
-left. (A chart of one knot has no neighbours and no lone knot.)
+One pass from the top is sufficient. A lone knot shares its yarn with no neighbour, so changing it makes no neighbour
+lone, and after the change it shares the yarn of one. A knot that is not lone shares its yarn with a neighbour that is
+not lone either and is never changed. So no lone knot remains. (A chart of one knot has no lone knot.)
 """
 
 import numpy as np
@@ -19,7 +18,7 @@ from ilmek.num.compiled import compiled
 
 @compiled
 def is_lone(knots: Indices, row: int, column: int) -> bool:
-    """Whether a knot has neighbours and is unlike all of them."""
+    """Whether a knot has neighbours and differs from all of them."""
     yarn = knots[row, column]
     last_row, last_column = knots.shape[0] - 1, knots.shape[1] - 1
     return bool(
@@ -58,14 +57,14 @@ def _best_neighbour(
 
 @compiled
 def _merge(  # noqa: PLR0917
-    knots: Indices, rgb: Rgb, place: IntArray, labs: FloatArray, yarns: FloatArray, before: FloatArray
+    knots: Indices, rgb: Rgb, index: IntArray, labs: FloatArray, yarns: FloatArray, before: FloatArray
 ) -> tuple[int, float]:
     merged, added = 0, 0.0
     for row in range(knots.shape[0]):
         for column in range(knots.shape[1]):
             if is_lone(knots, row, column):
                 code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
-                colour = place[code] - 1
+                colour = index[code] - 1
                 knots[row, column], difference = _best_neighbour(knots, row, column, labs[colour], yarns)
                 added += difference - before[colour]
                 merged += 1
@@ -73,17 +72,18 @@ def _merge(  # noqa: PLR0917
 
 
 def count_lone(knots: Indices) -> int:
-    """Number of lone knots of a chart."""
+    """Number of lone knots of a chart (rows, columns)."""
     return int(_count_lone(np.ascontiguousarray(knots)))
 
 
 def merge_lone(
     knots: Indices, rgb: Rgb, colours: Colours, yarn_labs: FloatArray, difference: FloatArray
 ) -> tuple[int, float]:
-    """Give every lone knot of `knots` (changed in place) the yarn of its best neighbour.
+    """Give every lone knot the yarn of its best neighbour; `knots` is changed in place.
 
-    rgb  the picture on the knot grid         difference  CIEDE2000 of each distinct colour to the yarn it has
-    Returns the number of knots changed and the sum of CIEDE2000 that the changes add.
+    rgb         picture on the knot grid               colours     its distinct colours
+    yarn_labs   CIELAB of the yarns, (yarns, 3)        difference  CIEDE2000 of each colour to its yarn, (colours,)
+    Returns the number of changed knots and the sum of CIEDE2000 that the changes add.
     """
-    merged, added = _merge(knots, np.ascontiguousarray(rgb), colours.place, colours.labs, yarn_labs, difference)
+    merged, added = _merge(knots, np.ascontiguousarray(rgb), colours.index, colours.labs, yarn_labs, difference)
     return int(merged), float(added)

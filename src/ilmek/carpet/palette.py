@@ -1,7 +1,7 @@
-"""Palette: the distinct colours of a picture, each solved once, and the best N yarns of a list.
+"""Palette: the distinct colours of a picture, and the best N yarns of a list.
 
-A carpet picture of millions of knots has some hundred thousand distinct colours; the nearest yarn is found for each of
-those and looked up for the rest, through a table of all 2^24 codes.
+A picture of millions of knots has about a hundred thousand distinct colours. The nearest yarn is computed once for each
+of them and looked up for every knot, through a table of all 2^24 codes.
 """
 
 import itertools
@@ -27,56 +27,56 @@ _MOST_TRIALS = 3_000_000
 class Colours:
     """The distinct colours of a picture.
 
-    place  for each code r·65536 + g·256 + b the colour's place in the list, counted from 1; 0: not in the picture
-    labs   CIELAB of each                 counts  knots of each
+    index  for each code r·65536 + g·256 + b the number of the colour, from 1; 0: not in the picture
+    labs   CIELAB of each colour          counts  knots of each colour
     """
 
-    place: Int32[np.ndarray, " codes"]
+    index: Int32[np.ndarray, " codes"]
     labs: Float[np.ndarray, "colours 3"]
     counts: Int64[np.ndarray, " colours"]
 
 
 @compiled
-def _count(rgb: Rgb, place: IntArray, codes: IntArray, counts: IntArray) -> int:
+def _count(rgb: Rgb, index: IntArray, codes: IntArray, counts: IntArray) -> int:
     found = 0
     for row in range(rgb.shape[0]):
         for column in range(rgb.shape[1]):
             code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
-            if place[code] == 0:
+            if index[code] == 0:
                 codes[found] = code
                 counts[found] = 0
                 found += 1
-                place[code] = found
-            counts[place[code] - 1] += 1
+                index[code] = found
+            counts[index[code] - 1] += 1
     return found
 
 
 @compiled
-def _paint(rgb: Rgb, place: IntArray, yarn_of: UInt8[np.ndarray, " colours"], knots: Indices) -> None:
+def _paint(rgb: Rgb, index: IntArray, yarn_of: UInt8[np.ndarray, " colours"], knots: Indices) -> None:
     for row in range(rgb.shape[0]):
         for column in range(rgb.shape[1]):
             code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
-            knots[row, column] = yarn_of[place[code] - 1]
+            knots[row, column] = yarn_of[index[code] - 1]
 
 
 def distinct_colours(rgb: Rgb) -> Colours:
     """The distinct colours of a picture, in order of first appearance."""
-    place = np.zeros(_CODES, dtype=np.int32)
+    index = np.zeros(_CODES, dtype=np.int32)
     most = min(_CODES, rgb.shape[0] * rgb.shape[1])
     codes, counts = np.empty(most, dtype=np.int32), np.empty(most, dtype=np.int64)
-    found = _count(np.ascontiguousarray(rgb), place, codes, counts)
+    found = _count(np.ascontiguousarray(rgb), index, codes, counts)
     labs = np.empty((found, 3))
     for start in range(0, found, _BATCH):
         seen = codes[start : min(start + _BATCH, found)]
         channels = np.stack([seen >> 16, seen >> 8 & 255, seen & 255], axis=-1).astype(np.uint8)
         labs[start : start + len(seen)] = srgb_to_lab(channels)
-    return Colours(place, labs, counts[:found].copy())
+    return Colours(index, labs, counts[:found].copy())
 
 
 def nearest_yarns(
     colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], progress: Progress = SILENT
 ) -> tuple[UInt8[np.ndarray, " colours"], Float[np.ndarray, " colours"]]:
-    """For each distinct colour the yarn nearest by CIEDE2000 and its difference."""
+    """For each distinct colour the index of the nearest yarn by CIEDE2000, and its difference."""
     index = np.empty(len(colours.labs), dtype=np.uint8)
     delta = np.empty(len(colours.labs))
     for start in range(0, len(index), _BATCH):
@@ -87,18 +87,18 @@ def nearest_yarns(
 
 
 def paint(rgb: Rgb, colours: Colours, yarn_of: UInt8[np.ndarray, " colours"]) -> Indices:
-    """The knot chart of a picture whose distinct colours have been given their yarns."""
+    """The knot chart (rows, columns) of a picture; `yarn_of`: index of the yarn of each distinct colour."""
     knots = np.empty(rgb.shape[:2], dtype=np.uint8)
-    _paint(np.ascontiguousarray(rgb), colours.place, yarn_of, knots)
+    _paint(np.ascontiguousarray(rgb), colours.index, yarn_of, knots)
     return knots
 
 
 def best_yarns(colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], count: int) -> tuple[int, ...]:
-    """Places of the `count` yarns that leave the least total CIEDE2000 over the picture, ascending.
+    """Indices, ascending, of the `count` yarns with the least total CIEDE2000 over the picture.
 
-    Every choice is tried where that is little work; else yarns are added one by one, each the best addition, and then
-    swapped one for one while any swap helps. Where the table colours × yarns would outgrow 2^25 entries, near colours
-    are counted together. Raises YarnError where count is not 2 to the length of the list.
+    Every choice is tried where these are few. Else yarns are added one by one, each the best addition, and then swapped
+    one for one while a swap lowers the total. Where the table colours × yarns would exceed 2^25 entries, near colours
+    are pooled. Raises YarnError unless 2 <= count <= length of the list.
     """
     if not 2 <= count <= len(yarn_labs):
         raise YarnError(f"{count} colours cannot be picked from the list", allowed=f"2 to {len(yarn_labs)}, its length")
@@ -113,12 +113,12 @@ def best_yarns(colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], count:
 
 
 def total_difference(table: Float[np.ndarray, "yarns colours"], choice: tuple[int, ...]) -> float:
-    """Sum over the colours of the least entry among the chosen yarns."""
+    """Sum over the colours of the least entry (difference × knots) among the chosen yarns."""
     return float(table[list(choice)].min(axis=0).sum(dtype=float))
 
 
 def _pooled(colours: Colours, most: int) -> tuple[FloatArray, FloatArray]:
-    """CIELAB and knots of the colours, those of one cell of the Lab space counted as their mean where too many."""
+    """CIELAB and knots of the colours; more than `most` colours are pooled by cells of the Lab space."""
     labs, weights = colours.labs, colours.counts.astype(float)
     cell = 1.0
     while len(labs) > most:
@@ -133,12 +133,12 @@ def _pooled(colours: Colours, most: int) -> tuple[FloatArray, FloatArray]:
 
 
 def _add_one_by_one(table: Float[np.ndarray, "yarns colours"], count: int) -> list[int]:
-    """The yarns that a greedy choice takes, in order."""
+    """The yarns of a greedy choice, in order."""
     chosen: list[int] = []
     least = np.full(table.shape[1], np.inf, dtype=np.float32)
     for _ in range(count):
         totals = [float(np.minimum(row, least).sum(dtype=float)) for row in table]
-        best = min((place for place in range(len(table)) if place not in chosen), key=totals.__getitem__)
+        best = min((yarn for yarn in range(len(table)) if yarn not in chosen), key=totals.__getitem__)
         chosen.append(best)
         least = np.minimum(least, table[best])
     return chosen
@@ -146,15 +146,15 @@ def _add_one_by_one(table: Float[np.ndarray, "yarns colours"], count: int) -> li
 
 @compiled
 def _swap_totals(
-    entering: FloatArray, place: IntArray, least: FloatArray, second: FloatArray, totals: FloatArray
+    entering: FloatArray, best: IntArray, least: FloatArray, second: FloatArray, totals: FloatArray
 ) -> None:
-    # totals[k]: the sum if the yarn entering replaces the chosen one k. Only colours of k fall back to their second.
+    # totals[k]: the sum if the entering yarn replaces the chosen yarn k. Only colours of k use their second best yarn.
     shared = 0.0
     totals[:] = 0.0
     for i in range(len(entering)):
         kept = min(entering[i], least[i])
         shared += kept
-        totals[place[i]] += min(entering[i], second[i]) - kept
+        totals[best[i]] += min(entering[i], second[i]) - kept
     totals += shared
 
 
@@ -162,11 +162,11 @@ def _swap_while_better(table: Float[np.ndarray, "yarns colours"], chosen: list[i
     """Exchange the best pair (one chosen, one not) while that lowers the total."""
     totals = np.empty(len(chosen))
     while True:
-        place, least, second = _two_least(table, chosen)
+        nearest_chosen, least, second = _two_least(table, chosen)
         best = (float(least.sum(dtype=float)) * (1 - 1e-9), -1, -1)
         for candidate in range(len(table)):
             if candidate not in chosen:
-                _swap_totals(table[candidate], place, least, second, totals)
+                _swap_totals(table[candidate], nearest_chosen, least, second, totals)
                 leaving = int(totals.argmin())
                 best = min(best, (float(totals[leaving]), candidate, leaving))
         if best[1] < 0:
@@ -177,7 +177,7 @@ def _swap_while_better(table: Float[np.ndarray, "yarns colours"], chosen: list[i
 def _two_least(
     table: Float[np.ndarray, "yarns colours"], chosen: list[int]
 ) -> tuple[Int[np.ndarray, " colours"], FloatArray, FloatArray]:
-    """For each colour the place in `chosen` of its best yarn, its entry there, and the second least entry."""
+    """For each colour the index in `chosen` of its best yarn, the entry of that yarn, and the second least entry."""
     entries = table[chosen]
     order = np.argpartition(entries, 1, axis=0)[:2]
     columns = np.arange(table.shape[1])

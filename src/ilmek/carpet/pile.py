@@ -1,26 +1,26 @@
-"""Pile: the length of yarn that a knot takes, and whether the pile fits its ground.
+"""Pile: length of yarn per knot, and whether the pile fits its ground.
 
-A knot stands on two neighbouring warps of pitch p and diameter D; the pile yarn has the diameter d, so that its axis
-turns round a warp on the radius r = (D + d)/2. In the section across the warps, from tip to tip of the yarn:
+A knot is tied on two neighbouring warps of pitch p and diameter D. The pile yarn has the diameter d, so its axis turns
+about a warp on the radius r = (D + d)/2. In the section across the warps, from tip to tip of the yarn:
 
     leg     from the height of the warps' axes up through the collar of the knot (D/2 + d), the pile height h as woven,
-            and the waste c that the knife and the shears take:   D/2 + d + h + c,   twice
-    wrap    the part round the warps, by the kind of the knot [`ilmek.elements.knot_kinds`]
+            and the waste c of knife and shears:   D/2 + d + h + c,   twice
+    wrap    the part about the warps, by the kind of knot [`ilmek.elements.knot_kinds`]
 
     L = k (2 (D/2 + d + h + c) + wrap)
 
-k is a calibration by the weaver's own carpet. By hand the figures published are 25 to 28 mm at 40 knots per dm and 30
-to 35 mm at 35, but 40 mm at 40 raj, where the waste of the hand cut seems to be in it (iran-carpet.com 1705;
-Azerbaijani Wikipedia). Fine carpets are shorn lower: give their own pile height.
+k is a calibration by the weaver's own carpet. Published lengths of hand-knotted carpets are 25 to 28 mm at 40 knots per
+dm and 30 to 35 mm at 35, but 40 mm at 40 raj, probably with the waste of the hand cut (iran-carpet.com 1705;
+Azerbaijani Wikipedia). Fine carpets have a lower pile: give their own pile height.
 
-Whether the pile fits its ground: every knot sends two legs up through its cell, 1/a wide and 1/b long (a knots across
-and b along, per length; n = a b per area). A leg's section, fibre and the air between, is A = mu / (rho phi) (see
-`elements.yarns`), so of the ground's area the pile takes the share
+Fit of the pile: two legs of every knot stand in its cell, 1/a wide and 1/b long (a knots across and b along, per
+length; n = a b per area). The section of a leg, fibre and air, is A = mu / (rho phi) (`elements.yarns`), so the pile
+fills the share of the ground's area
 
     F = 2 A n = 2 mu a b / (rho phi) <= 1
 
-Above 1 the yarn cannot stand there, however hard the rows are beaten; own derivation, by areas alone. It fits up to
-mu = rho phi / (2 n), which for a yarn of P strands is the metric count Nm = P / (1000 mu), or finer.
+Above 1 the yarn does not fit, even with the hardest beat-up [derived, by areas alone]. The limit is mu = rho phi / (2
+n); a yarn of P strands then has the metric count Nm = P / (1000 mu).
 """
 
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ from ilmek.units import mm
 
 @dataclass(frozen=True, slots=True)
 class PileParams(Params):
-    """What sets the length of pile yarn per knot."""
+    """Parameters of the length of pile yarn per knot."""
 
     pile_height: float = param(
         8 * mm, unit="mm", at_least=0.0, at_most=100 * mm, doc="pile above the knots, after shearing", symbol="h"
@@ -44,7 +44,7 @@ class PileParams(Params):
         unit="mm",
         at_least=0.0,
         at_most=100 * mm,
-        doc="cut or sheared off each of a knot's two ends",
+        doc="waste by cutting and shearing, at each of the two ends of a knot",
         symbol="c",
     )
     warp_diameter: float | None = param(
@@ -52,20 +52,21 @@ class PileParams(Params):
         unit="mm",
         above=0.0,
         at_most=10 * mm,
-        doc="diameter of a warp; left out: of the usual wool warp",
+        doc="diameter of a warp; default: that of the usual wool warp",
         symbol="D",
     )
     fibre_density: float = param(WOOL.density, unit="kg/m^3", above=0.0, doc="density of the pile's fibre, wool 1310")
-    packing: float = param(WOOL.packing, above=0.0, at_most=1.0, doc="share of the pile yarn's section that is fibre")
+    packing: float = param(WOOL.packing, above=0.0, at_most=1.0, doc="share of fibre in the section of the pile yarn")
     calibration: float = param(
-        1.0, above=0.0, at_most=10.0, doc="yarn a knot takes, over the geometric length", symbol="k"
+        1.0, above=0.0, at_most=10.0, doc="length of yarn per knot over the geometric length", symbol="k"
     )
 
 
 def knot_length(knot: str, quality: Quality, linear_density: float, pile: PileParams | None = None) -> float:
-    """Length of pile yarn that one knot takes [m].
+    """Length of pile yarn per knot [m].
 
-    linear_density  of the pile yarn [kg/m]. Raises CarpetError for an unknown knot.
+    knot  its kind      linear_density  of the pile yarn [kg/m]      pile  default: `PileParams()`
+    Raises CarpetError for an unknown knot.
 
     >>> round(knot_length("symmetric", Quality(250.0, 250.0), 0.8e-3) * 1e3, 1)
     36.6
@@ -79,12 +80,12 @@ def knot_length(knot: str, quality: Quality, linear_density: float, pile: PilePa
 
 
 def leg_length(warp_diameter: float, yarn_diameter: float, pile: PileParams) -> float:
-    """From the warps' axes to the tip of the yarn as woven [m]: D/2 + d + h + c."""
+    """Length of a leg [m], from the warps' axes to the tip of the yarn as woven: D/2 + d + h + c; diameters in m."""
     return warp_diameter / 2 + yarn_diameter + pile.pile_height + pile.cut_waste
 
 
 def pile_fill(quality: Quality, linear_density: float, pile: PileParams | None = None) -> float:
-    """Share of the ground's area that the legs of the pile take: F = 2 mu a b / (rho phi); above 1 they do not fit.
+    """Share of the ground's area that the legs of the pile fill: F = 2 mu a b / (rho phi); above 1 they do not fit.
 
     linear_density  mu of the pile yarn [kg/m]
 
@@ -96,7 +97,7 @@ def pile_fill(quality: Quality, linear_density: float, pile: PileParams | None =
 
 
 def coarsest_count(quality: Quality, ply: int, pile: PileParams | None = None) -> float:
-    """The least metric count Nm [m/g] of the strands of a yarn of so many that fits its ground: F = 1.
+    """The least metric count Nm [m/g] of the strands of a yarn of `ply` strands that fits its ground: F = 1.
 
     >>> round(coarsest_count(Quality(1000.0, 1000.0), ply=2), 2)
     6.79

@@ -1,12 +1,12 @@
-"""Quality: how many knots there are across (along a row, per metre of width) and along (rows per metre of length).
+"""Quality: knots per metre across (along a row) and along (rows per metre of length).
 
-Every trade counts its own way; each notation here is one line: how it is written, and over which length (or area) its
-numbers are counted. Reading is exact (rational arithmetic, rounded once), and the writers give the shortest text that
-reads back to the same quality.
+Each notation of the trade is one line below: its form, and the length (or area) over which its numbers are counted.
+Reading is exact (rational arithmetic, rounded once). Writing gives the shortest text that reads back to the same
+quality.
 
     pair      A × B knots over a length across and a length along     25x25/dm, 9x16/in, 9/60 (India)
-    line      N knots over a length, both ways alike                  40 raj (per gereh, 7 cm), 90 line (per foot)
-    area      N knots over an area, both ways alike                   130 kpsi (knots per square inch), 62500/m2
+    line      N knots over a length, in both directions               40 raj (per gereh, 7 cm), 90 line (per foot)
+    area      N knots over an area, equal in both directions          130 kpsi (knots per square inch), 62500/m2
 
 Sources: raj = knots per gereh of 6.5 to 7 cm by town (Kerman and Tabriz 7); India A/B (bis/bhutan) = A knots in 0.9 in
 across and B in 4.5 in along, hence A·B/4.05 knots per square inch; Chinese line = knots per foot.
@@ -29,12 +29,12 @@ from ilmek.errors import CarpetError
 from ilmek.units import format_number, format_quantity
 
 COARSEST, FINEST = 10.0, 5000.0
-"""Knots per metre that are still a carpet: one a decimetre, and fifty a centimetre (the finest known has 33)."""
+"""Limits of knots per metre: 1 per decimetre, and 50 per centimetre (the finest known carpet has 33)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Quality:
-    """Knots per metre across and along. Raises CarpetError outside COARSEST to FINEST."""
+    """Knots per metre across and along [1/m]. Raises CarpetError outside COARSEST to FINEST."""
 
     across: float
     along: float
@@ -43,7 +43,7 @@ class Quality:
         for count in (self.across, self.along):
             if not math.isfinite(count) or count < COARSEST:
                 raise CarpetError(
-                    f"a quality of {format_number(count / 10)} knots per dm is no carpet",
+                    f"a quality of {format_number(count / 10)} knots per dm is too coarse",
                     allowed="at least 1 knot per dm",
                     do=EXAMPLE,
                 )
@@ -62,7 +62,7 @@ class Quality:
 
     @property
     def warp_pitch(self) -> float:
-        """Distance between neighbouring warps [m]; a knot stands on two."""
+        """Distance between neighbouring warps [m]; a knot is tied on two."""
         return 0.5 / self.across
 
     def __str__(self) -> str:
@@ -74,11 +74,11 @@ EXAMPLE = "write it like 25x25/dm, 40raj, 130kpsi, 62500/m2, 9/60 or 90line"
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """A way of writing a quality.
+    """A notation of a quality.
 
-    pattern  what it looks like; group 1 is the first number, group 2 the second, if any, group 3 the gereh [cm]
+    pattern  group 1 is the first number, group 2 the second, if any, group 3 the gereh [cm]
     across, along  lengths over which knots are counted [m]; along 0: `across` is an area [m²]
-    form     how it is written: {0} and {1} are the numbers; with one number, the two directions are alike
+    form     template: {0} and {1} are the numbers; with one number, both directions are equal
     """
 
     pattern: re.Pattern[str]
@@ -88,7 +88,7 @@ class Notation:
 
     @property
     def is_pair(self) -> bool:
-        """Whether both directions are said."""
+        """Whether the notation has a number for each direction."""
         return "{1}" in self.form
 
 
@@ -128,7 +128,7 @@ NOTATIONS: dict[str, Notation] = {
 
 
 def parse_quality(text: str) -> Quality:
-    """The quality written in any of the notations. Raises CarpetError where it is none of them or out of bounds."""
+    """The quality of a text in any of the notations. Raises CarpetError for another text and outside the limits."""
     for notation in NOTATIONS.values():
         matched = notation.pattern.fullmatch(text.strip())
         if matched is not None:
@@ -152,7 +152,9 @@ def _read(notation: Notation, first: str, second: str | None, gereh: str | None 
 def _gereh(text: str) -> Fraction:
     """The town's gereh [m] from centimetres."""
     if not re.fullmatch(r"\d{1,15}(\.\d{0,40})?", text) or not 5 <= Fraction(text) <= 10:
-        raise CarpetError(f"a gereh of {text} cm is no gereh", allowed="5 to 10 cm; 6.5 to 7 by town", do="40raj@6.5cm")
+        raise CarpetError(
+            f"a gereh of {text} cm is out of bounds", allowed="5 to 10 cm; usual 6.5 to 7", do="40raj@6.5cm"
+        )
     return Fraction(text) / 100
 
 
@@ -161,11 +163,12 @@ def _with_gereh(notation: Notation, gereh: Fraction) -> Notation:
 
 
 def write_quality(quality: Quality, notation: str, *, gereh: float = 0.07, digits: int | None = None) -> str:
-    """The quality in the notation named (a key of NOTATIONS).
+    """The quality in a notation, a key of NOTATIONS.
 
-    gereh [m] is the town's, for raj. With `digits` each number is rounded to so many significant digits, else the text
-    is the shortest that reads back to the same quality. Where a notation has one number for both directions, that is
-    the one of the same knots per area. Raises CarpetError for an unknown notation.
+    gereh   of the town [m], for raj
+    digits  significant digits; default: the shortest text that reads back to the same quality
+    A notation with one number for both directions gives that of the same knots per area.
+    Raises CarpetError for an unknown notation.
     """
     if notation not in NOTATIONS:
         raise CarpetError(f"unknown quality notation {notation!r}", allowed=f"one of {', '.join(NOTATIONS)}")
@@ -183,7 +186,7 @@ def write_quality(quality: Quality, notation: str, *, gereh: float = 0.07, digit
 
 
 def _shortest(value: Fraction, counted_over: Fraction, digits: int | None, *, root: bool = False) -> str:
-    """`value` in decimals: as few as give the same number of knots per metre when read."""
+    """`value` with the fewest decimals that read back to the same number of knots per metre."""
     if digits is not None:
         return _plain(value, digits)
 

@@ -1,4 +1,4 @@
-"""Carpet sizes: the Turkish standard names and free sizes, width × length.
+"""Carpet sizes: Turkish standard names, and any width × length.
 
 Source: thesis, Table 1.1 (which gives length × width in cm).
 
@@ -21,7 +21,10 @@ from ilmek.units import cm, format_number, format_quantity
 
 @dataclass(frozen=True, slots=True)
 class CarpetSize:
-    """A carpet's width (along a row of knots) and length (along the warps) [m]; name: the standard one, or ""."""
+    """A carpet's width (along a row of knots) and length (along the warps) [m]; name: standard name, or "".
+
+    Raises CarpetError for a side outside 1 cm to 50 m.
+    """
 
     width: float
     length: float
@@ -81,9 +84,10 @@ _SIDES = re.compile(rf"\s*{_NUMBER}\s*([^\d\s.×x*]*)\s*[x×*]\s*{_NUMBER}\s*(\S
 
 
 def parse_size(text: str) -> CarpetSize:
-    """The size of a standard name (Turkish letters or not, any case) or of `width x length unit`.
+    """The size of a standard name (with or without Turkish letters, any case) or of `width x length unit`.
 
-    Units: mm, cm, dm, m, in, ft; one for both sides. Raises CarpetError for anything else.
+    Units: mm, cm, dm, m, in, ft, one for both sides.
+    Raises CarpetError for any other text.
     """
     named = _BY_KEY.get(_key(text))
     if named is not None:
@@ -98,7 +102,7 @@ def parse_size(text: str) -> CarpetSize:
 
 
 def _common_unit(text: str, first: str, second: str) -> Fraction:
-    """The factor of the one unit said once or twice."""
+    """The factor [m] of the common unit, which is given once or twice."""
     for symbol in (first, second):
         if symbol and symbol not in _UNITS:
             raise CarpetError(f"size {text!r} has the unknown unit {symbol!r}", allowed="mm, cm, dm, m, in or ft")
@@ -120,8 +124,8 @@ def _key(name: str) -> str:
 def _near_names(text: str) -> str:
     """The standard names, the nearest first where one is near."""
     near = difflib.get_close_matches(_key(text), [*_BY_KEY, *_OPEN_NAMES], n=1, cutoff=0.6)
-    said = _BY_KEY[near[0]].name if near and near[0] in _BY_KEY else "".join(near)
-    return f"{f'did you mean {said!r}? ' if said else ''}standard sizes: {', '.join(STANDARD_SIZES)}"
+    nearest = _BY_KEY[near[0]].name if near and near[0] in _BY_KEY else "".join(near)
+    return f"{f'did you mean {nearest!r}? ' if nearest else ''}standard sizes: {', '.join(STANDARD_SIZES)}"
 
 
 _BY_KEY = {_key(name): size for name, size in STANDARD_SIZES.items()} | {

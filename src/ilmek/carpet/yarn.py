@@ -14,8 +14,9 @@ MOST_YARNS = 255
 class Yarn:
     """A yarn of the list.
 
-    srgb  codes 0 to 255 to show it by          lab  its CIELAB, by which it is matched
-    metric_count  Nm, m/g of the single strand  ply  strands             price  per kg, or None
+    srgb          codes 0 to 255, for display       lab    CIELAB, for matching
+    metric_count  Nm of a single strand [m/g]       ply    number of strands
+    price         per kg; None: unknown
     """
 
     name: str
@@ -29,7 +30,7 @@ class Yarn:
     def linear_density(self) -> float:
         """Mass per length [kg/m] = ply / (1000 Nm).
 
-        A strand of Nm metres per gram weighs 1/Nm g/m = 1/(1000 Nm) kg/m; the shortening by twist is not counted.
+        A strand of Nm metres per gram weighs 1/Nm g/m = 1/(1000 Nm) kg/m; the shortening by twist is not included.
         """
         return self.ply / (1000.0 * self.metric_count)
 
@@ -40,5 +41,5 @@ class Yarn:
 
 
 def yarn_labs(yarns: Sequence[Yarn]) -> FloatArray:
-    """CIELAB of the yarns, one a row."""
+    """CIELAB of the yarns, (yarns, 3)."""
     return np.array([yarn.lab for yarn in yarns], dtype=float).reshape(-1, 3)

@@ -1,4 +1,4 @@
-"""The loom's programme: which head ties which colour at which warp pair, in which order, and how long it takes.
+"""The loom's programme: head, colour and warp pair of every knot, in order, and the weaving time.
 
     time = sum over rows of ( wefts + sum over halves of max over heads of their part's time )
 
@@ -25,14 +25,14 @@ _ROUNDING = 1 + 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Times:
-    """What each act of the loom takes [s].
+    """Times of the loom's operations [s].
 
-    knot           one turn of a head's cam shaft, with the step to the next warp pair
-    colour_change  the head stands while the tube of another colour comes in line
-    travel         each knot pitch that the carriage moves beyond that step
+    knot           one turn of a head's cam shaft, including the step to the next warp pair
+    colour_change  standstill of the head while the tube of another colour is aligned
+    travel         travel by one knot pitch beyond that step
     weft           the two wefts and beats after a row of knots
 
-    Raises LoomError where a time is negative or not finite, or the knot takes none.
+    Raises LoomError for a time that is negative or not finite, and for a knot time of 0.
     """
 
     knot: float
@@ -44,19 +44,20 @@ class Times:
         for name, value in zip(self.__slots__, self.as_tuple(), strict=True):
             if not (math.isfinite(value) and value >= 0) or (name == "knot" and value == 0):
                 raise LoomError(
-                    f"time of {name.replace('_', ' ')} {value:g} s", allowed="a finite time, above 0 s a knot"
+                    f"time of {name.replace('_', ' ')} {value:g} s", allowed="a finite time, above 0 s for a knot"
                 )
 
     def as_tuple(self) -> tuple[float, float, float, float]:
-        """(knot, colour change, travel, weft) as the kernels take them."""
+        """(knot, colour change, travel, weft) [s], for the compiled functions."""
         return float(self.knot), float(self.colour_change), float(self.travel), float(self.weft)
 
 
 @record
 class HeadWork:
-    """What each head does over the whole carpet: arrays over the heads.
+    """Work of each head over the whole carpet, arrays (heads,).
 
-    changes  colour changes    travel  knot pitches moved    passes  parts tied colour by colour    busy  [s]
+    knots  knots tied    changes  colour changes    travel  knot pitches travelled
+    passes  parts tied colour by colour             busy  working time [s]
     """
 
     knots: IntArray
@@ -68,7 +69,7 @@ class HeadWork:
 
 @record
 class Programme:
-    """A carpet as a loom weaves it.
+    """The programme of a carpet.
 
     knots      chart, row 0 = top          yarns  length of the yarn list        edges  see `loom.sharing`
     keys       uint8 (rows, parts, 3), loom row first: order, first and last colour, see `loom.schedule`
@@ -107,9 +108,11 @@ class Programme:
 
 
 def make_programme(knots: Indices, yarns: int, heads: int, times: Times) -> Programme:
-    """The programme of a chart of indices below `yarns`, for a number of heads.
+    """The programme of a chart for a number of heads.
 
-    Raises LoomError for an empty chart, more than 255 yarns, a knot of no yarn, or more heads than half the knots.
+    knots  indices of yarns, below `yarns`, (rows, columns), row 0 = top
+    Raises LoomError for an empty chart, more than 255 yarns, an index of no yarn, and more heads than half the knots of
+    a row.
     """
     _require_chart(knots, yarns)
     edges = share(knots.shape[1], heads)
@@ -121,22 +124,22 @@ def make_programme(knots: Indices, yarns: int, heads: int, times: Times) -> Prog
 
 
 def weaving_time(knots: Indices, yarns: int, heads: int, times: Times, deadline: float = math.inf) -> float:
-    """Weaving time [s] without the programme; where it exceeds the deadline, some lower bound above the deadline."""
+    """Weaving time [s] without the programme; beyond the deadline [s], a lower bound that exceeds the deadline."""
     _require_chart(knots, yarns)
     layout = Layout(yarns, heads, share(knots.shape[1], heads))
     return _run(knots, layout, times, np.zeros((0, 1, 3), np.uint8), deadline)[1]
 
 
 def least_time(rows: int, columns: int, heads: int, times: Times) -> float:
-    """The time without any colour change or idle move [s]: no chart of this size is woven sooner."""
+    """Weaving time [s] without colour changes and idle travel: the lower bound for a chart of this size."""
     return rows * _least_row(share(columns, heads), heads, times)
 
 
 def heads_for(knots: Indices, yarns: int, deadline: float, times: Times, heads_max: int) -> int:
     """The smallest number of heads, up to `heads_max`, that weaves the chart within the deadline [s].
 
-    Numbers whose least time is too long are passed over without a look at the knots; a trial is given up as soon as
-    the rows left cannot make good what it lost. Raises LoomError saying why no number does.
+    Numbers whose least time exceeds the deadline are skipped. A trial ends as soon as its remaining rows cannot meet
+    the deadline. Raises LoomError, with the reason, where no number meets the deadline.
     """
     _require_chart(knots, yarns)
     rows, columns = knots.shape
@@ -149,8 +152,8 @@ def heads_for(knots: Indices, yarns: int, deadline: float, times: Times, heads_m
     reached = weaving_time(knots, yarns, heads_max, times)
     raise LoomError(
         f"the deadline of {_hours(deadline)} cannot be met",
-        allowed=f"{heads_max} heads are all that fit this width; they weave it in {_hours(reached)}",
-        do="give more time, a coarser quality, a quicker knot or narrower heads",
+        allowed=f"at most {heads_max} heads fit this width; they weave it in {_hours(reached)}",
+        do="give more time, a coarser quality, a faster knot or narrower heads",
     )
 
 
@@ -165,14 +168,14 @@ def _run(
 
 
 def _least_row(edges: IntArray, heads: int, times: Times) -> float:
-    """Wefts and the widest part of each half, knots only [s]."""
+    """Least time of a row [s]: wefts, and the knots of the widest part of each half."""
     widest = np.diff(edges).reshape(heads, halves(heads)).max(axis=0)
     return times.weft + float(widest.sum()) * times.knot
 
 
 def _require_chart(knots: Indices, yarns: int) -> None:
     if knots.size == 0:
-        raise LoomError("a chart without knots", allowed="at least one row of one knot")
+        raise LoomError("a chart without knots", allowed="at least one knot")
     if not 1 <= yarns <= MOST_YARNS:
         raise LoomError(f"{yarns} yarns", allowed=f"1 to {MOST_YARNS}")
     if int(knots.max()) >= yarns:
@@ -185,7 +188,7 @@ def _require_wefts(rows: int, deadline: float, times: Times) -> None:
         raise LoomError(
             f"the deadline of {_hours(deadline)} cannot be met by any number of heads",
             allowed=f"the wefts and beats of {rows} rows alone take {_hours(wefts)}",
-            do="give more time, fewer rows or quicker wefts",
+            do="give more time, fewer rows or faster wefts",
         )
 
 

@@ -1,4 +1,4 @@
-"""One row of a programme, and what each head ties in it."""
+"""One row of a programme, and the knots of each head in it."""
 
 from itertools import pairwise
 
@@ -15,7 +15,7 @@ _ALL_COLOURS = 255
 
 @record
 class HeadTies:
-    """What a head ties in a row, in order: the warp pair (column of the chart) and the yarn of each knot."""
+    """The knots of a head in a row, in order: warp pair (column of the chart) and yarn of each."""
 
     pairs: IntArray
     colours: Line
@@ -23,9 +23,9 @@ class HeadTies:
 
 @record
 class KnotRow:
-    """A row of knots as the loom ties it.
+    """A row of knots of a programme.
 
-    number   loom row, 0 at the carpet's bottom edge: even rows are swept from column 0, odd rows back
+    number   loom row, 0 at the carpet's bottom edge: even rows run from column 0, odd rows back
     colours  yarn of each knot, by column        keys  uint8 (parts, 3), see `loom.schedule`
     edges    of the parts, see `loom.sharing`
     """
@@ -38,16 +38,16 @@ class KnotRow:
 
     @property
     def forward(self) -> bool:
-        """Whether the row is swept from column 0."""
+        """Whether the row runs from column 0."""
         return self.number % 2 == 0
 
     def passes(self, head: int) -> tuple[bool, ...]:
-        """For each part of a head, left to right: whether it is tied colour by colour."""
+        """For each part of a head, from left to right: whether it is tied colour by colour."""
         parts = halves(self.heads)
         return tuple(bool(key == PASSES) for key in self.keys[head * parts : (head + 1) * parts, 0])
 
     def ties(self) -> tuple[HeadTies, ...]:
-        """What each head ties, in order."""
+        """The knots of each head, in order."""
         order = np.empty(len(self.colours), np.int64)
         colours = np.ascontiguousarray(self.colours)
         replay(colours, Layout(_ALL_COLOURS, self.heads, self.edges), self.forward, self.keys, order)
@@ -55,7 +55,7 @@ class KnotRow:
         return tuple(HeadTies(order[low:high], tied[low:high]) for low, high in pairwise(blocks))
 
     def ties_of(self, head: int) -> HeadTies:
-        """What one head ties, in order. Raises LoomError for a head that is not there."""
+        """The knots of one head, in order. Raises LoomError for an unknown head."""
         if not 0 <= head < self.heads:
             raise LoomError(f"head {head}", allowed=f"heads 0 to {self.heads - 1}")
         return self.ties()[head]

@@ -1,15 +1,15 @@
-"""The order of tying, in a compiled loop over every knot of a carpet.
+"""The tying order, in a compiled loop over every knot of a carpet.
 
-A head ties its part of a row in the quicker of two orders:
+A head ties its part of a row in the faster of two orders:
 
-    sweep    knot by knot along the row, to and fro from row to row; a colour change wherever the colour changes
-    passes   colour by colour: first the colour in the handler, then the others by number, last the colour that the
-             next part begins with; each pass runs from the nearer end of its colour to the other
+    sweep    knot by knot along the row, in alternate directions from row to row, with a change at every new colour
+    passes   colour by colour: first the colour in the handler, then the others by number, last the first
+             colour of the next part; each pass runs from the nearer end of its colour to the other
 
     time = knots * t_knot + changes * t_change + idle pitches * t_travel
 
-A move to the next warp pair is part of the knot; of a move of d pitches, d - 1 are idle. A key of three bytes a part
-(order, first colour, last colour) is all that is needed to replay the order.
+A move to the next warp pair is part of the knot; of a move of d pitches, d - 1 are idle. A key of three bytes per part
+(order, first colour, last colour) suffices to replay the order.
 """
 
 from typing import NamedTuple, TypeAlias
@@ -32,12 +32,12 @@ NONE = 255
 """No colour: there are at most 255 yarns, numbered from 0."""
 
 _COUNT, _LEAST, _MOST, _SEQUENCE, _FILL, _STEP = 0, 1, 2, 3, 4, 5
-# The rows of a scratch table by colour: its knots, its first and last column; then, by number, the colours in order of
-# their passes; and where the next knot of a colour is written and the step from there.
+# Rows of a scratch table by colour: its knots, its first and last column; the colours in the order of their passes; the
+# index at which the next knot of a colour is written, and the step to the next index.
 
 
 class Layout(NamedTuple):
-    """How a row is shared: number of yarns, number of heads, edges of the parts (see `loom.sharing`)."""
+    """Division of a row: number of yarns, number of heads, edges of the parts (`loom.sharing`)."""
 
     yarns: int
     heads: int
@@ -45,12 +45,12 @@ class Layout(NamedTuple):
 
 
 class ScheduleResult(NamedTuple):
-    """Where `schedule` writes.
+    """Arrays that `schedule` fills.
 
-    keys       uint8 (rows, parts, 3), loom row first; or of 0 rows where only the time is wanted
+    keys       uint8 (rows, parts, 3), loom row first; 0 rows where only the time is required
     row_times  float (rows,) [s]
     work       int (heads, 4): knots, changes, pitches, parts in passes
-    busy       float (heads,): time that each head ties, changes and travels [s]
+    busy       float (heads,): working time of each head [s]
     """
 
     keys: ByteTable
@@ -63,19 +63,19 @@ class ScheduleResult(NamedTuple):
 def schedule(
     knots: Indices, layout: Layout, times: FourTimes, limits: tuple[float, float], outcome: ScheduleResult
 ) -> float:
-    """Choose the order of every part and add up the times, from the carpet's bottom edge upward.
+    """Choose the order of every part and sum the times, from the carpet's bottom edge upward.
 
     knots   chart, uint8 (rows, columns), row 0 = top
     times   (knot, colour change, idle pitch, wefts of a row) [s]
-    limits  (deadline, least time of a row) [s]: give up as soon as the deadline cannot be kept any more
+    limits  (deadline, least time of a row) [s]: stop as soon as the deadline cannot be met
 
-    Fills `outcome` and returns the total time [s]; where it gave up, a lower bound that exceeds the deadline.
+    Fills `outcome` and returns the total time [s]; after a stop, a lower bound that exceeds the deadline.
     """
     yarns, heads, edges = layout
     keys, row_times, work, busy = outcome
     rows, halves = knots.shape[0], (edges.shape[0] - 1) // heads
     by_colour = np.zeros((6, yarns), np.int64)
-    handler, place = np.full(heads, NONE), np.zeros(heads, np.int64)
+    handler, column = np.full(heads, NONE), np.zeros(heads, np.int64)
     total: float = 0.0
     for row in range(rows):
         line, forward, row_time = knots[rows - 1 - row], row % 2 == 0, times[3]
@@ -85,14 +85,14 @@ def schedule(
                 part = _part(head, half, halves, forward)
                 low, high = edges[part], edges[part + 1]
                 if half == 0:
-                    place[head] = _begins(low, high, forward)
+                    column[head] = _begins(low, high, forward)
                 aim = _next_colour(knots, layout, head, row, half)
                 order, first, last, end, changes, idle, travel = _choose(
-                    line, (low, high, forward), (handler[head], place[head], aim), times, by_colour
+                    line, (low, high, forward), (handler[head], column[head], aim), times, by_colour
                 )
                 spent = (high - low) * times[0] + changes * times[1] + idle * times[2]
                 slowest = max(slowest, spent)
-                handler[head], place[head] = last, end
+                handler[head], column[head] = last, end
                 _book(work[head], high - low, changes, travel, order)
                 busy[head] += spent
                 if keys.shape[0] > 0:
@@ -108,9 +108,9 @@ def schedule(
 
 @compiled
 def replay(line: Line, layout: Layout, forward: bool, keys: ByteTable, out: IntArray) -> None:
-    """Write the columns of a row in the order they are tied, each head's within its own edges.
+    """Write the columns of a row in tying order, those of each head within its own edges.
 
-    line  colours of the row    forward  the row is swept from column 0    keys  uint8 (parts, 3)    out  int (columns,)
+    line  colours of the row    forward  the row runs from column 0    keys  uint8 (parts, 3)    out  int (columns,)
     """
     yarns, heads, edges = layout
     halves = (edges.shape[0] - 1) // heads
@@ -118,7 +118,7 @@ def replay(line: Line, layout: Layout, forward: bool, keys: ByteTable, out: IntA
     for head in range(heads):
         at = edges[head * halves]
         part = _part(head, 0, halves, forward)
-        place = _begins(edges[part], edges[part + 1], forward)
+        column = _begins(edges[part], edges[part + 1], forward)
         for half in range(halves):
             part = _part(head, half, halves, forward)
             low, high = edges[part], edges[part + 1]
@@ -127,25 +127,25 @@ def replay(line: Line, layout: Layout, forward: bool, keys: ByteTable, out: IntA
             else:
                 _scan(line, low, high, by_colour)
                 passes = _sequence(_whole(keys[part, 1]), _whole(keys[part, 2]), by_colour)
-                at = _write_passes(line, (low, high, passes), (at, place), by_colour, out)
-            place = out[at - 1]
+                at = _write_passes(line, (low, high, passes), (at, column), by_colour, out)
+            column = out[at - 1]
 
 
 @compiled
 def _part(head: int, half: int, halves: int, forward: bool) -> int:
-    """The part that a head works in a half of the row's time: the first half is where the sweep begins."""
+    """The part of a head in a half of the row's time; the first half is at the start of the sweep."""
     return head * halves + (half if forward else halves - 1 - half)
 
 
 @compiled
 def _begins(low: int, high: int, forward: bool) -> int:
-    """The column where a sweep of a part begins."""
+    """First column of a sweep of a part."""
     return low if forward else high - 1
 
 
 @compiled
 def _next_colour(knots: Indices, layout: Layout, head: int, row: int, half: int) -> int:
-    """The colour that a sweep of the head's next part begins with; NONE after the last."""
+    """First colour of a sweep of the head's next part; NONE after the last."""
     edges = layout.edges
     rows, halves = knots.shape[0], (edges.shape[0] - 1) // layout.heads
     row, half = (row, half + 1) if half + 1 < halves else (row + 1, 0)
@@ -160,37 +160,37 @@ def _next_colour(knots: Indices, layout: Layout, head: int, row: int, half: int)
 def _choose(
     line: Line, bounds: tuple[int, int, bool], state: tuple[int, int, int], times: FourTimes, by_colour: IntArray
 ) -> tuple[int, int, int, int, int, int, int]:
-    """The quicker order of a part: (order, first colour, last colour, last column, changes, idle pitches, pitches).
+    """The faster order of a part: (order, first colour, last colour, last column, changes, idle pitches, pitches).
 
     bounds first column, column after the last, forward
-    state  colour in the handler, column where the head stands, colour that its next part begins with
+    state  colour in the handler, column of the head, first colour of its next part
     """
     low, high, forward = bounds
-    handler, place, aim = state
+    handler, column, aim = state
     runs = _scan(line, low, high, by_colour)
     start = _begins(low, high, forward)
     end = low + high - 1 - start
     first, last = _whole(line[start]), _whole(line[end])
-    changes, idle = runs - _ready(handler, first), _idle(start - place)
-    held = handler if handler != NONE and by_colour[_COUNT, handler] > 0 else first
-    passes = _sequence(held, aim, by_colour)
-    fewer = passes - _ready(handler, held)
+    changes, idle = runs - _ready(handler, first), _idle(start - column)
+    ready = handler if handler != NONE and by_colour[_COUNT, handler] > 0 else first
+    passes = _sequence(ready, aim, by_colour)
+    fewer = passes - _ready(handler, ready)
     if fewer < changes:
-        more_idle, travel, there = _walk(passes, by_colour, place)
+        more_idle, travel, final = _walk(passes, by_colour, column)
         if fewer * times[1] + more_idle * times[2] < changes * times[1] + idle * times[2]:
-            return PASSES, held, by_colour[_SEQUENCE, passes - 1], there, fewer, more_idle, travel
-    return SWEEP, first, last, end, changes, idle, abs(start - place) + high - low - 1
+            return PASSES, ready, by_colour[_SEQUENCE, passes - 1], final, fewer, more_idle, travel
+    return SWEEP, first, last, end, changes, idle, abs(start - column) + high - low - 1
 
 
 @compiled
 def _ready(handler: int, colour: int) -> int:
-    """1 where the handler can begin with a colour at once: it holds it, or is threaded before the carpet begins."""
+    """1 where no change is needed for a colour: the handler has it, or is threaded before the carpet begins."""
     return 1 if handler in (colour, NONE) else 0
 
 
 @compiled
 def _idle(distance: int) -> int:
-    """Pitches of a move beyond the one that belongs to the knot."""
+    """Pitches of a move beyond the one of the knot."""
     return max(abs(distance) - 1, 0)
 
 
@@ -213,7 +213,7 @@ def _scan(line: Line, low: int, high: int, by_colour: IntArray) -> int:
 
 @compiled
 def _sequence(first: int, last: int, by_colour: IntArray) -> int:
-    """Fill in the colours of a part in the order of their passes: `first` (which is there), the others, `last`."""
+    """Write the colours of a part in the order of their passes: `first` (which occurs), the others, `last`."""
     by_colour[_SEQUENCE, 0] = first
     passes = 1
     for colour in range(by_colour.shape[1]):
@@ -227,16 +227,16 @@ def _sequence(first: int, last: int, by_colour: IntArray) -> int:
 
 
 @compiled
-def _walk(passes: int, by_colour: IntArray, place: int) -> tuple[int, int, int]:
-    """Idle pitches, pitches and last column of the passes, begun at `place`."""
+def _walk(passes: int, by_colour: IntArray, column: int) -> tuple[int, int, int]:
+    """Idle pitches, pitches and last column of the passes, begun at `column`."""
     idle = travel = 0
     for k in range(passes):
         colour = by_colour[_SEQUENCE, k]
-        near, far, _ = _ends(colour, by_colour, place)
-        idle += _idle(near - place) + abs(far - near) - (by_colour[_COUNT, colour] - 1)
-        travel += abs(near - place) + abs(far - near)
-        place = far
-    return idle, travel, place
+        near, far, _ = _ends(colour, by_colour, column)
+        idle += _idle(near - column) + abs(far - near) - (by_colour[_COUNT, colour] - 1)
+        travel += abs(near - column) + abs(far - near)
+        column = far
+    return idle, travel, column
 
 
 @compiled
@@ -250,7 +250,7 @@ def _book(work: IntArray, knots: int, changes: int, travel: int, order: int) -> 
 
 @compiled
 def _write_sweep(low: int, high: int, forward: bool, out: IntArray, at: int) -> int:
-    """Write the columns of a part in the direction of the sweep; the next free place."""
+    """Write the columns of a part in the direction of the sweep; returns the next free index."""
     for k in range(high - low):
         out[at + k] = low + k if forward else high - 1 - k
     return at + high - low
@@ -260,16 +260,16 @@ def _write_sweep(low: int, high: int, forward: bool, out: IntArray, at: int) -> 
 def _write_passes(
     line: Line, bounds: tuple[int, int, int], state: tuple[int, int], by_colour: IntArray, out: IntArray
 ) -> int:
-    """Write the columns of a part colour by colour; the next free place.
+    """Write the columns of a part colour by colour; returns the next free index.
 
-    bounds  first column, column after the last, number of passes    state  next free place, column of the head
+    bounds  first column, column after the last, number of passes    state  next free index, column of the head
     """
     low, high, passes = bounds
-    at, place = state
+    at, position = state
     for k in range(passes):
         colour = by_colour[_SEQUENCE, k]
-        _, far, back = _ends(colour, by_colour, place)
-        knots, place = by_colour[_COUNT, colour], far
+        _, far, back = _ends(colour, by_colour, position)
+        knots, position = by_colour[_COUNT, colour], far
         by_colour[_FILL, colour] = at + knots - 1 if back else at
         by_colour[_STEP, colour] = -1 if back else 1
         at += knots
@@ -281,15 +281,15 @@ def _write_passes(
 
 
 @compiled
-def _ends(colour: int, by_colour: IntArray, place: int) -> tuple[int, int, bool]:
-    """The end of a colour nearer to `place`, the other end, and whether the pass runs back."""
+def _ends(colour: int, by_colour: IntArray, column: int) -> tuple[int, int, bool]:
+    """The end of a colour nearer to `column`, the other end, and whether the pass runs back."""
     least, most = by_colour[_LEAST, colour], by_colour[_MOST, colour]
-    if abs(place - most) < abs(place - least):
+    if abs(column - most) < abs(column - least):
         return most, least, True
     return least, most, False
 
 
 @compiled
 def _whole(value: int | np.integer) -> int:
-    """A byte as a whole number like all the others: the compiler compares only what is of one kind."""
+    """A byte as an integer: the compiler compares only values of one type."""
     return int(np.int64(value))
