@@ -71,7 +71,7 @@ def prp(numbers) -> Mechanism:
 
 
 def rpp(numbers) -> Mechanism:
-    """An Oldham coupling whose middle slides on the crank in any direction and is hung on the ground anywhere."""
+    """An Oldham coupling whose middle slides on the crank in any direction and is attached to the ground anywhere."""
     along, between, turned, twist, on_crank, at, first, second, hinge, ground, middle_guides = numbers
     lead = between if middle_guides else between - twist  # of the line between the two, in the middle's frame
     assume(abs(np.sin(turned + lead)) > 0.2)

@@ -106,7 +106,7 @@ def watt_six_bar() -> Mechanism:
 
 
 def triad() -> Mechanism:
-    """A plate on three links, two hung on the ground, one on the crank: class III, no dyad in it. Drawn in place."""
+    """A plate on three links, two on the ground, one on the crank: class III, without a dyad. Drawn in place."""
     outer, corners = (1j, 3 + 0j, -1.2 - 1j), (0.6 + 1.2j, 2.2 + 0.8j, 1 + 0.1j)
     crank_pin = 0.2 - 0.8j
     names = ("left", "right", "low")

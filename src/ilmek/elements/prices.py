@@ -1,9 +1,9 @@
-"""What a loom's parts cost: a small table to be edited.
+"""Prices of a loom's parts: a small table for editing.
 
     price of a part = number * (each + per_kg mass + per_m length + per_W power)
 
-Each kind of part has its rates; the table's own are round numbers of ours, of no maker and no year, in a currency of
-your choice: put your own there. A table to read has a line for each rate that is other than ours:
+Each kind of part has its rates. The default rates are round numbers assumed by this project, for no maker or year, in
+any currency. A text with other rates has one line for each rate that differs from the default:
 
     laser-cut part per kg = 4.5
     servo each = 380            # with its drive
@@ -57,61 +57,61 @@ PRICES: Mapping[str, PriceRates] = {
 
 
 def read_prices(text: str | None) -> Mapping[str, PriceRates]:
-    """The table of prices with the lines of a text in it, `KIND each|per kg|per m|per W = NUMBER`.
+    """The default prices, changed by the lines of a text, `KIND each|per kg|per m|per W = NUMBER`.
 
-    Lines are parted by new lines or semicolons; what follows a # is a remark. Raises ParameterError for a line that
-    cannot be read, an unknown kind (naming the nearest) and a price below 0.
+    Lines end with a new line or a semicolon; a # starts a comment. Raises ParameterError for a line that cannot be
+    read, an unknown kind (with the nearest one) and a price below 0.
 
     >>> read_prices("bearing each = 9; servo per W = 1")["bearing"].each
     9.0
     """
     prices = dict(PRICES)
     for line in (text or "").replace(";", "\n").splitlines():
-        said = line.split("#", 1)[0].strip()
-        if said:
-            kind, rate, value = _line(said)
+        entry = line.split("#", 1)[0].strip()
+        if entry:
+            kind, rate, value = _line(entry)
             prices[kind] = replace(prices[kind], **{rate: value})
     return prices
 
 
 def written(prices: Mapping[str, PriceRates] = PRICES) -> str:
-    """A table as a text that `read_prices` reads: to be edited.
+    """A table as a text for editing and `read_prices`.
 
     >>> read_prices(written()) == PRICES
     True
     """
     lines = [
-        f"{kind} {said} = {getattr(rates, name):g}"
+        f"{kind} {label} = {getattr(rates, name):g}"
         for kind, rates in prices.items()
-        for said, name in _RATES.items()
+        for label, name in _RATES.items()
         if getattr(rates, name)
     ]
     return "\n".join(lines)
 
 
-def _line(said: str) -> tuple[str, str, float]:
+def _line(entry: str) -> tuple[str, str, float]:
     """Kind, rate and value of a line."""
-    left, _, right = said.partition("=")
+    left, _, right = entry.partition("=")
     name = left.strip().strip('"')
     rate = next((short for short in _RATES if name.endswith(f" {short}")), None)
     if rate is None or not right.strip():
         raise ParameterError(
-            f"prices: {said!r} is no price",
+            f"prices: {entry!r} is no price",
             allowed=f"KIND {' | '.join(_RATES)} = NUMBER",
             do="write it like: bearing each = 12.5",
         )
     kind = name.removesuffix(rate).strip()
     if kind not in PRICES:
-        near = difflib.get_close_matches(kind, PRICES, n=1, cutoff=0.4)
-        hint = f"did you mean {near[0]}?" if near else ""
+        nearest = difflib.get_close_matches(kind, PRICES, n=1, cutoff=0.4)
+        hint = f"did you mean {nearest[0]}?" if nearest else ""
         raise ParameterError(f"prices: {kind!r} is no kind of part", allowed=", ".join(PRICES), do=hint)
     try:
         value = float(right)
     except ValueError:
         value = -1.0
-    if not 0 <= value < _DEAREST:
-        raise ParameterError(f"prices: {said!r}", allowed="a plain number, 0 or more", do="leave the currency out")
+    if not 0 <= value < _HIGHEST:
+        raise ParameterError(f"prices: {entry!r}", allowed="a plain number, 0 or more", do="leave the currency out")
     return kind, _RATES[rate], value
 
 
-_DEAREST = 1e9
+_HIGHEST = 1e9

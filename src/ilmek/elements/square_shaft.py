@@ -1,12 +1,12 @@
-"""A square shaft on equal spans: its load, its least sides, the bar chosen, its bearings.
+"""A square shaft on equal spans: load, least sides, chosen bar, bearings.
 
     w = safety |weight + pull e^(i angle)| / l,   span = l / spans
 
-Weight and the pull across the shaft act in their own directions; a square bar is as stiff in all directions, so that
-slope and deflection of each add as vectors, and turning with the shaft changes nothing. Supports between the ends are
-bearings, or steadies: rollers under round seats of the shaft.
-Each span is taken as simply supported, which is on the safe side for a shaft that is continuous over its supports; a
-bearing carries w span, at the ends half of that, without the safety.                [thesis 3.2, eq. 3.4, 3.5; ISO 281]
+Weight and transverse pull have different directions. A square bar has equal stiffness in all directions, so that slopes
+and deflections add as vectors and do not depend on the angle of the shaft. Supports between the ends are bearings, or
+steadies: rollers under round seats of the shaft.
+Each span is computed as simply supported, which is conservative for a shaft that is continuous over its supports. A
+bearing carries w span, at the ends half of it, without the safety.                  [thesis 3.2, eq. 3.4, 3.5; ISO 281]
 """
 
 import cmath
@@ -26,7 +26,7 @@ from ilmek.units import turn
 
 @record
 class SquareShaftTask:
-    """What a square shaft bears, and what it must keep.
+    """Loads and limits of a square shaft.
 
     length, spans   of the shaft [m], and its number of equal spans         speed   of the shaft [rad/s]
     mass, pull      on the shaft evenly, its own included [kg]; force across it [N]

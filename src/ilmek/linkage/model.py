@@ -22,14 +22,14 @@ from ilmek.errors import MechanismError, did_you_mean
 from ilmek.records import brief
 
 GROUND = "ground"
-"""The body that stands still; its local frame is the world."""
+"""The fixed body; its frame is the world."""
 
 
 @dataclass(frozen=True, slots=True)
 class Body:
     """A rigid body: named points in its own frame [m].
 
-    The frame is free to choose; the origin need not be a point of the body. The body named "ground" stands still and
+    The frame is free to choose; the origin need not be a point of the body. The body named "ground" is fixed and
     its frame is the world.
     """
 
@@ -74,7 +74,7 @@ class Slide:
     """A sliding joint: a point of `body` moves along a line of `guide`; the angle between the bodies is fixed.
 
     The line goes through the guide's point of the slide's name, in direction `along` [rad] of the guide's frame; the
-    body's point of the slide's name lies on it, `s` metres from the guide's point. The body stands turned by `turned`
+    body's point of the slide's name lies on it, `s` metres from the guide's point. The body has the angle `turned`
     [rad] against the guide. An offset slider is one whose line misses the crank's pivot; the guide may move.
     """
 

@@ -1,4 +1,4 @@
-"""A two-link arm whose second link always goes through one fixed point, and its joint angles along that path.
+"""A two-link arm whose second link always passes through one fixed point, and its joint angles along that path.
 
 The line of link 2 goes through the point G everywhere on the path, as if it slid in a swivel there: the arm moves like
 an oscillating block, and G, the pivot O and the elbow E are a triangle with two fixed sides,
@@ -11,8 +11,8 @@ angles psi of the triangle at G and chi at O,
     cos psi = (r + (b² - a1²)/r) / 2b           E - G = r exp(i (arg(O - G) + side psi)),    th2 = arg(G - E)
     cos chi = (a1² + b² - r²) / 2 a1 b          E - O = a1 exp(i (arg(G - O) - side chi)),   th1 = arg(E - O)
 
-and the tip P = G + (r - a2) (E - G)/r. All of it is analytic in s as long as the triangle is one, which holds
-as long as the arm is bent: links 1 and 2 in one line are the dead points of the arm and of the triangle alike. With
+and the tip P = G + (r - a2) (E - G)/r. All functions are analytic in s for a triangle that is not flat: links 1 and
+2 in one line are the dead centres of the arm and of the triangle. With
 c = cos psi, S = sin psi the derivatives by s follow from c' = -S psi' and so on:
 
     psi' = -c'/S      psi'' = -(c'' + c psi'²)/S      psi''' = -(c''' + 3 c psi' psi'' - S psi'³)/S
@@ -38,7 +38,7 @@ Jet: TypeAlias = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 class ArmPath:
     """Joint angles along an arm's path, and their derivatives by the path's parameter s.
 
-    s      0 where the path begins, 1 where it ends
+    s      0 at the start of the path, 1 at its end
     theta  angles of the first and second link, absolute [rad], without jumps; the elbow's angle is their difference
     first, second, third  derivatives of theta by s [rad]
     """
@@ -90,7 +90,7 @@ class SwivelledArm:
         return np.asarray(self.swivel + self.beyond(s) * unit(self._second(s)[0]))
 
     def tilt(self, s: FloatArray) -> FloatArray:
-        """Angle of link 2 from upright [rad], positive where the tip is farther right than the elbow."""
+        """Angle of link 2 from upright [rad], positive for a tip on the right of the elbow."""
         return np.asarray((self._second(s)[0] + 3 * np.pi / 2) % (2 * np.pi) - np.pi)
 
     @property

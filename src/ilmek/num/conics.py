@@ -46,8 +46,8 @@ def meet(C: Conic, D: Conic) -> Intersections:
     """All four intersections of two conics given by symmetric matrices; undefined for conics with a common line.
 
     >>> found = meet(np.diag([1.0, 1.0, -5.0]), np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -4]]))  # x² + y² = 5, xy = 2
-    >>> places = found.points.real / found.points.real[:, 2:]
-    >>> sorted((round(x, 9), round(y, 9)) for x, y, _ in places.tolist())
+    >>> positions = found.points.real / found.points.real[:, 2:]
+    >>> sorted((round(x, 9), round(y, 9)) for x, y, _ in positions.tolist())
     [(-2.0, -1.0), (-1.0, -2.0), (1.0, 2.0), (2.0, 1.0)]
     """
     C, D = (TURN.T @ conic @ TURN for conic in (C, D))

@@ -1,9 +1,9 @@
-"""Bars with round ends that move: how far they stay apart, and the least distance over the whole motion.
+"""Moving bars with round ends: their distance, and its minimum over the whole motion.
 
-A least distance is found by bisection: where no point moves faster than V by a parameter, the distance over an interval
-of half length e is no less than f - V e, f that at its middle. Intervals that cannot go below the least distance found
-so far by more than the tolerance are dropped; the others are halved. The result is a distance that occurs, and none is
-less by more than the tolerance.
+The minimum is found by bisection. If no point moves faster than V by a parameter, the distance over an interval of half
+length e is at least f - V e, with f at its middle. Intervals whose bound is not below the present minimum by more than
+the tolerance are dropped; the others are halved. The result is a distance that occurs, and no distance is smaller by
+more than the tolerance.
 """
 
 from collections.abc import Callable
@@ -19,16 +19,16 @@ TOLERANCE, RELATIVE = 1e-6, 5e-3
 """Absolute [m] and relative tolerance of a least distance."""
 
 PIECES, MOST = 16, 60_000
-"""Intervals at first in each direction; intervals at most, after which the tolerance is not met."""
+"""Initial number of intervals in each direction; maximum number of intervals, beyond which the tolerance grows."""
 
 
 @dataclass(frozen=True, slots=True)
 class LeastDistance:
     """A least distance.
 
-    name   of what, from what        value  [m], below 0 where they overlap
-    at     s there, one for each arm that matters
-    sure   tolerance: how much less it might be at most [m]
+    name   of the two bodies         value  [m], below 0 for overlap
+    at     parameters s of the minimum, one for each arm concerned
+    sure   tolerance: greatest excess over the true minimum [m]
     """
 
     name: str
@@ -47,7 +47,7 @@ class RoundBars:
 
 
 def apart(one: RoundBars, other: RoundBars, but: tuple[int, int] | None = None) -> Float[np.ndarray, " n"]:
-    """Least distance of two sets of bars [m], at each position; `but` a pair of them that meets on purpose."""
+    """Least distance of two sets of bars [m], at each position; `but`: a pair that is joined and left out."""
     pairs = [
         between(np.stack([one.starts[:, i], one.ends[:, i]], -1), np.stack([other.starts[:, j], other.ends[:, j]], -1))
         - one.radii[i]
@@ -61,7 +61,9 @@ def apart(one: RoundBars, other: RoundBars, but: tuple[int, int] | None = None) 
 
 
 def least(name: str, f: Callable[[FloatArray], FloatArray], speeds: tuple[float, ...]) -> LeastDistance:
-    """The least value of f over the unit cube, whose points are its rows; f changes by speeds at most [m].
+    """The least value of f over the unit cube.
+
+    f  points, one per row -> distances [m]      speeds  bounds of the rate of f by each parameter [m]
 
     >>> found = least("x", lambda at: np.abs(at[:, 0] - 0.3), (1.0,))
     >>> round(found.value, 5), round(found.at[0], 5), found.sure < 2e-6

@@ -96,7 +96,7 @@ class SliderDyad(SliderPair):
         """Description of the step for users."""
         return (
             f"{self.link} and slider {self.slider} joined at {self.pin} (branch {self.branch:+d}), "
-            f"hung on {self.on[0]} and {self.on[1]}: RRP"
+            f"attached to {self.on[0]} and {self.on[1]}: RRP"
         )
 
     def known_line(self, known: Known) -> tuple[PointMotion, PointMotion, ComplexField]:
