@@ -65,6 +65,9 @@ def test_reference_page_lists_every_public_name_once() -> None:
         (lambda: ilmek.motion_four_bars([0, 1, 2], [0, 1]), "one angle for each point"),
         (lambda: ilmek.motion_four_bars([0, 25, 30], [0.1, 0.2, 0.3]), "write 30 \\* mm"),
         (lambda: ilmek.design("beat_up"), "did you mean beat-up"),
+        (lambda: ilmek.design("beat-up", swing=30), "did you mean 30deg"),
+        (lambda: ilmek.design("automated-loom", width=1200), "did you mean 1200mm"),
+        (lambda: ilmek.design("automated-loom", knots_across=40), '4 knots per dm.*did you mean "40/dm"'),
         (lambda: ilmek.make_chart(3, "30x40cm", "10x10/dm"), "a int given for a picture"),
         (lambda: ilmek.make_chart(np.zeros((8, 8, 3)), "30x40cm", "10x10/dm"), "uint8"),
         (lambda: ilmek.make_chart(np.zeros((8, 8), np.uint8), "30x40cm", "10x10/dm"), "rows x columns x 3"),
@@ -191,6 +194,8 @@ def test_machine_is_designed_from_numbers_and_texts() -> None:
     assert report["drive_torque_max"] > 0
     assert report.parameters["swing"] == 30 * deg
     assert set(ilmek.list_machines()) == set(MACHINES)
+    with pytest.raises(KeyError, match="did you mean 'drive_torque"):
+        _ = report["drive_torque"]
 
 
 def test_catalogue_is_a_mapping_that_names_the_nearest() -> None:

@@ -3,12 +3,16 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from ilmek.errors import ParameterError
 from ilmek.jobs.design import design_machine
-from ilmek.jobs.machines import machine_list
+from ilmek.jobs.machines import machine_form, machine_list
 from ilmek.jobs.reproduce import ReproductionResult, reproduce_papers
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Report
+
+COARSE = 100.0
+"""Knots per metre below which knots per dm were meant; assumed by this project: 10 knots per dm are the coarsest."""
 
 
 def list_machines() -> dict[str, str]:
@@ -34,7 +38,22 @@ def design(
     checks that do not hold. Raises ParameterError for an unknown machine or parameter and for a value out of bounds;
     errors of the machine; Cancelled.
     """
-    return design_machine(name, {**parameters, **settings}, progress=progress).report
+    given = {**parameters, **settings}
+    _check_densities(name, given)
+    return design_machine(name, given, progress=progress).report
+
+
+def _check_densities(name: str, settings: Mapping[str, Setting]) -> None:
+    """Raise ParameterError where a number of knots per metre is so small that knots per dm were meant."""
+    densities = {one.name for one in machine_form(name).parameters if one.unit == "1/dm"}
+    for parameter in densities & settings.keys():
+        value = settings[parameter]
+        if isinstance(value, int | float) and 0 < value < COARSE:
+            raise ParameterError(
+                f"{parameter}={value:g} is {value / 10:g} knots per dm",
+                allowed=f"a bare number is in knots per metre, above {COARSE:g}",
+                do=f'did you mean "{value:g}/dm"?',
+            )
 
 
 def reproduce(*papers: str, progress: Progress = SILENT) -> ReproductionResult:

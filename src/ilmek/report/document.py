@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, TypeVar
 
+from ilmek.errors import did_you_mean
 from ilmek.records import record
 from ilmek.report.bill import Part
 from ilmek.report.check import Check
@@ -76,7 +77,7 @@ class Report:
     def __getitem__(self, name: str) -> Json:
         """The value of a result [SI] by its name, of a machine in it by a dotted name: `beat_up.crank`.
 
-        Raises KeyError, listing the names, for any other.
+        Raises KeyError, naming the nearest, for any other; `names` lists them.
         """
         head, dot, rest = name.partition(".")
         if dot:
@@ -86,7 +87,8 @@ class Report:
         for result in self.results:
             if result.name == name:
                 return result.value
-        raise KeyError(f"{name!r}: {self.machine} reports {', '.join(self.names())}")
+        hint = did_you_mean(name, self.names(), otherwise="its names() lists them")
+        raise KeyError(f"{self.machine} has no result {name!r}; {hint}")
 
     def names(self) -> Iterator[str]:
         """The names of all results, dotted for the machines in it."""
