@@ -4,12 +4,12 @@ The geometry stands on `ilmek.cams`, materials and life on `ilmek.elements`. Eve
 flat-faced and spherical followers.
 """
 
+from ilmek.cams.loaded_cam import CamExtremes
 from ilmek.machines import SUMMARIES
 from ilmek.machines.cam.analysis import CamAnalysis, analyse, results
 from ilmek.machines.cam.compliant_follower import CompliantFollower
 from ilmek.machines.cam.design import CamDesign, design
 from ilmek.machines.cam.figures import figures
-from ilmek.machines.cam.forces import CamExtremes
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.parts import cam_tables, plates
 from ilmek.machines.cam.report import checks, tables, warnings

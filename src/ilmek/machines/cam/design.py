@@ -4,33 +4,30 @@ Every largest or least value is an exact bound over the pieces of the programme,
 """
 
 import math
+from dataclasses import replace
 
 from ilmek.arrays import FloatArray
 from ilmek.cams import limits
 from ilmek.cams.barrel import Barrel, undercut_in_space
 from ilmek.cams.contact import FollowerLoad
+from ilmek.cams.hertz import LINE_YIELD, POINT_YIELD
+from ilmek.cams.loaded_cam import CamExtremes, CamShape, CamState, FollowerContact, LoadedCam
 from ilmek.cams.programme import CamProgramme, jumps
-from ilmek.cams.return_spring import LiftOff, lift_off
+from ilmek.cams.return_spring import LiftOff, doubling_spring, least_preload, least_rate, lift_off, velocity_drop
 from ilmek.cams.trace import CamRole
 from ilmek.elements.cam_rollers import ROLLERS, Roller, RollerDuty, find_roller
 from ilmek.elements.hubs import Hub, bore_for, hub_for
-from ilmek.machines.cam.forces import (
-    CamExtremes,
-    CamState,
-    duty_of,
-    extremes_of,
-    held_by,
-    pressure_limit,
-    pressure_of,
-    state_of,
-)
+from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.params import CamParams
-from ilmek.machines.cam.shape import CamShape, CamSize, cam_of, cams_of, part_knots, programme_of, roller_width, size_of
+from ilmek.machines.cam.shape import CamSize, cam_of, cams_of, part_knots, programme_of, roller_width, size_of
 from ilmek.records import computed, record, result
 from ilmek.report import Json
 
 ROOM = 0.8
 """Radius of a roller that is chosen, at most, over the least radius of the pitch curve and over the prime radius."""
+
+MARGIN = 1.2
+"""Speed up to which a chosen spring holds the follower, over the speed of the cam."""
 
 
 @record
@@ -134,13 +131,18 @@ class CamDesign:
         round_ = isinstance(cam, Barrel) and undercut_in_space(cam, both_flanks=both) is not None
         return other or round_ or limits.undercut(cam, both_flanks=both)
 
+    @property
+    def loaded(self) -> LoadedCam:
+        """The cam and its follower under load."""
+        return LoadedCam(contact_of(self.params), self.cams, self.held)
+
     def state(self, angle: FloatArray) -> CamState:
         """Geometry and forces at cam angles [rad]."""
-        return state_of(self.params, self.cams, self.held, angle)
+        return self.loaded.state(angle)
 
     def hertz(self, angle: FloatArray) -> FloatArray:
         """Hertz pressure [Pa] at cam angles [rad]; NaN where cam and follower cannot be in contact."""
-        return pressure_of(self.params, self.state(angle), self.face_width)
+        return self.loaded.hertz(angle, self.face_width)
 
 
 def design(params: CamParams) -> CamDesign:
@@ -151,7 +153,8 @@ def design(params: CamParams) -> CamDesign:
     bare = cam_of(params, programme, size, params.roller_radius or 0.0)
     roller, cams = _with_roller(params, bare, size, held)
     width = roller_width(params, cams.cam.roller_radius)
-    extremes = extremes_of(params, cams, held, width)
+    loaded = LoadedCam(contact_of(params), cams, held)
+    extremes = loaded.extremes(width)
     torque = max(abs(extremes.torque.value), abs(extremes.back_torque.value))
     return CamDesign(
         params=params,
@@ -160,7 +163,7 @@ def design(params: CamParams) -> CamDesign:
         cams=cams,
         held=held,
         roller=roller,
-        duty=duty_of(params, cams, held) if params.follower == "roller" else None,
+        duty=loaded.duty() if params.follower == "roller" else None,
         hub=hub_for(params.bore or bore_for(torque if math.isfinite(torque) else 0.0)),
         lift_off=LiftOff(math.inf, 0.0) if params.led else lift_off(programme, held),
         extremes=extremes,
@@ -168,6 +171,49 @@ def design(params: CamParams) -> CamDesign:
         face_width=width,
         pressure_limit=pressure_limit(params),
     )
+
+
+def contact_of(params: CamParams) -> FollowerContact:
+    """How the follower of the parameters touches its cam."""
+    return FollowerContact(
+        follower=params.follower,
+        led=params.led,
+        laid_flat=params.laid_flat,
+        pivot=params.pivot_distance if params.motion == "oscillating" else None,
+        side=params.side_sign,
+        crown=params.crown_radius,
+        sliding=params.sliding_friction,
+        guide=params.guide_friction,
+        material=params.material,
+        follower_material=params.follower_material,
+    )
+
+
+def held_by(params: CamParams, programme: CamProgramme) -> FollowerLoad:
+    """Mass, load and return spring; by default the weakest spring that holds up to the hold speed."""
+    if params.led:
+        return FollowerLoad(params.speed, params.mass * params.per_unit**2, load=params.load * params.per_unit)
+    hold = MARGIN * params.speed if params.hold_speed is None else params.hold_speed
+    arc = params.per_unit
+    rate, preload = (params.spring_rate or 0.0) * arc**2, (params.preload or 0.0) * arc
+    bare = FollowerLoad(hold, params.mass * arc**2, rate, preload, params.load * arc)
+    if velocity_drop(programme) is not None:
+        return replace(bare, speed=params.speed)
+    if params.spring_rate is None and params.preload is None:
+        bare = doubling_spring(programme, bare)
+    elif params.preload is None:
+        bare = replace(bare, preload=least_preload(programme, bare))
+    elif params.spring_rate is None:
+        bare = replace(bare, rate=least_rate(programme, bare))
+    return replace(bare, speed=params.speed)
+
+
+def pressure_limit(params: CamParams) -> float:
+    """Where the weaker of both materials first yields, below its surface [Johnson, Contact Mechanics]."""
+    if params.pressure_limit is not None:
+        return params.pressure_limit
+    strength = min(MATERIALS[name].strength for name in (params.material, params.follower_material))
+    return strength * (POINT_YIELD if contact_of(params).at_a_point else LINE_YIELD)
 
 
 def _with_roller(params: CamParams, bare: CamRole, size: CamSize, held: FollowerLoad) -> tuple[Roller | None, CamShape]:
@@ -189,7 +235,7 @@ def _with_roller(params: CamParams, bare: CamRole, size: CamSize, held: Follower
     if params.follower == "spherical" or not fitting:
         return None, fitted(0.5 * room)
     for roller in fitting:
-        duty = duty_of(params, fitted(roller.radius), held)
+        duty = LoadedCam(contact_of(params), fitted(roller.radius), held).duty()
         if duty.largest <= roller.force_limit and duty.time(roller) >= params.life:
             return roller, fitted(roller.radius)
     return fitting[-1], fitted(fitting[-1].radius)

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from ilmek.cams.barrel import BarrelCam
 from ilmek.cams.conjugate import ConjugatePair, conjugate, conjugate_arms, conjugate_faces
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.laws import Law
+from ilmek.cams.loaded_cam import CamShape
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
@@ -91,13 +91,6 @@ def limits_of(params: CamParams) -> CamLimits:
         return CamLimits(convex=params.curvature_least)
     limit = params.limit or LIMIT
     return CamLimits(rise=limit, fall=limit if params.led else None)
-
-
-class CamShape(NamedTuple):
-    """The cam, and with conjugate cams the pair of it and the other one."""
-
-    cam: CamRole
-    pair: ConjugatePair | None = None
 
 
 def cams_of(params: CamParams, programme: CamProgramme, size: CamSize, roller_radius: float) -> CamShape:

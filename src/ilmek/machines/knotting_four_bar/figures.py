@@ -10,6 +10,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.animation import animated, frames
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.crank_figures import crank_plot
+from ilmek.linkage.mirror import other
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import transmission_angle
@@ -20,7 +21,7 @@ from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.model import evaluate
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
-from ilmek.machines.knotting_four_bar.sides import BODIES, KnottingSides, hands, other, outlines
+from ilmek.machines.knotting_four_bar.sides import BODIES, KnottingSides, hands, outlines
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Mark, Plot, Reading, Stroke
 from ilmek.units import format_quantity, turn
 
