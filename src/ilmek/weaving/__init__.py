@@ -1,4 +1,4 @@
-"""Textile mechanics: warp, shed, fell, tension; the knots that a path of the yarn ties are in `ilmek.weaving.knots`.
+"""Textile mechanics: warp, shed, fell, tension; the knots tied by a path of the yarn are in `ilmek.weaving.knots`.
 
 The materials of yarns are in `ilmek.elements.yarns`, the kinds of knots in `ilmek.elements.knot_kinds`.
 """

@@ -1,4 +1,4 @@
-"""The comb as a beam on the fell: how evenly it presses.
+"""The comb as a beam on the fell: uniformity of its pressure.
 
     E I w'''' + k w = 0,   l = (k / 4 E I)^(1/4),   q = k w       [Winkler foundation; Hetenyi, Beams on Elastic
                                                                    Foundation, 1946]
@@ -6,11 +6,11 @@
 w [m] is the displacement of the fell, q [N/m] the pressure, k [N/m^2] the stiffness of the fell over the width. The
 comb is pushed down by one distance at its supports; its ends are free. Each piece is propagated by Krylov's functions
 K1 = cosh z cos z, K2 = (cosh z sin z + sinh z cos z) / 2, K3 = sinh z sin z / 2, K4 = (cosh z sin z - sinh z cos z) / 4
-of z = l x, each the derivative of the next, K1' = -4 K4: the exact solution. Pieces are no longer than 1.5 / l, so that
-no function outgrows the others.
+of z = l x, each the derivative of the next, K1' = -4 K4: the exact solution. Pieces are at most 1.5 / l long, so
+that the functions stay of one magnitude.
 
-Held at both ends, the middle is pressed by cosh u cos u / (cosh^2 u cos^2 u + sinh^2 u sin^2 u) of the ends,
-u = l W / 2.
+Supported at both ends, the pressure in the middle over that at the ends is
+cosh u cos u / (cosh^2 u cos^2 u + sinh^2 u sin^2 u), u = l W / 2.
 """
 
 import math
@@ -21,7 +21,7 @@ from ilmek.arrays import Float, FloatArray
 from ilmek.records import record
 
 RIGID = 0.02
-"""A comb of l W below this bends by less than 1e-7 of the displacement of the fell: rigid."""
+"""Largest l W of a rigid comb: its deflection is below 1e-7 of the displacement of the fell."""
 
 _LONGEST = 1.5
 _DENSE = 201
@@ -31,9 +31,9 @@ _DENSE = 201
 class FellPressure:
     """Pressure of a comb on the fell across its width.
 
-    x          positions across the width [m]      share  pressure there over the mean pressure; its mean is 1
-    curvature  of the comb there for a mean pressure of 1 N/m [1/N]
-    number     l W: below 1 the comb is stiff against the fell
+    x          positions across the width [m]      share  pressure over the mean pressure [-]; its mean is 1
+    curvature  of the comb for a mean pressure of 1 N/m [1/N]
+    number     l W [-]: below 1 the comb is stiff relative to the fell
     """
 
     x: FloatArray
@@ -71,7 +71,7 @@ def fell_pressure(
 
     width     W of the comb [m]             supports    their positions from its left end [m], one or more
     rigidity  E I of the comb [N m^2]       foundation  k, stiffness of the fell over the width [N/m^2]
-    A comb that is rigid against the fell presses evenly, or tilts about a single support.
+    A comb that is rigid relative to the fell presses evenly, or tilts about a single support.
     """
     root = (foundation / (4 * rigidity)) ** 0.25
     number = root * width
@@ -104,8 +104,8 @@ def _nodes(width: float, supports: FloatArray, longest: float) -> FloatArray:
     """Ends and supports, and positions between them at most `longest` apart."""
     fixed = np.unique(np.concatenate([[0.0, width], supports]))
     parts = [max(1, math.ceil(step / longest)) for step in np.diff(fixed).tolist()]
-    made = [np.linspace(fixed[i], fixed[i + 1], part + 1)[:-1] for i, part in enumerate(parts)]
-    return np.concatenate([*made, [width]])
+    filled = [np.linspace(fixed[i], fixed[i + 1], part + 1)[:-1] for i, part in enumerate(parts)]
+    return np.concatenate([*filled, [width]])
 
 
 def _moved(functions: FloatArray, order: int) -> FloatArray:
@@ -117,7 +117,7 @@ def _moved(functions: FloatArray, order: int) -> FloatArray:
 
 
 def _transfer(z: float) -> FloatArray:
-    """Matrix that takes (w, w', w'', w''') by l x from the start of a piece of length z to its end."""
+    """Transfer matrix of (w, w', w'', w''') by l x from the start of a piece of length z to its end."""
     functions = krylov(np.array(z))
     return np.stack([_moved(functions, order) for order in range(4)])
 
@@ -130,7 +130,7 @@ def _states(nodes: FloatArray, supports: FloatArray, root: float) -> FloatArray:
     """(w, w', w'', w''') by l x at the start of each piece, the comb pushed down by 1 at its supports."""
     pieces = nodes.size - 1
     matrix, right = np.zeros((4 * pieces, 4 * pieces)), np.zeros(4 * pieces)
-    held = {int(np.argmin(np.abs(nodes - support))) for support in supports}
+    supported = {int(np.argmin(np.abs(nodes - support))) for support in supports}
     row = 0
 
     def condition(parts: list[tuple[int, FloatArray]], value: float = 0.0) -> None:
@@ -142,16 +142,16 @@ def _states(nodes: FloatArray, supports: FloatArray, root: float) -> FloatArray:
 
     one = np.eye(4)
     condition([(0, one[2])])
-    condition([(0, one[0])], 1.0) if 0 in held else condition([(0, one[3])])
+    condition([(0, one[0])], 1.0) if 0 in supported else condition([(0, one[3])])
     for node in range(1, pieces):
         over = _transfer(root * float(nodes[node] - nodes[node - 1]))
         for order in range(3):
             condition([(node - 1, over[order]), (node, -one[order])])
-        if node in held:
+        if node in supported:
             condition([(node, one[0])], 1.0)
         else:
             condition([(node - 1, over[3]), (node, -one[3])])
     over = _transfer(root * float(nodes[-1] - nodes[-2]))
     condition([(pieces - 1, over[2])])
-    condition([(pieces - 1, over[0])], 1.0) if pieces in held else condition([(pieces - 1, over[3])])
+    condition([(pieces - 1, over[0])], 1.0) if pieces in supported else condition([(pieces - 1, over[3])])
     return np.linalg.solve(matrix, right).reshape(pieces, 4)

@@ -1,13 +1,13 @@
-"""A warp as a taut yarn draped over a turning cam, over the cam's hollows, from hold to hold.
+"""A warp as a taut yarn draped over a rotating cam, between two fixed points.
 
-A knife-edge follower touches the cam on its own line alone. A yarn lies on the convex hull of the cam: it bridges what
-is hollow, and where the nose stands in front of or behind the follower's line, the nose already lifts it there. Between
-the holds A and B, at R + i a and R - i b with the follower's line along the real axis at R, the yarn is as long as
+A knife-edge follower touches the cam on its line only. A yarn lies on the convex hull of the cam: it bridges concave
+parts, and the nose lifts it already in front of and behind the follower's line. Between the fixed points A and B, at
+R + i a and R - i b with the follower's line along the real axis, the length of the yarn is
 
     l = |A - P| + arc of the hull from P to Q + |Q - B|,     P, Q where the tangents from A and B touch
 
-Without friction it pulls on the cam with T along both tangents: its torque T (P x (A-P)/|A-P| + Q x (B-Q)/|B-Q|) is
-T dl/dtheta. The cam is taken as the polygon of its points.                                    [derived; virtual work]
+Without friction it pulls on the cam with T along both tangents. Its torque T (P x (A-P)/|A-P| + Q x (B-Q)/|B-Q|) is
+T dl/dtheta. The cam is approximated by the polygon of its points.                              [derived; virtual work]
 """
 
 from dataclasses import dataclass
@@ -20,18 +20,18 @@ from ilmek.units import turn
 from ilmek.weaving.shed import ShedWarp
 
 LEAST_BRIDGE = 1e-6
-"""Height of a bridge above the cam from which it is reported [m]."""
+"""Least height of a reported bridge above the cam [m]."""
 
 LEAST_LENGTHENING = 1e-6
-"""Lengthening from which a draped warp counts as lifted [m]."""
+"""Least lengthening of a lifted warp [m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Bridges:
-    """Where a yarn bridges a cam.
+    """Bridges of a yarn over a cam.
 
-    arcs    cam angles between which the hull leaves the cam, each from and to [rad]
-    excess  greatest height of a bridge above the cam [m]      at  its cam angle [rad]
+    arcs    cam angles [rad] between which the hull leaves the cam, start and end of each
+    excess  largest height of a bridge above the cam [m]       at  its cam angle [rad]
     """
 
     arcs: tuple[tuple[float, float], ...]
@@ -44,8 +44,8 @@ class DrapedWarp:
     """A warp draped over its cam, over one turn; all arrays have the shape of `angle`.
 
     angle         of the cam [rad]                  wrap    angle of wrap on the cam [rad]
-    lengthening   of the warp from hold to hold [m] tension of the warp [N]
-    torque        of the warp on the shaft [N m]    lifted  part of the turn for which the warp is off its line [rad]
+    lengthening   of the warp between its fixed points [m]      tension of the warp [N]
+    torque        of the warp on the shaft [N m]    lifted  angle of the turn over which the warp is lifted [rad]
     """
 
     angle: FloatArray
@@ -57,7 +57,7 @@ class DrapedWarp:
 
 
 def bridges(surface: Complex[np.ndarray, " points"]) -> Bridges | None:
-    """Where a yarn bridges a cam; None where the cam is convex all round.
+    """Bridges of a yarn over a cam; None where the cam is convex all round.
 
     surface  points of the cam [m] about its axis, at cam angles evenly over a turn from 0
     """
@@ -90,10 +90,10 @@ def _above(points: ComplexArray, first: complex, last: complex) -> FloatArray:
 def draped_warp(
     surface: Complex[np.ndarray, " points"], warp: ShedWarp, radius: float, angle: Float[np.ndarray, " angles"]
 ) -> DrapedWarp | None:
-    """A warp draped over a cam; None where a hold of the warp stands within the reach of the nose.
+    """A warp draped over a cam; None where a fixed point of the warp is within the reach of the nose.
 
-    surface  points of the cam [m] about its axis at cam angle 0      warp   with its holds and its tension
-    radius   R, of the cam's base circle, on which the warp rests [m] angle  of the cam, one turn evenly [rad]
+    surface  points of the cam [m] about its axis at cam angle 0      warp   with its fixed points and tension
+    radius   R of the cam's base circle, on which the warp rests [m]  angle  of the cam, even over a turn [rad]
     """
     front, back = complex(radius, warp.front), complex(radius, -warp.back)
     if min(abs(front), abs(back)) <= float(np.max(np.abs(surface))):
@@ -107,7 +107,7 @@ def draped_warp(
     touch = np.argmax(leans[0], axis=1), np.argmax(leans[1], axis=1)
     row = np.arange(angle.size)
     steep = leans[0][row, touch[0]], leans[1][row, touch[1]]
-    # The ring runs counter-clockwise: from where the yarn from behind touches to where the one from in front does.
+    # The ring runs counter-clockwise, from the contact of the rear side of the yarn to that of the front side.
     arc = np.mod(along[touch[0]] - along[touch[1]], circumference)
     longer = np.abs(from_front[row, touch[0]]) + arc + np.abs(from_back[row, touch[1]]) - (warp.front + warp.back)
     off = (steep[0] > 0) & (steep[1] > 0) & (longer > 0)
@@ -125,6 +125,6 @@ def draped_warp(
 
 
 def _moment(at: ComplexArray, hold: complex) -> FloatArray:
-    """Moment about the cam's axis of a unit pull at points towards a hold [m]."""
+    """Moment arm about the cam's axis of a pull at points towards a fixed point [m]."""
     pull = (hold - at) / np.abs(hold - at)
     return np.asarray((np.conj(at) * pull).imag)

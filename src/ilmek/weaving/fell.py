@@ -1,20 +1,20 @@
-"""Resistance of the fell to the beat-up, and the distance of the rows that a force leaves.
+"""Resistance of the fell to the beat-up, and the distance of rows after a force.
 
 A row laid at the distance P from the fell is driven up to p. Greenwood and Cowhig found the weaving resistance to grow
-as k / (p - D) towards the jammed distance D. A row that is only laid resists with nothing, so that here it is
+as k / (p - D) towards the jammed distance D. A row that is only laid has no resistance, so here
 
     R(p) = K T (1 / (p - D) - 1 / (P - D)),      p(F) = D + 1 / (F / (K T) + 1 / (P - D))        force of one warp
 
-which falls from infinity at D to 0 at P, and tends to their law for a large P. The resistance comes from the friction
-of warps on wefts and so is proportional to the tension T of the warp. The length K states how hard the fabric packs; it
-is measured: one beat of a known force and the row that it leaves give it. During the beat the fell yields by x: warps
-tighten, cloth slackens,
+R falls from infinity at D to 0 at P, and tends to their law for a large P. The resistance comes from the friction of
+warps on wefts and so is proportional to the tension T of the warp. The length K is a property of the fabric. One beat
+of a known force and the resulting row distance determine it. During the beat the fell yields by x: warps tighten, cloth
+slackens,
 
     R = (kw + kc) x   until the cloth is slack, x = T / kc;      R = T + kw x   beyond: bumping
 
-with kw = EA / lw, kc = EA / lc, the stiffness of a warp and of its part of the cloth. When the comb is back, x is 0;
-the row stays at p. Work of a beat: K T (ln((P - D) / (p - D)) - (P - p) / (P - D)) is spent on packing; what stretches
-warps and cloth is returned.
+with kw = EA / lw, kc = EA / lc, the stiffness of a warp and of its part of the cloth. When the comb is back, x is 0
+and the row stays at p. The work K T (ln((P - D) / (p - D)) - (P - p) / (P - D)) of a beat packs the row; the work that
+stretches warps and cloth is returned.
 [Greenwood and Cowhig, The position of the cloth fell in power looms, Journal of the Textile Institute 47, 1956, T241;
 Vatankhah, Importance of the cloth fell position and its specification methods, 2010; the term 1 / (P - D) is derived
 here]
@@ -45,17 +45,17 @@ class Fabric:
     cloth_rate: float
 
     def resistance(self, spacing: RealField) -> RealField:
-        """R [N] at distances of rows [m] of any shape, above jammed and up to laid; infinite where rows are jammed."""
+        """Resistance R [N] at distances of rows [m] of any shape, from `jammed` (infinite) to `laid`."""
         return self.packing * self.tension * (1 / (spacing - self.jammed) - 1 / (self.laid - self.jammed))
 
     def spacing(self, force: RealField) -> RealField:
-        """Distance of rows p [m] that forces [N] of any shape leave; laid at 0, jammed at infinity."""
+        """Distance of rows p [m] after forces [N] of any shape; `laid` at 0, `jammed` at infinity."""
         return self.jammed + 1 / (force / (self.packing * self.tension) + 1 / (self.laid - self.jammed))
 
     def rate(self, spacing: float) -> float:
         """Stiffness of the fell [N/m] at a distance of rows [m]: packing in series with warp and cloth.
 
-        Beyond bumping only the warp carries.
+        Beyond bumping only the warp carries the force.
         """
         packing = self.packing * self.tension / (spacing - self.jammed) ** 2
         slack = float(self.resistance(spacing)) > self.bump
@@ -74,16 +74,16 @@ class Fabric:
         return np.asarray(np.where(np.less_equal(force, self.bump), taut, slack))
 
     def travel(self, force: RealField) -> FloatArray:
-        """Travel of the comb [m] from its contact with the laid row: packing and displacement of the fell."""
+        """Travel of the comb [m] from its contact with the laid row, under forces [N] of any shape."""
         return np.asarray(self.laid - self.spacing(force) + self.fell(force))
 
     def packing_work(self, spacing: float) -> float:
-        """Work [J] that drives a row to a distance [m]; it is not returned."""
+        """Work [J] of packing a row to a distance [m]; it is not returned."""
         laid, left = self.laid - self.jammed, spacing - self.jammed
         return self.packing * self.tension * (math.log(laid / left) - (laid - left) / laid)
 
     def stretching_work(self, force: float) -> float:
-        """Work [J] that a force [N] puts into warp and cloth: the area under R over x."""
+        """Work [J] of a force [N] in warp and cloth: the area under R over x."""
         x = float(self.fell(force))
         taut = min(x, self.tension / self.cloth_rate)
         beyond = x - taut
@@ -95,7 +95,7 @@ class Fabric:
         return self.packing_work(float(self.spacing(force))) + self.stretching_work(force)
 
     def struck(self, energy: float) -> float:
-        """Largest force [N] of a blow of an energy [J], all of which goes into the fell; inverse of `energy`."""
+        """Largest force [N] of a blow whose energy [J] is fully absorbed by the fell; inverse of `energy`."""
         high = self.tension
         while self.energy(high) < energy:
             high *= 2
@@ -108,14 +108,14 @@ class Fabric:
 
 LAID, JAMMED, PACKING = 1.5, 0.75, 0.25
 """A row before the beat, a jammed row, and the packing length K, over the required row pitch: assumed by this project.
-A row then needs 10 N on 15 N of tension; how hard a fabric packs is to be measured."""
+A row then requires 10 N at 15 N of tension; K is to be measured."""
 
 CLOTH_LENGTH = 0.5
 """Cloth from the fell to its beam [m]: assumed by this project."""
 
 
 def assumed_fabric(row_pitch: float, tension: float, stiffness: float, warp_length: float) -> Fabric:
-    """The fabric at the fell, of which only the required row pitch is known.
+    """The fabric at the fell for a required row pitch, with assumed packing properties.
 
     row_pitch  required [m]   tension, stiffness  of a warp [N], force over strain [N]   warp_length  to its beam [m]
 

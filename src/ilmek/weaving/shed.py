@@ -1,6 +1,6 @@
-"""The shed: how far it lengthens a warp, and the warp's tension, force and work.
+"""The shed: lengthening of a warp, and its tension, force and work.
 
-A warp is held at a distance a in front of the point where it is lifted and at a distance b behind it. Lifted by s,
+A warp is fixed at a distance a in front of the point of lift and at a distance b behind it. Lifted by s,
 
     dL = (sqrt(a² + s²) - a) + (sqrt(b² + s²) - b),      d(dL)/ds = s / sqrt(a² + s²) + s / sqrt(b² + s²)
     T  = T0 + k dL,      F = T d(dL)/ds,      W = T0 dL + k dL² / 2
@@ -23,7 +23,7 @@ def shed_lengthening(lift: RealField, front: float, back: float) -> FloatArray:
     lift         s [m], a number or an array of any shape
     front, back  a and b [m], above 0
 
-    The difference is taken as s² / (sqrt(a² + s²) + a), which keeps its digits where the lift is small.
+    The difference is computed as s² / (sqrt(a² + s²) + a), which loses no digits for a small lift.
 
     >>> round(float(shed_lengthening(0.060, 0.170, 0.170)), 6)
     0.020555
@@ -34,10 +34,10 @@ def shed_lengthening(lift: RealField, front: float, back: float) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class ShedWarp:
-    """A warp that the shed lifts.
+    """A warp in the shed.
 
     tension      T0, of the warp at rest [N]
-    front, back  a and b, from the point of lift to the holds of the warp [m], above 0
+    front, back  a and b, from the point of lift to the fixed points of the warp [m], above 0
     rate         k, gain of tension over lengthening [N/m]; 0: the tension does not change
     """
 

@@ -1,7 +1,7 @@
 """Tension of the warps over the rows between two take-ups: weaving, shed, take-up.
 
-Between its two cylinders a warp of length L and stiffness EA is held. Lengthening it by d, or releasing d less of it,
-changes its tension by EA d / L. With w the carpet woven between two take-ups and c the crimp of the warp,
+A warp of length L and stiffness EA runs between two cylinders. Lengthening it by d, or releasing d less of it, changes
+its tension by EA d / L. With w the carpet woven between two take-ups and c the crimp of the warp,
 
     weaving    w (1 + c) of warp becomes w of carpet: its crimp shortens the warp by w c     T + EA w c / L
     shed       the open shed lengthens the warp by dL (`shed`)                               T + EA dL / L while open
@@ -9,8 +9,8 @@ changes its tension by EA d / L. With w the carpet woven between two take-ups an
                the upper cylinder locked                                                     T + EA w / L
                the upper cylinder releases only w                                            T as after weaving
 
-So the tension does not drop between two take-ups: weaving tightens the warps, and w c, which the upper cylinder
-releases beyond what the lower one winds, is the correction. The carpet counts as stiff as its warps. Yarn creeps under
+So the tension does not drop between two take-ups. Weaving tightens the warps, and the upper cylinder releases w c more
+than the lower one winds. The carpet counts as stiff as its warps. Yarn creeps under
 a steady tension; this is not considered.
 [derived]
 """
@@ -25,7 +25,7 @@ from ilmek.units import N, mm
 
 TENSION_PER_PITCH = 15 * N / (2 * mm)
 """Usual tension of a warp over the pitch of the warps [N/m]: 15 N at 2 mm [thesis 3.1]. The mass
-of a warp, and with it what the warp bears, goes with its pitch: the tension per width stays the same."""
+of a warp and its strength are proportional to its pitch: the tension per width is constant."""
 
 
 def usual_tension(pitch: float) -> float:
@@ -69,10 +69,10 @@ def take_up_tension(tension: float, rate: float, woven: float, crimp: float, len
 
 
 def tension_history(tension: TakeUpTension, rows_between: int, rows: int) -> tuple[FloatArray, FloatArray]:
-    """Rows woven and the tension [N] of an even warp over some rows, as corners of a line; shape (6 rows + 1,) each.
+    """Rows woven [-] and tension [N] of an even warp over some rows, as corners of a line, (6 rows + 1,) each.
 
-    A row is knotted, then its shed opens and closes, then the other shed, in which the even warp lies still; after
-    every `rows_between` rows a take-up brings the tension back.
+    Each row is knotted, then its shed opens and closes, then the other shed, in which the even warp rests. After every
+    `rows_between` rows a take-up restores the tension.
     """
     gain, lift = (tension.woven - tension.rest) / rows_between, tension.shed - tension.woven
     at, over = [0.0], [tension.rest]

@@ -1,4 +1,4 @@
-"""The path of the yarn in a knot: its crossing word, its curve, and the proof of which knot a motion ties."""
+"""The path of the yarn in a knot: its crossing word, its curve, and the proof of the knot that a motion ties."""
 
 from ilmek.weaving.knots.led_yarn import SampledPath, end_path, knot_of_ends, yarn_between
 from ilmek.weaving.knots.path import KnotDimensions, KnotPath, knot_path

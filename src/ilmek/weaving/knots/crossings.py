@@ -1,17 +1,17 @@
-"""The crossing word of a path among warps, decided exactly, or refused.
+"""The crossing word of a path among warps: exact, or an error.
 
 A segment crosses the cut of a warp if its ends lie on either side of the line through warp and cut, and the warp lies
-on the pile side of it: the sign of one determinant, taken from floats where their error bound allows it and from whole
-fractions where it does not (Shewchuk, Adaptive precision floating-point arithmetic, 1997, bound A). A corner on the
-line itself counts as left of it, so that each crossing is counted once.
+on the pile side of it: the sign of one determinant, from floats where their error bound allows it and from exact
+fractions elsewhere (Shewchuk, Adaptive precision floating-point arithmetic, 1997, bound A). A corner on the
+line itself counts as left of it, so each crossing counts once.
 
-Samples of a curve are no polyline. Between two samples, a chord c apart, a path no longer than l stays in the ellipse
-with its foci at the samples, no farther from the chord than
+A sampled curve differs from its polyline. Between two samples at the distance c, a path of length l at most stays in
+the ellipse with its foci at the samples, and its distance from the chord is at most
 
     b = sqrt(l² - c²) / 2
 
-The ellipse is convex: if the warp, as large as it is, lies farther from the chord than b, path and chord pass it on the
-same side, and the word of the chords is the word of the path. If not, the samples do not tell.
+The ellipse is convex. If the warp with its keep-out radius is farther from the chord than b, path and chord pass it on
+the same side, and the word of the chords is the word of the path. Else the samples are too coarse.
 """
 
 import math
@@ -30,15 +30,15 @@ _ERROR = (3 + 16 * 2.0**-53) * 2.0**-53
 """Relative error bound of the determinant in floats."""
 
 _SLACK = 1e-9
-"""Relative: a path on the very edge of the room that a warp keeps does not touch."""
+"""Relative tolerance: a path at the keep-out radius of a warp does not touch it."""
 
 
 @record
 class WarpRow:
-    """Warps in section: positions [m] from left to right, seen with the pile upwards, and the room each keeps [m].
+    """Warps in section: positions [m] from left to right, with the pile upwards.
 
-    keep_out  radius about each axis that the path may not enter: the warp's, plus half of what moves
-    Raises CarpetError where warps are missing, not finite, or not in order.
+    keep_out  radius about each axis that the path may not enter [m]: the warp's, plus half the moving part
+    Raises CarpetError for no warps, positions that are not finite or not in order, and a negative keep-out radius.
     """
 
     positions: Complex[np.ndarray, " warps"]
@@ -62,7 +62,7 @@ class WarpRow:
 
 
 def row_of_warps(count: int, pitch: float) -> ComplexArray:
-    """Places of a row of warps [m], the first at 0, the pile upwards.
+    """Positions [m] of a row of `count` warps of a pitch [m], the first at 0, the pile upwards.
 
     >>> row_of_warps(3, 2.0).tolist()
     [0j, (2+0j), (4+0j)]
@@ -71,10 +71,11 @@ def row_of_warps(count: int, pitch: float) -> ComplexArray:
 
 
 def arc_lengths(points: Complex[np.ndarray, " points"]) -> Float[np.ndarray, " chords"]:
-    """Lengths [m] of a smooth curve between its samples, judged by how much the chords turn: exact on circles.
+    """Estimated lengths [m] of a smooth curve between its samples, from the angles between chords: exact on circles.
 
-    A chord c, turned by t to its neighbour, spans the arc c (t/2) / sin(t/2); the greater of two turns counts.
-    An estimate, not a bound: where the motion has a greatest speed, that speed times the time step is the bound.
+    points  samples [m]
+    A chord c at the angle t to its neighbour spans the arc c (t/2) / sin(t/2); the larger of two angles counts.
+    An upper bound is the largest speed of the motion times the time step.
     """
     chords = np.diff(points)
     moved = np.abs(chords) > 0
@@ -87,11 +88,11 @@ def arc_lengths(points: Complex[np.ndarray, " points"]) -> Float[np.ndarray, " c
 
 
 def crossings(row: WarpRow, points: Complex[np.ndarray, " points"], lengths: FloatArray | None = None) -> Word:
-    """The word of a path, letter by letter as it crosses the cuts, not yet reduced.
+    """The word of a path in the order of its crossings, not reduced.
 
-    points   corners of the path, or samples of it [m], the pile upwards
-    lengths  the path's length between each two samples at most [m]; None: the path is the polyline itself
-    Raises CarpetError where the path touches a warp, and where the samples are too coarse to tell which side it passes.
+    points   corners of the path, or samples [m], the pile upwards
+    lengths  upper bounds of the path's length between neighbouring samples [m]; default: the path is the polyline
+    Raises CarpetError where the path touches a warp, and where the samples are too coarse to decide the side.
     """
     check_points(points)
     sag = _sag(np.abs(np.diff(points)), lengths)
@@ -104,7 +105,7 @@ def crossings(row: WarpRow, points: Complex[np.ndarray, " points"], lengths: Flo
 
 
 def check_points(points: ComplexArray) -> None:
-    """Raises CarpetError where a path has fewer than two points, or one that is no number."""
+    """Raise CarpetError for a path of fewer than two points, or with a point that is not finite."""
     if len(points) < 2:
         raise CarpetError(f"a path of {len(points)} points", allowed="two or more")
     if not np.isfinite(points).all():
@@ -112,7 +113,7 @@ def check_points(points: ComplexArray) -> None:
 
 
 def _sag(chords: FloatArray, lengths: FloatArray | None) -> FloatArray:
-    """How far the path may lie from its chords [m]: b = sqrt(l² - c²) / 2."""
+    """Largest distance of the path from its chords [m]: b = sqrt(l² - c²) / 2."""
     if lengths is None:
         return np.zeros_like(chords)
     lengths = np.broadcast_to(np.asarray(lengths, float), chords.shape)
@@ -136,7 +137,7 @@ def distances(axis: complex, points: ComplexArray) -> FloatArray:
 
 
 def _clear_of(number: int, axis: complex, keep_out: float, points: ComplexArray, sag: FloatArray) -> None:
-    """Raises CarpetError where the path touches the warp, or may pass it on either side."""
+    """Raise CarpetError where the path touches the warp, or the side of the warp is not decided."""
     room = keep_out * (1 - _SLACK)
     gap = distances(axis, points)
     _untouched(number, axis, keep_out, points)
@@ -155,7 +156,7 @@ def _clear_of(number: int, axis: complex, keep_out: float, points: ComplexArray,
 
 
 def _untouched(number: int, axis: complex, keep_out: float, points: ComplexArray) -> None:
-    """Raises CarpetError where a point of the path itself lies in the warp's room."""
+    """Raise CarpetError where a point of the path is within the keep-out radius of the warp."""
     near = np.abs(points - axis)
     inside = (near < keep_out * (1 - _SLACK)) | (near == 0)
     if inside.any():
@@ -187,7 +188,7 @@ def _across(number: int, axis: complex, points: ComplexArray) -> tuple[list[int]
 
 
 def orientation(start: ComplexArray, end: ComplexArray, axis: complex) -> Int[np.ndarray, " segments"]:
-    """+1 where the position lies left of the segment, -1 right, 0 on its line; exact for the floats as they are.
+    """+1 where the position `axis` is left of the segment, -1 right, 0 on its line; exact for the given floats.
 
     >>> orientation(np.array([0j]), np.array([3 + 3j]), 0.1 + 0.1j), orientation(np.array([0j]), np.array([1 + 0j]), 1j)
     (array([0]), array([1]))
@@ -212,10 +213,10 @@ def _exact(start: complex, end: complex, axis: complex) -> int:
 def sampled_curve(
     row: WarpRow, curve: Callable[[FloatArray], ComplexArray], speed: float, *, most: int = 200_000
 ) -> tuple[ComplexArray, FloatArray]:
-    """Samples of a curve fine enough to tell which side of every warp it passes, and bounds of the lengths between.
+    """Samples [m] of a curve, fine enough to decide the side of every warp, and bounds of the lengths between them [m].
 
-    curve  positions [m] for values 0 to 1; takes an array      speed  its greatest speed |dz/du| [m], a bound
-    Halves only what does not yet tell. Raises CarpetError where it is so near a warp that `most` samples do not tell.
+    curve  positions [m] for an array of parameters u in [0, 1]      speed  upper bound of |dz/du| [m]
+    Only undecided intervals are halved. Raises CarpetError where `most` samples do not decide a side.
     """
     at = np.linspace(0.0, 1.0, 65)
     points = np.asarray(curve(at), complex)
@@ -230,7 +231,7 @@ def sampled_curve(
         middle = (at[:-1] + at[1:])[unsure] / 2
         if len(at) + len(middle) > most or (np.diff(at)[unsure] < 1e-12).any():
             raise CarpetError(
-                f"the path touches warp {warp}, or nearly: {len(at)} samples do not tell which side it passes",
+                f"the path touches warp {warp}, or nearly: {len(at)} samples do not decide the side",
                 allowed=f"more than {format_quantity(row.keep_out, 'mm')} from its axis",
                 do=f"lead it round warp {warp}",
             )
@@ -239,7 +240,7 @@ def sampled_curve(
 
 
 def _undecided(row: WarpRow, points: ComplexArray, sag: FloatArray) -> tuple[BoolArray, int]:
-    """Chords that do not decide their side of some warp, and the last such warp."""
+    """Chords with an undecided side of some warp, and the last such warp."""
     unsure, warp = np.zeros(len(sag), bool), 0
     for number, axis in enumerate(row.positions.tolist(), start=1):
         here = distances(axis, points) - sag <= row.keep_out

@@ -1,4 +1,4 @@
-"""A knot drawn in section: warps as circles, the yarn's axis as it runs, the cuts that its word is read from."""
+"""Drawing of a knot in section: warps as circles, the yarn's axis, and the cuts of its word."""
 
 import numpy as np
 
@@ -7,13 +7,13 @@ from ilmek.report import Dot, Drawing, Stroke
 from ilmek.weaving.knots.path import KnotPath, warp_positions
 
 _SHARE = 1 / 40
-"""Step between drawn points, of the radius about a warp."""
+"""Step between drawn points over the radius about a warp."""
 
 
 def knot_drawing(path: KnotPath, *, cuts: bool = False) -> Drawing:
     """The knot on its warps and one neighbour on each side, the pile upwards.
 
-    cuts  also show the cut behind each warp that a crossing is a letter of
+    cuts  also show the cut behind each warp; crossing it is a letter of the word
     """
     size = path.dimensions
     warps = range(path.knot.warps[0] - 1, path.knot.warps[-1] + 2)
@@ -36,5 +36,5 @@ def knot_drawing(path: KnotPath, *, cuts: bool = False) -> Drawing:
 
 
 def _cut(position: complex, radius: float, diameter: float) -> ComplexArray:
-    """From the back of a warp away from the pile."""
+    """The cut of a warp, from its back away from the pile."""
     return position - 1j * np.array([diameter / 2, 2.1 * radius])

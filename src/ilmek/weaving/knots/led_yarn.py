@@ -1,10 +1,9 @@
-"""The yarn that grippers lead by its two ends: sampled paths of the ends, and the proof of the knot that they tie.
+"""The yarn guided by grippers at its two ends: sampled paths of the ends, and the proof of the knot.
 
-The yarn starts as a straight line between the starts of its ends. Each end then follows the gripper that holds it;
-where one gripper hands it over to the next, the end goes straight from one to the other. So the yarn lies as the first
-end's path backwards, the straight line, and the second end's path. The proof [`proof`] needs samples of that path and
-an upper bound of its length between each two; where the samples are too coarse to tell on which side of a warp the path
-passes, it is sampled more finely.
+The yarn starts as a straight line between its ends. Each end then follows the gripper that holds it; at a transfer it
+moves straight from one gripper to the next. So the yarn follows the first end's path backwards, the straight line, and
+the second end's path. The proof [`proof`] requires samples of that path and upper bounds of its length between them.
+Samples that are too coarse to decide the side of a warp are refined.
 """
 
 from collections.abc import Callable, Sequence
@@ -17,24 +16,24 @@ from ilmek.errors import CarpetError
 from ilmek.weaving.knots.proof import TiedKnot, no_knot, tied_knot
 
 SAMPLES = (201, 1601, 12801)
-"""Samples of each motion, from coarse to fine."""
+"""Numbers of samples of each motion, from coarse to fine."""
 
 _ROUNDING = 1e-9
-"""Relative surplus of a bound, for rounding."""
+"""Relative addition to a bound, for rounding."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SampledPath:
-    """A path by samples: its points [m], and upper bounds of its length between each two of them [m]."""
+    """A sampled path: points [m], and upper bounds of its length between neighbouring points [m]."""
 
     points: Complex[np.ndarray, " points"]
     lengths: Float[np.ndarray, " chords"]
 
 
 def end_path(motions: Sequence[tuple[ComplexArray, FloatArray]]) -> SampledPath:
-    """The path of an end that follows one motion after the other, straight from each to the next.
+    """The path of an end that follows several motions in sequence, with straight transfers.
 
-    motions  of each gripper that leads the end: samples [m], and upper bounds of the path between each two [m]
+    motions  of each gripper that guides the end: samples [m], and upper bounds of the length between them [m]
 
     >>> path = end_path([(np.array([0j, 1 + 0j]), np.ones(1)), (np.array([1 + 2j, 1 + 3j]), np.ones(1))])
     >>> path.points.tolist(), path.lengths.round(6).tolist()
@@ -49,7 +48,7 @@ def end_path(motions: Sequence[tuple[ComplexArray, FloatArray]]) -> SampledPath:
 
 
 def yarn_between(first: SampledPath, second: SampledPath) -> SampledPath:
-    """The yarn between two ends that were led: the first path backwards, straight to the second's start, the second.
+    """The yarn between two guided ends: the first path backwards, straight to the start of the second, the second path.
 
     >>> one, other = (end_path([(np.array([x + 0j, x + 1j]), np.ones(1))]) for x in (-1, 1))
     >>> yarn_between(one, other).points.tolist()
@@ -62,7 +61,7 @@ def yarn_between(first: SampledPath, second: SampledPath) -> SampledPath:
 
 
 def evenly(path: Complex[np.ndarray, " points"], samples: int) -> Complex[np.ndarray, " samples"]:
-    """Points along a polygon [m], evenly apart by its length, both ends included.
+    """Points [m] along a polyline, even by arc length, both ends included.
 
     >>> evenly(np.array([0j, 1 + 0j, 1 + 3j]), 5).tolist()
     [0j, (1+0j), (1+1j), (1+2j), (1+3j)]
@@ -78,13 +77,13 @@ def knot_of_ends(
     *,
     keep_out: float = 0.0,
 ) -> TiedKnot:
-    """The knot that two led ends tie, sampled as finely as the proof takes.
+    """The knot tied by two guided ends, sampled as finely as the proof requires.
 
-    ends      paths of both ends for a number of samples of each motion
+    ends      gives the paths of both ends for a number of samples of each motion
     warps     positions of the warps from left to right [m], the pile upwards; they are numbered from 1
     keep_out  radius about each warp's axis that the yarn may not enter [m]
-    Where nothing is proved at the finest sampling, such as of a yarn that touches a warp, no knot is tied; the result
-    states the reason.
+    Where the finest sampling gives no proof, for example where the yarn touches a warp, the result is no knot with the
+    reason.
     """
     reason = ""
     for samples in SAMPLES:

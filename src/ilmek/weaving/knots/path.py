@@ -1,19 +1,19 @@
-"""Knots as curves: the path of the pile yarn, and of the gripper that leads its end, in the section across the warps.
+"""Knots as curves: the path of the pile yarn, and of the gripper that guides its end, in the section across the warps.
 
-Warp k of pitch p stands at (k - 1) p, the pile is upwards. The yarn's axis keeps the radius
+For the pitch p, warp k is at (k - 1) p, and the pile is upwards. The yarn's axis keeps the radius
 
     r = (D + d)/2 + e         D warp's, d yarn's diameter, e clearance
 
-about every warp it goes round; between two warps it runs along their common tangent, outer where it turns in the same
-sense round both, inner where it turns in the other sense, at the angle alpha to the row, sin alpha = 2r/p. Both ends
-rise upright from the height of the warps' axes to the height a. So the curve is a chain of straight lines and arcs, of
-curvature 0 and +-1/r, with one tangent throughout, and from a start z0 of heading h a piece of curvature kappa goes to
+about every warp that it wraps. Between two warps it follows their common tangent: the outer one where it turns about
+both in the same sense, the inner one where it turns in opposite senses, at the angle alpha to the row, sin alpha =
+2r/p. Both ends rise vertically from the height of the warps' axes to the height a. So the curve is a chain of straight
+lines and arcs of curvature 0 and +-1/r with a continuous tangent. A piece of curvature kappa from a start z0 of heading
+h is
 
     z(s) = z0 + s sinc(kappa s/2) exp(i (h + kappa s/2))        sinc x = sin x / x
 
-Its length is 2 a and the wrap of its kind [`elements.knot_kinds`], for warps of any pitch p >= 2r. Closer warps leave
-the yarn no room between them: there is no such curve, while `carpet.pile` still gives how much yarn the knot takes,
-pressed as it is in the carpet.
+Its length is 2 a and the wrap of its kind [`elements.knot_kinds`], for warps of any pitch p >= 2r. Between closer warps
+the yarn does not fit and there is no such curve; `carpet.pile` still gives the length of yarn of the pressed knot.
 """
 
 import math
@@ -32,12 +32,12 @@ _QUARTER, _HALF = math.pi / 2, math.pi
 
 @dataclass(frozen=True, slots=True)
 class KnotDimensions:
-    """What sets a knot's curve [m].
+    """Dimensions of a knot's curve [m].
 
-    pitch           p, of two warps                 clearance  e, kept from the warps besides half the yarn
+    pitch           p, of two warps                 clearance  e, between yarn and warp
     warp_diameter   D                               leg        a, height of both ends above the warps' axes
     yarn_diameter   d, of the pile yarn
-    Raises CarpetError for numbers out of bounds, and where the warps leave the yarn no room between them.
+    Raises CarpetError for numbers out of bounds, and for a pitch below 2r.
     """
 
     pitch: float
@@ -61,7 +61,7 @@ class KnotDimensions:
                 f"warps of {shown[1]} at a pitch of {shown[0]} leave no room for a yarn of {shown[2]} "
                 f"with {shown[3]} clearance",
                 allowed=f"a pitch of {format_quantity(least, 'mm')} or more",
-                do="open the warps, or take a finer yarn",
+                do="increase the pitch, or use a finer yarn",
             )
 
     @property
@@ -71,7 +71,7 @@ class KnotDimensions:
 
     @property
     def legs_side_by_side(self) -> bool:
-        """Whether two legs have room beside each other between two warps; if not, they lie one behind the other."""
+        """Whether two legs fit side by side between two warps; else they lie one behind the other."""
         return self.pitch >= 2 * self.radius + self.yarn_diameter
 
 
@@ -101,7 +101,7 @@ class KnotPath:
         return warp_positions(self.knot.warps, self.dimensions.pitch)
 
     def point(self, s: RealField) -> ComplexArray:
-        """Positions at arc lengths s [m]; straight on beyond the ends."""
+        """Positions [m] at arc lengths s [m]; straight beyond the ends."""
         piece, along = self._at(s)
         half = self.curvatures[piece] * along / 2
         return np.asarray(
@@ -114,11 +114,11 @@ class KnotPath:
         return np.asarray(np.exp(1j * (self.headings[piece] + self.curvatures[piece] * along)))
 
     def curvature(self, s: RealField) -> FloatArray:
-        """Curvatures at arc lengths s [1/m], left turns positive; where two pieces meet, that of the later."""
+        """Curvatures [1/m] at arc lengths s [m], left turns positive; where two pieces meet, that of the later."""
         return np.asarray(self.curvatures[self._at(s)[0]])
 
     def distances(self, step: float) -> FloatArray:
-        """Arc lengths [m] from end to end, evenly apart by `step` at most. Raises CarpetError unless step > 0."""
+        """Even arc lengths [m] from end to end, at most `step` [m] apart. Raises CarpetError unless step > 0."""
         if not 0 < step < math.inf:
             raise CarpetError(f"a step of {step} m", allowed="more than 0")
         return np.linspace(0.0, self.length, math.ceil(self.length / step) + 1)
@@ -150,7 +150,7 @@ def knot_path(knot: Knot, dimensions: KnotDimensions) -> KnotPath:
 
 
 def wrap_length(knot: Knot, dimensions: KnotDimensions) -> float:
-    """Length of a knot's curve without its legs [m], by `knots`; 3 pi r for a single-warp knot."""
+    """Length of a knot's curve without its legs [m]; 3 pi r for a single-warp knot."""
     pitch, radius = dimensions.pitch, dimensions.radius
     left, right = len(knot.left), len(knot.right)
     if knot.kind == "symmetric":
@@ -161,7 +161,7 @@ def wrap_length(knot: Knot, dimensions: KnotDimensions) -> float:
 
 
 def warp_positions(warps: Word, pitch: float) -> ComplexArray:
-    """Positions [m] of warps of these numbers in a row of this pitch, warp 1 at 0.
+    """Positions [m] of warps by their numbers in a row of a pitch [m], warp 1 at 0.
 
     >>> warp_positions((2, 3), 4.0).tolist()
     [(4+0j), (8+0j)]
@@ -181,7 +181,7 @@ def _symmetric(knot: Knot, d: KnotDimensions) -> Moves:
 
 
 def _open_left(knot: Knot, d: KnotDimensions) -> Moves:
-    """As if it were open left, whichever side it is: its mirror image is made of it."""
+    """Moves of the knot open left; the knot open right is its mirror image."""
     r, p = d.radius, d.pitch
     groups = (knot.left, knot.right) if knot.opens == "left" else (knot.right, knot.left)
     passed, round_ = ((len(group) - 1) * p for group in groups)
@@ -200,7 +200,7 @@ _MAKERS = {"symmetric": _symmetric, "asymmetric": _open_left, SINGLE: _single}
 
 
 def _begin(knot: Knot, d: KnotDimensions) -> complex:
-    """Where the first leg begins: right of the left warps, or left of all of them."""
+    """Start of the first leg [m]: right of the left warps, or left of all of them."""
     warp = knot.left[-1] if knot.kind == "symmetric" else knot.left[0]
     side = 1 if knot.kind == "symmetric" else -1
     return complex((warp - 1) * d.pitch + side * d.radius, d.leg)
@@ -209,6 +209,6 @@ def _begin(knot: Knot, d: KnotDimensions) -> complex:
 def _mirrored(
     knot: Knot, d: KnotDimensions, starts: ComplexArray, headings: FloatArray, curvatures: FloatArray
 ) -> tuple[ComplexArray, FloatArray, FloatArray]:
-    """Pieces mirrored about the upright line through the knot's middle."""
+    """Pieces mirrored about the vertical line through the knot's middle."""
     twice = (knot.warps[0] + knot.warps[-1] - 2) * d.pitch
     return twice - np.conj(starts), math.pi - headings, -curvatures

@@ -1,11 +1,11 @@
-"""Which knot a motion of the yarn's end ties.
+"""Proof of the knot that a motion of the yarn's end ties.
 
-A yarn held at the pile and led by its other end lies as the end went: pulled tight without crossing a warp, it is the
-path of the end, with all loops pulled out. So the reduced word of the path (`knots.word`) says which knot it is;
-equal words are a proof, since the words tell all paths apart that cannot be pulled into each other. Where two grippers
-lead one end each from one position, the yarn is the first path backwards and then the second: `joined_ends`.
+A yarn that is fixed in the pile and guided by its other end follows the path of that end; pulled tight without crossing
+a warp, it is that path without its loops. So the reduced word of the path (`knots.word`) identifies the knot. Equal
+words are a proof, because the words distinguish all paths that cannot be deformed into each other. Where two grippers
+guide one end each from one position, the yarn is the first path backwards, then the second: `joined_ends`.
 
-The warps stand still, and both ends must lie in the pile, in front of every warp; `pile` states which side that is.
+The warps are at rest, and both ends must lie in the pile, in front of every warp; `pile` is its direction.
 """
 
 from collections.abc import Callable
@@ -22,10 +22,10 @@ from ilmek.weaving.knots.word import Knot, Word, recognised, reduced, verdict
 
 @dataclass(frozen=True, slots=True)
 class TiedKnot:
-    """What a motion ties.
+    """The knot tied by a motion.
 
     knot      the knot, or None                           word   the reduced word of the path
-    backward  the yarn runs through the knot from its     words  the knot's name, or why it is none
+    backward  the yarn runs through the knot from its     words  the knot's name, or the reason for no knot
               other end (its word is the knot's inverse)
     """
 
@@ -49,16 +49,16 @@ def tied_knot(
     closed: bool = False,
     pile: complex = 1j,
 ) -> TiedKnot:
-    """The knot that a path of the yarn's end ties on a row of warps, or that it ties none and why.
+    """The knot that a path of the yarn's end ties on a row of warps, or the reason for no knot.
 
-    points    corners of the path, or samples of it, in the order of the motion [m]
+    points    corners of the path, or samples, in the order of the motion [m]
     warps     positions of the warps from left to right [m], seen with the pile upwards; they are numbered from 1
     keep_out  radius about each warp's axis that the path may not enter [m]
-    lengths   of the path between each two samples at most [m], such as greatest speed times time step, or
-              `arc_lengths(points)`; None: the path is the polyline itself
-    closed    the motion ends where it began: the first point is passed again
-    pile      direction towards the pile
-    Raises CarpetError where the path touches a warp, and where the samples cannot tell which side of a warp it passes.
+    lengths   upper bounds of the path's length between neighbouring samples [m], for example largest speed times time
+              step, or the estimate `arc_lengths(points)`; default: the path is the polyline
+    closed    the motion ends at its start: the first point is repeated
+    pile      direction towards the pile, complex
+    Raises CarpetError where the path touches a warp, and where the samples do not decide the side of a warp.
 
     >>> warps = np.array([0j, 2 + 0j])
     >>> tied_knot(np.array([1 + 5j, 1 - 2j, -2 - 2j, -2 + 2j, 4 + 2j, 4 - 2j, 1 - 2j, 1 + 5j]), warps).words
@@ -81,10 +81,10 @@ def knot_of_curve(
     keep_out: float = 0.0,
     pile: complex = 1j,
 ) -> TiedKnot:
-    """The knot that a curve ties: sampled as finely as it takes to be sure.
+    """The knot that a curve ties, sampled as finely as the proof requires.
 
-    curve  positions [m] of the yarn's end for values 0 to 1, an array of them     speed  its greatest speed |dz/du| [m]
-    the rest as of `tied_knot`. Raises CarpetError where the curve touches a warp, or nearly.
+    curve  positions [m] of the yarn's end for an array of parameters u in [0, 1]      speed  upper bound of |dz/du| [m]
+    Other arguments as in `tied_knot`. Raises CarpetError where the curve touches a warp, or nearly.
 
     >>> ring = lambda u: 2.5j * np.exp(2j * np.pi * u)
     >>> knot_of_curve(ring, 16.0, np.array([0j, 2 + 0j])).words
@@ -99,9 +99,10 @@ def knot_of_curve(
 def joined_ends(
     first: Complex[np.ndarray, " first"], second: Complex[np.ndarray, " second"]
 ) -> Complex[np.ndarray, " both"]:
-    """The path of a yarn whose two ends were led from one position: the first motion backwards, then the second.
+    """The path of a yarn whose two ends are guided from one position: the first motion backwards, then the second.
 
-    Raises CarpetError where they do not start at one position.
+    first, second  paths of the ends [m]
+    Raises CarpetError where the paths do not start at one position.
 
     >>> joined_ends(np.array([0j, -1 + 0j]), np.array([0j, 1 + 0j])).real.tolist()
     [-1.0, 0.0, 1.0]
@@ -112,13 +113,13 @@ def joined_ends(
     if gap > 1e-9 * float(max(np.abs(np.diff(first)).sum(), np.abs(np.diff(second)).sum())):
         raise CarpetError(
             f"the two motions start {format_quantity(gap, 'mm')} apart",
-            allowed="both ends led from one position of the yarn",
+            allowed="both ends start at one position of the yarn",
         )
     return np.concatenate([first[::-1], second[1:]])
 
 
 def _upright(pile: complex) -> complex:
-    """The turn that brings the pile upwards; exact for the four directions of the axes."""
+    """The rotation that turns the pile upwards; exact for the four directions of the axes."""
     if not np.isfinite(pile) or pile == 0:
         raise CarpetError(f"the pile lies in direction {pile}", allowed="a direction, such as 1j for upwards")
     turn = 1j * np.conj(pile) / abs(pile)
@@ -126,7 +127,7 @@ def _upright(pile: complex) -> complex:
 
 
 def _turned(points: ComplexArray, turn: complex) -> ComplexArray:
-    with np.errstate(invalid="ignore"):  # positions that are not finite are refused in words later
+    with np.errstate(invalid="ignore"):  # positions that are not finite raise a CarpetError later
         return np.asarray(points * turn, complex)
 
 

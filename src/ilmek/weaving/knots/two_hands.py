@@ -1,9 +1,9 @@
-"""Which knot two hands tie on the two warps between them: the yarn that they lead, reduced to its crossing word.
+"""The knot that two hands tie on the two warps between them, from the crossing word of their yarn.
 
-The yarn is held by both hands from the first pose on, straight between them; each hand leads its end along its path. So
-the yarn lies as the first hand's path backwards, the straight line, and the second hand's path. The warps stand half a
-pitch on either side of the mirror. The poses do not state the height of the warps: every height at which the yarn
-begins and ends in the pile is tried, with the pile above the warps and below.
+Both hands hold the yarn from the first pose on, straight between them; each guides its end along its path. So the yarn
+follows the first hand's path backwards, the straight line, and the second hand's path. The warps are half a pitch on
+either side of the mirror line. The poses do not give the height of the warps: every height at which the yarn begins and
+ends in the pile is tried, with the pile above and below the warps.
 """
 
 from dataclasses import dataclass
@@ -16,18 +16,18 @@ from ilmek.units import format_quantity
 from ilmek.weaving.knots.proof import TiedKnot, joined_ends, tied_knot
 
 HEIGHTS = 24
-"""Heights of the warps that are tried for either side of the pile, over the whole height of the paths."""
+"""Number of heights of the warps tried for either side of the pile, over the height of the paths."""
 
 TRIED, HALVED = 32, 12
-"""Pitches of the warps that are tried, and how often the step to one on which a knot is tied is halved."""
+"""Number of pitches of the warps tried, and number of bisections of the step at a bound."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TwoHandKnot:
-    """What two hands tie.
+    """The knot tied by two hands.
 
-    name   the knot in words, or "no knot"                      why    where it is tied, or why it is none
-    tied   the knot, None where there is none
+    name   the knot in words, or "no knot"                      why    where it is tied, or the reason for no knot
+    tied   the knot; None: no knot
     warps  positions of the two warps [m]: of the knot, or at half of the height
     yarn   the yarn's path from end to end [m]
     """
@@ -40,9 +40,9 @@ class TwoHandKnot:
 
 
 def knot_of_hands(first: ComplexArray, second: ComplexArray, pitch: float) -> TwoHandKnot:
-    """What two hands tie on two warps of a pitch [m].
+    """The knot that two hands tie on two warps of a pitch [m].
 
-    first, second  paths of the two hands [m], mirror images about an upright line; one dimension, the same length
+    first, second  paths of the two hands [m], mirror images about a vertical line, (points,) each
 
     >>> path = np.array([-3 + 0j, -1 + 2j])
     >>> knot_of_hands(path, -path.conj(), 1.0).why
@@ -65,9 +65,9 @@ def knot_of_hands(first: ComplexArray, second: ComplexArray, pitch: float) -> Tw
 
 
 def pitch_range(first: ComplexArray, second: ComplexArray) -> tuple[float, float] | None:
-    """The least and the greatest pitch of the two warps [m] on which a knot is tied; None where none was found.
+    """Least and greatest pitch of the two warps [m] at which a knot is tied; None where none is found.
 
-    first, second  paths of the two hands [m], as of `knot_of_hands`
+    first, second  paths of the two hands [m], as in `knot_of_hands`
 
     >>> round_one_warp = np.array([-3 + 0j, -3 + 3j, -0.5 + 3j, -0.5 + 0j])
     >>> least, most = pitch_range(round_one_warp, -round_one_warp.conj())
@@ -90,7 +90,7 @@ def pitch_range(first: ComplexArray, second: ComplexArray) -> tuple[float, float
 
 
 def _tied(yarn: ComplexArray, warps: ComplexArray, pile: complex) -> TiedKnot | None:
-    """What is tied on two warps; None where an end is not in the pile, or the yarn touches a warp."""
+    """The knot on two warps; None where an end is not in the pile, or the yarn touches a warp."""
     if np.min(np.imag(yarn[[0, -1]] - warps[0]) * pile.imag) <= 0:
         return None
     try:

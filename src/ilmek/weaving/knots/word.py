@@ -1,13 +1,13 @@
-"""Words of yarns and knots: how the yarn passes behind which warps, in the free group of the warps of a row.
+"""Words of yarns and knots: the passages of the yarn behind warps, in the free group of the warps of a row.
 
-In the section across the warps every warp is a hole in the plane. A cut runs from each hole away from the pile; a yarn
-that comes from the pile and goes back to it crosses the cuts one after the other, and each crossing is a letter:
+In the section across the warps every warp is a hole in the plane. A cut runs from each hole away from the pile. A yarn
+from the pile and back to it crosses the cuts in sequence, and each crossing is a letter:
 
     +k   the yarn passes behind warp k from left to right            -k   from right to left
 
-The pile side, all that lies in front of the warps, has no cut in it and no hole: it is the base point, as large as it
-is, so that both ends may move there as they like. Two yarns can be pulled into each other without crossing a warp if
-and only if their words are the same once all neighbouring pairs +k -k and -k +k are struck out (the fundamental group
+The pile side, the region in front of the warps, has no cut and no hole. It is the base point, so both ends may move
+freely in it. Two yarns can be deformed into each other without crossing a warp if and only if their words are equal
+after all neighbouring pairs +k -k and -k +k are cancelled (the fundamental group
 of the plane without n points is free on n letters; any topology, e.g. Hatcher, Algebraic Topology, 2002, section 1.2).
 
 With A the left and B the right warps of a knot, u(G) the letters of G upwards (behind all of G from left to right) and
@@ -18,9 +18,9 @@ With A the left and B the right warps of a knot, u(G) the letters of G upwards (
     asymmetric, open right     ~u(B)  u(A)      its mirror image
     single-warp (Spanish)       u(A)  u(A)      one and a half turns round one warp
 
-and their inverses, where the yarn runs from its other end. A knot is open on the side whose warps it only passes
-behind. The mirror image of the symmetric knot is itself, of the single-warp knot too, each run from the other end. With
-A and B of two warps each it is the jufti form of the knot; groups of unlike numbers, as three warps, are known as well.
+and their inverses, for the yarn from its other end. A knot is open on the side whose warps it only passes behind. The
+symmetric knot and the single-warp knot are their own mirror images, from the other end. With two warps each in A and B
+it is the jufti form of the knot; groups of different numbers are recognised too.
 """
 
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ _SIDES = ("left", "right")
 
 
 def reduced(word: Word) -> Word:
-    """The word with all neighbouring inverses struck out, until none is left; the result is unique.
+    """The word with all neighbouring inverses cancelled until none remain; the result is unique.
 
     >>> reduced((1, 2, -2, -1, 3))
     (3,)
@@ -53,7 +53,7 @@ def reduced(word: Word) -> Word:
 
 
 def inverse(word: Word) -> Word:
-    """The word of the same yarn run from its other end.
+    """The word of the same yarn from its other end.
 
     >>> inverse((1, -2))
     (2, -1)
@@ -62,7 +62,7 @@ def inverse(word: Word) -> Word:
 
 
 def passes(word: Word) -> tuple[Word, ...]:
-    """The word cut where the yarn comes up into the pile: each part goes behind neighbouring warps in one sweep.
+    """The word divided where the yarn rises into the pile: each part passes behind neighbouring warps at once.
 
     >>> passes((-2, -1, -4, -3, 1))
     ((-2, -1), (-4, -3), (1,))
@@ -85,7 +85,7 @@ def listed(warps: Word) -> str:
 
 
 def word_text(word: Word) -> str:
-    """The word in plain text, as a weaver would describe the path.
+    """The word in plain text.
 
     >>> word_text((-1, -3, -2))
     'behind warp 1 from right to left, behind warps 3 and 2 from right to left'
@@ -103,7 +103,7 @@ class Knot:
 
     kind   symmetric, asymmetric or single-warp        left, right  neighbouring warps left and right of its middle;
     opens  left or right of an asymmetric knot, else ""             a single-warp knot has its warp at the left
-    Raises CarpetError for kinds, sides and warps that make no knot; `knot` makes one from fewer words.
+    Raises CarpetError for kinds, sides and warps that form no knot; `knot` builds one from fewer arguments.
     """
 
     kind: str
@@ -132,7 +132,7 @@ class Knot:
 
     @property
     def word(self) -> Word:
-        """Its word; the knot run from the other end has the inverse."""
+        """Its word; from the other end the knot has the inverse."""
         left, right = self.left, self.right
         if self.kind == SINGLE:
             return left + left
@@ -170,8 +170,8 @@ def knot(kind: str, first: int = 1, *, opens: str = "left", each: int = 1) -> Kn
     """The knot over 2 `each` warps from warp `first` on.
 
     kind   symmetric, asymmetric, one of their trade names, or single-warp     first  its first warp at the left, from 1
-    opens  the side an asymmetric knot is open on; the others have none        each   1; 2 for the jufti form
-    Raises CarpetError for an unknown kind or side, or warps that are none.
+    opens  open side of an asymmetric knot; ignored for the others             each   1; 2 for the jufti form
+    Raises CarpetError for an unknown kind or side, and for warps below 1.
 
     >>> knot("Ghiordes", 3).word, knot("senneh", 3, opens="right").word, knot("symmetric", each=2).word
     ((-3, -4), (-4, 3), (-2, -1, -4, -3))
@@ -186,7 +186,7 @@ def knot(kind: str, first: int = 1, *, opens: str = "left", each: int = 1) -> Kn
 
 
 def mirrored(knot: Knot) -> Knot:
-    """The mirror image about the knot's own middle: on the same warps, open on the other side.
+    """The mirror image about the knot's middle: on the same warps, open on the other side.
 
     >>> mirrored(knot("asymmetric", 5)).opens
     'right'
@@ -199,7 +199,7 @@ def mirrored(knot: Knot) -> Knot:
 
 
 def recognised(word: Word) -> Knot | None:
-    """The knot that a reduced word is of, in either direction, or None.
+    """The knot of a reduced word, in either direction, or None.
 
     >>> recognised((4, 3)) == knot("symmetric", 3), recognised((3, 4))
     (True, None)
@@ -219,7 +219,7 @@ def recognised(word: Word) -> Knot | None:
 
 
 def verdict(word: Word) -> str:
-    """What a reduced word ties, in words: the knot, or why it is none.
+    """The knot of a reduced word in words, or the reason for no knot.
 
     >>> verdict((-1, -1, -2))
     'no knot: but for a turn too many round warp 1, a symmetric knot over warps 1 and 2'
