@@ -47,7 +47,7 @@ Dimensions: TypeAlias = Mapping[tuple[str, str], ComplexField]
 """(body, point) -> position of the point in the body's frame [m], an array over the variants."""
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Tape:
     """Instructions in order, their numbers, and the rows of each body.
 
