@@ -56,6 +56,15 @@ def test_the_needle_goes_through_the_gap_and_nothing_comes_nearer_than_the_secti
     assert head.knot_tied == sizes["knot"]
 
 
+def test_the_best_arm_does_not_depend_on_the_grid_of_the_search() -> None:
+    """Limits of the links that none of the best arms comes near to: each spreads the first grid differently."""
+    every = [KnottingDyadParams(link_limit=0.15 * factor) for factor in (1, 1.05, 1.1, 1.2)]
+    arms = [best_arm(params, section_of(params)) for params in every]
+    second, height = np.array([(arm.second, arm.pivot.imag) for arm in arms]).T
+    assert np.ptp(second) < 0.01 * second.min()
+    assert np.ptp(height) < 1e-4 * height.min()
+
+
 @given(st.lists(st.tuples(shares, shares, st.floats(0, 1)), min_size=1, max_size=5))
 def test_the_least_distance_is_found_to_its_tolerance_among_any_cones(cones: list[tuple[float, float, float]]) -> None:
     """Cones of slope 1 in each direction, the least of which is known."""

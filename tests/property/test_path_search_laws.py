@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.synthesis.path.fit import judged
-from ilmek.synthesis.path.limits import excess
+from ilmek.synthesis.path.limits import LIMITS, excess, limit_rows
 from ilmek.synthesis.path.links import random_links
 from ilmek.synthesis.path.model import SIZE, coupler_point, with_slopes
 from ilmek.synthesis.path.search import path_four_bars
@@ -57,6 +57,43 @@ def test_random_links_keep_the_limits_of_the_crank(seed, kind, least):
             mu = math.acos((coupler**2 + rocker**2 - reach**2) / (2 * coupler * rocker))
             assert least - 1e-6 <= mu <= math.pi - least + 1e-6
         assert (crank < ground) == (kind > 0)
+
+
+def spanned(links, kind, least):
+    """What is left of the limits of the crank: rocker and coupler span what the crank needs at its dead centres."""
+    ground, crank, coupler, rocker = links
+    near, far = (abs(coupler - rocker * np.exp(1j * angle)) for angle in (least, math.pi - least))
+    return kind * (ground - crank) - near, far - ground - crank
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([+1, -1]), st.floats(0.05, 1.2))
+@settings(max_examples=40, deadline=None)
+def test_limits_of_a_step_are_the_tangents_of_the_limits_of_the_links(seed, kind, least):
+    rng, kappa = np.random.default_rng(seed), math.cos(least)
+    links = random_links(rng, 1, (np.full(4, 1e-3), np.full(4, 10.0)), kind=kind, kappa=kappa)[0]
+    design, low, high = np.r_[links, rng.normal(size=6)], np.full(SIZE, -20.0), np.full(SIZE, 30.0)
+    rows, slack, step = np.empty((LIMITS, SIZE)), np.empty(LIMITS), 1e-5 * rng.normal(size=SIZE)
+    limit_rows(design, low, high, kind, kappa, rows, slack)
+    left = slack - rows @ step
+    moved = design + step
+    assert left[: 2 * SIZE : 2] == pytest.approx(high - moved)
+    assert left[1 : 2 * SIZE : 2] == pytest.approx(moved - low)
+    curved = np.abs(step).max() ** 2 / links.min()
+    assert left[[-3, -1]] == pytest.approx(spanned(moved[:4], kind, least), abs=1e-9 + 40 * curved)
+    assert left[-2] == math.inf
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([+1, -1]))
+@settings(max_examples=40, deadline=None)
+def test_without_a_transmission_angle_the_limits_of_a_step_are_those_of_grashof(seed, kind):
+    rng = np.random.default_rng(seed)
+    links = random_links(rng, 1, (np.full(4, 1e-3), np.full(4, 10.0)), kind=kind, kappa=1.0)[0]
+    design, low, high = np.r_[links, rng.normal(size=6)], np.full(SIZE, -20.0), np.full(SIZE, 30.0)
+    rows, slack, step = np.empty((LIMITS, SIZE)), np.empty(LIMITS), 1e-5 * rng.normal(size=SIZE)
+    limit_rows(design, low, high, kind, 1.0, rows, slack)
+    ground, crank, coupler, rocker = (design + step)[:4]
+    near = [kind * (ground - crank) - sign * (coupler - rocker) for sign in (+1, -1)]
+    assert (slack - rows @ step)[-3:] == pytest.approx([*near, coupler + rocker - ground - crank], abs=1e-9)
 
 
 @pytest.mark.parametrize(("count", "part"), [(7, 0.5), (12, 1.0), (60, 1.0)])

@@ -90,6 +90,26 @@ def test_overlap_lowers_the_acceleration_of_a_press() -> None:
     assert overlapped.before / overlapped.after > 3.5
 
 
+@pytest.mark.parametrize(
+    "limit",
+    [
+        Relation(Moment("feeder", "out"), fixed(70 * deg), 0.0, "not before its carpet"),
+        Relation(fixed(290 * deg), Moment("feeder", "home", "end"), 0.0, "away before the turn ends"),
+    ],
+)
+def test_of_two_orders_of_presences_that_overlap_the_better_one_is_taken(limit) -> None:
+    def drawn(die: list[float], feeder: list[float]) -> Cyclogram:
+        start = press([angle * deg for angle in die], [angle * deg for angle in feeder])
+        return replace(start, relations=(*start.relations, limit))
+
+    feeder_first = drawn([200, 230, 240, 270], [75, 110, 110, 150])
+    die_first = drawn([75, 110, 120, 150], [160, 200, 200, 240])
+    overlapping = drawn([120, 160, 170, 200], [100, 160, 160, 220])
+    in_order = [least_acceleration(one).after for one in (feeder_first, die_first)]
+    assert least_acceleration(overlapping).after == pytest.approx(min(in_order), rel=1e-9)
+    assert max(in_order) > 1.05 * min(in_order)
+
+
 def chain(strokes: list[float], gaps: list[float]) -> Cyclogram:
     """Tracks one after the other around the turn, a gap before each, homes free to take what is left."""
     tracks, relations, at = [], [], 0.0

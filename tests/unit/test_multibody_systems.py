@@ -123,6 +123,19 @@ def test_a_damped_and_pushed_block_balances_its_energy() -> None:
     assert abs(run.velocity("block", "eye")[-1]) < 1e-3
 
 
+def test_a_force_at_the_centre_of_mass_acts_as_gravity_does() -> None:
+    inertia, pull = Inertia(2.0, 0.05 + 0.02j, 0.1), 3.0 - 4.0j
+    bodies = (Body(GROUND, {"S": 0.5j}), Body("block", {"S": 0, "centre": inertia.centre}))
+    states = {"block": BodyState(0.5j, 0.4, 0j, 1.0)}
+    times = np.linspace(0.0, 0.5, 6)
+    pendulum = System(bodies, (Pin("S", GROUND, "block"),), {"block": inertia}, states, gravity=pull)
+    pushed = replace(pendulum, gravity=0j, loads=(BodyForce("block", "centre", inertia.mass * pull),))
+    one, other = simulate(pendulum, times, rtol=1e-11), simulate(pushed, times, rtol=1e-11)
+    assert np.max(np.abs(one.angle("block") - other.angle("block"))) < 1e-10
+    assert np.max(np.abs(one.pin("S") - other.pin("S"))) < 1e-8
+    assert np.ptp(one.angle("block")) > 0.2
+
+
 def test_redundant_joints_change_nothing() -> None:
     line = math.pi / 6
     plain = oscillator()
