@@ -1,20 +1,23 @@
 """The knotting head for any section: the arm's triangle closes, its clearance is the best there is, its knot proved."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ilmek.linkage.swivelled_arm import SwivelledArm
 from ilmek.machines.knotting_dyad import KnottingDyadParams
 from ilmek.machines.knotting_dyad.clearance import arm_bars, to_warps
 from ilmek.machines.knotting_dyad.head import Head, head_of
-from ilmek.machines.knotting_dyad.search import best_arm
+from ilmek.machines.knotting_dyad.search import _tried, best_arm
 from ilmek.machines.knotting_dyad.section import section_of
 from ilmek.plane.round_bars import LeastDistance, least
 
 shares = st.floats(0.05, 0.95)
+ENDS = np.array([0.0, 1.0])
 
 
 @st.composite
@@ -54,6 +57,29 @@ def test_the_needle_goes_through_the_gap_and_nothing_comes_nearer_than_the_secti
     assert to_warps(head.section, arm_bars(head.section, arm, s))[0] >= head.clearance_min - 1e-9
     assert head.tied.knot == head.knot
     assert head.knot_tied == sizes["knot"]
+
+
+def swept(arm: SwivelledArm) -> float:
+    """Sum of the squares of the links, times the sum of their turns over the path: what the search makes least."""
+    elbow, tip = arm.elbow(ENDS), arm.tip(ENDS)
+    turns = [np.angle(link[1] / link[0]) for link in (elbow - arm.pivot, tip - elbow)]
+    return float((arm.first**2 + arm.second**2) * np.abs(turns).sum())
+
+
+def test_no_random_arm_that_fits_sweeps_less() -> None:
+    params, rng, count = KnottingDyadParams(), np.random.default_rng(5), 4000
+    section = section_of(params)
+    best, low = best_arm(params, section), section.needle_length + params.link_width
+    at = [rng.uniform(np.log(low), np.log(0.15), count), rng.uniform(-section.tilt, section.tilt, count)]
+    at += [rng.uniform(np.log(section.reach / 10), np.log(0.15), count)]
+    tried = _tried(params, section, np.stack(at, axis=-1), rng.choice([-1.0, 1.0], count))
+    fits = np.flatnonzero(np.isfinite(tried.cost))
+    arms = [
+        replace(best, pivot=tried.pivot[k], first=tried.first[k], second=tried.second[k], side=int(tried.side[k]))
+        for k in fits
+    ]
+    assert len(arms) > 50
+    assert min(map(swept, arms)) >= swept(best) * (1 - 1e-9)
 
 
 def test_the_best_arm_does_not_depend_on_the_grid_of_the_search() -> None:

@@ -45,6 +45,15 @@ def test_sets_of_windows_are_sets(a, b) -> None:
     assert starts == sorted(starts)
 
 
+@given(a=spans, turns=st.integers(-3, 3))
+def test_spans_of_another_turn_are_the_same_windows(a, turns) -> None:
+    moved = windows_of((start + turns * turn, end + turns * turn) for start, end in a)
+    angle = np.random.default_rng(2).uniform(0, turn, 400)
+    assert np.array_equal(holds(moved, angle), holds(windows_of(a), angle))
+    assert total(moved) == pytest.approx(total(windows_of(a)))
+    assert all(0 <= one.start < turn for one in moved)
+
+
 @given(a=spans, b=spans)
 def test_separation_is_negative_exactly_where_both_hold(a, b) -> None:
     one, two = windows_of(a), windows_of(b)

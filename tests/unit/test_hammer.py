@@ -211,6 +211,20 @@ def test_work_of_the_press_over_a_turn_packs_two_rows() -> None:
     assert work == pytest.approx(2 * 600 * design.fabric.packing_work(design.spacing), rel=0.03)
 
 
+def test_work_of_a_beat_packs_a_row_and_lifts_what_is_not_balanced() -> None:
+    energies = {}
+    for balanced in (0.0, 0.4, 1.0):
+        design = made(counterbalance=balanced)
+        (work,) = MACHINE.work(design)
+        assert work.per == "beat"
+        energies[balanced] = work.energy
+    assert energies[0.0] - energies[1.0] == pytest.approx(design.mass * 9.81 * design.params.stroke)
+    assert energies[0.4] - energies[1.0] == pytest.approx(0.6 * (energies[0.0] - energies[1.0]))
+    assert design.axis is not None
+    pressed = np.sum(np.maximum(design.axis.press * design.axis.speed, 0.0)) * (12.0 / design.axis.speed.size)
+    assert 2 * energies[1.0] == pytest.approx(pressed, rel=0.01)
+
+
 def test_force_of_the_linkage_goes_with_the_square_of_its_speed() -> None:
     slow, quick = made(drive="linkage"), made(drive="linkage", beat_speed=31.0)
     assert quick.force == pytest.approx(4 * slow.force)

@@ -183,3 +183,23 @@ def test_parts_and_work_of_one_head() -> None:
     heavy = design(WeaverParams(head_mass=2 * parts["knotting head"].mass))
     assert MACHINE.work(heavy)[1].energy == pytest.approx(2 * work["carriages"].energy)
     assert [one.per for one in work.values()] == ["knot", "knot", "colour change"]
+
+
+def test_work_of_the_moves_is_their_greatest_kinetic_energy() -> None:
+    params = WeaverParams(head_mass=3.0)
+    tubes = params.tubes * params.tube_mass
+    carriage = AxisLimits(params.carriage_speed, params.carriage_acceleration, params.carriage_jerk)
+    selector = AxisLimits(params.selector_speed, params.selector_acceleration, params.selector_jerk)
+    work = {one.name: one for one in MACHINE.work(design(params))}
+    assert {name: one.per for name, one in work.items()} == {
+        "knotting": "knot",
+        "carriages": "knot",
+        "colours": "colour change",
+    }
+    for name, mass, travel, limits in (
+        ("carriages", 3.0, params.knot_pitch, carriage),
+        ("colours", tubes, 16 * 12e-3 / 3, selector),
+    ):
+        time = np.linspace(0.0, move_time(travel, limits), 20001)
+        speed = np.gradient(s_curve(travel, limits).at(time)[0], time)
+        assert work[name].energy == pytest.approx(mass * speed.max() ** 2 / 2, rel=1e-3)

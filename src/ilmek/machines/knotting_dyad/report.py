@@ -138,7 +138,7 @@ def _remedy(params: KnottingDyadParams, section: WarpSection) -> str:
     """How the needle gets its room."""
     pair = section.pitch - section.warp - 2 * section.required
     if pair < section.needle:
-        fine = f"take a needle of {format_quantity(pair, 'mm', 3)} or less" if pair > 0 else "take finer warps"
+        fine = f"take a needle of {format_quantity(pair, 'mm', 3)} or less" if pair > ROUNDING else "take finer warps"
         return f"{fine}, or a pitch of {format_quantity(section.pitch + section.needle - pair, 'mm', 3)} or more"
     cosine = (section.warp + section.needle + 2 * section.required) / section.outer
     across = (section.pitch + section.outer) / 2
