@@ -44,7 +44,7 @@ def test_frequency_ratio_and_residual_are_those_of_the_law() -> None:
 def test_a_stiff_linkage_is_the_rigid_follower(more) -> None:
     cam = design(linkage_stiffness="2e6N/mm", **more)
     got = numbers(cam)
-    rigid = least_force(cam.programme, cam.held).value / cam.params.per_unit
+    rigid = least_force(cam.programme, cam.follower_load).value / cam.params.per_unit
     assert got["contact_springy_min"] == pytest.approx(rigid, rel=0.02)
     assert got["lag_max"] < 1e-6
     assert got["residual_vibration"] < 1e-6

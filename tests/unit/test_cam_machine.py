@@ -145,7 +145,7 @@ def test_arm_turns_the_shaft_by_its_virtual_work(more) -> None:
     assert state.torque == pytest.approx(state.force * state.trace.motion.ds, abs=1e-9)
     course = found.programme.at(angle)
     moment = (0.5 * course.dds * 0.09 * found.params.speed**2 + 100) * 0.09
-    spring = found.held.preload + found.held.rate * course.s
+    spring = found.follower_load.preload + found.follower_load.rate * course.s
     assert state.force == pytest.approx(moment + spring, rel=1e-12)
     assert not found.undercut
 
@@ -168,7 +168,7 @@ def test_cam_that_leads_both_ways_needs_no_spring(more) -> None:
     assert state.force.min() < 0 < state.force.max()
     assert np.sign(state.normal) == pytest.approx(np.sign(state.force))
     assert state.torque == pytest.approx(state.force * state.trace.motion.ds, abs=1e-9)
-    assert found.held.rate == found.held.preload == 0
+    assert found.follower_load.rate == found.follower_load.preload == 0
     assert not found.undercut
     assert math.isfinite(found.extremes.pressure.value)
 
@@ -196,7 +196,7 @@ def test_strip_turns_the_shaft_by_its_virtual_work(kind) -> None:
     assert state.torque == pytest.approx(state.force * state.trace.motion.ds, abs=1e-9)
     assert state.normal * np.cos(state.trace.pressure_angle) == pytest.approx(state.force, abs=1e-9)
     assert not found.undercut
-    assert found.params.led == (kind == "barrel") == (found.held.rate == 0)
+    assert found.params.led == (kind == "barrel") == (found.follower_load.rate == 0)
 
 
 def test_friction_in_the_guide_of_a_barrel_costs_what_it_rubs() -> None:
@@ -297,7 +297,7 @@ def test_plate_has_the_area_of_the_cam_and_its_cutter_path() -> None:
     assert set(plate.paths) == {"pitch curve", "cutter path"}
     assert np.max(np.abs(plate.paths["cutter path"] - plate.paths["pitch curve"])) == 0
     assert len(plate.cutouts) == 1
-    assert cam_tables(found)[0].course(np.array([0.0, math.pi / 2]))[0] == pytest.approx([0.0, 60 * mm])
+    assert cam_tables(found)[0].motion(np.array([0.0, math.pi / 2]))[0] == pytest.approx([0.0, 60 * mm])
 
 
 def test_what_undercut_leaves_no_face_of_has_no_area_mass_or_pressure() -> None:

@@ -153,7 +153,7 @@ def sampled_once(case: str, rule: SamplingRule) -> SampledTable:
 def exact(table: CamTable, degrees: np.ndarray) -> np.ndarray:
     """What the slave should do from the place where it is coupled, in the table's unit."""
     unit = {"mm": 1e-3, "deg": math.pi / 180}[table.unit]
-    return (table.course(np.radians(degrees))[0] - table.course(np.zeros(1))[0, 0]) / unit
+    return (table.motion(np.radians(degrees))[0] - table.motion(np.zeros(1))[0, 0]) / unit
 
 
 @pytest.mark.parametrize("case", TABLES)

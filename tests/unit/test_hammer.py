@@ -243,9 +243,9 @@ def test_a_slow_linkage_leaves_the_rows_loose_and_says_so() -> None:
 def test_the_stroke_for_the_controller_comes_back_twice_a_turn() -> None:
     (table,) = answer().cam_tables
     angle = np.linspace(0, math.pi, 40)
-    np.testing.assert_allclose(table.course(angle), table.course(angle + math.pi), atol=1e-12)
-    assert table.course(np.array([0.0, math.pi / 4]))[0] == pytest.approx([0.0, 0.0])
-    assert float(table.course(np.array([3 * math.pi / 4]))[0, 0]) == pytest.approx(0.1)
+    np.testing.assert_allclose(table.motion(angle), table.motion(angle + math.pi), atol=1e-12)
+    assert table.motion(np.array([0.0, math.pi / 4]))[0] == pytest.approx([0.0, 0.0])
+    assert float(table.motion(np.array([3 * math.pi / 4]))[0, 0]) == pytest.approx(0.1)
 
 
 def test_wide_carpets_hold_the_comb_more_often() -> None:

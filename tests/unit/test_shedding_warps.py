@@ -163,8 +163,8 @@ def test_motions_for_the_controller_are_those_of_the_warps() -> None:
     assert (even.name, odd.name) == ("even-warps", "odd-warps")
     assert even.period == pytest.approx(12.0)
     angle = np.linspace(0, 2 * math.pi, 50)
-    np.testing.assert_allclose(odd.course(angle), even.course(angle + math.pi), atol=1e-12)
-    assert even.course(np.array([math.pi / 2]))[0, 0] == pytest.approx(60 * mm)
+    np.testing.assert_allclose(odd.motion(angle), even.motion(angle + math.pi), atol=1e-12)
+    assert even.motion(np.array([math.pi / 2]))[0, 0] == pytest.approx(60 * mm)
 
 
 @pytest.mark.parametrize(

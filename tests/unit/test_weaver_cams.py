@@ -123,7 +123,7 @@ def test_plates_and_tables_of_all_tracks() -> None:
         assert polygon == pytest.approx(cam.area, rel=1e-9)
         assert plate.area == pytest.approx(cam.area)
     for table in made.cam_tables:
-        rows = table.course(ANGLE)
+        rows = table.motion(ANGLE)
         assert rows.shape == (3, len(ANGLE))
         assert np.gradient(rows[0], ANGLE)[1:-1] == pytest.approx(rows[1][1:-1], abs=2e-2 * np.abs(rows[1]).max())
         assert table.knots[0] == 0.0

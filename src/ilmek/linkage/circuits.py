@@ -16,7 +16,7 @@ import numpy as np
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.configuration import Configurations, FreeInput, freed
+from ilmek.linkage.configuration import Configurations, FreeInput, free_input
 from ilmek.linkage.model import Mechanism
 from ilmek.linkage.one_input import OneInput
 from ilmek.linkage.outputs import Output, output_history_of_bodies
@@ -63,7 +63,7 @@ class Circuit:
     dead_centres: tuple[float, ...]
     crossings: tuple[float, ...]
     turns: int
-    freed: FreeInput
+    free_input: FreeInput
     trace: ConfigurationCurve
 
     @property
@@ -74,7 +74,7 @@ class Circuit:
     @property
     def mechanism(self) -> Mechanism:
         """The mechanism."""
-        return self.freed.moved.plan.mechanism
+        return self.free_input.moved.plan.mechanism
 
     @property
     def breaks(self) -> Float[np.ndarray, " breaks"]:
@@ -88,7 +88,7 @@ class Circuit:
 
     def bodies(self, lengths: FloatArray) -> Mapping[str, BodyMotion]:
         """Every body at path lengths [m], with its rates by the path length."""
-        return self.freed.moving(*self.trace.at(lengths))
+        return self.free_input.moving(*self.trace.at(lengths))
 
     def inputs(self, lengths: FloatArray) -> FloatArray:
         """Values of the input [rad, m] at path lengths [m]."""
@@ -157,7 +157,7 @@ def _assemblies(moved: OneInput) -> Iterator[OneInput]:
 
 def _seeds(assembly: OneInput, count: int) -> Iterator[Configurations]:
     """One configuration in each run of input values at which an assembly closes."""
-    free = freed(assembly)
+    free = free_input(assembly)
     if assembly.turns:
         values = -np.pi + (np.arange(count) + 0.5) * (2 * np.pi / count)
     else:
@@ -171,7 +171,7 @@ def _seeds(assembly: OneInput, count: int) -> Iterator[Configurations]:
 
 def _passes(circuit: Circuit, seed: Configurations) -> bool:
     """Whether a configuration lies on a circuit: on the curve near the circuit's nearest node."""
-    free, line = circuit.freed, circuit.trace
+    free, line = circuit.free_input, circuit.trace
     everywhere = Configurations(*(np.broadcast_to(part, shape) for part, shape in _spread(seed, len(line.at_nodes))))
     apart = free.between(line.at_nodes, everywhere)
     node = int(np.argmin(np.max(np.abs(apart), axis=1)))
@@ -196,7 +196,7 @@ def _spread(seed: Configurations, rows: int) -> list[tuple[np.ndarray, tuple[int
 
 def _circuit(assembly: OneInput, seed: Configurations, assemblies: list[OneInput]) -> Circuit:
     """The circuit through a configuration."""
-    free = freed(assembly)
+    free = free_input(assembly)
     line = trace(free, seed)
     folds = line.folds()
     turns = round(float(line.at_nodes.inputs[-1] - line.at_nodes.inputs[0]) / (2 * np.pi)) if assembly.turns else 0
@@ -241,7 +241,7 @@ def _parts(
 def _label(free: FreeInput, at: Configurations, assemblies: list[OneInput]) -> Mapping[str, int]:
     """The signs of the closed forms of a configuration; {} for none."""
     for assembly in assemblies:
-        given = freed(assembly).posed(at.inputs)
+        given = free_input(assembly).posed(at.inputs)
         if np.max(np.abs(free.between(at, given))) <= SAME * free.size:
             return dict(assembly.plan.mechanism.branches)
     return {}

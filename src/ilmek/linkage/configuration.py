@@ -155,6 +155,6 @@ class FreeInput:
         return self.loops.equations(lambda _: bodies, drives)
 
 
-def freed(moved: OneInput) -> FreeInput:
+def free_input(moved: OneInput) -> FreeInput:
     """The mechanism with a free moving input."""
     return FreeInput(moved, loops(moved.plan.mechanism))

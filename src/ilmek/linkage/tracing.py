@@ -34,7 +34,7 @@ class ConfigurationCurve:
     crossings  values of the input [rad, m] at which another curve crosses
     """
 
-    freed: FreeInput
+    free_input: FreeInput
     at_nodes: Configurations
     tangents: Float[np.ndarray, "nodes unknowns"]
     lengths: Float[np.ndarray, " nodes"]
@@ -68,19 +68,19 @@ class ConfigurationCurve:
     def _from(self, lengths: FloatArray, node: np.ndarray) -> tuple[Configurations, FloatArray, FloatArray]:
         """`at` from given nodes."""
         across = self.tangents[node]
-        near = self.freed.stepped(self.at_nodes[node], across * (lengths - self.lengths[node])[:, None])
-        found = self.freed.corrected(near, across)
-        return found, self.freed.tangents(found, across), across
+        near = self.free_input.stepped(self.at_nodes[node], across * (lengths - self.lengths[node])[:, None])
+        found = self.free_input.corrected(near, across)
+        return found, self.free_input.tangents(found, across), across
 
 
-def trace(freed: FreeInput, seed: Configurations) -> ConfigurationCurve:
+def trace(free_input: FreeInput, seed: Configurations) -> ConfigurationCurve:
     """The curve through a configuration, followed until it closes, or to both ends outside the reach."""
-    ahead = np.zeros((1, 3 * len(freed.moved.plan.mechanism.moving) + 1))
+    ahead = np.zeros((1, 3 * len(free_input.moved.plan.mechanism.moving) + 1))
     ahead[0, -1] = 1.0
-    first = freed.tangents(seed, ahead)
-    nodes, tangents, closed, crossings = _followed(freed, seed, first)
+    first = free_input.tangents(seed, ahead)
+    nodes, tangents, closed, crossings = _followed(free_input, seed, first)
     if not closed:
-        back, against, _, further = _followed(freed, seed, -first)
+        back, against, _, further = _followed(free_input, seed, -first)
         crossings += further
         nodes, tangents = back[:0:-1] + nodes, [-t for t in against[:0:-1]] + tangents
     at_nodes = Configurations(
@@ -89,15 +89,15 @@ def trace(freed: FreeInput, seed: Configurations) -> ConfigurationCurve:
         np.concatenate([one.inputs for one in nodes]),
     )
     stacked = np.concatenate(tangents)
-    chords = freed.between(at_nodes[:-1], at_nodes[1:])
-    chords[:, -1] = np.diff(at_nodes.inputs) * freed.per_input
+    chords = free_input.between(at_nodes[:-1], at_nodes[1:])
+    chords[:, -1] = np.diff(at_nodes.inputs) * free_input.per_input
     along = np.sum(chords * stacked[:-1], axis=1)
     lengths = np.concatenate([[0.0], np.cumsum(along)])
-    return ConfigurationCurve(freed, at_nodes, stacked, lengths, closed, tuple(crossings))
+    return ConfigurationCurve(free_input, at_nodes, stacked, lengths, closed, tuple(crossings))
 
 
 def _followed(
-    freed: FreeInput, seed: Configurations, first: FloatArray
+    free_input: FreeInput, seed: Configurations, first: FloatArray
 ) -> tuple[list[Configurations], list[FloatArray], bool, list[float]]:
     """Nodes and tangents from the seed on, the seed repeated at the end if the curve closes; inputs at crossings.
 
@@ -105,38 +105,38 @@ def _followed(
     step still changes it, the curves cross.
     """
     nodes, tangents, crossings = [seed], [first], list[float]()
-    began = side = freed.oriented(seed, first)[1]
-    step, travelled = 0.2 * LONGEST * freed.size, 0.0
+    began = side = free_input.oriented(seed, first)[1]
+    step, travelled = 0.2 * LONGEST * free_input.size, 0.0
     for _ in range(STEPS):
         at, t = nodes[-1], tangents[-1]
-        home = freed.between(at, seed)
+        home = free_input.between(at, seed)
         if travelled > 3 * step and side == began and _is_home(home, t, first, step):
-            end = Configurations(seed.origins, seed.directions, at.inputs + _input_left(freed, at, seed))
+            end = Configurations(seed.origins, seed.directions, at.inputs + _input_left(free_input, at, seed))
             return [*nodes, end], [*tangents, first], True, crossings
-        new, new_t, new_side = _step(freed, at, t, step)
+        new, new_t, new_side = _step(free_input, at, t, step)
         bend = float(np.arccos(np.clip(np.sum(t * new_t), -1, 1)))
         if not (bend <= TURN and new_side == side):
-            if step > SHORTEST * freed.size:
+            if step > SHORTEST * free_input.size:
                 step *= 0.5
                 continue
             crossings.append(float(at.inputs[0]))
-            step = ACROSS * freed.size
-            new, new_t, side = _step(freed, at, t, step)
-        if not np.isfinite(new_t).all() or np.max(np.abs(new.origins)) > REACH * freed.size:
+            step = ACROSS * free_input.size
+            new, new_t, side = _step(free_input, at, t, step)
+        if not np.isfinite(new_t).all() or np.max(np.abs(new.origins)) > REACH * free_input.size:
             break
         travelled += step
         nodes.append(new)
         tangents.append(new_t)
-        step = min(step * (1.6 if bend < 0.5 * TURN else 1.0), LONGEST * freed.size)
+        step = min(step * (1.6 if bend < 0.5 * TURN else 1.0), LONGEST * free_input.size)
     return nodes, tangents, False, crossings
 
 
 def _step(
-    freed: FreeInput, at: Configurations, t: FloatArray, step: float
+    free_input: FreeInput, at: Configurations, t: FloatArray, step: float
 ) -> tuple[Configurations, FloatArray, FloatArray]:
     """The next configuration, its tangent, and its sign of det [A; t]."""
-    new = freed.corrected(freed.stepped(at, step * t), t)
-    return new, *freed.oriented(new, t)
+    new = free_input.corrected(free_input.stepped(at, step * t), t)
+    return new, *free_input.oriented(new, t)
 
 
 def _is_home(home: FloatArray, t: FloatArray, first: FloatArray, step: float) -> bool:
@@ -148,8 +148,8 @@ def _is_home(home: FloatArray, t: FloatArray, first: FloatArray, step: float) ->
     return far <= 1.05 * step and shadow >= 0 and aside <= 2 * TURN * max(far, 1e-12) and float(np.sum(t * first)) > 0.9
 
 
-def _input_left(freed: FreeInput, at: Configurations, seed: Configurations) -> FloatArray:
+def _input_left(free_input: FreeInput, at: Configurations, seed: Configurations) -> FloatArray:
     """Difference of the input to the seed's value, modulo whole turns."""
     left = seed.inputs - at.inputs
-    shortest: FloatArray = (left + np.pi) % (2 * np.pi) - np.pi if freed.moved.turns else left
+    shortest: FloatArray = (left + np.pi) % (2 * np.pi) - np.pi if free_input.moved.turns else left
     return shortest

@@ -60,15 +60,15 @@ class Plate:
 class CamTable:
     """A motion of a slave axis over one turn of the master, for a controller's electronic cam.
 
-    course    master angles [rad], of any shape, to the rows s, s', s'' by the master angle [SI, SI/rad, SI/rad^2]
-    knots     master angles, ascending from 0 to 2 pi, between which the course is smooth [rad]
+    motion    master angles [rad], of any shape, to the rows s, s', s'' by the master angle [SI, SI/rad, SI/rad^2]
+    knots     master angles, ascending from 0 to 2 pi, between which the motion is smooth [rad]
     unit      the unit that a controller is given positions in
     period    time of a turn [s]      revolves  what the slave gains in a turn [SI]; 0: it returns
     """
 
     name: str
     title: str
-    course: Callable[[FloatArray], FloatArray]
+    motion: Callable[[FloatArray], FloatArray]
     knots: FloatArray
     unit: str
     period: float

@@ -74,7 +74,7 @@ class SampledTable:
 def stroke(table: CamTable) -> float:
     """Range of positions over the turn [SI], or the advance per turn if larger."""
     angle = np.concatenate([np.linspace(0.0, turn, 1441), np.clip(table.knots, 0.0, turn)])
-    return max(float(np.ptp(table.course(angle)[0])), abs(table.revolves))
+    return max(float(np.ptp(table.motion(angle)[0])), abs(table.revolves))
 
 
 def sample(table: CamTable, rule: SamplingRule, tolerance: float) -> SampledTable:
@@ -104,15 +104,15 @@ def _require_closed(table: CamTable, tolerance: float) -> None:
 
 
 def _position(table: CamTable, angle: float) -> float:
-    return float(table.course(np.array([angle]))[0, 0])
+    return float(table.motion(np.array([angle]))[0, 0])
 
 
 def _nodes(table: CamTable, angle: Float[np.ndarray, " nodes"]) -> Nodes:
     """The motion at these angles [rad], from position 0; at joints and ends of the turn the mean of both sides."""
     before = np.where(angle <= 0, turn - _SIDE, angle - _SIDE)
     after = np.where(angle >= turn, _SIDE, angle + _SIDE)
-    rows = 0.5 * (table.course(before) + table.course(after))
-    s = table.course(angle)[0] - _position(table, 0.0)
+    rows = 0.5 * (table.motion(before) + table.motion(after))
+    s = table.motion(angle)[0] - _position(table, 0.0)
     s[0], s[-1] = 0.0, table.revolves
     return Nodes(angle, s, _without_noise(rows[1]), _without_noise(rows[2]))
 
@@ -192,5 +192,5 @@ def _between(angle: Float[np.ndarray, " nodes"], count: int) -> Float[np.ndarray
 def _errors(
     table: CamTable, nodes: Nodes, interpolation: Interpolation, angle: Float[np.ndarray, "a b"]
 ) -> Float[np.ndarray, "a b"]:
-    exact = table.course(angle)[0] - _position(table, 0.0)
+    exact = table.motion(angle)[0] - _position(table, 0.0)
     return np.asarray(np.abs(interpolation.at(nodes, angle) - exact))

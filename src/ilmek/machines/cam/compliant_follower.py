@@ -70,22 +70,22 @@ def compliant_follower(design: CamDesign) -> CompliantFollower | None:
 
     Raises ParameterError for a follower without mass, or a cam that does not turn.
     """
-    params, held, arc = design.params, design.held, design.params.per_unit
+    params, follower_load, arc = design.params, design.follower_load, design.params.per_unit
     if params.linkage_stiffness is None:
         return None
     if not (params.mass > 0 and params.speed > 0):
         wrong = "mass" if not params.mass > 0 else "speed"
         raise ParameterError(f"linkage_stiffness with {wrong}=0", allowed=f"{wrong} above 0", do="or leave it out")
-    preload = held.preload + held.load
+    preload = follower_load.preload + follower_load.load
     stiffness = params.linkage_stiffness * arc**2
-    swings = math.sqrt(stiffness / held.mass) / params.speed
+    swings = math.sqrt(stiffness / follower_load.mass) / params.speed
     if swings > MOST_SWINGS:
         raise ParameterError(
             f"linkage_stiffness={format_quantity(params.linkage_stiffness, 'N/mm')} vibrates {swings:.0f} times a turn",
             allowed=f"at most {MOST_SWINGS} times: a stiffer one follows the cam",
             do="leave linkage_stiffness out: take it as rigid",
         )
-    follower = one_mass(held.mass, stiffness, params.linkage_damping, held.rate, preload)
+    follower = one_mass(follower_load.mass, stiffness, params.linkage_damping, follower_load.rate, preload)
     return CompliantFollower(params, follower, steady_response(follower, design.programme, params.speed), arc)
 
 

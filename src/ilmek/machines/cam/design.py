@@ -32,13 +32,13 @@ MARGIN = 1.2
 
 @record
 class CamDesign:
-    """The design of a cam; `held`: mass, load and spring of the follower, at the cam's speed."""
+    """The design of a cam; `follower_load`: mass, load and spring of the follower, at the cam's speed."""
 
     params: CamParams
     programme: CamProgramme
     size: CamSize
     cams: CamShape
-    held: FollowerLoad
+    follower_load: FollowerLoad
     roller: Roller | None
     duty: RollerDuty | None
     hub: Hub
@@ -71,8 +71,12 @@ class CamDesign:
     dwell = computed("deg", "cam angle for which the follower stays lifted", lambda it: it.params.dwell)
     fall = computed("deg", "cam angle of the fall", lambda it: it.params.fall_angle)
     power_max = computed("W", "greatest shaft power", lambda it: max(it.extremes.torque.value, 0.0) * it.params.speed)
-    spring_rate = computed("N/mm", "rate of the return spring", lambda it: it.held.rate / it.params.per_unit**2)
-    preload = computed("N", "spring force at the lowest position", lambda it: it.held.preload / it.params.per_unit)
+    spring_rate = computed(
+        "N/mm", "rate of the return spring", lambda it: it.follower_load.rate / it.params.per_unit**2
+    )
+    preload = computed(
+        "N", "spring force at the lowest position", lambda it: it.follower_load.preload / it.params.per_unit
+    )
     spring_force_max = computed("N", "its force at full lift", lambda it: it.preload + it.spring_rate * it.params.lift)
 
     @computed("rpm", "speed of the cam at which the follower lifts off; null: never")
@@ -134,7 +138,7 @@ class CamDesign:
     @property
     def loaded(self) -> LoadedCam:
         """The cam and its follower under load."""
-        return LoadedCam(contact_of(self.params), self.cams, self.held)
+        return LoadedCam(contact_of(self.params), self.cams, self.follower_load)
 
     def state(self, angle: FloatArray) -> CamState:
         """Geometry and forces at cam angles [rad]."""
@@ -149,11 +153,11 @@ def design(params: CamParams) -> CamDesign:
     """The cam for the parameters. Raises ParameterError where it cannot exist."""
     programme = programme_of(params)
     size = size_of(params, programme)
-    held = held_by(params, programme)
+    follower_load = follower_load_of(params, programme)
     bare = cam_of(params, programme, size, params.roller_radius or 0.0)
-    roller, cams = _with_roller(params, bare, size, held)
+    roller, cams = _with_roller(params, bare, size, follower_load)
     width = roller_width(params, cams.cam.roller_radius)
-    loaded = LoadedCam(contact_of(params), cams, held)
+    loaded = LoadedCam(contact_of(params), cams, follower_load)
     extremes = loaded.extremes(width)
     torque = max(abs(extremes.torque.value), abs(extremes.back_torque.value))
     return CamDesign(
@@ -161,11 +165,11 @@ def design(params: CamParams) -> CamDesign:
         programme=programme,
         size=size,
         cams=cams,
-        held=held,
+        follower_load=follower_load,
         roller=roller,
         duty=loaded.duty() if params.follower == "roller" else None,
         hub=hub_for(params.bore or bore_for(torque if math.isfinite(torque) else 0.0)),
-        lift_off=LiftOff(math.inf, 0.0) if params.led else lift_off(programme, held),
+        lift_off=LiftOff(math.inf, 0.0) if params.led else lift_off(programme, follower_load),
         extremes=extremes,
         area=math.nan if params.laid_flat else limits.area(cams.cam),
         face_width=width,
@@ -189,7 +193,7 @@ def contact_of(params: CamParams) -> FollowerContact:
     )
 
 
-def held_by(params: CamParams, programme: CamProgramme) -> FollowerLoad:
+def follower_load_of(params: CamParams, programme: CamProgramme) -> FollowerLoad:
     """Mass, load and return spring; by default the weakest spring that holds up to the hold speed."""
     if params.led:
         return FollowerLoad(params.speed, params.mass * params.per_unit**2, load=params.load * params.per_unit)
@@ -216,7 +220,9 @@ def pressure_limit(params: CamParams) -> float:
     return strength * (POINT_YIELD if contact_of(params).at_a_point else LINE_YIELD)
 
 
-def _with_roller(params: CamParams, bare: CamRole, size: CamSize, held: FollowerLoad) -> tuple[Roller | None, CamShape]:
+def _with_roller(
+    params: CamParams, bare: CamRole, size: CamSize, follower_load: FollowerLoad
+) -> tuple[Roller | None, CamShape]:
     """The roller and its cam: as given, from the table, or of half the radius that there is room for.
 
     Of the table it is the smallest with the required life; where none has it, the largest that there is room for.
@@ -235,7 +241,7 @@ def _with_roller(params: CamParams, bare: CamRole, size: CamSize, held: Follower
     if params.follower == "spherical" or not fitting:
         return None, fitted(0.5 * room)
     for roller in fitting:
-        duty = LoadedCam(contact_of(params), fitted(roller.radius), held).duty()
+        duty = LoadedCam(contact_of(params), fitted(roller.radius), follower_load).duty()
         if duty.largest <= roller.force_limit and duty.time(roller) >= params.life:
             return roller, fitted(roller.radius)
     return fitting[-1], fitted(fitting[-1].radius)

@@ -127,14 +127,16 @@ def _pressure_angle_plot(design: CamDesign, at: float) -> Plot:
 
 def _force_plots(design: CamDesign) -> tuple[Plot, ...]:
     """Contact force, torque and, but for a knife edge, Hertz pressure."""
-    extremes, held, arc, led = design.extremes, design.held, design.params.per_unit, design.params.led
+    extremes, follower_load, arc, led = design.extremes, design.follower_load, design.params.per_unit, design.params.led
     forces: dict[str, Curve] = {
         "on the normal": lambda angle: design.state(angle).normal,
         "along the motion": lambda angle: design.state(angle).force / arc,
     }
     note = "below 0 the other flank or cam holds the follower"
     if not led:
-        forces["spring"] = lambda angle: (held.preload + held.rate * design.state(angle).trace.motion.s) / arc
+        forces["spring"] = lambda angle: (
+            (follower_load.preload + follower_load.rate * design.state(angle).trace.motion.s) / arc
+        )
         note = "the follower stays on the cam as long as the force is above 0"
     mark = Mark(extremes.normal.at, format_quantity(extremes.normal.value, "N"))
     title, newton = "Force between cam and follower", Axis("force", "N")

@@ -174,13 +174,19 @@ def _law_row(design: CamDesign, name: str) -> tuple[float | int | str, ...]:
         size = smallest_of(params, programme).value
     except ParameterError:
         size = math.nan
-    return name, size, *(params.lift * peak for peak in peaks), _torque(programme, design.held), len(jumps(programme))
+    return (
+        name,
+        size,
+        *(params.lift * peak for peak in peaks),
+        _torque(programme, design.follower_load),
+        len(jumps(programme)),
+    )
 
 
-def _torque(programme: CamProgramme, held: FollowerLoad) -> float:
+def _torque(programme: CamProgramme, follower_load: FollowerLoad) -> float:
     def torque(angle: FloatArray) -> FloatArray:
         at = programme.at(angle)
-        return np.asarray(np.abs(held.force(at.s, at.dds) * at.ds))
+        return np.asarray(np.abs(follower_load.force(at.s, at.dds) * at.ds))
 
     return supremum(torque, programme.knots).value
 
