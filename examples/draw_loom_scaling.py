@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.automated_loom.figures import time_against_pitch
-from ilmek.machines.automated_loom.production_time import estimated_time
+from ilmek.machines.automated_loom.estimate import estimated_time
 from ilmek.units import format_quantity
 from ilmek.viz.svg import svg
 

@@ -16,6 +16,7 @@ from ilmek.machines import warp_tension
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.cyclogram import BEATER, SHUTTLE
 from ilmek.machines.automated_loom.energy import energy_of
+from ilmek.machines.automated_loom.estimate import estimated_time, estimated_times_at, time_shares
 from ilmek.machines.automated_loom.frame import (
     SECTIONS,
     STEEL,
@@ -27,7 +28,6 @@ from ilmek.machines.automated_loom.frame import (
     rail_sag,
 )
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom, price_of
-from ilmek.machines.automated_loom.production_time import estimated_time, estimated_times_at, time_shares
 from ilmek.report import Report
 from ilmek.timing.track import peak_acceleration
 from ilmek.units import turn

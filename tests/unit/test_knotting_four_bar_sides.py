@@ -10,10 +10,11 @@ from ilmek.elements.gears import LEAST_TEETH, MODULES, PRESSURE_ANGLE, EqualGear
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.linkage.clearance import OutlinedBody, distances
 from ilmek.linkage.configuration_path import InputPath
+from ilmek.linkage.mirror import other
 from ilmek.linkage.model import degrees_of_freedom
 from ilmek.linkage.one_input import one_input
 from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBar, KnottingFourBarParams, design
-from ilmek.machines.knotting_four_bar.sides import KnottingSides, clearances, hands, other, outlines
+from ilmek.machines.knotting_four_bar.sides import KnottingSides, clearances, hands, outlines
 from ilmek.report import Animation, Drawing, Report
 from ilmek.units import MPa, mm
 from ilmek.weaving.knots.two_hands import knot_of_hands, pitch_range

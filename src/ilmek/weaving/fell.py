@@ -25,7 +25,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, RealField
+from ilmek.arrays import BoolArray, FloatArray, RealField
 from ilmek.num.brackets import bracketed_roots
 
 
@@ -77,6 +77,16 @@ class Fabric:
         """Travel of the comb [m] from its contact with the laid row, under forces [N] of any shape."""
         return np.asarray(self.laid - self.spacing(force) + self.fell(force))
 
+    def over_stroke(self, force: float, left: FloatArray, returns: BoolArray) -> FloatArray:
+        """Force of the fell on a comb [N], whose stroke ends where the force [N] is reached.
+
+        left  of the stroke [m]       returns  whether the comb goes back: the packed row stays, the fell follows it
+        """
+        forces = np.concatenate([[0.0], np.geomspace(force * 1e-4, force, _TABLE)])
+        going = np.interp(float(self.travel(force)) - left, self.travel(forces), forces, left=0.0)
+        back = np.interp(float(self.fell(force)) - left, self.fell(forces), forces, left=0.0)
+        return np.asarray(np.where(returns, back, going))
+
     def packing_work(self, spacing: float) -> float:
         """Work [J] of packing a row to a distance [m]; it is not returned."""
         laid, left = self.laid - self.jammed, spacing - self.jammed
@@ -105,6 +115,9 @@ class Fabric:
 
         return float(bracketed_roots(excess, np.zeros(1), np.array([high]))[0])
 
+
+_TABLE = 200
+"""Forces at which the fell is tabulated over a stroke."""
 
 LAID, JAMMED, PACKING = 1.5, 0.75, 0.25
 """A row before the beat, a jammed row, and the packing length K, over the required row pitch: assumed by this project.

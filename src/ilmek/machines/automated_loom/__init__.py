@@ -8,20 +8,15 @@ Source: thesis, chapters 2.2.3 and 3. How heads share a row: `ilmek.loom.sharing
 
 from dataclasses import replace
 
+from ilmek.loom.production import Production, production_time
 from ilmek.machines import SUMMARIES
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign, design
 from ilmek.machines.automated_loom.energy import Energy
+from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, programme_for
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import PartsList
-from ilmek.machines.automated_loom.production_time import (
-    Production,
-    TimeShares,
-    estimated_time,
-    production_time,
-    programme_for,
-)
 from ilmek.machines.automated_loom.report import LoomAnalysis, analyse, cam_tables, checks, results, tables, warnings
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component

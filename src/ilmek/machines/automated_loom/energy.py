@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 from ilmek.machines.automated_loom.cyclogram import SHUTTLE
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.production_time import estimated_time
+from ilmek.machines.automated_loom.estimate import estimated_time
 from ilmek.records import computed, record
 from ilmek.report import Work
 from ilmek.timing.track import peak_speed

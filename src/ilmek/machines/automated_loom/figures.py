@@ -7,7 +7,7 @@ import numpy as np
 from ilmek.carpet.quality import COARSEST, FINEST
 from ilmek.loom.sharing import halves, heads_that_fit, share
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.production_time import estimated_time, estimated_times_at
+from ilmek.machines.automated_loom.estimate import estimated_time, estimated_times_at
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
 from ilmek.timing.figures import draw
 from ilmek.units import format_quantity

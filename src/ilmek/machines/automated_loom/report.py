@@ -9,9 +9,9 @@ from ilmek.elements.columns import STEEL
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, SHUTTLE, TAKE_UP, cam_tables_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
+from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.frame import BOW_LIMIT, BUCKLING_SAFETY, STRESS_SAFETY, LoomFrame
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom, price_of
-from ilmek.machines.automated_loom.production_time import TimeShares, estimated_time, time_shares
 from ilmek.machines.beat import BeatDrive
 from ilmek.records import computed, record
 from ilmek.report import CamTable, Check, Json, Table, at_least, at_most, columns

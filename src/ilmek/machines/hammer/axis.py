@@ -20,21 +20,14 @@ from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
 from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import SERVO
-from ilmek.elements.screws import Screw
+from ilmek.elements.screws import BALL_SCREWS, ball_screw_for
 from ilmek.machines.hammer.comb import comb_mass
 from ilmek.machines.hammer.params import STACK, STEEL, HammerParams
 from ilmek.records import computed, record, result
 from ilmek.report import Json
-from ilmek.units import mm
 from ilmek.weaving.fell import Fabric
 
 SAMPLES = 720
-
-BALL_SCREWS = tuple(diameter * mm for diameter in (12, 16, 20, 25, 32, 40, 50, 63, 80, 100))
-"""Nominal diameters of ball screws [m] [ISO 3408-2]."""
-
-CORE, BALL_FRICTION = 0.85, 0.005
-"""Core diameter of a ball screw over the nominal one, and its friction."""
 
 SCREW_ENDS = 0.2
 """Length of a screw beyond its stroke [m]: nut and bearings."""
@@ -42,7 +35,7 @@ SCREW_ENDS = 0.2
 BUCKLING = 3.0
 """Required safety of a screw against buckling."""
 
-_TABLE, _STILL = 200, 1e-12
+_STILL = 1e-12
 
 
 @record
@@ -125,7 +118,7 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
     stack = STACK * params.width if params.stack_mass is None else params.stack_mass
     mass = comb_mass(params) + stack
     balance = (1 - params.counterbalance) * mass * GRAVITY
-    press = params.warps * _fell_force(params, fabric, force, at.s, speed)
+    press = params.warps * fabric.over_stroke(force, params.stroke - at.s, speed < -_STILL)
     total = mass * acceleration - balance + press
     arm = params.lead / TURN if params.axis == "screw" else params.pulley_radius
     resisting = press - balance
@@ -137,7 +130,13 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
         inertia=mass * arm**2 / params.axis_count,
     )
     contact = (speed > 0) & (press > 0)
-    screw, buckling = _screw(params, _most(total) / params.axis_count)
+    screw = buckling = None
+    if params.axis == "screw":
+        load, length = _most(total) / params.axis_count, params.stroke + SCREW_ENDS
+        offered = (params.screw_diameter,) if params.screw_diameter else BALL_SCREWS
+        screw, buckling = ball_screw_for(
+            load, length, params.lead, modulus=STEEL.modulus, safety=BUCKLING, offered=offered
+        )
     return CombDrive(
         programme=programme,
         angle=angle,
@@ -157,29 +156,3 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
         screw=screw,
         buckling=buckling,
     )
-
-
-def _screw(params: HammerParams, force: float) -> tuple[float | None, float | None]:
-    """Diameter [m] of a ball screw under a force [N], and its safety against buckling; None for belts."""
-    if params.axis == "belt":
-        return None, None
-    length = params.stroke + SCREW_ENDS
-
-    def safety(diameter: float) -> float:
-        ball = Screw(diameter, params.lead, CORE * diameter, BALL_FRICTION)
-        return ball.buckling_force(length, STEEL.modulus) / force if force > 0 else float("inf")
-
-    offered = (params.screw_diameter,) if params.screw_diameter else BALL_SCREWS
-    taken = next((diameter for diameter in offered if safety(diameter) >= BUCKLING), offered[-1])
-    return taken, safety(taken)
-
-
-def _fell_force(
-    params: HammerParams, fabric: Fabric, force: float, travel: FloatArray, speed: FloatArray
-) -> FloatArray:
-    """Force of one warp on the comb [N] along the stroke, which ends where the force is reached."""
-    forces = np.concatenate([[0.0], np.geomspace(force * 1e-4, force, _TABLE)])
-    left = params.stroke - travel
-    going = np.interp(float(fabric.travel(force)) - left, np.asarray(fabric.travel(forces)), forces, left=0.0)
-    back = np.interp(float(fabric.fell(force)) - left, np.asarray(fabric.fell(forces)), forces, left=0.0)
-    return np.asarray(np.where(speed >= -_STILL, going, back))

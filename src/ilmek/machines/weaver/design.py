@@ -18,9 +18,6 @@ from ilmek.timing.track import ActuatorLimits, Track, peak_acceleration, peak_sp
 from ilmek.units import turn
 from ilmek.weaving.knots.proof import TiedKnot
 
-HAND_KNOT = 2.4
-"""The best hand weaver's time for a knot [s]: 25 a minute."""
-
 
 @dataclass(frozen=True, slots=True)
 class TrackPeaks:

@@ -7,10 +7,11 @@ import numpy as np
 
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL, CamShaftDrive, LoadedPlateCam
 from ilmek.elements.plates import round_bore, zero_mark
+from ilmek.loom.production import HAND_KNOT
 from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.weaver.cams import stack_width
 from ilmek.machines.weaver.cyclogram import relations
-from ilmek.machines.weaver.design import HAND_KNOT, Weaver
+from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE, Grippers
 from ilmek.machines.weaver.limits import HeadLimits, head_limits
 from ilmek.machines.weaver.motions import HANDLER

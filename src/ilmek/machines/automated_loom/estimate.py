@@ -1,4 +1,4 @@
-"""How long a loom weaves: estimated before there is a chart, and computed from a programme.
+"""How long a loom weaves, estimated before there is a chart, and its programme once there is one.
 
     estimate = rows * ( wefts + (n_first + n_second) * (t_knot + c t_change) )
 
@@ -7,7 +7,7 @@ the estimate; a programme has it.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,37 +19,7 @@ from ilmek.errors import LoomError
 from ilmek.loom.programme import Programme, Times, heads_for, least_time, make_programme
 from ilmek.machines.automated_loom.design import LoomDesign, design, times_at
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
-from ilmek.machines.weaver.design import HAND_KNOT
 from ilmek.records import computed, record, result
-
-
-@dataclass(frozen=True, slots=True)
-class Production:
-    """Where the weaving time of a carpet goes [s].
-
-    total        weaving time                       wefts      of it, wefts and beats
-    tying, changing, travelling, waiting            the rest, as the mean of the heads: together total - wefts
-    by_hand      time of the best hand weaver for the knots alone
-    """
-
-    total: float
-    wefts: float
-    tying: float
-    changing: float
-    travelling: float
-    waiting: float
-    knots: int
-    by_hand: float
-
-    @property
-    def knots_per_minute(self) -> float:
-        """Knots a minute of all heads, wefts and waiting included."""
-        return 60 * self.knots / self.total
-
-    @property
-    def utilisation(self) -> float:
-        """Share of the weaving time that a head ties, on average."""
-        return self.tying / self.total
 
 
 def programme_for(
@@ -70,20 +40,6 @@ def programme_for(
     if deadline is not None:
         loom = design(replace(params, heads=heads_for(knots, yarns, deadline, loom.times, loom.heads_max)))
     return loom, make_programme(knots, yarns, loom.heads, loom.times)
-
-
-def production_time(programme: Programme) -> Production:
-    """Where the time of a programme goes, on the loom whose times it was made with."""
-    times, work, heads = programme.times, programme.work, programme.heads
-    wefts = programme.rows * times.weft
-    knots = int(work.knots.sum())
-    tying, changing = knots * times.knot / heads, int(work.changes.sum()) * times.colour_change / heads
-    busy = float(work.busy.sum()) / heads
-    total = programme.duration
-    waiting = max(0.0, total - wefts - busy)
-    # Besides tying and changing, a busy head moves.
-    travelling = max(0.0, busy - tying - changing)
-    return Production(total, wefts, tying, changing, travelling, waiting, knots, knots * HAND_KNOT)
 
 
 def estimated_time(loom: LoomDesign, heads: int | None = None) -> float:
