@@ -7,7 +7,7 @@ import pytest
 from ilmek.errors import MechanismError
 from ilmek.linkage.circuits import circuits
 from ilmek.linkage.configuration_path import InputPath
-from ilmek.linkage.coupler_curve import coupler_curve
+from ilmek.linkage.coupler_curve import _first_of_its_kind, coupler_curve
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.instant_centres import centrodes
 from ilmek.linkage.one_input import one_input
@@ -21,6 +21,12 @@ def path(sizes, local, branch=+1):
     """The path of a coupler point over a turn of the crank."""
     mechanism = four_bar(*sizes, branch=branch, points={"coupler": {"P": local}})
     return coupler_curve(InputPath(one_input(plan(mechanism))), "coupler", "P")
+
+
+def test_crossings_at_a_triple_point_are_three() -> None:
+    """Three passes through one point cross in pairs that share a parameter; a pair found twice counts once."""
+    pairs = np.array([[0.0, 1.0], [1e-9, 2.0], [1.0, 2.0], [1e-9, 1.0], [1.0, 2.0 - 1e-9]])
+    assert _first_of_its_kind(pairs, 1e-6).tolist() == [True, True, True, False, False]
 
 
 def test_chebychevs_linkage_draws_his_line():

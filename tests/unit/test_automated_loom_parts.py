@@ -152,6 +152,7 @@ def test_sag_of_a_load_over_the_middle_is_its_influence_line_integrated(share):
     wide = share * span
     task = replace(task_of_frame(), width=2 * span, rail_spans=2, heads=1, head_mass=40.0, head_width=wide)
     own = rail_sag(replace(task, head_mass=0.0), section)
+    assert own == pytest.approx(5 * section.line_mass * 9.81 * span**4 / (384 * STEEL.modulus * section.inertia))
     places = (span - wide) / 2 + (np.arange(2000) + 0.5) / 2000 * wide / 2
     influence = places * (3 * span**2 - 4 * places**2) / (48 * STEEL.modulus * section.inertia)
     assert rail_sag(task, section) - own == pytest.approx(40.0 * 9.81 * float(influence.mean()), rel=1e-6)

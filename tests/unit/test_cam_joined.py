@@ -1,6 +1,7 @@
 """Programmes with constant speed, free parts and blends: continuity of the asked order, and jumps that remain."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -132,6 +133,17 @@ def test_any_order_of_angles_is_the_angles_one_by_one(law, angles, start) -> Non
     u = (math.fmod(angles[0] - start, TURN) + TURN) % TURN / 1.7
     if u < 1:
         assert whole[0, 0] == pytest.approx(0.03 * float(law.s(u)), abs=1e-15)
+
+
+@pytest.mark.parametrize("first", [-0.1, 0.1])
+@pytest.mark.parametrize("lift", [-0.02, 0.02])
+def test_a_law_that_does_not_begin_at_zero_is_no_rise(first: float, lift: float) -> None:
+    late = replace(LAWS["cycloidal"], first=first)
+    parts = (rise(1.0, 0.02, LAWS["3-4-5"]), fall(1.0, 0.02, late)) if lift < 0 else (
+        rise(1.0, 0.02, late), fall(1.0, 0.02, LAWS["3-4-5"])
+    )  # fmt: skip
+    with pytest.raises(ParameterError, match=f"its law cycloidal goes from {first:g} to 1; from 0 to 1"):
+        CamProgramme((*parts, dwell(TURN - 2.0)))
 
 
 def test_a_law_that_does_not_end_at_one_is_no_rise() -> None:

@@ -51,6 +51,15 @@ def test_published_hystereses_keep_the_restitution_roughly_where_they_are_meant_
     assert rebound(replace(PIN, restitution=0.2, law="lankarani-nikravesh"), 0.3)[0] > 0.6
 
 
+@pytest.mark.parametrize("restitution", [0.3, 0.7, 0.95, 0.998, 0.9991, 0.9999])
+def test_the_exact_hysteresis_leaves_the_work_of_the_rebound(restitution: float) -> None:
+    """The integral of u du / (1 + h u) from -e to 1 vanishes: here by Gauss' rule, u being the speed."""
+    nodes, weights = np.polynomial.legendre.leggauss(200)
+    u = (1 - restitution) / 2 + (1 + restitution) / 2 * nodes
+    work = weights * u / (1 + exact_hysteresis(restitution) * u)
+    assert abs(work.sum()) < 1e-12 * np.abs(work).sum()
+
+
 def test_all_hystereses_meet_for_nearly_elastic_contacts() -> None:
     for law in LAWS.values():
         assert law(1.0) == 0

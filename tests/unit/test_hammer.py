@@ -211,6 +211,18 @@ def test_work_of_the_press_over_a_turn_packs_two_rows() -> None:
     assert work == pytest.approx(2 * 600 * design.fabric.packing_work(design.spacing), rel=0.03)
 
 
+def test_rows_of_the_table_follow_from_their_force() -> None:
+    design = made()
+    table = next(table for table in MACHINE.report(design).tables if table.name == "hammer-rows")
+    force, every, spacing, along, displacement, energy = np.array(table.rows).T
+    np.testing.assert_allclose(every, 600 * force)
+    np.testing.assert_allclose(spacing * along, 1.0)
+    assert spacing[force == design.needed] == pytest.approx(design.spacing)
+    assert energy[force == design.needed] == pytest.approx(600 * design.energy)
+    assert (np.diff(spacing) < 0).all()
+    assert (np.diff(displacement) > 0).all()
+
+
 def test_work_of_a_beat_packs_a_row_and_lifts_what_is_not_balanced() -> None:
     energies = {}
     for balanced in (0.0, 0.4, 1.0):

@@ -56,6 +56,8 @@ def test_an_elbow_on_both_sides_is_a_failed_check_and_a_warning() -> None:
     said = answer(points=POINTS, angles=ANGLES)
     assert ["off straight" in check.name for check in said.failed] == [True]
     assert "on both sides" in said.warnings[-1]
+    table = next(table for table in said.tables if table.name == "knotting-dyad-arms")
+    assert "on both sides" in [row[-1] for row in table.rows]
 
 
 def test_figures_show_every_arm_and_the_points() -> None:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ilmek.num.conics import meet
+from ilmek.num.pencil2 import roots2
 from ilmek.num.pencil3 import adjugate, determinant, null_vector, roots3
 
 CIRCLE = np.diag([1.0, 1.0, -1.0])
@@ -12,6 +13,15 @@ CIRCLE = np.diag([1.0, 1.0, -1.0])
 def line_pair(one: list[float], other: list[float]) -> np.ndarray:
     product = np.outer(one, other).astype(float)
     return product + product.T
+
+
+@pytest.mark.parametrize(("a", "b", "root"), [("nilpotent", "one", 0.0), ("one", "nilpotent", np.inf)])
+def test_a_double_root_at_zero_or_infinity_is_found_twice(a: str, b: str, root: float) -> None:
+    matrices = {"nilpotent": np.array([[0.0, 1.0], [0.0, 0.0]]), "one": np.eye(2)}
+    found = roots2(matrices[a], matrices[b])
+    assert np.hypot(found.numerator, found.denominator) == pytest.approx(1.0)
+    with np.errstate(divide="ignore"):
+        assert np.abs(found.numerator / found.denominator).tolist() == [root, root]
 
 
 def test_a_circle_and_two_lines_meet_where_the_lines_cut_it() -> None:

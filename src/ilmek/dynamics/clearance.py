@@ -42,7 +42,7 @@ def exact_hysteresis(restitution: float) -> float:
     # Series to fourth order in h: the logarithms cancel near e = 1.
     first = (1 - e**2) / 2 / cubic
     if e > NEARLY_ELASTIC:
-        return first + first**2 * (1 - e**4) / 4 / cubic
+        return first + (first**2 * (1 - e**4) / 4 - first**3 * (1 + e**5) / 5) / cubic
 
     def residual(u: float) -> float:
         h = -math.expm1(-u) / e
