@@ -1,7 +1,8 @@
 """Forces between a cam and its follower over the turn: contact force, torque, rolling and Hertz pressure.
 
-An arm's coordinate is its angle: its moment of inertia, moments, and a rate by the angle stand in the formulas of a
-slide. The cam may be a plate, one of two conjugate plates, or laid flat as a strip that passes under its follower.
+An arm's coordinate is its angle: moment of inertia, moments and torsional rate replace mass, forces and rate in the
+formulas of a slide. The cam is a plate, a pair of conjugate plates, or a developed strip that passes under its
+follower.
 """
 
 import math
@@ -22,11 +23,11 @@ from ilmek.plane.vectors import dot, unit
 from ilmek.records import computed, record, result
 
 POISSON = 0.3
-"""Of steels; of irons and light metals within 10 %, which changes the pressure by 1 %."""
+"""Poisson's ratio of steels; that of irons and light metals differs by up to 10 %, which changes the pressure by 1 %."""
 
 
 class CamShape(NamedTuple):
-    """The cam, and with conjugate cams the pair of it and the other one."""
+    """The cam; with conjugate cams also the pair."""
 
     cam: CamRole
     pair: ConjugatePair | None = None
@@ -34,10 +35,10 @@ class CamShape(NamedTuple):
 
 @record
 class FollowerContact:
-    """How a follower touches its cam.
+    """Contact of a follower with its cam.
 
-    follower   "roller", "spherical", "flat" or "knife"          led      whether the cam leads it both ways
-    laid_flat  whether the cam is a strip that passes under it   pivot    distance of an arm's pivot [m]; None: a slide
+    follower   "roller", "spherical", "flat" or "knife"          led      whether the cam drives it in both directions
+    laid_flat  whether the cam is a strip that passes under it   pivot    distance of an arm's pivot [m]; None: slide
     side       of an arm: +1 trailing, -1 leading                crown    radius of a crowned roller [m]; None: straight
     sliding, guide  coefficients of friction at the contact, and in a straight guide
     material, follower_material  names of `MATERIALS`
@@ -56,7 +57,7 @@ class FollowerContact:
 
     @property
     def at_a_point(self) -> bool:
-        """Whether it touches at a point, not along a line."""
+        """Whether the contact is a point, not a line."""
         return self.follower == "spherical" or self.crown is not None
 
 
@@ -65,7 +66,7 @@ class CamState:
     """Cam and follower at cam angles.
 
     trace    geometry of the cam                    force   required along the motion [N; N m of an arm]
-    normal   force on the normal [N], below 0 where the follower lifts off, or is held by the other flank or cam
+    normal   force along the normal [N]; below 0 the follower lifts off, or the other flank or cam carries it
     torque   of the shaft [N m]                     bend    curvature of the surface in contact [1/m]
     """
 
@@ -88,7 +89,7 @@ class CamExtremes:
 
     @property
     def largest_torque(self) -> Extremum:
-        """The torque of largest magnitude; forwards where both are equal but for rounding."""
+        """The torque of largest magnitude; the positive one where both are equal up to rounding."""
         forwards = self.torque.value >= -self.back_torque.value * (1 - EQUAL)
         return self.torque if forwards else self.back_torque
 
@@ -98,7 +99,7 @@ class CamExtremes:
     contact_force_max = computed("N", "largest force between cam and follower", lambda it: it.normal.value)
     contact_force_at = computed("deg", "cam angle of the largest force", lambda it: it.normal.at)
 
-    @computed("MPa", "largest Hertz pressure; null of a knife edge, or where undercut leaves no face")
+    @computed("MPa", "largest Hertz pressure; null for a knife edge, and where undercut leaves no surface")
     def hertz_pressure_max(self) -> float | None:
         return None if self.pressure is None or not math.isfinite(self.pressure.value) else self.pressure.value
 
@@ -133,7 +134,7 @@ class LoadedCam:
         return CamState(trace, force, found.normal, found.torque, bend)
 
     def hertz(self, angle: FloatArray, width: float) -> FloatArray:
-        """Hertz pressure [Pa] at cam angles [rad] on a face of a width [m]; NaN where there can be no contact."""
+        """Hertz pressure [Pa] at cam angles [rad] on a face of a width [m]; NaN where contact is impossible."""
         contact, state = self.contact, self.state(angle)
         first, second = MATERIALS[contact.material], MATERIALS[contact.follower_material]
         modulus = contact_modulus(first.modulus, POISSON, second.modulus, POISSON)
@@ -145,7 +146,7 @@ class LoadedCam:
         return line_contact(normal / width, along, modulus).pressure
 
     def duty(self) -> RollerDuty:
-        """The duty of a roller over the turn; it rolls on its stud, which an arm carries with it."""
+        """The duty of a roller over the turn; it rotates on its stud, which moves with an arm."""
         cam, contact = self.shape.cam, self.contact
 
         def borne(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -182,13 +183,13 @@ class LoadedCam:
         )
 
     def _size(self, normal: FloatArray) -> FloatArray:
-        """Magnitude of the contact force [N]; below 0 there is no contact but of a cam that leads both ways."""
+        """Magnitude of the contact force [N]; below 0 only a cam that drives in both directions has contact."""
         return np.asarray(np.abs(normal) if self.contact.led else np.maximum(normal, 0.0))
 
     def _force(self, trace: CamTrace, force: FloatArray, radius: float) -> ContactForce:
         """Contact force and torque; radius: prime radius of the cam [m].
 
-        Laid flat, the cam moves at right angles to the follower: N = F / (cos mu - mu_g |sin mu| sign(s')) and
+        A developed cam moves perpendicular to the follower: N = F / (cos mu - mu_g |sin mu| sign(s')) and
         T = N rho sin mu.
         """
         contact = self.contact

@@ -79,7 +79,7 @@ def count_lone(knots: Indices) -> int:
 def merge_lone(
     knots: Indices, rgb: Rgb, colours: Colours, yarn_labs: FloatArray, difference: FloatArray
 ) -> tuple[int, float]:
-    """Give every lone knot the yarn of its best neighbour; `knots` is changed in place.
+    """Give every lone knot the yarn of its best neighbour; `knots` is modified.
 
     rgb         picture on the knot grid               colours     its distinct colours
     yarn_labs   CIELAB of the yarns, (yarns, 3)        difference  CIEDE2000 of each colour to its yarn, (colours,)

@@ -24,7 +24,7 @@ from ilmek.timing.path_speed.path import AxesLimits, JointPath, Three, rates, ri
 __all__ = ["AxesLimits", "JointPath", "PathMotion", "Trajectory", "quickest_motion"]
 
 INTERVALS, COARSE = 300, 80
-"""Intervals of the spline, and of the first coarse spline, which places the knots."""
+"""Intervals of the spline, and of the first coarse spline, which determines the knots."""
 
 TOLERANCE, GROSS, ROUNDS = 1e-3, 1.05, 6
 """Relative excess between the points that is left to slowing down; use of a limit above which an interval is divided;
