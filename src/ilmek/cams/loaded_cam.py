@@ -23,7 +23,7 @@ from ilmek.plane.vectors import dot, unit
 from ilmek.records import computed, record, result
 
 POISSON = 0.3
-"""Poisson's ratio of steels; that of irons and light metals differs by up to 10 %, which changes the pressure by 1 %."""
+"""Poisson's ratio of steels; that of irons and light metals differs by up to 10 %, the pressure by 1 %."""
 
 
 class CamShape(NamedTuple):
