@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ilmek.cams.opposed_cams import offsets
 from ilmek.errors import ParameterError
 from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams
-from ilmek.machines.shedding.phases import offsets
 from ilmek.units import deg
 
 

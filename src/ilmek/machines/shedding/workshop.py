@@ -10,9 +10,9 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.limits import area
+from ilmek.cams.opposed_cams import turn_knots
 from ilmek.cams.programme import TURN, CamProgramme
 from ilmek.machines.shedding.design import SheddingDesign
-from ilmek.machines.shedding.phases import turn_knots
 from ilmek.report import CamTable, Plate
 
 STEEL = "structural steel"
