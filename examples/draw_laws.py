@@ -1,4 +1,4 @@
-"""Draws docs/_static/motion-laws.svg and residual-vibration.svg: the motion laws, and what swings on after each.
+"""Draws docs/_static/motion-laws.svg and residual-vibration.svg: motion laws, and the residual vibration after each.
 
 Run it as `python examples/draw_laws.py`; it ends with the least time ratio for 1 % of residual vibration by 4-5-6-7.
 """

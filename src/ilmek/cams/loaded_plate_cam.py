@@ -1,15 +1,15 @@
-"""A plate cam as small as the pressure angle allows, with its loads by spring or groove, and the drive of its shaft.
+"""The smallest plate cam for a pressure angle, with its loads by spring or groove, and the drive of its shaft.
 
-A lever, or a rack and pinion, stands between a cam's follower and what it moves: the follower moves s = x/i, and a mass
-m that it moves counts i² m there. A part that turns in one direction only is driven forward through a freewheel, a
-brake keeps it from running on, and the rack returns while it stands. With w the speed of the cam shaft the follower
-needs
+A lever, or a rack and pinion, connects the cam's follower to a tool: the follower moves s = x/i, and a mass m of the
+tool counts as i² m at the follower. A part that rotates in one direction only is driven forward through a freewheel, a
+brake stops it, and the rack returns while it is at rest. With the speed w of the cam shaft, the required force on the
+follower is
 
     F = m w² s'' + b + k s + P + load        b of the brake during the motion forward: sup m w² |s''|
 
-and presses with N = F / cos(mu) on the cam, at the torque F s'. The spring is the weakest of those whose force doubles
-over the lift that holds the follower at 1.2 times the speed; a groove needs none. Prime circle and forces are the
-largest of samples every 1/8 degree and at both sides of every joint of the motion.
+The contact force is N = F / cos(mu), the torque F s'. The spring is the weakest one whose force doubles over the lift
+and that keeps the follower on the cam at 1.2 times the speed; a groove requires none. Prime circle and forces are
+maxima over samples every 1/8 degree and on both sides of every joint of the motion.
 
 The torque of the shaft is the sum of F s' of all cams. At constant speed its mean over a turn is the torque of the
 brakes. Friction is not included.
@@ -39,7 +39,7 @@ PRESSURE_LIMIT = hertz_limit(STEEL, ROLLER) or 0.0
 MODULUS = contact_modulus(STEEL.modulus, STEEL.poisson, ROLLER.modulus, ROLLER.poisson)
 
 FASTER = 1.2
-"""Speed up to which a spring holds its follower, over that of the cam."""
+"""Speed up to which a spring keeps its follower on the cam, over the speed of the cam."""
 
 ROOM = 1.25
 """Least radius of curvature of a pitch curve over its roller's radius."""

@@ -1,20 +1,20 @@
-"""Where the weaving time of a programme goes, and what the best hand weaver needs for its knots."""
+"""Breakdown of the weaving time of a programme, and the time of the best hand weaver."""
 
 from dataclasses import dataclass
 
 from ilmek.loom.programme import Programme
 
 HAND_KNOT = 2.4
-"""The best hand weaver's time for a knot [s]: 25 a minute."""
+"""Time of the best hand weaver per knot [s]: 25 knots a minute."""
 
 
 @dataclass(frozen=True, slots=True)
 class Production:
-    """Where the weaving time of a carpet goes [s].
+    """Breakdown of the weaving time of a carpet [s].
 
-    total        weaving time                       wefts      of it, wefts and beats
-    tying, changing, travelling, waiting            the rest, as the mean of the heads: together total - wefts
-    by_hand      time of the best hand weaver for the knots alone
+    total        weaving time                       wefts      share of wefts and beats
+    tying, changing, travelling, waiting            shares of the heads, their mean; their sum is total - wefts
+    knots        number of knots                    by_hand    time of the best hand weaver for the knots alone
     """
 
     total: float
@@ -28,17 +28,17 @@ class Production:
 
     @property
     def knots_per_minute(self) -> float:
-        """Knots a minute of all heads, wefts and waiting included."""
+        """Knots per minute of all heads, including wefts and waiting [1/min]."""
         return 60 * self.knots / self.total
 
     @property
     def utilisation(self) -> float:
-        """Share of the weaving time that a head ties, on average."""
+        """Mean share of the weaving time in which a head ties [-]."""
         return self.tying / self.total
 
 
 def production_time(programme: Programme) -> Production:
-    """Where the time of a programme goes, on the loom whose times it was made with."""
+    """Breakdown of the weaving time of a programme [s], by the times of its loom."""
     times, work, heads = programme.times, programme.work, programme.heads
     wefts = programme.rows * times.weft
     knots = int(work.knots.sum())
@@ -46,6 +46,6 @@ def production_time(programme: Programme) -> Production:
     busy = float(work.busy.sum()) / heads
     total = programme.duration
     waiting = max(0.0, total - wefts - busy)
-    # Besides tying and changing, a busy head moves.
+    # The remaining working time of a head is travel.
     travelling = max(0.0, busy - tying - changing)
     return Production(total, wefts, tying, changing, travelling, waiting, knots, knots * HAND_KNOT)
