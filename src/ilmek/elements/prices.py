@@ -1,4 +1,4 @@
-"""Prices of a loom's parts: a small table for editing.
+"""Prices of a machine's parts: a small table for editing.
 
     price of a part = number * (each + per_kg mass + per_m length + per_W power)
 

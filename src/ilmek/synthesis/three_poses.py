@@ -93,7 +93,7 @@ class ThreePoseSynthesis:
     )
 
     def arm_as_json(self, arm: TwoLinkArm) -> dict[str, Json]:
-        """An arm by the report's symbols."""
+        """Dimensions of an arm, and its first link's angles at the poses [SI]."""
         return {
             "a0": arm.ground,
             "theta0": self.ground_angle,
