@@ -1,4 +1,9 @@
-"""Motion of any point on a body, such as its mass centre, over the samples of a motion."""
+"""Motion of any point on a body, such as its mass centre, over the samples of a motion.
+
+    P = O + r,    P' = O' + i omega r,    P'' = O'' + (i alpha - omega²) r,    r = l e^{i theta}
+
+[rigid body in plane motion: Norton, Design of Machinery, chapters 6 and 7]
+"""
 
 from typing import NamedTuple
 
@@ -17,7 +22,11 @@ class AttachedPoint(NamedTuple):
 
 
 def attached(motion: Motion, body: str, local: complex) -> AttachedPoint:
-    """Motion of a point of a body, at `local` [m], complex, in the body's frame."""
+    """Motion of a point of a body, at `local` [m], complex, in the body's frame.
+
+    motion  with one value per sample      body  its name
+    Returns arrays over the samples [m, m/s, m/s²]; NaN where the mechanism does not close.
+    """
     moved = motion.body(body).carry(local)
     return AttachedPoint(
         _over(moved.position, motion), _over(moved.velocity, motion), _over(moved.acceleration, motion)

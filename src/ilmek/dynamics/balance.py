@@ -5,7 +5,7 @@
 A counterweight on the crank with static moment U = m r [kg m], complex in the crank's frame, adds U omega² e^{i theta}
 at constant speed. The first harmonic of the force is c_1 e^{i theta} + c_-1 e^{-i theta}. The first part rotates with
 the crank and is cancelled by a counterweight on it. The second part rotates in the opposite direction and requires a
-second, counter-rotating weight [Lanchester balancer].
+second, counter-rotating weight [Lanchester balancer; Norton, Design of Machinery, chapter 12].
 """
 
 import math
@@ -37,7 +37,7 @@ class Shaking:
 def shaking(motion: Motion, inertias: Mapping[str, Inertia], about: complex = 0j) -> Shaking:
     """Shaking force and moment of the moving masses, without gravity and loads.
 
-    motion    with accelerations      inertias  body -> inertia; a body that is not listed is massless
+    motion    with accelerations      inertias  body -> inertia [kg, m, kg m²]; a body that is not listed is massless
     about     reference point O [m]; default: the ground's origin
     """
     force, moment = np.zeros(len(motion), complex), np.zeros(len(motion))

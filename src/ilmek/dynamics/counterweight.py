@@ -1,4 +1,4 @@
-"""Shaking force and moment of a four-bar on its frame, and its counterweights."""
+"""Shaking force and moment of a four-bar on its frame, and its counterweights [formulas and sources: `balance`]."""
 
 import cmath
 from collections.abc import Mapping

@@ -5,7 +5,8 @@
 "Needs" of a body are the force m a_G and the moment J alpha less its loads: the sum that its joints must transmit.
 A group has three equations per body and as many unknowns: two constraint forces per joint, and the efforts of its
 inputs. The groups are solved from the last to the first. Each passes its joint forces on to the bodies to which it is
-attached [Assur's principle]. Constraint forces have no generalized force g on the relative motion of their joint:
+attached [Assur's principle; for the equations of each link Norton, Design of Machinery, chapter 11]. Constraint forces
+have no generalized force g on the relative motion of their joint:
 
     one body, one driven joint   the joint transmits all needs of the body
     a dyad                       with w the force of the inner joint on the first body:  g_A(need_1 - w) = 0,
@@ -53,7 +54,11 @@ def add(to: Needs, poses: PoseBlock, body: str, pull: ForceAndMoment, at: Comple
 
 
 def joint_pulls(poses: PoseBlock, needed: Needs) -> Pulls:
-    """Forces and moments of all joints, including the drive efforts; inf or NaN where the equations are singular."""
+    """Forces [N] and moments [N m] of all joints, including the drive efforts, one value per sample.
+
+    poses  the block of samples      needed  of `needs`
+    The values are inf or NaN where the equations are singular.
+    """
     needed = dict(needed)
     found: Pulls = {}
     driven = {entry.joint for entry in poses.motion.plan.mechanism.inputs}

@@ -67,7 +67,11 @@ def until_terminal(met: list[EventRecord[At]]) -> list[EventRecord[At]]:
 
 
 def crossing_time(value: Callable[[float], float], early: float, late: float) -> float:
-    """Time [s] between `early` and `late` at which a value changes its sign; `late` where rounding hides the change."""
+    """Time [s] between `early` and `late` at which a value changes its sign, by Brent's method.
+
+    value  function of the time [s], continuous      early, late  ends of the step [s]
+    `late` is returned where both ends have the same sign, as where rounding hides the change.
+    """
     if value(early) * value(late) >= 0:
         return late
     return float(scipy.optimize.brentq(value, early, late, xtol=4e-16 * max(abs(late), 1e-300), rtol=1e-15))

@@ -119,5 +119,9 @@ class ForwardRun:
 
 
 def energies(reduced: ReducedMechanism, position: Samples, speed: Samples) -> tuple[Samples, Samples]:
-    """Kinetic and potential energy [J] at positions [rad; m] and speeds, from the mechanism, not from a table."""
+    """Kinetic energy J q'² / 2 and potential energy [J], from the mechanism, not from a table.
+
+    position, speed  of the input, shape (samples,) [rad, rad/s; m, m/s for a sliding input]
+    Returns both, shape (samples,).   [derived in `reduced`]
+    """
     return reduced.terms(position).inertia * speed**2 / 2, reduced.potential(position)

@@ -47,7 +47,11 @@ class FourierTerms:
 
 @compiled
 def evaluate(coefficients: np.ndarray, position: float) -> tuple[float, float, float]:
-    """Three series at one angle by Horner's rule in z = e^{iq}."""
+    """Three series J [kg m²] and both Q [N m] at one angle by Horner's rule in z = e^{iq}.
+
+    coefficients  shape (orders, 3), complex, from order 0 on; the real parts of the sums are returned
+    position      q [rad]
+    """
     z = complex(np.cos(position), np.sin(position))
     a, b, c = 0j, 0j, 0j
     for k in range(coefficients.shape[0] - 1, -1, -1):

@@ -1,5 +1,7 @@
 """Mass, mass centre and moment of inertia of links: bars and point masses, combined by the parallel-axis theorem.
 
+[Meriam and Kraige, Engineering Mechanics: Dynamics, appendix B]
+
 >>> rocker = combined(bar(0, 0.3, mass=0.649, width=0.03), point_mass(2.5, at=0.3))
 >>> round(rocker.centre.real, 4), round(rocker.mass, 3)
 (0.2691, 3.149)
@@ -68,7 +70,7 @@ def bar_moment(mass: RealField, length: RealField, width: RealField) -> RealFiel
 
 
 def bar(start: complex, end: complex, *, mass: float, width: float = 0.0) -> Inertia:
-    """A uniform straight bar.
+    """A uniform straight bar: mass [kg], mass centre [m] and J = m (L² + w²) / 12 [kg m²] about it.
 
     start, end  its ends in the body's frame [m], complex
     mass        [kg]
@@ -78,12 +80,12 @@ def bar(start: complex, end: complex, *, mass: float, width: float = 0.0) -> Ine
 
 
 def point_mass(mass: float, at: complex) -> Inertia:
-    """A point mass [kg] at a point of the body's frame [m]."""
+    """A point mass [kg] at a point of the body's frame [m], complex; its moment of inertia is 0."""
     return Inertia(mass, complex(at), 0.0)
 
 
 def combined(*parts: Inertia) -> Inertia:
-    """Inertia of rigidly connected parts, all given in the same frame.
+    """Inertia [kg, m, kg m²] of rigidly connected parts, all given in the same frame.
 
         m = Σ m_k,   c = Σ m_k c_k / m,   J = Σ (J_k + m_k |c_k - c|²)     [parallel-axis theorem]
 

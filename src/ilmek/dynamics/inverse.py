@@ -138,7 +138,7 @@ def inverse(
     """Joint forces and drive efforts of a motion under inertia, loads and joint friction.
 
     motion           the given motion, with speeds and accelerations
-    inertias         body -> inertia; a body that is not listed is massless
+    inertias         body -> inertia [kg, m, kg m²]; a body that is not listed is massless
     loads            loads such as `Gravity`; default: none
     joint_frictions  friction of joints, consistent with the joint forces; see `joint_friction`; default: none
     side             at a reversal of a joint with friction: +1 the forces just after it in time, -1 just before; a

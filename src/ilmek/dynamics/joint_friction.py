@@ -9,6 +9,7 @@ The joint forces are linear in the friction efforts x: F = F_0 + Σ x_k G_k, wit
 x + sgn mu |F(x)| = 0 is solved by Newton's method, with one unknown per joint with friction. Where it has no solution,
 no drive effort maintains the motion: the mechanism is self-locking. A solution that is not connected to the
 frictionless one as mu grows from 0 (the determinant of the Jacobian has changed its sign) counts as self-locking too.
+[Coulomb's law; the guide's end forces and the criterion are derived here]
 """
 
 import math
@@ -143,7 +144,10 @@ def frictions(
 
 
 def loaded(poses: PoseBlock, needed: Needs, efforts: Mapping[str, FloatArray]) -> Needs:
-    """The needs under efforts in joints [N m; N]: on the joint's `on` body, and the opposite on the other."""
+    """The needs under efforts in joints [N m; N]: on the joint's `on` body, and the opposite on the other.
+
+    Returns needs of the same shapes, [N] and [N m] per sample.
+    """
     changed = dict(needed)
     for name, effort in efforts.items():
         joint = poses.joints[name]

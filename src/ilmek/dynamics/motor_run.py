@@ -2,7 +2,8 @@
 
     M = M_0 tanh((omega_0 - omega) / (s omega_0))          a motor or drive that limits its torque to M_0
 
-omega_0 is the speed without load, s the slip at which a linear characteristic would reach M_0.
+omega_0 is the speed without load, s the slip at which a linear characteristic would reach M_0. The characteristic is
+assumed by this project. Equation of motion and flywheel: see `reduced` and `flywheel`.
 """
 
 import math
@@ -116,7 +117,7 @@ def motor_run(
 ) -> MotorRun:
     """The run of a mechanism by a motor on its crank, and the motor and flywheel that it requires.
 
-    plan      of the mechanism, its input the body "crank"      inertias  body -> inertia
+    plan      of the mechanism, its input the body "crank"      inertias  body -> inertia [kg, m, kg m²]
     gravity   acceleration [m/s²], complex
     torque    torque on the crank [N m] at crank angles [rad], at constant speed
     task      motor and flywheel

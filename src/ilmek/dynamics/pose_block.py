@@ -109,7 +109,12 @@ class PoseBlock:
 
 
 def pose_block(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
-    """Poses of the mechanism at the samples of a motion; inertias: body -> inertia [kg, m, kg m²]."""
+    """Poses of the mechanism at the samples of a motion; inertias: body -> inertia [kg, m, kg m²].
+
+    motion  with accelerations, shape (samples,)
+    Raises MechanismError where the force of a coupling is not determined: a belt, or gears of ratio 1.
+    [the pole of gears is derived from the velocities of rolling pitch circles]
+    """
     bodies: dict[str, BodyMotion] = {GROUND: STILL}
     for step in motion.plan.steps:
         bodies.update(step.locate(bodies, {body: motion.columns[body] for body in step.bodies}))

@@ -105,7 +105,7 @@ def reduce(
 ) -> ReducedMechanism:
     """The mechanism reduced to its only input.
 
-    inertias  body -> inertia; a body that is not listed is massless
+    inertias  body -> inertia [kg, m, kg m²]; a body that is not listed is massless
     loads     loads such as `Gravity`; default: none
     flywheel  inertia that moves with the input [kg m²; kg for a sliding input]
 

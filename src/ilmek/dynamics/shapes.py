@@ -1,6 +1,7 @@
 """Mass, mass centre and moment of inertia of flat uniform shapes in the plane of motion.
 
-Lengths in m, density in kg/m³. Several shapes form one link by `inertia.combined`.
+Lengths in m, density in kg/m³, results in kg, m, kg m². Several shapes form one link by `inertia.combined`.
+[Meriam and Kraige, Engineering Mechanics: Dynamics, appendix B for disc, ring and bar; the others are derived here]
 """
 
 import math

@@ -109,7 +109,10 @@ def hours(revolutions: float, speed: float) -> float:
 
 
 def reliability_factor(reliability: float) -> float:
-    """Life factor a1 for a reliability from 0.90 to 0.99, linear between the values of the table."""
+    """Life factor a1 [1] for a reliability from 0.90 to 0.99, linear between the values of the table.
+
+    Raises ParameterError outside this range.
+    """
     if not 0.9 <= reliability <= 0.99:
         raise ParameterError(
             f"a reliability of {reliability:g} for a bearing's life",

@@ -50,6 +50,7 @@ def positive_work(torque: Callable[[FloatArray], FloatArray]) -> float:
     """Work of a turn without recovery [J]: the integral of max(M, 0) over the angle, by midpoints.
 
     torque  M(q) [N m] at angles q [rad], one value for each
+    Negative torques count as 0.     [derived from the definition of work]
     """
     angle = (np.arange(_MIDPOINTS) + 0.5) * turn / _MIDPOINTS
     return float(np.sum(np.maximum(torque(angle), 0.0)) * turn / _MIDPOINTS)

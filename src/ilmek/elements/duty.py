@@ -4,7 +4,7 @@
 
 T torque of the load, J its inertia, w and a its speed and acceleration; Mr the reducer's input torque (`reducers`), i
 its ratio, Jm the rotor's inertia; the reducer's inertia is neglected. The heating of the windings follows the mean of
-M², the drive's current the largest M.                            [equation of motion; usual practice of servo sizing]
+M², the drive's current the largest M.                                      [derived here from the equation of motion]
 """
 
 from collections.abc import Sequence
@@ -81,6 +81,8 @@ class ServoDrive:
 def duty(cycle: LoadCycle, motor: Motor, reducer: Reducer = DIRECT) -> MotorDuty:
     """The motor's duty M = Mr(T + J a) + Jm i a over a cycle.
 
+    `cycle` has arrays of one shape in [rad/s], [rad/s²] and [N m]; `reserve` is inf where no torque is required.
+
     >>> turn = 2 * np.pi * np.arange(360) / 360
     >>> swing = LoadCycle(10 * np.sin(turn), 100 * np.cos(turn), np.zeros(360), inertia=0.01)
     >>> servo = next(motor for motor in MOTORS if motor.name.startswith("servo 750 W"))
@@ -106,7 +108,7 @@ def duty(cycle: LoadCycle, motor: Motor, reducer: Reducer = DIRECT) -> MotorDuty
 def bears(motor: Motor, found: MotorDuty, *, margin: float = MARGIN, inertia_ratio: float = INERTIA_RATIO) -> bool:
     """Whether a motor is sufficient for a duty: peak torque, inertia ratio, and for a servo rms torque and speed.
 
-    margin  least ratio of available to required torque      inertia_ratio  greatest ratio of load to rotor
+    margin  least ratio of available to required torque [1]      inertia_ratio  greatest load to rotor [1]
     A stepper always carries its rated current, so that its rms torque has no limit.
     """
     continuous = motor.kind == STEPPER or (

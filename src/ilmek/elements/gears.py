@@ -74,7 +74,9 @@ class EqualGears:
 
 
 def lewis(teeth: int) -> float:
-    """Lewis' form factor of 20 deg full teeth, linear in 1 / z between the table's; below 12 teeth that of 12.
+    """Lewis' form factor Y [1] of 20 deg full teeth, linear in 1 / z between the table's; below 12 teeth that of 12.
+
+    [Shigley, table 14-2]
 
     >>> lewis(20), round(lewis(200), 3), round(lewis(10**9), 3)
     (0.322, 0.466, 0.485)

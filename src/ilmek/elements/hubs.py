@@ -1,6 +1,6 @@
 """The hub of a cam on its shaft: bore and keyway.
 
-d^3 = 16 T / (pi tau)                     a solid shaft under a torque T at the shear stress tau
+d^3 = 16 T / (pi tau)                     a solid shaft under a torque T at the shear stress tau  [Shigley, 3-12]
 """
 
 import math

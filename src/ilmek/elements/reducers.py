@@ -62,9 +62,10 @@ RATIOS = (1.0, *(reducer.ratio for reducer in PLANETARY))
 
 
 def worm_efficiency(lead_angle: float, friction_angle: float) -> float:
-    """Efficiency of a worm: tan g / tan(g + r) of its lead angle g and the angle of friction r [rad].
+    """Efficiency of a worm [1]: tan g / tan(g + r) of its lead angle g and the angle of friction r [rad].
 
     Self-locking for g <= r, with an efficiency of at most (1 - tan^2 r)/2.
+    [Shigley, 8-2, for a square thread]
     """
     return math.tan(lead_angle) / math.tan(lead_angle + friction_angle)
 

@@ -1,6 +1,6 @@
 """Sections of shafts: round, tube and square; stress of bending and torsion together, twist.
 
-    σ = M / W,   τ = T / Wt,   σv = sqrt(σ² + 3 τ²),   φ = T l / (G J)               [von Mises; Shigley, 5-13, 3-34]
+    σ = M / W,   τ = T / Wt,   σv = sqrt(σ² + 3 τ²),   φ = T l / (G J)                [von Mises; Shigley, 5-5, 3-12]
 
 >>> section = round_section(0.04)
 >>> round(float(section.equivalent_stress(100.0, 0.0)) / 1e6, 3)

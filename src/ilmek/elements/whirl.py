@@ -35,7 +35,9 @@ class Mass:
 
 
 def uniform_root(mode: int, ends: str) -> float:
-    """βl of a uniform beam's mode, from 1 on; ends "hinged", "cantilever", "clamped" or "propped" (clamped, hinged).
+    """Root βl [1] of a uniform beam's mode, from 1 on.
+
+    ends  "hinged", "cantilever", "clamped" or "propped" (clamped, hinged). Raises ParameterError for another name.
 
     >>> [round(uniform_root(mode, "cantilever") ** 2, 3) for mode in (1, 2, 3)]
     [3.516, 22.034, 61.697]

@@ -7,7 +7,7 @@ A yarn of linear density mu [kg/m] has
     stiffness        EA = e mu                           force over strain; e specific stiffness
     breaking force   F  = f mu                           f specific strength
 
-Specific quantities are in N m/kg: 1 N/tex = 1e6 N m/kg.
+Specific quantities are in N m/kg: 1 N/tex = 1e6 N m/kg.    [derived from mu = phi rho pi d²/4 and Hooke's law by mass]
 """
 
 import math

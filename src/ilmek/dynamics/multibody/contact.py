@@ -1,8 +1,9 @@
 """Compiled kernels of clearance pins: force, penetration, and the time of the touch of a journal in flight.
 
-The contact law is in `clearance`. The state of a pin is one number: -1 in flight (no contact); in contact the greatest
-speed |d'| since the contact began. In flight no force acts at any penetration, so that a step into the bearing is
-smooth and the time of the touch can be located. Contact begins when a step ends at the touch.
+The contact law and its sources are in `clearance` [Hunt and Crossley 1975]. The state of a pin is one number: -1 in
+flight (no contact); in contact the greatest speed |d'| since the contact began. In flight no force acts at any
+penetration, so that a step into the bearing is smooth and the time of the touch can be located. Contact begins when a
+step ends at the touch.
 """
 
 import numpy as np
@@ -100,7 +101,10 @@ def _acceleration(model: Model, y: np.ndarray, slope: np.ndarray, contact: int, 
 
 @compiled
 def stride(model: Model, y: np.ndarray, slope: np.ndarray) -> float:
-    """Longest step in which no journal in flight moves by more than `STRIDE` of its clearance [s]."""
+    """Longest step in which no journal in flight moves by more than `STRIDE` of its clearance [s].
+
+    model, y, slope  the system, its state, the state's rate of change [SI]; inf where no journal is in flight
+    """
     size, longest = model.masses.shape[0], np.inf
     for k in range(model.contacts.shape[0]):
         if y[2 * size + 1 + k] < 0.0:
@@ -121,7 +125,10 @@ def _cubic(s: float, h: float, start: tuple[float, float], end: tuple[float, flo
 
 @compiled
 def until_touch(model: Model, y: np.ndarray, new: np.ndarray, h: float) -> float:
-    """Time from the start of a step h to the first touch of a journal in flight [s]; h where there is none before."""
+    """Time from the start of a step h to the first touch of a journal in flight [s]; h where there is none before.
+
+    y, new  states at the start and the end of the step [SI]; between them the penetration is a cubic of Hermite
+    """
     size, first = model.masses.shape[0], h
     for k in range(model.contacts.shape[0]):
         start, end = depth(model, y, k), depth(model, new, k)
@@ -147,7 +154,10 @@ def until_touch(model: Model, y: np.ndarray, new: np.ndarray, h: float) -> float
 
 @compiled
 def settle(model: Model, y: np.ndarray) -> None:
-    """Begin, keep or end each contact at the end of a step."""
+    """Begin, keep or end each contact at the end of a step.
+
+    y  state [SI]: its contact numbers are changed in place, to the speed |d'| [m/s], or -1 in flight
+    """
     size = model.masses.shape[0]
     for k in range(model.contacts.shape[0]):
         deep, rate = depth(model, y, k)

@@ -64,7 +64,10 @@ class Model(NamedTuple):
 
 @compiled
 def arm_of(model: Model, q: np.ndarray, v: np.ndarray, at: int, side: int) -> tuple[complex, complex, complex, complex]:
-    """Arm, position and velocity of one side of an element in the ground frame, and its acceleration bias -w² r."""
+    """Arm, position [m], velocity [m/s], acceleration bias -w² r [m/s²] of one side of an element, in the ground frame.
+
+    q, v  coordinates [m, rad] and their rates, shape (3 bodies,)      at, side  element; 0 first body, 1 second body
+    """
     body, arm = model.ends[at, side], model.arms[at, side]
     if body < 0:
         return arm, arm, 0j, 0j
@@ -155,7 +158,10 @@ def push(out: np.ndarray, body: int, arm: complex, force: complex) -> None:
 
 @compiled
 def penalties(model: Model, rows: np.ndarray, out: np.ndarray) -> None:
-    """Penalty W of each joint, a symmetric 2 by 2 matrix (xx, xy, yy): PENALTY / (J M^-1 J^T) of this joint alone."""
+    """Penalty W of each joint, a symmetric 2 by 2 matrix (xx, xy, yy): PENALTY / (J M^-1 J^T) of this joint alone.
+
+    rows  J, shape (2 joints, 6)      out  shape (joints, 3), written
+    """
     for k in range(out.shape[0]):
         xx, xy, yy = 0.0, 0.0, 0.0
         for a in range(6):
@@ -283,7 +289,12 @@ def constrained(
     solution: np.ndarray,
     reaction: np.ndarray,
 ) -> None:
-    """Solve M solution + J^T reaction = force, J solution = required; `root` is from `factor`."""
+    """Solve M solution + J^T reaction = force, J solution = required; `root` is from `factor`.
+
+    rows               J, shape (2 joints, 6)          penalty   of `penalties`, shape (joints, 3)
+    force, solution    shape (3 bodies,), [N, N m] and [m/s², rad/s²] for accelerations; solution is written
+    required, reaction shape (2 joints,); reaction is written
+    """
     size, count = solution.shape[0], reaction.shape[0]
     step, residual = np.empty(size), np.empty(count)
     for i in range(size):

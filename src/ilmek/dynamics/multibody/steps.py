@@ -2,6 +2,7 @@
 """Compiled integration of a planar multibody system: right-hand side, projection, steps of order 8.
 
 A state consists of positions, velocities, work, and one number per clearance pin (see `multibody.contact`).
+Equations, method and sources: `multibody.kernel` [Hairer, Norsett and Wanner, II.10].
 """
 
 from typing import TypeAlias
@@ -30,7 +31,10 @@ STAGES = 12
 
 @compiled
 def rates(model: Model, y: np.ndarray, out: np.ndarray, reaction: np.ndarray) -> None:
-    """Time derivative of a state; joint reactions (f of J^T f on the left side) and forces on the journals."""
+    """Time derivative of a state [SI]; joint reactions (f of J^T f on the left side) and forces on the journals [N].
+
+    y, out  state and its derivative, shape (2 * 3 bodies + 1 + contacts,); out and reaction are written
+    """
     count, size = model.joint_bodies.shape[0], model.masses.shape[0]
     q, v = y[:size], y[size : 2 * size]
     gap, bias, rows = np.empty(count), np.empty(count), np.empty((count, 6))

@@ -121,7 +121,11 @@ class BeamResult:
 
 
 def derived(coefficients: NumberArray, order: int) -> NumberArray:
-    """Coefficients of a derivative, by rising powers along the last axis."""
+    """Coefficients of a derivative, by rising powers along the last axis.
+
+    coefficients  of the power k: [unit of the value/m^k], shape (..., powers)      order  of the derivative, 0 or more
+    Returns shape (..., powers - order).
+    """
     for _ in range(order):
         coefficients = coefficients[..., 1:] * np.arange(1, coefficients.shape[-1])
     return coefficients

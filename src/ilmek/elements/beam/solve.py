@@ -75,7 +75,10 @@ class BeamSegment:
 
 
 def parts_of(beam: Beam) -> list[BeamSegment]:
-    """Left overhang, spans, right overhang; overhangs may be empty. A load over a support is in the right part."""
+    """Left overhang, spans, right overhang, one segment [m] more than supports; overhangs may be empty.
+
+    A load over a support is in the part on its right.
+    """
     ends = list(pairwise((0.0, *beam.supports, beam.length)))
     return [_part(beam, start, end, last=number == len(ends) - 1) for number, (start, end) in enumerate(ends)]
 
@@ -95,7 +98,9 @@ def _part(beam: Beam, start: float, end: float, *, last: bool) -> BeamSegment:
 
 
 def bend(beam: Beam) -> BeamResult:
-    """Reactions and the exact deflection curve of a beam under its loads [theorem of three moments].
+    """Reactions [N] and the exact deflection curve of a beam under its loads [theorem of three moments].
+
+    beam  positions [m], forces [N], line loads [N/m] and couples [N m]; one plane or, complex, two
 
     >>> from ilmek.elements.beam.model import LineLoad
     >>> bent = bend(Beam(2.0, (0.0, 1.0, 2.0), (LineLoad(0.0, 2.0, 8.0),)))
