@@ -14,7 +14,6 @@ from ilmek.arrays import BoolArray, FloatArray
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.trace import CamRole
 from ilmek.num.piecewise import Extremum, infimum, integral, supremum
-from ilmek.plane.vectors import dot
 
 __all__ = [
     "Part",
@@ -84,12 +83,7 @@ def largest_cutter(cam: CamRole) -> float:
 
 def area(cam: CamRole) -> float:
     """Area [m^2] inside a plate cam's surface, without undercut: A = 1/2 integral of (K . n) flow_K  (Green)."""
-
-    def sector(angle: FloatArray) -> FloatArray:
-        trace = cam.trace(angle)
-        return np.asarray(0.5 * dot(trace.surface, trace.normal) * (trace.flow - trace.roller_radius * trace.turning))
-
-    return integral(sector, cam.knots)
+    return integral(lambda angle: 0.5 * cam.trace(angle).sector, cam.knots)
 
 
 def _within(part: Part, ds: FloatArray) -> BoolArray:

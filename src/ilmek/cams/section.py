@@ -41,8 +41,7 @@ def section(cam: CamRole) -> CamSection:
     def summed(weight: Callable[[CamTrace], FloatArray]) -> float:
         def density(angle: FloatArray) -> FloatArray:
             trace = cam.trace(angle)
-            sector = dot(trace.surface, trace.normal) * (trace.flow - trace.roller_radius * trace.turning)
-            return np.asarray(weight(trace) * sector)
+            return np.asarray(weight(trace) * trace.sector)
 
         return integral(density, cam.knots)
 

@@ -21,7 +21,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, ComplexField, FloatArray
 from ilmek.cams.programme import CamProgramme, FollowerMotion
-from ilmek.plane.vectors import cross, unit
+from ilmek.plane.vectors import cross, dot, unit
 from ilmek.records import record
 
 
@@ -60,6 +60,11 @@ class CamTrace:
     def surface_curvature(self) -> FloatArray:
         """Curvature of the cam's surface [1/m], infinite in a cusp."""
         return self.curvature_at(-self.roller_radius)
+
+    @property
+    def sector(self) -> FloatArray:
+        """(K . n) flow_K [m^2/rad] of the surface K: twice the rate of the area swept from the axis."""
+        return np.asarray(dot(self.surface, self.normal) * (self.flow - self.roller_radius * self.turning))
 
     def parallel(self, distance: float) -> ComplexArray:
         """The curve at a signed distance [m] outside the pitch curve."""
