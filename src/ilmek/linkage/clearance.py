@@ -2,6 +2,8 @@
 
 Bodies are given by convex outlines with round edges; concave bodies by several. Local minima are bracketed by samples
 and refined. Where the clearance is below zero, the ends of the interference are roots, refined to rounding.
+
+    clearance = (distance of the polygons' nearest corners and edges) - r_1 - r_2       [derived: distance of segments]
 """
 
 from collections.abc import Callable, Mapping
@@ -78,6 +80,8 @@ def clearance(path: ConfigurationPath, first: OutlinedBody, second: OutlinedBody
     """The least clearance of two bodies over a path, and the intervals of overlap.
 
     Raises MechanismError for an unknown body, or the same body twice.
+    path  with its input in [rad; m]      first, second  outlines in the bodies' frames [m]
+    Returns the least distance [m], below 0 for overlap, its input and nearest points; NaN points where they overlap.
 
     >>> from ilmek.linkage.fourbar import four_bar
     >>> from ilmek.linkage.one_input import one_input

@@ -1,4 +1,4 @@
-"""Displacements and rates of the bodies of a mechanism, and their effect on loop equations."""
+"""Displacements and rates of the bodies of a mechanism, and their effect on loop equations [source: `equations`]."""
 
 from collections.abc import Mapping
 from typing import TypeAlias
@@ -15,7 +15,7 @@ Moves: TypeAlias = Mapping[str, tuple[ComplexField, RealField]]
 
 
 def contracted(row: Row, moves: Moves) -> RealField:
-    """Change or rate of an equation: the sum of its derivatives times the bodies' displacements.
+    """Change or rate of an equation, sum of J_x dx + J_y dy + J_theta dtheta over the bodies [m, rad; m/s, rad/s].
 
     >>> contracted({"crank": (1, 0, 0.5)}, {"crank": (2 + 3j, 4.0)})
     4.0
@@ -28,7 +28,7 @@ def contracted(row: Row, moves: Moves) -> RealField:
 
 
 def added(first: Moves, second: Moves) -> Moves:
-    """Sum of two displacements."""
+    """Sum of two displacements: of the shifts [m] and of the turns [rad], body by body."""
     both = dict(first)
     for body, (shift, turn) in second.items():
         other = first.get(body, (0j, 0.0))
@@ -37,7 +37,7 @@ def added(first: Moves, second: Moves) -> Moves:
 
 
 def times(moves: Moves, factor: RealField) -> Moves:
-    """Every shift and turn multiplied by a factor."""
+    """Every shift [m] and turn [rad] multiplied by a factor [1]."""
     return {body: (shift * factor, turn * factor) for body, (shift, turn) in moves.items()}
 
 

@@ -44,7 +44,7 @@ class Equation:
 
 
 def pin_equations(mechanism: Mechanism, pin: Pin, bodies: Known) -> list[Equation]:
-    """P_first - P_second = 0, in x and in y."""
+    """P_first - P_second = 0 [m], in x and in y."""
     p, q = (bodies[body] for body in pin.bodies)
     r, s = (bodies[body].direction * mechanism.point(body, pin.name) for body in pin.bodies)
     gap = p.anchor.position + r - q.anchor.position - s
@@ -56,7 +56,7 @@ def pin_equations(mechanism: Mechanism, pin: Pin, bodies: Known) -> list[Equatio
 
 
 def slide_equations(mechanism: Mechanism, slide: Slide, bodies: Known) -> list[Equation]:
-    """D x f = 0 and theta_body - theta_guide - turned = 0, with D from the guide's point to the body's along f."""
+    """D x f = 0 [m] and theta_body - theta_guide - turned = 0 [rad], D from the guide's point to the body's along f."""
     across = _along(mechanism, slide, bodies, 1j)
     return [across, _angle(slide.body, slide.guide, slide.turned, bodies)]
 

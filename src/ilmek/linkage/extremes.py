@@ -3,7 +3,7 @@
     y' = 0 (extremes of the value)        y'' = 0 (extremes of the rate)        rates by the input
 
 Roots are bracketed by samples and refined to rounding. The roots of y'' are samples for y' too, so that two roots of y'
-between neighbouring samples are found.
+between neighbouring samples are found. [derived from the exact rates of `outputs` and `sensitivity`]
 """
 
 from collections.abc import Callable, Sequence
@@ -51,6 +51,8 @@ def extremes(
 
     Open samples do not count; see `circuits` for the ends of the input's range.
     Raises MechanismError where start is not below stop.
+    start, stop  values of the moving input [rad; m]      samples  number of intervals of the range
+    Returns value [of the output] and input [rad; m] of each; empty where there is none.
 
     >>> from ilmek.linkage.fourbar import slider_crank
     >>> from ilmek.linkage.one_input import one_input
@@ -145,6 +147,7 @@ def extreme_derivatives(
     """Exact derivatives of a local extreme of an output, of its value and its input, by dimensions p.
 
     value: dy/dp at the fixed input of the extreme;   input: -(dy'/dp) / y''
+    dimensions   shape (dimensions,), the shape of both results; [unit of the output or input by m or rad]
     """
     motion = moved.motion(np.array([extreme.input])).require()
     found = derivatives(motion, output, dimensions)
@@ -155,7 +158,11 @@ def extreme_derivatives(
 def rate_extreme_derivatives(
     moved: OneInput, output: Output, extreme: OutputExtreme, dimensions: Sequence[Dimension]
 ) -> Float[np.ndarray, " dimensions"]:
-    """Exact derivatives of a local extreme of an output's rate (see `rate_extremes`) by dimensions."""
+    """Exact derivatives of a local extreme of an output's rate (see `rate_extremes`) by dimensions.
+
+    dimensions   shape (dimensions,), the shape of the result [unit of the rate by m or rad]
+    [derived: envelope theorem, see `sensitivity`]
+    """
     motion = moved.motion(np.array([extreme.input])).require()
     value: Float[np.ndarray, " dimensions"] = derivatives(motion, output, dimensions).rate[:, 0]
     return value

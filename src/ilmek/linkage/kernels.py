@@ -4,6 +4,9 @@
 All rows lie in one array, those of a body one after the other, `BLOCK` samples each: the compiler sees that no row
 overlaps another, and works on several samples at once (measured for an RRR dyad: 3 ns a state, 17 ns one by one).
 `min(count, BLOCK)` shows it that no index is negative, where Python counts from the end.
+
+Rows are in SI units and radians; lengths a, b and offset o in m. Formulas and sources: `groups.rrr` [Norton, Design of
+Machinery, sections 4.5, 6.7, 7.3] and its neighbours `rrp`, `rpr`, `prp`, `rpp`, `shift`, `turn`.
 """
 
 from ilmek.arrays import ComplexField, FloatArray

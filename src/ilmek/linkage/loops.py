@@ -3,6 +3,7 @@
     J dx = right side        x: the poses (x, y, theta) of all moving bodies
 
 Angles are measured in lengths (times the mechanism's size), so that the condition of J is free of units.
+[Nikravesh, Computer-Aided Analysis of Mechanical Systems, chapter 3]
 """
 
 from collections.abc import Callable, Mapping
@@ -66,7 +67,7 @@ class Loops:
 
 
 def loops(mechanism: Mechanism) -> Loops:
-    """The loop equations of a mechanism."""
+    """The loop equations [m; rad] of a mechanism, in the order of joints, couplings, inputs."""
     whole = Group(mechanism, mechanism.moving, mechanism.joints, mechanism.inputs)
     scale = whole.reach
     joints = [(one.name, Group(mechanism, mechanism.moving, (one,), ())) for one in mechanism.joints]

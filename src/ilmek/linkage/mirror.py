@@ -36,7 +36,7 @@ def mirrored(mechanism: Mechanism, mirror: float) -> Mechanism:
 
 
 def coupled(mechanism: Mechanism, mirror: float) -> Mechanism:
-    """Both sides as one mechanism: the second crank is driven by the first through equal gears.
+    """Both sides, mirrored in x = mirror [m], as one mechanism: equal gears drive the second crank from the first.
 
     The first crank at 0 meets the second at half a turn: mirror images of one another at every angle.
     """

@@ -1,6 +1,6 @@
 """Mobility of a mechanism: by count, and by the rank of its loop equations in a pose.
 
-    by count  3 n - 2 j - c    n moving bodies, j joints, c couplings    [Gruebler's criterion]
+    by count  3 n - 2 j - c    n moving bodies, j joints, c couplings    [Gruebler's criterion; Norton, chapter 2]
     by rank   3 n - rank J     J the derivatives of all loop equations by the poses
 
 The two differ where a constraint is redundant: a third link across a parallelogram, a guide and a bearing in one line.
@@ -79,7 +79,7 @@ class Mobility:
 
 
 def mobility(mechanism: Mechanism, pose: Mapping[str, tuple[complex, float]] | None = None) -> Mobility:
-    """Degrees of freedom of a mechanism in a pose.
+    """Degrees of freedom [1] of a mechanism in a pose, by count and by rank.
 
     pose  body -> (origin [m], angle [rad]), approximate; default: the mechanism's own pose
     Raises MechanismError with the open joints where the mechanism cannot be assembled near the pose.

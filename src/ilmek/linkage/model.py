@@ -231,7 +231,8 @@ class Mechanism:
 
 
 def degrees_of_freedom(mechanism: Mechanism) -> int:
-    """Degrees of freedom with free inputs, 3 bodies - 2 joints - couplings [Gruebler's criterion]."""
+    """Degrees of freedom [1] with free inputs, 3 bodies - 2 joints - couplings [Gruebler's criterion; Norton, ch. 2].
+    """
     return 3 * len(mechanism.moving) - 2 * len(mechanism.joints) - len(mechanism.couplings)
 
 

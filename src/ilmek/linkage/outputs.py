@@ -2,7 +2,8 @@
 
     y = y(poses),    y' = sum over bodies (y_x x' + y_y y' + y_theta theta'),    y'' = the same sum of x'' + bias
 
-An output has the form of a loop equation (see `equations`), so that the same methods apply.
+An output has the form of a loop equation (see `equations` and its source [Nikravesh, chapter 3]), so that the same
+methods apply.
 
 >>> from ilmek.linkage.fourbar import slider_crank
 >>> from ilmek.linkage.solve import solve
@@ -110,7 +111,7 @@ class OutputHistory:
 
 
 def output_history(motion: Motion, output: Output) -> OutputHistory:
-    """Value and rates of an output over a motion; NaN where the mechanism does not close."""
+    """Value [m or rad] and rates [by s, s²] of an output over a motion, (samples,); NaN where it does not close."""
     mechanism = motion.plan.mechanism
     return output_history_of_bodies(mechanism, {body.name: motion.body(body.name) for body in mechanism.bodies}, output)
 

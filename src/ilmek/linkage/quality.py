@@ -1,7 +1,8 @@
 """Quality of a linkage: Grashof's class, transmission angle, dead centres, range of the input.
 
 Four-bars are given by their lengths [m], in the order of `four_bar`: ground g, crank a, coupler b, rocker c, with the
-crank's angle against the ground link A0 -> B0.
+crank's angle against the ground link A0 -> B0. The formulas are the law of cosines in the triangle A, B0, B.
+[Norton, Design of Machinery, chapters 2 and 4]
 """
 
 import math
@@ -97,7 +98,8 @@ def dead_centres(ground: float, crank: float, coupler: float, rocker: float, *, 
     """The ends of the rocker's swing: extended (|A0 B| = a + b), then folded (|A0 B| = |a - b|), where they exist.
 
     With B = r e^{i crank angle}, r = a + b or a - b, and |B - g| = c: cos(crank angle) = (r^2 + g^2 - c^2) / (2 r g).
-    branch  as in `four_bar`; angles within (-pi, pi]
+    ground, crank, coupler, rocker  lengths g, a, b, c [m]      branch  as in `four_bar`
+    Returns none, one or both, with angles [rad] within (-pi, pi].
     Raises MechanismError for a length that is not above zero, or a branch that is neither +1 nor -1.
 
     >>> extended, folded = dead_centres(0.300, 0.0597, 0.2007, 0.2308, branch=+1)
@@ -122,6 +124,7 @@ def transmission_extremes(ground: float, crank: float, coupler: float, rocker: f
 
     cos mu = (b^2 + c^2 - |A B0|^2) / (2 b c), extreme where |A B0| is: |g - a| at crank angle 0, g + a at pi; 0 or pi
     where the crank does not reach these angles. The relevant measure is the smaller distance from 0 or pi.
+    Arguments are lengths g, a, b, c [m].
     Raises MechanismError for a length that is not above zero.
 
     >>> [round(math.degrees(mu), 2) for mu in transmission_extremes(0.300, 0.0597, 0.2007, 0.2308)]

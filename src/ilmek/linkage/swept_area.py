@@ -3,7 +3,7 @@
     f(z) = least distance of z from the body over the poses of the path, below 0 inside
 
 The minimum is bracketed by samples of the path and refined for every z near the outline. f is a signed distance
-outside and an upper bound of it inside, as `plane.regions` requires for the error bound of the area.
+outside and an upper bound of it inside, as `plane.regions` requires for the error bound of the area.   [derived here]
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,7 @@
-"""Force transmission of any mechanism: pressure angle at a slider, velocity ratio, mechanical advantage."""
+"""Force transmission of any mechanism: pressure angle at a slider, velocity ratio, mechanical advantage.
+
+[Norton, Design of Machinery, chapter 6, for mechanical advantage; the rates by the input are those of `outputs`]
+"""
 
 import numpy as np
 
@@ -39,13 +42,17 @@ def pressure_angle(motion: Motion, slide: str, link: str = "") -> Float[np.ndarr
 
 
 def velocity_ratio(moved: OneInput, output: Output, values: FloatArray) -> Float[np.ndarray, " samples"]:
-    """Rate dy/dq [rad or m by rad or m] of an output at values of the input; NaN at dead centres and open samples."""
+    """Rate dy/dq [rad or m by rad or m] of an output at values of the input; NaN at dead centres and open samples.
+
+    values  of the moving input [rad; m], shape (samples,), the shape of the result
+    """
     return output_history(moved.motion(values), output).rate
 
 
 def mechanical_advantage(moved: OneInput, output: Output, values: FloatArray) -> Float[np.ndarray, " samples"]:
     """Ratio of the output's force or torque to the input's, [N or N m by N or N m], without friction and weight.
 
+    values  of the moving input [rad; m], shape (samples,), the shape of the result
     1 / velocity ratio, by virtual power. Negative where the output moves backwards; infinite at the output's dead
     centres, where the mechanism is a toggle.
     """

@@ -1,4 +1,4 @@
-"""Attachment of a driven body to a known body, by one pin or one slide."""
+"""Attachment of a driven body to a known body, by one pin or one slide [formulas: `turn` and `shift`]."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -3,7 +3,7 @@
     q = at + scale (q_source - source_at)
 
 q is an angle against the carrier, of a rack the displacement of its slide; the angle of a source is assumed to be
-within half a turn of `source_at`.
+within half a turn of `source_at`. [Willis, Principles of Mechanism: relative angles of epicyclic trains]
 """
 
 from collections.abc import Mapping

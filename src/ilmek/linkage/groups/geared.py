@@ -1,6 +1,7 @@
 """Bodies driven by the inputs through couplings: angles and displacements are linear in the inputs' values.
 
-Gear trains, belts, racks, planetary gears with any driven member. Angles count full turns; see `winding`.
+Gear trains, belts, racks, planetary gears with any driven member. Angles count full turns; see `winding`
+[Willis, Principles of Mechanism].
 """
 
 from collections.abc import Mapping

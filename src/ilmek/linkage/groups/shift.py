@@ -1,4 +1,9 @@
-"""A body driven by an input along a slide on a known body: P = G + s e, at a fixed angle to the known body."""
+"""A body driven by an input along a slide on a known body: P = G + s e, at a fixed angle to the known body.
+
+    P' = G' + (s' + i w s) e,    P'' = G'' + (s'' + 2 i w s' + (i alpha - w²) s) e
+
+with the term of Coriolis, 2 i w s' e [Norton, Design of Machinery, sections 6.7 and 7.3]
+"""
 
 import cmath
 from collections.abc import Mapping, Sequence
@@ -75,7 +80,10 @@ class SlideTrack:
 
 
 def track(mechanism: Mechanism, slide: Slide, body: str) -> SlideTrack:
-    """The slide relative to the known body, for the unknown `body`."""
+    """The slide relative to the known body, for the unknown `body`.
+
+    Its points are in the frames of the two bodies [m], its directions unit vectors.
+    """
     along, turned = cmath.rect(1, slide.along), cmath.rect(1, slide.turned)
     on_line, guide = mechanism.point(slide.body, slide.name), mechanism.point(slide.guide, slide.name)
     if body == slide.body:
@@ -84,7 +92,7 @@ def track(mechanism: Mechanism, slide: Slide, body: str) -> SlideTrack:
 
 
 def refuse_parallel(mechanism: Mechanism, slides: Sequence[Slide], sine: RealField) -> None:
-    """Raise MechanismError for parallel slides of a group, by the sine of the angle between them."""
+    """Raise MechanismError for parallel slides of a group, by the sine [1] of the angle between them."""
     if np.abs(sine) <= PARALLEL:
         first, second = (slide.name for slide in slides)
         raise MechanismError(
