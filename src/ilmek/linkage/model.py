@@ -231,8 +231,7 @@ class Mechanism:
 
 
 def degrees_of_freedom(mechanism: Mechanism) -> int:
-    """Degrees of freedom [1] with free inputs, 3 bodies - 2 joints - couplings [Gruebler's criterion; Norton, ch. 2].
-    """
+    """Degrees of freedom [1] with free inputs, 3 bodies - 2 joints - couplings [Gruebler; Norton, chapter 2]."""
     return 3 * len(mechanism.moving) - 2 * len(mechanism.joints) - len(mechanism.couplings)
 
 
