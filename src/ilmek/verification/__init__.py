@@ -1,4 +1,4 @@
-"""The verification manual: every number of the four papers that can be computed, computed and judged.
+"""The verification manual: every computable number of the four papers, with a verdict.
 
 A paper is one entry of `PAPERS`: the function that lists its claims. Nothing is computed before `reproduce` is called.
 """
@@ -33,7 +33,7 @@ PAPERS: dict[str, Callable[[], tuple[Claim, ...]]] = {
         *knotting_steps.claims(),
     ),
 }
-"""The claims of each paper, by the name it has here."""
+"""The claims of each paper, by its short name."""
 
 TITLES = {
     "beat-up": "Topalbekiroglu and Celik, Kinematic analysis of beat-up mechanism used for handmade carpet looms",
@@ -41,9 +41,9 @@ TITLES = {
     "tufting": "Xu et al., Dynamic characteristic analysis of the needle multi-linkage mechanism in a tufting machine",
     "knotting": "Planar knotting mechanisms for Turkish hand woven carpet (student report, theory of machines)",
 }
-"""The papers in words."""
+"""Titles of the papers."""
 
 
 def reproduce(papers: Iterable[str] = tuple(PAPERS)) -> tuple[Verdict, ...]:
-    """Every claim of the papers, computed and judged, in the order of the papers and of their pages."""
+    """The verdicts on all claims of the papers, in the order of the papers and of their pages."""
     return tuple(judge(claim) for paper in papers for claim in PAPERS[paper]())

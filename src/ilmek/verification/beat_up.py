@@ -1,4 +1,4 @@
-"""The beat-up paper beside its table: bounds, the choice, lengths, masses, and what the beater does."""
+"""The beat-up paper beside its table: bounds, the choice, lengths, masses, and motion and force of the beater."""
 
 import math
 from collections.abc import Callable
@@ -22,7 +22,7 @@ GREAT = 0.75
 
 
 def claims() -> tuple[Claim, ...]:
-    """Everything that the paper prints and a computation can reach, in the paper's order."""
+    """All computable claims of the paper, in its order."""
     return (
         *beat_up_equations.claims(),
         *_bounds(),
@@ -37,21 +37,21 @@ _claim = partial(Claim, PAPER)
 
 
 def _bounds() -> tuple[Claim, ...]:
-    """The betas that each case study allows."""
+    """The range of beta of each case study."""
 
-    def end(phi: int, place: int) -> float:
-        return float(beta_limits(SWING, phi * deg)[place]) / deg
+    def end(phi: int, index: int) -> float:
+        return float(beta_limits(SWING, phi * deg)[index]) / deg
 
     printed = {120: ("60", "75"), 160: ("20", "75"), 180: ("0", "75"), 200: ("0", "75")}
     return tuple(
-        _claim(f"φ={phi}°: {side} β", text, "deg", partial(end, phi, place), f"Case study {beat_up_table.CASES[phi]}")
+        _claim(f"φ={phi}°: {side} β", text, "deg", partial(end, phi, index), f"Case study {beat_up_table.CASES[phi]}")
         for phi, texts in printed.items()
-        for place, (side, text) in enumerate(zip(("least", "greatest"), texts, strict=True))
+        for index, (side, text) in enumerate(zip(("least", "greatest"), texts, strict=True))
     )
 
 
 def _choice() -> tuple[Claim, ...]:
-    """How many solutions there are, and which is taken."""
+    """The number of solutions, and the choice among them."""
     at = "3 Results and discussion"
     return (
         _claim(
@@ -73,7 +73,7 @@ def _choice() -> tuple[Claim, ...]:
             "deg",
             lambda: _best_row()[1],
             at,
-            "at φ=180° μ_min rises all the way to 75° as β falls to 0: 48° is the greatest r/l not above 0.3",
+            "at φ=180° μ_min rises to 75° as β falls to 0: 48° is the greatest r/l not above 0.3",
         ),
         _claim(
             "90°-μ_min of the chosen linkage", "< 40", "deg", lambda: 90 - beat_up_table.computed(180, 48).mu_min, at
@@ -100,7 +100,7 @@ def _sizes() -> tuple[Claim, ...]:
 
 
 def _beat() -> tuple[Claim, ...]:
-    """What the beater does and suffers."""
+    """Motion and forces of the beater."""
     return (
         _claim("greatest acceleration of the beater", "25", "m/s²", _peak("beater_acceleration"), "Fig 6 (c), 3"),
         _claim("force on the beater", "> 60", "N", _peak("beater_force"), "Abstract, Fig 6 (d)"),
@@ -199,7 +199,7 @@ def _best_row() -> tuple[int, int]:
 
 
 def _chosen_row() -> tuple[int, int]:
-    """The row with the greatest r/l that is not above 0.3 as printed and whose transmission angle will do."""
+    """The row with the greatest r/l that is not above 0.3 as printed and a sufficient transmission angle."""
     good = [row for row in _row_values() if round(row[2].ratio, 2) <= 0.3 and row[2].mu_min > 50]
     phi, beta, _ = max(good, key=lambda row: row[2].ratio)
     return phi, beta

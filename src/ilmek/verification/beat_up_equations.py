@@ -1,4 +1,4 @@
-"""Equations 1 to 18 of the beat-up paper, each tried on crank-rockers that are found without it.
+"""Equations 1 to 18 of the beat-up paper, each tested on crank-rockers found without it.
 
 A crank-rocker of the right family is known by its links in the two dead centres; the equations are tried on members
 of many turns and betas, or at the ends that they give.
@@ -28,7 +28,7 @@ from ilmek.verification.beat_up_table import SWING
 from ilmek.verification.claim import RESIDUAL, Claim, Computation, residual
 
 SMALL, LARGE = (105.5, 179.0), (181.0, 284.5)
-"""Turns of the crank [deg] below and above half a turn that are tried."""
+"""Crank rotations below and above 180 deg that are tested [deg]."""
 
 
 def claims() -> tuple[Claim, ...]:
@@ -68,7 +68,7 @@ def _equation(
 
 
 def _members(turns: tuple[float, float]) -> tuple[LinkRatios, DeadCentres]:
-    """Crank-rockers with turns of the crank in an interval [deg], and what they do, measured in their dead centres."""
+    """Crank-rockers with crank rotations in an interval [deg], and their properties, measured at their dead centres."""
     rotation, share = (np.ravel(grid) for grid in np.meshgrid(np.linspace(*turns, 23) * deg, [0.2, 0.5, 0.8]))
     low, high = ratio_limits(SWING, rotation)
     links = links_of_ratio(SWING, rotation, low + share * (high - low))
@@ -102,7 +102,7 @@ def _eq_4() -> float:
 
 
 def _change_point(rotation: FloatArray, beta: FloatArray) -> float:
-    """How far the linkages of these betas are from a change point or from a crank of no length."""
+    """Distance of the linkages of these betas from a change point or a crank of zero length."""
     links = links_of_beta(SWING, rotation, beta)
     return float(np.max(np.minimum(np.abs(grashof_margin(links)), np.abs(links.crank))))
 

@@ -103,14 +103,14 @@ def claims() -> tuple[Claim, ...]:
             item=f"φ={phi}° β={beta}°: {column}",
             printed=text,
             unit="deg" if column == "μ_min" else "",
-            compute=partial(_cell, phi, beta, place),
+            compute=partial(_cell, phi, beta, index),
             source=f"Table 1, Case {CASES[phi]}",
             note=NOTES.get((phi, beta, column), ""),
         )
         for phi, beta, numbers in rows()
-        for place, (column, text) in enumerate(zip(columns, numbers, strict=True))
+        for index, (column, text) in enumerate(zip(columns, numbers, strict=True))
     )
 
 
-def _cell(phi: int, beta: int, place: int) -> float:
-    return computed(phi, beta)[place]
+def _cell(phi: int, beta: int, index: int) -> float:
+    return computed(phi, beta)[index]

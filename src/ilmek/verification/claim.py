@@ -1,15 +1,15 @@
-"""A printed number or equation, and the verdict that a computation gives of it.
+"""A printed number or equation, and the verdict of a computation on it.
 
-A claim holds what a paper prints and the function that computes the same; nothing else is stored but a note, which is
-shown only where the computation disagrees. The verdict is formed when it is asked for:
+A claim has the printed text, the function that computes the same, and a note, which is shown only if the computation
+disagrees. The verdict is formed on request:
 
     reproduced        agrees to the last printed digit, by rounding or by truncation; a relation (> 60) holds; a count
                       is the same; an equation as printed leaves no residual
-    rounding          off by at most 1.5 units of the last printed digit, or what the paper's own rounded numbers give
-    misprint          neither: the computed value is the right one; of an equation, the mended form leaves no residual
-    not reproducible  nothing can be computed, or the printed equation cannot be mended: the note says why
+    rounding          off by at most 1.5 units of the last printed digit, or follows from the paper's rounded numbers
+    misprint          neither: the computed value is correct; the corrected form of an equation leaves no residual
+    not reproducible  nothing can be computed, or the printed equation cannot be corrected; the note has the reason
 
-Numbers are in the unit as printed, so that they can be laid beside the paper.
+Numbers are in the unit as printed, so that they can be compared with the paper.
 """
 
 import math
@@ -26,30 +26,33 @@ from ilmek.arrays import ComplexField, RealField
 REPRODUCED, ROUNDING, MISPRINT, NOT_REPRODUCIBLE = VERDICTS = ("reproduced", "rounding", "misprint", "not reproducible")
 
 COUNT = "count"
-"""Unit of a number that is counted: one more or less is wrong."""
+"""Unit of a count, which must agree exactly."""
 
 RESIDUAL = "residual"
 """Unit of an equation: the size of left side minus right side, relative to the larger."""
 
 NO_RESIDUAL = 1e-9
-"""An equation that leaves no more than this is right."""
+"""Largest residual of a correct equation."""
 
 UNITS_OF_ROUNDING = 1.5
-"""Units of the last printed digit that rounding on the way to a number explains."""
+"""Units of the last printed digit that rounding of intermediate results explains."""
 
 Computation: TypeAlias = Callable[[], float | int | None]
 
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """What a paper prints, and how the same is computed.
+    """A printed number or equation, and its computation.
 
-    paper, item   of PAPERS; what the number is          printed  as printed: the digits count; or an equation
-    unit          of printed and computed; COUNT, RESIDUAL of an equation, "" of a pure number
-    compute       the number, or the equation's residual; None where it cannot be had
-    source        section, equation, table              note     why it disagrees, with the right form of an equation
-    follows       the number from the paper's own rounded numbers, where they decide
-    mended        residual of the equation in its right form
+    paper    a key of PAPERS
+    item     name of the number
+    printed  the number as printed, with its digits; or an equation
+    unit     of printed and computed; COUNT, RESIDUAL of an equation, "" of a pure number
+    compute  the number, or the equation's residual; None if it cannot be computed
+    source   section, equation, table
+    note     reason of a disagreement, with the correct form of an equation
+    follows  the number from the paper's rounded numbers, if they decide
+    mended   residual of the equation in its correct form
     """
 
     paper: str
@@ -65,7 +68,7 @@ class Claim:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """A claim, computed and judged; `difference` is computed minus printed, of an equation its residual."""
+    """A computed claim; `difference` is computed minus printed, of an equation its residual."""
 
     claim: Claim
     computed: float | int | None
@@ -74,33 +77,33 @@ class Verdict:
 
     @property
     def note(self) -> str:
-        """The claim's note, where there is something to explain."""
+        """The claim's note if the computation disagrees, else ""."""
         return "" if self.verdict == REPRODUCED else self.claim.note
 
     def as_json(self) -> dict[str, object]:
         """Plain data: paper, item, printed (text), computed (in the printed unit), unit, difference, verdict, ..."""
-        said = self.claim
+        claim = self.claim
         return {
-            "paper": said.paper,
-            "item": said.item,
-            "printed": said.printed,
+            "paper": claim.paper,
+            "item": claim.item,
+            "printed": claim.printed,
             "computed": self.computed,
-            "unit": said.unit,
+            "unit": claim.unit,
             "difference": self.difference,
             "verdict": self.verdict,
             "note": self.note,
-            "source": said.source,
+            "source": claim.source,
         }
 
 
 def residual(left: RealField | ComplexField, right: RealField | ComplexField) -> float:
-    """Greatest difference of two sides, relative to the greatest size of either; 0 where both vanish, NaN if one is."""
+    """Greatest difference of two sides, relative to the larger magnitude; 0 if both vanish, NaN if one is NaN."""
     gap, size = np.max(np.abs(np.subtract(left, right))), np.max(np.maximum(np.abs(left), np.abs(right)))
     return float(gap / size) if size != 0 else 0.0
 
 
 def judge(claim: Claim) -> Verdict:
-    """Compute a claim and say how it stands."""
+    """Compute a claim and its verdict."""
     value = claim.compute()
     if value is None or not math.isfinite(value):
         return Verdict(claim, None, None, NOT_REPRODUCIBLE)

@@ -1,4 +1,4 @@
-"""Knotting report, section 3: the equations of the four-bar, tried on the machine's motion away from its dead points.
+"""Knotting report, section 3: the equations of the four-bar, tested on the machine's motion away from its dead points.
 
 The ground lies at 180° - theta0; the crank turns at a constant speed.
 """

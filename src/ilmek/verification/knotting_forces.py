@@ -1,4 +1,4 @@
-"""Knotting report, section 5: joint forces and drive torque, at rest and what w1² multiplies, against the machine.
+"""Knotting report, section 5: joint forces and drive torque, at rest and per w1², against the machine.
 
 The report's signs, as its Fig 5 has them: F2' = (x, -y) on link 2, F2 = (-x, -y) on link 2, F1' = (x, y) on link 3,
 F1 = (-x, y) on link 1.
@@ -19,12 +19,12 @@ _claim = partial(Claim, "knotting")
 
 
 def rest(of: Callable[[KnottingState], complex]) -> complex:
-    """What there is at rest."""
+    """Values at rest."""
     return of(quoted().static)
 
 
 def swing(of: Callable[[KnottingState], complex]) -> complex:
-    """What ω1² multiplies."""
+    """Values per ω1²."""
     return of(quoted().unit) - of(quoted().static)
 
 

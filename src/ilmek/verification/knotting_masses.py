@@ -1,4 +1,4 @@
-"""Knotting report, section 5: volumes, masses, centres and moments of inertia of the links, as the machine has them."""
+"""Knotting report, section 5: volumes, masses, centres and moments of inertia of the links, against the machine."""
 
 from functools import cache, partial
 
@@ -15,7 +15,7 @@ PARTS = {"link": "coupler bar", "holder": "holder", "gripper": "gripper"}
 
 NANO = 1e-9
 CENTRE = 19.30
-"""Mass centre of link 2 as the report goes on with it [mm]."""
+"""Mass centre of link 2 in the report's further computation [mm]."""
 
 AT = "5, masses"
 _claim = partial(Claim, "knotting")
@@ -46,13 +46,13 @@ def _link_2() -> tuple[Claim, ...]:
     cubic = PARAMS.density * mm**3
     return (
         *(
-            _claim(f"volume of link 2, {name}", said[0], "mm³", _of(name, 0, cubic), AT)
-            for name, said in printed.items()
+            _claim(f"volume of link 2, {name}", texts[0], "mm³", _of(name, 0, cubic), AT)
+            for name, texts in printed.items()
         ),
-        *(_claim(f"mass of link 2, {name}", said[1], "g", _of(name, 0, g), AT) for name, said in printed.items()),
+        *(_claim(f"mass of link 2, {name}", texts[1], "g", _of(name, 0, g), AT) for name, texts in printed.items()),
         *(
-            _claim(f"mass by place of link 2, {name}", said[2], "g mm", _of(name, 1, g * mm), AT)
-            for name, said in printed.items()
+            _claim(f"mass by place of link 2, {name}", texts[2], "g mm", _of(name, 1, g * mm), AT)
+            for name, texts in printed.items()
         ),
         _claim("mass of link 2", "1.641", "g", _of("2", 0, g), AT),
         _claim("mass centre of link 2 from O2", "19.30", "mm", lambda: part("2").centre.real / mm, AT),
@@ -105,7 +105,7 @@ def _moved(name: str) -> float:
 
 
 def _others(number: str) -> tuple[Claim, ...]:
-    """A link without anything on it."""
+    """A plain link."""
     printed = {"1": ("2470.35", "3.5", "34.31e-3", "1988.20e-9"), "3": ("1962.78", "2.78", "27.26e-3", "1000e-9")}
     volume, mass, weight, moment = printed[number]
     length = {"1": PARAMS.crank, "3": PARAMS.rocker}[number]

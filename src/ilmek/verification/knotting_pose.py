@@ -18,13 +18,13 @@ from ilmek.verification import knotting_equations
 from ilmek.verification.claim import COUNT, Claim, Computation
 
 ROUNDED_TH3 = 192.524 * deg
-"""theta3 as the report goes on with it."""
+"""theta3 in the report's further computation."""
 
 _claim = partial(Claim, "knotting")
 
 
 def claims() -> tuple[Claim, ...]:
-    """Equations, pose, speeds and accelerations, places."""
+    """Equations, pose, speeds and accelerations, positions."""
     return (*knotting_equations.claims(), *_pose(), *_speeds(), *_places(), *_accelerations())
 
 
@@ -86,7 +86,12 @@ def _pose() -> tuple[Claim, ...]:
             "with -95° the loop is open by 156 mm; both θ1 and θ2 were chosen, which turns the ground",
         ),
         _claim(
-            "angles that are chosen, θ1 and θ2", "2", COUNT, mobility, "4", "a four-bar has one freedom: θ2 follows"
+            "angles that are chosen, θ1 and θ2",
+            "2",
+            COUNT,
+            mobility,
+            "4",
+            "a four-bar has one degree of freedom: θ2 follows",
         ),
     )
 
@@ -98,8 +103,8 @@ def _speeds() -> tuple[Claim, ...]:
     def of(what: str, body: str) -> Computation:
         return lambda: float(getattr(motion(), what)(body)[0])
 
-    def rounded(place: int) -> Computation:
-        return lambda: knotting_equations.speeds_by_report(ROUNDED_TH3)[place]
+    def rounded(index: int) -> Computation:
+        return lambda: knotting_equations.speeds_by_report(ROUNDED_TH3)[index]
 
     return (
         _claim("ω3/ω1", "-23.41", "", of("omega", "rocker"), at, near, rounded(1)),

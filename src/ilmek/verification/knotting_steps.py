@@ -1,4 +1,4 @@
-"""Knotting report, sections 4 and 5: the terms that its accelerations, forces and torque are added up from.
+"""Knotting report, sections 4 and 5: the terms of its accelerations, forces and torque.
 
 Lengths in mm; forces and moments as the report has them, what w1² multiplies with mN for N.
 """
@@ -31,7 +31,7 @@ class StepPose(NamedTuple):
 
 
 ROUNDED = StepPose(ROUNDED_TH3, 100.55, -23.41)
-"""As the report goes on with it."""
+"""In the report's further computation."""
 
 NEAR = "θ3 was rounded, 0.01° from a dead point"
 WRONG = "with the wrong α2 and G2 at mid-length"

@@ -170,8 +170,8 @@ def _systems() -> tuple[Claim, ...]:
     )
 
 
-def _of_system(name: str, place: int) -> float:
-    found = float(getattr(steps(), name)[place])
+def _of_system(name: str, index: int) -> float:
+    found = float(getattr(steps(), name)[index])
     return 0.0 if abs(found) < 1e-12 else found
 
 

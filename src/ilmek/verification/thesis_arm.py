@@ -22,7 +22,7 @@ ARM = TwoLinkArm(pivot=0.31 - 0.52j, ground=abs(0.31 - 0.52j), first=0.83, secon
 POINTS = ARM.end_position(TH1, TH2)
 
 HALF_TOO_MUCH, WHOLE = 0.5, 1.0
-"""What Eqs 2.43 and 2.44 take from the coefficients of lam1 and lam2: as printed, and right."""
+"""The subtrahends of the coefficients of lam1 and lam2 in Eqs 2.43 and 2.44: as printed, and correct."""
 
 
 class Superposition(NamedTuple):
@@ -52,8 +52,10 @@ class EliminatedCoefficients(NamedTuple):
 def planted() -> Superposition:
     """P, f, F of the planted arm and the solutions of the three systems, Eqs 2.39 and 2.40."""
     a1, pivot = ARM.first, ARM.pivot
-    place = [pivot.real, pivot.imag]
-    P = np.array([(ARM.ground**2 + a1**2 - ARM.second**2) / (2 * a1), 1 / (2 * a1), *(x / a1 for x in place), *place])
+    pivot_xy = [pivot.real, pivot.imag]
+    P = np.array(
+        [(ARM.ground**2 + a1**2 - ARM.second**2) / (2 * a1), 1 / (2 * a1), *(x / a1 for x in pivot_xy), *pivot_xy]
+    )
     rho = np.abs(POINTS)
     f = np.array([np.ones(4), rho**2, -POINTS.real, -POINTS.imag, np.cos(TH1), np.sin(TH1)])
     F = np.asarray(rho * np.cos(np.angle(POINTS) - TH1))
@@ -75,7 +77,7 @@ def second() -> ComplexArray:
 
 
 def remainder() -> ComplexArray:
-    """What pivot and first link leave for the second: rho - a0 - a1."""
+    """The remainder for the second link: rho - a0 - a1."""
     return np.asarray(POINTS - ARM.pivot - first())
 
 
@@ -146,7 +148,7 @@ def superposed() -> Six:
 
 
 def conic(k: int, lam1: float, lam2: float, less: float) -> Six:
-    """The terms of Eq 2.43 (k = 4) or 2.44 (k = 5); `less` is taken from the coefficient of lam1 or lam2."""
+    """The terms of Eq 2.43 (k = 4) or 2.44 (k = 5); `less` is subtracted from the coefficient of lam1 or lam2."""
     _, _, _, L, m, n, _, _ = planted()
     return np.array(
         [
@@ -217,6 +219,6 @@ def quartic() -> float:
 
 
 def solutions() -> int:
-    """How many lam1 solve the resolvent: its degree without the coefficients that vanish."""
+    """The number of roots lam1 of the resolvent: its degree without vanishing coefficients."""
     coefficients = np.abs(resolvent().coef)
     return int(np.flatnonzero(coefficients > 1e-9 * np.max(coefficients))[-1])

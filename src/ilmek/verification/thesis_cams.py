@@ -23,7 +23,7 @@ HARMONIC, CYCLOIDAL, PARABOLIC = LAWS["harmonic"], LAWS["cycloidal"], LAWS["para
 
 
 def claims() -> tuple[Claim, ...]:
-    """The equations of the laws, and what the text says of them."""
+    """The equations of the laws, and the statements of the text on them."""
     return (*_harmonic(), *_cycloidal(), *_said_of_laws(), *_shed())
 
 
@@ -137,13 +137,13 @@ def _said_of_laws() -> tuple[Claim, ...]:
 
 
 def _spread(law: Law) -> float:
-    """How far the size of the acceleration is from constant over a rise."""
+    """Deviation of the magnitude of the acceleration from a constant over a rise."""
     sizes = np.abs(_motion(law, 2))
     return residual(sizes, np.full_like(sizes, np.max(sizes)))
 
 
 def _shed() -> tuple[Claim, ...]:
-    """The shedding cams, as `ilmek design shedding` makes them for the thesis' task."""
+    """The shedding cams that `ilmek design shedding` designs for the thesis' task."""
 
     def lift(angle: float) -> float:
         return float(_shedding().even.at(np.array([angle * deg])).s[0]) / mm

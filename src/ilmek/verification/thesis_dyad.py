@@ -1,4 +1,4 @@
-"""Thesis 2.1.3: the equations of the two-link arm through four timed points, tried on a planted arm.
+"""Thesis 2.1.3: the equations of the two-link arm through four timed points, tested on a known arm.
 
 The thesis mixes two choices of lam1, lam2. With lam1 = P1 P4 and lam2 = P1 P5 its Eqs 2.38 to 2.42 are right as
 printed; the 1/2 of the later ones belongs to lam1 = P2, lam2 = P3.
@@ -46,23 +46,23 @@ def _loop() -> tuple[Claim, ...]:
 
 
 def _error_function() -> tuple[Claim, ...]:
-    """Eqs 2.32 to 2.36 with second links a2 that are wanted beside the ã2 that the arm has."""
-    wanted, had = np.array([0.5, 0.6, 0.7]), arm.ARM.second
-    delta = wanted - had
+    """Eqs 2.32 to 2.36 with required second links a2 instead of the arm's ã2."""
+    required, had = np.array([0.5, 0.6, 0.7]), arm.ARM.second
+    delta = required - had
     return (
         _equation(
             "2.32",
             "Δ (a2+ã2) = (a2-ã2) + (a2+ã2)",
-            lambda: residual(delta * (wanted + had), (wanted - had) + (wanted + had)),
+            lambda: residual(delta * (required + had), (required - had) + (required + had)),
             "the two brackets are multiplied: Δ (a2+ã2) = (a2-ã2)(a2+ã2)",
-            lambda: residual(delta * (wanted + had), (wanted - had) * (wanted + had)),
+            lambda: residual(delta * (required + had), (required - had) * (required + had)),
         ),
         _equation(
             "2.34 with 2.35",
             "Δq = a2² - ã2² and Δq = P0 f0 + ... - F",
-            lambda: residual(wanted**2 - had**2, arm.objective(wanted)),
+            lambda: residual(required**2 - had**2, arm.objective(required)),
             "Eq 2.35 is (ã2² - a2²)/(2 a1): other sign and scale; the zeros are the same",
-            lambda: residual((had**2 - wanted**2) / (2 * arm.ARM.first), arm.objective(wanted)),
+            lambda: residual((had**2 - required**2) / (2 * arm.ARM.first), arm.objective(required)),
         ),
         _equation("2.36", "P0 f0 + P1 f1 + P2 f2 + P3 f3 + P4 f4 + P5 f5 - F = 0", arm.eq_2_36),
     )

@@ -30,13 +30,13 @@ class Steel(NamedTuple):
 
 
 FITS = Steel(1.25 * m, 210 * GPa), Steel(1.22 * m, 200 * GPa), Steel(1.2 * m, 193 * GPa)
-"""What gives column 2 of Table 3.1: l²/E decides there, and these have the same."""
+"""Assumptions that reproduce column 2 of Table 3.1; they have the same l²/E, which decides there."""
 
 LIKELY = Steel(1.2 * m, 210 * GPa)
-"""What gives column 4, once its lost factor of 5 is known."""
+"""Assumptions that reproduce column 4 with its lost factor of 5."""
 
 SHAFT = Steel(1.2 * m, 200 * GPa)
-"""What gives Table 3.2; there length and load are stated, and both columns fix the modulus."""
+"""Assumptions that reproduce Table 3.2; length and load are stated, and both columns determine the modulus."""
 
 TUBE_RADII = 70 * mm, 65 * mm
 _claim = partial(Claim, "thesis")
@@ -59,7 +59,7 @@ def _taban() -> Claim:
 
 
 def _months() -> Claim:
-    """How long an experienced weaver sits at a seccade."""
+    """Time of an experienced weaver for a seccade."""
     note = "no density is printed: 90 days of 8 h at 25 knots a minute would be 5.0e5 knots/m² of 120 x 180 cm"
     return _claim("time of a prayer rug by hand", "3", "months", lambda: None, "2.1.3", note)
 
@@ -119,7 +119,7 @@ def _cylinders() -> tuple[Claim, ...]:
 
 
 def _least_radius(inner: float) -> float | None:
-    """The radius [mm], where all the possible lengths and moduli agree about it."""
+    """The radius [mm], if it is the same for all possible lengths and moduli."""
     found = [
         shafts.tube_outer_radius(shafts.inertia_for_slope(PULL / span, span, E, SLOPE), inner * mm) / mm
         for span, E in FITS
@@ -133,7 +133,7 @@ def _sag(outer: float, inner: float) -> float:
 
 
 def _tube() -> tuple[Claim, ...]:
-    """The tube that is taken, 140 x 5 mm."""
+    """The chosen tube, 140 x 5 mm."""
     at = "3.1, before Fig 3.8"
 
     def slope() -> float | None:

@@ -1,4 +1,4 @@
-"""The tufting paper: ranges, stroke, crank angles, times, and what is said of torques and forces."""
+"""The tufting paper: ranges, stroke, crank angles, times, and its statements on torques and forces."""
 
 from functools import cache, partial
 
@@ -14,7 +14,7 @@ _claim = partial(Claim, "tufting")
 
 
 def claims() -> tuple[Claim, ...]:
-    """Everything that the paper prints and a computation can reach."""
+    """All computable claims of the paper."""
     return (*tufting_equations.claims(), *_ranges(), *_needle(), *_times(), *_torques(), *_unsettled())
 
 
@@ -28,18 +28,18 @@ def _ranges() -> tuple[Claim, ...]:
     printed = {"2": ("101.7", "114.3"), "3": ("184.3", "199.4"), "4": ("-7.89", "7.38"), "5": ("257.9", "258.5")}
     note = {("4", 0): "θ3 - 192° = -7.68°; the paper's own 184.3° gives -7.7°"}
 
-    def end(link: str, place: int) -> float:
-        return _made().ranges[f"theta{link}"][place] / deg
+    def end(link: str, index: int) -> float:
+        return _made().ranges[f"theta{link}"][index] / deg
 
     return tuple(
-        _claim(f"{side} θ{link}", text, "deg", partial(end, link, place), f"{TEXT}, Fig 7", note.get((link, place), ""))
+        _claim(f"{side} θ{link}", text, "deg", partial(end, link, index), f"{TEXT}, Fig 7", note.get((link, index), ""))
         for link, texts in printed.items()
-        for place, (side, text) in enumerate(zip(("least", "greatest"), texts, strict=True))
+        for index, (side, text) in enumerate(zip(("least", "greatest"), texts, strict=True))
     )
 
 
 def _needle() -> tuple[Claim, ...]:
-    """The needle's way; the backing lies where 22° and 194° have it, at half of the stroke."""
+    """The needle's stroke; crank angles of 22° and 194° place the backing at half of the stroke."""
     flat = "off by a degree, within which the needle moves 3 µm: crank and coupler are in line at the computed angle"
     return (
         _claim("stroke of the needle, 'about'", "33", "mm", lambda: _made().stroke / mm, TEXT),

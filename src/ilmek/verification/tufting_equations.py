@@ -1,4 +1,4 @@
-"""Equations of the tufting paper, tried on the motion and the forces of the engine, with friction and weight.
+"""Equations of the tufting paper, tested with the motion and forces of the engine, with friction and weight.
 
 Signs as in the paper: theta3 of C-B, theta4 of C-D; F_ij the force that link i gives to link j; inertia force
 -m a, inertia moment M = -J alpha; M_b on the crank and M_r on rod l3, counter-clockwise.
@@ -55,15 +55,15 @@ def sample() -> Sample:
     state = evaluate(params, plan(mechanism(params)), ANGLES)
     motion, inertia = state.motion, inertias(params)
     numbered = dict(enumerate(BODIES, start=1))
-    places = {k: attached(motion, body, inertia[body].centre) for k, body in numbered.items()}
+    centres = {k: attached(motion, body, inertia[body].centre) for k, body in numbered.items()}
     return Sample(
         params=params,
         state=state,
         theta={k: np.asarray(motion.angle(body)) for k, body in numbered.items()},
         omega={k: np.asarray(motion.omega(body)) for k, body in numbered.items()},
         alpha={k: np.asarray(motion.alpha(body)) for k, body in numbered.items()},
-        centre={k: places[k].position for k in numbered},
-        acceleration={k: places[k].acceleration for k in numbered},
+        centre={k: centres[k].position for k in numbered},
+        acceleration={k: centres[k].acceleration for k in numbered},
         moment={k: np.asarray(-inertia[body].moment * motion.alpha(body)) for k, body in numbered.items()},
     )
 
@@ -159,7 +159,7 @@ def _turned(k: int, power: int = 2) -> ComplexArray:
 
 
 def _centres() -> tuple[Claim, ...]:
-    """Accelerations of the links' middles."""
+    """Accelerations of the links' mid-points."""
     p = sample().params
 
     def second(length: float) -> float:
@@ -274,8 +274,8 @@ def _balances() -> tuple[Claim, ...]:
 
 def _turning(k: int, joint: str, body: str) -> FloatArray:
     """Moment of a joint's force on link k about its middle [N m], counter-clockwise."""
-    place = sample().state.motion.point(body, joint).position
-    return np.asarray(cross(place - sample().centre[k], sample().state.forces.pin(joint, on=body)))
+    position = sample().state.motion.point(body, joint).position
+    return np.asarray(cross(position - sample().centre[k], sample().state.forces.pin(joint, on=body)))
 
 
 def _both(k: int, one: str, other: str, body: str) -> FloatArray:

@@ -1,4 +1,4 @@
-"""How verdicts are written for people."""
+"""Texts of verdicts."""
 
 from collections import Counter
 from collections.abc import Iterable
@@ -9,7 +9,7 @@ MORE_DIGITS = 2
 
 
 def computed_text(verdict: Verdict) -> str:
-    """The computed number, as the printed one is written and with two digits more; of an equation its residual."""
+    """The computed number in the notation of the printed one, with two more digits; of an equation its residual."""
     value, claim = verdict.computed, verdict.claim
     if value is None:
         return "–"
@@ -25,7 +25,7 @@ def computed_text(verdict: Verdict) -> str:
 
 
 def printed_text(verdict: Verdict) -> str:
-    """The printed number with its unit; nothing of an equation, which stands in its `item_text`."""
+    """The printed number with its unit; "" for an equation, which is part of `item_text`."""
     unit, printed = verdict.claim.unit, verdict.claim.printed
     if unit == RESIDUAL:
         return ""
@@ -35,13 +35,13 @@ def printed_text(verdict: Verdict) -> str:
 
 
 def item_text(verdict: Verdict) -> str:
-    """What the number is, or the equation."""
-    said = verdict.claim
-    return f"{said.item}: {said.printed}" if said.unit == RESIDUAL else said.item
+    """The name of the number, or the equation."""
+    claim = verdict.claim
+    return f"{claim.item}: {claim.printed}" if claim.unit == RESIDUAL else claim.item
 
 
 def source_text(verdict: Verdict) -> str:
-    """Where it is printed, and what there is to explain."""
+    """The source, and the note if there is one."""
     return f"{verdict.claim.source}; {verdict.note}" if verdict.note else verdict.claim.source
 
 
@@ -49,13 +49,13 @@ HEADINGS = ("item", "printed", "computed", "verdict", "source; note")
 
 
 def row(verdict: Verdict) -> tuple[str, str, str, str, str]:
-    """A line of a table under `HEADINGS`."""
+    """A row of a table with `HEADINGS`."""
     texts = item_text(verdict), printed_text(verdict), computed_text(verdict)
     return (*texts, verdict.verdict, source_text(verdict))
 
 
 def summary(verdicts: Iterable[Verdict]) -> str:
-    """How many claims there are, and how many of each verdict.
+    """The number of claims, in total and by verdict.
 
     >>> summary(())
     '0 claims'
