@@ -147,7 +147,7 @@ class Candidate:
 def judge(four_bar: FourBar, task: PrecisionTask) -> Candidate:
     """Check a four-bar against a task.
 
-    four_bar  as drawn at the first position      task  precision positions
+    four_bar  as drawn at the first position [m]      task  precision positions [m, rad]
 
     Defects of the four-bar do not raise: they are reported in the candidate. Raises ParameterError where the task has
     points and the four-bar has no tracer.

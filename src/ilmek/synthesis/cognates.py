@@ -39,7 +39,9 @@ class Cognates(NamedTuple):
 
 
 def cognates(four_bar: FourBar) -> Cognates:
-    """The cognates of a four-bar with a tracer; raises MechanismError for a four-bar without tracer.
+    """The cognates of a four-bar with a tracer, drawn at the same position [m].
+
+    Raises MechanismError for a four-bar without tracer.
 
     >>> drawn = cognates(FourBar(0j, 4 + 0j, 1j, 3 + 3j, tracer=2 + 3j))
     >>> [kind.grashof.kind for kind in (drawn.original, drawn.timed, drawn.other)]

@@ -254,7 +254,7 @@ def dyads_through_points(points: ComplexArray, first_angles: FloatArray) -> tupl
 
 
 def four_bar(one: TwoLinkArm, other: TwoLinkArm) -> Lengths:
-    """Lengths of the four-bar formed by two arms through the same poses; their second links are the coupler.
+    """Lengths [m] of the four-bar formed by two arms through the same poses; their second links are the coupler.
 
     Both joints of the coupler are on the line through p along th2 and both pivots on the ray of the ground angle. So
     ground and coupler are the differences of a0 and of a2; the first links are crank and rocker.

@@ -3,6 +3,7 @@
     crank = crank_swing (x - x0) / (x1 - x0)        rocker = rocker_swing (f(x) - y0) / (y1 - y0)
 
 x0 and x1 are the ends of the range of x, y0 and y1 the values of f there; both rotations start at 0.
+[Hartenberg and Denavit, Kinematic Synthesis of Linkages; four-bars by Freudenstein's equation: `freudenstein`]
 """
 
 import math
@@ -130,7 +131,7 @@ class ErrorCurve:
 
 
 def error_curve(four_bar: FourBar, function: Function, drawn_at: float, samples: int = 361) -> ErrorCurve:
-    """Structural error over the range, by forward simulation on the drawn branch.
+    """Structural error [rad] over the range, by forward simulation on the drawn branch; NaN where it does not close.
 
     drawn_at  value of x at the drawn position, that of the first precision point
     samples   number of samples of x, evenly spaced

@@ -5,7 +5,7 @@ searched for the configurations of least deviation, by Gauss-Newton steps from t
 
 The drawn branch is preferred, then the drawn circuit, then any other circuit: another one is reported only where the
 position is met there and not on a preferred one. Where a curve passes a point twice, the pass that keeps the order is
-taken.
+taken.                              [search derived here; circuit, branch and order: Chase and Mirth, see `candidate`]
 """
 
 import math
@@ -64,6 +64,7 @@ def position_matches(
     """The configuration matched to each precision position; None where the linkage does not reach it.
 
     loops  the circuits of the four-bar, see `circuit_loops`
+    Positions in [m] and [rad]; deviations are relative to the tolerances of the task [1].
     """
     if not loops:
         return (None,) * task.count

@@ -123,7 +123,7 @@ def _first_reference(
 def minimax_descent(errors: Errors, start: Parameters, x: FloatArray, *, least: float = 0.0) -> Descent:
     """Local minimax of errors at points x, from a start.
 
-    errors  (parameters, x) -> errors and derivatives      start  parameters, shape (n,)
+    errors  (parameters, x) -> errors, shape (points,), and derivatives, (points, n)      start  parameters, (n,)
     x       shape (points,)                                least  error that counts as 0
 
     If the reduction of a step is too small compared with that of its tangents, the step is rejected and the trust

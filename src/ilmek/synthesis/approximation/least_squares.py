@@ -126,6 +126,9 @@ def _curved(errors: Errors, parameters: Parameters, x: FloatArray) -> _Curved:
 
 
 def cosine(errors: FloatArray, slopes: FloatArray) -> float:
-    """Greatest cosine of the angle between the errors and a column of their derivatives."""
+    """Greatest cosine [1] of the angle between the errors and a column of their derivatives: 0 at a stationary point.
+
+    errors  shape (rows,)      slopes  shape (rows, n); a column of zeros counts as 0      [Moré 1978]
+    """
     lengths = np.linalg.norm(errors) * np.linalg.norm(slopes, axis=0)
     return float(np.max(np.abs(slopes.T @ errors) / np.where(lengths > 0, lengths, np.inf), initial=0.0))

@@ -177,7 +177,7 @@ def range_nodes(start: float, stop: float, count: int = 129) -> Float[np.ndarray
 
 
 def chebyshev_nodes(start: float, stop: float, count: int) -> Float[np.ndarray, " count"]:
-    """Chebyshev nodes of interpolation over a range: the zeros of a Chebyshev polynomial.
+    """Chebyshev nodes of interpolation over a range [unit of x], ascending: the zeros of a Chebyshev polynomial.
 
         x_i = (x0 + x1) / 2 - (x1 - x0) / 2 cos((2 i - 1) pi / (2 n))
 

@@ -57,7 +57,10 @@ class Solutions(NamedTuple):
 
 
 def scales(rows: EquationRows, products: Products) -> Float[np.ndarray, " n"]:
-    """Scales of the parameters that equilibrate their columns; a parameter only in products is scaled by these."""
+    """Scales of the parameters that equilibrate their columns; a parameter only in products is scaled by these.
+
+    Returns shape (n,), positive [unit of the parameter]; 1 where all columns of a parameter are zero.
+    """
     sizes = np.linalg.norm(rows.terms, axis=0)
     known = np.where(sizes > 0, sizes, 1.0)
     for k in np.flatnonzero(sizes == 0):

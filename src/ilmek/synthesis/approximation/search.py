@@ -3,6 +3,7 @@
 Starts are the four-bars through the Chebyshev nodes, the solutions of least design error, and for free start angles the
 local minima of the structural error on a grid of them, each with fitted links. A minimax starts from the ends of the
 least-squares descents.
+[Freudenstein's equation: `synthesis.freudenstein`; criteria: `approximation.polynomial`; combined here]
 """
 
 import math
@@ -81,13 +82,20 @@ class DescentEnd(NamedTuple):
 
 
 def range_samples(function: Function, count: int) -> FloatArray:
-    """`count` points x over the range, denser towards its ends."""
+    """`count` points x over the range, denser towards its ends.
+
+    x_k = (x0 + x1) / 2 - |x1 - x0| / 2 cos(k pi / (count - 1)),    shape (count,), ascending [unit of x]
+    """
     middle, half = 0.5 * (function.start + function.stop), 0.5 * abs(function.stop - function.start)
     return np.asarray(middle - half * np.cos(np.linspace(0, np.pi, count)))
 
 
 def gauss_nodes(function: Function, weight: Weight | None) -> tuple[FloatArray, FloatArray]:
-    """Gauss nodes over the range, and the weights with which squares at them sum to their (weighted) mean."""
+    """Gauss-Legendre nodes over the range [unit of x], and the weights [1] with which squares sum to their mean.
+
+    weight  w(x) of the error; the mean is then that of (w e)^2; default: 1
+    Both have the shape (NODES,).
+    """
     nodes, shares = np.polynomial.legendre.leggauss(NODES)
     x = 0.5 * (function.start + function.stop) + 0.5 * (function.stop - function.start) * nodes
     return x, 0.5 * shares * (1.0 if weight is None else weight(x) ** 2)
@@ -99,7 +107,7 @@ def generator_search(
     """Generators that are local optima by a criterion, without duplicates; and descriptions of what was left out.
 
     criterion  see `function_generator`      starts  start angles of crank and rocker [rad], None where free
-    weight     of the error at each x
+    weight     of the error at each x [1]; default: 1
 
     Ends without proof are included only if there are no others. Raises ParameterError where a family of four-bars
     passes through the Chebyshev nodes.

@@ -117,12 +117,12 @@ def timed_forms(
 
 
 def homogeneous(points: ComplexArray) -> Float[np.ndarray, "... 3"]:
-    """Homogeneous coordinates (x, y, 1) of points."""
+    """Homogeneous coordinates (x, y, 1) of points [m]; the last axis is added."""
     return np.stack([points.real, points.imag, np.ones(points.shape)], axis=-1)
 
 
 def affine_point(vector: Num[np.ndarray, "3"]) -> tuple[complex, bool]:
-    """The point (x, y) / k, and whether it is finite; of a point at infinity the direction, a unit vector."""
+    """The point (x, y) / k [m], and whether it is finite; of a point at infinity the direction, a unit vector."""
     x, y, k = (float(one) for one in vector)
     reach = math.hypot(x, y)
     if abs(k) * FAR <= reach:

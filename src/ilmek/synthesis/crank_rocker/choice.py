@@ -2,7 +2,7 @@
 
 The members are given as a function from the parameter (for a crank-rocker the ratio a / b) to named quantities, to
 which limits and objective refer. Members over the whole family are tabulated, and the interval about the best one is
-refined repeatedly. A limit is met to about 1e-9 of its value.
+refined repeatedly. A limit is met to about 1e-9 of its value. [search derived here, for the family of the paper]
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -87,7 +87,7 @@ def choose(
     """The parameter of the best member that meets all limits.
 
     tabulate   parameters -> quantities
-    members    parameters over the whole family, ascending, shape (members,); the result is within their range
+    members    parameters [1] over the whole family, ascending, shape (members,); the result is within their range
     objective  quantity to be maximised or minimised
     limits     limits to be met
     preferred  limits that apply only if a member meets them together with all others

@@ -10,7 +10,7 @@ They do not include the motion between the dead centres. The joint B of a crank-
     Im Z2  and  Im(Z2 e^{i psi})  must have the same sign
 
 Without this check a search over L finds better transmission angles than the optimum, of linkages whose rocker would
-have to jump across the ground line. With it no member is better than `best_ratio`.
+have to jump across the ground line. With it no member is better than `best_ratio`. [derived from the loop closure]
 """
 
 from typing import NamedTuple

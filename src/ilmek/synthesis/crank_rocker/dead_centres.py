@@ -142,7 +142,7 @@ def coupler_limits(swing: RealField, rotation: RealField) -> OpenInterval:
 
 
 def ratio_limits(swing: RealField, rotation: RealField) -> OpenInterval:
-    """Ratios crank / coupler for which crank-rockers exist, ends excluded: |cot(phi/2) cot((phi-psi)/2)| < a/b < 1.
+    """Ratios crank / coupler [1] for which crank-rockers exist, ends excluded: |cot(phi/2) cot((phi-psi)/2)| < a/b < 1.
 
     [derived from `coupler_limits`; the ratio falls as the coupler grows]
     """
@@ -181,7 +181,7 @@ def transmission_angle_min(links: LinkRatios) -> RealField:
 
 
 def best_ratio(swing: RealField, rotation: RealField) -> RealField:
-    """Ratio crank / coupler of the member with the greatest least transmission angle; 0 for phi = pi.
+    """Ratio crank / coupler [1] of the member with the greatest least transmission angle; 0 for phi = pi.
 
         s^4 S^2 x^3 + 2 s^2 c^2 S^2 x^2 - s^2 c^2 S^2 x - c^2 C^2 = 0,     x = (a/b)^2,
         s, c = sin, cos(phi/2),     S, C = sin, cos((phi-psi)/2)

@@ -2,7 +2,8 @@
 
 Frame and names are those of `dead_centres`: ground D = 0 to A = 1, crank DC = a, coupler CB = b, rocker AB = c, B above
 the ground line. The crank has the constant speed omega = 1: angular velocities are in omega, angular accelerations in
-omega^2, counter-clockwise. The formulas are those of the RRR dyad in `linkage`.
+omega^2, counter-clockwise. The formulas are those of the RRR dyad in `linkage` [Norton, Design of Machinery, sections
+4.5, 6.7, 7.3].
 """
 
 from typing import NamedTuple

@@ -46,7 +46,9 @@ def descend(
 ) -> None:
     """Descent from `design` and `angles`, in place, for at most `rounds` evaluations.
 
-    state  squared error, damping, its next growth factor, number of successive small steps (8 or more: ended), and
+    design, angles  ten numbers [m, rad] and crank angles [rad] of the points [m], changed in place
+    low, high       bounds of the numbers; kind, kappa: see `path.limits`
+    state  squared error [m²], damping, its next growth factor, number of successive small steps (8 or more: ended), and
            number of evaluations; kept between calls
     """
     count = blocks.max() + 1

@@ -44,7 +44,10 @@ def excess(design: Design, kind: int, kappa: float) -> float:
 
 @compiled
 def limit_rows(design: Design, low: Design, high: Design, kind: int, kappa: float, rows: Rows, slack: Slack) -> None:
-    """Linearised limits about a design, rows @ step <= slack, written to `rows` and `slack`."""
+    """Linearised limits about a design, rows @ step <= slack, written to `rows` and `slack`.
+
+    design, low, high  the ten numbers and their bounds [m, rad], shape (10,)      kind, kappa  +1 or -1, cosine [1]
+    """
     rows[:] = 0.0
     for i in range(SIZE):
         rows[2 * i, i], rows[2 * i + 1, i] = 1.0, -1.0

@@ -3,7 +3,7 @@
     any coupler and rocker,   D < r1 < E,   r2 < min(r1 - D, E - r1)      (double-cranks: r1 and r2 exchanged)
 
 with D and E of `path.limits`. Random ratios are used if some size brings them within the bounds. For narrow bounds they
-are completed by random lengths within the bounds that meet the crank's limits.
+are completed by random lengths within the bounds that meet the crank's limits. [derived from the limits of Grashof]
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ SMALL, LARGE = 1e-2, 1e2
 def random_links(rng: np.random.Generator, count: int, bounds: tuple[Four, Four], *, kind: int, kappa: float) -> Links:
     """`count` sets of ground, crank, coupler, rocker, shape (count, 4); none where there is no such set.
 
-    bounds  lower and upper bounds of the four links      kind, kappa  see `path.limits`
+    bounds  lower and upper bounds of the four links [m]      kind, kappa  see `path.limits`
     """
     low, high = bounds
     ratios = _by_ratio(rng.random((4 * count, 3)), kind, kappa)

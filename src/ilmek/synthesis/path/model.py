@@ -114,7 +114,7 @@ def normal_equations(
     angle_hessian: Float[np.ndarray, " blocks"],
     angle_gradient: Float[np.ndarray, " blocks"],
 ) -> None:
-    """J^T J and J^T e of half the squared error, written to the last five arguments.
+    """J^T J and J^T e of half the squared error [m²], written to the last five arguments.
 
     H, g                           of the ten numbers
     angle_hessian, angle_gradient  of the free angles

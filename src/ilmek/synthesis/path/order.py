@@ -28,7 +28,7 @@ def in_order(angles: Float[np.ndarray, "some points"]) -> Bool[np.ndarray, " som
 
 
 def sense(angles: Float[np.ndarray, "*some points"]) -> Float[np.ndarray, "*some"]:
-    """+1 where the crank rotates counter-clockwise along the points, -1 where clockwise."""
+    """+1 where the crank rotates counter-clockwise along the points, -1 where clockwise; angles [rad]."""
     return np.where(angles[..., -1] >= angles[..., 0], 1.0, -1.0)
 
 

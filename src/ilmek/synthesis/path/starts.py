@@ -5,7 +5,7 @@ With random link ratios and crank angles, P is linear in the other numbers:
 
     P = z0 + a (r2/r1) u + b e3,    a = r1 e^{i th0},   b = c e^{i th0}
 
-so that one linear least squares fit gives size, position, orientation and tracer.
+so that one linear least squares fit gives size, position, orientation and tracer. [derived from `path.model`]
 """
 
 import math
@@ -47,9 +47,9 @@ def start_all(
 ) -> None:
     """One start for each row of random numbers, written to the last four arguments.
 
-    links   lengths of ground, crank, coupler, rocker, within the crank's limits; only their ratios count
+    links   lengths [m] of ground, crank, coupler, rocker, within the crank's limits; only their ratios count
     along   the timing [rad] where `timed`, otherwise the position of each point along the path, 0 to 1
-    errors  squared errors; inf where the start cannot be brought within the limits
+    errors  squared errors [m²]; inf where the start cannot be brought within the limits
     """
     for k in range(branches.size):
         branches[k] = 1 if random[k, 0] < 0.5 else -1
