@@ -6,8 +6,8 @@ Run it as `python examples/draw_loom_scaling.py`; it ends with the time of the d
 from pathlib import Path
 
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
-from ilmek.machines.automated_loom.figures import time_against_pitch
 from ilmek.machines.automated_loom.estimate import estimated_time
+from ilmek.machines.automated_loom.figures import time_against_pitch
 from ilmek.units import format_quantity
 from ilmek.viz.svg import svg
 
