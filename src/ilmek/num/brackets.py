@@ -50,6 +50,8 @@ def bracketed_minima(f: Callable[[Reals], Reals], low: Reals, high: Reals, *, st
     """Argument and value of a minimum of f within each bracket, by golden sections; f may have kinks.
 
     Of several minima in a bracket one is found. 60 steps reduce a bracket to rounding.
+    f  (brackets,) -> (brackets,)      low, high  ends of the brackets, shape (brackets,)
+    [Kiefer, Sequential minimax search for a maximum, Proc. AMS 4, 1953]
 
     >>> at, least = bracketed_minima(lambda x: np.abs(x - 0.3), np.array([0.0]), np.array([1.0]))
     >>> at.round(12).tolist(), least.round(12).tolist()

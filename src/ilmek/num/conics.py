@@ -4,6 +4,7 @@
 
 The resultant of the two is a quartic in one ratio. Its roots are eigenvalues; Newton's method on the conics refines the
 points to the last digits. Points at infinity are no exception, since a fixed rotation is applied to the plane first.
+[derived from the resultant]
 """
 
 from typing import NamedTuple, TypeAlias
@@ -44,6 +45,9 @@ class Intersections(NamedTuple):
 
 def meet(C: Conic, D: Conic) -> Intersections:
     """All four intersections of two conics given by symmetric matrices; undefined for conics with a common line.
+
+    C, D  symmetric matrices, shape (..., 3, 3), any factor
+    Returns points of shape (..., 4, 3); complex ones and repeated ones are marked as not real.
 
     >>> found = meet(np.diag([1.0, 1.0, -5.0]), np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -4]]))  # x² + y² = 5, xy = 2
     >>> positions = found.points.real / found.points.real[:, 2:]

@@ -16,7 +16,7 @@ def newton(system: System, start: Vectors, *, tolerance: float, steps: int = 30)
 
     system  x -> f(x) (..., n) and f'(x) (..., n, n)      start  (..., n), near the root: steps are not damped
     A system has converged after a step of at most `tolerance` in every unknown; by quadratic convergence the error is
-    far below it.
+    far below it.    [Nocedal and Wright, Numerical Optimization, chapter 11]
 
     >>> newton(lambda x: (x * x - 2, 2 * x[..., None]), np.array([[1.0], [3.0]]), tolerance=1e-9).round(12)
     array([[1.41421356],

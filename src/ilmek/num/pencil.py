@@ -1,4 +1,7 @@
-"""Real eigenvalues x and null vectors v of a matrix pencil, (A + x B) v = 0."""
+"""Real eigenvalues x and null vectors v of a matrix pencil, (A + x B) v = 0.
+
+[generalised eigenvalue problem: Golub and Van Loan, Matrix Computations, 7.7]
+"""
 
 from typing import NamedTuple, TypeAlias
 

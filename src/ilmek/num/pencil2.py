@@ -3,7 +3,8 @@
     det(k A + x B) = k² det A + k x tr(adj(A) B) + x² det B
 
 Roots are ratios x : k, so that an infinite one (k = 0) is a root like any other; the quadratic is solved as
-q : c2 and c0 : q with q = -(c1 + sgn(c1) sqrt(c1² - 4 c0 c2)) / 2, without cancellation.
+q : c2 and c0 : q with q = -(c1 + sgn(c1) sqrt(c1² - 4 c0 c2)) / 2, without cancellation
+[Press et al., Numerical Recipes, 5.6].
 """
 
 import numpy as np

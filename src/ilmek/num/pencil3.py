@@ -4,6 +4,7 @@
 
 Roots are ratios x : k, so that an infinite one (k = 0) is a root like any other: the pencil is first rotated
 in the plane of (x, k) to a direction with a large determinant, so that no root is near infinity.
+[derived from the expansion of the determinant]
 """
 
 from typing import NamedTuple

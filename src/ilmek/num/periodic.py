@@ -32,6 +32,8 @@ def periodic_derivative(
 def periodic_mean(samples: Float[np.ndarray, " samples"]) -> float:
     """Mean over one period from samples at equal steps: the trapezium rule, with spectral accuracy.
 
+    samples  at k period / n, k = 0 .. n - 1, shape (n,)      [Trefethen and Weideman, SIAM Review 56 (2014)]
+
     >>> periodic_mean(np.array([1.0, 3.0, 1.0, 3.0]))
     2.0
     """

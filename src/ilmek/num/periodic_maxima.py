@@ -2,7 +2,7 @@
 
 Each member has its own samples, even over the turn and dense near the angles where its curves may be sharp. A local
 maximum of the samples near the member's greatest one brackets a maximum; all maxima of all members are refined together
-by parabolas through three points.
+by parabolas through three points. [successive parabolic interpolation; the choice of the samples is derived here]
 """
 
 from collections.abc import Callable, Mapping

@@ -5,7 +5,8 @@ breaks it is smooth. The domain is therefore cut into `Pieces`; every search and
 and at the ends of a piece the curve has its one-sided limits. A sided curve takes the side as a second argument:
 +1 means the limit from above, -1 the limit from below. A curve without sides is evaluated 1e-13 inside its piece.
 
-All curves are evaluated on arrays: one call for all pieces in each step of a search.
+All curves are evaluated on arrays: one call for all pieces in each step of a search. Arguments and values are in the
+units of the curve.
 """
 
 from collections.abc import Callable, Iterable, Mapping

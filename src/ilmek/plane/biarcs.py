@@ -58,6 +58,8 @@ def fitted(points: Complex[np.ndarray, " points"], tolerance: float) -> Contour:
 def corners(points: Complex[np.ndarray, " points"]) -> Int[np.ndarray, " corners"]:
     """Indices of the corners of a closed curve: the direction changes there, but little at the neighbouring points.
 
+    points  of the closed curve [m], shape (points,), the first not repeated
+
     >>> corners(np.array([0, 1, 2, 2 + 1j, 2j, 1j], dtype=complex)).tolist()
     [0, 2, 3, 4]
     """

@@ -1,7 +1,8 @@
 """Closed contours of straight pieces and arcs: area, length, points, and common contours of plates.
 
 The piece from p to q with the bulge b = tan(sweep/4) is the arc of radius |q - p| (1 + b^2)/(4 |b|), left of the chord
-where b < 0 and right of it where b > 0; b = 1 is a half turn to the left.
+where b < 0 and right of it where b > 0; b = 1 is a half turn to the left. Points, radii and lengths are in m.
+[bulge: the convention of DXF polylines; the formulas are derived from the circle's chord and sweep]
 """
 
 import math

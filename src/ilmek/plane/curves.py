@@ -1,4 +1,4 @@
-"""Plane curves: curvature, self-crossings of a polyline, convex hull."""
+"""Plane curves: curvature [do Carmo, Differential Geometry of Curves and Surfaces, 1-5], crossings, convex hull."""
 
 import numpy as np
 
@@ -8,6 +8,8 @@ from ilmek.plane.vectors import cross
 
 def curvature(first: ComplexField, second: ComplexField) -> RealField:
     """Curvature [1/m] of z(u) from z' and z'': z' x z'' / |z'|^3, above 0 to the left; NaN where z' = 0.
+
+    first, second  z' and z'' by the same parameter u [m/u, m/u²], any shapes that broadcast
 
     >>> float(curvature(2j, -2 + 0j))
     0.5
@@ -43,7 +45,9 @@ def crossing_segments(points: Complex[np.ndarray, " points"], closed: bool) -> I
 
 
 def hull(points: Complex[np.ndarray, " points"]) -> Complex[np.ndarray, " corners"]:
-    """Corners of the convex hull, counter-clockwise from the leftmost; two for collinear points, one for equal points.
+    """Corners [m] of the convex hull, counter-clockwise from the leftmost; two for collinear, one for equal points.
+
+    [`hull_indices`]
 
     >>> hull(np.array([0, 1, 1 + 1j, 1j, 0.5 + 0.5j]))
     array([0.+0.j, 1.+0.j, 1.+1.j, 0.+1.j])

@@ -1,6 +1,7 @@
 """Convex outlines with round edges: distances of points and outlines, below 0 for penetration.
 
 Corners are counter-clockwise; two corners are a bar with round ends, one is a disc. Functions take any batch shape.
+[distances derived from the feet of perpendiculars; penetration by the theorem of separating axes]
 """
 
 from dataclasses import dataclass

@@ -3,7 +3,7 @@
 The minimum is found by bisection. If no point moves faster than V by a parameter, the distance over an interval of half
 length e is at least f - V e, with f at its middle. Intervals whose bound is not below the present minimum by more than
 the tolerance are dropped; the others are halved. The result is a distance that occurs, and no distance is smaller by
-more than the tolerance.
+more than the tolerance. [derived from the bound V of the rate, the Lipschitz constant]
 """
 
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Vectors of the plane as complex numbers: x + i y, any batch shape."""
+"""Vectors of the plane as complex numbers: x + i y, any batch shape and unit; products have the units' product."""
 
 import numpy as np
 
@@ -26,7 +26,7 @@ def cross(u: ComplexField, v: ComplexField) -> RealField:
 def oblique(v: ComplexField, e: ComplexField, f: ComplexField) -> RealField:
     """Component x of v along e in oblique axes, v = x e + y f: (v x f) / (e x f); along f it is `oblique(v, f, e)`.
 
-    Infinite or NaN where e and f are parallel.
+    Infinite or NaN where e and f are parallel.    [derived: Cramer's rule]
     >>> float(oblique(3 + 4j, 1 + 0j, 1 + 1j)), float(oblique(3 + 4j, 1 + 1j, 1 + 0j))
     (-1.0, 4.0)
     """
