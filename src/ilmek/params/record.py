@@ -97,7 +97,7 @@ class Params:
         for one in fields(cls):
             if "nested" in one.metadata and one.name in below:
                 values[one.name] = one.metadata["nested"].read(below[one.name], prefix=f"{prefix}{one.name}.")
-            elif "overrides" in one.metadata:
+            elif "overrides" in one.metadata and below:
                 values[one.name] = Overrides(MappingProxyType(_read_overrides(one.metadata["overrides"](), below)))
         return cls(**values)
 
