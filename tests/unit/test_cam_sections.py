@@ -53,6 +53,9 @@ def test_undercut_is_seen_as_interference_too() -> None:
     found = interference(tight)
     assert found is not None
     assert found.value > 0.1 * mm
+    both = interference(tight, both_flanks=True)
+    assert both is not None
+    assert both.value >= found.value
     hollow = interference(FlatCam(motion(25 * mm), 20 * mm))
     assert hollow is not None
 

@@ -67,6 +67,27 @@ def test_all_hystereses_meet_for_nearly_elastic_contacts() -> None:
     assert exact_hysteresis(0.99899) == pytest.approx(exact_hysteresis(0.99901), rel=0.03)
 
 
+@pytest.mark.parametrize("direction", [1, -1j])
+def test_the_peak_of_an_elastic_impact_is_that_of_hertz(direction: complex) -> None:
+    """All the kinetic energy is in the contact: M v^2 / 2 = K d^2.5 / 2.5, F = K d^1.5."""
+    speed = 0.3
+    pose = BodyState(0j, 0.0, speed * direction)
+    run = simulate(disc(replace(PIN, restitution=1.0), pose), np.array([0.0, 2 * CLEARANCE / speed]), rtol=1e-10)
+    depth = (1.25 * MASS * speed**2 / STEEL) ** 0.4
+    assert run.peaks["P"] == pytest.approx(STEEL * depth**1.5, rel=0.02)
+
+
+def test_two_journals_rest_in_their_own_bearings() -> None:
+    pins = [replace(PIN, name=name, second=f"disc {name}", restitution=0.5) for name in "PQR"]
+    bodies = (Body(GROUND, dict.fromkeys("PQR", 0)), *(Body(pin.second, {pin.name: 0}) for pin in pins))
+    masses = dict(zip("PQR", (MASS, 2 * MASS, 3 * MASS), strict=True))
+    inertias = {pin.second: Inertia(masses[pin.name], 0j, MOMENT) for pin in pins}
+    poses = {pin.second: BodyState(0j) for pin in pins}
+    run = simulate(System(bodies, tuple(pins), inertias, poses, -9.81j), np.array([0.0, 0.25]))
+    for name, mass in masses.items():
+        assert run.pin(name)[-1] == pytest.approx(mass * 9.81j, rel=1e-5)
+
+
 def test_a_journal_comes_to_rest_at_the_depth_of_hertz() -> None:
     run = simulate(disc(replace(PIN, restitution=0.5), BodyState(0j), gravity=-9.81j), np.array([0.0, 0.2]))
     assert run.pin("P")[-1] == pytest.approx(MASS * 9.81j, rel=1e-6)

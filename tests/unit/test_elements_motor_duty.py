@@ -34,6 +34,15 @@ def test_trapezoidal_speed_has_the_textbook_rms() -> None:
     assert found.reserve == pytest.approx(SERVO.peak / found.peak)
 
 
+def test_of_several_reducers_that_bear_it_the_one_of_least_rms_torque_is_taken() -> None:
+    cycle = LoadCycle(3 * np.sin(TURN), 3 * np.cos(TURN), 4 * np.sin(TURN), inertia=0.02)
+    found = size_motor(cycle, PLANETARY, "servo")
+    assert found is not None
+    every = [duty(cycle, found.motor, reducer) for reducer in PLANETARY]
+    able = [one for one in every if bears(found.motor, one)]
+    assert found.duty.rms == min(one.rms for one in able) < max(one.rms for one in able)
+
+
 def test_pure_inertia_takes_no_power_over_a_cycle() -> None:
     swing = LoadCycle(10 * np.sin(TURN), 100 * np.cos(TURN), np.zeros(720), inertia=0.01)
     assert duty(swing, SERVO).power_mean == pytest.approx(0, abs=1e-12)

@@ -46,6 +46,19 @@ def test_points_on_a_circle_are_reported_and_fail_where_no_other_arm_is() -> Non
     assert still["a2"] == pytest.approx(0.01, rel=1e-12)
 
 
+@pytest.mark.parametrize("settings", [{}, {"warp_pitch": "10mm"}, {"points": POINTS, "angles": ANGLES}])
+def test_the_angle_off_straight_is_that_of_the_triangle_of_each_arm(settings: dict[str, str]) -> None:
+    """The sine between two sides of a triangle is twice its area over their product, and the area is Heron's."""
+    made = design(KnottingDyadParams.read(settings))
+    for arm, bend in zip(made.dyads, made.bends.tolist(), strict=True):
+        if bend > 0:
+            a, b, c = abs(arm.first), abs(arm.second), np.abs(made.task.path - arm.pivot)
+            s = (a + b + c) / 2
+            sines = 2 * np.sqrt(s * (s - a) * (s - b) * (s - c)) / (a * b)
+            assert bend == pytest.approx(sines.min(), rel=1e-9)
+    assert (max(made.bends) > 0) == (made.head is not None)
+
+
 def test_points_on_a_line_say_which_root_is_infinitely_far() -> None:
     said = answer(points=LINE, angles=ANGLES)
     assert any("the points lie on a line" in kind for kind in said.as_json()["results"]["roots"])

@@ -77,13 +77,7 @@ def all_mutants(patterns: Iterable[str]) -> list[Mutant]:
 
 def sampled(found: list[Mutant], number: int, seed: int) -> list[Mutant]:
     """So many of them, by a hash of each and the seed: an edit elsewhere leaves the others in the sample."""
-    times = Counter[str]()
-
-    def place(mutant: Mutant) -> str:
-        times[mutant.key] += 1
-        return hashlib.sha256(f"{seed} {mutant.key} {times[mutant.key]}".encode()).hexdigest()
-
-    return sorted(found, key=place)[:number]
+    return sorted(found, key=lambda one: hashlib.sha256(f"{seed} {one.position}".encode()).hexdigest())[:number]
 
 
 def read_accepted(text: str) -> dict[str, str]:

@@ -13,8 +13,9 @@ Left out are sites where a change is no error of a computation:
 import ast
 import copy
 import re
+from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Lt: ast.GtE,
@@ -66,7 +67,10 @@ POINTS = {"linspace": 2, "geomspace": 2, "round": 1}
 
 @dataclass(frozen=True)
 class Mutant:
-    """One change of a module: which variant of which node of its syntax tree, and what it says before and after."""
+    """One change of a module: which variant of which node of its syntax tree, and what it says before and after.
+
+    number  of those with the same key, from 1 on
+    """
 
     module: str
     function: str
@@ -75,6 +79,7 @@ class Mutant:
     after: str
     node: int
     variant: int
+    number: int = 1
 
     @property
     def key(self) -> str:
@@ -83,8 +88,8 @@ class Mutant:
 
     @property
     def position(self) -> str:
-        """What it is, and where."""
-        return f"{self.key} (line {self.line}, node {self.node})"
+        """What it is, and which of those in the same function, whatever its line."""
+        return f"{self.key} {self.number}"
 
 
 def mutants_of(module: str, source: str) -> list[Mutant]:
@@ -92,12 +97,15 @@ def mutants_of(module: str, source: str) -> list[Mutant]:
     tree = ast.parse(source)
     functions = dict(_functions(tree))
     left_out = _left_out(tree)
-    return [
-        Mutant(module, functions.get(index, ""), node.lineno, ast.unparse(node), ast.unparse(changed), index, variant)
-        for index, node in enumerate(ast.walk(tree))
-        if isinstance(node, ast.expr) and node not in left_out
-        for variant, changed in enumerate(_variants(node))
-    ]
+    found, times = [], Counter[str]()
+    for index, node in enumerate(ast.walk(tree)):
+        if isinstance(node, ast.expr) and node not in left_out:
+            for variant, changed in enumerate(_variants(node)):
+                texts = ast.unparse(node), ast.unparse(changed)
+                made = Mutant(module, functions.get(index, ""), node.lineno, *texts, index, variant)
+                times[made.key] += 1
+                found.append(replace(made, number=times[made.key]))
+    return found
 
 
 def mutated(source: str, mutant: Mutant) -> ast.Module:
@@ -186,6 +194,8 @@ def _tolerances(tree: ast.Module) -> set[ast.AST]:
     for node in ast.walk(tree):
         if isinstance(node, ast.BinOp) and any(_is_tolerance(side, small) for side in (node.left, node.right)):
             found |= set(ast.walk(node)) if isinstance(node.op, ast.Mult | ast.Div) else {node}
+        elif isinstance(node, ast.BinOp) and _is_nearly_one(node.right, small):
+            found |= {node, *ast.walk(node.right)}
     return found
 
 
@@ -206,6 +216,14 @@ def _is_tolerance(value: ast.expr, small: set[str]) -> bool:
             return name in small or TOLERANCES.fullmatch(name) is not None
         case ast.BinOp(op=ast.Mult() | ast.Div()):
             return _is_tolerance(value.left, small) or _is_tolerance(value.right, small)
+    return False
+
+
+def _is_nearly_one(value: ast.expr, small: set[str]) -> bool:
+    """Whether it is 1, more or less a tolerance."""
+    match value:
+        case ast.BinOp(left=ast.Constant(value=1), op=ast.Add() | ast.Sub(), right=right):
+            return _is_tolerance(right, small)
     return False
 
 
