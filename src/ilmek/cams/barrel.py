@@ -12,7 +12,8 @@ flank guides the roller where
     |B' - i rho| + d turning - Im(w) d Re(B') / |B' - i rho|^2  > 0
 
 The development neglects the last term: the contact moves along the roller's axis because the cam is round.
-An end cam has only the lower flank, and a spring; the groove of a barrel has both flanks.
+An end cam has only the lower flank, and a spring; the groove of a barrel has both flanks. [derived from the condition
+of contact, n perpendicular to the relative velocity; development: `strip` and its source, Norton]
 """
 
 import math

@@ -7,7 +7,7 @@ When one roller moves out the other moves in, so the displacement of the second 
 Two rollers (or two parallel faces) on one slide are the distance D apart, with the shaft between them. The second plate
 is touched half a turn further on, and its prime radius follows from D (both without offset: Rp2 = D - Rp1 - top). Two
 arms or two faces on one pivot have a fixed angle gamma between them, one on each side of the line to the axis: psi2 =
-gamma - psi1. Both plates are described in the frame of the shaft.
+gamma - psi1. Both plates are described in the frame of the shaft.      [derived from the constant distance or angle]
 """
 
 import math
@@ -51,7 +51,10 @@ class ConjugatePair:
 
 
 def remaining_rise(programme: CamProgramme) -> CamProgramme:
-    """The programme top - s. It starts where s is highest between two parts, so its displacement starts at 0."""
+    """The programme top - s [m; rad].
+
+    It starts where s is highest between two parts, so its displacement starts at 0.
+    """
     bases = programme.bases
     highest = max(range(len(bases)), key=lambda number: bases[number])
     turned = [

@@ -2,7 +2,7 @@
 
 Undercut is local: it depends on the curvature at the contact. A surface without undercut can still enter the follower
 elsewhere, for example two lobes that are too close for a large roller, or a groove that crosses itself. So every pose
-is compared with the whole surface.
+is compared with the whole surface.                                                         [derived here]
 """
 
 import numpy as np

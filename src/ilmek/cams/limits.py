@@ -1,7 +1,7 @@
 """Pressure angle, curvature, undercut and area of a cam of any kind.
 
 Each is searched or integrated piece by piece between the programme's knots, so both sides of a jump of the acceleration
-are covered.
+are covered. Formulas of each kind of cam are in its module.  [Norton, Cam Design and Manufacturing, 7]
 """
 
 import math

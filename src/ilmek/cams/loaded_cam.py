@@ -2,7 +2,7 @@
 
 An arm's coordinate is its angle: moment of inertia, moments and torsional rate replace mass, forces and rate in the
 formulas of a slide. The cam is a plate, a pair of conjugate plates, or a developed strip that passes under its
-follower.
+follower. [formulas and sources: `contact` (Norton, Cam Design and Manufacturing, 9), `hertz`, `elements.cam_rollers`]
 """
 
 import math

@@ -12,7 +12,7 @@ and that keeps the follower on the cam at 1.2 times the speed; a groove requires
 maxima over samples every 1/8 degree and on both sides of every joint of the motion.
 
 The torque of the shaft is the sum of F s' of all cams. At constant speed its mean over a turn is the torque of the
-brakes. Friction is not included.
+brakes. Friction is not included.          [derived from the equation of motion of the follower and virtual power]
 """
 
 import math
@@ -155,7 +155,10 @@ class PlateCamTask:
 def loaded_plate_cam(
     name: str, actuator: str, ratio: float, programme: CamProgramme, task: PlateCamTask
 ) -> LoadedPlateCam:
-    """The smallest cam for a task, and its loads; name, actuator, ratio: see `LoadedPlateCam`."""
+    """The smallest cam for a task, and its loads; name, actuator, ratio: see `LoadedPlateCam`.
+
+    programme  of the follower [m, rad]      task  masses [kg], loads [N] and limits, see `PlateCamTask`
+    """
     angle, speed, (forward, back) = sample_angles(programme, count=SAMPLES), task.speed, task.mass
     motion = programme.at(angle)
     lift = float(np.max(motion.s))
@@ -228,7 +231,10 @@ def _lift_off(task: PlateCamTask, need: FloatArray, hold: FloatArray) -> float:
 
 
 def torque_at(cams: Sequence[LoadedPlateCam], angle: FloatArray) -> FloatArray:
-    """Torque of all cams together [N m] at cam angles [rad]."""
+    """Torque of all cams together [N m] at cam angles [rad].
+
+    angle  any shape, the shape of the result
+    """
     total = np.zeros(angle.shape)
     for cam in cams:
         total += np.interp(angle, cam.angle, cam.torque, period=TURN)

@@ -9,6 +9,7 @@ The opening depends on the first and the last group alone. Where one cam's torqu
 m |sum n_k e^(2 i delta_k)|: for a given spread nothing is flatter than two groups at its ends, cos(a) of the torque
 (each term has the least real part there, and the ends are alike), while g even ones give sin(g a / (g - 1)) /
 (g sin(a / (g - 1))). Other motions and forces have more harmonics, so that `flattest_spread` searches the spreads.
+[derived here: sum of shifted periodic functions]
 """
 
 from collections.abc import Callable, Iterator

@@ -30,7 +30,10 @@ def pitch_point(angle: RealField, s: RealField, prime_radius: float, offset: flo
 
 
 def normal(angle: RealField, s: RealField, ds: RealField, prime_radius: float, offset: float = 0.0) -> ComplexField:
-    """Outward unit normal of the pitch curve in the cam's frame, complex."""
+    """Outward unit normal of the pitch curve in the cam's frame, complex.
+
+    angle, s, ds, prime_radius, offset  as in the module: [rad], [m], [m/rad], [m], [m], shapes that broadcast
+    """
     arrow = reach(s, prime_radius, offset) + 1j * (ds - offset)
     return arrow / np.abs(arrow) * np.exp(-1j * np.asarray(angle))
 

@@ -2,6 +2,9 @@
 
     s(theta) = base + change * law.s(u),   u = (theta - begin) / span     within each segment
 
+Angles in rad; s in m, or in rad for an arm; its derivatives by the cam angle. [boundary conditions of neighbouring
+segments: Norton, Cam Design and Manufacturing, 3 and 4]
+
 >>> from ilmek.cams.laws import LAWS
 >>> shed = CamProgramme((rise(math.pi / 2, 0.06, LAWS["harmonic"]), fall(math.pi / 2, 0.06, LAWS["harmonic"]),
 ...                   dwell(math.pi)))
@@ -211,7 +214,10 @@ def joined(
 
 
 def jumps(programme: CamProgramme, order: int = 2) -> tuple[Jump, ...]:
-    """Jumps of the derivative of `order` (1 velocity, 2 acceleration, 3 jerk), in the order of the cam angle."""
+    """Jumps of the derivative of `order` (1 velocity, 2 acceleration, 3 jerk) by the cam angle [rad], in its order.
+
+    Empty where the derivative is continuous all round.
+    """
     segments = programme.segments
     found = []
     for i, (segment, edge) in enumerate(zip(segments, programme.edges, strict=False)):
@@ -227,7 +233,10 @@ def jumps(programme: CamProgramme, order: int = 2) -> tuple[Jump, ...]:
 
 
 def all_jumps(programme: CamProgramme, order: int = 3) -> tuple[Jump, ...]:
-    """The jumps of all derivatives up to `order`, the lowest derivative first."""
+    """The jumps of all derivatives up to `order`, the lowest derivative first.
+
+    Each with its cam angle [rad]; empty where none jumps.
+    """
     return tuple(itertools.chain.from_iterable(jumps(programme, k) for k in range(1, order + 1)))
 
 

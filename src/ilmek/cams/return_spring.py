@@ -5,7 +5,7 @@ The follower stays on the cam at the speed w if and only if, over the whole turn
     m w^2 s'' + k s + P + load >= 0
 
 The functions below solve this condition for the speed, the preload or the rate, as an exact supremum over the pieces of
-the programme. Where the velocity jumps down, no spring keeps the follower on the cam.
+the programme. Where the velocity jumps down, no spring keeps the follower on the cam. [derived: contact force >= 0]
 """
 
 import math
@@ -33,11 +33,12 @@ class LiftOff:
 
 
 def lift_off(programme: CamProgramme, follower: FollowerLoad) -> LiftOff:
-    """Speed from which the follower leaves the cam, and the cam angle; the speed of `follower` is not used.
+    """Speed [rad/s] from which the follower leaves the cam, and the cam angle [rad].
 
         1 / w^2 = sup( -m s'' / (k s + P + load) )
 
     The speed is 0 where the velocity jumps down, or where no force acts towards the cam while s'' < 0.
+    The speed of `follower` is not used.
     """
     falls = velocity_drop(programme)
     if falls is not None:
@@ -101,7 +102,7 @@ def least_rate(programme: CamProgramme, follower: FollowerLoad) -> float:
 
 
 def doubling_spring(programme: CamProgramme, follower: FollowerLoad) -> FollowerLoad:
-    """The weakest spring without lift-off at the speed whose force doubles over the lift: k = P / lift.
+    """The weakest spring without lift-off at the speed whose force doubles over the lift: k = P / lift [N/m].
 
         P = sup( -(m w^2 s'' + load) / (1 + s / lift) )
 

@@ -6,7 +6,7 @@ K x dK = -(K . n) f dtheta:
     A = 1/2 int (K . n) f,   A c = 1/3 int K (K . n) f,   I = 1/4 int |K|^2 (K . n) f
 
 I is the second moment of area about the cam's axis; times thickness and density it is the moment of inertia. The
-centroid gives the imbalance of the cam.
+centroid gives the imbalance of the cam. [derived from Green's theorem]
 """
 
 from collections.abc import Callable
@@ -29,7 +29,9 @@ class CamSection(NamedTuple):
 
 
 def section(cam: CamRole) -> CamSection:
-    """Section of a plate cam's face; the bore is not subtracted, undercut is not considered.
+    """Area [m²], centroid [m] and polar moment [m⁴] of a plate cam's face.
+
+    The bore is not subtracted, undercut is not considered.
 
     >>> from ilmek.cams.plate import PlateCam
     >>> from ilmek.cams.programme import TURN, CamProgramme, dwell

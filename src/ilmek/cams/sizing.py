@@ -6,6 +6,7 @@ Every limit is written as an angle that must not exceed 0, so one search over th
     convex, concave   arctan(Rp kappa) - arctan(Rp / limit)       kappa of the pitch curve; -kappa for concave
 
 Undercut is never allowed, even without a limit of curvature.
+[pressure angle and curvature: Norton, Cam Design and Manufacturing, 7; the common search is derived here]
 """
 
 import math
@@ -70,7 +71,7 @@ class Offset(NamedTuple):
 
 
 def smallest_prime(cam: CamRole, limits: CamLimits) -> PrimeRadius:
-    """The smallest prime circle at which a cam keeps the limits without undercut; all else stays as given.
+    """The smallest prime circle [m] at which a cam keeps the limits without undercut; all else stays as given.
 
     The cam's own prime radius does not matter. Sizes are tried from the smallest possible upwards, and the first that
     fits is refined to rounding.
@@ -134,7 +135,7 @@ def pressure_prime(programme: CamProgramme, limits: CamLimits, offset: float = 0
 
 
 def best_offset(programme: CamProgramme, limits: CamLimits) -> Offset:
-    """The offset of a translating roller with the smallest prime circle for the limits of the pressure angle.
+    """The offset [m] of a translating roller with the smallest prime circle for the limits of the pressure angle.
 
     d(e) is a supremum of straight lines, so it is convex and d^2 + e^2 has one minimum. It lies within |e| <= max |s'|.
     """

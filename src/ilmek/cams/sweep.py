@@ -3,6 +3,7 @@
 Each design is a rise, a fall by the same law and a dwell, with a translating roller, knife edge or sphere. The results
 equal those of `sizing`, `limits` and `contact` for a single cam. Designs of one law share its samples: with s = L s(u)
 and ds = L v(u)/beta all bounds are searched on one grid of u, and refined only near the maxima.
+[formulas and sources: `profile`, `limits`, `contact`; Norton, Cam Design and Manufacturing, 7, 9]
 """
 
 import itertools

@@ -15,7 +15,7 @@ from ilmek.cams.laws.law import Law
 
 
 def s(u: RealField) -> RealField:
-    """Displacement over u in [0, 1], from 0 to 1.
+    """Displacement s [1] at u [1] in [0, 1], from 0 to 1; any shape.
 
     >>> s(0.5)
     0.5
@@ -24,17 +24,17 @@ def s(u: RealField) -> RealField:
 
 
 def v(u: RealField) -> RealField:
-    """Velocity ds/du."""
+    """Velocity ds/du [1]."""
     return 6.0 * u * (1.0 - u)
 
 
 def a(u: RealField) -> RealField:
-    """Acceleration d2s/du2."""
+    """Acceleration d2s/du2 [1]."""
     return 6.0 * (1.0 - 2.0 * u)
 
 
 def j(u: RealField) -> RealField:
-    """Jerk d3s/du3 inside the rise."""
+    """Jerk d3s/du3 [1] inside the rise."""
     return -12.0 + 0.0 * np.asarray(u)
 
 

@@ -18,7 +18,7 @@ _TURN = 2.0 * math.pi
 
 
 def s(u: RealField) -> RealField:
-    """Displacement over u in [0, 1], from 0 to 1.
+    """Displacement s [1] at u [1] in [0, 1], from 0 to 1; any shape.
 
     >>> float(s(0.5))
     0.5
@@ -27,22 +27,22 @@ def s(u: RealField) -> RealField:
 
 
 def v(u: RealField) -> RealField:
-    """Velocity ds/du."""
+    """Velocity ds/du [1]."""
     return 2.0 * np.sin(0.5 * _TURN * u) ** 2
 
 
 def a(u: RealField) -> RealField:
-    """Acceleration d2s/du2."""
+    """Acceleration d2s/du2 [1]."""
     return _TURN * np.sin(_TURN * u)
 
 
 def j(u: RealField) -> RealField:
-    """Jerk d3s/du3."""
+    """Jerk d3s/du3 [1]."""
     return _TURN**2 * np.cos(_TURN * u)
 
 
 def motion(u: RealField) -> LawValues:
-    """s, v, a and j at u, from one sine and one cosine."""
+    """s, v, a and j [1] at u, from one sine and one cosine."""
     turned = _TURN * u
     sin, cos = np.sin(turned), np.cos(turned)
     return LawValues(u - sin / _TURN, 1.0 - cos, _TURN * sin, _TURN**2 * cos)

@@ -15,7 +15,7 @@ from ilmek.cams.laws.law import Law, LawValues
 
 
 def s(u: RealField) -> RealField:
-    """Displacement over u in [0, 1], from 0 to 1.
+    """Displacement s [1] at u [1] in [0, 1], from 0 to 1; any shape.
 
     >>> float(s(1.0))
     1.0
@@ -24,22 +24,22 @@ def s(u: RealField) -> RealField:
 
 
 def v(u: RealField) -> RealField:
-    """Velocity ds/du."""
+    """Velocity ds/du [1]."""
     return 0.5 * math.pi * np.sin(math.pi * u)
 
 
 def a(u: RealField) -> RealField:
-    """Acceleration d2s/du2."""
+    """Acceleration d2s/du2 [1]."""
     return 0.5 * math.pi**2 * np.cos(math.pi * u)
 
 
 def j(u: RealField) -> RealField:
-    """Jerk d3s/du3 inside the rise."""
+    """Jerk d3s/du3 [1] inside the rise."""
     return -0.5 * math.pi**3 * np.sin(math.pi * u)
 
 
 def motion(u: RealField) -> LawValues:
-    """s, v, a and j at u, from one sine and one cosine."""
+    """s, v, a and j [1] at u, from one sine and one cosine."""
     turned = math.pi * u
     sin, cos = np.sin(turned), np.cos(turned)
     return LawValues(0.5 - 0.5 * cos, 0.5 * math.pi * sin, 0.5 * math.pi**2 * cos, -0.5 * math.pi**3 * sin)

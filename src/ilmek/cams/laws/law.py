@@ -2,7 +2,8 @@
 
     S = L s(u),   V = L (w/beta) v(u),   A = L (w/beta)^2 a(u),   J = L (w/beta)^3 j(u),   u = theta/beta
 
-L lift, beta cam angle of the rise, w cam speed. A fall is a rise of -L.
+L lift [m; rad], beta cam angle of the rise [rad], w cam speed [rad/s]; u, s, v, a and j have no unit. A fall is a rise
+of -L.                                                                          [chain rule; normalised as in VDI 2143]
 """
 
 from collections.abc import Callable, Mapping

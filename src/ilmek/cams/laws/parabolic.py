@@ -15,7 +15,7 @@ from ilmek.cams.laws.law import Law
 
 
 def s(u: RealField) -> RealField:
-    """Displacement over u in [0, 1], from 0 to 1.
+    """Displacement s [1] at u [1] in [0, 1], from 0 to 1; any shape.
 
     >>> float(s(0.25)), float(s(0.75))
     (0.125, 0.875)
@@ -25,17 +25,17 @@ def s(u: RealField) -> RealField:
 
 
 def v(u: RealField) -> RealField:
-    """Velocity ds/du."""
+    """Velocity ds/du [1]."""
     return 2.0 - 4.0 * np.abs(u - 0.5)
 
 
 def a(u: RealField) -> RealField:
-    """Acceleration d2s/du2: +4, then -4; at u = 1/2 their mean, 0."""
+    """Acceleration d2s/du2 [1]: +4, then -4; at u = 1/2 their mean, 0."""
     return -4.0 * np.sign(u - 0.5)
 
 
 def j(u: RealField) -> RealField:
-    """Jerk d3s/du3: 0 between the jumps."""
+    """Jerk d3s/du3 [1]: 0 between the jumps."""
     return 0.0 * np.asarray(u)
 
 

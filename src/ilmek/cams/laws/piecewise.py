@@ -1,7 +1,7 @@
 """Piecewise polynomials and their exact peaks.
 
 Each piece is a polynomial of t = (u - begin)/length. The extremes are taken at the roots of the derivative, so a law
-that overshoots has its exact bounds.
+that overshoots has its exact bounds. [derived here]
 """
 
 from dataclasses import dataclass
@@ -85,7 +85,7 @@ class Piecewise:
 
 
 def law_of_pieces(name: str, s: Piecewise, parameters: Parameters) -> Law:
-    """The law with the displacement s(u) and exact peaks; inf where the law does not start and end at rest."""
+    """The law with the displacement s(u) [1] and exact peaks; inf where the law does not start and end at rest."""
     v = s.derivative()
     a = v.derivative()
     j = a.derivative()

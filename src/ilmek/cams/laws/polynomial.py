@@ -70,7 +70,7 @@ FAMILY = LawFamily(law, {"start": (0.0, 0.0, 0.0), "end": (1.0, 0.0, 0.0), "u": 
 
 
 def solved(conditions: Sequence[Condition]) -> FloatArray:
-    """Coefficients by u, the constant first, of the polynomial that meets the conditions.
+    """Coefficients [1] by u, the constant first, shape (terms,), of the polynomial that meets the conditions.
 
     Raises ParameterError for no or too many conditions, for contradicting ones, and where no polynomial meets them.
     """

@@ -13,7 +13,7 @@ from ilmek.cams.laws.law import Law
 
 
 def s(u: RealField) -> RealField:
-    """Displacement over u in [0, 1], from 0 to 1.
+    """Displacement s [1] at u [1] in [0, 1], from 0 to 1; any shape.
 
     >>> s(0.5)
     0.5
@@ -22,17 +22,17 @@ def s(u: RealField) -> RealField:
 
 
 def v(u: RealField) -> RealField:
-    """Velocity ds/du."""
+    """Velocity ds/du [1]."""
     return 30.0 * (u * (1.0 - u)) ** 2
 
 
 def a(u: RealField) -> RealField:
-    """Acceleration d2s/du2."""
+    """Acceleration d2s/du2 [1]."""
     return 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u)
 
 
 def j(u: RealField) -> RealField:
-    """Jerk d3s/du3."""
+    """Jerk d3s/du3 [1]."""
     return 60.0 * (1.0 - 6.0 * u * (1.0 - u))
 
 

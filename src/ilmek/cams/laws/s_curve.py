@@ -6,7 +6,7 @@ r, h and c are shares of the time: of each of the four ramps of the acceleration
 acceleration, and of the cruise. The fastest move within limits of speed, acceleration and jerk is of this form
 [`ilmek.timing.s_curve`]. With r = 1/4 and c = 0 it has the least peak jerk of all laws from rest to rest, 32. At every
 break the jerk changes by +-J, so that a = J sum(+-(u - t)+), v = J/2 sum(+-(u - t)+^2), s = J/6 sum(+-(u - t)+^3) over
-the eight breaks t.
+the eight breaks t. [derived: integration of the jerk]
 """
 
 import math

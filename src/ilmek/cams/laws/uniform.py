@@ -15,7 +15,7 @@ from ilmek.cams.laws.law import Law
 
 
 def s(u: RealField) -> RealField:
-    """Displacement over u in [0, 1], from 0 to 1.
+    """Displacement s [1] at u [1] in [0, 1], from 0 to 1; any shape.
 
     >>> float(s(0.25))
     0.25
@@ -24,17 +24,17 @@ def s(u: RealField) -> RealField:
 
 
 def v(u: RealField) -> RealField:
-    """Velocity ds/du: 1, at the ends too."""
+    """Velocity ds/du [1]: 1, at the ends too."""
     return 1.0 + 0.0 * np.asarray(u)
 
 
 def a(u: RealField) -> RealField:
-    """Acceleration d2s/du2: 0 between the jumps of the velocity."""
+    """Acceleration d2s/du2 [1]: 0 between the jumps of the velocity."""
     return 0.0 * np.asarray(u)
 
 
 def j(u: RealField) -> RealField:
-    """Jerk d3s/du3: 0 between the jumps of the velocity."""
+    """Jerk d3s/du3 [1]: 0 between the jumps of the velocity."""
     return 0.0 * np.asarray(u)
 
 

@@ -11,7 +11,7 @@ the ellipse with its foci at the samples, and its distance from the chord is at 
     b = sqrt(l² - c²) / 2
 
 The ellipse is convex. If the warp with its keep-out radius is farther from the chord than b, path and chord pass it on
-the same side, and the word of the chords is the word of the path. Else the samples are too coarse.
+the same side, and the word of the chords is the word of the path. Else the samples are too coarse.  [derived here]
 """
 
 import math
@@ -189,6 +189,9 @@ def _across(number: int, axis: complex, points: ComplexArray) -> tuple[list[int]
 
 def orientation(start: ComplexArray, end: ComplexArray, axis: complex) -> Int[np.ndarray, " segments"]:
     """+1 where the position `axis` is left of the segment, -1 right, 0 on its line; exact for the given floats.
+
+    start, end  of each segment [m], shape (segments,)      axis  [m]
+    [Shewchuk 1997, bound A, else exact fractions]
 
     >>> orientation(np.array([0j]), np.array([3 + 3j]), 0.1 + 0.1j), orientation(np.array([0j]), np.array([1 + 0j]), 1j)
     (array([0]), array([1]))

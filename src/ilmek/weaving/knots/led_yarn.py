@@ -3,7 +3,7 @@
 The yarn starts as a straight line between its ends. Each end then follows the gripper that holds it; at a transfer it
 moves straight from one gripper to the next. So the yarn follows the first end's path backwards, the straight line, and
 the second end's path. The proof [`proof`] requires samples of that path and upper bounds of its length between them.
-Samples that are too coarse to decide the side of a warp are refined.
+Samples that are too coarse to decide the side of a warp are refined.             [sources: `word` and `crossings`]
 """
 
 from collections.abc import Callable, Sequence
@@ -49,6 +49,8 @@ def end_path(motions: Sequence[tuple[ComplexArray, FloatArray]]) -> SampledPath:
 
 def yarn_between(first: SampledPath, second: SampledPath) -> SampledPath:
     """The yarn between two guided ends: the first path backwards, straight to the start of the second, the second path.
+
+    Samples [m] and upper bounds of the length between them [m], in the order of the yarn.
 
     >>> one, other = (end_path([(np.array([x + 0j, x + 1j]), np.ones(1))]) for x in (-1, 1))
     >>> yarn_between(one, other).points.tolist()

@@ -14,6 +14,7 @@ h is
 
 Its length is 2 a and the wrap of its kind [`elements.knot_kinds`], for warps of any pitch p >= 2r. Between closer warps
 the yarn does not fit and there is no such curve; `carpet.pile` still gives the length of yarn of the pressed knot.
+[derived: geometry]
 """
 
 import math

@@ -6,6 +6,7 @@ words are a proof, because the words distinguish all paths that cannot be deform
 guide one end each from one position, the yarn is the first path backwards, then the second: `joined_ends`.
 
 The warps are at rest, and both ends must lie in the pile, in front of every warp; `pile` is its direction.
+[derived from the free group of the warps: `knots.word`, Hatcher, Algebraic Topology, 1.2]
 """
 
 from collections.abc import Callable

@@ -3,7 +3,7 @@
 Both hands hold the yarn from the first pose on, straight between them; each guides its end along its path. So the yarn
 follows the first hand's path backwards, the straight line, and the second hand's path. The warps are half a pitch on
 either side of the mirror line. The poses do not give the height of the warps: every height at which the yarn begins and
-ends in the pile is tried, with the pile above and below the warps.
+ends in the pile is tried, with the pile above and below the warps. [derived; the proof is that of `knots.proof`]
 """
 
 from dataclasses import dataclass
