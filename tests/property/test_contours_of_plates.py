@@ -12,12 +12,27 @@ from ilmek.cams.limits import PlateCam, area
 from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.errors import ParameterError
 from ilmek.plane import contours
-from ilmek.plane.biarcs import deviation, fitted
+from ilmek.plane.biarcs import deviation, distances, fitted
 from ilmek.report import Contour
 
 
 def shoelace(points: np.ndarray) -> float:
     return 0.5 * float(np.sum((np.conj(points) * np.roll(points, -1)).imag))
+
+
+@given(st.floats(-4.0, 4.0).filter(lambda bulge: abs(bulge) > 0.02), st.integers(0, 2**32 - 1))
+def test_distances_from_an_arc_are_those_from_its_points(bulge: float, seed: int) -> None:
+    """The angle between the chord and the tangents at its ends is half the turn of the arc, 2 arctan of the bulge."""
+    rng = np.random.default_rng(seed)
+    start, end = complex(*rng.normal(size=2)), complex(*rng.normal(size=2))
+    points = rng.normal(size=8) + 1j * rng.normal(size=8)
+    half = 2 * math.atan(bulge)
+    along = np.linspace(-half, half, 4001)
+    radius = (end - start) / (2 * math.sin(half))
+    arc = (start + end) / 2 + radius * (np.sin(along) - 1j * (np.cos(along) - math.cos(half)))
+    assert arc[[0, -1]] == pytest.approx([start, end])
+    wanted = np.abs(points[:, None] - arc).min(axis=1)
+    assert distances(points, start, end, bulge) == pytest.approx(wanted, abs=1e-3 * abs(radius))
 
 
 @settings(max_examples=30)

@@ -1,6 +1,7 @@
 """Windows and crossings: sets on the circle against sampling, edges against the curves themselves."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.cams.laws import LAWS
-from ilmek.timing.crossings import crossing_shares, zone_windows
+from ilmek.timing.crossings import crossing_shares, turning_shares, zone_windows
 from ilmek.timing.cyclogram import Track, TrackSegment
 from ilmek.timing.interference import distance_from, in_region, windows_where
 from ilmek.timing.track import joints, sample
@@ -61,6 +62,17 @@ def test_separation_is_negative_exactly_where_both_hold(a, b) -> None:
     assert apart == pytest.approx(separation(two, one), abs=1e-12)
     assert (apart < -1e-9) <= bool(common(one, two))
     assert (apart > 1e-9) <= (not common(one, two))
+
+
+def test_a_law_turns_where_its_speed_changes_sign_and_not_where_it_only_stands() -> None:
+    def turning(*roots: float) -> list[float]:
+        return turning_shares(
+            replace(LAWS["3-4-5"], v=lambda u: (u * (1 - u)) ** 2 * np.prod([u - r for r in roots], 0))
+        ).tolist()
+
+    assert turning_shares(LAWS["3-4-5"]).tolist() == [0.0, 1.0]
+    assert turning(0.5, 0.5) == [0.0, 1.0]
+    assert turning(0.25, 0.5, 0.7123) == pytest.approx([0.0, 0.25, 0.5, 0.7123, 1.0], abs=1e-12)
 
 
 def test_separation_is_the_way_out_of_one_another() -> None:

@@ -100,6 +100,14 @@ def test_limits_hold_at_the_drives_and_some_are_reached(settings: Settings) -> N
     assert motion.cycle.usage <= 1 + 1e-9
 
 
+@pytest.mark.parametrize("name", ["centre_speed", "centre_acceleration", "centre_jerk"])
+def test_the_limit_that_holds_the_centre_gripper_back_is_used_up(name: str) -> None:
+    params = KnottingDyadParams(**{name: 0.01 * getattr(KnottingDyadParams(), name)})
+    made_ = design(params)
+    assert made_.head is not None
+    assert head_motion(params, made_.head).cycle.usage == pytest.approx(1.0, abs=1e-9)
+
+
 @pytest.mark.parametrize("settings", [(), ASYMMETRIC], ids=["symmetric", "asymmetric"])
 def test_the_cycle_goes_round_without_a_jump_and_follows_the_paths(settings: Settings) -> None:
     params, head, motion = made(settings)

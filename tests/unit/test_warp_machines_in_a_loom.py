@@ -9,6 +9,7 @@ from ilmek.errors import LoomError
 from ilmek.machines import shedding, warp_tension
 from ilmek.machines.automated_loom import AutomatedLoomParams
 from ilmek.machines.loom_task import LoomTask
+from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.machines.warp_tension.design import keeps_limits
 from ilmek.machines.warp_tension.in_loom import STOCK_TUBES
 from ilmek.units import mm
@@ -44,6 +45,15 @@ def test_parts_of_the_shedding_weigh_what_the_design_weighs() -> None:
     assert parts["bearing of the cam shaft"].number == 2
     spans = shedding.design(shedding.SheddingParams(prime_radius=0.2, spans=3))
     assert {part.name: part.number for part in shedding.MACHINE.parts(spans)}["steady of the cam shaft"] == 2
+
+
+def test_tubes_of_the_parts_list_are_those_of_the_cylinders() -> None:
+    made = warp_tension.design(warp_tension.WarpTensionParams())
+    parts = {part.name: part.description for part in warp_tension.MACHINE.parts(made)}
+    for name, one in zip(("cylinder", "spacer cylinder"), cylinders(made)[::2], strict=True):
+        outer, wall = (2 * one.outer, one.outer - one.inner) if one.tube is None else (one.tube.outer, one.tube.wall)
+        sizes = [float(size.removesuffix(" mm")) * mm for size in parts[name].removeprefix("tube ").split(" x ")]
+        assert sizes == pytest.approx([outer, wall], rel=1e-3)
 
 
 def test_work_of_a_row_is_that_of_lifting_both_parities() -> None:

@@ -48,6 +48,7 @@ def main() -> int:
     kept = given.output / "caught.json"
     known = set(json.loads(kept.read_text(encoding="utf-8"))) if given.again and kept.exists() else set()
     found = {mutant: CAUGHT for mutant in sample if mutant.position in known}
+    found |= {mutant: ACCEPTED for mutant in sample if given.again and mutant.key in accepted}
     with tempfile.TemporaryDirectory() as cache:
         _copy_kernels(Path(cache))
         left = [mutant for mutant in sample if mutant not in found]
@@ -134,7 +135,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--jobs", type=int, default=2, help="processes at a time")
     parser.add_argument("--seconds", type=float, default=30.0, help="tests of a mutant, by the time that they take")
     parser.add_argument("--stale", action="store_true", help="use the table of tests of an earlier state")
-    parser.add_argument("--again", action="store_true", help="do not try again what the last run caught")
+    parser.add_argument("--again", action="store_true", help="neither what the last run caught nor what is accepted is tried")
     parser.add_argument("--output", type=Path, default=ROOT / "out" / "mutants", help="folder of table and survivors")
     return parser.parse_args()
 
