@@ -2,8 +2,8 @@
 
     s(theta) = base + change * law.s(u),   u = (theta - begin) / span     within each segment
 
-Angles in rad; s in m, or in rad for an arm; its derivatives by the cam angle. [boundary conditions of neighbouring
-segments: Norton, Cam Design and Manufacturing, 3 and 4]
+Angles in rad; s in m, or in rad for an arm; its derivatives by the cam angle. [continuity at the joints: the
+fundamental law of cam design, Norton, Cam Design and Manufacturing]
 
 >>> from ilmek.cams.laws import LAWS
 >>> shed = CamProgramme((rise(math.pi / 2, 0.06, LAWS["harmonic"]), fall(math.pi / 2, 0.06, LAWS["harmonic"]),

@@ -51,7 +51,9 @@ class Loading:
 
 
 def surface_factor(tensile: float, surface: str) -> float:
-    """Surface factor ka of a tensile strength [Pa] and a surface of `SURFACES` [eq. 6-19].
+    """Surface factor ka [1] of a tensile strength [Pa] and a surface of `SURFACES` [eq. 6-19].
+
+    Raises ParameterError for another surface.
 
     >>> round(surface_factor(520e6, "machined"), 3)
     0.86
@@ -63,7 +65,7 @@ def surface_factor(tensile: float, surface: str) -> float:
 
 
 def size_factor(diameter: float) -> float:
-    """Size factor kb of a diameter [m], clipped to 2.79 to 254 mm [eq. 6-20].
+    """Size factor kb [1] of a diameter [m], clipped to 2.79 to 254 mm [eq. 6-20].
 
     >>> round(size_factor(0.032), 3)
     0.858

@@ -51,7 +51,10 @@ class Section:
 
 
 def round_section(diameter: float, bore: float = 0.0) -> Section:
-    """A round bar [m], or a tube with a bore; W = π (D⁴ - d⁴) / 32 D."""
+    """A round bar [m], or a tube with a bore; W = π (D⁴ - d⁴) / 32 D.
+
+    Raises ParameterError for a bore that is not less than the diameter.
+    """
     if not 0 <= bore < diameter:
         raise ParameterError(f"a bore of {bore:g} m in a bar of {diameter:g} m", allowed="less than the diameter")
     polar = math.pi * (diameter**4 - bore**4) / 32

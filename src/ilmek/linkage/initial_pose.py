@@ -3,7 +3,8 @@
 A group without a closed form has as many assemblies as its equations have roots. The mechanism's `pose` selects one.
 The inputs move evenly from their values in that pose to the required ones, in steps small enough to stay in the same
 assembly; each step starts from the extrapolated motion of the last one. So the result of a sample depends on the pose
-and its own inputs, not on the samples before it.
+and its own inputs, not on the samples before it. [predictor and corrector: Allgower, Georg:
+Numerical Continuation Methods]
 """
 
 import cmath

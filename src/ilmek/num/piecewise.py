@@ -6,7 +6,7 @@ and at the ends of a piece the curve has its one-sided limits. A sided curve tak
 +1 means the limit from above, -1 the limit from below. A curve without sides is evaluated 1e-13 inside its piece.
 
 All curves are evaluated on arrays: one call for all pieces in each step of a search. Arguments and values are in the
-units of the curve.
+units of the curve. [searches derived here; integrals by Gauss-Legendre quadrature]
 """
 
 from collections.abc import Callable, Iterable, Mapping

@@ -85,7 +85,7 @@ def tension_history(tension: TakeUpTension, rows_between: int, rows: int) -> tup
 
 
 def capstan(friction: float, wrap: float) -> float:
-    """Ratio [1] of the tensions beside a cylinder at which a yarn slips over it: e^(f phi). [Euler, Eytelwein]
+    """Ratio [1] of the tensions of a yarn before and behind a cylinder at slip: e^(f phi).   [Euler, Eytelwein]
 
     friction  coefficient f, 0 or more      wrap  angle of wrap phi [rad], 0 or more
 

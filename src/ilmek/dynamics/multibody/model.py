@@ -1,4 +1,7 @@
-"""Definition of a general planar multibody system, and its conversion to the arrays of the compiled kernels."""
+"""Definition of a general planar multibody system, and its conversion to the arrays of the compiled kernels.
+
+Equations and sources are in `multibody.kernel`; SI units and radians.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace

@@ -1,4 +1,8 @@
-"""A body turned by an input about a pin on a known body: theta = theta_carrier + input."""
+"""A body turned by an input about a pin on a known body: theta = theta_carrier + input.
+
+Its rates are the sums of those of carrier and input; its points move as in `linkage.body_motion` [Norton, Design of
+Machinery, chapters 6 and 7: relative motion].
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -5,7 +5,7 @@
 A start is a random set of link ratios with size, position and tracer fitted (`path.starts`). It is optimised by the
 Levenberg-Marquardt method with the crank angles eliminated (`path.descent`); in stages only the better half continues.
 The search ends when enough starts agree on the best error. Batches of starts are numbered and seeded, so that the
-result does not depend on the number of threads.
+result does not depend on the number of threads.   [sources: `path.descent`, `path.model`]
 """
 
 import dataclasses
