@@ -128,6 +128,19 @@ def test_fall_is_as_the_rise_where_it_fits(rise, dwell, fall) -> None:
 ARM = dict(motion="oscillating", lift="30mm", law="cycloidal", arm="90mm")
 
 
+@pytest.mark.parametrize("follower", ["roller", "flat"])
+def test_a_spring_at_the_end_of_an_arm_stores_the_work_of_its_stroke(follower: str) -> None:
+    """Over a swing through the angle s the spring at the end is compressed by s arm: F = preload + rate s arm."""
+    spring = dict(spring_rate="2N/mm", preload="40N", mass="0.7kg")
+    load = made(**ARM, **spring, follower=follower, pressure_angle_limit="35deg").follower_load
+    swing = 30 / 90
+    work = load.preload * swing + load.rate * swing**2 / 2
+    assert work == pytest.approx(40 * 0.03 + 2000 * 0.03**2 / 2)
+    assert load.mass == pytest.approx(0.7 * 0.09**2)
+    led = made(**ARM, kind="grooved", mass="0.7kg", load="20N").follower_load
+    assert (led.mass, led.load) == pytest.approx((0.7 * 0.09**2, 20 * 0.09))
+
+
 @pytest.mark.parametrize(
     "more",
     [

@@ -59,6 +59,11 @@ def test_the_angle_off_straight_is_that_of_the_triangle_of_each_arm(settings: di
     assert (max(made.bends) > 0) == (made.head is not None)
 
 
+def test_the_warning_names_the_least_distance_and_what_would_help() -> None:
+    (warning,) = answer(clearance="0.55mm").warnings
+    assert warning.startswith("arms to warps: 0.32 mm, 0.55 mm is required; take a needle of 0.1 mm or less")
+
+
 def test_points_on_a_line_say_which_root_is_infinitely_far() -> None:
     said = answer(points=LINE, angles=ANGLES)
     assert any("the points lie on a line" in kind for kind in said.as_json()["results"]["roots"])

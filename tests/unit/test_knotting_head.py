@@ -120,11 +120,6 @@ def test_no_sampled_distance_is_less_than_the_least_that_is_reported(settings: d
     assert told["arm to arm"].value > 0
 
 
-def test_the_warning_names_the_least_distance_and_what_would_help() -> None:
-    (warning,) = MACHINE.report(made(clearance="0.55mm")).warnings
-    assert warning.startswith("arms to warps: 0.32 mm, 0.55 mm is required; take a needle of 0.1 mm or less")
-
-
 def test_there_are_six_warps_on_each_side_of_the_pair_and_the_opener_moves_them_aside() -> None:
     shut, opened = (section_of(KnottingDyadParams(opening=one)).warps for one in (0.0, 0.7e-3))
     assert len(shut) == 2 * NEIGHBOURS + 2

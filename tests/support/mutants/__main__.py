@@ -27,7 +27,7 @@ CHOSEN = (
     *("ilmek.params.*", "ilmek.report.*", "ilmek.records", "ilmek.units"),
 )
 """Modules that compute: the engines and the machines."""
-LEFT_OUT = ("*.figures", "*.plots", "*.animation", "*.workshop", "*.data.*", "*.__main__")
+LEFT_OUT = ("*figures", "*.plots", "*.animation", "*.workshop", "*.data.*", "*.__main__")
 """Of these, modules whose output is looked at."""
 
 GOAL = 0.92
@@ -135,7 +135,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--jobs", type=int, default=2, help="processes at a time")
     parser.add_argument("--seconds", type=float, default=30.0, help="tests of a mutant, by the time that they take")
     parser.add_argument("--stale", action="store_true", help="use the table of tests of an earlier state")
-    parser.add_argument("--again", action="store_true", help="neither what the last run caught nor what is accepted is tried")
+    parser.add_argument("--again", action="store_true", help="leave out what the last run caught and what is accepted")
     parser.add_argument("--output", type=Path, default=ROOT / "out" / "mutants", help="folder of table and survivors")
     return parser.parse_args()
 

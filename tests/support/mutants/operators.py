@@ -200,10 +200,13 @@ def _tolerances(tree: ast.Module) -> set[ast.AST]:
 
 
 def _is_number(value: ast.AST) -> bool:
-    """Whether it is a literal number, also with a sign or a unit."""
+    """Whether it is a literal number, also with a sign or a unit, or a fraction of two."""
     match value:
-        case ast.UnaryOp() | ast.BinOp(op=ast.Mult(), right=ast.Name()):
-            return _is_number(value.operand if isinstance(value, ast.UnaryOp) else value.left)
+        case ast.UnaryOp():
+            return _is_number(value.operand)
+        case ast.BinOp(op=ast.Mult() | ast.Div() as operator, right=right):
+            unit = isinstance(operator, ast.Mult) and isinstance(right, ast.Name)
+            return _is_number(value.left) and (unit or _is_number(right))
     return isinstance(value, ast.Constant) and isinstance(value.value, int | float)
 
 
