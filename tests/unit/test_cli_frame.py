@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import click
@@ -109,14 +110,17 @@ LazyGroup(name="ilmek", modules={}).main(["go"])
 
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
 def test_nothing_is_half_written_after_a_signal(tmp_path: Path, number: signal.Signals, status: int) -> None:
-    command = [sys.executable, "-c", SLOW]
+    # A run behind `nohup` or `&` hands on that a signal is ignored; the program then ignores it too.
+    heeded = f"import signal; signal.signal({int(number)}, signal.SIG_DFL)\n"
+    interrupt = "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    command = [sys.executable, "-c", heeded + interrupt + SLOW]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "writing\n"
         process.send_signal(number)
-        said = process.communicate(timeout=30)[1]
+        errors = process.communicate(timeout=30)[1]
     assert process.returncode == status
-    assert said == "ilmek: interrupted; nothing was written\n"
+    assert errors == "ilmek: interrupted; nothing was written\n"
     assert list(tmp_path.iterdir()) == []
 
 
@@ -159,6 +163,15 @@ def test_a_terminal_without_the_signs_shows_question_marks() -> None:
     assert (shown.returncode, shown.stderr) == (0, b"")
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """Ctrl-C raises KeyboardInterrupt, also where the whole run was started behind `&`."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_that_a_library_turns_into_its_own_error() -> None:
     @click.command()
     def command() -> None:
