@@ -1,7 +1,5 @@
 """Friction in joints against derivations by hand: wedge-like slides, slider-crank, journal; locking; power balance."""
 
-from typing import Any, cast
-
 import numpy as np
 import pytest
 from benchmarks.random_mechanisms import random_inertias, random_mechanism
@@ -10,7 +8,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.joint_friction import PinFriction, SlideFriction
 from ilmek.dynamics.loads import Gravity, PointForce, Torque
-from ilmek.dynamics.pose_block import ForceAndMoment
+from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide
@@ -153,7 +151,8 @@ def test_a_journal_takes_mu_r_F_omega() -> None:
 @pytest.mark.parametrize("size", [1e-4, 0.3, 5.0, 1e4])
 def test_the_limit_of_a_pin_changes_with_the_size_of_its_force(size: float) -> None:
     friction = PinFriction("O", radius=0.02, coefficient=0.15)
-    joint, force, change = cast(Any, None), size * np.array([3 + 4j, -1j]), np.array([1 - 2j, 2 + 1j])
+    joint = JointPoses(name="O", on="rotor", by=GROUND, at=np.zeros(2, dtype=complex), line=None, tooth=None)
+    force, change = size * np.array([3 + 4j, -1j]), np.array([1 - 2j, 2 + 1j])
     step, none = 1e-5 * size, np.zeros(2)
     ends = [friction.limit(joint, ForceAndMoment(force + sign * step * change, none)) for sign in (1, -1)]
     found = friction.limit_change(joint, ForceAndMoment(force, none), ForceAndMoment(change, none))
