@@ -3,12 +3,13 @@
 import importlib
 import sys
 import textwrap
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
 
 import ilmek.machines
+from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
@@ -16,6 +17,7 @@ from ilmek.machines import loom_machines
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import Parameter, Params, reachable
+from ilmek.timing.track import Track, TrackSegment
 from ilmek.units import deg
 
 STUB = '''
@@ -80,6 +82,21 @@ def test_a_machine_joins_the_loom_by_one_package_and_one_entry() -> None:
     assert shares["light"] == pytest.approx(60.0 * bare.rows / 0.7 / knots)
     assert with_lamp["mass"] == pytest.approx(float(str(without["mass"])))
     assert "lamp" in [part.name for part in with_lamp.parts]
+
+
+@pytest.mark.usefixtures("lamp")
+def test_the_tracks_of_a_machine_are_on_the_cyclogram_of_a_row(monkeypatch: pytest.MonkeyPatch) -> None:
+    law = LAWS["harmonic"]
+    shade = Track(
+        "shade",
+        "motor",
+        (TrackSegment("open", 0.0, 1.0, 0.0, 0.1, law), TrackSegment("close", 2.0, 3.0, 0.1, 0.0, law)),
+    )
+    package = importlib.import_module("ilmek.machines.lamp")
+    monkeypatch.setattr(package, "MACHINE", replace(package.MACHINE, tracks=lambda _: (shade,)))
+    row = design(AutomatedLoomParams()).row_cyclogram
+    assert row.track("shade") is shade
+    assert [track.name for track in row.tracks][-1] == "shade"
 
 
 def test_a_stub_machine_has_thirty_lines() -> None:

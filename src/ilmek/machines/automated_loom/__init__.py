@@ -16,7 +16,7 @@ from ilmek.machines.automated_loom.energy import Energy
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, programme_for
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
-from ilmek.machines.automated_loom.parts import PartsList
+from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
 from ilmek.machines.automated_loom.report import LoomAnalysis, analyse, cam_tables, checks, results, tables, warnings
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component
@@ -57,6 +57,6 @@ MACHINE = Component(
     warnings=warnings,
     cam_tables=cam_tables,
     cyclograms=cyclograms,
-    parts=lambda loom: analyse(loom).listed.parts,
+    parts=lambda loom: parts_of_loom(loom).parts,
     children=lambda loom: loom.children,
 )
