@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib
+import os
 import pickle
 import subprocess
 import sys
@@ -13,7 +14,7 @@ import pytest
 
 from ilmek.linkage.groups import rrp, rrr
 from ilmek.num.compiled import compiled
-from ilmek.num.machine_code import private_folder
+from ilmek.num.machine_code import discarded
 
 RNG = np.random.default_rng(7)
 A, B = (RNG.normal(size=200) + 1j * RNG.normal(size=200) for _ in range(2))
@@ -133,27 +134,34 @@ def test_a_damaged_entry_is_rebuilt(sample, tmp_path, damage):
     assert sample() == {"outer": False, "leaf": False, "lone": False}
 
 
+def test_a_damaged_entry_is_noted_once_for_each(sample, tmp_path):
+    sample()
+    before = len(discarded)
+    for entry in entries(tmp_path):
+        entry.write_bytes(b"")
+    sample()
+    assert sorted(discarded[before:]) == entries(tmp_path)
+    sample()
+    assert len(discarded) == before + 3
+
+
 def test_without_a_private_folder_nothing_is_kept(sample, tmp_path):
     folder = tmp_path / "cache" / "ilmek" / "kernels"
     folder.mkdir(parents=True)
     folder.chmod(0o755)
-    assert private_folder() is None
     sample()
     assert list(folder.iterdir()) == []
 
 
-def test_a_cache_folder_that_is_a_link_is_not_used(tmp_path, monkeypatch):
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    assert private_folder() == tmp_path / "cache" / "ilmek" / "kernels"
-    (tmp_path / "cache" / "ilmek" / "kernels").rename(tmp_path / "elsewhere")
-    (tmp_path / "cache" / "ilmek" / "kernels").symlink_to(tmp_path / "elsewhere")
-    assert private_folder() is None
-
-
-def test_a_cache_home_that_cannot_be_written_is_not_used(tmp_path, monkeypatch):
-    (tmp_path / "file").touch()
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    assert private_folder() is None
+def test_with_bounds_check_an_index_outside_is_an_error():
+    script = (
+        "import numpy as np\nfrom ilmek.num.compiled import compiled\n"
+        "@compiled\ndef at(x: object, i: int) -> float:\n    return x[i]\n"
+        "print(at(np.zeros(2), 1))\nat(np.zeros(2), 2)"
+    )
+    environment = dict(os.environ, ILMEK_BOUNDS_CHECK="1")
+    shown = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=environment, check=False)
+    assert (shown.stdout, "IndexError" in shown.stderr) == ("0.0\n", True)
 
 
 def test_modules_with_kernels_load_no_compiler():

@@ -4,17 +4,18 @@ An entry is found by a key of everything that is compiled into it: the bytecode 
 calls, the global values that they use, the argument types, the processor and the versions of the libraries. An edit
 anywhere else recompiles nothing. (Numba's own cache looks at the kernel's file alone and misses an edited callee.)
 
-Entries are unpickled, so they are read only from a folder that belongs to the user and is closed to everybody else;
-without one, nothing is kept. A damaged entry is rebuilt.
+Entries are unpickled, so they are read only from a folder that only the user can write (`ilmek.num.private_files`);
+without one, nothing is kept. A damaged entry is removed and rebuilt.
+
+With the environment variable ILMEK_BOUNDS_CHECK=1 every index into an array is checked (slower; kept under other keys):
+an index outside raises IndexError.
 """
 
 import dis
 import hashlib
 import os
 import pickle
-import stat
 import sys
-import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from enum import Enum
@@ -29,39 +30,31 @@ from numba.core import compiler, serialize
 from numba.core.caching import NullCache
 
 from ilmek.num.compiled import Kernel
+from ilmek.num.private_files import ENTRY, private_folder, read_entry, remove_entry, write_entry
 
-OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+OPTIONS: dict[str, Any] = {
+    "nogil": True,
+    "error_model": "numpy",
+    "fastmath": {"contract"},
+    "boundscheck": os.environ.get("ILMEK_BOUNDS_CHECK") == "1",
+}
 
 VERSIONS = f"{sys.version} {numba.__version__} {np.__version__} {OPTIONS}"
 
 compile_result, dumps = cast(Any, compiler).CompileResult, cast(Any, serialize).dumps
 
-CHECKSUM = hashlib.sha256().digest_size
-"""Bytes of the checksum that an entry begins with."""
+discarded: list[Path] = []
+"""Entries that were damaged and removed in this run."""
 
 
 def dispatcher(function: FunctionType) -> Any:
     """Numba's dispatcher of a kernel's function; its machine code is kept if there is a private folder."""
     made = numba.njit(**OPTIONS)(function)
-    folder = private_folder()
+    folder = private_folder("kernels")
     if folder:
         with suppress(TypeError, RecursionError):  # no key: compiled in every run
-            made._cache = KernelCache(folder / function.__module__, f"{function.__qualname__} {code_key(function)}")
+            made._cache = KernelCache(folder, f"{function.__module__}.{function.__qualname__} {code_key(function)}")
     return made
-
-
-def private_folder() -> Path | None:
-    """The user's folder of compiled kernels; None if it does not belong to the user, or others have access."""
-    try:
-        folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "ilmek" / "kernels"
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        folder.mkdir(mode=0o700, exist_ok=True)
-        found = folder.lstat()
-    except (OSError, RuntimeError):  # no home, or one that cannot be written
-        return None
-    if os.name == "posix" and (found.st_uid != os.geteuid() or stat.S_IMODE(found.st_mode) & 0o077):
-        return None
-    return folder if stat.S_ISDIR(found.st_mode) else None
 
 
 class KernelCache(NullCache):
@@ -74,29 +67,26 @@ class KernelCache(NullCache):
         """Where the machine code for these argument types and this processor is kept."""
         parts = (VERSIONS, self.key, *map(type_key, types), *map(str, codegen.magic_tuple()))
         name = hashlib.sha256("\n".join(parts).encode()).hexdigest()[:40]
-        return self.folder / f"{name}.kernel"
+        return self.folder / f"{name}{ENTRY}"
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """The compiled kernel; None without a complete entry, so that it is compiled."""
+        """The compiled kernel; None without a complete entry, so that it is compiled. A damaged one is removed."""
+        target_context.refresh()
+        path = self.file(sig, target_context.codegen())
         try:
-            target_context.refresh()
-            kept = self.file(sig, target_context.codegen()).read_bytes()
-            if hashlib.sha256(kept[CHECKSUM:]).digest() != kept[:CHECKSUM]:
-                return None
-            return compile_result._rebuild(target_context, *pickle.loads(kept[CHECKSUM:]))
-        except Exception:  # whatever a damaged entry raises: the kernel is compiled and the entry written anew
+            kept = read_entry(path)
+            return None if kept is None else compile_result._rebuild(target_context, *pickle.loads(kept))
+        except MemoryError:
+            return None
+        except Exception:  # whatever a damaged entry raises
+            remove_entry(path)
+            discarded.append(path)
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Write an entry atomically; a full disk is no error."""
-        if data.lifted or data.library.has_dynamic_globals:
-            return
-        with suppress(OSError):
-            target, content = self.file(sig, data.codegen), dumps(data._reduce())
-            self.folder.mkdir(mode=0o700, exist_ok=True)
-            with tempfile.NamedTemporaryFile(dir=self.folder, delete=False) as written:
-                written.write(hashlib.sha256(content).digest() + content)
-            Path(written.name).replace(target)
+        """Write an entry atomically; a full disc is no error."""
+        if not data.lifted and not data.library.has_dynamic_globals:
+            write_entry(self.file(sig, data.codegen), dumps(data._reduce()))
 
 
 def type_key(numba_type: Any) -> str:
