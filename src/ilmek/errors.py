@@ -78,5 +78,14 @@ def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str
     >>> did_you_mean("lenght", ["length", "width"])
     "did you mean 'length'?"
     """
-    nearest = difflib.get_close_matches(name, list(known), n=1)
+    nearest = difflib.get_close_matches(name[:100], list(known), n=1)
     return f"did you mean {nearest[0]!r}?" if nearest else otherwise
+
+
+def shortened(text: str, most: int = 40) -> str:
+    """The text in a message: at most so many characters.
+
+    >>> shortened("a long text", 6)
+    'a l...'
+    """
+    return text if len(text) <= most else f"{text[: most - 3]}..."

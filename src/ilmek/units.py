@@ -68,8 +68,17 @@ _UNITS: dict[str, tuple[float, Dimension]] = {
     **{name: (factor, _POWER) for name, factor in dict(W=1.0, kW=1e3).items()},
 }
 
-_NUMBER = re.compile(r"\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$", re.DOTALL)
-_FACTOR = re.compile(r"([a-zA-Z%°]+|1)(?:\^?(-?\d+))?$")
+LONGEST = 100
+"""Largest number of characters of a quantity or a unit; a double and its unit need less than 50."""
+
+GREATEST, LEAST = 1e30, 1e-30
+"""Bounds of the magnitude of a quantity other than 0 and of a unit's factor [SI], so that powers stay finite."""
+
+HIGHEST_POWER = 12
+"""Largest exponent in a unit; a second moment of area has 4."""
+
+_NUMBER = re.compile(r"([+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*)", re.DOTALL)
+_FACTOR = re.compile(r"([a-zA-Z%°]+|1)(?:\^?(-?[0-9]{1,3}))?")
 POWERS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 _SIGNS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·µμ", "0123456789-*uu")
 
@@ -77,33 +86,41 @@ _SIGNS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·µμ", "0123456789-*uu")
 def parse_unit(text: str) -> Unit:
     """The unit written as products and quotients of known ones, `kg/m^3`, `N*m`, `m/s²`, `/dm`; "" is 1.
 
-    Raises UnitError with the nearest known unit for an unknown one.
+    Raises UnitError with the nearest known unit for an unknown one, and for a text of more than `LONGEST` characters,
+    an exponent above `HIGHEST_POWER` or a factor outside `LEAST` to `GREATEST`.
     """
     factor, dimension, sign = 1.0, _NONE, 1
+    _check_length(text, "unit")
     written = text.translate(_SIGNS).strip()
     if not written:
         return Unit(text, factor, dimension)
-    for part in re.split(r"\s*([*/])\s*", f"1{written}" if written.startswith("/") else written):
+    for part in re.split("([*/])", f"1{written}" if written.startswith("/") else written):
         if part in ("*", "/"):
             sign = 1 if part == "*" else -1
             continue
-        matched = _FACTOR.match(part)
+        matched = _FACTOR.fullmatch(part.strip())
         known = _UNITS.get(matched[1]) if matched else None
         if matched is None or known is None:
             raise UnitError(f"unknown unit {text!r}", allowed=_allowed_units(part))
         power = sign * int(matched[2] or 1)
+        if abs(power) > HIGHEST_POWER:
+            raise UnitError(f"unit {text!r} has the exponent {matched[2]}", allowed=f"at most {HIGHEST_POWER}")
         factor *= known[0] ** power
         a, b, c, d = (have + power * add for have, add in zip(dimension, known[1], strict=True))
         dimension = (a, b, c, d)
+    if not LEAST <= factor <= GREATEST:
+        raise UnitError(f"unit {text!r} is {factor:g} in SI", allowed=f"{LEAST:g} to {GREATEST:g}")
     return Unit(text, factor, dimension)
 
 
 def parse_quantity(text: str, unit: str) -> float:
     """The SI value of `text`, which must have the dimension of `unit`; a number without a unit is in SI.
 
-    Raises UnitError if the text is not a finite number with a unit of that dimension.
+    Raises UnitError if the text is not a number with a unit of that dimension, has more than `LONGEST` characters, or
+    its magnitude is not within `LEAST` to `GREATEST` and not 0.
     """
-    matched = _NUMBER.match(text)
+    _check_length(text, "quantity")
+    matched = _NUMBER.fullmatch(text.strip())
     example = f"write it like {_example(unit)}"
     if matched is None:
         raise UnitError(f"{text!r} is not a quantity", allowed=example)
@@ -113,9 +130,37 @@ def parse_quantity(text: str, unit: str) -> float:
         kind = f"a quantity in {unit}" if unit not in ("", "1") else "a plain number"
         raise UnitError(f"{text!r} has the wrong unit", allowed=f"{kind} is required", do=example)
     value = float(matched[1]) * (written.factor if matched[2] else 1.0)
-    if not math.isfinite(value):
-        raise UnitError(f"{text!r} is too large a number", allowed=example)
-    return value
+    if not in_bounds(value):
+        size = "large" if abs(value) > 1 else "small"
+        raise UnitError(
+            f"{text!r} is too {size} a number", allowed=f"0, or {LEAST:g} to {GREATEST:g} in SI", do=example
+        )
+    return value + 0.0  # 0 for -0
+
+
+def read_number(text: str) -> float | None:
+    """The number of a text without a unit; None for any other text and for a number out of bounds.
+
+    >>> read_number(" -2.5 "), read_number("1_000"), read_number("2mm"), read_number("1e999")
+    (-2.5, None, None, None)
+    """
+    matched = _NUMBER.fullmatch(text.strip()) if len(text) <= LONGEST else None
+    number = float(matched[1]) if matched is not None and not matched[2] else math.nan
+    return number if in_bounds(number) else None
+
+
+def in_bounds(value: float) -> bool:
+    """Whether a number is 0 or has a magnitude within `LEAST` to `GREATEST`; false for infinity and NaN.
+
+    >>> in_bounds(0.0), in_bounds(-60.0), in_bounds(1e300), in_bounds(math.nan)
+    (True, True, False, False)
+    """
+    return value == 0 or LEAST <= abs(value) <= GREATEST
+
+
+def _check_length(text: str, noun: str) -> None:
+    if len(text) > LONGEST:
+        raise UnitError(f"{text[:20]!r}... is too long for a {noun}", allowed=f"at most {LONGEST} characters")
 
 
 def printed_unit(unit: str) -> str:
@@ -168,7 +213,7 @@ def has_unit(text: str) -> bool:
     >>> has_unit("40/dm"), has_unit("40")
     (True, False)
     """
-    matched = _NUMBER.match(text)
+    matched = _NUMBER.fullmatch(text.strip()) if len(text) <= LONGEST else None
     return matched is not None and bool(matched[2])
 
 

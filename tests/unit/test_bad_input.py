@@ -146,7 +146,7 @@ YARNS = {
     "yarn list in 16 bits": ("utf16.csv", "line 1 is not UTF-8"),
     "column twice": ("columns.csv", "column 'nm' is given twice"),
     "Nm that is no number": ("nan.csv", "nm nan cannot be used"),
-    "escape sequence in a name": ("escape.csv", "letters, digits and signs on one line"),
+    "escape sequence in a name": ("escape.csv", "line 2 has the control character 0x1b"),
     "line end in a name": ("lines.csv", "letters, digits and signs on one line"),
     "quote without end": ("quote.csv", "line 3: unexpected end"),
     "more cells than columns": ("cells.csv", "line 2 has 4 cells; 3 columns"),

@@ -42,6 +42,8 @@ def test_reads_units_and_keeps_defaults() -> None:
         ({"lift": "60kg"}, "wrong unit"),
         ({"lift": float("nan")}, "not a number"),
         ({"lift": "1e-320"}, "is too small"),
+            ({"lift": 1e-70}, "did you mean 0"),
+            ({"lift": 1e300}, "is too large"),
         ({"warps": "3.5"}, "whole number"),
         ({"warps": "1"}, "at least 2"),
         ({"law": "harmonik"}, "did you mean harmonic"),

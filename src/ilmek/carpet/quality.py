@@ -26,7 +26,7 @@ from decimal import Context
 from fractions import Fraction
 
 from ilmek.errors import CarpetError
-from ilmek.units import format_number, format_quantity
+from ilmek.units import LONGEST, format_number, format_quantity
 
 COARSEST, FINEST = 10.0, 5000.0
 """Limits of knots per metre: 1 per decimetre, and 50 per centimetre (the finest known carpet has 33)."""
@@ -92,7 +92,7 @@ class Notation:
         return "{1}" in self.form
 
 
-_NUMBER = r"([+-]?(?:\d{1,15}(?:\.\d{0,40})?|\.\d{1,40}))"
+_NUMBER = r"([+-]?(?:[0-9]{1,15}(?:\.[0-9]{0,40})?|\.[0-9]{1,40}))"
 INCH, GEREH = Fraction("0.0254"), Fraction("0.07")
 
 
@@ -129,6 +129,8 @@ NOTATIONS: dict[str, Notation] = {
 
 def parse_quality(text: str) -> Quality:
     """The quality of a text in any of the notations. Raises CarpetError for another text and outside the limits."""
+    if len(text) > LONGEST:
+        raise CarpetError(f"quality {text[:20]!r}... is too long", allowed=f"at most {LONGEST} characters", do=EXAMPLE)
     for notation in NOTATIONS.values():
         matched = notation.pattern.fullmatch(text.strip())
         if matched is not None:
@@ -151,7 +153,7 @@ def _read(notation: Notation, first: str, second: str | None, gereh: str | None 
 
 def _gereh(text: str) -> Fraction:
     """The town's gereh [m] from centimetres."""
-    if not re.fullmatch(r"\d{1,15}(\.\d{0,40})?", text) or not 5 <= Fraction(text) <= 10:
+    if not re.fullmatch(r"[0-9]{1,15}(\.[0-9]{0,40})?", text) or not 5 <= Fraction(text) <= 10:
         raise CarpetError(
             f"a gereh of {text} cm is out of bounds", allowed="5 to 10 cm; usual 6.5 to 7", do="40raj@6.5cm"
         )

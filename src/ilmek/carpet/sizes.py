@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ilmek.errors import CarpetError
-from ilmek.units import cm, format_number, format_quantity
+from ilmek.units import LONGEST, cm, format_number, format_quantity
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ _UNITS = {
     **dict.fromkeys(("in", "inch", '"', "″"), Fraction("0.0254")),
     **dict.fromkeys(("ft", "foot", "feet", "'", "′"), Fraction("0.3048")),
 }
-_NUMBER = r"([+-]?(?:\d{1,15}(?:\.\d{0,40})?|\.\d{1,40}))"
+_NUMBER = r"([+-]?(?:[0-9]{1,15}(?:\.[0-9]{0,40})?|\.[0-9]{1,40}))"
 _SIDES = re.compile(rf"\s*{_NUMBER}\s*([^\d\s.×x*]*)\s*[x×*]\s*{_NUMBER}\s*(\S*?)\s*", re.IGNORECASE)
 
 
@@ -89,6 +89,8 @@ def parse_size(text: str) -> CarpetSize:
     Units: mm, cm, dm, m, in, ft, one for both sides.
     Raises CarpetError for any other text.
     """
+    if len(text) > LONGEST:
+        raise CarpetError(f"size {text[:20]!r}... is too long", allowed=f"at most {LONGEST} characters", do=EXAMPLE)
     named = _BY_KEY.get(_key(text))
     if named is not None:
         return named

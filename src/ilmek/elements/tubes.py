@@ -86,7 +86,9 @@ TUBES: dict[str, Tube] = {
 }
 """Stock sizes by name."""
 
-_WRITTEN = re.compile(r"\s*(\d+(?:\.\d+)?)\s*(?:mm)?\s*[x×*]\s*(\d+(?:\.\d+)?)\s*(?:mm)?\s*$", re.IGNORECASE)
+_WRITTEN = re.compile(
+    r"\s*+([0-9]+(?:\.[0-9]+)?)\s*+(?:mm\s*+)?[x×*]\s*+([0-9]+(?:\.[0-9]+)?)\s*+(?:mm\s*+)?$", re.IGNORECASE
+)
 
 
 def find_tube(name: str) -> Tube:

@@ -8,22 +8,22 @@ The first line names the columns, each with a unit of length in brackets; other 
 output of `ilmek mechanism FILE --csv` can be read directly.
 """
 
-import math
-import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.errors import CarpetError, UnitError
+from ilmek.errors import CarpetError, UnitError, shortened
 from ilmek.io.csv_lines import CsvLines, csv_lines, decimal_points
 from ilmek.io.text_file import read_text
-from ilmek.units import parse_quantity
+from ilmek.units import LONGEST, parse_quantity, read_number
 
-LARGEST = 100_000_000
-"""Largest size of a path file [bytes]; some millions of points."""
+LARGEST = 20_000_000
+"""Largest size of a path file [bytes]; `MOST_POINTS` lines of ten columns."""
 
-_HEADING = re.compile(r"(.*?)\s*[\[(]\s*([^\])]*?)\s*[\])]$")
+MOST_POINTS = 100_000
+"""Largest number of points of a path; a smooth motion needs some thousands."""
 
 
 def read_path(path: Path, columns: tuple[str, str] | None = None) -> ComplexArray:
@@ -35,12 +35,15 @@ def read_path(path: Path, columns: tuple[str, str] | None = None) -> ComplexArra
     wording = dict(noun="path, a CSV file of points", do="check its name")
     try:
         lines = csv_lines(read_text(path, largest=LARGEST, error=CarpetError, **wording), CarpetError)
-        across, upwards = (_column(lines, index) for index in _chosen(lines.header[1], columns))
-        if len(across) < 2:
-            raise CarpetError(f"has {len(across)} points", allowed="two or more below the line of headings")
+        chosen = _chosen(lines.header[1], columns)
+        factors = np.array([_factor(lines.header[1][index]) for index in chosen])
+        points = np.array(list(_points(lines, chosen)))
+        if len(points) < 2:
+            raise CarpetError(f"has {len(points)} points", allowed="two or more below the line of headings")
     except CarpetError as error:
         raise CarpetError(f"path {path}: {error.given}", allowed=error.allowed, do=error.do) from None
-    return np.asarray(across) + 1j * np.asarray(upwards)
+    across, upwards = (points * factors).T
+    return np.asarray(across + 1j * upwards)
 
 
 def _chosen(header: list[str], columns: tuple[str, str] | None) -> list[int]:
@@ -60,30 +63,39 @@ def _chosen(header: list[str], columns: tuple[str, str] | None) -> list[int]:
     return [names.index(name) if name in names else header.index(name) for name in chosen]
 
 
-def _column(lines: CsvLines, index: int) -> list[float]:
-    """A column's numbers [m]."""
-    name, unit = _parts(lines.header[1][index])
+def _factor(heading: str) -> float:
+    """The unit of a column [m]."""
+    name, unit = _parts(heading)
     if not unit:
         raise CarpetError(f"column {name!r} has no unit", do=f"write {name} [mm] in the first line")
     try:
-        factor = parse_quantity(f"1 {unit}", "mm")
+        return parse_quantity(f"1 {unit}", "mm")
     except UnitError as error:
         raise CarpetError(f"column {name!r}: {error.given}", allowed=error.allowed, do=error.do) from None
-    return [factor * _number(cells, index, line, lines.delimiter) for line, cells in lines.lines]
+
+
+def _points(lines: CsvLines, chosen: list[int]) -> Iterator[list[float]]:
+    """The numbers of the two columns, line by line."""
+    for count, (line, cells) in enumerate(lines.lines):
+        if count == MOST_POINTS:
+            raise CarpetError(f"has more than {MOST_POINTS} points", do="leave out some of them")
+        yield [_number(cells, index, line, lines.delimiter) for index in chosen]
 
 
 def _number(cells: list[str], index: int, line: int, delimiter: str) -> float:
     cell = cells[index] if index < len(cells) else ""
-    try:
-        value = float(decimal_points(cell, delimiter))
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise CarpetError(f"line {line}: {cell!r} is not a number", do="correct that cell, or leave out the line")
+    value = read_number(decimal_points(cell, delimiter)) if len(cell) <= LONGEST else None
+    if value is None:
+        raise CarpetError(
+            f"line {line}: {shortened(repr(cell))} is not a number", do="correct that cell, or leave out the line"
+        )
     return value
 
 
 def _parts(heading: str) -> tuple[str, str]:
     """Name and unit of a heading: `x [mm]` is x and mm."""
-    found = _HEADING.match(heading)
-    return (found[1], found[2]) if found else (heading, "")
+    if not heading.endswith(("]", ")")):
+        return heading, ""
+    closed = max(heading[:-1].rfind("]"), heading[:-1].rfind(")")) + 1
+    begin = min((at for at in (heading.find(mark, closed) for mark in "[(") if at >= 0), default=-1)
+    return (heading[:begin].rstrip(), heading[begin + 1 : -1].strip()) if begin >= 0 else (heading, "")

@@ -5,14 +5,13 @@ minItems, maxItems, enum, oneOf (distinguished by the first required key), $ref 
 which other validators ignore: `unit`, for a quantity, given as a number in SI or a text with its unit.
 """
 
-import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NoReturn, TypeAlias
 
-from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean
+from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean, shortened
 from ilmek.io.line_numbers import KeyLines, Path
 from ilmek.records import record
-from ilmek.units import parse_quantity
+from ilmek.units import in_bounds, parse_quantity, read_number
 
 Schema: TypeAlias = Mapping[str, Any]
 
@@ -144,18 +143,16 @@ def read_quantity(value: Any, unit: str) -> float:
 
 
 def finite_number(value: Any) -> float | None:
-    """A number, or a text that is one, as a finite float; None for everything else.
+    """A number, or a text that is one, as a float within the bounds of `ilmek.units`; None for everything else.
 
     >>> finite_number(2), finite_number(" 2.5"), finite_number("two"), finite_number(True), finite_number(1e999)
     (2.0, 2.5, None, None, None)
     """
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         return None
-    try:
-        number = float(value)
-    except (ValueError, OverflowError):
-        return None
-    return number if math.isfinite(number) else None
+    if isinstance(value, str):
+        return read_number(value)
+    return float(value) if in_bounds(value) else None
 
 
 def shown(value: Any) -> str:
@@ -163,4 +160,4 @@ def shown(value: Any) -> str:
     text = (
         {True: "true", False: "false", None: "null"}.get(value, "") if isinstance(value, bool | None) else repr(value)
     )
-    return text if len(text) <= 40 else f"{text[:37]}..."
+    return shortened(text)

@@ -1,11 +1,10 @@
 """Columns of numbers as CSV."""
 
-import csv
-import io
 import math
 from collections.abc import Mapping
 
 from ilmek.arrays import FloatArray
+from ilmek.io.csv_cells import csv_rows
 
 
 def csv_text(columns: Mapping[str, FloatArray]) -> str:
@@ -17,9 +16,5 @@ def csv_text(columns: Mapping[str, FloatArray]) -> str:
     0.1,1.0
     0.2,
     """
-    text = io.StringIO()
-    lines = csv.writer(text, lineterminator="\n")
-    lines.writerow(columns)
-    for row in zip(*columns.values(), strict=True):
-        lines.writerow(repr(float(value)) if math.isfinite(value) else "" for value in row)
-    return text.getvalue()
+    values = [[repr(value) if math.isfinite(value) else "" for value in column.tolist()] for column in columns.values()]
+    return csv_rows([list(columns)]) + "".join(f"{','.join(row)}\n" for row in zip(*values, strict=True))

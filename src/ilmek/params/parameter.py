@@ -6,7 +6,7 @@ import typing
 from dataclasses import dataclass
 
 from ilmek.errors import ParameterError, UnitError
-from ilmek.units import format_quantity, has_unit, parse_quantity, parse_unit, similar_units
+from ilmek.units import GREATEST, LEAST, format_quantity, has_unit, parse_quantity, parse_unit, similar_units
 
 Value: typing.TypeAlias = float | int | bool | str | None
 """The value of a parameter: SI, radians."""
@@ -14,8 +14,8 @@ Value: typing.TypeAlias = float | int | bool | str | None
 Setting: typing.TypeAlias = float | int | bool | str | None
 """What a user sets: a number is SI, a text is read with its unit."""
 
-SMALLEST_MAGNITUDE = 1e-60
-"""Smallest magnitude accepted other than 0: powers of smaller numbers underflow."""
+LONGEST_TEXT = 20_000
+"""Largest number of characters of a parameter that is a text; a list of 1,000 points."""
 
 _UNIT_REQUIRED = ("1/dm",)
 """Units of quantities that nobody writes in SI: a bare 40 is never 40 per metre."""
@@ -54,6 +54,7 @@ class Parameter:
         text = setting.strip()
         try:
             if self.kind is str:
+                self._check_text(text)
                 return text
             if self.kind is bool:
                 return _TRUTH[text.lower()]
@@ -73,6 +74,14 @@ class Parameter:
             return round(number)
         return number
 
+    def _check_text(self, text: str) -> None:
+        """Raise ParameterError for a text that is too long or has characters that are not printed, except line ends."""
+        given = f"{self.name}={text[:20]!r}{'...' if len(text) > 20 else ''}"
+        if len(text) > LONGEST_TEXT:
+            raise ParameterError(f"{given} is too long", allowed=f"at most {LONGEST_TEXT} characters")
+        if not "".join(text.split()).isprintable():
+            raise ParameterError(f"{given} has characters that cannot be printed")
+
     def check(self, value: Value) -> None:
         """Raise ParameterError unless the value is of the declared kind and within the bounds."""
         if value is None and self.default is None:
@@ -87,11 +96,17 @@ class Parameter:
             if not isinstance(value, bool):
                 raise ParameterError(f"{self.name}={value!r} is neither true nor false")
             return
-        if isinstance(value, bool | str) or value is None or not math.isfinite(value):
+        self._check_number(value)
+
+    def _check_number(self, value: Value) -> None:
+        """Raise ParameterError unless the value is a number within the bounds."""
+        if isinstance(value, bool | str) or value is None or not abs(value) < math.inf:
             raise ParameterError(f"{self.name}={value!r} is not a number", allowed=self.allowed())
+        if abs(value) > GREATEST:
+            raise ParameterError(f"{self.name} is too large", allowed=self.allowed() or f"at most {GREATEST:g} in SI")
         if self.kind is int and value != int(value):
             raise ParameterError(f"{self.name}={value!r} is not a whole number", allowed=self.allowed())
-        if 0 < abs(value) < SMALLEST_MAGNITUDE:
+        if 0 < abs(value) < LEAST:
             raise ParameterError(f"{self.name}={value:g} is too small", allowed=self.allowed(), do="did you mean 0?")
         if not self.within(value):
             shown = format_quantity(value, self.unit)

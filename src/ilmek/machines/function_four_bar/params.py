@@ -36,7 +36,9 @@ NAMED: dict[str, F] = {
 }
 """Functions of a plain number x; those of angles take it in radians."""
 
-_POWER = re.compile(r"x\s*(?:\^|\*\*)\s*\(?\s*([+-]?(?:\d+\.?\d*|\.\d+))(?:\s*/\s*(\d+\.?\d*))?\s*\)?")
+_POWER = re.compile(
+    r"x\s*+(?:\^|\*\*)\s*+\(?\s*+([+-]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++))(?:\s*/\s*+([0-9]++\.?[0-9]*+))?\s*+\)?"
+)
 ALLOWED = f"{', '.join(NAMED)}, or a power like x^1.5"
 
 CRITERIA = {"interpolation": "interpolation", "least-squares": "least squares", "minimax": "minimax"}

@@ -1,0 +1,230 @@
+"""Texts of others: whatever they hold, only errors of ilmek come out, soon, and nothing reaches a spreadsheet."""
+
+import csv
+import io
+import os
+import random
+import time
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ilmek.carpet.quality import parse_quality
+from ilmek.carpet.sizes import parse_size
+from ilmek.elements.tubes import find_tube
+from ilmek.errors import CarpetError, IlmekError, ParameterError, UnitError
+from ilmek.io.csv_cells import csv_rows, read_cell, write_cell
+from ilmek.io.path_file import MOST_POINTS, read_path
+from ilmek.io.table_csv import csv_text
+from ilmek.io.text_file import read_text
+from ilmek.machines.function_four_bar.params import FunctionFourBarParams, named
+from ilmek.params.text_lists import read_angles, read_bounds, read_pairs, read_points, read_poses
+from ilmek.units import LONGEST, parse_quantity, parse_unit, read_number
+
+WORDS = (
+    *(
+        "mm",
+        "km",
+        "deg",
+        "/dm",
+        "^",
+        "^400",
+        "^-9",
+        "*",
+        "/",
+        "²",
+        "٣",
+        "1e400",
+        "-0",
+        "inf",
+        "nan",
+        "1e-320",
+        "9" * 90,
+    ),
+    *(
+        " ",
+        "\t",
+        "\n",
+        "\x00",
+        "\x1b[31m",
+        "\ud800",
+        "\u202e",
+        "(",
+        ")",
+        ",",
+        "..",
+        ";",
+        "x",
+        "+",
+        "-",
+        ".",
+        "e",
+        "1",
+        "7",
+        "%",
+    ),
+    *("0x1F", "1_000", "_", "é", "1" + " " * 40, "kg/m^3", "×", "=", "@", "cm", "raj", "/m2"),
+)
+"""Pieces of texts."""
+
+READERS = {
+    "unit": parse_unit,
+    "quantity": lambda text: parse_quantity(text, "mm"),
+    "size": parse_size,
+    "quality": parse_quality,
+    "tube": find_tube,
+    "function": named,
+    "points": lambda text: read_points("points", text),
+    "poses": lambda text: read_poses("poses", text),
+    "pairs": lambda text: read_pairs("pairs", text),
+    "angles": lambda text: read_angles("angles", text),
+    "bounds": lambda text: read_bounds("bounds", text),
+}
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_random_texts_give_errors_of_ilmek_only(name: str) -> None:
+    read, seeded = READERS[name], random.Random(11)
+    for _ in range(1500):
+        text = "".join(seeded.choices(WORDS, k=seeded.randint(0, 9)))
+        with suppress(IlmekError):
+            read(text)
+
+
+@pytest.mark.parametrize("name", READERS)
+@pytest.mark.parametrize("piece", ["1", " ", "x ", "(", "(1,", "mm*", "1 ", "²", "^"])
+def test_long_texts_are_refused_soon(name: str, piece: str) -> None:
+    begin = time.perf_counter()
+    with pytest.raises(IlmekError):
+        READERS[name](f"x^{piece * 20_000}!")
+    assert time.perf_counter() - begin < 1.0
+
+
+@pytest.mark.parametrize("text", ["km^400", "km^13", "GPa^12*GPa^12", "mm^-12*mm^-12", "m" * 200, "m²²²"])
+def test_units_out_of_bounds_are_refused(text: str) -> None:
+    with pytest.raises(UnitError):
+        parse_unit(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["1km^400", "1e400mm", "1e-300mm", "٣mm", "²", "inf", "nan", "", " ", "1_0mm", "1" * 500]
+)
+def test_quantities_out_of_bounds_are_refused(text: str) -> None:
+    with pytest.raises(UnitError):
+        parse_quantity(text, "m")
+
+
+def test_minus_zero_is_zero() -> None:
+    assert str(parse_quantity("-0mm", "m")) == "0.0"
+
+
+def test_numbers_are_plain_decimal_numbers() -> None:
+    assert read_number(" -1.5e3 ") == -1500.0
+    assert [read_number(text) for text in ("1_0", "٣", "inf", "nan", "1e31", "1mm", "", "1" * (LONGEST + 1))] == [
+        None
+    ] * 8
+
+
+def test_a_text_parameter_is_bounded_and_printable() -> None:
+    for text, said in (
+        ("x" * 20_001, "is too long"),
+        ("a\x1b[0m", "cannot be printed"),
+        ("\ud800", "cannot be printed"),
+    ):
+        with pytest.raises(ParameterError, match=said):
+            FunctionFourBarParams.read({"samples": text})
+
+
+def test_a_file_that_grows_after_the_check_is_not_read_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "grows.txt"
+    path.write_bytes(b"a" * 100)
+
+    fstat = os.fstat
+
+    def growing(number: int) -> os.stat_result:
+        status = fstat(number)
+        path.write_bytes(b"a" * 5000)
+        return status
+
+    monkeypatch.setattr(os, "fstat", growing)
+    with pytest.raises(CarpetError, match="too large"):
+        read_text(path, noun="text", largest=1000, error=CarpetError, do="")
+
+
+@pytest.mark.parametrize("control", ["\x00", "\x07", "\x1b", "\x7f"])
+def test_control_characters_of_a_file_are_refused(tmp_path: Path, control: str) -> None:
+    path = tmp_path / "control.txt"
+    path.write_text(f"one\ntwo {control}", encoding="utf-8")
+    with pytest.raises(CarpetError, match="line 2 has the control character"):
+        read_text(path, noun="text", largest=1000, error=CarpetError, do="")
+
+
+@pytest.mark.parametrize(
+    "heading", ["x [mm],(" + " " * 20_000, "x [mm]," + "(" * 20_000 + "]", "x [mm],y" + "[ " * 9_000 + "]"]
+)
+def test_headings_of_a_path_are_read_in_linear_time(tmp_path: Path, heading: str) -> None:
+    path = tmp_path / "path.csv"
+    path.write_text(f"{heading}\n1,2\n3,4\n")
+    begin = time.perf_counter()
+    with pytest.raises(CarpetError):
+        read_path(path)
+    assert time.perf_counter() - begin < 1.0
+
+
+@pytest.mark.parametrize("cell", ["1_0", "٣", "inf", "1e400", "9" * 100_000, "1 " * 9_000])
+def test_cells_of_a_path_are_plain_numbers(tmp_path: Path, cell: str) -> None:
+    path = tmp_path / "path.csv"
+    path.write_text(f"x [mm],y [mm]\n1,2\n3,{cell}\n")
+    with pytest.raises(CarpetError, match="line 3") as caught:
+        read_path(path)
+    assert len(str(caught.value)) < 400
+
+
+def test_a_path_has_at_most_so_many_points_and_columns(tmp_path: Path) -> None:
+    path = tmp_path / "path.csv"
+    path.write_text("x [mm],y [mm]\n" + "1,2\n" * (MOST_POINTS + 1))
+    with pytest.raises(CarpetError, match=f"more than {MOST_POINTS} points"):
+        read_path(path)
+    path.write_text("x [mm]" + "," * 20_000 + "\n1,2\n")
+    with pytest.raises(CarpetError, match="20001 cells"):
+        read_path(path)
+    path.write_text("x" * 600_000 + "\n1,2\n")
+    with pytest.raises(CarpetError, match="line 1 is too long"):
+        read_path(path)
+
+
+FORMULAS = (
+    '=HYPERLINK("http://x","y")',
+    "+1+1",
+    "-2+3",
+    "@SUM(A1)",
+    "\t=1",
+    "\r=1",
+    " =1",
+    "'=1",
+    "＝1",
+    "a;=1",
+    "a\n=1",
+)
+
+
+@pytest.mark.parametrize("text", FORMULAS)
+def test_no_cell_is_run_by_a_spreadsheet(text: str) -> None:
+    for delimiter in ",;\t":
+        for cells in csv.reader(io.StringIO(csv_rows([["name", text, 1.5]])), delimiter=delimiter):
+            assert not any(cell.strip().startswith(("=", "+", "-", "@", "＝")) for cell in cells)
+
+
+@pytest.mark.parametrize("text", [*FORMULAS[:9], "''", "'", "'a'", "x", "-1.5", "1e5", ""])
+def test_a_cell_is_read_as_it_was_written(text: str) -> None:
+    assert read_cell(write_cell(text)) == text
+
+
+def test_a_column_of_a_formula_is_read_again(tmp_path: Path) -> None:
+    path = tmp_path / "motion.csv"
+    path.write_text(
+        csv_text({"=A.P x [m]": np.array([1.0, 2.0]), "-P y [m]": np.array([-3.0, 4e-7])}), encoding="utf-8"
+    )
+    assert read_path(path, ("=A.P x", "-P y")).tolist() == [1 - 3j, 2 + 4e-7j]
