@@ -26,7 +26,8 @@ def write_cell(text: str) -> str:
     """
     if read_number(text) is not None:
         return text
-    return _RUN_INSIDE.sub(r"\1'", f"'{text}" if _RUN.match(text) else text)
+    guarded = f"'{text}" if _RUN.match(text) else text
+    return _RUN_INSIDE.sub(r"\1'", guarded).replace("\r", " ")  # csv.writer leaves a lone \r without quotes
 
 
 def read_cell(cell: str) -> str:
