@@ -14,8 +14,8 @@ from ilmek.units import read_number
 _RUN = re.compile(r"[\s']*[=+\-@\uff0b\uff0d\uff1d\uff20]")
 """Begin of a text that a spreadsheet runs, also behind blanks and apostrophes, with ASCII or full-width signs."""
 
-_RUN_INSIDE = re.compile(r"([;\t\r\n]\s*)(?=[=+\-@\uff0b\uff0d\uff1d\uff20])")
-"""Begin of a cell that a spreadsheet runs if it divides the text at semicolons, tabs or line ends."""
+_RUN_INSIDE = re.compile(r"(;\s*)(?=[=+\-@\uff0b\uff0d\uff1d\uff20])")
+"""Begin of a cell that a spreadsheet runs if it divides lines at semicolons; the texts of ilmek have no tabs or line ends."""
 
 
 def write_cell(text: str) -> str:
@@ -27,7 +27,7 @@ def write_cell(text: str) -> str:
     if read_number(text) is not None:
         return text
     guarded = f"'{text}" if _RUN.match(text) else text
-    return _RUN_INSIDE.sub(r"\1'", guarded).replace("\r", " ")  # csv.writer leaves a lone \r without quotes
+    return _RUN_INSIDE.sub(r"\1'", guarded)
 
 
 def read_cell(cell: str) -> str:
