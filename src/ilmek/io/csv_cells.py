@@ -15,7 +15,7 @@ _RUN = re.compile(r"[\s']*[=+\-@\uff0b\uff0d\uff1d\uff20]")
 """Begin of a text that a spreadsheet runs, also behind blanks and apostrophes, with ASCII or full-width signs."""
 
 _RUN_INSIDE = re.compile(r"(;\s*)(?=[=+\-@\uff0b\uff0d\uff1d\uff20])")
-"""Begin of a cell that a spreadsheet runs if it divides lines at semicolons; the texts of ilmek have no tabs or line ends."""
+"""Begin of a cell that a spreadsheet runs if it divides lines at semicolons; texts of ilmek have no line ends."""
 
 
 def write_cell(text: str) -> str:
