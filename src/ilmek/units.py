@@ -72,7 +72,8 @@ LONGEST = 100
 """Largest number of characters of a quantity or a unit; a double and its unit need less than 50."""
 
 GREATEST, LEAST = 1e30, 1e-30
-"""Bounds of the magnitude of a quantity other than 0 and of a unit's factor [SI], so that powers stay finite."""
+"""Largest magnitude of a quantity, and smallest of a unit's factor and of a parameter other than 0 [SI]: powers of
+numbers beyond them overflow or underflow."""
 
 HIGHEST_POWER = 12
 """Largest exponent in a unit; a second moment of area has 4."""
@@ -117,7 +118,7 @@ def parse_quantity(text: str, unit: str) -> float:
     """The SI value of `text`, which must have the dimension of `unit`; a number without a unit is in SI.
 
     Raises UnitError if the text is not a number with a unit of that dimension, has more than `LONGEST` characters, or
-    its magnitude is not within `LEAST` to `GREATEST` and not 0.
+    its magnitude is above `GREATEST`.
     """
     _check_length(text, "quantity")
     matched = _NUMBER.fullmatch(text.strip())
@@ -131,10 +132,7 @@ def parse_quantity(text: str, unit: str) -> float:
         raise UnitError(f"{text!r} has the wrong unit", allowed=f"{kind} is required", do=example)
     value = float(matched[1]) * (written.factor if matched[2] else 1.0)
     if not in_bounds(value):
-        size = "large" if abs(value) > 1 else "small"
-        raise UnitError(
-            f"{text!r} is too {size} a number", allowed=f"0, or {LEAST:g} to {GREATEST:g} in SI", do=example
-        )
+        raise UnitError(f"{text!r} is too large a number", allowed=f"at most {GREATEST:g} in SI", do=example)
     return value + 0.0  # 0 for -0
 
 
@@ -150,12 +148,12 @@ def read_number(text: str) -> float | None:
 
 
 def in_bounds(value: float) -> bool:
-    """Whether a number is 0 or has a magnitude within `LEAST` to `GREATEST`; false for infinity and NaN.
+    """Whether a number has a magnitude of at most `GREATEST`; false for infinity and NaN.
 
-    >>> in_bounds(0.0), in_bounds(-60.0), in_bounds(1e300), in_bounds(math.nan)
-    (True, True, False, False)
+    >>> in_bounds(-60.0), in_bounds(1e300), in_bounds(math.nan)
+    (True, False, False)
     """
-    return value == 0 or LEAST <= abs(value) <= GREATEST
+    return abs(value) <= GREATEST
 
 
 def _check_length(text: str, noun: str) -> None:

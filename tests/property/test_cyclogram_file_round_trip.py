@@ -37,11 +37,11 @@ from ilmek.units import turn
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "press.toml"
 LAW = [*LAWS.values(), law_of("modified-sine", {"constant_velocity": 0.3})]
-LETTERS = list("aB 9.:-_'\"\\[]{}=#,é\n\t\x7f")
+LETTERS = list("aB 9.:-_'\"\\[]{}=#,é≥")
 
 
 def name(pick: np.random.Generator) -> str:
-    """Any text, hard ones among them."""
+    """Any printable text, hard ones among them."""
     return "".join(pick.choice(LETTERS, pick.integers(0, 6)))
 
 

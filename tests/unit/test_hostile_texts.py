@@ -16,6 +16,7 @@ from ilmek.carpet.sizes import parse_size
 from ilmek.elements.tubes import find_tube
 from ilmek.errors import CarpetError, IlmekError, ParameterError, UnitError
 from ilmek.io.csv_cells import csv_rows, read_cell, write_cell
+from ilmek.io.data_text import parse_data
 from ilmek.io.path_file import MOST_POINTS, read_path
 from ilmek.io.table_csv import csv_text
 from ilmek.io.text_file import read_text
@@ -108,9 +109,7 @@ def test_units_out_of_bounds_are_refused(text: str) -> None:
         parse_unit(text)
 
 
-@pytest.mark.parametrize(
-    "text", ["1km^400", "1e400mm", "1e-300mm", "٣mm", "²", "inf", "nan", "", " ", "1_0mm", "1" * 500]
-)
+@pytest.mark.parametrize("text", ["1km^400", "1e400mm", "٣mm", "²", "inf", "nan", "", " ", "1_0mm", "1" * 500])
 def test_quantities_out_of_bounds_are_refused(text: str) -> None:
     with pytest.raises(UnitError):
         parse_quantity(text, "m")
@@ -226,3 +225,100 @@ def test_a_column_of_a_formula_is_read_again(tmp_path: Path) -> None:
         csv_text({"=A.P x [m]": np.array([1.0, 2.0]), "-P y [m]": np.array([-3.0, 4e-7])}), encoding="utf-8"
     )
     assert read_path(path, ("=A.P x", "-P y")).tolist() == [1 - 3j, 2 + 4e-7j]
+
+
+DATA = {
+    "dotted keys": ("a" + ".a" * 3000 + " = 1", "nested too deeply"),
+    "quoted dotted keys": ("'a'" + ". 'a'" * 3000 + " = 1", "nested too deeply"),
+    "heading": ("[a" + ".a" * 3000 + "]", "nested too deeply"),
+    "lists": ("a = " + "[" * 50_000, "nested too deeply"),
+    "tables": ("a = " + "{a = " * 20_000, "nested too deeply"),
+    "digits": ("a = " + "9" * 5000, "too long"),
+    "hexadecimal": ("a = 0x" + "f" * 5000, "too long"),
+    "text": ('a = "' + "x" * 1001 + '"', "too long"),
+    "name": ("x" * 101 + " = 1", "the name 'xxx"),
+    "escape": ('a = "\\u001b[31m"', "line 1, a: .* cannot be printed"),
+    "escaped name": ('\n"\\u202e" = 1', "line 2: the name"),
+    "nan": ("a = nan", "not a finite number"),
+    "infinity": ("a = [1, -inf]", "not a finite number"),
+    "no such date": ("a = 2026-99-99", "line 1|not TOML"),
+    "open quote": ("a = '''" + "x" * 5000, "expected"),
+    "many quotes": ("a = '" + "'''\\" * 20_000, "line|expected"),
+}
+JSON = {
+    "lists": ("[" * 100_000, "nested too deeply"),
+    "tables": ('{"a":' * 40_000, "nested too deeply"),
+    "digits": ('{"a": ' + "9" * 5000 + "}", "too long"),
+    "surrogate": ('{"a": "\\ud800"}', "cannot be printed"),
+    "surrogate name": ('{"\\ud800": 1}', "the name"),
+    "null": ('{"a": "\\u0000"}', "cannot be printed"),
+    "nan": ('{"a": NaN}', "not a finite number"),
+    "infinity": ('{"a": -Infinity}', "not a finite number"),
+    "overflow": ('{"a": 1e999}', "not a finite number"),
+    "twice": ('{"a": 1, "a": 2}', "given twice"),
+    "open quote": ('{"a": "' + "x" * 5000, "line 1"),
+}
+CASES = [*((text, True, said) for text, said in DATA.values()), *((text, False, said) for text, said in JSON.values())]
+
+
+@pytest.mark.parametrize(("text", "toml", "said"), CASES)
+def test_data_of_others_is_bounded(text: str, toml: bool, said: str) -> None:
+    begin = time.perf_counter()
+    with pytest.raises(ParameterError, match=said) as caught:
+        parse_data(text, name="a file", toml=toml, error=ParameterError)
+    assert time.perf_counter() - begin < 1.0
+    assert len(str(caught.value)) < 300
+    assert str(caught.value).isascii()
+
+
+@pytest.mark.parametrize("toml", [True, False])
+def test_random_data_give_errors_of_ilmek_only(toml: bool) -> None:
+    pieces = (
+        *(
+            "[",
+            "]",
+            "{",
+            "}",
+            "=",
+            ":",
+            ",",
+            ".",
+            "\n",
+            "#",
+            '"',
+            "'",
+            '"""',
+            "'''",
+            "\\",
+            "a",
+            "b",
+            "1",
+            "-",
+            "1979-05-27",
+        ),
+        *(
+            "true",
+            "null",
+            "1.5e3",
+            '"a"',
+            "'b'",
+            "[[a]]\n",
+            "[a.b]\n",
+            "a = 1\n",
+            '"k": ',
+            "{}",
+            "[]",
+            " ",
+            "\\u0041",
+            "é",
+        ),
+    )
+    seeded = random.Random(5)
+    for _ in range(8000):
+        text = "".join(seeded.choices(pieces, k=seeded.randint(1, 14)))
+        with suppress(IlmekError):
+            parse_data(text, name="a file", toml=toml, error=ParameterError)
+
+
+def test_blanks_of_a_printed_page_are_read() -> None:
+    assert parse_data('a = "60\u00a0mm"', name="", toml=True, error=ParameterError).data == {"a": "60\u00a0mm"}

@@ -30,19 +30,17 @@ an angle or a position is written in its unit if that gives the same number agai
 import itertools
 import json
 import math
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ilmek.cams.laws import LAWS
-from ilmek.errors import IlmekError, MechanismError, ParameterError
+from ilmek.errors import MechanismError, ParameterError
 from ilmek.io.cyclogram_entries import FileEntry
-from ilmek.io.line_numbers import KeyLines, json_lines, toml_lines
+from ilmek.io.data_text import DataText, parse_data, read_data
 from ilmek.io.output import write_whole
 from ilmek.io.schema import SourceText
-from ilmek.io.text_file import read_text
 from ilmek.io.toml_text import toml_section, toml_text
 from ilmek.timing.crossings import passing_share
 from ilmek.timing.cyclogram import (
@@ -60,10 +58,7 @@ from ilmek.timing.cyclogram import (
 from ilmek.timing.relations import Presence
 from ilmek.timing.track import MotionLaw, riding
 from ilmek.timing.windows import windows_of
-from ilmek.units import parse_quantity, parse_unit
-
-LARGEST = 1_000_000
-"""Largest size of a cyclogram file [bytes]."""
+from ilmek.units import in_bounds, parse_quantity, parse_unit
 
 _EDGES = {"starts": "start", "ends": "end", "event": "event", "past": "past"}
 _LIMITS = {"speed": "/s", "acceleration": "/s^2", "jerk": "/s^3"}
@@ -74,21 +69,17 @@ def read_cyclogram(path: Path) -> Cyclogram:
 
     Raises ParameterError with the file, the line and the key for any error in the file.
     """
-    noun = "cyclogram file, .toml or .json"
-    try:
-        text = read_text(path, noun=noun, largest=LARGEST, error=ParameterError, do="check the path")
-        if path.suffix.lower() not in (".toml", ".json"):
-            raise ParameterError(f"ends in {path.suffix!r}", allowed="a cyclogram file is .toml or .json")
-    except ParameterError as error:
-        raise ParameterError(f"cyclogram file {path} {error.given}", allowed=error.allowed, do=error.do) from None
-    return parse_cyclogram(text, name=str(path), toml=path.suffix.lower() == ".toml")
+    return _read(read_data(path, "cyclogram", ParameterError), str(path))
 
 
 def parse_cyclogram(text: str, *, name: str = "cyclogram", toml: bool = True) -> Cyclogram:
     """The cyclogram of a TOML or JSON text; messages call it `name`. Raises as `read_cyclogram`."""
-    data, lines = _data(text, name, toml)
+    return _read(parse_data(text, name=name, toml=toml, error=ParameterError), name)
+
+
+def _read(text: DataText, name: str) -> Cyclogram:
     try:
-        return _cyclogram(FileEntry(data, (), SourceText(name, lines)))
+        return _cyclogram(FileEntry(text.data, (), SourceText(name, text.lines)))
     except MechanismError as error:
         raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
 
@@ -118,23 +109,6 @@ def cyclogram_toml(cyclogram: Cyclogram) -> str:
 def cyclogram_json(cyclogram: Cyclogram) -> str:
     """The cyclogram as JSON text."""
     return json.dumps(cyclogram_data(cyclogram), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-
-
-def _data(text: str, name: str, toml: bool) -> tuple[Any, KeyLines]:
-    """The data and the line of each key. Raises ParameterError with the line for invalid text."""
-    try:
-        return (tomllib.loads(text), toml_lines(text)) if toml else (json.loads(text), json_lines(text))
-    except tomllib.TOMLDecodeError as error:
-        reason, _, at = str(error).removesuffix(")").rpartition(" (at ")
-        raise ParameterError(
-            f"{name}, {at or 'end'}: {reason[:1].lower()}{reason[1:]}", do="correct that line"
-        ) from None
-    except json.JSONDecodeError as error:
-        raise ParameterError(f"{name}, line {error.lineno}: {error.msg.lower()}", do="correct that line") from None
-    except IlmekError as error:
-        raise ParameterError(f"{name}, {error.given}", allowed=error.allowed, do="give each its own name") from None
-    except (RecursionError, ValueError):  # deeply nested brackets, or a number of thousands of digits
-        raise ParameterError(f"{name} is no cyclogram, though it may be {'TOML' if toml else 'JSON'}") from None
 
 
 def _cyclogram(root: FileEntry) -> Cyclogram:
@@ -342,6 +316,6 @@ def _written(value: float, unit: str) -> str | float:
     """The number in its unit if that is read as the same number again, else in SI."""
     shown = value / parse_unit(unit).factor
     tries: Sequence[str] = [f"{shown:.{digits}g}{unit}" for digits in (4, 8, 12, 16, 17)]
-    shows = unit not in ("", "1") and math.isfinite(shown)
+    shows = unit not in ("", "1") and in_bounds(value)
     plain = [text for text in tries if shows and parse_quantity(text, unit) == value]
     return plain[0] if plain else float(value)

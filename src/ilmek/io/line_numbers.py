@@ -3,9 +3,9 @@ r"""The line of each key of a TOML or JSON text.
 The readers of the standard library give values without lines; this one gives lines without values, for texts that those
 readers accept. A value's path is the sequence of keys to it; entries of a list count from 0:
 
->>> toml_lines('name = "arm"\n[bodies.ground.points]\nA = [0,\n 1]')[("bodies", "ground", "points", "A", 1)]
+>>> toml_lines(tokens('name = "arm"\n[bodies.ground.points]\nA = [0,\n 1]'))[("bodies", "ground", "points", "A", 1)]
 4
->>> json_lines('{"bodies":\n {"ground": {}}}')[("bodies", "ground")]
+>>> json_lines(tokens('{"bodies":\n {"ground": {}}}'))[("bodies", "ground")]
 2
 """
 
@@ -13,26 +13,29 @@ import json
 import re
 import tomllib
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from ilmek.errors import IlmekError
+
+Token: TypeAlias = tuple[str, str, int]
+"""Kind, text and line of a token; of the kind "rest" from a quote without an end to the end of the text."""
 
 Path: TypeAlias = tuple[str | int, ...]
 KeyLines: TypeAlias = dict[Path, int]
 """Path of a key or a list's entry -> line, counted from 1; the path of the whole text, (), is in line 1."""
 
 _TOKEN = re.compile(
-    r'''(?P<string>"""(?:\\.|[^\\])*?"{3,5}|\'\'\'.*?\'{3,5}|"(?:\\.|[^"\\])*"|'[^']*')'''
-    r"|(?P<comment>\#[^\n]*)|(?P<newline>\n)|(?P<mark>[\[\]{}=:,.])|(?P<word>[^\s\[\]{}=:,.\"'#]+)",
+    r'''(?P<string>"""(?:\\.|[^\\])*?"{3,5}|\'\'\'.*?\'{3,5}|"(?!"")(?:\\.|[^"\\\n])*+"|'(?!'')[^'\n]*+')'''
+    r"|(?P<comment>\#[^\n]*)|(?P<newline>\n)|(?P<mark>[\[\]{}=:,.])|(?P<word>[^\s\[\]{}=:,.\"'#]+)|(?P<rest>[\"'].*)",
     re.DOTALL,
 )
 
 
-def toml_lines(text: str) -> KeyLines:
-    """The line of every key of a TOML text that `tomllib` accepts."""
-    scan = _Scan(_tokens(text), lambda word: str(tomllib.loads(f"key = {word}")["key"]))
+def toml_lines(found: Iterable[Token]) -> KeyLines:
+    """The line of every key of a TOML text that `tomllib` accepts, by its tokens."""
+    scan = _Scan(deque(found), lambda word: str(tomllib.loads(f"key = {word}")["key"]))
     prefix: Path = ()
     while scan.skip_newlines():
         line = scan.line
@@ -49,23 +52,27 @@ def toml_lines(text: str) -> KeyLines:
     return scan.lines
 
 
-def json_lines(text: str) -> KeyLines:
-    """The line of every key of a JSON text that `json` accepts. Raises IlmekError for a key that is given twice."""
-    scan = _Scan(_tokens(text), json.loads, once=True)
+def json_lines(found: Iterable[Token]) -> KeyLines:
+    """The line of every key of a JSON text that `json` accepts, by its tokens.
+
+    Raises IlmekError for a key that is given twice.
+    """
+    scan = _Scan(deque(found), json.loads, once=True)
     scan.value(())
     return scan.lines
 
 
-def _tokens(text: str) -> deque[tuple[str, str, int]]:
-    """Kind, text and line of every token except comments."""
-    found: deque[tuple[str, str, int]] = deque()
+def tokens(text: str) -> Iterator[Token]:
+    """Every token except comments, in linear time for any text."""
     line, at = 1, 0
     for token in _TOKEN.finditer(text):
         line += text.count("\n", at, token.start())
         at = token.start()
         if token.lastgroup != "comment":
-            found.append((token.lastgroup or "", token[0], line))
-    return found
+            yield token.lastgroup or "", token[0], line
+
+
+_RENAME = "give each its own name"
 
 
 @dataclass(slots=True)
@@ -75,7 +82,7 @@ class _Scan:
     once  a path may occur only once; Python's JSON reader accepts a key given twice
     """
 
-    left: deque[tuple[str, str, int]]
+    left: deque[Token]
     decode: Callable[[str], str]
     once: bool = False
     lines: KeyLines = field(default_factory=lambda: {(): 1})
@@ -86,7 +93,7 @@ class _Scan:
         """Line of the next token."""
         return self.left[0][2]
 
-    def take(self) -> tuple[str, str, int]:
+    def take(self) -> Token:
         """The next token."""
         return self.left.popleft()
 
@@ -107,7 +114,9 @@ class _Scan:
         """Record the line of a path and of its parents."""
         if self.once and path in self.lines:
             key = ".".join(str(key) for key in path)
-            raise IlmekError(f"line {line}, {key}: is given twice", allowed=f"first given in line {self.lines[path]}")
+            raise IlmekError(
+                f"line {line}, {key}: is given twice", allowed=f"first given in line {self.lines[path]}", do=_RENAME
+            )
         for size in range(1, len(path) + 1):
             self.lines.setdefault(path[:size], line)
 

@@ -24,7 +24,6 @@ every name, every order.
 """
 
 import json
-import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -35,10 +34,9 @@ from typing import Any
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import IlmekError, MechanismError
-from ilmek.io.line_numbers import KeyLines, json_lines, toml_lines
+from ilmek.io.data_text import DataText, parse_data, read_data
 from ilmek.io.output import write_whole
 from ilmek.io.schema import Reader, Schema, SourceText
-from ilmek.io.text_file import read_text
 from ilmek.io.toml_text import toml_text
 from ilmek.linkage.model import (
     GROUND,
@@ -55,9 +53,6 @@ from ilmek.linkage.model import (
 )
 from ilmek.linkage.structure import Plan, plan
 from ilmek.records import brief
-
-LARGEST = 1_000_000
-"""Largest size of a mechanism file [bytes]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,23 +80,17 @@ def read_mechanism(path: Path) -> MechanismFile:
 
     Raises MechanismError with the file, the line and the key for any error in the file.
     """
-    try:
-        text = read_text(
-            path, noun="mechanism file, .toml or .json", largest=LARGEST, error=MechanismError, do="check the path"
-        )
-        if path.suffix.lower() not in (".toml", ".json"):
-            raise MechanismError(f"ends in {path.suffix!r}", allowed="a mechanism file is .toml or .json")
-    except MechanismError as error:
-        raise MechanismError(f"mechanism file {path} {error.given}", allowed=error.allowed, do=error.do) from None
-    return parse_mechanism(text, name=str(path), toml=path.suffix.lower() == ".toml")
+    return _read(read_data(path, "mechanism", MechanismError), str(path))
 
 
 def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) -> MechanismFile:
     """The mechanism of a TOML or JSON text; messages call it `name`. Raises as `read_mechanism`."""
-    data, lines = _toml(text, name) if toml else _json(text, name)
-    source = SourceText(name, lines)
-    read = Reader(schema(), source).read(data)
-    return _built(read, source)
+    return _read(parse_data(text, name=name, toml=toml, error=MechanismError), name)
+
+
+def _read(text: DataText, name: str) -> MechanismFile:
+    source = SourceText(name, text.lines)
+    return _built(Reader(schema(), source).read(text.data), source)
 
 
 def write_mechanism(path: Path, mechanism: Mechanism, inertias: Mapping[str, Inertia] | None = None) -> None:
@@ -129,32 +118,6 @@ def schema() -> Schema:
     text = resources.files("ilmek.data").joinpath("mechanism.schema.json").read_text(encoding="utf-8")
     found: Schema = json.loads(text)
     return found
-
-
-def _toml(text: str, name: str) -> tuple[Any, KeyLines]:
-    try:
-        return tomllib.loads(text), toml_lines(text)
-    except tomllib.TOMLDecodeError as error:
-        reason, _, at = str(error).removesuffix(")").rpartition(" (at ")
-        raise MechanismError(
-            f"{name}, {at or 'end'}: {reason[:1].lower()}{reason[1:]}", do="correct that line"
-        ) from None
-    except (RecursionError, ValueError):  # deeply nested brackets, or a number of thousands of digits
-        raise MechanismError(f"{name} is no mechanism, though it may be TOML") from None
-
-
-def _json(text: str, name: str) -> tuple[Any, KeyLines]:
-    try:
-        return json.loads(text), json_lines(text)
-    except json.JSONDecodeError as error:
-        reason = f"{error.msg[:1].lower()}{error.msg[1:]}"
-        raise MechanismError(
-            f"{name}, line {error.lineno}, column {error.colno}: {reason}", do="correct that line"
-        ) from None
-    except IlmekError as error:
-        raise MechanismError(f"{name}, {error.given}", allowed=error.allowed, do="give each its own name") from None
-    except (RecursionError, ValueError):
-        raise MechanismError(f"{name} is no mechanism, though it may be JSON") from None
 
 
 @contextmanager

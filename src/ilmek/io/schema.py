@@ -11,7 +11,7 @@ from typing import Any, NoReturn, TypeAlias
 from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean, shortened
 from ilmek.io.line_numbers import KeyLines, Path
 from ilmek.records import record
-from ilmek.units import in_bounds, parse_quantity, read_number
+from ilmek.units import GREATEST, in_bounds, parse_quantity, read_number
 
 Schema: TypeAlias = Mapping[str, Any]
 
@@ -137,7 +137,7 @@ def read_quantity(value: Any, unit: str) -> float:
         raise ParameterError(f"{shown(value)} is not a quantity", allowed=allowed)
     number = finite_number(value)
     if number is None:
-        allowed = "a plain number" if plain else f"a number in {unit}"
+        allowed = f"{'a plain number' if plain else f'a number in {unit}'} of at most {GREATEST:g}"
         raise ParameterError(f"{shown(value)} is not a finite number", allowed=allowed)
     return number
 

@@ -15,7 +15,6 @@ A record is one yarn as read from the file: a mapping with the fields `name`, `s
 """
 
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
@@ -27,10 +26,11 @@ from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
 from ilmek.errors import YarnError, did_you_mean
 from ilmek.io.csv_lines import csv_lines, decimal_points
+from ilmek.io.data_text import parse_data
 from ilmek.io.schema import finite_number, key_faults
 from ilmek.io.text_file import read_text
 
-LARGEST = 1_000_000
+LARGEST = 250_000
 """Largest size of a yarn list [bytes]; 255 yarns need far less."""
 
 Record: TypeAlias = Mapping[str, object]
@@ -60,12 +60,7 @@ def default_yarns() -> tuple[Yarn, ...]:
 
 
 def _toml_records(text: str) -> Sequence[Record]:
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise YarnError(f"not TOML: {error}", do="correct that line") from None
-    except (RecursionError, ValueError):  # deeply nested brackets, or a number of thousands of digits
-        raise YarnError("not a yarn list, though it may be TOML", do="write each yarn as a [[yarn]] table") from None
+    data = parse_data(text, name="TOML", toml=True, error=YarnError).data
     unknown = [key for key in data if key != "yarn"]
     if unknown:
         raise YarnError(f"unknown entry {unknown[0]!r}", do="write each yarn as a [[yarn]] table")
