@@ -229,7 +229,7 @@ _OFTEN_LEFT_OUT = ("deg", "mm", "cm", "1/dm", "rpm", "MPa", "ms", "g")
 
 
 def _example(unit: str) -> str:
-    return f"60{unit}" if unit not in ("", "1") else "60"
+    return f"60{unit.removeprefix('1')}"
 
 
 def _allowed_units(part: str) -> str:

@@ -315,7 +315,7 @@ def _presence_data(one: Presence, units: Mapping[str, str]) -> dict[str, Any]:
 def _written(value: float, unit: str) -> str | float:
     """The number in its unit if that is read as the same number again, else in SI."""
     shown = value / parse_unit(unit).factor
-    tries: Sequence[str] = [f"{shown:.{digits}g}{unit}" for digits in (4, 8, 12, 16, 17)]
+    tries: Sequence[str] = [f"{shown:.{digits}g}{unit.removeprefix('1')}" for digits in (4, 8, 12, 16, 17)]
     shows = unit not in ("", "1") and in_bounds(value)
     plain = [text for text in tries if shows and parse_quantity(text, unit) == value]
     return plain[0] if plain else float(value)
