@@ -106,7 +106,7 @@ def test_first_frame_of_an_animation(tmp_path: Path) -> None:
     IMAGE.save(tmp_path / "a.png", save_all=True, append_images=[Image.new("RGB", IMAGE.size)] * 2)
     picture = read_picture(tmp_path / "a.png")
     assert np.array_equal(picture.rgb, RGB)
-    assert picture.notes == ("the first of 3 frames is used",)
+    assert picture.notes == ("the first of several frames is used",)
 
 
 def test_colour_profiles(tmp_path: Path) -> None:

@@ -1,39 +1,61 @@
 """Pictures of all formats that Pillow opens safely, as 8-bit sRGB, with a note on every conversion.
 
-Formats that start another program (EPS, WMF) or are no pictures (HDF5, GRIB, BUFR, MPEG) are excluded.
+Formats that start another program (EPS, WMF) or are no pictures (HDF5, GRIB, BUFR, MPEG) are excluded. A file is
+untrusted: its size, structure, width, height and number of entries are checked before anything is decoded.
+
+Memory while a picture is read: the file, 7 bytes a pixel (8 for a turned TIFF, 10 for a progressive JPEG, 20 for the
+formats `WHOLE`), and some 50 MB. The result has 3 bytes a pixel.
 """
 
-import difflib
-import io
-import re
+import contextlib
+import threading
 import warnings
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TypeAlias
 
-import numpy as np
-from PIL import Image, ImageCms, ImageOps, UnidentifiedImageError
+from PIL import Image, ImageFile, UnidentifiedImageError
 
 from ilmek.arrays import Rgb
 from ilmek.errors import PictureError
+from ilmek.io.native_messages import native_messages
+from ilmek.io.picture_file import MOST_EXIF, DamagedError, MeteredBytes, check_structure, read_bytes, shortened
+from ilmek.io.picture_pixels import srgb_pixels, turned
+from ilmek.progress import SILENT, Cancelled, Progress
 from ilmek.records import record
 
 FORMATS = (
     "PNG", "JPEG", "MPO", "TIFF", "BMP", "DIB", "GIF", "WEBP", "AVIF", "JPEG2000", "PPM", "TGA", "PCX", "DCX", "ICO",
     "ICNS", "QOI", "PSD", "SGI", "SUN", "XBM", "XPM", "MSP", "IM", "SPIDER", "DDS", "BLP",
 )  # fmt: skip
-"""Formats that are read, by Pillow's names."""
+"""Formats that are read, by Pillow's names. An MPO file is opened as the JPEG file that it begins with."""
 
 SMALLEST = 8
 """Smallest width and height [pixels]."""
 
 LARGEST = 150_000_000
-"""Largest number of pixels; more is regarded as a decompression bomb."""
+"""Largest number of pixels: the memory for a chart then stays below 2 GB."""
 
-_SIXTEEN_BITS = re.compile(r"'(?:RGB[AX]?|LA|CMYK);16[BLN]'")  # in Pillow's description of the file's pixels
+WHOLE = ("WEBP", "AVIF", "JPEG2000", "ICNS")
+"""Formats that their libraries decode in one call, with up to 20 bytes a pixel."""
+
+LARGEST_WHOLE = 40_000_000
+"""Largest number of pixels of the formats `WHOLE`."""
+
+LARGEST_INTERPRETED = 4_000_000
+"""Largest number of pixels where Pillow's decoder is written in Python: up to 3 s a megapixel (QOI, PPM of 16 bits)."""
+
+_OPENED = [name for name in FORMATS if name != "MPO"]
 _ORIENTATION = 0x0112
-_RGB_PROFILE = ImageCms.createProfile("sRGB")
-_ICC_MODES = {"RGB": "RGB", "GRAY": "L", "CMYK": "CMYK", "Lab": "LAB"}
-_Step: TypeAlias = tuple[Image.Image, tuple[str, ...]]
+_ENTRIES = 20_000
+"""Reads allowed for a header; each entry of a directory and each chunk takes one to four."""
+
+_READS = 8
+"""Reads a pixel of a decoder that is written in Python."""
+
+_HEADER = 64_000_000
+"""Bytes of a header that may be read, besides a file that is read whole: text, profiles, preview pictures."""
+
+_LOCK = threading.RLock()
 
 
 @record
@@ -44,161 +66,134 @@ class Picture:
     notes: tuple[str, ...] = ()
 
 
-def read_picture(path: Path) -> Picture:
+def read_picture(path: Path, progress: Progress = SILENT) -> Picture:
     """The picture in a file.
 
     The first frame is used, EXIF rotation applied, an embedded colour profile converted to sRGB, 16 bits reduced to 8,
     CMYK and grey converted to RGB, transparency put on white; each with a note. Raises PictureError unless the file is
-    a picture of at least 8 x 8 pixels and at most 150 megapixels.
+    a picture of at least 8 x 8 pixels, at most 150 megapixels (`LARGEST`; some formats less) and at most 500 MB
+    (`picture_file.MOST_BYTES`); Cancelled.
     """
-    data = _read_bytes(path)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the notes and the limit of pixels cover Pillow's warnings
+    data = read_bytes(path, progress.part(0.0, 0.1))
+    with _pillow_settings():
         try:
-            with Image.open(io.BytesIO(data)) as opened:
-                if opened.format not in FORMATS:
-                    raise PictureError(f"{path} has the format {opened.format}, which is not supported", do=_USE)
-                _check_size(path, opened.width, opened.height)
-                return _decoded(opened)
-        except PictureError:
+            check_structure(data, progress.part(0.1, 0.2))
+            stream = MeteredBytes(data, progress.part(0.2, 0.7))
+            stream.allow(_ENTRIES, _HEADER + len(data) * (data[:4] == b"RIFF" or data[4:8] == b"ftyp"))
+            with contextlib.closing(Image.open(stream, formats=_OPENED)) as opened:
+                _check_size(path, opened)
+                return _decoded(opened, stream, progress.part(0.7, 1.0))
+        except (PictureError, Cancelled, MemoryError):
             raise
         except UnidentifiedImageError:
-            raise PictureError(f"{path} is not a picture that can be read", do=_USE) from None
-        except Image.DecompressionBombError:
-            raise PictureError(f"{path} is too large a picture", allowed=_LIMIT, do="scale it down") from None
+            given = next(
+                (
+                    f"has the format {name}, which is not supported"
+                    for begin, name in _OTHER.items()
+                    if data.startswith(begin)
+                ),
+                "is not a picture that can be read",
+            )
+            raise PictureError(f"{path} {given}", do=_USE) from None
+        except (Image.DecompressionBombError, Image.DecompressionBombWarning):
+            raise PictureError(
+                f"{path} is too large a picture", allowed=_at_most(LARGEST), do="scale it down"
+            ) from None
         except Exception as error:
             # A decoder may raise any error for a damaged file.
             raise PictureError(
-                f"{path} is damaged or truncated ({_words(error)})", do="save or copy it again"
+                f"{path} is damaged or truncated ({shortened(error)})", do="save or copy it again"
             ) from None
 
 
+_OTHER = {b"%!PS": "EPS", b"\xc5\xd0\xd3\xc6": "EPS", b"%PDF": "PDF", b"<svg": "SVG", b"\xd7\xcd\xc6\x9a": "WMF"}
+"""Begins of files in formats that a user may take for pictures that can be read."""
+
 _USE = "use a PNG, JPEG, TIFF, WebP, BMP or GIF file"
-_LIMIT = f"at most {LARGEST // 1_000_000} megapixels"
 
 
-def _read_bytes(path: Path) -> bytes:
-    try:
-        if not path.is_file():
-            raise PictureError(_not_a_file(path), do="give the path of a picture")
-        data = path.read_bytes()
-    except (OSError, ValueError) as error:
-        raise PictureError(f"{path} cannot be read ({_words(error)})") from None
-    if not data:
-        raise PictureError(f"{path} is empty", do=_USE)
-    return data
+def _at_most(pixels: int, name: str = "") -> str:
+    return f"at most {pixels // 1_000_000} megapixels" + (f" of {name}" if name else "")
 
 
-def _not_a_file(path: Path) -> str:
-    if path.is_dir():
-        return f"{path} is a folder, not a picture"
-    if path.exists():
-        return f"{path} is not a file"
-    if path.is_symlink():
-        return f"{path} is a broken link"
-    folder = path.parent
-    near = difflib.get_close_matches(path.name, [p.name for p in folder.iterdir()], 1) if folder.is_dir() else []
-    return f"{path} does not exist" + (f" (did you mean {folder / near[0]}?)" if near else "")
+@contextlib.contextmanager
+def _pillow_settings() -> Iterator[None]:
+    """Pillow refuses pictures above LARGEST, also those inside others (ICO, DCX), and cut files. It warns of nothing.
+
+    The settings are global; they are put back at the end.
+    """
+    with _LOCK, warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the notes cover Pillow's warnings
+        warnings.simplefilter("error", Image.DecompressionBombWarning)
+        before = Image.MAX_IMAGE_PIXELS, ImageFile.LOAD_TRUNCATED_IMAGES
+        Image.MAX_IMAGE_PIXELS, ImageFile.LOAD_TRUNCATED_IMAGES = LARGEST, False
+        try:
+            yield
+        finally:
+            Image.MAX_IMAGE_PIXELS, ImageFile.LOAD_TRUNCATED_IMAGES = before
 
 
-def _words(error: Exception) -> str:
-    """The message of a library, shortened."""
-    message = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-    return re.sub(r"\s*\(.*\)$", "", message.split("\n")[0])[:120] or "its decoder fails"
-
-
-def _check_size(path: Path, width: int, height: int) -> None:
+def _check_size(path: Path, opened: Image.Image) -> None:
+    width, height = opened.size
     size = f"{path} is {width} x {height} pixels"
     if width < SMALLEST or height < SMALLEST:
         raise PictureError(size, allowed=f"at least {SMALLEST} x {SMALLEST}", do="use a larger picture")
-    if width * height > LARGEST:
-        raise PictureError(size, allowed=_LIMIT, do="scale it down")
+    limit, name, do = LARGEST, "", "scale it down"
+    if opened.format in WHOLE:
+        limit, name, do = LARGEST_WHOLE, str(opened.format), "scale it down, or save it as PNG"
+    elif any(tile[0] in Image.DECODERS for tile in getattr(opened, "tile", ())[:1]):
+        limit, name, do = LARGEST_INTERPRETED, str(opened.format), "save it as PNG"
+    if width * height > limit:
+        raise PictureError(size, allowed=_at_most(limit, name), do=do)
 
 
-def _decoded(opened: Image.Image) -> Picture:
-    image, notes = _first_frame(opened)
-    for step in (_upright, _eight_bits, _on_white_in_srgb):
-        image, added = step(image)
-        notes += added
-    return Picture(np.array(image, dtype=np.uint8), notes)
+def _decoded(opened: Image.Image, stream: MeteredBytes, progress: Progress) -> Picture:
+    notes = _several_frames(opened)
+    deep = ("16 bits per channel reduced to 8",) if _is_deep(opened) else ()
+    singly = _READS * min(opened.width * opened.height, LARGEST_INTERPRETED)
+    stream.allow(_ENTRIES + singly + stream.size // 64, _HEADER + 2 * stream.size)
+    orientation, about_exif = _orientation(opened)  # loads a PNG
+    by_pillow = opened.format == "TIFF"
+    _load(opened)
+    pixels, converted = srgb_pixels(opened, progress)
+    opened.close()  # before the pixels are copied
+    upright = pixels if by_pillow else turned(pixels, orientation)
+    return Picture(upright, (*notes, *about_exif, *deep, *converted))
 
 
-def _first_frame(image: Image.Image) -> _Step:
-    frames = getattr(image, "n_frames", 1)
-    deep = _SIXTEEN_BITS.search(str(getattr(image, "tile", "")))
-    notes = [f"the first of {frames} frames is used"] if frames > 1 else []
-    if frames > 1:
-        image.seek(0)
-    if _is_turned(image):  # before loading, which turns a TIFF and drops its orientation
-        notes.append("turned upright according to its EXIF data")
-    image.load()
-    if deep:
-        notes.append("16 bits per channel reduced to 8")
-    return image, tuple(notes)
+def _several_frames(opened: Image.Image) -> tuple[str, ...]:
+    """A note if there is a second frame; the others are not looked for, and the layers of a PSD file are no frames."""
+    if opened.format == "PSD" or not getattr(opened, "is_animated", False):
+        return ()
+    return ("the first of several frames is used",)
 
 
-def _upright(image: Image.Image) -> _Step:
-    return ImageOps.exif_transpose(image) if _is_turned(image) else image, ()
+def _orientation(opened: Image.Image) -> tuple[int, tuple[str, ...]]:
+    """The EXIF orientation, 1 to 8, and a note on it. Pillow turns a TIFF when it loads it."""
+    raw = opened.info.get("exif", b"") or opened.info.get("Raw profile type exif", "")
+    if len(raw) > (MOST_EXIF if isinstance(raw, bytes) else 3 * MOST_EXIF):
+        return 1, ("its EXIF data are too large and ignored",)
+    orientation = opened.getexif().get(_ORIENTATION, 1)
+    if orientation not in range(2, 9):
+        return 1, ()
+    return orientation, ("turned upright according to its EXIF data",)
 
 
-def _is_turned(image: Image.Image) -> bool:
-    return image.getexif().get(_ORIENTATION, 1) in range(2, 9)
+def _is_deep(opened: Image.Image) -> bool:
+    """Whether a channel has 16 bits in the file, by the description of its first tile."""
+    tiles = str(getattr(opened, "tile", ())[:1])
+    return any(f"'{mode};16{order}'" in tiles for mode in _DEEP for order in "BLN")
 
 
-def _eight_bits(image: Image.Image) -> _Step:
-    """Integer greys of 16 bits and floating-point greys, as 8 bits."""
-    if not image.mode.startswith(("I", "F")):
-        return image, ()
-    grey = np.asarray(image, dtype=np.float64)
-    low, high = (0.0, 65535.0) if image.mode != "F" and grey.min() >= 0 and grey.max() <= 65535 else _range(grey)
-    eight = np.rint(np.nan_to_num((grey - low) * (255 / (high - low)), nan=0.0)).clip(0, 255).astype(np.uint8)
-    brought = Image.fromarray(eight, "L")
-    brought.info = image.info
-    whole = (low, high) == (0.0, 65535.0)
-    return brought, ("16 bits reduced to 8" if whole else "grey scaled from darkest to lightest",)
+_DEEP = ("RGB", "RGBA", "RGBX", "LA", "CMYK")
 
 
-def _range(grey: np.ndarray) -> tuple[float, float]:
-    finite = grey[np.isfinite(grey)]
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-    return low, high if high > low else low + 1.0
-
-
-def _on_white_in_srgb(image: Image.Image) -> _Step:
-    """Colours as sRGB by the embedded profile or by the mode; transparent parts on white."""
-    cover = _cover(image)
-    flat = image.convert("RGBA").convert("RGB") if image.mode in ("P", "PA", "RGBa", "La", "LA", "RGBA") else image
-    flat, notes = _in_srgb(flat, image.info.get("icc_profile"))
-    if cover is None:
-        return flat, notes
-    white = Image.new("RGB", flat.size, "white")
-    white.paste(flat, mask=cover)
-    return white, (*notes, "transparent parts put on white")
-
-
-def _cover(image: Image.Image) -> Image.Image | None:
-    """The alpha channel if it hides something, else None."""
-    if not image.has_transparency_data:
-        return None
-    alpha = image.convert("RGBA").getchannel("A")
-    return alpha if alpha.getextrema()[0] != 255 else None
-
-
-def _in_srgb(image: Image.Image, profile: bytes | None) -> _Step:
-    mode = image.mode
-    if profile:
-        try:
-            embedded = ImageCms.ImageCmsProfile(io.BytesIO(profile))
-            if mode == _ICC_MODES.get(embedded.profile.xcolor_space.strip()):
-                name = ImageCms.getProfileDescription(embedded).strip()
-                converted = ImageCms.profileToProfile(image, embedded, _RGB_PROFILE, outputMode="RGB")
-                assert converted is not None
-                return converted, () if name.startswith("sRGB") else (f"colours converted from {name!r} to sRGB",)
-        except (ImageCms.PyCMSError, OSError, ValueError, TypeError):
-            return image.convert("RGB"), ("its colour profile is damaged and ignored",)
-    if mode == "LAB":
-        lab = ImageCms.createProfile("LAB")
-        converted = ImageCms.profileToProfile(image, lab, _RGB_PROFILE, outputMode="RGB")
-        assert converted is not None
-        return converted, ("CIELAB converted to sRGB",)
-    return image.convert("RGB"), ("CMYK without a colour profile converted to sRGB",) if mode == "CMYK" else ()
+def _load(opened: Image.Image) -> None:
+    """Decode. What libtiff writes to the error stream is an error, also where it goes on."""
+    if not any(tile[0] == "libtiff" for tile in getattr(opened, "tile", ())[:1]):
+        opened.load()
+        return
+    with native_messages() as messages:
+        opened.load()
+    if found := [line for line in messages if not line.startswith("TIFF")]:
+        raise DamagedError(found[0])

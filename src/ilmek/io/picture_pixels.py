@@ -1,0 +1,140 @@
+"""The pixels of an opened picture as 8-bit sRGB, a strip of rows at a time.
+
+The decoded picture takes 4 bytes a pixel and the result 3; what a conversion needs besides is that of one strip.
+"""
+
+import io
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from PIL import Image, ImageCms
+
+from ilmek.arrays import FloatArray, Rgb
+from ilmek.progress import SILENT, Progress
+
+MOST_PROFILE = 4_000_000
+"""Largest size of a colour profile that is applied [bytes]; those of printing presses have 2 MB."""
+
+_STRIP = 1 << 21
+"""Pixels of a strip."""
+
+_RGB_PROFILE = ImageCms.createProfile("sRGB")
+_ICC_MODES = {"RGB": "RGB", "GRAY": "L", "CMYK": "CMYK", "Lab": "LAB"}
+_ALPHA = ("P", "PA", "RGBa", "La", "LA", "RGBA")
+_Convert = Callable[[Image.Image], Image.Image]
+
+
+def srgb_pixels(image: Image.Image, progress: Progress = SILENT) -> tuple[Rgb, tuple[str, ...]]:
+    """The pixels of a loaded picture and notes on the conversions; transparent parts are put on white."""
+    to_eight_bits, notes = _eight_bits(image)
+    first = to_eight_bits(image.crop((0, 0, image.width, 1)))
+    to_rgb, more = _in_srgb(_flat(first).mode, image.info.get("icc_profile"))
+    out = np.empty((image.height, image.width, 3), dtype=np.uint8)
+    covered = False
+    for top, bottom in _strips(image):
+        strip = to_eight_bits(image.crop((0, top, image.width, bottom)))
+        coloured, cover = to_rgb(_flat(strip)), _cover(strip)
+        if cover is not None:
+            covered = True
+            white = Image.new("RGB", strip.size, "white")
+            white.paste(coloured, mask=cover)
+            coloured = white
+        out[top:bottom] = np.asarray(coloured)
+        progress(bottom / image.height)
+    return out, (*notes, *more, *(("transparent parts put on white",) if covered else ()))
+
+
+def turned(pixels: Rgb, orientation: int) -> Rgb:
+    """The pixels of a picture upright, by its EXIF orientation 1 to 8    [EXIF 2.32, 4.6.4]."""
+    if orientation == 1:
+        return pixels
+    if orientation >= 5:
+        pixels = pixels.swapaxes(0, 1)
+    across = -1 if orientation in (2, 3, 6, 7) else 1
+    down = -1 if orientation in (3, 4, 7, 8) else 1
+    return np.ascontiguousarray(pixels[::down, ::across])
+
+
+def _strips(image: Image.Image) -> Iterator[tuple[int, int]]:
+    rows = max(1, _STRIP // image.width)
+    for top in range(0, image.height, rows):
+        yield top, min(top + rows, image.height)
+
+
+def _eight_bits(image: Image.Image) -> tuple[_Convert, tuple[str, ...]]:
+    """Conversion of integer greys of 16 bits and of floating-point greys to 8 bits, by the limits of the whole."""
+    if not image.mode.startswith(("I", "F")):
+        return lambda strip: strip, ()
+    low, high = _limits(image)
+
+    def converted(strip: Image.Image) -> Image.Image:
+        grey = np.asarray(strip, dtype=np.float64)
+        eight = np.rint(np.nan_to_num((grey - low) * (255 / (high - low)), nan=0.0)).clip(0, 255).astype(np.uint8)
+        brought = Image.fromarray(eight, "L")
+        brought.info = image.info
+        return brought
+
+    whole = (low, high) == (0.0, 65535.0)
+    return converted, ("16 bits reduced to 8" if whole else "grey scaled from darkest to lightest",)
+
+
+def _limits(image: Image.Image) -> tuple[float, float]:
+    """The greys that become 0 and 255: 0 and 65535 if all are integers between, else the least and greatest."""
+    lows, highs = [], []
+    for top, bottom in _strips(image):
+        grey: FloatArray = np.asarray(image.crop((0, top, image.width, bottom)), dtype=np.float64)
+        finite = grey[np.isfinite(grey)]
+        if finite.size:
+            lows.append(float(finite.min()))
+            highs.append(float(finite.max()))
+    low, high = (min(lows), max(highs)) if lows else (0.0, 1.0)
+    if image.mode != "F" and low >= 0 and high <= 65535:
+        return 0.0, 65535.0
+    return low, high if high > low else low + 1.0
+
+
+def _flat(image: Image.Image) -> Image.Image:
+    """Without palette and alpha channel."""
+    return image.convert("RGBA").convert("RGB") if image.mode in _ALPHA else image
+
+
+def _cover(image: Image.Image) -> Image.Image | None:
+    """The alpha channel if it hides something, else None."""
+    if not image.has_transparency_data:
+        return None
+    alpha = image.convert("RGBA").getchannel("A")
+    return alpha if alpha.getextrema()[0] != 255 else None
+
+
+def _in_srgb(mode: str, profile: bytes | None) -> tuple[_Convert, tuple[str, ...]]:
+    """Conversion of pixels of a mode to sRGB by the embedded profile or by the mode."""
+    if profile and len(profile) > MOST_PROFILE:
+        return _plain, (f"its colour profile is larger than {MOST_PROFILE // 1_000_000} MB and ignored",)
+    if profile:
+        try:
+            embedded = ImageCms.ImageCmsProfile(io.BytesIO(profile))
+            if mode == _ICC_MODES.get(embedded.profile.xcolor_space.strip()):
+                name = ImageCms.getProfileDescription(embedded).strip()
+                convert = _by_profile(embedded, mode)
+                return convert, () if name.startswith("sRGB") else (f"colours converted from {name!r} to sRGB",)
+        except (ImageCms.PyCMSError, OSError, ValueError, TypeError):
+            return _plain, ("its colour profile is damaged and ignored",)
+    if mode == "LAB":
+        return _by_profile(ImageCms.createProfile("LAB"), mode), ("CIELAB converted to sRGB",)
+    return _plain, ("CMYK without a colour profile converted to sRGB",) if mode == "CMYK" else ()
+
+
+def _plain(strip: Image.Image) -> Image.Image:
+    return strip.convert("RGB")
+
+
+def _by_profile(profile: Any, mode: str) -> _Convert:
+    transform = ImageCms.buildTransform(profile, _RGB_PROFILE, mode, "RGB")
+
+    def converted(strip: Image.Image) -> Image.Image:
+        brought = ImageCms.applyTransform(strip, transform)
+        assert brought is not None
+        return brought
+
+    return converted
