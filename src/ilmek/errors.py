@@ -82,6 +82,23 @@ def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str
     return f"did you mean {nearest[0]!r}?" if nearest else otherwise
 
 
+def printable(text: str) -> str:
+    r"""The text as a terminal may show it: other blanks than line ends become spaces, control characters, marks of
+    direction and halves of surrogate pairs become �.
+
+    >>> printable("two\tlines\x1b[31m\nof text")
+    'two lines�[31m\nof text'
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c == "\n" else " " if c.isspace() else "�" for c in text)
+
+
+def encodable(text: str) -> str:
+    """The text without halves of surrogate pairs, as in the name of a file that is not UTF-8: they become ?."""
+    return text.encode("utf-8", "replace").decode("utf-8")
+
+
 def shortened(text: str, most: int = 40) -> str:
     """The text in a message: at most so many characters.
 

@@ -7,7 +7,7 @@ import click
 
 from ilmek.carpet.bill import YarnBill
 from ilmek.cli.options import carpet_options, force_option, json_option
-from ilmek.cli.terminal import check_json, console, give_json, note, progress_bar, show_pairs, show_table
+from ilmek.cli.terminal import check_json, give_json, note, progress_bar, say, show_pairs, show_table
 from ilmek.jobs.chart import ChartResult, chart_json, chart_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
@@ -39,7 +39,7 @@ def command(out: Path | None, force: bool, json_to: str | None, **carpet: Any) -
     if not give_json(json_to, chart_json(charted, files)):
         show_chart(charted)
         if folder is not None:
-            console().print(f"files in {folder}: {', '.join(Path(file).name for file in files)}")
+            say(f"files in {folder}: {', '.join(Path(file).name for file in files)}")
     for remark in (*charted.notes, *charted.warnings):
         note(remark)
 

@@ -6,7 +6,7 @@ import click
 
 from ilmek.cli.options import json_option
 from ilmek.cli.settings import read_settings
-from ilmek.cli.terminal import check_json, console, give_json, note, passed, progress_bar, show_checks, show_table
+from ilmek.cli.terminal import check_json, give_json, note, passed, progress_bar, say, show_checks, show_table
 from ilmek.errors import ParameterError
 from ilmek.io.cyclogram_file import write_cyclogram
 from ilmek.io.output import check_file, write_whole
@@ -81,7 +81,7 @@ def command(
         _show(shown, solution)
         for kind, path in (("report", page_to), ("cyclogram", file_to), ("table", csv_to)):
             if path is not None:
-                console().print(f"{kind}: {path}")
+                say(f"{kind}: {path}")
     elif shown.failed:
         note(f"checks: {passed(shown.checks)}")
 
@@ -100,7 +100,7 @@ def _check_outputs(csv_to: str | None, page_to: Path | None, file_to: Path | Non
 
 def _show(shown: Report, solution: Solution | None) -> None:
     """Print motions, checks, and the result of the solver."""
-    console().print(shown.title)
+    say(shown.title)
     for table in shown.tables:
         if table.name != "binding":
             rows = [tuple(_cell(cell) for cell in row) for row in table.rows]
@@ -110,10 +110,10 @@ def _show(shown: Report, solution: Solution | None) -> None:
     if solution is not None:
         before, after = (format_quantity(value, solution.unit) for value in (solution.before, solution.after))
         times = format_number(solution.before / solution.after, 3)
-        console().print(f"{solution.measure}: {before} -> {after}, {times} times less; least for this order")
-        console().print("binding constraints, in the order of the turn:")
+        say(f"{solution.measure}: {before} -> {after}, {times} times less; least for this order")
+        say("binding constraints, in the order of the turn:")
         for line in binding_words(solution):
-            console().print(f"  {line}")
+            say(f"  {line}")
 
 
 def _cell(cell: float | int | str) -> str:

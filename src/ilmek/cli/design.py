@@ -7,7 +7,7 @@ import click
 from ilmek.cli.options import json_option
 from ilmek.cli.report import show_report
 from ilmek.cli.settings import read_settings
-from ilmek.cli.terminal import check_json, console, give_json, note, progress_bar
+from ilmek.cli.terminal import check_json, give_json, note, progress_bar, say
 from ilmek.jobs.design import Outputs, design_machine
 
 EXAMPLES = """\b
@@ -62,8 +62,8 @@ def command(  # noqa: PLR0917 - click calls it by name
     if not give_json(json_to, made.as_json()):
         show_report(made.report)
         if page_to is not None:
-            console().print(f"report: {page_to}")
+            say(f"report: {page_to}")
         if made.workshop is not None:
-            console().print(f"workshop: {made.workshop.summary}")
+            say(f"workshop: {made.workshop.summary}")
     for warning in made.warnings:
         note(warning)

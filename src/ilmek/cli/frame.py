@@ -22,7 +22,7 @@ from typing import Any, NoReturn, cast
 
 import click
 
-from ilmek.errors import IlmekError, did_you_mean
+from ilmek.errors import IlmekError, did_you_mean, printable, shortened
 
 
 class LazyGroup(click.Group):
@@ -121,13 +121,17 @@ def _usage(error: click.ClickException) -> str:
     return f"{message}; see '{context.command_path} --help'" if context is not None else message
 
 
+_LONGEST = 2000
+"""Largest number of characters of an error line; the longest list of parameters has 1,200."""
+
+
 def _leave(message: str, status: int) -> NoReturn:
-    """Print one line on the error stream and exit with `status`. Control characters become spaces."""
-    line = "".join(letter if letter.isprintable() else " " for letter in message)
+    """Print one line on the error stream and exit with `status`."""
+    line = " ".join(printable(shortened(message, _LONGEST)).split())
     with contextlib.suppress(OSError):
         if message is _INTERRUPTED and sys.stderr.isatty():
             click.echo(err=True)  # behind the ^C that the terminal shows
-        click.echo(f"ilmek: {' '.join(line.split())}", err=True)
+        click.echo(f"ilmek: {line}", err=True)
     sys.exit(status)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.options import json_option
-from ilmek.cli.terminal import console, give_json, show_pairs, show_table
+from ilmek.cli.terminal import give_json, say, show_pairs, show_table
 from ilmek.io.programme_file import ProgrammeFile
 from ilmek.jobs.inspect import InspectionResult, inspect_programme, runs
 from ilmek.units import format_quantity
@@ -67,7 +67,7 @@ def show_programme(programme: ProgrammeFile) -> None:
 def show_row(found: InspectionResult) -> None:
     """Print one row: for each head its runs of knots in the order of tying."""
     row, names = found.row, [yarn.name for yarn in found.programme.label.yarns]
-    console().print(
+    say(
         f"row {row.number + 1} of {found.programme.rows}, from the bottom: {format_quantity(found.time, 's')}, "
         f"woven to the {'right' if row.forward else 'left'}; knots from the left, in the order of tying"
     )

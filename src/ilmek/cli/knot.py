@@ -6,7 +6,7 @@ import click
 
 from ilmek.cli.options import json_option
 from ilmek.cli.report import show_report
-from ilmek.cli.terminal import check_json, console, give_json
+from ilmek.cli.terminal import check_json, give_json, say
 from ilmek.errors import CarpetError
 from ilmek.io.output import check_file
 from ilmek.jobs.knot import KnotRequest, knot_of
@@ -75,7 +75,7 @@ def command(
     if not give_json(json_to, report.as_json()):
         show_report(report)
         if page_to is not None:
-            console().print(f"report: {page_to}")
+            say(f"report: {page_to}")
 
 
 def _position(text: str) -> complex:

@@ -3,7 +3,7 @@
 import click
 
 from ilmek.cli.options import json_option
-from ilmek.cli.terminal import console, give_json, show_table
+from ilmek.cli.terminal import give_json, say, show_table
 from ilmek.jobs.machines import machine_form, machine_list
 from ilmek.params import Parameter
 from ilmek.units import format_quantity
@@ -28,10 +28,10 @@ def command(name: str | None, json_to: str | None) -> None:
         return
     form = machine_form(name)
     if not give_json(json_to, form.as_json()):
-        console().print(f"{form.machine}: {form.summary}")
+        say(f"{form.machine}: {form.summary}")
         show_table(("parameter", "default", "unit", "allowed", "meaning"), [_row(p) for p in form.parameters])
         if form.machines:
-            console().print(f"also every parameter of {', '.join(form.machines)}, as {form.machines[0]}.NAME=VALUE")
+            say(f"also every parameter of {', '.join(form.machines)}, as {form.machines[0]}.NAME=VALUE")
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str, str]:

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.options import json_option
-from ilmek.cli.terminal import check_json, console, give_json, note, show_table
+from ilmek.cli.terminal import check_json, give_json, note, say, show_table
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism
 from ilmek.io.output import check_file, write_whole
@@ -74,7 +74,7 @@ def command(
         show(found_report)
         for output, path in (("report", page_to), ("table", csv_to)):
             if path is not None:
-                console().print(f"{output}: {path}")
+                say(f"{output}: {path}")
     for warning in found_report.warnings:
         note(warning)
 
@@ -113,10 +113,10 @@ def _give_csv(to: str | None, moved: MechanismRun) -> bool:
 
 def show(shown: Report) -> None:
     """Print the structure, and the tables of points and bodies."""
-    console().print(shown.title)
+    say(shown.title)
     for result in shown.results:
         for value in result.value if isinstance(result.value, list) else [result.value]:
-            console().print(f"  {result.name}: {_shown(value, result.unit)}")
+            say(f"  {result.name}: {_shown(value, result.unit)}")
     for table in shown.tables:
         headings = [f"{c.heading} [{c.unit}]" if c.unit else c.heading for c in table.columns]
         rows = [

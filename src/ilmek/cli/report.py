@@ -2,31 +2,31 @@
 
 import math
 
-from ilmek.cli.terminal import console, passed, show_checks, show_table
+from ilmek.cli.terminal import passed, say, show_checks, show_table
 from ilmek.report import Column, Report, Result, Table
 from ilmek.units import format_number, format_quantity, from_si, printed_unit
 
 
 def show_report(report: Report) -> None:
     """Print results, brief tables and checks."""
-    console().print(report.title)
+    say(report.title)
     shown = [(r.name, _shown(r), r.meaning) for r in report.results if r.shown]
     show_table(("result", "value", "meaning"), shown, right=(1,))
     more = [result.name for result in report.results if not result.shown]
     more += [f"{child.key}.*" for child in report.children]
     if more:
-        console().print(f"with --json also: {', '.join(more)}")
+        say(f"with --json also: {', '.join(more)}")
     for table in report.tables:
         if table.brief:
             _show(table)
     if report.all_checks:
         show_checks(report.all_checks)
-        console().print(f"checks: {passed(report.all_checks)}")
+        say(f"checks: {passed(report.all_checks)}")
 
 
 def _show(table: Table) -> None:
     """Print a table of the report, numbers in the units of their columns."""
-    console().print(table.title)
+    say(table.title)
     units = [printed_unit(column.unit) for column in table.columns]
     headings = [
         f"{column.heading} ({unit})" if unit else column.heading

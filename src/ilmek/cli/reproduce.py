@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 import click
 
 from ilmek.cli.options import json_option
-from ilmek.cli.terminal import check_json, console, give_json, progress_bar, show_table
+from ilmek.cli.terminal import check_json, give_json, progress_bar, say, show_table
 from ilmek.jobs.reproduce import reproduce_papers
 from ilmek.verification import PAPERS, TITLES, VERDICTS, Verdict
 from ilmek.verification.claim import MISPRINT, NOT_REPRODUCIBLE, REPRODUCED, ROUNDING
@@ -51,15 +51,15 @@ def command(papers: tuple[str, ...], json_to: str | None) -> None:
     for paper, of_paper in result.verdicts.items():
         show_paper(paper, of_paper)
     show_summary(result.verdicts)
-    console().print(f"computed in {result.seconds:.1f} s")
+    say(f"computed in {result.seconds:.1f} s")
 
 
 def show_paper(paper: str, verdicts: Sequence[Verdict]) -> None:
     """Print the claims of one paper, those that are not reproduced first."""
-    console().print(f"{paper}: {TITLES[paper]}")
+    say(f"{paper}: {TITLES[paper]}")
     groups = [[row(verdict) for verdict in verdicts if verdict.verdict == name] for name in ORDER]
     show_table(HEADINGS, *filter(None, groups), right=(2,), wide=(1, 2, 3))
-    console().print(f"{paper}: {summary(verdicts)}\n")
+    say(f"{paper}: {summary(verdicts)}\n")
 
 
 def show_summary(verdicts: Mapping[str, Sequence[Verdict]]) -> None:

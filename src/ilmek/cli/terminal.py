@@ -1,5 +1,6 @@
 """Output for people: short tables on standard output, notes and a progress bar on the error stream.
 
+Every text goes through `printable`: no text of a file or argument controls the terminal.
 The library for tables and bars is imported when the first is drawn; JSON output does not need it.
 """
 
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ilmek.errors import printable
 from ilmek.progress import SILENT, Progress
 from ilmek.units import format_quantity
 
@@ -30,6 +32,11 @@ def console() -> "Console":
     return Console(file=sys.stdout, width=width, markup=False, highlight=False, emoji=False)
 
 
+def say(text: str) -> None:
+    """Print a text on standard output."""
+    console().print(printable(text))
+
+
 def show_table(
     headings: Sequence[str], *groups: Sequence[Sequence[str]], right: Sequence[int] = (), wide: Sequence[int] = ()
 ) -> None:
@@ -43,10 +50,10 @@ def show_table(
 
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for index, heading in enumerate(headings):
-        table.add_column(heading, justify="right" if index in right else "left", no_wrap=index in wide)
+        table.add_column(printable(heading), justify="right" if index in right else "left", no_wrap=index in wide)
     for rows in groups:
         for row in rows:
-            table.add_row(*row)
+            table.add_row(*map(printable, row))
         table.add_section()
     console().print(table)
 
@@ -55,7 +62,7 @@ def show_pairs(pairs: Sequence[tuple[str, str]]) -> None:
     """Print names and values, one line each. Lines are never broken, so that a path can be copied."""
     width = max(len(name) for name, _ in pairs)
     for name, value in pairs:
-        click.echo(f"{name:<{width}}  {value}")
+        click.echo(printable(f"{name:<{width}}  {value}"))
 
 
 def show_checks(checks: "Sequence[Check]") -> None:
@@ -83,7 +90,7 @@ def passed(checks: "Sequence[Check]") -> str:
 
 def note(text: str) -> None:
     """Print a note of one line on the error stream."""
-    click.echo(f"note: {' '.join(text.split())}", err=True)
+    click.echo(f"note: {' '.join(printable(text).split())}", err=True)
 
 
 def check_json(to: str | None) -> None:
@@ -121,4 +128,4 @@ def progress_bar() -> Iterator[Progress]:
     columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
     with Bar(*columns, console=screen, transient=True) as bar:
         task = bar.add_task("", total=1.0)
-        yield Progress(lambda stage, share: bar.update(task, description=stage, completed=share))
+        yield Progress(lambda stage, share: bar.update(task, description=printable(stage), completed=share))

@@ -15,6 +15,7 @@ from markupsafe import Markup
 import ilmek
 from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
+from ilmek.errors import encodable
 from ilmek.report import Animation, Check, Figure, Report, Timing
 from ilmek.viz.animation import SECONDS
 from ilmek.viz.number_format import amount, cells, count, fixed, number, quantity, sign, words
@@ -140,7 +141,7 @@ def _failures_first(judged: Sequence[_Judged]) -> list[_Judged]:
 
 
 def _render(template: str, **values: object) -> str:
-    return _environment().get_template(template).render(version=ilmek.__version__, **values)
+    return encodable(_environment().get_template(template).render(version=ilmek.__version__, **values))
 
 
 @lru_cache(maxsize=1)
