@@ -61,7 +61,7 @@ def test_each_command_has_help_with_examples(name: str) -> None:
     ("error", "status", "said"),
     [
         (OutputError("a", allowed="b", do="c"), 2, "ilmek: a; b; c\n"),
-        (OutputError("line\nbreak \x1b[31mred"), 2, "ilmek: line break [31mred\n"),
+        (OutputError("line\nbreak \x1b[31mred"), 2, "ilmek: line break �[31mred\n"),
         (KeyboardInterrupt(), 130, "interrupted; nothing was written\n"),
         (click.Abort(), 130, "ilmek: interrupted; nothing was written\n"),
         (click.UsageError("What?"), 2, "ilmek: What?; see 'ilmek go --help'\n"),
