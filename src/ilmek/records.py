@@ -37,7 +37,9 @@ class DeclaredResult:
 
     name      stable, as in JSON           unit   in which it is shown; the value is SI
     meaning   a phrase                     shown  False: for JSON alone, where a table shows it better to a reader
-    optional  it is left out where its value is None; otherwise None is reported as null
+    optional  it is left out where its value is None
+    absent    when its value is None and reported as null; "": never
+    least     bound that no value of any design is below [SI]; None: by the unit, see `report.results.least_of_unit`
     """
 
     name: str
@@ -45,20 +47,37 @@ class DeclaredResult:
     meaning: str
     shown: bool = True
     optional: bool = False
+    absent: str = ""
+    least: float | None = None
 
 
 def result(
-    unit: str, doc: str, *, name: str = "", shown: bool = True, optional: bool = False, default: Any = ...
+    unit: str,
+    doc: str,
+    *,
+    name: str = "",
+    shown: bool = True,
+    optional: bool = False,
+    absent: str = "",
+    least: float | None = None,
+    default: Any = ...,
 ) -> Any:
     """Declare a field of a record as a result.
 
     unit   in which it is shown, "" for texts and groups of values     doc       meaning, a phrase
     name   in JSON, where it is not the field's                        shown     False: in JSON only
     optional  left out where the value is None                         default   of the field, if any
+    absent    when the value is None and reported as null, a phrase    least     bound of every value [SI], -inf: none
     """
-    declaration = DeclaredResult(name, unit, doc, shown, optional)
+    declaration = _declared(name, unit, doc, shown, optional, absent, least)
     given = {} if default is ... else {"default": default}
     return field(metadata={"result": declaration}, **given)
+
+
+def _declared(  # noqa: PLR0917
+    name: str, unit: str, doc: str, shown: bool, optional: bool, absent: str, least: float | None
+) -> DeclaredResult:
+    return DeclaredResult(name, unit, f"{doc}; null: {absent}" if absent else doc, shown, optional, absent, least)
 
 
 def group(prefix: str = "") -> Any:
@@ -153,11 +172,26 @@ class Computed(Generic[T]):
 
 @overload
 def computed(
-    unit: str, doc: str, function: Callable[[Any], T], *, name: str = ..., shown: bool = ..., optional: bool = ...
+    unit: str,
+    doc: str,
+    function: Callable[[Any], T],
+    *,
+    name: str = ...,
+    shown: bool = ...,
+    optional: bool = ...,
+    absent: str = ...,
+    least: float | None = ...,
 ) -> Computed[T]: ...
 @overload
 def computed(
-    unit: str, doc: str, *, name: str = ..., shown: bool = ..., optional: bool = ...
+    unit: str,
+    doc: str,
+    *,
+    name: str = ...,
+    shown: bool = ...,
+    optional: bool = ...,
+    absent: str = ...,
+    least: float | None = ...,
 ) -> Callable[[Callable[[Any], T]], Computed[T]]: ...
 def computed(
     unit: str,
@@ -167,6 +201,8 @@ def computed(
     name: str = "",
     shown: bool = True,
     optional: bool = False,
+    absent: str = "",
+    least: float | None = None,
 ) -> Any:
     """Declare a result that is computed from its record when it is read; other arguments as of `result`.
 
@@ -177,7 +213,7 @@ def computed(
         @computed("mm", "chord of the beater's path")
         def stroke(self) -> float: ...
     """
-    declaration = DeclaredResult(name, unit, doc, shown, optional)
+    declaration = _declared(name, unit, doc, shown, optional, absent, least)
     return Computed(function, declaration) if function else lambda method: Computed(method, declaration)
 
 

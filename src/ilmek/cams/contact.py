@@ -63,10 +63,14 @@ class ContactPoint(NamedTuple):
 
 
 class ContactForce(NamedTuple):
-    """Force of the cam on the follower along the normal [N], and the shaft's torque [N m]."""
+    """Force of the cam on the follower along the normal [N], the shaft's torque [N m], and what friction leaves.
+
+    along  share of the normal force along the motion, friction subtracted: 0 and below the follower jams
+    """
 
     normal: FloatArray
     torque: FloatArray
+    along: FloatArray
 
 
 def contact_force(
@@ -78,7 +82,7 @@ def contact_force(
     ds       s' [m/rad; 1 of an arm]        force    required along the motion [N; N m of an arm], `FollowerLoad.force`
     sliding  coefficient of friction between cam and follower; 0 for a roller
     guide    coefficient of friction in a straight guide; 0 for an arm
-    Both results are NaN where the follower jams.
+    Force and torque are NaN where the follower jams.
     """
     forward = 1j * np.asarray(contact.normal)
     slip = dot(1j * np.asarray(contact.point) - ds * contact.velocity, forward)
@@ -88,4 +92,4 @@ def contact_force(
     along = dot(push, contact.velocity) - resisted
     with np.errstate(divide="ignore", invalid="ignore"):
         normal = np.where(along > 0, force / along, np.nan)
-    return ContactForce(np.asarray(normal), np.asarray(normal * cross(contact.point, push)))
+    return ContactForce(np.asarray(normal), np.asarray(normal * cross(contact.point, push)), np.asarray(along))

@@ -6,7 +6,8 @@ follower. [formulas and sources: `contact` (Norton, Cam Design and Manufacturing
 """
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,10 +21,13 @@ from ilmek.elements.cam_rollers import POWER, RollerDuty
 from ilmek.elements.materials import MATERIALS
 from ilmek.num.piecewise import EQUAL, Extremum, infimum, integral, supremum
 from ilmek.plane.vectors import dot, unit
-from ilmek.records import computed, record, result
+from ilmek.records import computed, record
 
 POISSON = 0.3
 """Poisson's ratio of steels; that of irons and light metals differs by up to 10 %, the pressure by 1 %."""
+
+
+JAMMED = "the follower jams"
 
 
 class CamShape(NamedTuple):
@@ -68,6 +72,7 @@ class CamState:
     trace    geometry of the cam                    force   required along the motion [N; N m of an arm]
     normal   force along the normal [N]; below 0 the follower lifts off, or the other flank or cam carries it
     torque   of the shaft [N m]                     bend    curvature of the surface in contact [1/m]
+    along    share of the normal force along the motion, friction subtracted: 0 and below the follower jams
     """
 
     trace: CamTrace
@@ -75,16 +80,24 @@ class CamState:
     normal: FloatArray
     torque: FloatArray
     bend: FloatArray
+    along: FloatArray
+
+
+def _unless_jammed(unit: str, doc: str, value: "Callable[[CamExtremes], Any]") -> Any:
+    return computed(unit, doc, lambda it: None if it.jammed else value(it), absent=JAMMED)
 
 
 @record
 class CamExtremes:
-    """Extremes over the turn; `pressure`: the Hertz pressure [Pa], None for a knife edge."""
+    """Extremes over the turn; `pressure`: the Hertz pressure [Pa], None for a knife edge.
+
+    Where the follower jams their values are NaN.
+    """
 
     normal: Extremum
     torque: Extremum
     back_torque: Extremum
-    torque_rms: float = result("N*m", "root mean square of the torque over the turn")
+    rms: float
     pressure: Extremum | None
 
     @property
@@ -93,17 +106,25 @@ class CamExtremes:
         forwards = self.torque.value >= -self.back_torque.value * (1 - EQUAL)
         return self.torque if forwards else self.back_torque
 
-    torque_max = computed("N*m", "largest torque of the shaft, in magnitude", lambda it: abs(it.largest_torque.value))
-    torque_at = computed("deg", "cam angle of the largest torque", lambda it: it.largest_torque.at)
-    torque_range = computed("N*m", "least and largest torque", lambda it: [it.back_torque.value, it.torque.value])
-    contact_force_max = computed("N", "largest force between cam and follower", lambda it: it.normal.value)
-    contact_force_at = computed("deg", "cam angle of the largest force", lambda it: it.normal.at)
+    @property
+    def jammed(self) -> bool:
+        """Whether the follower jams in its guide or at the contact."""
+        return math.isnan(self.normal.value)
 
-    @computed("MPa", "largest Hertz pressure; null for a knife edge, and where undercut leaves no surface")
+    torque_rms = _unless_jammed("N*m", "root mean square of the torque over the turn", lambda it: it.rms)
+    torque_max = _unless_jammed(
+        "N*m", "largest torque of the shaft, in magnitude", lambda it: abs(it.largest_torque.value)
+    )
+    torque_at = _unless_jammed("deg", "cam angle of the largest torque", lambda it: it.largest_torque.at)
+    torque_range = _unless_jammed("N*m", "least and largest torque", lambda it: [it.back_torque.value, it.torque.value])
+    contact_force_max = _unless_jammed("N", "largest force between cam and follower", lambda it: it.normal.value)
+    contact_force_at = _unless_jammed("deg", "cam angle of the largest force", lambda it: it.normal.at)
+
+    @computed("MPa", "largest Hertz pressure", absent="a knife edge, or undercut leaves no surface")
     def hertz_pressure_max(self) -> float | None:
         return None if self.pressure is None or not math.isfinite(self.pressure.value) else self.pressure.value
 
-    @computed("deg", "cam angle of the largest Hertz pressure")
+    @computed("deg", "cam angle of the largest Hertz pressure", absent="no such pressure")
     def hertz_at(self) -> float | None:
         return None if self.pressure is None or self.hertz_pressure_max is None else self.pressure.at
 
@@ -128,10 +149,11 @@ class LoadedCam:
             second = self._force(other, -force, pair.second.prime_radius)
             bend = np.where(back, other.surface_curvature, bend)
             normal = np.where(back, -second.normal, found.normal)
-            return CamState(trace, force, normal, np.where(back, second.torque, found.torque), bend)
+            torque, along = (np.where(back, *both) for both in zip(second[1:], found[1:], strict=True))
+            return CamState(trace, force, normal, torque, bend, along)
         if self.contact.led:
             bend = np.where(back, -trace.curvature_at(cam.roller_radius), bend)
-        return CamState(trace, force, found.normal, found.torque, bend)
+        return CamState(trace, force, found.normal, found.torque, bend, found.along)
 
     def hertz(self, angle: FloatArray, width: float) -> FloatArray:
         """Hertz pressure [Pa] at cam angles [rad] on a face of a width [m]; NaN where contact is impossible."""
@@ -178,7 +200,7 @@ class LoadedCam:
             normal=supremum(lambda angle: self._size(self.state(angle).normal), knots),
             torque=supremum(torque, knots),
             back_torque=infimum(torque, knots),
-            torque_rms=math.sqrt(integral(lambda angle: torque(angle) ** 2, knots) / TURN),
+            rms=math.sqrt(integral(lambda angle: torque(angle) ** 2, knots) / TURN),
             pressure=None if self.contact.follower == "knife" else supremum(pressure, knots),
         )
 
@@ -202,7 +224,7 @@ class LoadedCam:
         along = cosine - contact.guide * np.abs(sine) * sense
         with np.errstate(divide="ignore", invalid="ignore"):
             normal = np.where(along > 0, force / along, np.nan)
-        return ContactForce(np.asarray(normal), np.asarray(normal * radius * sine))
+        return ContactForce(np.asarray(normal), np.asarray(normal * radius * sine), np.asarray(along))
 
     def _direction(self, trace: CamTrace) -> ComplexArray:
         """Velocity of the follower at the point of contact by its coordinate, in the cam's frame."""

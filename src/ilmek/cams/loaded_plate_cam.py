@@ -16,7 +16,8 @@ brakes. Friction is not included.          [derived from the equation of motion 
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -28,6 +29,7 @@ from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion
 from ilmek.cams.trace import CamTrace
 from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import MATERIALS, hertz_limit
+from ilmek.elements.motors import NO_MOTOR
 from ilmek.elements.reducers import DIRECT, PLANETARY
 from ilmek.plane.contours import polygon_moments
 from ilmek.records import computed, record, result
@@ -241,6 +243,10 @@ def torque_at(cams: Sequence[LoadedPlateCam], angle: FloatArray) -> FloatArray:
     return total
 
 
+def _of_servo(unit: str, doc: str, value: Callable[[ServoDrive], Any]) -> Any:
+    return computed(unit, doc, lambda it: it.servo and value(it.servo), absent=NO_MOTOR)
+
+
 @record
 class CamShaftDrive:
     """The cam shaft's drive: `servo` of least power whose motor bears the turn; None where none does."""
@@ -252,12 +258,12 @@ class CamShaftDrive:
     inertia: float = result("kg*m^2", "moment of inertia of the cams", name="cam_inertia")
     servo: ServoDrive | None
 
-    motor = computed("", "class of motor of the cam shaft", lambda it: it.servo and it.servo.motor.name)
-    ratio = computed("1", "ratio of its reducer", lambda it: it.servo and it.servo.reducer.ratio)
-    motor_torque_peak = computed("Nm", "greatest torque of the motor", lambda it: it.servo and it.servo.duty.peak)
-    motor_torque_rms = computed("Nm", "root mean square of the same", lambda it: it.servo and it.servo.duty.rms)
-    motor_inertia_ratio = computed(
-        "1", "inertia of the cams at the motor over its rotor's", lambda it: it.servo and it.servo.duty.inertia_ratio
+    motor = _of_servo("", "class of motor of the cam shaft", lambda servo: servo.motor.name)
+    ratio = _of_servo("1", "ratio of its reducer", lambda servo: servo.reducer.ratio)
+    motor_torque_peak = _of_servo("Nm", "greatest torque of the motor", lambda servo: servo.duty.peak)
+    motor_torque_rms = _of_servo("Nm", "root mean square of the same", lambda servo: servo.duty.rms)
+    motor_inertia_ratio = _of_servo(
+        "1", "inertia of the cams at the motor over its rotor's", lambda servo: servo.duty.inertia_ratio
     )
 
 

@@ -41,6 +41,9 @@ __all__ = [
     "forward",
 ]
 
+MOST_STEPS = 200_000
+"""Steps of the integrator in a run: about a minute. A drive that is much too strong for the masses needs more."""
+
 Row: TypeAlias = Float[np.ndarray, " 4"]
 """Integrated quantities: position, p, work of the drive, work of the loads except gravity."""
 
@@ -73,6 +76,7 @@ def forward(
     events: Sequence[RunEvent] = (),
     every: float | None = None,
     rtol: float = 1e-9,
+    most_steps: int = MOST_STEPS,
 ) -> ForwardRun:
     """A run of the machine from a given state.
 
@@ -84,10 +88,11 @@ def forward(
     events    checked at each step of the integrator; a terminal event ends the run; default: none
     every     time between the reported samples [s]; default: the steps of the integrator
     rtol      relative error of a step in angle (relative to 1 rad), speed and work, 3e-14 to 1e-2
+    most_steps  of the integrator
 
     A machine whose input rotates fully is run on its Fourier table (see `fourier_terms`), any other on the mechanism's
     equations. Raises MechanismError for a start at which the mechanism does not close, a state, duration or effort that
-    is not finite, and a tolerance outside its range.
+    is not finite, a tolerance outside its range, and a run that needs more steps than allowed.
     """
     _check(duration, every, rtol)
     equation = _Equation(reduced, tabulate(reduced), drive)
@@ -95,7 +100,7 @@ def forward(
     solver = scipy.integrate.DOP853(
         equation.rates, start.time, first, start.time + duration, rtol=rtol, atol=rtol * scale
     )
-    return _forward_run(equation, _advance(solver, equation, tuple(events), every))
+    return _forward_run(equation, _advance(solver, equation, tuple(events), every, most_steps))
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,14 +186,20 @@ def _first_row(equation: _Equation, start: ForwardState) -> tuple[Row, Row]:
 
 
 def _advance(
-    solver: "scipy.integrate.DOP853", equation: _Equation, events: tuple[RunEvent, ...], every: float | None
+    solver: "scipy.integrate.DOP853",
+    equation: _Equation,
+    events: tuple[RunEvent, ...],
+    every: float | None,
+    most_steps: int,
 ) -> _Integration:
-    """Integrate to the end of the run; the last sample is the end."""
+    """Integrate to the end of the run; the last sample is the end. Raises MechanismError beyond `most_steps`."""
     samples: list[tuple[float, Row]] = [(float(solver.t), np.array(solver.y))]
     happened: list[EventRecord[ForwardState]] = []
     before = _values(events, equation.state(solver.t, solver.y))
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        while solver.status == "running":
+        for _ in range(most_steps):
+            if solver.status != "running":
+                break
             solver.step()
             if solver.status == "failed" or _stopped_at_limit(solver, equation):
                 samples.append((float(solver.t), np.array(solver.y)))
@@ -205,6 +216,11 @@ def _advance(
             if hit is not None:
                 return _Integration(samples, happened, RunEnd(EndKind.EVENT, hit.state, hit.name))
             before = now
+    if solver.status == "running":
+        raise MechanismError(
+            f"the run needs more than {most_steps} steps: it has reached {solver.t:.4g} s of {solver.t_bound:.4g} s",
+            do="make the drive softer (less torque, more slip), or the run shorter",
+        )
     return _Integration(
         samples, happened, RunEnd(EndKind.TIME, equation.state(*samples[-1]), "its duration was reached")
     )

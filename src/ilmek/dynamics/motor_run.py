@@ -30,6 +30,9 @@ MOST_TURNS = 100
 
 STEADY_TURNS, STEADY_SAMPLES = 4, 120
 RTOL = 1e-9
+MOST_STEPS = 10_000
+"""Steps of the integrator in a run: about 3 s. A motor of 10 000 times the required torque needs as many."""
+
 ROUNDING = 1e-10
 """Mean torque relative to the greatest that counts as rounding."""
 
@@ -79,11 +82,9 @@ class MotorRun:
     def drive_torque_mean(self) -> float:
         return self.duty.mean if abs(self.duty.mean) > ROUNDING * self.duty.peak.value else 0.0
 
-    @computed("s", "time from rest to 95 % of the speed; none: not reached", optional=True)
+    @computed("s", "time from rest to 95 % of the speed; left out where it is not reached", optional=True)
     def start_time(self) -> float | None:
-        if self.start is None:
-            return None
-        return float(self.start.time[-1]) if self.started else math.nan
+        return float(self.start.time[-1]) if self.start is not None and self.started else None
 
     @property
     def runs(self) -> tuple[ForwardRun, ...]:
@@ -123,7 +124,8 @@ def motor_run(
     task      motor and flywheel
 
     The start lasts at most 4 J omega_0 / M_0, with J the greatest inertia over a turn, and at most 100 turns at the
-    speed. A machine that has not reached 95 % of its speed by then does not start.
+    speed. A machine that has not reached 95 % of its speed by then does not start. Raises MechanismError for
+    a motor so strong, or a slip so small, that the run needs more than MOST_STEPS steps.
     """
     speed, wheel = task.speed, task.flywheel
     required = cyclic_torque(lambda angle, _: torque(angle))
@@ -139,7 +141,9 @@ def motor_run(
 
     def run(start: ForwardState, duration: float, every: float, *, reach: bool) -> ForwardRun:
         events = (reached,) if reach else ()
-        return forward(reduced, start, duration, drive=motor, events=events, every=every, rtol=RTOL)
+        return forward(
+            reduced, start, duration, drive=motor, events=events, every=every, rtol=RTOL, most_steps=MOST_STEPS
+        )
 
     reached = at_speed(REACHED * speed)
     greatest = float(np.max(reduced.terms(np.linspace(0, turn, 181)).inertia))

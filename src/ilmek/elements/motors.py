@@ -22,6 +22,7 @@ from ilmek.units import rpm
 __all__ = [
     "FULL_STEPS",
     "MOTORS",
+    "NO_MOTOR",
     "Motor",
     "Reducer",
     "find_motor",
@@ -32,6 +33,9 @@ __all__ = [
 ]
 
 STEPPER, SERVO = "stepper", "servo"
+
+NO_MOTOR = "no motor of the table"
+"""Why a machine has no motor: none is enough, or its torque is given."""
 
 FULL_STEPS = 200
 """Full steps of a stepper's turn, 1.8 degrees each."""

@@ -94,8 +94,16 @@ class ShaftBearings:
     bearing: RollingBearing | None
     life: float
 
-    name = computed("", "bearing of the shaft", lambda it: it.bearing.name if it.bearing else None, name="bearing")
-    life_of_bearing = computed("h", "rating life", lambda it: it.life if it.bearing else None, name="bearing_life")
+    name = computed(
+        "",
+        "bearing of the shaft",
+        lambda it: it.bearing.name if it.bearing else None,
+        name="bearing",
+        absent="none has the required life",
+    )
+    life_of_bearing = computed(
+        "h", "rating life", lambda it: it.life if it.bearing else None, name="bearing_life", absent="no bearing"
+    )
 
 
 @record
@@ -127,7 +135,7 @@ class SquareShaft:
         name="shaft_side",
     )
 
-    @computed("", "weight and pull apart, with the safety [N/m, m, rad]; null where the load is given")
+    @computed("", "weight and pull apart, with the safety [N/m, m, rad]", absent="the load is given")
     def shaft_directions(self) -> Json:
         if self.directions is None:
             return None

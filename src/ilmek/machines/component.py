@@ -9,10 +9,11 @@ gets its parameters from the loom's task (`fit`), and the loom sums what its com
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ilmek.machines.beat import PlannedBeat
+from ilmek.machines.invariants import broken
 from ilmek.machines.loom_task import LoomTask
 from ilmek.params import Params, Setting
 from ilmek.records import record
@@ -79,6 +80,8 @@ class Component:
     def report(self, design: Any, *, in_a_loom: bool = False) -> Report:
         """The report of a design, with those of the machines in it.
 
+        A broken invariant is a failed check of it (`ilmek.machines.invariants`).
+
         in_a_loom  True: without the figures that only the machine's own page shows
         """
         analysis = self.analysis(design)
@@ -86,7 +89,7 @@ class Component:
         figures = self.figures(analysis)
         if in_a_loom and self.own_figures:
             figures = tuple(figure for figure in figures if not figure.name.startswith(self.own_figures))
-        return Report(
+        made = Report(
             machine=self.name,
             title=self.title,
             parameters=self.parameters(design).as_dict(),
@@ -100,6 +103,7 @@ class Component:
             parts=self.parts(design),
             children=tuple(child.report for child in self.children(design)),
         )
+        return replace(made, checks=(*made.checks, *broken(made)))
 
     def report_for(self, settings: Mapping[str, Setting]) -> Report:
         """The report of the design for settings of its parameters, texts with units allowed. Raises any IlmekError."""

@@ -1,21 +1,42 @@
 """The results of records, collected for a report."""
 
+import math
 from collections.abc import Iterator
+from functools import cache
 from typing import Any
 
-from ilmek.records import layout, record
+from ilmek.records import DeclaredResult, layout, record
 from ilmek.report.json import Json
+from ilmek.units import parse_unit
+
+_NEVER_NEGATIVE = {parse_unit(unit).dimension for unit in ("kg", "m^2", "m^3", "m^4", "kg*m^2", "kg/m", "kg/m^3", "s")}
+"""Dimensions of masses, areas, volumes, moments of inertia, densities and times."""
 
 
 @record
 class Result:
-    """A number (or text, or group of them) that a design reports; `name` is stable and documented."""
+    """A number (or text, or group of them) that a design reports; `name` is stable and documented.
+
+    least   that no value of a design is below [SI]      absent  when the value is None; "": never
+    """
 
     name: str
     value: Json
     unit: str
     meaning: str
     shown: bool = True
+    least: float = -math.inf
+    absent: str = ""
+
+
+@cache
+def least_of_unit(unit: str) -> float:
+    """0 for masses, areas, volumes, moments of inertia, densities and times; no bound for others.
+
+    >>> least_of_unit("kg"), least_of_unit("1/h")
+    (0.0, -inf)
+    """
+    return 0.0 if unit and parse_unit(unit).dimension in _NEVER_NEGATIVE else -math.inf
 
 
 def results_of(*records: object) -> tuple[Result, ...]:
@@ -39,4 +60,9 @@ def _results(record: object, prefix: str) -> Iterator[Result]:
             if value is not None:
                 yield from _results(value, prefix + inner)
         elif declaration is not None and not (declaration.optional and value is None):
-            yield Result(prefix + declaration.name, value, declaration.unit, declaration.meaning, declaration.shown)
+            yield _result(prefix + declaration.name, value, declaration)
+
+
+def _result(name: str, value: Json, declared: DeclaredResult) -> Result:
+    least = least_of_unit(declared.unit) if declared.least is None else declared.least
+    return Result(name, value, declared.unit, declared.meaning, declared.shown, least, declared.absent)

@@ -15,7 +15,7 @@ from ilmek.synthesis.filters import REASONS, Filters, defects
 from ilmek.synthesis.four_bar import FourBar
 
 OF_POSITIONS = ("crank_angle", "circuit", "point_error", "coupler_error", "rocker_error")
-"""Quantities of each position that a solution lists."""
+"""Quantities of each position that a solution lists; None where the task has none, or it is not reached."""
 
 PINS = ("a0", "b0", "a", "b", "tracer")
 
@@ -64,7 +64,7 @@ class FourBarOption:
             **dimensions(one.four_bar),
             "crank_turns": one.crank_turns,
             "branches": [position.branch for position in positions],
-            **{f"{name}s": [getattr(position, name) for position in positions] for name in OF_POSITIONS},
+            **{f"{name}s": [_or_none(getattr(position, name)) for position in positions] for name in OF_POSITIONS},
             "order": one.order,
             "transmission": one.transmission,
             "transmission_min": one.least_transmission,
@@ -79,6 +79,10 @@ class FourBarOption:
         four_bar = self.candidate.four_bar
         pins = {name: getattr(four_bar, name) for name in PINS}
         return {**four_bar.lengths._asdict(), **pins, "made": self.made, "reasons": reasons}
+
+
+def _or_none(value: float) -> float | None:
+    return None if math.isnan(value) else value
 
 
 def dimensions(four_bar: FourBar) -> dict[str, Any]:
@@ -144,7 +148,7 @@ class FourBarSelection:
     grashof = of_best("", "class of the four-bar", lambda one: one.grashof.kind)
     transmission_min = of_best("deg", "least angle between coupler and rocker", lambda one: one.least_transmission)
     size = of_best("mm", "greatest extent over its motion", lambda one: one.size)
-    chosen = computed("", "number of the solution that is drawn, from 1", lambda it: it.number)
+    chosen = computed("", "number of the solution that is drawn, from 1", lambda it: it.number, absent="no solution")
     removed_four_bars = computed(
         "",
         "four-bars that were removed: links, how they were found, reasons by filter",

@@ -149,7 +149,7 @@ class BeatUpParams(Params):
         "transmission_angle force_at_beat drive_torque",
         doc=f"objectives of the Pareto front, two or more of: {' '.join(OBJECTIVES)}",
     )
-    members: int = kind.count(500, at_least=10, at_most=100_000, doc="crank-rockers of the family that are compared")
+    members: int = kind.count(500, at_least=10, at_most=10_000, doc="crank-rockers of the family that are compared")
 
     def check_together(self) -> None:
         """Crank, coupler and rocker together or not at all; limits only where there is something to choose."""

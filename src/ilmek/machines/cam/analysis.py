@@ -51,13 +51,20 @@ class CamAnalysis:
     pressure_angle_max = computed("deg", "largest pressure angle on the rise", lambda it: it.on_rise.value)
     pressure_angle_at = computed("deg", "cam angle of the same", lambda it: it.on_rise.at)
 
-    @computed("deg", "largest pressure angle on the fall; null of a wedge")
+    @computed("deg", "largest pressure angle on the fall", absent="a wedge")
     def pressure_angle_fall_max(self) -> float | None:
         design = self.design
         return None if design.params.kind == "wedge" else pressure_angle_on(design, design.fall_knots).value
 
-    area = computed("cm^2", "area of the face, bore included; null without one face", lambda it: area_of(it.design))
-    mass = computed("kg", "mass of the cam, bored; of both where there are two", lambda it: mass_of(it.design))
+    area = computed(
+        "cm^2", "area of the face, bore included", lambda it: area_of(it.design), absent="there is not one face"
+    )
+    mass = computed(
+        "kg",
+        "mass of the cam, bored; of both where there are two",
+        lambda it: mass_of(it.design),
+        absent="undercut leaves no face",
+    )
 
     @computed("mm", "range of the contact along a flat face, from its stem or pivot", optional=True)
     def face_span(self) -> Json:

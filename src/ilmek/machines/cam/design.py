@@ -11,17 +11,19 @@ from ilmek.cams import limits
 from ilmek.cams.barrel import Barrel, undercut_in_space
 from ilmek.cams.contact import FollowerLoad
 from ilmek.cams.hertz import LINE_YIELD, POINT_YIELD
-from ilmek.cams.loaded_cam import CamExtremes, CamShape, CamState, FollowerContact, LoadedCam
+from ilmek.cams.loaded_cam import JAMMED, CamExtremes, CamShape, CamState, FollowerContact, LoadedCam
 from ilmek.cams.programme import CamProgramme, jumps
 from ilmek.cams.return_spring import LiftOff, doubling_spring, least_preload, least_rate, lift_off, velocity_drop
 from ilmek.cams.trace import CamRole
 from ilmek.elements.cam_rollers import ROLLERS, Roller, RollerDuty, find_roller
 from ilmek.elements.hubs import Hub, bore_for, hub_for
 from ilmek.elements.materials import MATERIALS
+from ilmek.errors import ParameterError
 from ilmek.machines.cam.params import CamParams
 from ilmek.machines.cam.shape import CamSize, cam_of, cams_of, part_knots, programme_of, roller_width, size_of
 from ilmek.records import computed, record, result
 from ilmek.report import Json
+from ilmek.units import format_quantity
 
 ROOM = 0.8
 """Radius of a roller that is chosen, at most, over the least radius of the pitch curve and over the prime radius."""
@@ -61,7 +63,7 @@ class CamDesign:
     )
     curvature_at = computed("deg", "cam angle of that radius", lambda it: limits.convex_radius_min(it.cam).at)
 
-    @computed("mm", "least concave radius of curvature of that curve")
+    @computed("mm", "least concave radius of curvature of that curve", absent="it is convex all round")
     def concave_radius_min(self) -> float | None:
         hollow = limits.concave_radius_min(self.cam)
         return hollow.value if hollow else None
@@ -70,7 +72,12 @@ class CamDesign:
     rise = computed("deg", "cam angle of the rise", lambda it: it.params.rise)
     dwell = computed("deg", "cam angle for which the follower stays lifted", lambda it: it.params.dwell)
     fall = computed("deg", "cam angle of the fall", lambda it: it.params.fall_angle)
-    power_max = computed("W", "greatest shaft power", lambda it: max(it.extremes.torque.value, 0.0) * it.params.speed)
+    power_max = computed(
+        "W",
+        "greatest shaft power",
+        lambda it: None if it.extremes.jammed else max(it.extremes.torque.value, 0.0) * it.params.speed,
+        absent=JAMMED,
+    )
     spring_rate = computed(
         "N/mm", "rate of the return spring", lambda it: it.follower_load.rate / it.params.per_unit**2
     )
@@ -79,19 +86,25 @@ class CamDesign:
     )
     spring_force_max = computed("N", "its force at full lift", lambda it: it.preload + it.spring_rate * it.params.lift)
 
-    @computed("rpm", "speed of the cam at which the follower lifts off; null: never")
+    @computed("rpm", "speed of the cam at which the follower lifts off", absent="never")
     def lift_off_speed(self) -> float | None:
         return self.lift_off.speed if math.isfinite(self.lift_off.speed) else None
 
-    roller_name = computed("", "roller of the table", lambda it: it.roller.name if it.roller else None, name="roller")
+    roller_name = computed(
+        "",
+        "roller of the table",
+        lambda it: it.roller.name if it.roller else None,
+        name="roller",
+        absent="none, or none fits",
+    )
     roller_radius = computed("mm", "radius of roller or ball; 0 of knife and flat", lambda it: it.cam.roller_radius)
 
-    @computed("h", "life of the roller")
+    @computed("h", "life of the roller", absent="no roller of the table, or without load")
     def roller_life(self) -> float | None:
         life = self.duty.time(self.roller) if self.roller and self.duty else math.inf
         return life if math.isfinite(life) else None
 
-    @computed("rpm", "mean speed of the roller")
+    @computed("rpm", "mean speed of the roller", absent="no roller")
     def roller_speed(self) -> float | None:
         return self.duty.turns * self.duty.speed if self.duty else None
 
@@ -160,6 +173,9 @@ def design(params: CamParams) -> CamDesign:
     loaded = LoadedCam(contact_of(params), cams, follower_load)
     extremes = loaded.extremes(width)
     torque = max(abs(extremes.torque.value), abs(extremes.back_torque.value))
+    hub = hub_for(params.bore or bore_for(torque if math.isfinite(torque) else 0.0))
+    if params.kind in ("barrel", "face"):
+        _check_ring(params, cams.cam.prime_radius - width / 2, hub)
     return CamDesign(
         params=params,
         programme=programme,
@@ -168,13 +184,29 @@ def design(params: CamParams) -> CamDesign:
         follower_load=follower_load,
         roller=roller,
         duty=loaded.duty() if params.follower == "roller" else None,
-        hub=hub_for(params.bore or bore_for(torque if math.isfinite(torque) else 0.0)),
+        hub=hub,
         lift_off=LiftOff(math.inf, 0.0) if params.led else lift_off(programme, follower_load),
         extremes=extremes,
         area=math.nan if params.laid_flat else limits.area(cams.cam),
         face_width=width,
         pressure_limit=pressure_limit(params),
     )
+
+
+def _check_ring(params: CamParams, inner: float, hub: Hub) -> None:
+    """Raise ParameterError where the face of a barrel or end cam reaches its axis, or a given bore the face."""
+    if inner <= 0:
+        raise ParameterError(
+            f"the face of the {params.kind} cam reaches its axis",
+            allowed=f"a face narrower by {format_quantity(-2 * inner, 'mm')}",
+            do="set a smaller face_width, or a larger prime_radius",
+        )
+    if params.bore is not None and hub.reach >= inner:
+        raise ParameterError(
+            f"bore={format_quantity(params.bore, 'mm')} does not fit into the {params.kind} cam",
+            allowed=f"less than {format_quantity(inner, 'mm')} from the axis, keyway included",
+            do="set a smaller bore, or a larger prime_radius",
+        )
 
 
 def contact_of(params: CamParams) -> FollowerContact:

@@ -138,9 +138,10 @@ def mass(design: CamDesign) -> float:
     if params.kind == "face":
         height = integral(lambda at: np.asarray(cam.trace(at).surface.real - low), cam.knots)
         return density * width * cam.prime_radius * height
-    outer = cam.prime_radius + width / 2
+    outer, hub = cam.prime_radius + width / 2, design.hub
+    bored = hub.area if hub.reach < cam.prime_radius - width / 2 else 0.0
     groove = 2 * cam.roller_radius * width * integral(lambda at: cam.trace(at).flow, cam.knots)
-    return float(density * ((math.pi * outer**2 - design.hub.area) * (high - low) - groove))
+    return float(density * ((math.pi * outer**2 - bored) * (high - low) - groove))
 
 
 def _edges(design: CamDesign) -> tuple[float, float]:

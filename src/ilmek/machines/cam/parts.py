@@ -50,7 +50,8 @@ def area_of(design: CamDesign) -> float | None:
 def mass_of(design: CamDesign) -> float | None:
     """Mass of the cam, bored, or of both [kg]; None where undercut leaves no face."""
     if design.params.laid_flat:
-        return developed_cams.mass(design)
+        found = developed_cams.mass(design)
+        return found if found > 0 else None
     density, width = MATERIALS[design.params.material].density, design.face_width
     hub = design.hub.area if cutouts(design, design.cam) else 0.0
     if design.params.kind == "grooved":
@@ -59,7 +60,7 @@ def mass_of(design: CamDesign) -> float | None:
         return float(density * max((disc - hub) * (width + design.params.rim) - groove * width, 0.0))
     other = limits.area(design.cams.pair.second) - hub if design.cams.pair else 0.0
     face = area_of(design)
-    return None if face is None else density * width * (face - hub + other)
+    return None if face is None or face - hub + other <= 0 else density * width * (face - hub + other)
 
 
 def outline_angles(cam: CamRole) -> FloatArray:

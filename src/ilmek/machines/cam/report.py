@@ -70,12 +70,18 @@ def _shape_checks(design: CamDesign) -> tuple[Check, ...]:
 
 def _load_checks(design: CamDesign) -> tuple[Check, ...]:
     params, roller, duty, pressure, made = design.params, design.roller, design.duty, design.extremes.pressure, []
+    if design.extremes.jammed:
+        along = infimum(lambda angle: design.state(angle).along, design.cam.knots).value
+        source = "0 and below it jams: friction is greater than the force along the motion"
+        share = "the follower does not jam: share of the contact force along its motion"
+        return (Check(share, along, 0.0, "1", False, source, ">"),)
     if pressure is not None and not math.isnan(pressure.value):
         source = "pressure_limit" if params.pressure_limit else "first yield below the surface, Johnson"
         made.append(at_most("Hertz pressure", pressure.value, design.pressure_limit, "MPa", source))
     if roller is not None and duty is not None:
         life, most = duty.time(roller), roller.force_limit
-        made.append(at_least("life of the roller", life, params.life, "h", "ISO 281, roller bearings"))
+        if math.isfinite(life):
+            made.append(at_least("life of the roller", life, params.life, "h", "ISO 281, roller bearings"))
         made.append(at_most("force on the roller", duty.largest, most, "N", "largest force of the roller's table"))
     return tuple(made)
 
@@ -119,7 +125,7 @@ def warnings(found: CamAnalysis) -> tuple[str, ...]:
     if design.roller is None and params.follower == "roller" and params.roller_radius is None:
         radius = format_quantity(cam.roller_radius, "mm")
         made.append(f"no roller of the table fits this cam: computed with a radius of {radius}")
-    if math.isnan(design.extremes.normal.value):
+    if design.extremes.jammed:
         made.append("the follower jams in its guide: lower the friction or the pressure angle")
     return tuple(made)
 

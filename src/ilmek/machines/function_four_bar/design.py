@@ -1,5 +1,7 @@
 """A four-bar for a function: found by the criterion, judged over the whole range, filtered."""
 
+import math
+
 import numpy as np
 
 from ilmek.machines.function_four_bar.params import CRITERIA, FunctionFourBarParams
@@ -86,7 +88,7 @@ def _details(function: Function, found: FunctionApproximation) -> dict[str, Json
         "error_rms": found.rms,
         "y_error_max": abs(found.greatest * (last - first) / function.rocker_swing),
         "extremes": [{"x": x, "error": error} for x, error in zip(found.at, found.errors, strict=True)],
-        "bound": found.bound,
+        "bound": None if math.isnan(found.bound) else found.bound,
         "gap": found.gap,
         "proven": bool(found.proven),
     }

@@ -63,8 +63,10 @@ class CombDrive:
     contact_speed: float = result("mm/s", "speed of the comb where it meets the row: it presses, it does not strike")
     axes: int = result("1", "vertical axes: ball screws or toothed belts")
     brake: float = result("Nm", "torque that holds a screw or pulley: neither locks itself", name="brake_torque")
-    screw: float | None = result("mm", "diameter of a ball screw; none for belts", name="screw_diameter")
-    buckling: float | None = result("1", "safety of a screw against buckling, Euler", name="buckling_safety")
+    screw: float | None = result("mm", "diameter of a ball screw", name="screw_diameter", absent="belts")
+    buckling: float | None = result(
+        "1", "safety of a screw against buckling, Euler", name="buckling_safety", absent="belts"
+    )
 
     speed_max = computed("mm/s", "largest speed of the comb", lambda it: _most(it.speed))
     acceleration_max = computed("m/s^2", "largest acceleration of the comb", lambda it: _most(it.acceleration))
@@ -75,7 +77,7 @@ class CombDrive:
     axis_speed = computed("rpm", "largest speed of a screw or pulley", lambda it: _most(it.cycle.speed))
     axis_torque = computed("Nm", "largest torque at a screw or pulley", lambda it: _most(it.cycle.effort))
 
-    @computed("", "servo of each axis; none where none of the table is enough")
+    @computed("", "servo of each axis", absent="none of the table is enough")
     def servo(self) -> Json:
         if self.drive is None:
             return None

@@ -29,7 +29,9 @@ class CombLinkage:
     force: float = result("N", "force of all at the beat, by the comb's inertia", name="linkage_force")
     torque: float = result("Nm", "largest torque on their crank shaft", name="linkage_torque")
     energy: float = result("J", "kinetic energy of the comb at its largest speed", name="swing_energy")
-    speed_needed: float | None = result("rad/s", "speed of the crank that the required rows need")
+    speed_needed: float | None = result(
+        "rad/s", "speed of the crank that the required rows need", absent="no speed is enough"
+    )
 
     transmission_angle_min = computed(
         "deg", "least transmission angle of the crank-rockers", lambda it: it.one.transmission_angle_min

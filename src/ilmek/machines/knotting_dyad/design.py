@@ -76,6 +76,7 @@ class KnottingDyad:
         "",
         "s of the four points on the left arm's path, where they were chosen on it",
         lambda it: None if it.task.shares is None else it.task.shares.tolist(),
+        absent="the points are given",
     )
 
     @computed("", f"every real arm, SI and radians: {SOLUTION}")
@@ -83,7 +84,12 @@ class KnottingDyad:
         return [self._solution(dyad, float(bend)) for dyad, bend in zip(self.dyads, self.bends, strict=True)]
 
     roots = computed("", "kind of each of the task's three roots", lambda it: [kind.words for kind in it.kinds])
-    chosen = computed("", "number of the arm to build, from 1", lambda it: None if it.built is None else it.built + 1)
+    chosen = computed(
+        "",
+        "number of the arm to build, from 1",
+        lambda it: None if it.built is None else it.built + 1,
+        absent="no arm can be built",
+    )
 
     @property
     def kinds(self) -> tuple[RootKind, ...]:

@@ -56,7 +56,7 @@ class JointDrive:
     servo_speed: float = result("rad/s", "greatest speed of the servo")
     motor: Motor | None
 
-    servo = computed("", "class of the servo; null: none is enough", lambda it: it.motor and it.motor.name)
+    servo = computed("", "class of the servo", lambda it: it.motor and it.motor.name, absent="none is enough")
 
 
 @record
@@ -83,7 +83,7 @@ class HeadMotion:
         lambda it: [{one.name: one.value for one in results_of(joint)} for joint in it.joints],
     )
 
-    @computed("", "servo class that is enough for every joint; null where a joint has none")
+    @computed("", "servo class that is enough for every joint", absent="a joint has none")
     def servo(self) -> str | None:
         motors = [joint.motor for joint in self.joints if joint.motor]
         return max(motors, key=lambda one: one.power).name if len(motors) == len(self.joints) else None

@@ -58,7 +58,7 @@ class Head:
     )
     centre_stroke = computed("mm", "stroke of the centre gripper", lambda it: it.section.front + it.section.depth)
 
-    @computed("", "the knot that the motion is proved to tie; null if it is not the required one")
+    @computed("", "the knot that the motion is proved to tie", absent="it is not the required one")
     def knot_tied(self) -> str | None:
         return self.knot.kind if self.tied.knot == self.knot else None
 

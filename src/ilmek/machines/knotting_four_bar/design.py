@@ -64,7 +64,7 @@ class KnottingFourBar:
     ground_angle: float = result("deg", "direction of the ground link, O1 to O1'")
     grashof: Grashof
     range: tuple[float, float] | None = result(
-        "deg", "crank angles between its dead points; none where it turns fully", name="crank_range"
+        "deg", "crank angles between its dead points", name="crank_range", absent="it turns fully"
     )
     working: tuple[float, float] | None = result(
         "deg", "crank angles from the first pose to the last", name="working_range", optional=True
@@ -87,6 +87,7 @@ class KnottingFourBar:
         "rotation of the crank to the nearer dead point, from crank_angle, with poses least over the working range",
         lambda it: it.dead_point_distance if it.range else None,
         name="dead_point_distance",
+        absent="the crank turns fully",
     )
 
     @computed("deg", "acute angle of coupler and rocker at crank_angle, with poses least over the working range")
@@ -113,6 +114,7 @@ class KnottingFourBar:
         "N*m*s^2",
         "torque that each (rad/s)² of the crank's speed adds to it",
         lambda it: float(it.unit.torque[0]) - it.drive_torque_static,
+        least=-math.inf,
     )
     masses = computed(
         "",

@@ -34,8 +34,10 @@ def analyse(design: KnottingFourBar) -> KnottingFourBarAnalysis:
 def checks(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
     """Dead point, transmission angle and power balance; the poses; both sides."""
     design = found.design
+    distance = design.dead_point_distance
+    dead_point = at_least("crank's distance from its dead point", distance, DISTANCE, "deg", "rule of thumb")
     return (
-        at_least("crank's distance from its dead point", design.dead_point_distance, DISTANCE, "deg", "rule of thumb"),
+        *((dead_point,) if design.range else ()),
         at_least("transmission angle", design.transmission_angle, TRANSMISSION, "deg", RULE),
         at_most("power balance of the forces", design.at.forces.power_error, BALANCE, "1", "virtual power"),
         *(() if design.posed is None else _pose_checks(design.posed)),

@@ -128,7 +128,7 @@ class SidesAnalysis:
     clearances: Mapping[str, Clearance]
     proof: TwoHandKnot
     knot_pitches: tuple[float, float] | None = result(
-        "mm", "least and greatest distance of two warps on which a knot is tied"
+        "mm", "least and greatest distance of two warps on which a knot is tied", absent="on none"
     )
     wider: str
 

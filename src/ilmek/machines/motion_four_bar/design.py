@@ -1,5 +1,6 @@
 """A four-bar for a motion: the links that guide the body, and the four-bars of two of them, judged and filtered."""
 
+import cmath
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
@@ -79,7 +80,9 @@ class MotionFourBar(FourBarDesign):
 
 
 def _link(one: Guide) -> Json:
-    return {"kind": str(one.kind), "pivot": one.pivot, "pin": one.pin, "length": one.length}
+    """A link; None for a pivot, pin or length that is infinite or free."""
+    sizes = {"pivot": one.pivot, "pin": one.pin, "length": one.length}
+    return {"kind": str(one.kind), **{name: size if cmath.isfinite(size) else None for name, size in sizes.items()}}
 
 
 def _branches(branches: Sequence[CurveBranch]) -> Json:

@@ -31,18 +31,22 @@ class SheddingAnalysis:
     yarn: DrapedWarp | None
     bridges: Bridges | None
 
-    @computed("mm", "elongation of a lifted warp; null where no tension is given")
+    @computed("mm", "elongation of a lifted warp", absent="no tension is given")
     def warp_lengthening(self) -> float | None:
         return float(self.warp.lengthening(self.design.params.lift)) if self.warp else None
 
-    @computed("%", "strain of a lifted warp, without the share that its cylinder takes up")
+    @computed(
+        "%",
+        "strain of a lifted warp, without the share that its cylinder takes up",
+        absent="no tension or no stiffness is given",
+    )
     def warp_strain(self) -> float | None:
         params, longer = self.design.params, self.warp_lengthening
         if self.warp is None or longer is None or params.warp_stiffness is None:
             return None
         return (1 - params.compensation) * longer / (params.warp_length or self.warp.front + self.warp.back)
 
-    @computed("N", "tension of a lifted warp")
+    @computed("N", "tension of a lifted warp", absent="no tension is given")
     def warp_tension_max(self) -> float | None:
         return float(self.warp.tension_at(self.design.params.lift)) if self.warp else None
 
@@ -50,14 +54,16 @@ class SheddingAnalysis:
     def warp_force_max(self) -> float:
         return float(warp_force(self.design.params, np.array(self.design.params.lift)))
 
-    @computed("", "hollows of the cam that a taut yarn bridges [rad, m]")
+    @computed("", "hollows of the cam that a taut yarn bridges [rad, m]", absent="there is none")
     def bridged(self) -> Json:
         found = self.bridges
         if found is None:
             return None
         return {"arcs": [list(arc) for arc in found.arcs], "excess": found.excess, "at": found.at}
 
-    @computed("", "the warp as a yarn draped over the cam [N m, m, rad, N/m]")
+    @computed(
+        "", "the warp as a yarn draped over the cam [N m, m, rad, N/m]", absent="no tension, or a hold is too near"
+    )
     def draped(self) -> Json:
         yarn, shed = self.yarn, self.design.shed
         if yarn is None:

@@ -23,7 +23,7 @@ from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, jumps, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.elements.duty import LoadCycle, MotorDuty, duty
-from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor
+from ilmek.elements.motors import NO_MOTOR, Motor, Reducer, most_torque, smallest_motor
 from ilmek.elements.square_shaft import SquareShaft, SquareShaftTask, square_shaft
 from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
 from ilmek.machines.shedding.phases import Shed, chosen_shed
@@ -68,12 +68,22 @@ class SheddingDrive:
     shaft_torque_max = computed("Nm", "largest torque that lifts the warps", lambda it: it.torque_max.value)
     shaft_torque_min = computed("Nm", "largest torque of the warps on the return", lambda it: it.torque_min.value)
     motor_power = computed("W", "largest power of the motor", lambda it: it.motor_torque * it.motor_speed)
-    name = computed("", "class of motor chosen", lambda it: it.motor.name if it.motor else None, name="motor")
-    motor_torque_rms = computed(
-        "Nm", "rms of the motor's torque over the turn", lambda it: it.duty.rms if it.duty else None
+    name = computed(
+        "",
+        "class of motor chosen",
+        lambda it: it.motor.name if it.motor else None,
+        name="motor",
+        absent=NO_MOTOR,
     )
-    motor_power_mean = computed("W", "mean power, losses included", lambda it: it.duty.power_mean if it.duty else None)
-    inertia_ratio = computed("1", "load over rotor inertia", lambda it: it.duty.inertia_ratio if it.duty else None)
+    motor_torque_rms = computed(
+        "Nm", "rms of the motor's torque over the turn", lambda it: it.duty.rms if it.duty else None, absent=NO_MOTOR
+    )
+    motor_power_mean = computed(
+        "W", "mean power, losses included", lambda it: it.duty.power_mean if it.duty else None, absent=NO_MOTOR
+    )
+    inertia_ratio = computed(
+        "1", "load over rotor inertia", lambda it: it.duty.inertia_ratio if it.duty else None, absent=NO_MOTOR
+    )
 
 
 @record
@@ -110,7 +120,7 @@ class SheddingDesign:
         "mm", "least convex radius of the pitch curve", lambda it: limits.convex_radius_min(it.cam).value
     )
 
-    @computed("mm", "least concave radius of the pitch curve")
+    @computed("mm", "least concave radius of the pitch curve", absent="it is convex all round")
     def concave_radius_min(self) -> float | None:
         hollow = limits.concave_radius_min(self.cam)
         return hollow.value if hollow else None

@@ -118,14 +118,22 @@ def slots_of(params: WarpTensionParams) -> Slots:
 
 
 def cylinders(design: WarpTensionDesign) -> tuple[Cylinder, Cylinder, Cylinder]:
-    """Upper and lower cylinder, and the spacer."""
+    """Upper and lower cylinder, and the spacer. Raises ParameterError where its slots cut through it."""
     params, tube = design.params, stock(design.inner_radius, design.outer_radius)
     sizes = design.outer_radius, design.inner_radius
     upper = _cylinder(design, "upper", sizes, tube, -1j * design.load, design.torque)
     lower = _cylinder(design, "lower", sizes, tube, 1j * design.load, design.torque_full)
     chosen = _spacer_tube(params, design.load)
     solid = (chosen.outer_radius, chosen.inner_radius) if chosen else sizes
-    under = (solid[0] - slots_of(params).depth, solid[1])
+    depth = slots_of(params).depth
+    if solid[0] - solid[1] <= depth:
+        wall = format_quantity(solid[0] - solid[1], "mm")
+        raise ParameterError(
+            f"slots of {format_quantity(depth, 'mm')} cut through a spacer with a wall of {wall}",
+            allowed=f"less than {wall}",
+            do="set a smaller slot_depth, or a spacer_tube with a thicker wall",
+        )
+    under = (solid[0] - depth, solid[1])
     spacer = _cylinder(design, "spacer", under, chosen or tube, spacer_load(params, design.load), 0.0)
     return upper, lower, spacer
 
@@ -214,14 +222,7 @@ def _spacer_tube(params: WarpTensionParams, load: float) -> Tube | None:
     """The spacer's tube: as given, or the lightest that keeps the limits below its slots; None where none does."""
     depth = slots_of(params).depth
     if params.spacer_tube is not None:
-        tube = find_tube(params.spacer_tube)
-        if tube.wall <= depth:
-            raise ParameterError(
-                f"slots of {format_quantity(depth, 'mm')} cut through a spacer of {tube.name} mm",
-                allowed=f"less than {format_quantity(tube.wall, 'mm')}",
-                do="set a smaller slot_depth, or a tube with a thicker wall",
-            )
-        return tube
+        return find_tube(params.spacer_tube)
     pull, by_mass = spacer_load(params, load), sorted(TUBES.values(), key=lambda tube: tube.area)
     thick = (tube for tube in by_mass if tube.wall >= depth + LEAST_WALL)
     return next((one for one in thick if keeps_limits(params, one.inner_radius, one.outer_radius - depth, pull)), None)

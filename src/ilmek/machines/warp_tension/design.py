@@ -16,7 +16,7 @@ from ilmek.elements import shafts
 from ilmek.elements.beam import uniform
 from ilmek.elements.bearings import bearings_for
 from ilmek.elements.materials import GRAVITY
-from ilmek.elements.motors import Motor, Reducer, geared_motor, most_torque
+from ilmek.elements.motors import NO_MOTOR, Motor, Reducer, geared_motor, most_torque
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.errors import ParameterError
 from ilmek.machines.warp_tension.params import WarpTensionParams
@@ -77,7 +77,13 @@ class WarpTensionDesign:
     back_driving_efficiency = computed(
         "1", "2 - 1/efficiency; self-locking at 0 and below", lambda it: it.reducer.back_driving_efficiency
     )
-    motor_name = computed("", "class of motor chosen", lambda it: it.motor.name if it.motor else None, name="motor")
+    motor_name = computed(
+        "",
+        "class of motor chosen",
+        lambda it: it.motor.name if it.motor else None,
+        name="motor",
+        absent=NO_MOTOR,
+    )
     take_up_angle = computed(
         "deg", "rotation of the cylinder per row", lambda it: it.params.row_pitch / it.outer_radius
     )

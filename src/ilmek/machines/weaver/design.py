@@ -73,8 +73,9 @@ class Weaver:
     )
     knot_tied = computed(
         "",
-        "the knot that the grippers' motion ties on the pair of warps, proved; null: none",
+        "the knot that the grippers' motion ties on the pair of warps, proved",
         lambda it: on_the_pair(it.tied),
+        absent="none",
     )
     knot_why = computed("", "conclusion of the proof", lambda it: proof_text(it.tied))
     yarn_billed = computed(

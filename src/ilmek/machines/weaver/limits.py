@@ -19,7 +19,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
 from ilmek.elements.duty import MARGIN
-from ilmek.elements.motors import FULL_STEPS, Motor, smallest_motor
+from ilmek.elements.motors import FULL_STEPS, NO_MOTOR, Motor, smallest_motor
 from ilmek.elements.yarns import WOOL
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.motions import HANDLER
@@ -43,7 +43,7 @@ class Selector:
     step: float = result("mm", "travel of the tubes for a step of it")
     stepper: Motor | None
 
-    motor = computed("", "stepper that moves the tubes", lambda it: it.stepper and it.stepper.name)
+    motor = computed("", "stepper that moves the tubes", lambda it: it.stepper and it.stepper.name, absent=NO_MOTOR)
 
 
 @record

@@ -1,0 +1,44 @@
+"""Random designs of every machine: refused as an IlmekError, or reported with all invariants; none ends otherwise.
+
+`designs.random_settings` draws them from the declarations of the parameters; a NumPy warning is an error here.
+"""
+
+import random
+from dataclasses import replace
+
+import pytest
+from designs import random_settings
+
+from ilmek.errors import IlmekError
+from ilmek.machines.catalogue import MACHINES
+from ilmek.machines.invariants import SOURCE
+
+NUMBER = 16
+"""Designs of each machine: a second or two."""
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_random_designs_keep_the_invariants_or_are_refused(machine: str) -> None:
+    component = replace(MACHINES[machine], figures=lambda _: ())  # the figures take most of the time
+    made = 0
+    for seed in range(NUMBER):
+        settings = random_settings(machine, random.Random(f"{machine} {seed}"))
+        try:
+            report = component.report_for(settings)
+        except IlmekError:
+            continue
+        made += 1
+        assert [check for check in report.all_checks if check.source == SOURCE] == [], settings
+        assert all(part.mass_all >= 0 for part in report.parts), settings
+    assert made
+
+
+def test_the_same_seed_gives_the_same_settings() -> None:
+    one, other = (random_settings("cam", random.Random(7)) for _ in range(2))
+    assert one == other
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_a_sound_design_has_no_check_of_an_invariant(machine: str) -> None:
+    report = MACHINES[machine].report_for({})
+    assert [check for check in report.all_checks if check.source == SOURCE] == []
