@@ -11,14 +11,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray, Indices, IntArray, UInt8
+from ilmek.carpet.design import MOST_KNOTS
+from ilmek.carpet.quality import FINEST
+from ilmek.carpet.sizes import LARGEST
+from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import LoomError
 from ilmek.loom.row import KnotRow
 from ilmek.loom.schedule import ByteTable, Layout, ScheduleResult, schedule
-from ilmek.loom.sharing import halves, share
+from ilmek.loom.sharing import MOST_HEADS, halves, require_whole, share
 from ilmek.records import record
 from ilmek.units import format_number, hour
 
-MOST_YARNS = 255
+MOST_PER_SIDE = round(LARGEST * FINEST)
+"""Largest number of rows, and of knots in a row: the largest carpet in the finest quality."""
+
+LONGEST_TIME = 1e9
+"""Largest time of an operation of the loom [s], 32 years: sums over the largest carpet stay exact to 1 ms."""
+
 _ROUNDING = 1 + 1e-9
 """A deadline is met up to the rounding of a sum over many rows."""
 
@@ -32,7 +41,7 @@ class Times:
     travel         travel by one knot pitch beyond that step
     weft           the two wefts and beats after a row of knots
 
-    Raises LoomError for a time that is negative or not finite, and for a knot time of 0.
+    Raises LoomError for a time that is negative or above LONGEST_TIME, and for a knot time of 0.
     """
 
     knot: float
@@ -42,9 +51,10 @@ class Times:
 
     def __post_init__(self) -> None:
         for name, value in zip(self.__slots__, self.as_tuple(), strict=True):
-            if not (math.isfinite(value) and value >= 0) or (name == "knot" and value == 0):
+            if not 0 <= value <= LONGEST_TIME or (name == "knot" and value == 0):
                 raise LoomError(
-                    f"time of {name.replace('_', ' ')} {value:g} s", allowed="a finite time, above 0 s for a knot"
+                    f"time of {name.replace('_', ' ')} {value:g} s",
+                    allowed=f"0 s to {LONGEST_TIME:g} s, above 0 s for a knot",
                 )
 
     def as_tuple(self) -> tuple[float, float, float, float]:
@@ -111,8 +121,8 @@ def make_programme(knots: Indices, yarns: int, heads: int, times: Times) -> Prog
     """The programme of a chart for a number of heads.
 
     knots  indices of yarns, below `yarns`, (rows, columns), row 0 = top
-    Raises LoomError for an empty chart, more than 255 yarns, an index of no yarn, and more heads than half the knots of
-    a row.
+    Raises LoomError for an empty chart, one of another kind than uint8 or of more than MOST_KNOTS knots or
+    MOST_PER_SIDE on a side, more than 255 yarns, an index of no yarn, and more heads than half the knots of a row.
     """
     _require_chart(knots, yarns)
     edges = share(knots.shape[1], heads)
@@ -142,6 +152,7 @@ def heads_for(knots: Indices, yarns: int, deadline: float, times: Times, heads_m
     the deadline. Raises LoomError, with the reason, where no number meets the deadline.
     """
     _require_chart(knots, yarns)
+    require_whole("heads", heads_max, MOST_HEADS)
     rows, columns = knots.shape
     _require_wefts(rows, deadline, times)
     for heads in range(1, heads_max + 1):
@@ -174,17 +185,25 @@ def _least_row(edges: IntArray, heads: int, times: Times) -> float:
 
 
 def _require_chart(knots: Indices, yarns: int) -> None:
+    if knots.dtype != np.uint8 or knots.ndim != 2:
+        raise LoomError(
+            f"a chart of {knots.ndim} dimensions of {knots.dtype}", allowed="indices of yarns, uint8 (rows, columns)"
+        )
     if knots.size == 0:
         raise LoomError("a chart without knots", allowed="at least one knot")
-    if not 1 <= yarns <= MOST_YARNS:
-        raise LoomError(f"{yarns} yarns", allowed=f"1 to {MOST_YARNS}")
+    if max(knots.shape) > MOST_PER_SIDE or knots.size > MOST_KNOTS:
+        raise LoomError(
+            f"a chart of {knots.shape[1]} x {knots.shape[0]} knots",
+            allowed=f"at most {MOST_PER_SIDE} on a side and {MOST_KNOTS // 1_000_000} million in all",
+        )
+    require_whole("yarns", yarns, MOST_YARNS)
     if int(knots.max()) >= yarns:
         raise LoomError(f"a knot of yarn {int(knots.max())}", allowed=f"the list has yarns 0 to {yarns - 1}")
 
 
 def _require_wefts(rows: int, deadline: float, times: Times) -> None:
     wefts = rows * times.weft
-    if wefts >= deadline:
+    if not wefts < deadline:
         raise LoomError(
             f"the deadline of {_hours(deadline)} cannot be met by any number of heads",
             allowed=f"the wefts and beats of {rows} rows alone take {_hours(wefts)}",

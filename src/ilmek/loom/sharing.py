@@ -16,6 +16,15 @@ import numpy as np
 from ilmek.arrays import IntArray
 from ilmek.errors import LoomError
 
+MOST_HEADS = 1000
+"""Largest number of heads: one every 5 cm of the widest carpet, 50 m. It bounds the size of a programme's description."""
+
+
+def require_whole(noun: str, given: object, most: int) -> None:
+    """Raise LoomError unless a count is a whole number from 1 to `most`; noun: what is counted."""
+    if isinstance(given, bool) or not isinstance(given, int | np.integer) or not 1 <= given <= most:
+        raise LoomError(f"{given} {noun}", allowed=f"1 to {most} {noun}")
+
 
 def halves(heads: int) -> int:
     """Number of parts of a row per head: 1 for a single head, else 2."""
@@ -23,25 +32,25 @@ def halves(heads: int) -> int:
 
 
 def heads_that_fit(columns: int, pitch: float, head_width: float) -> int:
-    """Largest number of heads of a width [m] for a row of `columns` knots of a pitch [m]; at least 1.
+    """Largest number of heads of a width [m] for a row of `columns` knots of a pitch [m]: 1 to MOST_HEADS.
 
     >>> heads_that_fit(300, 0.004, 0.08)
     7
     """
     least = max(1, math.ceil(head_width / pitch - 1e-9) - 1)
-    return max(1, columns // (2 * least))
+    return min(max(1, columns // (2 * least)), MOST_HEADS)
 
 
 def share(columns: int, heads: int) -> IntArray:
     """Edges of the parts of a row: part k has the knots edges[k] <= column < edges[k+1]; widths differ by one at most.
 
-    Head h has the parts from h * halves(heads). Raises LoomError for fewer knots than parts.
+    Head h has the parts from h * halves(heads). Raises LoomError for fewer knots than parts, and unless there are 1 to
+    MOST_HEADS heads.
 
     >>> share(10, 2).tolist()
     [0, 2, 5, 7, 10]
     """
-    if heads < 1:
-        raise LoomError(f"{heads} heads", allowed="at least 1 head")
+    require_whole("heads", heads, MOST_HEADS)
     parts = heads * halves(heads)
     if columns < parts:
         raise LoomError(
