@@ -16,7 +16,8 @@ from ilmek.arrays import Indices
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
-from ilmek.io.programme_file import Label, open_programme, write_programme
+from ilmek.io.programme_file import open_programme, write_programme
+from ilmek.io.programme_meta import Label
 from ilmek.loom.programme import Times, heads_for, make_programme
 
 ROWS, COLUMNS, YARNS = 5000, 4000, 16

@@ -10,7 +10,8 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import LoomError, OutputError
-from ilmek.io.programme_file import Label, open_programme, write_programme
+from ilmek.io.programme_file import open_programme, write_programme
+from ilmek.io.programme_meta import Label
 from ilmek.loom.programme import Programme, Times, make_programme
 from ilmek.machines.weaver import WeaverParams, design
 from ilmek.progress import Progress
@@ -154,10 +155,8 @@ def test_any_page_overwritten_is_found_or_harmless(written: Path) -> None:
 )
 def test_a_damaged_row(written: Path, statement: str, said: str) -> None:
     _alter(written, statement)
-    with open_programme(written) as file:
-        assert len(file.row(4).colours) == COLUMNS
-        with pytest.raises(LoomError, match=said):
-            file.row(5)
+    with pytest.raises(LoomError, match=said):
+        open_programme(written)
 
 
 @pytest.mark.parametrize(

@@ -8,29 +8,26 @@ The file is written under a temporary name and renamed at the end, so that it is
 """
 
 import contextlib
-import json
 import os
 import secrets
 import sqlite3
 import zlib
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Iterator
+from dataclasses import fields
 from pathlib import Path
 from types import TracebackType
-from typing import Any
 
 import numpy as np
 
-from ilmek.arrays import IntArray
-from ilmek.cams.laws import law_of
-from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import CarpetSize
-from ilmek.carpet.yarn import Yarn
+from ilmek.arrays import FloatArray, IntArray, UInt8
 from ilmek.errors import IlmekError, LoomError, OutputError
-from ilmek.loom.programme import HeadWork, Programme, Times
-from ilmek.loom.row import KnotRow
+from ilmek.io.programme_meta import Label, ProgrammeMeta, Totals, meta_texts, read_meta
+from ilmek.io.sqlite_readonly import DamagedDatabase, ReadOnlyDatabase, SqliteHeader
+from ilmek.loom.programme import HeadWork, Programme, Times, least_time
+from ilmek.loom.row import KnotRow, invalid_rows
+from ilmek.loom.schedule import PASSES
+from ilmek.loom.sharing import halves
 from ilmek.progress import SILENT, Progress
-from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
 
 APPLICATION, VERSION = 0x696C6D6B, 1
 """Application id (the letters `ilmk`) and version of the format, in the file's header."""
@@ -38,45 +35,20 @@ APPLICATION, VERSION = 0x696C6D6B, 1
 _LEVEL = 6
 _PAGE = 8192
 _AGAIN = "write the programme again with `ilmek weave`"
-_CREATE = """
-CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE row (number INTEGER PRIMARY KEY, time REAL NOT NULL, data BLOB NOT NULL);
-"""
+TABLES = {
+    "meta": "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
+    "row": "CREATE TABLE row (number INTEGER PRIMARY KEY, time REAL NOT NULL, data BLOB NOT NULL)",
+}
+"""The tables of the file; a file with others is refused."""
 
+LARGEST_FILE = 1_000_000_000
+"""Largest size of a file [bytes]: MOST_KNOTS knots with keys take 200 to 800 MB where they cannot be compressed."""
 
-@dataclass(frozen=True, slots=True)
-class Label:
-    """Description of a programme: the carpet, its yarns in the order of the chart, the loom's warp pitch [m], and the
-    cyclograms of a knot and of a row.
-    """
+_ROUNDING = 1e-9
+"""Relative difference of sums that are taken in another order."""
 
-    size: CarpetSize
-    quality: Quality
-    knot: str
-    yarns: tuple[Yarn, ...]
-    warp_pitch: float
-    cyclograms: tuple[Cyclogram, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Totals:
-    """Totals of the carpet.
-
-    duration  weaving time [s]
-    travel    pitches moved by all heads
-    counts    knots of each yarn
-    """
-
-    duration: float
-    knots: int
-    changes: int
-    travel: int
-    counts: tuple[int, ...]
-
-    @property
-    def changes_per_knot(self) -> float:
-        """Colour changes per knot."""
-        return self.changes / self.knots
+_BLOCK = 1 << 21
+"""Bytes of rows that are checked at once: they stay in the processor's cache."""
 
 
 def write_programme(path: Path, programme: Programme, label: Label, *, progress: Progress = SILENT) -> None:
@@ -97,19 +69,24 @@ def write_programme(path: Path, programme: Programme, label: Label, *, progress:
         work.unlink(missing_ok=True)
 
 
-def open_programme(path: Path) -> "ProgrammeFile":
+def open_programme(path: Path, *, progress: Progress = SILENT) -> "ProgrammeFile":
     """Open a programme for reading; close it, or use it as a context manager.
 
-    Raises LoomError if the file is missing, no programme, of a newer format, truncated or damaged.
+    The file may come from anybody: it is checked whole, every row included, before this returns.
+    Raises LoomError if the file is missing, no programme, of a newer format, too large, truncated or damaged, and where
+    its numbers do not agree with each other.
     """
     _check_header(path)
-    connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
+    with _as_loom_error(path):
+        database = ReadOnlyDatabase(path, TABLES)
     try:
         with _as_loom_error(path):
-            meta = {key: json.loads(value) for key, value in connection.execute("SELECT key, value FROM meta")}
-            return ProgrammeFile(path, connection, meta)
+            stored = database.select("SELECT key, value FROM meta LIMIT 99")
+            file = ProgrammeFile(path, database, read_meta({key.decode(): value.decode() for key, value in stored}))
+            _check_rows(file, progress)
+            return file
     except BaseException:
-        connection.close()
+        database.close()
         raise
 
 
@@ -120,60 +97,65 @@ class ProgrammeFile:
     totals, work                                 totals of the carpet, and the work of each head
     """
 
-    __slots__ = (
-        "_connection",
-        "_keys",
-        "columns",
-        "edges",
-        "heads",
-        "label",
-        "path",
-        "rows",
-        "times",
-        "totals",
-        "work",
-    )
+    __slots__ = ("_database", "columns", "edges", "heads", "label", "path", "rows", "times", "totals", "work")
 
-    def __init__(self, path: Path, connection: sqlite3.Connection, meta: Mapping[str, Any]) -> None:
-        self.path, self._connection = path, connection
-        self.label = _label_from(meta)
-        self.rows, self.columns, self.heads = int(meta["rows"]), int(meta["columns"]), int(meta["heads"])
-        self.times = Times(**meta["times"])
-        self.edges: IntArray = np.array(meta["edges"], np.int64)
-        self._keys = (len(self.edges) - 1, 3)
-        self.totals = Totals(**{**meta["totals"], "counts": tuple(meta["totals"]["counts"])})
-        self.work = HeadWork(**{name: np.array(values) for name, values in meta["work"].items()})
+    label: Label
+    rows: int
+    columns: int
+    heads: int
+    edges: IntArray
+    times: Times
+    totals: Totals
+    work: HeadWork
+
+    def __init__(self, path: Path, database: ReadOnlyDatabase, meta: ProgrammeMeta) -> None:
+        self.path, self._database = path, database
+        for one in fields(meta):
+            setattr(self, one.name, getattr(meta, one.name))
 
     def row(self, number: int) -> KnotRow:
         """Loom row `number`, 0 at the carpet's bottom edge. Raises LoomError beyond the carpet or if it is damaged."""
-        data = self._fetch("data", number)
-        try:
-            raw = zlib.decompress(data)
-        except (zlib.error, TypeError):
-            raw = b""
-        if len(raw) != self.columns + self._keys[0] * self._keys[1]:
-            raise LoomError(f"{self.path}: row {number} is damaged", do=_AGAIN)
-        plain = np.frombuffer(raw, np.uint8)
-        return KnotRow(number, plain[: self.columns], plain[self.columns :].reshape(self._keys), self.edges, self.heads)
+        plain = np.frombuffer(self.unpacked(number, self._stored(number)[1]), np.uint8)
+        colours, keys = plain[: self.columns], plain[self.columns :].reshape(-1, 3)
+        with _as_loom_error(self.path):
+            return KnotRow(number, colours, keys, self.edges, self.heads)
 
     def row_time(self, number: int) -> float:
         """Time of a loom row with its wefts [s]. Raises LoomError as `row`."""
-        return float(self._fetch("time", number))
+        return float(self._stored(number)[0])
 
-    def _fetch(self, column: str, number: int) -> Any:
+    def stored_rows(self) -> Iterator[tuple[int, object, object]]:
+        """Number, time [s] and data of every row as stored, in order."""
+        yield from self._database.select("SELECT number, time, data FROM row ORDER BY number")
+
+    def unpacked(self, number: int, data: object) -> bytes:
+        """Colours and keys of a row. Raises LoomError if their length is not that of a row."""
+        expected = self.columns + 3 * (len(self.edges) - 1)
+        inflate = zlib.decompressobj()
+        try:
+            raw = inflate.decompress(data, expected + 1) if isinstance(data, bytes) else b""
+        except zlib.error:
+            raw = b""
+        if len(raw) != expected or not inflate.eof or inflate.unused_data:
+            raise self.damaged(f"row {number} is damaged")
+        return raw
+
+    def damaged(self, reason: str) -> LoomError:
+        """The error of a file that is damaged."""
+        return LoomError(f"{self.path}: {reason}", allowed="a whole programme", do=_AGAIN)
+
+    def _stored(self, number: int) -> tuple[float, object]:
         if not 0 <= number < self.rows:
             raise LoomError(f"row {number}", allowed=f"rows 0 to {self.rows - 1}")
-        try:
-            found = self._connection.execute(f"SELECT {column} FROM row WHERE number = ?", (number,)).fetchone()
-        except sqlite3.Error as error:
-            raise LoomError(f"{self.path}: row {number} is damaged ({error})", do=_AGAIN) from error
+        with _as_loom_error(self.path):
+            found = next(self._database.select("SELECT time, data FROM row WHERE number = ?", int(number)), None)
         if found is None:
-            raise LoomError(f"{self.path}: row {number} is missing", do=_AGAIN)
-        return found[0]
+            raise self.damaged(f"row {number} is missing")
+        return found[0], found[1]
 
     def close(self) -> None:
         """Close the file; rows that were read stay usable."""
-        self._connection.close()
+        self._database.close()
 
     def __enter__(self) -> "ProgrammeFile":
         return self
@@ -191,10 +173,9 @@ def _fill(work: Path, programme: Programme, label: Label, progress: Progress) ->
             connection.execute(f"PRAGMA {pragma}").fetchall()
         connection.execute(f"PRAGMA user_version={VERSION}")
         connection.execute("BEGIN")
-        for statement in _CREATE.strip().split("\n"):
+        for statement in TABLES.values():
             connection.execute(statement)
-        meta = ((key, json.dumps(value, allow_nan=False)) for key, value in _meta(programme, label).items())
-        connection.executemany("INSERT INTO meta VALUES (?, ?)", meta)
+        connection.executemany("INSERT INTO meta VALUES (?, ?)", meta_texts(programme, label).items())
         connection.executemany("INSERT INTO row VALUES (?, ?, ?)", _blobs(programme, progress))
         connection.execute("COMMIT")
     with work.open("rb") as written:
@@ -211,125 +192,82 @@ def _blobs(programme: Programme, progress: Progress) -> Iterator[tuple[int, floa
     progress(1.0)
 
 
-def _meta(programme: Programme, label: Label) -> dict[str, Any]:
-    counts = np.zeros(programme.yarns, np.int64)
-    for first in range(0, programme.rows, 256):
-        counts += np.bincount(programme.knots[first : first + 256].ravel(), minlength=programme.yarns)
-    work = {one.name: getattr(programme.work, one.name).tolist() for one in fields(HeadWork)}
-    return {
-        "size": asdict(label.size),
-        "quality": asdict(label.quality),
-        "knot": label.knot,
-        "yarns": [asdict(yarn) for yarn in label.yarns],
-        "warp_pitch": label.warp_pitch,
-        "rows": programme.rows,
-        "columns": programme.columns,
-        "heads": programme.heads,
-        "edges": programme.edges.tolist(),
-        "times": asdict(programme.times),
-        "totals": {
-            "duration": programme.duration,
-            "knots": int(counts.sum()),
-            "changes": int(programme.work.changes.sum()),
-            "travel": int(programme.work.travel.sum()),
-            "counts": counts.tolist(),
-        },
-        "work": work,
-        "cyclograms": [_cyclogram_record(cyclogram) for cyclogram in label.cyclograms],
-    }
-
-
-def _label_from(meta: Mapping[str, Any]) -> Label:
-    yarns = tuple(
-        Yarn(**{**record, "srgb": tuple(record["srgb"]), "lab": tuple(record["lab"])}) for record in meta["yarns"]
-    )
-    cyclograms = tuple(_cyclogram_from(record) for record in meta["cyclograms"])
-    pitch = float(meta["warp_pitch"])
-    return Label(CarpetSize(**meta["size"]), Quality(**meta["quality"]), meta["knot"], yarns, pitch, cyclograms)
-
-
-def _cyclogram_record(cyclogram: Cyclogram) -> dict[str, Any]:
-    """A cyclogram as plain data; a law by its name and parameters."""
-    return {
-        "name": cyclogram.name,
-        "period": cyclogram.period,
-        "tracks": [
-            {
-                "name": track.name,
-                "actuator": track.actuator,
-                "unit": track.unit,
-                "revolves": track.revolves,
-                "segments": [
-                    {
-                        **{key: getattr(part, key) for key in _SEGMENT},
-                        "law": part.law.name,
-                        "parameters": dict(part.law.parameters),
-                    }
-                    for part in track.segments
-                ],
-                "events": [asdict(event) for event in track.events],
-            }
-            for track in cyclogram.tracks
-        ],
-    }
-
-
-_SEGMENT = ("name", "start", "end", "begin", "finish")
-
-
-def _cyclogram_from(record: Mapping[str, Any]) -> Cyclogram:
-    tracks = tuple(
-        Track(
-            track["name"],
-            track["actuator"],
-            tuple(_segment_from(part) for part in track["segments"]),
-            tuple(TrackEvent(**event) for event in track["events"]),
-            track["unit"],
-            track["revolves"],
-        )
-        for track in record["tracks"]
-    )
-    return Cyclogram(record["name"], record["period"], tracks)
-
-
-def _segment_from(part: Mapping[str, Any]) -> TrackSegment:
-    law = law_of(part["law"], part["parameters"])
-    return TrackSegment(**{key: part[key] for key in _SEGMENT}, law=law)
-
-
 def _check_header(path: Path) -> None:
     """Raise LoomError unless the file exists, is a programme of a known version, and is complete."""
-    try:
-        if path.is_fifo():  # opening it would block
-            raise LoomError(f"{path} cannot be read: Is a pipe", allowed="a programme written by ilmek")
-        with path.open("rb") as file:
-            header = file.read(100)
-            length = os.fstat(file.fileno()).st_size
-    except OSError as error:
-        raise LoomError(f"{path} cannot be read: {error.strerror}", allowed="a programme written by ilmek") from error
-    if not header.startswith(b"SQLite format 3\0") or len(header) < 100 or _number(header, 68, 4) != APPLICATION:
+    header = SqliteHeader(path)
+    if header.application != APPLICATION:
         raise LoomError(
             f"{path} is no loom programme",
             allowed="a file that `ilmek weave` wrote: programme.ilmek",
-            do="give that file" if length else "the file is empty; write it again",
+            do="give that file" if header.length else "the file is empty; write it again",
         )
-    if _number(header, 60, 4) > VERSION:
-        newer = f"{path} has format {_number(header, 60, 4)}"
+    if header.version > VERSION:
+        newer = f"{path} has format {header.version}"
         raise LoomError(newer, allowed=f"this ilmek reads up to format {VERSION}", do="use a newer ilmek")
-    page = _number(header, 16, 2)
-    expected = (65536 if page == 1 else page) * _number(header, 28, 4)
-    if length < expected:
-        raise LoomError(f"{path} is truncated", allowed=f"{expected} bytes; it has {length}", do=_AGAIN)
+    if header.length > LARGEST_FILE:
+        raise LoomError(f"{path} has {header.length} bytes", allowed=f"at most {LARGEST_FILE // 1_000_000} MB")
+    if header.length < header.expected_length:
+        expected = f"{header.expected_length} bytes; it has {header.length}"
+        raise LoomError(f"{path} is truncated", allowed=expected, do=_AGAIN)
+    if not header.plain or not header.expected_length:
+        raise LoomError(f"{path} is damaged (its header)", allowed="a whole programme", do=_AGAIN)
 
 
-def _number(header: bytes, at: int, width: int) -> int:
-    return int.from_bytes(header[at : at + width], "big")
+def _check_rows(file: ProgrammeFile, progress: Progress) -> None:
+    """Raise LoomError unless the file has exactly its rows, each can be replayed, and the totals are theirs."""
+    times = np.empty(file.rows)
+    counts = np.zeros(len(file.label.yarns), np.int64)
+    passes = np.zeros(len(file.edges) - 1, np.int64)
+    block: list[bytes] = []
+    size = max(1, _BLOCK // (file.columns + 3 * len(passes)))
+    number = -1
+    for number, (stored, time, data) in enumerate(file.stored_rows()):
+        if number == file.rows or stored != number:
+            raise file.damaged(f"row {number} is missing" if number < file.rows else "it has more rows than the carpet")
+        if not isinstance(time, float):
+            raise file.damaged(f"row {number} is damaged")
+        times[number] = time
+        block.append(file.unpacked(number, data))
+        if len(block) == size or number + 1 == file.rows:
+            _check_block(file, number + 1 - len(block), block, counts, passes)
+            block.clear()
+            progress((number + 1) / file.rows)
+    if number + 1 < file.rows:
+        raise file.damaged(f"row {number + 1} is missing")
+    _check_times(file, times)
+    by_head = passes.reshape(file.heads, halves(file.heads)).sum(axis=1)
+    if file.totals.counts != tuple(counts.tolist()) or np.any(file.work.passes != by_head):
+        raise file.damaged("the knots of its yarns, or the passes of its heads, are not those of its rows")
+
+
+def _check_block(file: ProgrammeFile, first: int, block: list[bytes], counts: IntArray, passes: IntArray) -> None:
+    """Check successive rows, and add their knots by yarn and their parts in passes."""
+    plain: UInt8[np.ndarray, "rows bytes"] = np.frombuffer(b"".join(block), np.uint8).reshape(len(block), -1)
+    colours, keys = plain[:, : file.columns], plain[:, file.columns :].reshape(len(block), -1, 3)
+    invalid = invalid_rows(first, colours, keys, file.edges, len(counts))
+    if invalid.any():
+        raise file.damaged(f"row {first + int(invalid.argmax())} is damaged")
+    counts += np.bincount(colours.ravel(), minlength=len(counts))
+    passes += np.count_nonzero(keys[:, :, 0] == PASSES, axis=0)
+
+
+def _check_times(file: ProgrammeFile, times: FloatArray) -> None:
+    """Raise LoomError unless each row takes at least the time of its knots and wefts, and their sum is the duration."""
+    least = least_time(1, file.columns, file.heads, file.times) * (1 - _ROUNDING)
+    invalid = ~((times >= least) & (times <= file.totals.duration * (1 + _ROUNDING)))
+    if invalid.any():
+        raise file.damaged(f"row {int(invalid.argmax())} has an impossible time")
+    if abs(times.sum() - file.totals.duration) > _ROUNDING * file.totals.duration:
+        raise file.damaged("the weaving time is not the sum of its rows")
 
 
 @contextlib.contextmanager
 def _as_loom_error(path: Path) -> Iterator[None]:
+    """Errors of the description, the database and a row as an error of the file."""
     try:
         yield
-    except (sqlite3.Error, KeyError, TypeError, ValueError, AttributeError, IlmekError) as error:
-        reason = str(error) or type(error).__name__
+    except (DamagedDatabase, UnicodeDecodeError, IlmekError) as error:
+        if isinstance(error, LoomError) and error.do == _AGAIN:
+            raise
+        reason = "a text is not UTF-8" if isinstance(error, UnicodeDecodeError) else str(error)
         raise LoomError(f"{path} is damaged ({reason})", allowed="a whole programme", do=_AGAIN) from error

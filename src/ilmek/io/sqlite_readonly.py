@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from ilmek.errors import IlmekError, LoomError, shortened
+from ilmek.errors import LoomError, shortened
 
 LARGEST_VALUE = 1_000_000
 """Largest text, blob or row of a table [bytes]: four times a row of the widest carpet in the finest quality."""
@@ -142,7 +142,8 @@ class ReadOnlyDatabase:
         """The rows of a query, one by one."""
         self._slices = 0
         try:
-            yield from self._connection.execute(query, parameters)
+            for row in self._connection.execute(query, parameters):  # noqa: UP028 - `yield from` would close the cursor
+                yield row
         except (sqlite3.Error, UnicodeDecodeError) as error:  # the latter: a message with a name of the file
             raise DamagedDatabase(_reason(error)) from error
 

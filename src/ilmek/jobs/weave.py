@@ -7,7 +7,8 @@ from typing import Any
 from ilmek.io.chart.symbols import symbols
 from ilmek.io.json_file import write_json
 from ilmek.io.output import output_folder
-from ilmek.io.programme_file import Label, write_programme
+from ilmek.io.programme_file import write_programme
+from ilmek.io.programme_meta import Label
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed
 from ilmek.jobs.order import CarpetOrder

@@ -54,7 +54,7 @@ class Times:
             if not 0 <= value <= LONGEST_TIME or (name == "knot" and value == 0):
                 raise LoomError(
                     f"time of {name.replace('_', ' ')} {value:g} s",
-                    allowed=f"0 s to {LONGEST_TIME:g} s, above 0 s for a knot",
+                    allowed=f"a finite time up to {LONGEST_TIME:g} s, above 0 s for a knot",
                 )
 
     def as_tuple(self) -> tuple[float, float, float, float]:

@@ -11,7 +11,6 @@ from ilmek.loom.schedule import PASSES, SWEEP, Layout, Line, replay
 from ilmek.loom.sharing import halves, share
 from ilmek.records import record
 
-
 _KINDS = [(np.dtype(np.uint8), 1), (np.dtype(np.uint8), 2), (np.dtype(np.int64), 1)]
 
 

@@ -17,7 +17,7 @@ from ilmek.arrays import IntArray
 from ilmek.errors import LoomError
 
 MOST_HEADS = 1000
-"""Largest number of heads: one every 5 cm of the widest carpet, 50 m. It bounds the size of a programme's description."""
+"""Largest number of heads: one every 5 cm of the widest carpet, 50 m. It bounds the description of a programme."""
 
 
 def require_whole(noun: str, given: object, most: int) -> None:

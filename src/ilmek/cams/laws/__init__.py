@@ -7,6 +7,8 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
+import numpy as np
+
 from ilmek.cams.laws import (
     cubic,
     cycloidal,
@@ -58,7 +60,7 @@ def law_of(name: str, parameters: Mapping[str, Any] = NONE) -> Law:
 
     The same name and values give the same object.
     Raises ParameterError for an unknown name or parameter (the message offers the nearest one), for a value that is
-    not a finite number, and for values outside the range of the law.
+    not a finite number, for values outside the range of the law, and for values that overflow it.
 
     >>> law_of("modified-sine", {"constant_velocity": 0.5}).parameters
     {'constant_velocity': 0.5}
@@ -76,7 +78,13 @@ def law_of(name: str, parameters: Mapping[str, Any] = NONE) -> Law:
 
 @lru_cache(maxsize=512)
 def _built(name: str, values: tuple[tuple[str, float | tuple[float, ...]], ...]) -> Law:
-    return FAMILIES[name].make(**dict(values))
+    try:
+        with np.errstate(all="ignore"):
+            return FAMILIES[name].make(**dict(values))
+    except (ArithmeticError, np.linalg.LinAlgError):
+        raise ParameterError(
+            f"law {name} cannot be computed with these parameters", allowed="values of ordinary magnitude, well apart"
+        ) from None
 
 
 def _value(law: str, key: str, given: object, like: object) -> float | tuple[float, ...]:
