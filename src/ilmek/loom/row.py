@@ -92,7 +92,8 @@ def invalid_rows(
     sweep = (order == SWEEP) & (first == np.where(forward, left, right)) & (last == np.where(forward, right, left))
     passes = (order == PASSES) & (first != last)
     if passes.any():
+        widths = np.diff(edges)
         for colour in (first, last):
-            same = colours == np.repeat(colour, np.diff(edges), axis=1)
+            same = colours == np.repeat(colour, widths, axis=1)
             passes &= np.logical_or.reduceat(same, edges[:-1], axis=1)
     return np.asarray((colours.max(axis=1) >= yarns) | ~(sweep | passes).all(axis=1))
