@@ -82,7 +82,7 @@ class MotorRun:
     def drive_torque_mean(self) -> float:
         return self.duty.mean if abs(self.duty.mean) > ROUNDING * self.duty.peak.value else 0.0
 
-    @computed("s", "time from rest to 95 % of the speed; left out where it is not reached", optional=True)
+    @computed("s", "time from rest to 95 % of the speed", absent="not reached, or not run")
     def start_time(self) -> float | None:
         return float(self.start.time[-1]) if self.start is not None and self.started else None
 
