@@ -1,20 +1,32 @@
 """An output folder or file is there whole, or not at all."""
 
+import contextlib
 import errno
 import os
 import sqlite3
 import stat
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from ilmek.errors import OutputError
-from ilmek.io.output import MANIFEST, check_free, output_folder, write_whole
-from ilmek.io.work_folder import clean_up, locked
+from ilmek.io.output import MANIFEST, Outputs, disk, manifest, write_file
+from ilmek.io.output.staging import repair
 
 
 def listing(folder: Path) -> list[str]:
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
+
+
+@contextlib.contextmanager
+def output_folder(path: Path, *, force: bool = False) -> Iterator[Path]:
+    with Outputs(force=force) as outputs, outputs.folder(path) as work:
+        yield work
+
+
+def check_free(path: Path, *, force: bool = False) -> None:
+    Outputs(force=force).expect_folder(path)
 
 
 def make(path: Path, *names: str, force: bool = False) -> None:
@@ -66,7 +78,7 @@ def test_a_file_in_the_folder_is_called_by_its_place(tmp_path: Path) -> None:
         pytest.raises(OutputError, match=r"^\S*/out/deep/a\.json cannot be written"),
         output_folder(tmp_path / "out") as work,
     ):
-        write_whole(work / "deep/a.json", "x")
+        write_file(work / "deep/a.json", "x")
     assert listing(tmp_path) == []
 
 
@@ -114,17 +126,26 @@ def test_old_folder_survives_a_failed_run_with_force(tmp_path: Path) -> None:
     assert listing(tmp_path) == ["out", f"out/{MANIFEST}", "out/a"]
 
 
-def test_old_folder_is_put_back_where_the_last_rename_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("atomic", [True, False])
+def test_old_folder_is_put_back_where_the_new_one_cannot_be(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, atomic: bool
+) -> None:
     make(tmp_path / "out", "a")
-    rename = Path.rename
+    rename = disk.rename
 
-    def failing(self: Path, target: Path) -> Path:
-        if self.suffix == ".part":
+    def failing(source: Path, target: Path) -> None:
+        if source.suffix == ".part":
             raise OSError(errno.EIO, "Input/output error")
-        return rename(self, target)
+        rename(source, target)
 
-    monkeypatch.setattr(Path, "rename", failing)
-    with pytest.raises(OutputError, match="Input/output error"):
+    def exchanging(first: Path, second: Path) -> bool:
+        if atomic:
+            raise OSError(errno.EIO, "Input/output error")
+        return False
+
+    monkeypatch.setattr(disk, "rename", failing)
+    monkeypatch.setattr(disk, "exchange", exchanging)
+    with pytest.raises(OutputError, match="Input/output error; nothing was written; the old one is kept"):
         make(tmp_path / "out", "b", force=True)
     assert listing(tmp_path) == ["out", f"out/{MANIFEST}", "out/a"]
 
@@ -145,17 +166,17 @@ def test_places_that_cannot_be(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 def test_file_is_replaced_only_when_complete(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "a.json"
-    write_whole(file, "old")
+    write_file(file, "old")
 
-    def failing(_self: Path, _data: bytes) -> int:
+    def failing(_path: Path) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
     with monkeypatch.context() as patched:
-        patched.setattr(Path, "write_bytes", failing)
+        patched.setattr(disk, "sync", failing)
         with pytest.raises(OutputError, match="No space left"):
-            write_whole(file, "new")
+            write_file(file, "new")
     assert file.read_text() == "old"
-    write_whole(file, b"new")
+    write_file(file, b"new")
     assert file.read_text() == "new"
     assert listing(tmp_path) == ["a.json"]
 
@@ -163,18 +184,18 @@ def test_file_is_replaced_only_when_complete(tmp_path: Path, monkeypatch: pytest
 def test_file_through_a_link_and_to_a_device(tmp_path: Path) -> None:
     (tmp_path / "real").write_text("old")
     (tmp_path / "link").symlink_to("real")
-    write_whole(tmp_path / "link", "new")
+    write_file(tmp_path / "link", "new")
     assert (tmp_path / "link").is_symlink()
     assert (tmp_path / "real").read_text() == "new"
-    write_whole(Path("/dev/null"), "gone")
+    write_file(Path("/dev/null"), "gone")
     assert stat.S_ISCHR(Path("/dev/null").stat().st_mode)
 
 
 def test_file_that_cannot_be_written(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="is a folder"):
-        write_whole(tmp_path, "x")
+        write_file(tmp_path, "x")
     with pytest.raises(OutputError, match="there is no folder"):
-        write_whole(tmp_path / "missing/a.json", "x")
+        write_file(tmp_path / "missing/a.json", "x")
 
 
 def leave(place: Path, name: str) -> Path:
@@ -182,6 +203,7 @@ def leave(place: Path, name: str) -> Path:
     folder = place.parent / name
     folder.mkdir(parents=True)
     (folder / "half").write_text("half")
+    manifest.begin(folder)
     return folder
 
 
@@ -203,7 +225,7 @@ def test_the_longest_names_are_taken(tmp_path: Path) -> None:
 def test_a_run_that_lives_keeps_its_folder(tmp_path: Path) -> None:
     with output_folder(tmp_path / "out") as work:
         (work / "a").write_text("a")
-        clean_up(tmp_path / "out")
+        repair(tmp_path / "out")
         assert (work / "a").read_text() == "a"
     assert (tmp_path / "out/a").read_text() == "a"
 
@@ -213,21 +235,29 @@ def test_only_what_is_surely_left_over_is_removed(tmp_path: Path) -> None:
         leave(tmp_path / "out", name)
         for name in (".out.part", ".out.0123abcd.part.bak", ".other.0123abcd.part", ".out.0123ABCD.part", "out.0.part")
     ]
-    kept.append(leave(tmp_path / "out", ".out.0123abcd.old"))  # the only copy, as long as there is no `out`
     (tmp_path / ".out.99999999.part").write_text("a file")
     (tmp_path / ".out.88888888.part").symlink_to(kept[0])
-    clean_up(tmp_path / "out")
+    repair(tmp_path / "out")
     assert all((folder / "half").exists() for folder in kept)
     assert (tmp_path / ".out.99999999.part").exists()
     assert (tmp_path / ".out.88888888.part").is_symlink()
 
 
-def test_the_lock_tells_a_folder_that_is_gone(tmp_path: Path) -> None:
-    (tmp_path / "a").mkdir()
-    with locked(tmp_path / "a") as mine, locked(tmp_path / "a") as twice, locked(tmp_path / "gone") as gone:
-        assert (mine, twice, gone) == (True, False, False)
-    with locked(tmp_path / "a") as again:
-        assert again
+@pytest.mark.parametrize("whole", [True, False])
+def test_a_swap_that_was_cut_off_is_completed_or_undone(tmp_path: Path, whole: bool) -> None:
+    for name in ("new", "old"):
+        make(tmp_path / name, name)
+    if not whole:
+        (tmp_path / "new/new").write_text("cut off")
+    (tmp_path / "new").rename(tmp_path / ".out.0123abcd.part")
+    (tmp_path / "old").rename(tmp_path / ".out.0123abcd.old")
+    repair(tmp_path / "out")
+    found = listing(tmp_path)
+    if whole:
+        assert found == ["out", f"out/{MANIFEST}", "out/new"]
+    else:  # what matches no manifest is kept, where it can be seen
+        kept = ["out.0123abcd.kept", f"out.0123abcd.kept/{MANIFEST}", "out.0123abcd.kept/new"]
+        assert found == sorted(["out", f"out/{MANIFEST}", "out/old", *kept])
 
 
 def test_links_in_a_circle(tmp_path: Path) -> None:
@@ -236,5 +266,5 @@ def test_links_in_a_circle(tmp_path: Path) -> None:
         with pytest.raises(OutputError, match=r"circle|is not a folder"):
             check_free(path)
         with pytest.raises(OutputError, match=r"circle|no folder"):
-            write_whole(path, "x")
+            write_file(path, "x")
     assert listing(tmp_path) == ["loop"]

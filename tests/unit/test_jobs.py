@@ -7,7 +7,7 @@ import pytest
 
 from ilmek.errors import LoomError, ParameterError, YarnError
 from ilmek.jobs.chart import make_charted
-from ilmek.jobs.design import Outputs, design_machine
+from ilmek.jobs.design import WorkshopOrder, design_machine
 from ilmek.jobs.inspect import inspect_programme
 from ilmek.jobs.loom import make_loomed, read_loom_order
 from ilmek.jobs.machines import machine_form, machine_list
@@ -91,10 +91,10 @@ def test_a_design_reports_its_stages_and_can_be_cancelled(tmp_path: Path) -> Non
     made = design_machine("warp-tension", {"warps": "300"}, progress=Progress(lambda stage, _: stages.append(stage)))
     assert made.as_json()["parameters"]["warps"] == 300
     assert list(dict.fromkeys(stages)) == ["design", "report", "files", ""]
-    page = tmp_path / "page.html"
+    order = WorkshopOrder(tmp_path / "parts")
     with pytest.raises(Cancelled):
-        design_machine("warp-tension", {}, Outputs(page=page), progress=Progress(cancelled=lambda: True))
-    assert not page.exists()
+        design_machine("shedding", {}, order, progress=Progress(cancelled=lambda: True))
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_papers_are_reproduced_one_by_one() -> None:

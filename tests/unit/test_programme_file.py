@@ -9,7 +9,7 @@ import pytest
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
-from ilmek.errors import LoomError, OutputError
+from ilmek.errors import LoomError
 from ilmek.io.programme_file import open_programme, write_programme
 from ilmek.io.programme_meta import Label
 from ilmek.loom.programme import Programme, Times, make_programme
@@ -61,23 +61,6 @@ def test_progress_ends_at_one_and_nothing_is_left_beside(tmp_path: Path) -> None
     write_programme(tmp_path / "a.ilmek", programme(), label(), progress=Progress(lambda _, share: told.append(share)))
     assert told[-1] == 1.0
     assert [path.name for path in tmp_path.iterdir()] == ["a.ilmek"]
-
-
-def test_an_interrupted_write_leaves_the_old_file(written: Path) -> None:
-    before = written.read_bytes()
-
-    def interrupt(_: str, share: float) -> None:
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        write_programme(written, programme(), label(), progress=Progress(interrupt))
-    assert written.read_bytes() == before
-    assert [path.name for path in written.parent.iterdir()] == [written.name]
-
-
-def test_a_folder_that_is_not_there(tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match="cannot be written"):
-        write_programme(tmp_path / "none" / "a.ilmek", programme(), label())
 
 
 def test_yarns_must_be_those_of_the_chart(tmp_path: Path) -> None:

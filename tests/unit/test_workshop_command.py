@@ -168,8 +168,7 @@ def test_the_command_writes_replaces_and_refuses(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("cam", "--force"), "--force and --tolerance need --workshop DIR; see 'ilmek design --help'"),
-        (("cam", "--tolerance", "1um"), "--force and --tolerance need --workshop DIR; see 'ilmek design --help'"),
+        (("cam", "--tolerance", "1um"), "--tolerance needs --workshop DIR; see 'ilmek design --help'"),
         (("cam", "--workshop", "{out}", "--tolerance", "1kg"), "tolerance '1kg'; a length, an angle, or a share"),
     ],
 )

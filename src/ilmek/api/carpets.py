@@ -17,6 +17,7 @@ from ilmek.io import picture as pictures
 from ilmek.io import yarn_file
 from ilmek.io.chart.pdf import write_chart_pdf
 from ilmek.io.chart.png import ChartPicture, read_chart_png, write_chart_png
+from ilmek.io.output import Outputs
 from ilmek.io.picture import Picture
 from ilmek.jobs import weave as weaving
 from ilmek.jobs.loom import read_loom_order
@@ -91,13 +92,15 @@ def _pixels(picture: str | Path | Picture | Rgb) -> Rgb:
 def write_chart(path: str | Path, chart: Chart) -> None:
     """Write a chart as .png (one pixel one knot) or .pdf (with symbols and row numbers).
 
-    Raises OutputError for another ending.
+    An existing file is replaced, whole or not at all.
+    Raises OutputError for another ending, and if the file cannot be written.
     """
     path = Path(path)
     writers = {".png": write_chart_png, ".pdf": write_chart_pdf}
     if path.suffix.lower() not in writers:
         raise OutputError(f"chart {path} ends in {path.suffix!r}", allowed=".png or .pdf")
-    writers[path.suffix.lower()](path, chart)
+    with Outputs(force=True) as outputs, outputs.file(path) as work:
+        writers[path.suffix.lower()](work, chart)
 
 
 def read_chart(path: str | Path) -> ChartPicture:

@@ -6,8 +6,9 @@ from typing import Any
 import click
 
 from ilmek.carpet.bill import YarnBill
-from ilmek.cli.options import carpet_options, force_option, json_option
-from ilmek.cli.terminal import check_json, give_json, note, progress_bar, say, show_pairs, show_table
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.options import carpet_inputs, carpet_options, force_option, json_option
+from ilmek.cli.terminal import note, say, show_pairs, show_table
 from ilmek.jobs.chart import ChartResult, chart_json, chart_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
@@ -31,12 +32,12 @@ def command(out: Path | None, force: bool, json_to: str | None, **carpet: Any) -
     The output folder contains chart.png (one pixel per knot), chart.pdf (printed chart; see --pdf), yarn.csv and
     chart.json. With --json and without --out no folder is made.
     """
-    check_json(json_to)
     order = read_order(**carpet)
     folder = out or (None if json_to else free_folder(order.picture, "chart"))
-    with progress_bar() as progress:
-        charted, files = chart_order(order, folder, force=force, progress=progress)
-    if not give_json(json_to, chart_json(charted, files)):
+    with call_outputs({"--json": json_to}, force=force, inputs=carpet_inputs(carpet)) as call:
+        charted, files = chart_order(order, folder, outputs=call.outputs, progress=call.progress)
+        call.give_json(lambda: chart_json(charted, files))
+    if not call.quiet:
         show_chart(charted)
         if folder is not None:
             say(f"files in {folder}: {', '.join(Path(file).name for file in files)}")

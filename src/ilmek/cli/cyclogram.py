@@ -1,18 +1,18 @@
 """`ilmek cyclogram`: a cyclogram from a file, checked, optimised, tabulated and drawn."""
 
+from functools import partial
 from pathlib import Path
 
 import click
 
-from ilmek.cli.options import json_option
-from ilmek.cli.settings import read_settings
-from ilmek.cli.terminal import check_json, give_json, note, passed, progress_bar, say, show_checks, show_table
-from ilmek.errors import ParameterError
-from ilmek.io.cyclogram_file import write_cyclogram
-from ilmek.io.output import check_file, write_whole
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.options import force_option, json_option
+from ilmek.cli.settings import read_settings, setting_files
+from ilmek.cli.terminal import note, passed, say, show_checks, show_table
+from ilmek.io.cyclogram_file import cyclogram_writer
 from ilmek.io.table_csv import csv_text
 from ilmek.jobs.cyclogram import GOALS, binding_words, columns, find, report, solve
-from ilmek.jobs.page import write_page
+from ilmek.jobs.page import page_text
 from ilmek.report import Report
 from ilmek.timing.solver import Solution
 from ilmek.units import format_number, format_quantity
@@ -49,6 +49,7 @@ Examples:
     metavar="FILE.toml",
     help="Write the cyclogram, as given or solved.",
 )
+@force_option
 @json_option
 def command(
     *,
@@ -59,43 +60,30 @@ def command(
     csv_to: str | None,
     steps: int,
     file_to: Path | None,
+    force: bool,
     json_to: str | None,
 ) -> None:
     """Check the cyclogram of FILE (TOML or JSON) or of a MACHINE; with --solve, retime its motions."""
-    _check_outputs(csv_to, page_to, file_to, json_to)
-    given = find(file, read_settings(settings))
-    with progress_bar() as progress:
-        solution = solve(given, goal, progress) if goal else None
-    found = solution.cyclogram if solution else given
-    shown = report(found, solution)
-    write_page(page_to, shown)
-    if file_to is not None:
-        write_cyclogram(file_to, found)
-    table = csv_text(columns(found, steps)) if csv_to else ""
-    quiet = give_json(json_to, shown.as_json()) if json_to else False
-    if csv_to == "-":
-        click.echo(table, nl=False)
-    elif csv_to:
-        write_whole(Path(csv_to), table)
-    if not quiet and csv_to != "-":
+    write = None if file_to is None else cyclogram_writer(file_to)
+    files = {"--json": json_to, "--csv": csv_to, "--report": page_to, "--out": file_to}
+    inputs = {"FILE": Path(file), **setting_files(settings)}
+    with call_outputs(files, force=force, inputs=inputs) as call:
+        given = find(file, read_settings(settings))
+        solution = solve(given, goal, call.progress) if goal else None
+        found = solution.cyclogram if solution else given
+        shown = report(found, solution)
+        call.give("--report", lambda: page_text(shown))
+        if write is not None:
+            call.give("--out", partial(write, found))
+        call.give_json(shown.as_json)
+        call.give("--csv", lambda: csv_text(columns(found, steps)))
+    if not call.quiet:
         _show(shown, solution)
         for kind, path in (("report", page_to), ("cyclogram", file_to), ("table", csv_to)):
             if path is not None:
                 say(f"{kind}: {path}")
     elif shown.failed:
         note(f"checks: {passed(shown.checks)}")
-
-
-def _check_outputs(csv_to: str | None, page_to: Path | None, file_to: Path | None, json_to: str | None) -> None:
-    """Raise before any work if an output cannot be written or two outputs share standard output."""
-    check_json(json_to)
-    if csv_to == json_to == "-":
-        raise ParameterError("both --csv and --json go to standard output", do="give one of them a file")
-    if file_to is not None and file_to.suffix.lower() not in (".toml", ".json"):
-        raise ParameterError(f"--out {file_to} ends in {file_to.suffix!r}", allowed=".toml or .json")
-    for path in (page_to, file_to, Path(csv_to) if csv_to not in (None, "-") else None):
-        if path is not None:
-            check_file(path)
 
 
 def _show(shown: Report, solution: Solution | None) -> None:

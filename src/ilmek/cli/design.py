@@ -4,11 +4,13 @@ from pathlib import Path
 
 import click
 
-from ilmek.cli.options import json_option
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.options import force_option, json_option
 from ilmek.cli.report import show_report
-from ilmek.cli.settings import read_settings
-from ilmek.cli.terminal import check_json, give_json, note, progress_bar, say
-from ilmek.jobs.design import Outputs, design_machine
+from ilmek.cli.settings import read_settings, setting_files
+from ilmek.cli.terminal import note, say
+from ilmek.jobs.design import WorkshopOrder, design_machine
+from ilmek.jobs.page import page_text
 
 EXAMPLES = """\b
 Examples:
@@ -41,7 +43,7 @@ The parameters of a machine: ilmek machines MACHINE
     help="Write plates (DXF, STEP) and cam tables for controllers.",
 )
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
-@click.option("--force", is_flag=True, help="Replace a workshop folder that ilmek wrote.")
+@force_option
 def command(  # noqa: PLR0917 - click calls it by name
     name: str,
     more: tuple[str, ...],
@@ -53,13 +55,16 @@ def command(  # noqa: PLR0917 - click calls it by name
     force: bool,
 ) -> None:
     """Design MACHINE and report it: results, checks against limits, warnings."""
-    check_json(json_to)
-    if parts_to is None and (force or tolerance is not None):
-        raise click.UsageError("--force and --tolerance need --workshop DIR")
-    outputs = Outputs(page_to, parts_to, tolerance, force)
-    with progress_bar() as progress:
-        made = design_machine(name, read_settings((*settings, *more)), outputs, progress=progress)
-    if not give_json(json_to, made.as_json()):
+    if parts_to is None and tolerance is not None:
+        raise click.UsageError("--tolerance needs --workshop DIR")
+    given = (*settings, *more)
+    files = {"--json": json_to, "--report": page_to}
+    workshop = None if parts_to is None else WorkshopOrder(parts_to, tolerance)
+    with call_outputs(files, force=force, inputs=setting_files(given)) as call:
+        made = design_machine(name, read_settings(given), workshop, outputs=call.outputs, progress=call.progress)
+        call.give("--report", lambda: page_text(made.report))
+        call.give_json(made.as_json)
+    if not call.quiet:
         show_report(made.report)
         if page_to is not None:
             say(f"report: {page_to}")

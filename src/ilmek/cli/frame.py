@@ -3,26 +3,22 @@
     exit 0    done
     exit 1    the reader of the output closed it
     exit 2    bad input, or an output that cannot be written: one line on the error stream, nothing written
-    exit 130  Ctrl-C (129: the terminal closed; 143: terminated): one line, nothing half-written
+    exit 130  Ctrl-C (129: the terminal closed; 143: terminated): one line that states what has been written
 
 Errors of ilmek (IlmekError) and of click are shown alike. A defect of the program keeps its traceback.
 """
 
-import contextlib
 import importlib
-import math
 import os
-import signal
 import sys
-import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
-from types import FrameType
-from typing import Any, NoReturn, cast
+from typing import Any, cast
 
 import click
 
-from ilmek.errors import IlmekError, did_you_mean, printable, shortened
+from ilmek.cli.interrupts import interrupted, leave, supervised
+from ilmek.errors import IlmekError, did_you_mean
 
 
 class LazyGroup(click.Group):
@@ -77,34 +73,19 @@ class LazyGroup(click.Group):
             return run()
         _open_streams()
         _write_any_character()
-        with _unwinding() as stopped:
-            try:
-                status: object = run()
-            except (_Stopped, KeyboardInterrupt, click.Abort):
-                _leave(_INTERRUPTED, 128 + (stopped or [signal.SIGINT])[0])
-            except click.ClickException as error:
-                _leave(_usage(error), 2)
-            except IlmekError as error:
-                _leave(str(error), 2)
-            except MemoryError:
-                _leave("out of memory; try a smaller picture, size or quality", 2)
-            except OSError as error:
-                _leave(f"{error.filename or 'the output'} cannot be read or written: {error.strerror or error}", 2)
-            except Exception:
-                # A library may turn Ctrl-C inside its callback into an error of its own.
-                if not stopped:
-                    raise
-                _leave(_INTERRUPTED, 128 + stopped[0])
+        try:
+            status = supervised(lambda: _flushed(run()))
+        except (KeyboardInterrupt, click.Abort):
+            interrupted()
+        except click.ClickException as error:
+            leave(_usage(error), 2)
+        except IlmekError as error:
+            leave(str(error), 2)
+        except MemoryError:
+            leave("out of memory; try a smaller picture, size or quality", 2)
+        except OSError as error:
+            leave(f"{error.filename or 'the output'} cannot be read or written: {error.strerror or error}", 2)
         sys.exit(status if isinstance(status, int) else 0)
-
-
-_INTERRUPTED = "interrupted; nothing was written"
-_IMPATIENCE = 2.0
-"""Time after the first signal in which further ones are ignored [s]: temporary files are being removed."""
-
-
-class _Stopped(BaseException):
-    """A signal that ends the program. It is no KeyboardInterrupt: click would print an empty line for that."""
 
 
 def _help_alone() -> None:
@@ -119,20 +100,6 @@ def _usage(error: click.ClickException) -> str:
     message = error.format_message().rstrip(".")
     context = getattr(error, "ctx", None)
     return f"{message}; see '{context.command_path} --help'" if context is not None else message
-
-
-_LONGEST = 2000
-"""Largest number of characters of an error line; the longest list of parameters has 1,200."""
-
-
-def _leave(message: str, status: int) -> NoReturn:
-    """Print one line on the error stream and exit with `status`."""
-    line = " ".join(printable(shortened(message, _LONGEST)).split())
-    with contextlib.suppress(OSError):
-        if message is _INTERRUPTED and sys.stderr.isatty():
-            click.echo(err=True)  # behind the ^C that the terminal shows
-        click.echo(f"ilmek: {line}", err=True)
-    sys.exit(status)
 
 
 def _open_streams() -> None:
@@ -154,45 +121,11 @@ def _write_any_character() -> None:
             reconfigure(errors="replace")
 
 
-@contextlib.contextmanager
-def _unwinding() -> Iterator[list[int]]:
-    """Let Ctrl-C, SIGTERM and SIGHUP unwind the stack, which removes temporary files; yields the signals received."""
-    stopped: list[int] = []
-    since = -math.inf
-
-    def stop(number: int, _frame: FrameType | None) -> None:
-        nonlocal since
-        now, last = time.monotonic(), since
-        since = now
-        if now - last > _IMPATIENCE:
-            stopped.append(number)
-            raise _Stopped
-
-    def unraisable(found: Any) -> None:
-        if not isinstance(found.exc_value, _Stopped):  # a library's callback cannot pass it on
-            hook(found)
-
-    hook = sys.unraisablehook
-    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    usual = (signal.SIG_DFL, signal.default_int_handler)
-    try:
-        before = {n: signal.signal(n, stop) for n in numbers if signal.getsignal(n) in usual}
-    except ValueError:  # not the main thread: the program around us handles signals
-        before = {}
-    sys.unraisablehook = unraisable
-    try:
-        yield stopped
-        _flush()
-    finally:
-        sys.unraisablehook = hook
-        for number, handler in before.items():
-            signal.signal(number, handler)
-
-
-def _flush() -> None:
-    """Flush standard output. If its reader has closed it, discard the rest and exit with 1."""
+def _flushed(status: object) -> object:
+    """Flush standard output; returns `status`. If its reader has closed it, discard the rest and exit with 1."""
     try:
         sys.stdout.flush()
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(1)
+    return status

@@ -4,8 +4,9 @@ from pathlib import Path
 
 import click
 
-from ilmek.cli.options import json_option
-from ilmek.cli.terminal import give_json, say, show_pairs, show_table
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.options import force_option, json_option
+from ilmek.cli.terminal import say, show_pairs, show_table
 from ilmek.io.programme_file import ProgrammeFile
 from ilmek.jobs.inspect import InspectionResult, inspect_programme, runs
 from ilmek.units import format_quantity
@@ -27,14 +28,17 @@ Examples:
     metavar="N",
     help="Row to show, counted from 1 at the bottom edge; default: a random row.",
 )
+@force_option
 @json_option
-def command(file: Path, number: int | None, json_to: str | None) -> None:
+def command(file: Path, number: int | None, force: bool, json_to: str | None) -> None:
     """Show the carpet, colours and statistics of a loom programme, and one row as the heads tie it.
 
     Rows are counted from 1 at the bottom, knots from 1 at the left, as on the printed chart.
     """
-    found = inspect_programme(file, number)
-    if not give_json(json_to, found.as_json()):
+    with call_outputs({"--json": json_to}, force=force, inputs={"FILE": file}) as call:
+        found = inspect_programme(file, number)
+        call.give_json(found.as_json)
+    if not call.quiet:
         show_programme(found.programme)
         show_row(found)
 

@@ -4,13 +4,13 @@ from pathlib import Path
 
 import click
 
-from ilmek.cli.options import json_option
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.options import force_option, json_option
 from ilmek.cli.report import show_report
-from ilmek.cli.terminal import check_json, give_json, say
+from ilmek.cli.terminal import say
 from ilmek.errors import CarpetError
-from ilmek.io.output import check_file
 from ilmek.jobs.knot import KnotRequest, knot_of
-from ilmek.jobs.page import write_page
+from ilmek.jobs.page import page_text
 from ilmek.params.text_lists import read_points
 from ilmek.units import parse_quantity
 
@@ -45,6 +45,7 @@ Examples:
 @click.option("--smooth", is_flag=True, help="The points are samples of a smooth motion, not corners of a polyline.")
 @click.option("--closed", is_flag=True, help="The path is closed: it returns to its first point.")
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
+@force_option
 @json_option
 def command(
     *,
@@ -57,6 +58,7 @@ def command(
     smooth: bool,
     closed: bool,
     page_to: Path | None,
+    force: bool,
     json_to: str | None,
 ) -> None:
     """Find the knot that a yarn ties when its end is led along PATH through a row of warps; the pile points up.
@@ -64,15 +66,15 @@ def command(
     With two paths, each leads one end of the yarn, and both start at the same point. The answer is proved: paths that
     can be deformed into each other without crossing a warp tie the same knot.
     """
-    check_json(json_to)
-    if page_to is not None:
-        check_file(page_to)
     request = KnotRequest(
         warps, parse_quantity(pitch, "mm"), _position(first), parse_quantity(keep_out, "mm"), smooth, closed
     )
-    report = knot_of(paths, request, columns)
-    write_page(page_to, report)
-    if not give_json(json_to, report.as_json()):
+    files = {"--json": json_to, "--report": page_to}
+    with call_outputs(files, force=force, inputs={str(path): path for path in paths}) as call:
+        report = knot_of(paths, request, columns, call.progress)
+        call.give("--report", lambda: page_text(report))
+        call.give_json(report.as_json)
+    if not call.quiet:
         show_report(report)
         if page_to is not None:
             say(f"report: {page_to}")

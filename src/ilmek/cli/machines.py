@@ -2,8 +2,9 @@
 
 import click
 
-from ilmek.cli.options import json_option
-from ilmek.cli.terminal import give_json, say, show_table
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.options import force_option, json_option
+from ilmek.cli.terminal import say, show_table
 from ilmek.jobs.machines import machine_form, machine_list
 from ilmek.params import Parameter
 from ilmek.units import format_quantity
@@ -18,16 +19,19 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("name", required=False, metavar="[MACHINE]")
+@force_option
 @json_option
-def command(name: str | None, json_to: str | None) -> None:
+def command(name: str | None, force: bool, json_to: str | None) -> None:
     """List the machines, or the parameters of MACHINE: name, default, unit, bounds, meaning."""
-    if name is None:
-        machines = machine_list()
-        if not give_json(json_to, {"machines": machines}):
-            show_table(("machine", "description"), list(machines.items()))
+    machines = machine_list()
+    form = None if name is None else machine_form(name)
+    with call_outputs({"--json": json_to}, force=force) as call:
+        call.give_json(lambda: {"machines": machines} if form is None else form.as_json())
+    if call.quiet:
         return
-    form = machine_form(name)
-    if not give_json(json_to, form.as_json()):
+    if form is None:
+        show_table(("machine", "description"), list(machines.items()))
+    else:
         say(f"{form.machine}: {form.summary}")
         show_table(("parameter", "default", "unit", "allowed", "meaning"), [_row(p) for p in form.parameters])
         if form.machines:

@@ -4,15 +4,15 @@ from pathlib import Path
 
 import click
 
-from ilmek.cli.options import json_option
-from ilmek.cli.terminal import check_json, give_json, note, say, show_table
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.options import force_option, json_option
+from ilmek.cli.terminal import note, say, show_table
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism
-from ilmek.io.output import check_file, write_whole
 from ilmek.io.table_csv import csv_text
-from ilmek.jobs.mechanism import MechanismRun, MotionRequest, run
+from ilmek.jobs.mechanism import MotionRequest, run
 from ilmek.jobs.mechanism_report import as_json, columns, report
-from ilmek.jobs.page import write_page
+from ilmek.jobs.page import page_text
 from ilmek.report import Report
 from ilmek.units import format_quantity
 
@@ -45,6 +45,7 @@ Examples:
 )
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @click.option("--as", "kind", type=click.Choice(("toml", "json")), help="Convert the file to this format and exit.")
+@force_option
 @json_option
 def command(
     *,
@@ -56,37 +57,29 @@ def command(
     csv_to: str | None,
     page_to: Path | None,
     kind: str | None,
+    force: bool,
     json_to: str | None,
 ) -> None:
     """Read the mechanism in FILE (TOML or JSON), report its structure and mobility, and compute its motion."""
-    _check_outputs(csv_to, page_to, json_to)
-    given = read_mechanism(file)
     if kind is not None:
+        given = read_mechanism(file)
         write = mechanism_toml if kind == "toml" else mechanism_json
         click.echo(write(given.mechanism, given.inertias), nl=False)
         return
-    moved = run(given, MotionRequest(_fixed(fixed), over, speed, steps))
-    found_report = report(moved)
-    write_page(page_to, found_report)
-    quiet = give_json(json_to, as_json(moved)) if json_to else False
-    quiet = _give_csv(csv_to, moved) or quiet
-    if not quiet:
+    files = {"--json": json_to, "--csv": csv_to, "--report": page_to}
+    with call_outputs(files, force=force, inputs={"FILE": file}) as call:
+        moved = run(read_mechanism(file), MotionRequest(_fixed(fixed), over, speed, steps), call.progress)
+        found_report = report(moved)
+        call.give("--report", lambda: page_text(found_report))
+        call.give_json(lambda: as_json(moved))
+        call.give("--csv", lambda: csv_text(columns(moved)))
+    if not call.quiet:
         show(found_report)
         for output, path in (("report", page_to), ("table", csv_to)):
             if path is not None:
                 say(f"{output}: {path}")
     for warning in found_report.warnings:
         note(warning)
-
-
-def _check_outputs(csv_to: str | None, page_to: Path | None, json_to: str | None) -> None:
-    """Raise before any work if an output cannot be written or two outputs share standard output."""
-    check_json(json_to)
-    if csv_to == json_to == "-":
-        raise MechanismError("both --csv and --json go to standard output", do="give one of them a file")
-    for path in (page_to, Path(csv_to) if csv_to not in (None, "-") else None):
-        if path is not None:
-            check_file(path)
 
 
 def _fixed(texts: tuple[str, ...]) -> dict[str, str]:
@@ -98,17 +91,6 @@ def _fixed(texts: tuple[str, ...]) -> dict[str, str]:
             raise MechanismError(f"--at fixes {name.strip() or 'the input'} twice", do="fix it once")
         fixed[name.strip() if equals else ""] = value.strip()
     return fixed
-
-
-def _give_csv(to: str | None, moved: MechanismRun) -> bool:
-    """Write the table to the output of `--csv`; True if that is standard output."""
-    if to is None:
-        return False
-    if to == "-":
-        click.echo(csv_text(columns(moved)), nl=False)
-        return True
-    write_whole(Path(to), csv_text(columns(moved)))
-    return False
 
 
 def show(shown: Report) -> None:

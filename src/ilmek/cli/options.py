@@ -1,6 +1,6 @@
 """Options that several commands share."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -17,7 +17,7 @@ json_option = click.option(
     metavar="-|FILE",
     help="Write all results as JSON, SI and radians; - writes to standard output.",
 )
-force_option = click.option("--force", is_flag=True, help="Replace an output folder that ilmek wrote.")
+force_option = click.option("--force", is_flag=True, help="Replace a folder that ilmek wrote, and any file.")
 
 
 def carpet_options(command: F) -> F:
@@ -25,6 +25,11 @@ def carpet_options(command: F) -> F:
     for option in reversed(_CARPET):
         command = option(command)
     return command
+
+
+def carpet_inputs(carpet: Mapping[str, Any]) -> dict[str, Path | None]:
+    """The files that a carpet is read from, by name in messages."""
+    return {"PICTURE": carpet["picture"], "--yarns": carpet["yarn_file"]}
 
 
 _CARPET = (

@@ -5,8 +5,9 @@ from collections.abc import Mapping, Sequence
 
 import click
 
-from ilmek.cli.options import json_option
-from ilmek.cli.terminal import check_json, give_json, progress_bar, say, show_table
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.options import force_option, json_option
+from ilmek.cli.terminal import say, show_table
 from ilmek.jobs.reproduce import reproduce_papers
 from ilmek.verification import PAPERS, TITLES, VERDICTS, Verdict
 from ilmek.verification.claim import MISPRINT, NOT_REPRODUCIBLE, REPRODUCED, ROUNDING
@@ -36,17 +37,18 @@ not reproducible  the note gives the reason
     type=click.Choice(tuple(PAPERS)),
     help="Only this paper; may be given several times.",
 )
+@force_option
 @json_option
-def command(papers: tuple[str, ...], json_to: str | None) -> None:
+def command(papers: tuple[str, ...], force: bool, json_to: str | None) -> None:
     """Compute every number that the four papers print and report which are reproduced.
 
     Numbers that are not reproduced are listed first, then the rest in the order of the pages. Numbers are in the unit
     as printed, in the JSON too, so that they can be compared with the paper.
     """
-    check_json(json_to)
-    with progress_bar() as progress:
-        result = reproduce_papers(papers, progress=progress)
-    if give_json(json_to, result.as_json()):
+    with call_outputs({"--json": json_to}, force=force) as call:
+        result = reproduce_papers(papers, progress=call.progress)
+        call.give_json(result.as_json)
+    if call.quiet:
         return
     for paper, of_paper in result.verdicts.items():
         show_paper(paper, of_paper)

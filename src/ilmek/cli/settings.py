@@ -26,6 +26,12 @@ def read_settings(settings: Iterable[str]) -> dict[str, str]:
     return read
 
 
+def setting_files(settings: Iterable[str]) -> dict[str, Path]:
+    """The files from which values are read, by setting as written."""
+    parts = ((setting, setting.partition("=")[2].strip()) for setting in settings)
+    return {setting: Path(value[1:]) for setting, value in parts if value.startswith("@")}
+
+
 def _in_file(name: str, path: Path) -> str:
     wording = dict(noun="text file with the value", do="check its name")
     try:

@@ -7,8 +7,7 @@ The library for tables and bars is imported when the first is drawn; JSON output
 import contextlib
 import sys
 from collections.abc import Iterator, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -91,27 +90,6 @@ def passed(checks: "Sequence[Check]") -> str:
 def note(text: str) -> None:
     """Print a note of one line on the error stream."""
     click.echo(f"note: {' '.join(printable(text).split())}", err=True)
-
-
-def check_json(to: str | None) -> None:
-    """Raise OutputError before any work if the output of `--json` cannot be written."""
-    if to not in (None, "-"):
-        from ilmek.io.output import check_file
-
-        check_file(Path(str(to)))
-
-
-def give_json(to: str | None, data: Any) -> bool:
-    """Write JSON to the output of `--json`; True if that is standard output, on which nothing else is then printed."""
-    if to is None:
-        return False
-    from ilmek.io.json_file import json_text, write_json
-
-    if to == "-":
-        click.echo(json_text(data), nl=False)
-        return True
-    write_json(Path(to), data)
-    return False
 
 
 @contextlib.contextmanager

@@ -5,10 +5,10 @@ from typing import Any
 
 import click
 
-from ilmek.cli.options import carpet_options, force_option, json_option
-from ilmek.cli.settings import read_settings
-from ilmek.cli.terminal import check_json, give_json, note, passed, progress_bar, show_pairs
-from ilmek.io.output import check_free
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.options import carpet_inputs, carpet_options, force_option, json_option
+from ilmek.cli.settings import read_settings, setting_files
+from ilmek.cli.terminal import note, passed, show_pairs
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
@@ -58,16 +58,16 @@ def command(
     The output folder contains report.html, report.json, chart.png, chart.pdf (see --pdf), yarn.csv, programme.ilmek and
     machine.json.
     """
-    check_json(json_to)
     order = read_order(**carpet)
     loom_order = read_loom_order(
         order, heads=heads, deadline=deadline, warp_pitch=warp_pitch, loom=read_settings(settings)
     )
     folder = out or free_folder(order.picture, "carpet")
-    check_free(folder, force=force)
-    with progress_bar() as progress:
-        woven = weave(order, loom_order, folder, force=force, progress=progress)
-    if not give_json(json_to, weave_json(woven)):
+    inputs = {**carpet_inputs(carpet), **setting_files(settings)}
+    with call_outputs({"--json": json_to}, force=force, inputs=inputs) as call:
+        woven = weave(order, loom_order, folder, outputs=call.outputs, progress=call.progress)
+        call.give_json(lambda: weave_json(woven))
+    if not call.quiet:
         show_woven(woven)
     for remark in (*woven.charted.notes, *woven.charted.warnings):
         note(remark)

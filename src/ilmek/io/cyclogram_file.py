@@ -30,7 +30,7 @@ an angle or a position is written in its unit if that gives the same number agai
 import itertools
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -39,7 +39,7 @@ from ilmek.cams.laws import LAWS
 from ilmek.errors import MechanismError, ParameterError
 from ilmek.io.cyclogram_entries import FileEntry
 from ilmek.io.data_text import DataText, parse_data, read_data
-from ilmek.io.output import write_whole
+from ilmek.io.output import write_file
 from ilmek.io.schema import SourceText
 from ilmek.io.toml_text import toml_section, toml_text
 from ilmek.timing.crossings import passing_share
@@ -86,11 +86,15 @@ def _read(text: DataText, name: str) -> Cyclogram:
 
 def write_cyclogram(path: Path, cyclogram: Cyclogram) -> None:
     """Write a .toml or .json file. Raises OutputError; ParameterError for another suffix."""
+    write_file(path, cyclogram_writer(path)(cyclogram))
+
+
+def cyclogram_writer(path: Path) -> Callable[[Cyclogram], str]:
+    """The function that gives the text of a .toml or .json file. Raises ParameterError for another suffix."""
     writers = {".toml": cyclogram_toml, ".json": cyclogram_json}
-    writer = writers.get(path.suffix.lower())
-    if writer is None:
+    if path.suffix.lower() not in writers:
         raise ParameterError(f"cyclogram file {path} ends in {path.suffix!r}", allowed=".toml or .json")
-    write_whole(path, writer(cyclogram))
+    return writers[path.suffix.lower()]
 
 
 def cyclogram_toml(cyclogram: Cyclogram) -> str:

@@ -4,7 +4,6 @@ import json
 from pathlib import Path
 from typing import Any
 
-from ilmek.io.output import write_whole
 from ilmek.report import plain
 
 
@@ -21,5 +20,5 @@ def json_text(data: Any) -> str:
 
 
 def write_json(path: Path, data: Any) -> None:
-    """Write the data to a file. Raises OutputError."""
-    write_whole(path, json_text(data))
+    """Write the data to a file. Raises OSError."""
+    path.write_text(json_text(data), encoding="utf-8")

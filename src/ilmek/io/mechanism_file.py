@@ -35,7 +35,7 @@ from typing import Any
 from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import IlmekError, MechanismError
 from ilmek.io.data_text import DataText, parse_data, read_data
-from ilmek.io.output import write_whole
+from ilmek.io.output import write_file
 from ilmek.io.schema import Reader, Schema, SourceText
 from ilmek.io.toml_text import toml_text
 from ilmek.linkage.model import (
@@ -99,7 +99,7 @@ def write_mechanism(path: Path, mechanism: Mechanism, inertias: Mapping[str, Ine
     writer = writers.get(path.suffix.lower())
     if writer is None:
         raise MechanismError(f"mechanism file {path} ends in {path.suffix!r}", allowed=".toml or .json")
-    write_whole(path, writer(mechanism, inertias or {}))
+    write_file(path, writer(mechanism, inertias or {}))
 
 
 def mechanism_toml(mechanism: Mechanism, inertias: Mapping[str, Inertia]) -> str:

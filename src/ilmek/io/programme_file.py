@@ -4,12 +4,10 @@
     row    number, time, data    loom row (0 at the carpet's bottom edge), its time [s], and zlib of
                                  colours (a byte per knot, by column) + keys (three bytes per part, see `loom.schedule`)
 
-The file is written under a temporary name and renamed at the end, so that it is complete or does not exist.
+The file is written into the staging folder of an output (`ilmek.io.output`), which makes it complete or nothing.
 """
 
 import contextlib
-import os
-import secrets
 import sqlite3
 import zlib
 from collections.abc import Iterator
@@ -20,7 +18,7 @@ from types import TracebackType
 import numpy as np
 
 from ilmek.arrays import FloatArray, IntArray, UInt8
-from ilmek.errors import IlmekError, LoomError, OutputError
+from ilmek.errors import IlmekError, LoomError
 from ilmek.io.programme_meta import Label, ProgrammeMeta, Totals, meta_texts, read_meta
 from ilmek.io.sqlite_readonly import DamagedDatabase, ReadOnlyDatabase, SqliteHeader
 from ilmek.loom.programme import HeadWork, Programme, Times, least_time
@@ -52,21 +50,13 @@ _BLOCK = 1 << 21
 
 
 def write_programme(path: Path, programme: Programme, label: Label, *, progress: Progress = SILENT) -> None:
-    """Write a programme; on an error no file is left.
+    """Write a programme to a new file.
 
-    Raises OutputError if the file cannot be written, LoomError if the label's yarns are not the programme's.
+    Raises OSError or sqlite3.Error if it cannot be written, LoomError if the label's yarns are not the programme's.
     """
     if len(label.yarns) != programme.yarns:
         raise LoomError(f"{len(label.yarns)} yarns for a programme of {programme.yarns}")
-    work = path.parent / f".{path.name}.{secrets.token_hex(4)}.part"
-    try:
-        _fill(work, programme, label, progress)
-        work.replace(path)
-    except (OSError, sqlite3.Error) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise OutputError(f"{path} cannot be written: {reason}", do="nothing was written") from error
-    finally:
-        work.unlink(missing_ok=True)
+    _fill(path, programme, label, progress)
 
 
 def open_programme(path: Path, *, progress: Progress = SILENT) -> "ProgrammeFile":
@@ -178,8 +168,6 @@ def _fill(work: Path, programme: Programme, label: Label, progress: Progress) ->
         connection.executemany("INSERT INTO meta VALUES (?, ?)", meta_texts(programme, label).items())
         connection.executemany("INSERT INTO row VALUES (?, ?, ?)", _blobs(programme, progress))
         connection.execute("COMMIT")
-    with work.open("rb") as written:
-        os.fsync(written.fileno())
 
 
 def _blobs(programme: Programme, progress: Progress) -> Iterator[tuple[int, float, bytes]]:

@@ -15,7 +15,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart.png import write_chart_png
 from ilmek.io.json_file import write_json
-from ilmek.io.output import check_free, output_folder
+from ilmek.io.output import Outputs, joined
 from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.order import CarpetOrder
@@ -76,22 +76,29 @@ class ChartResult:
 
 
 def chart_order(
-    order: CarpetOrder, folder: Path | None = None, *, force: bool = False, progress: Progress = SILENT
+    order: CarpetOrder,
+    folder: Path | None = None,
+    *,
+    outputs: Outputs | None = None,
+    force: bool = False,
+    progress: Progress = SILENT,
 ) -> tuple[ChartResult, list[str]]:
     """Chart an order and write its files into a folder; on an error nothing is written. Returns also their paths.
 
-    folder  default: nothing is written
-    force   replace a folder that ilmek wrote
+    folder   default: nothing is written
+    outputs  of the caller, who commits them; default: committed here
+    force    replace a folder that ilmek wrote; for outputs of the caller, theirs holds
     Raises OutputError, before any work, for a folder that cannot be written; errors of `make_charted`; Cancelled.
     """
     if folder is None:
         return make_charted(order, progress), []
-    check_free(folder, force=force)
-    charted = make_charted(order, progress.part(0.0, 0.7))
-    files = [str(folder / name) for name in (*charted.files, "chart.json")]
-    with output_folder(folder, force=force) as work:
-        write_chart(charted, work, progress.part(0.7, 1.0, "files"))
-        write_json(work / "chart.json", chart_json(charted, files))
+    with joined(outputs, force=force, progress=progress) as made:
+        made.expect_folder(folder, "--out")
+        charted = make_charted(order, progress.part(0.0, 0.7))
+        files = [str(folder / name) for name in (*charted.files, "chart.json")]
+        with made.folder(folder) as work:
+            write_chart(charted, work, progress.part(0.7, 1.0, "files"))
+            write_json(work / "chart.json", chart_json(charted, files))
     return charted, files
 
 

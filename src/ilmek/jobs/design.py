@@ -1,4 +1,4 @@
-"""Design one machine; write its report page and its workshop files."""
+"""Design one machine; write its workshop files."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -6,8 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ilmek.io.output import check_file, check_free
-from ilmek.jobs.page import write_page
+from ilmek.io.output import Outputs, joined
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
@@ -18,19 +17,14 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Outputs:
-    """Requested output files of a design.
+class WorkshopOrder:
+    """A folder for the workshop files of a design: plates (DXF, STEP) and cam tables.
 
-    page       HTML report; default: none
-    workshop   folder for plates (DXF, STEP) and cam tables; default: none
     tolerance  of the cam tables, like `1um` or `0.01%` of the stroke; default: see `jobs.workshop.SHARE`
-    force      replace a workshop folder that ilmek wrote
     """
 
-    page: Path | None = None
-    workshop: Path | None = None
+    folder: Path
     tolerance: str | None = None
-    force: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,37 +45,38 @@ class DesignResult:
 
 
 def design_machine(
-    name: str, settings: Mapping[str, Setting], outputs: Outputs | None = None, *, progress: Progress = SILENT
+    name: str,
+    settings: Mapping[str, Setting],
+    workshop: WorkshopOrder | None = None,
+    *,
+    outputs: Outputs | None = None,
+    progress: Progress = SILENT,
 ) -> DesignResult:
-    """Design a machine of the catalogue, report it, and write the requested files.
+    """Design a machine of the catalogue, report it, and write its workshop files if they are ordered.
 
     settings  values of parameters by name: texts with units, or numbers in SI
+    outputs   of the caller, who commits them; default: committed here
     Raises ParameterError for an unknown machine, parameter or tolerance and for a value out of bounds; OutputError,
     before any work, where a file cannot be written; errors of the machine; Cancelled.
     """
-    requested = outputs or Outputs()
-    if requested.page is not None:
-        check_file(requested.page)
-    write = _workshop_writer(requested)
-    machine = find_machine(name)
-    params = machine.params.read(settings)
-    progress.part(0.0, 0.6, "design")
-    made = machine.design(params)
-    progress.part(0.6, 0.8, "report")
-    report = machine.report(made)
-    progress.part(0.8, 1.0, "files")
-    workshop = write(report) if write is not None else None
-    write_page(requested.page, report)
-    progress(1.0)
-    return DesignResult(report, workshop)
+    with joined(outputs, progress=progress) as made:
+        write = _workshop_writer(workshop, made)
+        machine = find_machine(name)
+        params = machine.params.read(settings)
+        progress.part(0.0, 0.6, "design")
+        designed = machine.design(params)
+        progress.part(0.6, 0.8, "report")
+        report = machine.report(designed)
+        progress.part(0.8, 1.0, "files")
+        return DesignResult(report, write(report) if write is not None else None)
 
 
-def _workshop_writer(requested: Outputs) -> "Callable[[Report], Workshop] | None":
-    """Writes the workshop files of a report; None where none are requested. Their libraries are imported only here."""
-    if requested.workshop is None:
+def _workshop_writer(workshop: WorkshopOrder | None, outputs: Outputs) -> "Callable[[Report], Workshop] | None":
+    """Writes the workshop files of a report; None where none are ordered. Their libraries are imported only here."""
+    if workshop is None:
         return None
-    check_free(requested.workshop, force=requested.force)
+    outputs.expect_folder(workshop.folder, "--workshop")
     from ilmek.jobs.workshop import Tolerance, read_tolerance, write_workshop
 
-    tolerance = Tolerance() if requested.tolerance is None else read_tolerance(requested.tolerance)
-    return partial(write_workshop, folder=requested.workshop, tolerance=tolerance, force=requested.force)
+    tolerance = Tolerance() if workshop.tolerance is None else read_tolerance(workshop.tolerance)
+    return partial(write_workshop, folder=workshop.folder, outputs=outputs, tolerance=tolerance)

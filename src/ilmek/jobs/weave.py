@@ -6,7 +6,7 @@ from typing import Any
 
 from ilmek.io.chart.symbols import symbols
 from ilmek.io.json_file import write_json
-from ilmek.io.output import output_folder
+from ilmek.io.output import Outputs, joined
 from ilmek.io.programme_file import write_programme
 from ilmek.io.programme_meta import Label
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
@@ -71,18 +71,33 @@ class WeaveResult:
 
 
 def weave(
-    order: CarpetOrder, loom_order: LoomOrder, folder: Path, *, force: bool = False, progress: Progress = SILENT
+    order: CarpetOrder,
+    loom_order: LoomOrder,
+    folder: Path,
+    *,
+    outputs: Outputs | None = None,
+    force: bool = False,
+    progress: Progress = SILENT,
 ) -> WeaveResult:
     """Do the whole job and write its files into a folder.
 
-    force  replace a folder that ilmek wrote
-    Raises any IlmekError; then nothing is written.
+    outputs  of the caller, who commits them; default: committed here
+    force    replace a folder that ilmek wrote; for outputs of the caller, theirs holds
+    Raises OutputError, before any work, for a folder that cannot be written; any IlmekError; then nothing is written.
     """
+    with joined(outputs, force=force, progress=progress) as made:
+        made.expect_folder(folder, "--out")
+        return _weave(order, loom_order, folder, made, progress)
+
+
+def _weave(
+    order: CarpetOrder, loom_order: LoomOrder, folder: Path, outputs: Outputs, progress: Progress
+) -> WeaveResult:
     charted = make_charted(order, progress.part(0.0, 0.4, "picture"))
     progress.part(0.4, 0.5, "loom")
     loomed = make_loomed(loom_order, order, charted.chart)
     woven = WeaveResult(charted, loom_order, loomed, MACHINE.report(loomed.design), folder)
-    with output_folder(folder, force=force) as work:
+    with outputs.folder(folder) as work:
         write_chart(charted, work, progress.part(0.5, 0.7, "chart.pdf"))
         write_programme(
             work / "programme.ilmek", loomed.programme, _label(woven), progress=progress.part(0.7, 0.8, "programme")

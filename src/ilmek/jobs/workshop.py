@@ -13,7 +13,7 @@ from ilmek.io.cam_tables.format import Format
 from ilmek.io.cam_tables.sampling import sample, stroke
 from ilmek.io.dxf import read_dxf, write_dxf
 from ilmek.io.json_file import write_json
-from ilmek.io.output import output_folder
+from ilmek.io.output import Outputs, joined
 from ilmek.io.plate_shape import PlateShape
 from ilmek.plane.contours import area
 from ilmek.records import record
@@ -128,12 +128,18 @@ def read_tolerance(text: str) -> Tolerance:
 
 
 def write_workshop(
-    report: Report, folder: Path, tolerance: Tolerance | None = None, *, force: bool = False
+    report: Report,
+    folder: Path,
+    tolerance: Tolerance | None = None,
+    *,
+    outputs: Outputs | None = None,
+    force: bool = False,
 ) -> Workshop:
     """Write the report's plates and cam tables into a folder, with an index.
 
     tolerance  of the cam tables; default: see `SHARE`
-    force      replace a folder that ilmek wrote
+    outputs    of the caller, who commits them; default: committed here
+    force      replace a folder that ilmek wrote; for outputs of the caller, theirs holds
     Raises OutputError if there is nothing to write, a plate does not enclose the area of its design, or the folder
     cannot be written; then nothing is written.
     """
@@ -143,7 +149,7 @@ def write_workshop(
         )
     plates, tables = _own_names(report.all_plates), _own_names(report.all_cam_tables)
     allowed = tolerance or Tolerance()
-    with output_folder(folder, force=force) as work:
+    with joined(outputs, force=force) as made, made.folder(folder) as work:
         files = [
             *(entry for name, plate in plates.items() for entry in _plate_files(plate, work, name)),
             *(entry for name, table in tables.items() for entry in _table_files(table, work, name, allowed)),

@@ -1,0 +1,81 @@
+"""The outputs of a command: files are written all or none; what goes to standard output follows when they are."""
+
+import contextlib
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import click
+
+from ilmek.cli.terminal import progress_bar
+from ilmek.errors import ParameterError
+from ilmek.io.output import Outputs
+from ilmek.progress import Progress
+
+STANDARD = "-"
+"""The name of standard output."""
+
+
+class CallOutputs:
+    """The outputs of a command by option.
+
+    outputs   where a job stages its files
+    progress  of the whole command
+    """
+
+    def __init__(self, outputs: Outputs, progress: Progress, to: Mapping[str, str | Path | None]) -> None:
+        self.outputs, self.progress = outputs, progress
+        self._to = {option: str(path) for option, path in to.items() if path is not None}
+        self._printed: list[str] = []
+        if list(self._to.values()).count(STANDARD) > 1:
+            both = " and ".join(sorted(option for option, path in self._to.items() if path == STANDARD))
+            raise ParameterError(f"both {both} go to standard output", do="give one of them a file")
+        for option, path in self._to.items():
+            if path != STANDARD:
+                outputs.expect_file(Path(path), option)
+
+    def give(self, option: str, content: Callable[[], str]) -> None:
+        """Stage the content of an option's file, or keep it for standard output; nothing if the option is not given."""
+        to = self._to.get(option)
+        if to == STANDARD:
+            self._printed.append(content())
+        elif to is not None:
+            self.outputs.write(Path(to), content())
+
+    def give_json(self, data: Callable[[], Any]) -> None:
+        """Give the data of `--json`."""
+        if "--json" in self._to:
+            from ilmek.io.json_file import json_text  # the results bring numpy
+
+            self.give("--json", lambda: json_text(data()))
+
+    @property
+    def quiet(self) -> bool:
+        """Whether an output goes to standard output, on which nothing else is then printed."""
+        return STANDARD in self._to.values()
+
+    def print(self) -> None:
+        """Print what goes to standard output."""
+        for text in self._printed:
+            click.echo(text, nl=False)
+
+
+@contextlib.contextmanager
+def call_outputs(
+    to: Mapping[str, str | Path | None],
+    *,
+    force: bool = False,
+    inputs: Mapping[str, Path | None] = MappingProxyType({}),
+) -> Iterator[CallOutputs]:
+    """The outputs of a command, committed at the end of the block; only then is anything printed.
+
+    to      option -> file or "-"
+    inputs  option -> file that is read
+    Raises OutputError, before any work, where a file cannot be written; ParameterError for two outputs of "-".
+    """
+    given = {label: path for label, path in inputs.items() if path is not None}
+    with progress_bar() as progress, Outputs(force=force, inputs=given, progress=progress) as outputs:
+        call = CallOutputs(outputs, progress, to)
+        yield call
+    call.print()

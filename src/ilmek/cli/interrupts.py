@@ -1,0 +1,129 @@
+"""Commands that answer Ctrl-C at once, whatever they are doing.
+
+A command runs in a thread of its own; the main thread waits for it, and for signals. A signal ends the process within a
+moment, also inside a compiled kernel or a library that cannot be interrupted: a result that is just being put in place
+is completed, everything else is removed, and one line states which of both happened. This is the same as `kill -9`
+followed by the repair that the next run does, so that there is only one course of events to get right.
+"""
+
+import contextlib
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from types import FrameType
+from typing import Any, NoReturn
+
+import click
+
+from ilmek.errors import printable, shortened
+
+STACK = 64 * 2**20
+"""Stack of the command's thread [bytes], as large as that of a main thread on every system."""
+
+SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+_USUAL = (signal.SIG_DFL, signal.default_int_handler)
+_LONGEST = 2000
+"""Largest number of characters of an error line; the longest list of parameters has 1,200."""
+
+_POLL = 0.1
+"""Interval in which the main thread looks for signals that another thread has received [s]."""
+
+
+class _Stopped(BaseException):
+    """A signal that ends the program."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+
+
+def supervised(run: Callable[[], object]) -> object:
+    """The value of `run`, computed in a thread; its errors are raised here.
+
+    Where the program around this one handles signals itself, `run` is called directly.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        return run()
+    with _signals_raised() as numbers:
+        if not numbers:
+            return run()
+        try:
+            return _in_thread(run)
+        except _Stopped as stopped:
+            _end(stopped.number)
+
+
+def leave(message: str, status: int) -> NoReturn:
+    """Print one line on the error stream and exit with `status`."""
+    with contextlib.suppress(OSError):
+        click.echo(_line(message), err=True, nl=False)
+    sys.exit(status)
+
+
+def interrupted(number: int = signal.SIGINT) -> NoReturn:
+    """Exit after an interrupt with a line that states what has been written."""
+    leave(f"interrupted; {_output('account')}", 128 + number)
+
+
+def _in_thread(run: Callable[[], object]) -> object:
+    values: list[object] = []
+    errors: list[BaseException] = []
+
+    def work() -> None:
+        try:
+            values.append(run())
+        except BaseException as error:
+            errors.append(error)
+
+    before = threading.stack_size(STACK)
+    worker = threading.Thread(target=work, name="command", daemon=True)
+    worker.start()
+    threading.stack_size(before)
+    while worker.is_alive():
+        worker.join(_POLL)  # not without end: another thread may have received the signal
+    if errors:
+        raise errors[0]
+    return values[0]
+
+
+@contextlib.contextmanager
+def _signals_raised() -> Iterator[list[int]]:
+    """Raise signals in the main thread as `_Stopped`; yields those that were not handled or ignored before."""
+
+    def stop(number: int, _frame: FrameType | None) -> None:
+        for other in before:
+            signal.signal(other, signal.SIG_IGN)  # one is enough
+        raise _Stopped(number)
+
+    before: dict[int, Any] = {n: signal.getsignal(n) for n in SIGNALS if signal.getsignal(n) in _USUAL}
+    try:
+        for number in before:
+            signal.signal(number, stop)
+        yield list(before)
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _end(number: int) -> NoReturn:
+    """Remove what the command has staged, state what has been written, end the process."""
+    line = _line(f"interrupted; {_output('abandon')}")
+    with contextlib.suppress(OSError, ValueError):
+        if sys.stderr.isatty():
+            line = f"\r\x1b[2K\x1b[?25h{line}"  # on the line of the progress bar, with the cursor that it hid
+        # Written directly: the command's thread may hold the lock of the stream.
+        os.write(sys.stderr.fileno(), line.encode(sys.stderr.encoding, "replace"))
+    os._exit(128 + number)
+
+
+def _output(function: str) -> str:
+    """What has been written, from `account` or `abandon` of ilmek.io.output."""
+    output = sys.modules.get("ilmek.io.output")  # a command that has not loaded it has written nothing
+    found = getattr(output, function, None)
+    return str(found()) if found is not None else "nothing was written"
+
+
+def _line(message: str) -> str:
+    """A message of the program in one line; control characters become spaces."""
+    return f"ilmek: {' '.join(printable(shortened(message, _LONGEST)).split())}\n"

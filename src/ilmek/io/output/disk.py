@@ -1,0 +1,84 @@
+"""Calls of the operating system that the write protocol is made of; nothing else in ilmek renames or syncs.
+
+Every change of a name goes through this module, so that a test can record the changes and simulate a power cut.
+"""
+
+import ctypes
+import errno
+import functools
+import importlib.util
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+fcntl: Any = importlib.import_module("fcntl") if importlib.util.find_spec("fcntl") else None
+"""Locks and special syncs; None on Windows."""
+
+_HERE = -100  # AT_FDCWD: paths are relative to the current folder
+_NO_REPLACE, _EXCHANGE = 1, 2
+_UNSUPPORTED = (errno.ENOSYS, errno.EINVAL, errno.ENOTSUP)
+
+
+def make_folder(path: Path) -> None:
+    """A new folder that is closed to other users. Raises OSError."""
+    path.mkdir(mode=0o700)
+
+
+def sync(path: Path) -> None:
+    """Write a file, or the names in a folder, to the disk. Raises OSError."""
+    if os.name == "nt" and path.is_dir():  # Windows cannot open folders
+        return
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        # The usual call of macOS leaves the data in the cache of the disk.
+        if hasattr(fcntl, "F_FULLFSYNC"):
+            fcntl.fcntl(handle, fcntl.F_FULLFSYNC)
+        else:
+            os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def exchange(first: Path, second: Path) -> bool:
+    """Exchange two names of one file system atomically; False where the system cannot. Raises OSError."""
+    return _renameat2(first, second, _EXCHANGE)
+
+
+def rename(source: Path, target: Path) -> None:
+    """Rename to a name that must be free. Raises FileExistsError if it is not, and OSError."""
+    if not _renameat2(source, target, _NO_REPLACE):
+        if os.path.lexists(target):
+            raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(target))
+        source.rename(target)
+
+
+def replace(source: Path, target: Path) -> None:
+    """Rename a file to a name that may exist. Raises OSError."""
+    source.replace(target)
+
+
+def link(source: Path, target: Path) -> None:
+    """A second name of a file. Raises OSError."""
+    os.link(source, target)
+
+
+def _renameat2(source: Path, target: Path, flag: int) -> bool:
+    call = _call()
+    if call is None:
+        return False
+    if call(_HERE, os.fsencode(source), _HERE, os.fsencode(target), flag) == 0:
+        return True
+    code = ctypes.get_errno()
+    if code in _UNSUPPORTED:
+        return False
+    raise OSError(code, os.strerror(code), str(source), None, str(target))
+
+
+@functools.cache
+def _call() -> Callable[[int, bytes, int, bytes, int], int] | None:
+    """The C library's `renameat2`; None where it has none."""
+    found = getattr(ctypes.CDLL(None, use_errno=True), "renameat2", None) if os.name == "posix" else None
+    if found is not None:
+        found.argtypes = (ctypes.c_int, ctypes.c_char_p, ctypes.c_int, ctypes.c_char_p, ctypes.c_uint)
+    return found

@@ -1,0 +1,276 @@
+"""The outputs of one call: all of them are written, or none (see `ilmek.io.output`)."""
+
+import contextlib
+import signal
+import sqlite3
+import threading
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from types import FrameType, MappingProxyType, TracebackType
+from typing import Any
+
+from ilmek.errors import OutputError
+from ilmek.io.output.target import FileTarget, FolderTarget, StreamTarget, Target, is_stream, resolved
+from ilmek.progress import SILENT, Progress
+
+_COMMIT = threading.Lock()
+"""Held while results are exchanged, so that `abandon` reports truly what has been written."""
+
+_PATIENCE = 20.0
+"""Time that an interrupted run waits for a commit to end [s]."""
+
+_OPEN: list["Outputs"] = []
+_WRITTEN: list[Path] = []
+
+
+class Outputs:
+    """The files and folders that one call writes.
+
+    force     replace folders that ilmek wrote, and files of any origin
+    inputs    name of an input in messages -> its path; an output never replaces one without `force`
+    progress  its stop flag is read before the commit
+
+    >>> with Outputs() as outputs:                                     # doctest: +SKIP
+    ...     outputs.expect_file(page, "--report")                      # checked before any work
+    ...     with outputs.folder(path) as work:                         # written in a hidden folder
+    ...         (work / "chart.png").write_bytes(png)
+    ...     outputs.write(page, html)
+    ...                                                                # here both are put in place, or none
+    """
+
+    def __init__(
+        self,
+        *,
+        force: bool = False,
+        inputs: Mapping[str, Path] = MappingProxyType({}),
+        progress: Progress = SILENT,
+    ) -> None:
+        self.force, self.progress = force, progress
+        self._inputs = {label: resolved(path) for label, path in inputs.items() if path.exists()}
+        self._targets: dict[Path, Target] = {}
+
+    def expect_file(self, path: Path, label: str = "") -> None:
+        """Check, before any work, that a file can be written at `path`; nothing is changed.
+
+        label  the output's name in messages, like --report
+        Raises OutputError for a folder, a path that is an input or another output of the call, a missing or closed
+        folder, and, without `force`, for a file that ilmek did not write.
+        """
+        kind = StreamTarget if is_stream(path) else FileTarget
+        self._expect(kind(path, label or str(path), resolved(path), self.force))
+
+    def expect_folder(self, path: Path, label: str = "") -> None:
+        """Check, before any work, that a folder can be written at `path`; nothing is changed.
+
+        Raises OutputError for a folder that exists, with `force` only if it contains anything that ilmek did not
+        write; for a path that is no folder, is or contains an input or another output of the call, or is closed.
+        """
+        self._expect(FolderTarget(path, label or str(path), resolved(path), self.force))
+
+    @contextlib.contextmanager
+    def folder(self, path: Path) -> Iterator[Path]:
+        """A hidden folder, in which the files of the folder `path` are written.
+
+        Raises OutputError as `expect_folder`, and for an OSError inside the block.
+        """
+        if resolved(path) not in self._targets:
+            self.expect_folder(path)
+        target = self._targets[resolved(path)]
+        with _as_output_error(target):
+            with _COMMIT:
+                work = target.stage()
+            try:
+                yield work
+            except OutputError as error:  # it names the hidden folder
+                given = error.given.replace(str(work), str(path))
+                raise OutputError(given, allowed=error.allowed, do=error.do) from None
+            target.complete = True
+
+    @contextlib.contextmanager
+    def file(self, path: Path) -> Iterator[Path]:
+        """A hidden file, in which the content of the file `path` is written.
+
+        Raises OutputError as `expect_file`, for a device or a pipe, and for an OSError inside the block.
+        """
+        if resolved(path) not in self._targets:
+            self.expect_file(path)
+        target = self._targets[resolved(path)]
+        if not isinstance(target, FileTarget):
+            raise OutputError(f"{path} is not a file", do="give the name of a file")
+        with _as_output_error(target):
+            with _COMMIT:
+                target.stage()
+            yield target.new
+            target.complete = True
+
+    def write(self, path: Path, content: str | bytes) -> None:
+        """Stage the content of a file. Raises OutputError as `expect_file`, and if it cannot be written."""
+        if resolved(path) not in self._targets:
+            self.expect_file(path)
+        target = self._targets[resolved(path)]
+        with _as_output_error(target):
+            with _COMMIT:
+                target.stage()
+            target.fill(content.encode("utf-8") if isinstance(content, str) else content)
+            target.complete = True
+
+    def commit(self) -> None:
+        """Put everything that was staged in place. Raises OutputError, and Cancelled; then nothing is written."""
+        complete = (target for target in self._targets.values() if target.complete)
+        staged = sorted(complete, key=lambda target: isinstance(target, StreamTarget))  # what cannot be undone, last
+        for target in staged:
+            with _as_output_error(target):
+                target.seal()
+        self.progress(1.0)
+        with _undisturbed():
+            self._put(staged)
+            _WRITTEN.extend(target.path for target in staged)
+        for target in staged:
+            target.discard()
+
+    def discard(self) -> None:
+        """Remove what is staged, and folders made for it. What is in place stays."""
+        for target in self._targets.values():
+            target.discard()
+
+    @property
+    def kept(self) -> list[Path]:
+        """Outputs of the call that existed before it."""
+        return [target.path for target in self._targets.values() if target.existed]
+
+    def __enter__(self) -> "Outputs":
+        if not _OPEN:
+            _WRITTEN.clear()
+        _OPEN.append(self)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        try:
+            if kind is None:
+                self.commit()
+        finally:
+            self.discard()
+            _OPEN.remove(self)
+
+    def _expect(self, target: Target) -> None:
+        target.repair()
+        target.check()
+        self._check_apart(target)
+        self._targets[target.target] = target
+
+    def _check_apart(self, target: Target) -> None:
+        """Raise OutputError for an output that is, or whose folder contains, another output or an input."""
+        for other in self._targets.values():
+            if target.meets(other.target) or other.meets(target.target):
+                inside = target.target != other.target
+                given = f"{target.label} {target.path} and {other.label} {other.path} are "
+                raise OutputError(
+                    given + ("one inside the other" if inside else "the same"), do="give each output its own path"
+                )
+        for label, path in self._inputs.items():
+            if target.meets(path) and (target.contains or not self.force):
+                allowed = "" if target.contains else ", or replace the input with --force"
+                raise OutputError(
+                    f"{target.label} {target.path} would replace the input {label} {path}",
+                    do=f"choose another path{allowed}",
+                )
+
+    def _put(self, staged: Sequence[Target]) -> None:
+        """Put targets in place one by one; on a failure undo all."""
+        done: list[Target] = []
+        try:
+            for target in staged:
+                with _as_output_error(target):
+                    target.check()
+                    done.append(target)
+                    target.put()
+        except BaseException:
+            for target in reversed(done):
+                _undo(target)
+            raise
+
+
+def _undo(target: Target) -> None:
+    """Put the old result in place again. Raises OutputError, with the name of the old result, if that fails."""
+    try:
+        target.undo()
+    except OSError as error:
+        old = target.staging.folder.parent if target.staging else target.path.parent
+        raise OutputError(
+            f"{target.path} cannot be restored: {error.strerror}", do=f"the old result is in {old}, under a hidden name"
+        ) from error
+
+
+@contextlib.contextmanager
+def joined(outputs: Outputs | None, *, force: bool = False, progress: Progress = SILENT) -> Iterator[Outputs]:
+    """The outputs of the caller, who commits them; without such, outputs that are committed at the end of the block."""
+    if outputs is not None:
+        yield outputs
+        return
+    with Outputs(force=force, progress=progress) as own:
+        yield own
+
+
+def write_file(path: Path, content: str | bytes) -> None:
+    """Write one file, whole or not at all; an existing one is replaced. Raises OutputError."""
+    with Outputs(force=True) as outputs:
+        outputs.write(path, content)
+
+
+def abandon() -> str:
+    """Remove everything that this process has staged, for a process that ends now; returns what has been written.
+
+    A commit that has begun is completed first; none begins after it.
+    """
+    if not _COMMIT.acquire(timeout=_PATIENCE):
+        return "the new result was being put in place: it is whole, or the old one is"
+    written = account()
+    for outputs in _OPEN:
+        outputs.discard()
+    return written
+
+
+def account() -> str:
+    """What the call that is running, or the last one, has written."""
+    kept = [path for outputs in _OPEN for path in outputs.kept]
+    if _WRITTEN:
+        return f"the new result is in place: {_listed(_WRITTEN)}"
+    return f"nothing was written; the old result is kept: {_listed(kept)}" if kept else "nothing was written"
+
+
+def _listed(paths: Sequence[Path]) -> str:
+    return ", ".join(map(str, paths))
+
+
+@contextlib.contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Hold the lock of commits; signals that arrive in the main thread are handled after the block."""
+    arrived: list[int] = []
+
+    def later(number: int, _frame: FrameType | None) -> None:
+        arrived.append(number)
+
+    before: dict[int, Any] = {}
+    if threading.current_thread() is threading.main_thread():
+        numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+        before = {number: signal.signal(number, later) for number in numbers if callable(signal.getsignal(number))}
+    try:
+        with _COMMIT:
+            yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        for number in arrived:
+            signal.raise_signal(number)
+
+
+@contextlib.contextmanager
+def _as_output_error(target: Target) -> Iterator[None]:
+    try:
+        yield
+    except (OSError, sqlite3.Error) as error:
+        reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
+        kept = "; the old one is kept" if target.existed else ""
+        raise OutputError(f"{target.path} cannot be written: {reason}", do=f"nothing was written{kept}") from error

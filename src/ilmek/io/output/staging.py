@@ -1,0 +1,151 @@
+"""The hidden folder beside a target in which its new content is written, and the repair of what killed runs left.
+
+A run holds a lock on its staging folder; the system releases it however the run ends. A folder that can be locked
+therefore has no owner. Without locks (some network file systems, Windows) nothing is repaired.
+"""
+
+import contextlib
+import os
+import re
+import secrets
+import shutil
+from hashlib import sha256
+from pathlib import Path
+
+from ilmek.io.output import disk, manifest
+from ilmek.io.output.manifest import OLD, PART
+from ilmek.records import record
+
+_TRIES = 20
+
+
+@record
+class Staging:
+    """A new, locked folder beside a target; `handle` holds the lock."""
+
+    folder: Path
+    handle: int | None
+
+    @property
+    def old(self) -> Path:
+        """The name of the old result between two renames."""
+        return self.folder.with_suffix(OLD)
+
+    def unlock(self) -> None:
+        """Release the lock."""
+        if self.handle is not None:
+            with contextlib.suppress(OSError):
+                os.close(self.handle)
+
+
+def new_staging(target: Path) -> Staging:
+    """A new staging folder, marked as unfinished. Raises OSError."""
+    for _ in range(_TRIES):
+        folder = target.parent / f".{_stem(target)}.{secrets.token_hex(4)}{PART}"
+        disk.make_folder(folder)
+        handle = _opened(folder)
+        # Another run may have taken the folder for one without an owner before it was locked.
+        if handle is None or (_lock(handle) is not False and _is_at(handle, folder)):
+            return _begun(Staging(folder, handle))
+        os.close(handle)
+    raise OSError(f"no temporary folder could be made beside {target}")
+
+
+def _begun(staged: Staging) -> Staging:
+    try:
+        manifest.begin(staged.folder)
+    except BaseException:
+        shutil.rmtree(staged.folder, ignore_errors=True)
+        staged.unlock()
+        raise
+    return staged
+
+
+def repair(target: Path) -> None:
+    """Complete or undo the swap of a killed run, and remove what such runs left beside `target`.
+
+    A missing target whose old result has been renamed gets the new result if that is whole, else the old one again.
+    """
+    left = [folder for folder in _left(target) if folder.is_dir() and not folder.is_symlink()]
+    for old in left:
+        if old.suffix == OLD and not os.path.lexists(target):
+            _finish_swap(old, target)
+    for folder in left:
+        if folder.suffix == PART or target.is_dir():
+            _remove_if_free(folder)
+
+
+def remove(folder: Path) -> None:
+    """Remove a staging folder: an unfinished one, or an old result that its manifest describes.
+
+    What its manifest does not describe is kept under a name that can be seen.
+    """
+    if manifest.is_unfinished(folder):
+        for _ in range(_TRIES):  # an interrupted run may still be writing
+            shutil.rmtree(folder, ignore_errors=True)
+            if not folder.exists():
+                return
+    elif folder.is_dir() and not manifest.remove(folder):
+        with contextlib.suppress(OSError):
+            disk.rename(folder, folder.with_name(folder.name.strip(".")).with_suffix(".kept"))
+
+
+def _left(target: Path) -> list[Path]:
+    ours = re.compile(rf"\.{re.escape(_stem(target))}\.[0-9a-f]{{8}}({PART}|{OLD})")
+    try:
+        return [entry for entry in target.parent.iterdir() if ours.fullmatch(entry.name)]
+    except OSError:
+        return []
+
+
+def _finish_swap(old: Path, target: Path) -> None:
+    new = old.with_suffix(PART)
+    handle = _opened(new if new.is_dir() else old)  # a run that lives holds the lock of the new folder
+    if handle is None:
+        return
+    with contextlib.suppress(OSError):
+        if _lock(handle):
+            disk.rename(new if manifest.is_whole(new) else old, target)
+            disk.sync(target.parent)
+    os.close(handle)
+
+
+def _remove_if_free(folder: Path) -> None:
+    handle = _opened(folder)
+    if handle is not None:
+        if _lock(handle):
+            remove(folder)
+        os.close(handle)
+
+
+def _stem(target: Path) -> str:
+    """The name, or a digest of it if it is too long for a suffix."""
+    return target.name if len(os.fsencode(target.name)) <= 200 else sha256(os.fsencode(target.name)).hexdigest()[:32]
+
+
+def _opened(folder: Path) -> int | None:
+    """A handle of the folder; None where it is gone, or the system cannot open folders."""
+    try:
+        return os.open(folder, os.O_RDONLY)
+    except OSError:
+        return None
+
+
+def _lock(handle: int) -> bool | None:
+    """Whether the lock was free; None if there are no locks."""
+    if disk.fcntl is None:
+        return None
+    try:
+        disk.fcntl.flock(handle, disk.fcntl.LOCK_EX | disk.fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return None
+    return True
+
+
+def _is_at(handle: int, folder: Path) -> bool:
+    try:
+        return os.path.samestat(os.fstat(handle), folder.lstat())
+    except OSError:
+        return False
