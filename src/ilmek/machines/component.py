@@ -18,6 +18,7 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.params import Params, Setting
 from ilmek.records import record
 from ilmek.report import CamTable, Check, Figure, Part, Plate, Report, Table, Work, results_of
+from ilmek.report.left_out import LazyFigure, made_figures
 from ilmek.timing.cyclogram import Cyclogram, Track
 
 
@@ -39,7 +40,7 @@ class Component:
     analysis    design -> what is computed for its report only; default: the design
     results     analysis -> records with declared results (one, or a tuple of them); default: the analysis
     reported    the classes of these records, from which the reference of its JSON names is made
-    checks, tables, figures, warnings   analysis -> each
+    checks, tables, figures, warnings   analysis -> each; a figure that cannot be made is left out with a warning
     plates, cam_tables, cyclograms      design -> what is made of it, what its axes follow, its timing
     parts       design -> lines of the parts list                work     design -> work of its acts
     tracks      design -> its tracks on the loom's cyclogram of a row
@@ -60,7 +61,7 @@ class Component:
     reported: tuple[type, ...] = ()
     checks: Callable[[Any], tuple[Check, ...]] = _nothing
     tables: Callable[[Any], tuple[Table, ...]] = _nothing
-    figures: Callable[[Any], tuple[Figure, ...]] = _nothing
+    figures: Callable[[Any], tuple[Figure | LazyFigure, ...]] = _nothing
     warnings: Callable[[Any], tuple[str, ...]] = _nothing
     plates: Callable[[Any], tuple[Plate, ...]] = _nothing
     cam_tables: Callable[[Any], tuple[CamTable, ...]] = _nothing
@@ -86,7 +87,8 @@ class Component:
         """
         analysis = self.analysis(design)
         records = self.results(analysis)
-        figures = self.figures(analysis)
+        left_out: list[str] = []
+        figures = made_figures(lambda: self.figures(analysis), left_out)
         if in_a_loom and self.own_figures:
             figures = tuple(figure for figure in figures if not figure.name.startswith(self.own_figures))
         made = Report(
@@ -97,7 +99,7 @@ class Component:
             checks=self.checks(analysis),
             tables=self.tables(analysis),
             figures=figures,
-            warnings=self.warnings(analysis),
+            warnings=(*self.warnings(analysis), *left_out),
             plates=self.plates(design),
             cam_tables=self.cam_tables(design),
             parts=self.parts(design),

@@ -17,6 +17,7 @@ from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
 from ilmek.errors import encodable
 from ilmek.report import Animation, Check, Figure, Report, Timing
+from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.animation import SECONDS
 from ilmek.viz.number_format import amount, cells, count, fixed, number, quantity, sign, words
 from ilmek.viz.page_parts import Fact, FileNote, carpet_facts, pictures, yarn_lines
@@ -78,12 +79,17 @@ class _Judged:
     check: Check
 
 
-def carpet_page(page: CarpetPage) -> str:
-    """The page of a carpet as self-contained HTML."""
-    sections = [_section(number, report) for number, report in enumerate(page.reports, 1)]
+def carpet_page(page: CarpetPage, left_out: list[str] | None = None) -> str:
+    """The page of a carpet as self-contained HTML.
+
+    left_out  list to which a warning is appended for each figure and picture that cannot be drawn
+    """
+    left_out = [] if left_out is None else left_out
+    sections = [_section(number, report, left_out) for number, report in enumerate(page.reports, 1)]
+    shown = pictures(page.chart, left_out)
     judged = [_Judged("", check) for check in page.checks]
     judged += [_Judged(report.title, check) for report in page.reports for check in report.checks]
-    warnings = [*page.warnings, *(f"{r.title}: {warning}" for r in page.reports for warning in r.warnings)]
+    warnings = [*page.warnings, *(f"{r.title}: {warning}" for r in page.reports for warning in r.warnings), *left_out]
     return _render(
         "carpet.html.j2",
         title=page.title,
@@ -91,7 +97,7 @@ def carpet_page(page: CarpetPage) -> str:
         facts=carpet_facts(page.chart, page.bill, page.facts, [one.check for one in judged]),
         failed=[one.check for one in judged if not one.check.ok],
         warnings=warnings,
-        pictures=pictures(page.chart),
+        pictures=shown,
         yarn=yarn_lines(page.chart, page.bill, page.symbols),
         bill=page.bill,
         length=sum(need.length for need in page.bill.needs),
@@ -104,9 +110,9 @@ def carpet_page(page: CarpetPage) -> str:
     )
 
 
-def machine_page(report: Report) -> str:
-    """The page of a machine as self-contained HTML."""
-    section = _section(1, report)
+def machine_page(report: Report, left_out: list[str] | None = None) -> str:
+    """The page of a machine as self-contained HTML; `left_out` as of `carpet_page`."""
+    section = _section(1, report, [] if left_out is None else left_out)
     return _render(
         "machine.html.j2",
         title=report.title,
@@ -121,9 +127,16 @@ def machine_page(report: Report) -> str:
     )
 
 
-def _section(index: int, report: Report) -> _Section:
-    drawn = tuple(_Drawn(figure, Markup(svg(figure)), _kind(figure)) for figure in report.figures)
-    return _Section(f"m{index}", report, drawn)
+def _section(index: int, report: Report, left_out: list[str]) -> _Section:
+    return _Section(f"m{index}", report, tuple(_drawn(figure, left_out) for figure in report.figures))
+
+
+def _drawn(figure: Figure, left_out: list[str]) -> _Drawn:
+    """A figure, or where it cannot be drawn the reason in its place."""
+    drawn = made_or_left_out(f"figure {figure.title!r}", lambda: svg(figure), left_out)
+    if drawn is None:
+        return _Drawn(figure, Markup("<p>{}</p>").format(left_out[-1]), "")
+    return _Drawn(figure, Markup(drawn), _kind(figure))
 
 
 def _kind(figure: Figure) -> str:

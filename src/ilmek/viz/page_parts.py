@@ -4,6 +4,7 @@ import base64
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from PIL import Image
@@ -12,6 +13,7 @@ from ilmek.carpet.bill import YarnBill, YarnNeed
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import LINEAR
 from ilmek.report import Check
+from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_number
 from ilmek.viz.carpet_picture import carpet_picture, close_up
 from ilmek.viz.number_format import count, fixed, share
@@ -104,25 +106,39 @@ def _cm(length: float) -> str:
     return format_number(100 * length)
 
 
-def pictures(chart: Chart) -> list[PagePicture]:
-    """The chart, the simulated carpet, and a close-up of its knots."""
-    name = f"{chart.columns} by {chart.rows} knots in {chart.colours} colours"
-    whole, near = carpet_picture(chart), close_up(chart)
+def pictures(chart: Chart, left_out: list[str]) -> list[PagePicture]:
+    """The chart, the simulated carpet, and a close-up of its knots; without those that cannot be drawn."""
+    makers = {"of the chart": _of_the_chart, "of the carpet": _of_the_carpet, "of the knots": _of_the_knots}
+    made = [made_or_left_out(f"the picture {name}", partial(make, chart), left_out) for name, make in makers.items()]
+    return [picture for picture in made if picture is not None]
+
+
+def _of_the_chart(chart: Chart) -> PagePicture:
     width, height = round(1000 * chart.size.width), round(1000 * chart.size.length)
-    return [
-        PagePicture(
-            _address(_chart_png(chart), "png"), width, height, "Knot chart.", f"Knot chart, {name}",
-            "One cell is one knot; click to enlarge.", pixelated=True, times=max(1.0, 3 * chart.columns / width),
-        ),
-        PagePicture(
-            _address(whole, "jpeg"), *_size(whole), "The finished carpet.", f"Simulated carpet, {name}",
-            "Simulated pile, fringe and selvedge.", times=1.25,
-        ),
-        PagePicture(
-            _address(near, "jpeg"), *_size(near), "The knots at its centre.", "Simulated close-up of single tufts",
-            "Simulated; each tuft is one knot.", wide=True, times=1.25,
-        ),
-    ]  # fmt: skip
+    return PagePicture(
+        _address(_chart_png(chart), "png"), width, height, "Knot chart.", f"Knot chart, {_knots(chart)}",
+        "One cell is one knot; click to enlarge.", pixelated=True, times=max(1.0, 3 * chart.columns / width),
+    )  # fmt: skip
+
+
+def _of_the_carpet(chart: Chart) -> PagePicture:
+    whole = carpet_picture(chart)
+    return PagePicture(
+        _address(whole, "jpeg"), *_size(whole), "The finished carpet.", f"Simulated carpet, {_knots(chart)}",
+        "Simulated pile, fringe and selvedge.", times=1.25,
+    )  # fmt: skip
+
+
+def _of_the_knots(chart: Chart) -> PagePicture:
+    near = close_up(chart)
+    return PagePicture(
+        _address(near, "jpeg"), *_size(near), "The knots at its centre.", "Simulated close-up of single tufts",
+        "Simulated; each tuft is one knot.", wide=True, times=1.25,
+    )  # fmt: skip
+
+
+def _knots(chart: Chart) -> str:
+    return f"{chart.columns} by {chart.rows} knots in {chart.colours} colours"
 
 
 def _chart_png(chart: Chart) -> bytes:

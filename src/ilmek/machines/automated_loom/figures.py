@@ -1,14 +1,18 @@
 """Figures of the automated loom: cyclogram of a row, weaving time against heads, and the front of the loom."""
 
+import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
+from ilmek.carpet.design import MOST_KNOTS
 from ilmek.carpet.quality import COARSEST, FINEST
 from ilmek.loom.sharing import halves, heads_that_fit, share
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.estimate import estimated_time, estimated_times_at
-from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
+from ilmek.report import Axis, Drawing, Mark, Plot, Series, Stroke, Timing
+from ilmek.report.left_out import LazyFigure
 from ilmek.timing.figures import draw
 from ilmek.units import format_quantity
 
@@ -49,17 +53,24 @@ def _heights(loom: LoomDesign) -> _Heights:
     return _Heights(bottom, spacer, fell, fell + 0.15, comb, cams, cams + max(0.50, guide + tube / 2 + 0.08))
 
 
-def figures(loom: LoomDesign) -> tuple[Figure, ...]:
+def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
     """The loom's figures, the head's cyclogram among them."""
+    scaling = (time_of_one_head,) if loom.heads_max == 1 else (time_against_heads, time_against_pitch)
+    return tuple(partial(make, loom) for make in (front, one_row, one_knot, *scaling))
+
+
+def one_row(loom: LoomDesign) -> Timing:
+    """The cyclogram of a row."""
     note = (
         "Four steps of 90° and the warps' harmonic motion: thesis, 3.3; shuttle, beat and take-up placed within them."
     )
-    row = draw(loom.row_cyclogram, "One row: two wefts, two beats", note)
+    return draw(loom.row_cyclogram, "One row: two wefts, two beats", note)
+
+
+def one_knot(loom: LoomDesign) -> Timing:
+    """The cyclogram of a knot."""
     order = "Order of the motions: thesis, 2.2.3; angles chosen, the thesis prints none. The head steps on at the end."
-    knot = draw(loom.cyclograms[0], "One knot: the head's cams, and its step to the next knot", order)
-    if loom.heads_max == 1:
-        return (front(loom), row, knot, time_of_one_head(loom))
-    return (front(loom), row, knot, time_against_heads(loom), time_against_pitch(loom))
+    return draw(loom.cyclograms[0], "One knot: the head's cams, and its step to the next knot", order)
 
 
 def time_against_heads(loom: LoomDesign) -> Plot:
@@ -93,7 +104,7 @@ def time_against_pitch(loom: LoomDesign) -> Plot:
     series = []
     for factor in _FINER:
         pitch = factor * params.pitch
-        if max(0.5 / pitch, params.quality.along / factor) > FINEST or factor > _coarsest(loom):
+        if not _finest(loom) <= factor <= _coarsest(loom):
             continue
         columns = round(params.width / (2 * pitch))
         heads = range(1, heads_that_fit(columns, 2 * pitch, params.head_width) + 1)
@@ -103,6 +114,15 @@ def time_against_pitch(loom: LoomDesign) -> Plot:
     note = "warp pitch and knots across; rows by the same measure; head, wefts and beats as of this loom"
     axes = Axis("heads"), Axis("time", "h")
     return Plot("weaving-time-pitch", "Weaving time, heads and pitch", *axes, tuple(series), note=note)
+
+
+def _finest(loom: LoomDesign) -> float:
+    """How much narrower the pitch may be: down to the finest quality, and the most knots but for their rounding."""
+    params = loom.params
+    return max(
+        max(0.5 / params.pitch, params.quality.along) / FINEST,
+        math.sqrt(loom.rows * loom.columns / (0.999 * MOST_KNOTS)),
+    )
 
 
 def _coarsest(loom: LoomDesign) -> float:
@@ -115,8 +135,7 @@ def _coarsest(loom: LoomDesign) -> float:
 def time_of_one_head(loom: LoomDesign) -> Plot:
     """How the weaving time of a carpet too narrow for a second head scales: over the pitch of the warps."""
     params = loom.params
-    finest = max(0.5 / params.pitch, params.quality.along) / FINEST
-    pitches = params.pitch * np.linspace(max(_FINER[0], finest), min(_FINER[-1], max(1.0, _coarsest(loom))), 33)
+    pitches = params.pitch * np.linspace(max(_FINER[0], _finest(loom)), min(_FINER[-1], max(1.0, _coarsest(loom))), 33)
     total = np.array([float(estimated_times_at(loom, pitch, (1,))[0]) for pitch in pitches.tolist()])
     note = "rows by the same measure; head, wefts and beats as of this loom; there is room for one head"
     axes = Axis("warp pitch", "mm"), Axis("time", "h")

@@ -1,0 +1,99 @@
+"""A figure that cannot be made is left out with a warning; with the defaults nothing is left out."""
+
+from dataclasses import replace
+from functools import partial
+
+import pytest
+
+from ilmek.carpet.design import MOST_KNOTS
+from ilmek.errors import OutputError
+from ilmek.machines import SUMMARIES
+from ilmek.machines.automated_loom import MACHINE
+from ilmek.machines.automated_loom.figures import time_against_pitch, time_of_one_head
+from ilmek.machines.catalogue import find_machine
+from ilmek.progress import Cancelled
+from ilmek.report import Axis, Plot
+from ilmek.report.left_out import SWITCH, made_figures, made_or_left_out
+from ilmek.viz import page
+from ilmek.viz.page import machine_page
+
+FIGURE = Plot("name", "Title", Axis("x"), Axis("y"), ())
+
+
+def failing_figure() -> Plot:
+    raise ZeroDivisionError("division\nby zero")
+
+
+@pytest.fixture
+def guarded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(SWITCH)
+
+
+@pytest.mark.usefixtures("guarded")
+def test_a_lazy_figure_is_left_out_alone() -> None:
+    left_out: list[str] = []
+    assert made_figures(lambda: (FIGURE, partial(failing_figure), partial(lambda: FIGURE)), left_out) == (FIGURE,) * 2
+    assert left_out == ["figure 'failing figure' is left out: division"]
+
+
+@pytest.mark.usefixtures("guarded")
+def test_all_figures_are_left_out_together() -> None:
+    left_out: list[str] = []
+    assert made_figures(lambda: (failing_figure(),), left_out) == ()
+    assert left_out == ["every figure is left out: division"]
+
+
+@pytest.mark.usefixtures("guarded")
+@pytest.mark.parametrize("error", [OSError, OutputError, Cancelled, KeyboardInterrupt])
+def test_errors_of_the_job_are_raised(error: type[BaseException]) -> None:
+    def fail() -> None:
+        raise error("disc full")
+
+    with pytest.raises(error):
+        made_or_left_out("it", fail, [])
+
+
+def test_in_the_tests_errors_are_raised() -> None:
+    with pytest.raises(ZeroDivisionError):
+        made_or_left_out("it", failing_figure, [])
+
+
+@pytest.mark.usefixtures("guarded")
+def test_a_report_without_its_figures() -> None:
+    machine = find_machine("function-four-bar")
+    whole = machine.report_for({})
+    without = replace(machine, figures=lambda _: (failing_figure(),)).report_for({})
+    assert without.figures == ()
+    assert without.warnings == (*whole.warnings, "every figure is left out: division")
+    assert without.results_as_json() == whole.results_as_json()
+
+
+@pytest.mark.usefixtures("guarded")
+def test_a_page_names_the_figure_that_cannot_be_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(_: object) -> str:
+        raise ValueError("<b>")
+
+    report = find_machine("function-four-bar").report_for({})
+    monkeypatch.setattr(page, "svg", fail)
+    left_out: list[str] = []
+    shown = machine_page(report, left_out)
+    assert len(left_out) == len(report.figures)
+    assert left_out[0] == f"figure {report.figures[0].title!r} is left out: <b>"
+    assert shown.count("is left out: &lt;b&gt;") == len(report.figures)
+
+
+@pytest.mark.parametrize("name", SUMMARIES)
+def test_with_the_defaults_nothing_is_left_out(name: str) -> None:
+    left_out: list[str] = []
+    report = find_machine(name).report_for({})
+    assert "left out" not in machine_page(report, left_out)
+    assert left_out == []
+
+
+def test_the_scaling_of_the_largest_carpets_is_drawn() -> None:
+    settings = {"width": "4m", "length": "8m", "knots_across": "250/dm", "knots_along": "250/dm"}
+    loom = MACHINE.design(MACHINE.params.read(settings))
+    assert 0.9 * MOST_KNOTS < loom.rows * loom.columns <= MOST_KNOTS
+    assert len(time_against_pitch(loom).series) == 3
+    narrow = {"width": "2cm", "length": "50m", "knots_across": "500/dm", "knots_along": "500/dm"}
+    assert len(time_of_one_head(MACHINE.design(MACHINE.params.read(narrow))).series[0].x) == 33
