@@ -118,11 +118,8 @@ def time_against_pitch(loom: LoomDesign) -> Plot:
 
 def _finest(loom: LoomDesign) -> float:
     """How much narrower the pitch may be: down to the finest quality, and the most knots but for their rounding."""
-    params = loom.params
-    return max(
-        max(0.5 / params.pitch, params.quality.along) / FINEST,
-        math.sqrt(loom.rows * loom.columns / (0.999 * MOST_KNOTS)),
-    )
+    finest = max(0.5 / loom.params.pitch, loom.params.quality.along) / FINEST
+    return min(1.0, max(finest, math.sqrt(loom.rows * loom.columns / (0.999 * MOST_KNOTS))))
 
 
 def _coarsest(loom: LoomDesign) -> float:
