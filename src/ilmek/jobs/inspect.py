@@ -11,6 +11,7 @@ import numpy as np
 from ilmek.errors import LoomError
 from ilmek.io.programme_file import ProgrammeFile, open_programme
 from ilmek.loom.row import HeadTies, KnotRow
+from ilmek.progress import SILENT, Progress
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,13 +54,13 @@ class InspectionResult:
         }
 
 
-def inspect_programme(file: Path, number: int | None = None) -> InspectionResult:
+def inspect_programme(file: Path, number: int | None = None, *, progress: Progress = SILENT) -> InspectionResult:
     """Read a programme's statistics and one of its rows.
 
     number  of the row, from 1 at the bottom edge; default: a random row
     Raises LoomError for a row beyond the carpet, and as `open_programme`.
     """
-    with open_programme(file) as programme:
+    with open_programme(file, progress=progress.part(0.0, 1.0, "programme")) as programme:
         index = random.randrange(programme.rows) if number is None else _index(number, programme.rows)
         return InspectionResult(programme, programme.row(index), programme.row_time(index))
 

@@ -14,6 +14,7 @@ from ilmek.loom.programme import Programme, heads_for, make_programme
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.design import USUAL_HEADS
 from ilmek.params import Setting
+from ilmek.progress import SILENT, Progress
 from ilmek.units import format_quantity, parse_quantity
 
 
@@ -100,7 +101,9 @@ def _deadline(text: str) -> float:
     return seconds
 
 
-def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart) -> LoomResult:
+def make_loomed(
+    loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progress: Progress = SILENT
+) -> LoomResult:
     """The loom for a chart, with the number of heads required, and its programme.
 
     Raises LoomError if the heads do not fit or the deadline cannot be met, and errors of the machines.
@@ -110,15 +113,17 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart) -> Loom
         loom_order.params, colours=chart.colours, knot_yarn=longest, changes_per_knot=min(1.0, chart.changes_per_knot)
     )
     made = design(params)
-    heads = _heads(loom_order, made, chart)
+    heads = _heads(loom_order, made, chart, progress.part(0.0, 0.7))
     if heads != params.heads:
         made = design(replace(params, heads=heads))
-    return LoomResult(made, make_programme(chart.knots, len(chart.yarns), heads, made.times))
+    programme = make_programme(chart.knots, len(chart.yarns), heads, made.times, progress=progress.part(0.7, 1.0))
+    return LoomResult(made, programme)
 
 
-def _heads(loom_order: LoomOrder, made: LoomDesign, chart: Chart) -> int:
+def _heads(loom_order: LoomOrder, made: LoomDesign, chart: Chart, progress: Progress) -> int:
     if loom_order.heads is not None:
         return loom_order.heads
     if loom_order.deadline is None:
         return min(USUAL_HEADS, made.heads_max)
-    return heads_for(chart.knots, len(chart.yarns), loom_order.deadline, made.times, made.heads_max)
+    yarns = len(chart.yarns)
+    return heads_for(chart.knots, yarns, loom_order.deadline, made.times, made.heads_max, progress=progress)

@@ -17,8 +17,9 @@ from ilmek.carpet.sizes import LARGEST
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import LoomError
 from ilmek.loom.row import KnotRow
-from ilmek.loom.schedule import ByteTable, Layout, ScheduleResult, schedule
+from ilmek.loom.schedule import NONE, ByteTable, Layout, RowSpan, ScheduleResult, schedule
 from ilmek.loom.sharing import MOST_HEADS, halves, require_whole, share
+from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.units import format_number, hour
 
@@ -27,6 +28,9 @@ MOST_PER_SIDE = round(LARGEST * FINEST)
 
 LONGEST_TIME = 1e9
 """Largest time of an operation of the loom [s], 32 years: sums over the largest carpet stay exact to 1 ms."""
+
+_SLICE = 4_000_000
+"""Knots, and colours of parts, that the kernel counts in one call: about 0.1 s, so that it can be cancelled."""
 
 _ROUNDING = 1 + 1e-9
 """A deadline is met up to the rounding of a sum over many rows."""
@@ -117,7 +121,7 @@ class Programme:
         return KnotRow(number, self.knots[self.rows - 1 - number], self.keys[number], self.edges, self.heads)
 
 
-def make_programme(knots: Indices, yarns: int, heads: int, times: Times) -> Programme:
+def make_programme(knots: Indices, yarns: int, heads: int, times: Times, *, progress: Progress = SILENT) -> Programme:
     """The programme of a chart for a number of heads.
 
     knots  indices of yarns, below `yarns`, (rows, columns), row 0 = top
@@ -127,17 +131,25 @@ def make_programme(knots: Indices, yarns: int, heads: int, times: Times) -> Prog
     _require_chart(knots, yarns)
     edges = share(knots.shape[1], heads)
     keys = np.zeros((knots.shape[0], len(edges) - 1, 3), np.uint8)
-    outcome, _ = _run(knots, Layout(yarns, heads, edges), times, keys, math.inf)
+    outcome, _ = _run(knots, Layout(yarns, heads, edges), times, keys, math.inf, progress=progress)
     counted = outcome.work
     work = HeadWork(counted[:, 0], counted[:, 1], counted[:, 2], counted[:, 3], outcome.busy)
     return Programme(knots, yarns, heads, times, edges, keys, outcome.row_times, work)
 
 
-def weaving_time(knots: Indices, yarns: int, heads: int, times: Times, deadline: float = math.inf) -> float:
+def weaving_time(
+    knots: Indices,
+    yarns: int,
+    heads: int,
+    times: Times,
+    deadline: float = math.inf,
+    *,
+    progress: Progress = SILENT,
+) -> float:
     """Weaving time [s] without the programme; beyond the deadline [s], a lower bound that exceeds the deadline."""
     _require_chart(knots, yarns)
     layout = Layout(yarns, heads, share(knots.shape[1], heads))
-    return _run(knots, layout, times, np.zeros((0, 1, 3), np.uint8), deadline)[1]
+    return _run(knots, layout, times, np.zeros((0, 1, 3), np.uint8), deadline, progress=progress)[1]
 
 
 def least_time(rows: int, columns: int, heads: int, times: Times) -> float:
@@ -145,7 +157,9 @@ def least_time(rows: int, columns: int, heads: int, times: Times) -> float:
     return rows * _least_row(share(columns, heads), heads, times)
 
 
-def heads_for(knots: Indices, yarns: int, deadline: float, times: Times, heads_max: int) -> int:
+def heads_for(
+    knots: Indices, yarns: int, deadline: float, times: Times, heads_max: int, *, progress: Progress = SILENT
+) -> int:
     """The smallest number of heads, up to `heads_max`, that weaves the chart within the deadline [s].
 
     Numbers whose least time exceeds the deadline are skipped. A trial ends as soon as its remaining rows cannot meet
@@ -158,9 +172,10 @@ def heads_for(knots: Indices, yarns: int, deadline: float, times: Times, heads_m
     for heads in range(1, heads_max + 1):
         if least_time(rows, columns, heads, times) > deadline * _ROUNDING:
             continue
-        if weaving_time(knots, yarns, heads, times, deadline) <= deadline * _ROUNDING:
+        trial = progress.part((heads - 1) / heads_max, heads / heads_max)
+        if weaving_time(knots, yarns, heads, times, deadline, progress=trial) <= deadline * _ROUNDING:
             return heads
-    reached = weaving_time(knots, yarns, heads_max, times)
+    reached = weaving_time(knots, yarns, heads_max, times, progress=progress.part(1.0, 1.0))
     raise LoomError(
         f"the deadline of {_hours(deadline)} cannot be met",
         allowed=f"at most {heads_max} heads fit this width; they weave it in {_hours(reached)}",
@@ -169,13 +184,24 @@ def heads_for(knots: Indices, yarns: int, deadline: float, times: Times, heads_m
 
 
 def _run(
-    knots: Indices, layout: Layout, times: Times, keys: ByteTable, deadline: float
+    knots: Indices, layout: Layout, times: Times, keys: ByteTable, deadline: float, *, progress: Progress
 ) -> tuple[ScheduleResult, float]:
-    heads = layout.heads
-    outcome = ScheduleResult(keys, np.zeros(knots.shape[0]), np.zeros((heads, 4), np.int64), np.zeros(heads))
-    limits = (deadline * _ROUNDING, _least_row(layout.edges, heads, times))
-    total = schedule(np.ascontiguousarray(knots), layout, times.as_tuple(), limits, outcome)
-    return outcome, float(total)
+    """The filled result and the weaving time [s]; beyond the deadline, a lower bound that exceeds it."""
+    (rows, columns), heads = knots.shape, int(layout.heads)
+    layout = Layout(int(layout.yarns), heads, layout.edges)
+    work, handler = np.zeros((heads, 4), np.int64), np.full(heads, NONE, np.int64)
+    outcome = ScheduleResult(keys, np.zeros(rows), work, np.zeros(heads), handler)
+    latest, least_row = deadline * _ROUNDING, float(_least_row(layout.edges, heads, times))
+    chart, total = np.ascontiguousarray(knots), 0.0
+    step = max(1, _SLICE // (columns + len(layout.edges) * layout.yarns))
+    for first in range(0, rows, step):
+        last = min(first + step, rows)
+        span = RowSpan(first, last, total, latest, least_row)
+        total = float(schedule(chart, layout, times.as_tuple(), span, outcome))
+        if total > latest:
+            break
+        progress(last / rows)
+    return outcome, total
 
 
 def _least_row(edges: IntArray, heads: int, times: Times) -> float:

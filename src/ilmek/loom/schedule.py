@@ -51,33 +51,49 @@ class ScheduleResult(NamedTuple):
     row_times  float (rows,) [s]
     work       int (heads, 4): knots, changes, pitches, parts in passes
     busy       float (heads,): working time of each head [s]
+    handler    int (heads,): colour in each head's handler after the last row; NONE before the first
     """
 
     keys: ByteTable
     row_times: FloatArray
     work: IntArray
     busy: FloatArray
+    handler: IntArray
+
+
+class RowSpan(NamedTuple):
+    """The rows of one call of `schedule`.
+
+    first, last  loom rows: the first, and the one after the last
+    spent        time of the rows before [s]
+    deadline     stop as soon as the carpet cannot be finished by then [s]
+    least_row    least time of a row [s]
+    """
+
+    first: int
+    last: int
+    spent: float
+    deadline: float
+    least_row: float
 
 
 @compiled
-def schedule(
-    knots: Indices, layout: Layout, times: FourTimes, limits: tuple[float, float], outcome: ScheduleResult
-) -> float:
-    """Choose the order of every part and sum the times, from the carpet's bottom edge upward.
+def schedule(knots: Indices, layout: Layout, times: FourTimes, span: RowSpan, outcome: ScheduleResult) -> float:
+    """Choose the order of every part of some rows and sum the times, from the carpet's bottom edge upward.
 
     knots   chart, uint8 (rows, columns), row 0 = top
     times   (knot, colour change, idle pitch, wefts of a row) [s]
-    limits  (deadline, least time of a row) [s]: stop as soon as the deadline cannot be met
 
-    Fills `outcome` and returns the total time [s]; after a stop, a lower bound that exceeds the deadline.
+    Fills the rows of `outcome` and returns the time up to their end [s]; after a stop, a lower bound of the time of the
+    carpet that exceeds the deadline.
     """
     yarns, heads, edges = layout
-    keys, row_times, work, busy = outcome
+    keys, row_times, work, busy, handler = outcome
     rows, halves = knots.shape[0], (edges.shape[0] - 1) // heads
     by_colour = np.zeros((6, yarns), np.int64)
-    handler, column = np.full(heads, NONE), np.zeros(heads, np.int64)
-    total: float = 0.0
-    for row in range(rows):
+    column = np.zeros(heads, np.int64)
+    begin, finish, total, deadline, least_row = span
+    for row in range(begin, finish):
         line, forward, row_time = knots[rows - 1 - row], row % 2 == 0, times[3]
         for half in range(halves):
             slowest = 0.0
@@ -100,8 +116,8 @@ def schedule(
             row_time += slowest
         row_times[row] = row_time
         total += row_time
-        rest: float = (rows - 1 - row) * limits[1]
-        if total + rest > limits[0]:
+        rest: float = (rows - 1 - row) * least_row
+        if total + rest > deadline:
             return total + rest
     return total
 
