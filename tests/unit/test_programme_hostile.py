@@ -282,6 +282,15 @@ def test_tables_that_ilmek_does_not_write(written: Path, statement: str, said: s
     refused(written, said)
 
 
+def test_a_text_that_is_null(written: Path) -> None:
+    declared = programme_file.TABLES["meta"]
+    for sql in (declared.replace(" NOT NULL", ""), declared):
+        alter(written, "PRAGMA writable_schema=ON", f"UPDATE sqlite_master SET sql = '{sql}' WHERE name = 'meta'")
+        if sql != declared:
+            alter(written, "UPDATE meta SET value = NULL WHERE key = 'knot'")
+    refused(written, "knot is not JSON")
+
+
 def test_tables_that_share_their_pages(written: Path) -> None:
     alter(written, "PRAGMA writable_schema=ON", "UPDATE sqlite_master SET rootpage = 1 WHERE name = 'row'")
     refused(written, "is damaged|is missing")

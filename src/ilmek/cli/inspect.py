@@ -36,7 +36,7 @@ def command(file: Path, number: int | None, force: bool, json_to: str | None) ->
     Rows are counted from 1 at the bottom, knots from 1 at the left, as on the printed chart.
     """
     with call_outputs({"--json": json_to}, force=force, inputs={"FILE": file}) as call:
-        found = inspect_programme(file, number)
+        found = inspect_programme(file, number, progress=call.progress)
         call.give_json(found.as_json)
     if not call.quiet:
         show_programme(found.programme)

@@ -52,11 +52,23 @@ _BLOCK = 1 << 21
 def write_programme(path: Path, programme: Programme, label: Label, *, progress: Progress = SILENT) -> None:
     """Write a programme to a new file.
 
-    Raises OSError or sqlite3.Error if it cannot be written, LoomError if the label's yarns are not the programme's.
+    Raises OSError or sqlite3.Error if it cannot be written, LoomError if the label's yarns are not the programme's, and
+    the error of a label that could not be read again.
     """
     if len(label.yarns) != programme.yarns:
         raise LoomError(f"{len(label.yarns)} yarns for a programme of {programme.yarns}")
-    _fill(path, programme, label, progress)
+    texts = meta_texts(programme, label)
+    with contextlib.closing(sqlite3.connect(path, isolation_level=None)) as connection:
+        # Nobody reads the file before the rename: no journal is needed.
+        for pragma in (f"page_size={_PAGE}", "journal_mode=OFF", "synchronous=OFF", f"application_id={APPLICATION}"):
+            connection.execute(f"PRAGMA {pragma}").fetchall()
+        connection.execute(f"PRAGMA user_version={VERSION}")
+        connection.execute("BEGIN")
+        for statement in TABLES.values():
+            connection.execute(statement)
+        connection.executemany("INSERT INTO meta VALUES (?, ?)", texts.items())
+        connection.executemany("INSERT INTO row VALUES (?, ?, ?)", _blobs(programme, progress))
+        connection.execute("COMMIT")
 
 
 def open_programme(path: Path, *, progress: Progress = SILENT) -> "ProgrammeFile":
@@ -72,7 +84,7 @@ def open_programme(path: Path, *, progress: Progress = SILENT) -> "ProgrammeFile
     try:
         with _as_loom_error(path):
             stored = database.select("SELECT key, value FROM meta LIMIT 99")
-            file = ProgrammeFile(path, database, read_meta({key.decode(): value.decode() for key, value in stored}))
+            file = ProgrammeFile(path, database, read_meta({_text(key): _text(value) for key, value in stored}))
             _check_rows(file, progress)
             return file
     except BaseException:
@@ -112,7 +124,10 @@ class ProgrammeFile:
 
     def row_time(self, number: int) -> float:
         """Time of a loom row with its wefts [s]. Raises LoomError as `row`."""
-        return float(self._stored(number)[0])
+        time = self._stored(number)[0]
+        if not isinstance(time, float):
+            raise self.damaged(f"row {number} is damaged")
+        return time
 
     def stored_rows(self) -> Iterator[tuple[int, object, object]]:
         """Number, time [s] and data of every row as stored, in order."""
@@ -134,7 +149,7 @@ class ProgrammeFile:
         """The error of a file that is damaged."""
         return LoomError(f"{self.path}: {reason}", allowed="a whole programme", do=_AGAIN)
 
-    def _stored(self, number: int) -> tuple[float, object]:
+    def _stored(self, number: int) -> tuple[object, object]:
         if not 0 <= number < self.rows:
             raise LoomError(f"row {number}", allowed=f"rows 0 to {self.rows - 1}")
         with _as_loom_error(self.path):
@@ -156,25 +171,11 @@ class ProgrammeFile:
         self.close()
 
 
-def _fill(work: Path, programme: Programme, label: Label, progress: Progress) -> None:
-    with contextlib.closing(sqlite3.connect(work, isolation_level=None)) as connection:
-        # Nobody reads the file before the rename: no journal is needed.
-        for pragma in (f"page_size={_PAGE}", "journal_mode=OFF", "synchronous=OFF", f"application_id={APPLICATION}"):
-            connection.execute(f"PRAGMA {pragma}").fetchall()
-        connection.execute(f"PRAGMA user_version={VERSION}")
-        connection.execute("BEGIN")
-        for statement in TABLES.values():
-            connection.execute(statement)
-        connection.executemany("INSERT INTO meta VALUES (?, ?)", meta_texts(programme, label).items())
-        connection.executemany("INSERT INTO row VALUES (?, ?, ?)", _blobs(programme, progress))
-        connection.execute("COMMIT")
-
-
 def _blobs(programme: Programme, progress: Progress) -> Iterator[tuple[int, float, bytes]]:
     times = programme.row_times.tolist()
     for number in range(programme.rows):
-        row = programme.row(number)
-        yield number, times[number], zlib.compress(row.colours.tobytes() + row.keys.tobytes(), _LEVEL)
+        colours, keys = programme.knots[programme.rows - 1 - number], programme.keys[number]
+        yield number, times[number], zlib.compress(colours.tobytes() + keys.tobytes(), _LEVEL)
         if number % 64 == 63:
             progress((number + 1) / programme.rows)
     progress(1.0)
@@ -199,6 +200,14 @@ def _check_header(path: Path) -> None:
         raise LoomError(f"{path} is truncated", allowed=expected, do=_AGAIN)
     if not header.plain or not header.expected_length:
         raise LoomError(f"{path} is damaged (its header)", allowed="a whole programme", do=_AGAIN)
+
+
+def _text(stored: object) -> str:
+    """A text as stored; a damaged file may have any other value instead."""
+    try:
+        return stored.decode() if isinstance(stored, bytes) else ""
+    except UnicodeDecodeError as error:
+        raise DamagedDatabase("a text is not UTF-8") from error
 
 
 def _check_rows(file: ProgrammeFile, progress: Progress) -> None:
@@ -254,8 +263,7 @@ def _as_loom_error(path: Path) -> Iterator[None]:
     """Errors of the description, the database and a row as an error of the file."""
     try:
         yield
-    except (DamagedDatabase, UnicodeDecodeError, IlmekError) as error:
+    except (DamagedDatabase, IlmekError) as error:
         if isinstance(error, LoomError) and error.do == _AGAIN:
             raise
-        reason = "a text is not UTF-8" if isinstance(error, UnicodeDecodeError) else str(error)
-        raise LoomError(f"{path} is damaged ({reason})", allowed="a whole programme", do=_AGAIN) from error
+        raise LoomError(f"{path} is damaged ({error})", allowed="a whole programme", do=_AGAIN) from error

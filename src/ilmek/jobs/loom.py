@@ -101,9 +101,7 @@ def _deadline(text: str) -> float:
     return seconds
 
 
-def make_loomed(
-    loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progress: Progress = SILENT
-) -> LoomResult:
+def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progress: Progress = SILENT) -> LoomResult:
     """The loom for a chart, with the number of heads required, and its programme.
 
     Raises LoomError if the heads do not fit or the deadline cannot be met, and errors of the machines.

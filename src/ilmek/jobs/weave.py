@@ -94,8 +94,7 @@ def _weave(
     order: CarpetOrder, loom_order: LoomOrder, folder: Path, outputs: Outputs, progress: Progress
 ) -> WeaveResult:
     charted = make_charted(order, progress.part(0.0, 0.4, "picture"))
-    progress.part(0.4, 0.5, "loom")
-    loomed = make_loomed(loom_order, order, charted.chart)
+    loomed = make_loomed(loom_order, order, charted.chart, progress.part(0.4, 0.5, "loom"))
     woven = WeaveResult(charted, loom_order, loomed, MACHINE.report(loomed.design), folder)
     with outputs.folder(folder) as work:
         write_chart(charted, work, progress.part(0.5, 0.7, "chart.pdf"))
