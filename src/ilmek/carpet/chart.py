@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ilmek.arrays import Indices, Rgb
-from ilmek.carpet.design import knot_grid, resampled
+from ilmek.carpet.design import bands, knot_grid, resampled
 from ilmek.carpet.isolated_knots import count_lone, merge_lone
 from ilmek.carpet.palette import best_yarns, distinct_colours, nearest_yarns, paint
 from ilmek.carpet.quality import Quality
@@ -54,7 +54,10 @@ class Chart:
     @property
     def counts(self) -> tuple[int, ...]:
         """Knots of each yarn, in the order of `yarns`."""
-        return tuple(np.bincount(self.knots.ravel(), minlength=len(self.yarns)).tolist())
+        counts = np.zeros(len(self.yarns), dtype=np.int64)
+        for band in bands(*self.knots.shape):
+            counts += np.bincount(self.knots[band].ravel(), minlength=len(self.yarns))
+        return tuple(counts.tolist())
 
     @property
     def colours(self) -> int:
@@ -69,7 +72,8 @@ class Chart:
     @property
     def changes_per_knot(self) -> float:
         """Changes of yarn along the rows, per knot [-]."""
-        return int(np.count_nonzero(self.knots[:, 1:] != self.knots[:, :-1])) / self.knots.size
+        rows = (self.knots[band] for band in bands(*self.knots.shape))
+        return sum(int(np.count_nonzero(part[:, 1:] != part[:, :-1])) for part in rows) / self.knots.size
 
 
 def make_chart(
@@ -92,18 +96,43 @@ def make_chart(
     """
     if rgb.size == 0:
         raise PictureError("the picture is empty", allowed="at least 1 × 1 pixels")
-    if not 2 <= len(yarns) <= MOST_YARNS:
-        raise YarnError(f"the yarn list has {len(yarns)} yarns", allowed=f"2 to {MOST_YARNS} yarns")
-    kind = parse_knot(knot)
+    _check_yarns(yarns)
+    parse_knot(knot)
     picture = resampled(rgb, *knot_grid(size, quality), progress.part(0.0, 0.4))
-    distinct = distinct_colours(picture)
+    return chart_of_design(
+        picture, size, quality, yarns, knot=knot, keep_lone=keep_lone, colours=colours, progress=progress.part(0.4, 1.0)
+    )
+
+
+def chart_of_design(
+    picture: Rgb,
+    size: CarpetSize,
+    quality: Quality,
+    yarns: Sequence[Yarn],
+    *,
+    knot: str = "symmetric",
+    keep_lone: bool = False,
+    colours: int | None = None,
+    progress: Progress = SILENT,
+) -> Chart:
+    """As `make_chart`, of a picture with one pixel for each knot, which the caller need not keep."""
+    _check_yarns(yarns)
+    kind = parse_knot(knot)
+    distinct = distinct_colours(picture, progress.part(0.0, 0.3))
     chosen = tuple(yarns)
     if colours is not None:
-        chosen = tuple(yarns[number] for number in best_yarns(distinct, yarn_labs(yarns), colours))
+        best = best_yarns(distinct, yarn_labs(yarns), colours, progress.part(0.3, 0.6))
+        chosen = tuple(yarns[number] for number in best)
     labs = yarn_labs(chosen)
-    yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.4, 0.8))
-    knots = paint(picture, distinct, yarn_of)
-    merged, added = (0, 0.0) if keep_lone else merge_lone(knots, picture, distinct, labs, difference)
+    yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.6, 0.8))
+    knots = paint(picture, distinct, yarn_of, progress.part(0.8, 0.9))
+    lone = progress.part(0.9, 1.0)
+    merged, added = (0, 0.0) if keep_lone else merge_lone(knots, picture, distinct, labs, difference, progress=lone)
     least = float(distinct.counts @ difference)
     progress(1.0)
     return Chart(knots, chosen, size, quality, kind, (least + added) / knots.size, least / knots.size, merged)
+
+
+def _check_yarns(yarns: Sequence[Yarn]) -> None:
+    if not 2 <= len(yarns) <= MOST_YARNS:
+        raise YarnError(f"the yarn list has {len(yarns)} yarns", allowed=f"2 to {MOST_YARNS} yarns")

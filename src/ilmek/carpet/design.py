@@ -7,6 +7,8 @@ picture and carpet differ, the picture is stretched by `distortion`.
 Knots are not square where the quality differs across and along; the grid accounts for that.
 """
 
+from collections.abc import Callable, Iterator
+
 import numpy as np
 
 from ilmek.arrays import Rgb, UInt8
@@ -22,6 +24,9 @@ LARGEST_DISTORTION = 0.02
 """Largest distortion that is not noticeable; above it a job should warn."""
 
 _BAND = 128
+_SLICE = 1 << 22
+"""Pixels or knots of one call of a kernel: about 0.1 s, in which an interrupt waits."""
+
 _STEPS = 4096
 
 # Linear light above which the next code is nearer, and the code at each of _STEPS even steps of light.
@@ -72,10 +77,20 @@ def _encoded(light: float) -> int:
     return code
 
 
+def bands(rows: int, columns: int, most: int = _SLICE) -> Iterator[slice]:
+    """Slices of the rows of a picture or chart, of at most `most` pixels each and at least one row.
+
+    >>> [(band.start, band.stop) for band in bands(5, 10, 20)]
+    [(0, 2), (2, 4), (4, 5)]
+    """
+    step = max(1, most // columns)
+    return (slice(first, min(first + step, rows)) for first in range(0, rows, step))
+
+
 @compiled
-def _resample(rgb: Rgb, out: Rgb, first: int, rows: int) -> None:
+def _resample(rgb: Rgb, out: Rgb, first: int, rows: int, top: int, height: int) -> None:  # noqa: PLR0917
     # In units of 1/rows (1/columns) of a pixel, pixels and knots begin and end at integers: the shares are exact.
-    height, width = rgb.shape[0], rgb.shape[1]
+    width = rgb.shape[1]
     columns = out.shape[1]
     line = np.empty((width, 3))
     for row in range(out.shape[0]):
@@ -85,7 +100,7 @@ def _resample(rgb: Rgb, out: Rgb, first: int, rows: int) -> None:
             share = (min(end, (y + 1) * rows) - max(start, y * rows)) / height
             for x in range(width):
                 for channel in range(3):
-                    line[x, channel] += share * LINEAR[rgb[y, x, channel]]
+                    line[x, channel] += share * LINEAR[rgb[y - top, x, channel]]
         for column in range(columns):
             left, right = column * width, (column + 1) * width
             red, green, blue = 0.0, 0.0, 0.0
@@ -101,11 +116,25 @@ def _resample(rgb: Rgb, out: Rgb, first: int, rows: int) -> None:
 
 def resampled(rgb: Rgb, rows: int, columns: int, progress: Progress = SILENT) -> UInt8[np.ndarray, "rows columns 3"]:
     """The picture on a grid of rows × columns by box averages in linear light; unchanged if it has that grid."""
-    rgb = np.ascontiguousarray(rgb)
     if rgb.shape[:2] == (rows, columns):
-        return rgb
+        return np.ascontiguousarray(rgb)
+    height, width = int(rgb.shape[0]), int(rgb.shape[1])
+    return resampled_rows(lambda part: rgb[part], (height, width), (rows, columns), progress)
+
+
+def resampled_rows(
+    source: Callable[[slice], Rgb], size: tuple[int, int], grid: tuple[int, int], progress: Progress = SILENT
+) -> UInt8[np.ndarray, "rows columns 3"]:
+    """As `resampled`, of a picture that is made in parts.
+
+    source  the picture's rows in a slice      size  its height and width      grid  rows and columns of the result
+    """
+    (height, width), (rows, columns) = size, grid
     out = np.empty((rows, columns, 3), dtype=np.uint8)
-    for first in range(0, rows, _BAND):
-        _resample(rgb, out[first : first + _BAND], first, rows)
-        progress(min(first + _BAND, rows) / rows)
+    step = min(_BAND, max(1, _SLICE // (width * -(-height // rows) + columns)))
+    for first in range(0, rows, step):
+        band = out[first : first + step]
+        top, bottom = first * height // rows, -(-(first + len(band)) * height // rows)
+        _resample(np.ascontiguousarray(source(slice(top, bottom))), band, first, rows, top, height)
+        progress((first + len(band)) / rows)
     return out

@@ -12,8 +12,13 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, Indices, IntArray, Rgb, UInt8
 from ilmek.carpet.colour_difference import ciede2000
+from ilmek.carpet.design import bands
 from ilmek.carpet.palette import Colours
 from ilmek.num.compiled import compiled
+from ilmek.progress import SILENT, Progress
+
+_SLICE = 1 << 20
+"""Knots of one call of the kernel, which computes up to four differences for each."""
 
 
 @compiled
@@ -31,9 +36,9 @@ def is_lone(knots: Indices, row: int, column: int) -> bool:
 
 
 @compiled
-def _count_lone(knots: Indices) -> int:
+def _count_lone(knots: Indices, first: int, stop: int) -> int:
     lone = 0
-    for row in range(knots.shape[0]):
+    for row in range(first, stop):
         for column in range(knots.shape[1]):
             lone += is_lone(knots, row, column)
     return lone
@@ -57,10 +62,17 @@ def _best_neighbour(
 
 @compiled
 def _merge(  # noqa: PLR0917
-    knots: Indices, rgb: Rgb, index: IntArray, labs: FloatArray, yarns: FloatArray, before: FloatArray
+    knots: Indices,
+    rgb: Rgb,
+    index: IntArray,
+    labs: FloatArray,
+    yarns: FloatArray,
+    before: FloatArray,
+    rows: tuple[int, int],
+    so_far: tuple[int, float],
 ) -> tuple[int, float]:
-    merged, added = 0, 0.0
-    for row in range(knots.shape[0]):
+    merged, added = so_far
+    for row in range(rows[0], rows[1]):
         for column in range(knots.shape[1]):
             if is_lone(knots, row, column):
                 code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
@@ -73,11 +85,18 @@ def _merge(  # noqa: PLR0917
 
 def count_lone(knots: Indices) -> int:
     """Number of lone knots of a chart (rows, columns)."""
-    return int(_count_lone(np.ascontiguousarray(knots)))
+    knots = np.ascontiguousarray(knots)
+    return sum(int(_count_lone(knots, band.start, band.stop)) for band in bands(*knots.shape))
 
 
 def merge_lone(
-    knots: Indices, rgb: Rgb, colours: Colours, yarn_labs: FloatArray, difference: FloatArray
+    knots: Indices,
+    rgb: Rgb,
+    colours: Colours,
+    yarn_labs: FloatArray,
+    difference: FloatArray,
+    *,
+    progress: Progress = SILENT,
 ) -> tuple[int, float]:
     """Give every lone knot the yarn of its best neighbour; `knots` is modified.
 
@@ -85,5 +104,11 @@ def merge_lone(
     yarn_labs   CIELAB of the yarns, (yarns, 3)        difference  CIEDE2000 of each colour to its yarn, (colours,)
     Returns the number of changed knots and the sum of CIEDE2000 that the changes add.
     """
-    merged, added = _merge(knots, np.ascontiguousarray(rgb), colours.index, colours.labs, yarn_labs, difference)
-    return int(merged), float(added)
+    rgb = np.ascontiguousarray(rgb)
+    found = (0, 0.0)
+    for band in bands(*knots.shape, _SLICE):
+        rows = band.start, band.stop
+        merged, added = _merge(knots, rgb, colours.index, colours.labs, yarn_labs, difference, rows, found)
+        found = int(merged), float(added)
+        progress(band.stop / len(knots))
+    return found

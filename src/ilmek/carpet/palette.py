@@ -12,6 +12,7 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray, Indices, Int, Int32, Int64, IntArray, Rgb, UInt8
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000, nearest
+from ilmek.carpet.design import bands
 from ilmek.errors import YarnError
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
@@ -21,6 +22,11 @@ _CODES = 1 << 24
 _BATCH = 65536
 _LARGEST_TABLE = 1 << 25
 _MOST_TRIALS = 3_000_000
+_TABLE, _SWAPS = 0.3, 0.6
+"""Shares of the search for yarns at which the table of differences is made, and at which the swaps begin."""
+
+_CELLS = 256
+"""Cells of the Lab space along a and b; both are -108 to 99 in sRGB."""
 
 
 @record
@@ -37,8 +43,7 @@ class Colours:
 
 
 @compiled
-def _count(rgb: Rgb, index: IntArray, codes: IntArray, counts: IntArray) -> int:
-    found = 0
+def _count(rgb: Rgb, index: IntArray, codes: IntArray, counts: IntArray, found: int) -> int:
     for row in range(rgb.shape[0]):
         for column in range(rgb.shape[1]):
             code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
@@ -59,17 +64,23 @@ def _paint(rgb: Rgb, index: IntArray, yarn_of: UInt8[np.ndarray, " colours"], kn
             knots[row, column] = yarn_of[index[code] - 1]
 
 
-def distinct_colours(rgb: Rgb) -> Colours:
+def distinct_colours(rgb: Rgb, progress: Progress = SILENT) -> Colours:
     """The distinct colours of a picture, in order of first appearance."""
+    rgb = np.ascontiguousarray(rgb)
+    rows, columns = rgb.shape[:2]
     index = np.zeros(_CODES, dtype=np.int32)
-    most = min(_CODES, rgb.shape[0] * rgb.shape[1])
+    most = min(_CODES, rows * columns)
     codes, counts = np.empty(most, dtype=np.int32), np.empty(most, dtype=np.int64)
-    found = _count(np.ascontiguousarray(rgb), index, codes, counts)
+    found = 0
+    for band in bands(rows, columns):
+        found = int(_count(rgb[band], index, codes, counts, found))
+        progress(0.5 * band.stop / rows)
     labs = np.empty((found, 3))
     for start in range(0, found, _BATCH):
         seen = codes[start : min(start + _BATCH, found)]
         channels = np.stack([seen >> 16, seen >> 8 & 255, seen & 255], axis=-1).astype(np.uint8)
         labs[start : start + len(seen)] = srgb_to_lab(channels)
+        progress(0.5 + 0.5 * (start + len(seen)) / found)
     return Colours(index, labs, counts[:found].copy())
 
 
@@ -86,14 +97,20 @@ def nearest_yarns(
     return index, delta
 
 
-def paint(rgb: Rgb, colours: Colours, yarn_of: UInt8[np.ndarray, " colours"]) -> Indices:
+def paint(rgb: Rgb, colours: Colours, yarn_of: UInt8[np.ndarray, " colours"], progress: Progress = SILENT) -> Indices:
     """The knot chart (rows, columns) of a picture; `yarn_of`: index of the yarn of each distinct colour."""
-    knots = np.empty(rgb.shape[:2], dtype=np.uint8)
-    _paint(np.ascontiguousarray(rgb), colours.index, yarn_of, knots)
+    rgb = np.ascontiguousarray(rgb)
+    rows, columns = rgb.shape[:2]
+    knots = np.empty((rows, columns), dtype=np.uint8)
+    for band in bands(rows, columns):
+        _paint(rgb[band], colours.index, yarn_of, knots[band])
+        progress(band.stop / rows)
     return knots
 
 
-def best_yarns(colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], count: int) -> tuple[int, ...]:
+def best_yarns(
+    colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], count: int, progress: Progress = SILENT
+) -> tuple[int, ...]:
     """Indices, ascending, of the `count` yarns with the least total CIEDE2000 over the picture.
 
     Every choice is tried where these are few. Else yarns are added one by one, each the best addition, and then swapped
@@ -104,12 +121,15 @@ def best_yarns(colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], count:
         raise YarnError(f"{count} colours cannot be picked from the list", allowed=f"2 to {len(yarn_labs)}, its length")
     labs, weights = _pooled(colours, _LARGEST_TABLE // len(yarn_labs))
     table = np.empty((len(yarn_labs), len(labs)), dtype=np.float32)
-    for row, lab in zip(table, yarn_labs, strict=True):
-        row[:] = delta_e_2000(labs, lab) * weights
+    for number, (row, lab) in enumerate(zip(table, yarn_labs, strict=True)):
+        for part in bands(len(labs), 1, _BATCH):
+            row[part] = delta_e_2000(labs[part], lab) * weights[part]
+            progress(_TABLE * number / len(table))
     if math.comb(len(yarn_labs), count) * len(labs) * count <= _MOST_TRIALS:
         choices = itertools.combinations(range(len(yarn_labs)), count)
         return min(choices, key=lambda choice: total_difference(table, choice))
-    return tuple(sorted(_swap_while_better(table, _add_one_by_one(table, count))))
+    begun = _add_one_by_one(table, count, progress.part(_TABLE, _SWAPS))
+    return tuple(sorted(_swap_while_better(table, begun, progress.part(_SWAPS, 1.0))))
 
 
 def total_difference(table: Float[np.ndarray, "yarns colours"], choice: tuple[int, ...]) -> float:
@@ -122,8 +142,7 @@ def _pooled(colours: Colours, most: int) -> tuple[FloatArray, FloatArray]:
     labs, weights = colours.labs, colours.counts.astype(float)
     cell = 1.0
     while len(labs) > most:
-        keys = np.floor(colours.labs / cell).astype(np.int64) + 512
-        _, group = np.unique(keys @ np.array([1 << 20, 1 << 10, 1]), return_inverse=True)
+        group = _cells(colours.labs, cell)
         weights = np.bincount(group, weights=colours.counts)
         labs = np.stack(
             [np.bincount(group, weights=colours.counts * axis) / weights for axis in colours.labs.T], axis=-1
@@ -132,15 +151,27 @@ def _pooled(colours: Colours, most: int) -> tuple[FloatArray, FloatArray]:
     return labs, weights
 
 
-def _add_one_by_one(table: Float[np.ndarray, "yarns colours"], count: int) -> list[int]:
+def _cells(labs: FloatArray, cell: float) -> IntArray:
+    """The number of each colour's cell of the Lab space, of those that contain a colour."""
+    keys = np.empty(len(labs), dtype=np.int32)
+    for part in bands(len(labs), 1, _BATCH):
+        lightness, a, b = np.floor(labs[part] / cell).astype(np.int32).T
+        keys[part] = (lightness * _CELLS + a + _CELLS // 2) * _CELLS + b + _CELLS // 2
+    occupied = np.zeros(101 * _CELLS**2, dtype=bool)
+    occupied[keys] = True
+    return np.asarray((np.cumsum(occupied, dtype=np.int32) - 1)[keys])
+
+
+def _add_one_by_one(table: Float[np.ndarray, "yarns colours"], count: int, progress: Progress = SILENT) -> list[int]:
     """The yarns of a greedy choice, in order."""
     chosen: list[int] = []
     least = np.full(table.shape[1], np.inf, dtype=np.float32)
-    for _ in range(count):
+    for number in range(count):
         totals = [float(np.minimum(row, least).sum(dtype=float)) for row in table]
         best = min((yarn for yarn in range(len(table)) if yarn not in chosen), key=totals.__getitem__)
         chosen.append(best)
         least = np.minimum(least, table[best])
+        progress((number + 1) / count)
     return chosen
 
 
@@ -158,20 +189,24 @@ def _swap_totals(
     totals += shared
 
 
-def _swap_while_better(table: Float[np.ndarray, "yarns colours"], chosen: list[int]) -> list[int]:
+def _swap_while_better(
+    table: Float[np.ndarray, "yarns colours"], chosen: list[int], progress: Progress = SILENT
+) -> list[int]:
     """Exchange the best pair (one chosen, one not) while that lowers the total."""
     totals = np.empty(len(chosen))
-    while True:
+    for swaps in itertools.count():
         nearest_chosen, least, second = _two_least(table, chosen)
         best = (float(least.sum(dtype=float)) * (1 - 1e-9), -1, -1)
         for candidate in range(len(table)):
             if candidate not in chosen:
+                progress(swaps / (swaps + len(chosen)))  # the number of swaps is not known
                 _swap_totals(table[candidate], nearest_chosen, least, second, totals)
                 leaving = int(totals.argmin())
                 best = min(best, (float(totals[leaving]), candidate, leaving))
         if best[1] < 0:
             return chosen
         chosen[best[2]] = best[1]
+    raise AssertionError("the total falls with every swap")
 
 
 def _two_least(

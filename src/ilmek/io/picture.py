@@ -82,7 +82,7 @@ def read_picture(path: Path, progress: Progress = SILENT) -> Picture:
             stream.allow(_ENTRIES, _HEADER + len(data) * (data[:4] == b"RIFF" or data[4:8] == b"ftyp"))
             with contextlib.closing(Image.open(stream, formats=_OPENED)) as opened:
                 _check_size(path, opened)
-                return _decoded(opened, stream, progress.part(0.7, 1.0))
+                return _decoded(opened, stream, progress)
         except (PictureError, Cancelled, MemoryError):
             raise
         except UnidentifiedImageError:
@@ -155,7 +155,7 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, progress: Progress) -> P
     orientation, about_exif = _orientation(opened)  # loads a PNG
     by_pillow = opened.format == "TIFF"
     _load(opened)
-    pixels, converted = srgb_pixels(opened, progress)
+    pixels, converted = srgb_pixels(opened, progress.part(0.7, 1.0))
     opened.close()  # before the pixels are copied
     upright = pixels if by_pillow else turned(pixels, orientation)
     return Picture(upright, (*notes, *about_exif, *deep, *converted))

@@ -8,9 +8,10 @@ from typing import Any
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
-from ilmek.carpet.chart import Chart, make_chart
-from ilmek.carpet.design import LARGEST_DISTORTION, distortion
+from ilmek.carpet.chart import Chart, chart_of_design
+from ilmek.carpet.design import LARGEST_DISTORTION, distortion, knot_grid, resampled
 from ilmek.carpet.pile import coarsest_count, pile_fill
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart.png import write_chart_png
@@ -104,20 +105,26 @@ def chart_order(
 
 def make_charted(order: CarpetOrder, progress: Progress = SILENT) -> ChartResult:
     """Read the picture and chart it. Raises PictureError, CarpetError or YarnError."""
-    progress.part(0.0, 0.1, "picture")
-    picture = read_picture(order.picture)
-    chart = make_chart(
-        picture.rgb,
+    picture, notes = _read_design(order, progress.part(0.0, 0.4))
+    chart = chart_of_design(
+        picture,
         order.size,
         order.quality,
         order.yarns,
         knot=order.knot,
         keep_lone=order.keep_lone,
         colours=order.colours,
-        progress=progress.part(0.1, 1.0, "chart"),
+        progress=progress.part(0.4, 1.0, "chart"),
     )
-    notes = (*picture.notes, *_fit(picture.rgb, chart), *_left_out(order, chart))
-    return ChartResult(order, chart, yarn_bill(chart, order.pile), notes)
+    return ChartResult(order, chart, yarn_bill(chart, order.pile), (*notes, *_left_out(order, chart)))
+
+
+def _read_design(order: CarpetOrder, progress: Progress) -> tuple[Rgb, tuple[str, ...]]:
+    """The picture with one pixel for each knot, and notes; the picture itself is not kept."""
+    picture = read_picture(order.picture, progress.part(0.0, 0.5, "picture"))
+    rows, columns = knot_grid(order.size, order.quality)
+    design = resampled(picture.rgb, rows, columns, progress.part(0.5, 1.0, "chart"))
+    return design, (*picture.notes, *_fit(picture.rgb, order.size, rows, columns))
 
 
 def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
@@ -127,17 +134,17 @@ def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
     return (f"chart.pdf would have {sheets:,} sheets and is left out; --pdf writes it",)
 
 
-def _fit(rgb: Rgb, chart: Chart) -> tuple[str, ...]:
+def _fit(rgb: Rgb, size: CarpetSize, rows: int, columns: int) -> tuple[str, ...]:
     """Notes on a picture that is stretched or coarser than the carpet."""
     height, width = rgb.shape[:2]
-    stretch = distortion(rgb, chart.size)
+    stretch = distortion(rgb, size)
     notes = []
     if abs(stretch) > LARGEST_DISTORTION:
         wider = f"{1 + stretch:.3g} times as wide as it is" if stretch >= 1 else f"{stretch:.0%} wider"
         drawn = wider if stretch > 0 else f"{-stretch:.0%} narrower"
-        notes.append(f"the picture ({width} x {height} pixels) is drawn {drawn} to fill {chart.size}")
-    if width < chart.columns or height < chart.rows:
-        knots = f"{chart.columns} x {chart.rows} knots"
+        notes.append(f"the picture ({width} x {height} pixels) is drawn {drawn} to fill {size}")
+    if width < columns or height < rows:
+        knots = f"{columns} x {rows} knots"
         notes.append(
             f"the picture ({width} x {height} pixels) is coarser than the carpet ({knots}): edges will be stepped"
         )

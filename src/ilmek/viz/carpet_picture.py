@@ -14,7 +14,8 @@ from PIL import Image
 from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import LINEAR
-from ilmek.carpet.design import resampled
+from ilmek.carpet.design import resampled_rows
+from ilmek.progress import SILENT, Progress
 from ilmek.viz.carpet_edges import flat_band, fringe, selvedge
 from ilmek.viz.tufts import encoded, tufted, yarn_light
 
@@ -40,11 +41,11 @@ class _Layout:
     selvedge: int
 
 
-def carpet_picture(chart: Chart, longest: int = LONGEST, seed: int = 1) -> bytes:
+def carpet_picture(chart: Chart, longest: int = LONGEST, seed: int = 1, progress: Progress = SILENT) -> bytes:
     """The whole carpet as a JPEG file on white, its longer side at most `longest` pixels."""
     rng = np.random.default_rng(seed)
     layout = _layout(chart, longest)
-    pile = Image.fromarray(_pile(chart, layout, rng))
+    pile = Image.fromarray(_pile(chart, layout, rng, progress))
     if pile.size != (layout.width, layout.height):
         pile = pile.resize((layout.width, layout.height), Image.Resampling.LANCZOS)
     return _jpeg(_framed(chart, pile, layout, rng), 84)
@@ -73,12 +74,13 @@ def _layout(chart: Chart, longest: int) -> _Layout:
     return _Layout(max(1, int(scale * width)), max(1, int(scale * length)), across, down, *framing)
 
 
-def _pile(chart: Chart, layout: _Layout, rng: np.random.Generator) -> Rgb:
+def _pile(chart: Chart, layout: _Layout, rng: np.random.Generator, progress: Progress) -> Rgb:
     srgb = [yarn.srgb for yarn in chart.yarns]
     if layout.across:
         return encoded(tufted(yarn_light(chart.knots, srgb, rng, 0.05), layout.across, layout.down, rng))
     height, width = min(layout.height, chart.rows), min(layout.width, chart.columns)
-    mean = resampled(np.array(srgb, dtype=np.uint8)[chart.knots], height, width)
+    palette, size = np.array(srgb, dtype=np.uint8), (chart.rows, chart.columns)
+    mean = resampled_rows(lambda part: palette[chart.knots[part]], size, (height, width), progress)
     bands = 1.0 + np.repeat(rng.normal(0.0, 0.015, height // 12 + 1), 12)[:height, np.newaxis]
     shade = bands * (0.94 + 0.03 * rng.standard_normal((height, width)))
     return encoded((LINEAR[mean] * shade[:, :, np.newaxis]).astype(np.float32))

@@ -4,8 +4,10 @@ The pHYs chunk has the knots per metre in both directions, so that viewers that 
 chunks have the title and, as JSON under `ilmek-chart`, yarns, size, quality and knot.
 """
 
+import io
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image, UnidentifiedImageError
@@ -14,6 +16,7 @@ from PIL.PngImagePlugin import PngInfo
 from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart
 from ilmek.errors import PictureError
+from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
 KEY = "ilmek-chart"
@@ -33,6 +36,23 @@ class ChartPicture:
     knot: str
 
 
+class _Counted(io.FileIO):
+    """A file that is written with progress by the bytes written; `most` of them are expected."""
+
+    def __init__(self, path: Path, most: int, progress: Progress) -> None:
+        super().__init__(path, "w")
+        self._most, self._progress = most, progress
+
+    def write(self, data: Any, /) -> int:
+        """As `io.FileIO.write`, but all of the data."""
+        view = memoryview(data).cast("B")
+        written = 0
+        while written < len(view):
+            written += super().write(view[written:])
+        self._progress(min(1.0, self.tell() / self._most))
+        return written
+
+
 def chart_picture(chart: Chart) -> Image.Image:
     """The chart as a picture with a palette."""
     picture = Image.frombytes("P", (chart.columns, chart.rows), np.ascontiguousarray(chart.knots).tobytes())
@@ -40,7 +60,7 @@ def chart_picture(chart: Chart) -> Image.Image:
     return picture
 
 
-def write_chart_png(path: Path, chart: Chart) -> None:
+def write_chart_png(path: Path, chart: Chart, progress: Progress = SILENT) -> None:
     """Write the chart to `path`."""
     facts = {
         "yarns": [{"name": yarn.name, "srgb": list(yarn.srgb)} for yarn in chart.yarns],
@@ -53,7 +73,8 @@ def write_chart_png(path: Path, chart: Chart) -> None:
     info.add_text("Software", "ilmek")
     info.add_itxt(KEY, json.dumps(facts, ensure_ascii=False))
     dots = (chart.quality.across * _METRE, chart.quality.along * _METRE)
-    chart_picture(chart).save(path, format="PNG", pnginfo=info, dpi=dots)
+    with _Counted(path, chart.knots.size, progress) as file:
+        chart_picture(chart).save(file, format="PNG", pnginfo=info, dpi=dots)
 
 
 def read_chart_png(path: Path) -> ChartPicture:
