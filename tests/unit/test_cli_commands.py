@@ -106,7 +106,7 @@ def test_report_needs_no_network(woven: tuple[Path, Any]) -> None:
 @pytest.fixture
 def plain_page(monkeypatch: pytest.MonkeyPatch) -> None:
     """A page that is drawn at once; the true one has tests of its own."""
-    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page: page.title)
+    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.title)
 
 
 @pytest.mark.usefixtures("plain_page")

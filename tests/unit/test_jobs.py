@@ -15,9 +15,10 @@ from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.reproduce import reproduce_papers
 from ilmek.jobs.warm import warm
-from ilmek.jobs.weave import weave
+from ilmek.jobs.weave import weave, weave_json
 from ilmek.machines.catalogue import MACHINES
 from ilmek.progress import Cancelled, Progress
+from ilmek.report.left_out import SWITCH
 
 MEDALLION = Path(__file__).parents[2] / "examples" / "medallion.png"
 
@@ -66,7 +67,7 @@ def test_free_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_progress_ascends_to_the_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page: page.title)
+    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.title)
     order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
     told: list[tuple[str, float]] = []
     progress = Progress(lambda stage, share: told.append((stage, share)))
@@ -126,3 +127,20 @@ def test_machines_are_listed_and_described() -> None:
 def test_a_first_carpet_warms_everything() -> None:
     # 256 knots of 2 s by one head, and 16 rows of wefts.
     assert warm() > 512
+
+
+def test_a_job_goes_on_without_what_cannot_be_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def failing(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("no picture")
+
+    monkeypatch.delenv(SWITCH)
+    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", failing)
+    monkeypatch.setattr("ilmek.jobs.chart.write_chart_pdf", failing)
+    order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
+    woven = weave(order, read_loom_order(order), tmp_path / "out")
+    warnings = ("chart.pdf is left out: no picture", "report.html is left out: no picture")
+    assert woven.left_out == warnings
+    assert set(warnings) <= set(weave_json(woven)["warnings"])
+    there = {path.name for path in (tmp_path / "out").iterdir()}
+    assert there == {Path(file).name for file in woven.files} | {".ilmek"}
+    assert not there & {"chart.pdf", "report.html"}

@@ -4,14 +4,17 @@ import contextlib
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from ilmek.cli.terminal import progress_bar
+from ilmek.cli.terminal import note, progress_bar
 from ilmek.errors import ParameterError
 from ilmek.io.output import Outputs
 from ilmek.progress import Progress
+
+if TYPE_CHECKING:
+    from ilmek.report import Report
 
 STANDARD = "-"
 """The name of standard output."""
@@ -28,6 +31,7 @@ class CallOutputs:
         self.outputs, self.progress = outputs, progress
         self._to = {option: str(path) for option, path in to.items() if path is not None}
         self._printed: list[str] = []
+        self._left_out: list[str] = []
         if list(self._to.values()).count(STANDARD) > 1:
             both = " and ".join(sorted(option for option, path in self._to.items() if path == STANDARD))
             raise ParameterError(f"both {both} go to standard output", do="give one of them a file")
@@ -44,11 +48,30 @@ class CallOutputs:
             self.outputs.write(Path(to), content())
 
     def give_json(self, data: Callable[[], Any]) -> None:
-        """Give the data of `--json`."""
+        """Give the data of `--json`, with warnings about what is left out of a page that was given before."""
         if "--json" in self._to:
             from ilmek.io.json_file import json_text  # the results bring numpy
 
-            self.give("--json", lambda: json_text(data()))
+            found = data()
+            if self._left_out and isinstance(found, dict):
+                found = {**found, "warnings": [*found.get("warnings", ()), *self._left_out]}
+            self.give("--json", lambda: json_text(found))
+
+    def give_page(self, option: str, report: "Report") -> None:
+        """Stage the page of a report. What cannot be drawn is left out, which is noted at the end."""
+        if option in self._to:
+            from ilmek.jobs.page import page_text
+
+            page = page_text(report, self._left_out)
+            if page is None:
+                del self._to[option]
+            else:
+                self.give(option, lambda: page)
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The files that are written, by option."""
+        return {option: path for option, path in self._to.items() if path != STANDARD}
 
     @property
     def quiet(self) -> bool:
@@ -56,9 +79,11 @@ class CallOutputs:
         return STANDARD in self._to.values()
 
     def print(self) -> None:
-        """Print what goes to standard output."""
+        """Print what goes to standard output, and notes on what was left out."""
         for text in self._printed:
             click.echo(text, nl=False)
+        for text in self._left_out:
+            note(text)
 
 
 @contextlib.contextmanager

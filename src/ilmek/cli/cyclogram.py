@@ -12,7 +12,6 @@ from ilmek.cli.terminal import note, passed, say, show_checks, show_table
 from ilmek.io.cyclogram_file import cyclogram_writer
 from ilmek.io.table_csv import csv_text
 from ilmek.jobs.cyclogram import GOALS, binding_words, columns, find, report, solve
-from ilmek.jobs.page import page_text
 from ilmek.report import Report
 from ilmek.timing.solver import Solution
 from ilmek.units import format_number, format_quantity
@@ -72,16 +71,16 @@ def command(
         solution = solve(given, goal, call.progress) if goal else None
         found = solution.cyclogram if solution else given
         shown = report(found, solution)
-        call.give("--report", lambda: page_text(shown))
+        call.give_page("--report", shown)
         if write is not None:
             call.give("--out", partial(write, found))
         call.give_json(shown.as_json)
         call.give("--csv", lambda: csv_text(columns(found, steps)))
     if not call.quiet:
         _show(shown, solution)
-        for kind, path in (("report", page_to), ("cyclogram", file_to), ("table", csv_to)):
-            if path is not None:
-                say(f"{kind}: {path}")
+        for option, kind in (("--report", "report"), ("--out", "cyclogram"), ("--csv", "table")):
+            if option in call.files:
+                say(f"{kind}: {call.files[option]}")
     elif shown.failed:
         note(f"checks: {passed(shown.checks)}")
 

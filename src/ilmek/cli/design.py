@@ -10,7 +10,6 @@ from ilmek.cli.report import show_report
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
 from ilmek.jobs.design import WorkshopOrder, design_machine
-from ilmek.jobs.page import page_text
 
 EXAMPLES = """\b
 Examples:
@@ -62,11 +61,11 @@ def command(  # noqa: PLR0917 - click calls it by name
     workshop = None if parts_to is None else WorkshopOrder(parts_to, tolerance)
     with call_outputs(files, force=force, inputs=setting_files(given)) as call:
         made = design_machine(name, read_settings(given), workshop, outputs=call.outputs, progress=call.progress)
-        call.give("--report", lambda: page_text(made.report))
+        call.give_page("--report", made.report)
         call.give_json(made.as_json)
     if not call.quiet:
         show_report(made.report)
-        if page_to is not None:
+        if "--report" in call.files:
             say(f"report: {page_to}")
         if made.workshop is not None:
             say(f"workshop: {made.workshop.summary}")

@@ -10,7 +10,6 @@ from ilmek.cli.report import show_report
 from ilmek.cli.terminal import say
 from ilmek.errors import CarpetError
 from ilmek.jobs.knot import KnotRequest, knot_of
-from ilmek.jobs.page import page_text
 from ilmek.params.text_lists import read_points
 from ilmek.units import parse_quantity
 
@@ -72,11 +71,11 @@ def command(
     files = {"--json": json_to, "--report": page_to}
     with call_outputs(files, force=force, inputs={str(path): path for path in paths}) as call:
         report = knot_of(paths, request, columns, call.progress)
-        call.give("--report", lambda: page_text(report))
+        call.give_page("--report", report)
         call.give_json(report.as_json)
     if not call.quiet:
         show_report(report)
-        if page_to is not None:
+        if "--report" in call.files:
             say(f"report: {page_to}")
 
 

@@ -12,7 +12,6 @@ from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechani
 from ilmek.io.table_csv import csv_text
 from ilmek.jobs.mechanism import MotionRequest, run
 from ilmek.jobs.mechanism_report import as_json, columns, report
-from ilmek.jobs.page import page_text
 from ilmek.report import Report
 from ilmek.units import format_quantity
 
@@ -70,14 +69,14 @@ def command(
     with call_outputs(files, force=force, inputs={"FILE": file}) as call:
         moved = run(read_mechanism(file), MotionRequest(_fixed(fixed), over, speed, steps), call.progress)
         found_report = report(moved)
-        call.give("--report", lambda: page_text(found_report))
+        call.give_page("--report", found_report)
         call.give_json(lambda: as_json(moved))
         call.give("--csv", lambda: csv_text(columns(moved)))
     if not call.quiet:
         show(found_report)
-        for output, path in (("report", page_to), ("table", csv_to)):
-            if path is not None:
-                say(f"{output}: {path}")
+        for option, noun in (("--report", "report"), ("--csv", "table")):
+            if option in call.files:
+                say(f"{noun}: {call.files[option]}")
     for warning in found_report.warnings:
         note(warning)
 

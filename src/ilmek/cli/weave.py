@@ -69,7 +69,7 @@ def command(
         call.give_json(lambda: weave_json(woven))
     if not call.quiet:
         show_woven(woven)
-    for remark in (*woven.charted.notes, *woven.charted.warnings):
+    for remark in (*woven.charted.notes, *woven.charted.warnings, *woven.left_out):
         note(remark)
 
 
@@ -90,6 +90,6 @@ def show_woven(woven: WeaveResult) -> None:
             ("heads", heads),
             ("checks", passed(woven.checks)),
             *warnings,
-            ("report", str(woven.folder / "report.html")),
+            ("report", woven.files[0]),
         ]
     )

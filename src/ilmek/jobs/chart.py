@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.order import CarpetOrder
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, at_most
+from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity
 
 MOST_SHEETS = 400
@@ -96,9 +97,11 @@ def chart_order(
     with joined(outputs, force=force, progress=progress) as made:
         made.expect_folder(folder, "--out")
         charted = make_charted(order, progress.part(0.0, 0.7))
-        files = [str(folder / name) for name in (*charted.files, "chart.json")]
+        left_out: list[str] = []
         with made.folder(folder) as work:
-            write_chart(charted, work, progress.part(0.7, 1.0, "files"))
+            written = write_chart(charted, work, left_out, progress.part(0.7, 1.0, "files"))
+            charted = replace(charted, notes=(*charted.notes, *left_out))
+            files = [str(folder / name) for name in (*written, "chart.json")]
             write_json(work / "chart.json", chart_json(charted, files))
     return charted, files
 
@@ -176,12 +179,23 @@ def _need(need: YarnNeed) -> dict[str, Any]:
     return {name: getattr(need, name) for name in ("name", "use", "knots", "length", "mass", "price")}
 
 
-def write_chart(charted: ChartResult, folder: Path, progress: Progress = SILENT) -> None:
-    """Write the chart's files into a folder. Raises OSError."""
+def write_chart(
+    charted: ChartResult, folder: Path, left_out: list[str], progress: Progress = SILENT
+) -> tuple[str, ...]:
+    """Write the chart's files into a folder; returns their names. A PDF that cannot be made is added to `left_out`.
+
+    Raises OSError.
+    """
     write_chart_png(folder / "chart.png", charted.chart)
-    if "chart.pdf" in charted.files:
-        write_chart_pdf(folder / "chart.pdf", charted.chart, progress=progress)
     write_yarn_csv(folder / "yarn.csv", charted.bill, charted.chart.yarns)
+    written = charted.files
+    if "chart.pdf" in written:
+        pdf, before = folder / "chart.pdf", len(left_out)
+        made_or_left_out("chart.pdf", lambda: write_chart_pdf(pdf, charted.chart, progress=progress), left_out)
+        if len(left_out) > before:
+            pdf.unlink(missing_ok=True)
+            written = tuple(name for name in written if name != "chart.pdf")
+    return written
 
 
 def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """From a carpet picture to chart, yarn, loom, programme and report."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from ilmek.jobs.order import CarpetOrder
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Report, at_most
+from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity, hour
 from ilmek.viz.page import CarpetPage, carpet_page
 from ilmek.viz.page_parts import Fact, FileNote
@@ -35,7 +36,9 @@ FILES = (
 class WeaveResult:
     """Results of the job, and the folder of its files.
 
-    loom  the loom's report, with those of its machines
+    loom      the loom's report, with those of its machines
+    written   names of the files in the folder
+    left_out  warnings: figures and files that could not be made
     """
 
     charted: ChartResult
@@ -43,6 +46,8 @@ class WeaveResult:
     loomed: LoomResult
     loom: Report
     folder: Path
+    written: tuple[str, ...] = tuple(file.name for file in FILES)
+    left_out: tuple[str, ...] = ()
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -57,12 +62,12 @@ class WeaveResult:
     @property
     def warnings(self) -> tuple[str, ...]:
         """All warnings: of the carpet, the loom and its machines."""
-        return (*self.charted.warnings, *self.loom.all_warnings)
+        return (*self.charted.warnings, *self.loom.all_warnings, *self.left_out)
 
     @property
     def notes(self) -> tuple[FileNote, ...]:
         """The files that are written, with descriptions."""
-        return tuple(file for file in FILES if file.name != "chart.pdf" or file.name in self.charted.files)
+        return tuple(file for file in FILES if file.name in self.written)
 
     @property
     def files(self) -> list[str]:
@@ -96,15 +101,22 @@ def _weave(
     charted = make_charted(order, progress.part(0.0, 0.4, "picture"))
     loomed = make_loomed(loom_order, order, charted.chart, progress.part(0.4, 0.5, "loom"))
     woven = WeaveResult(charted, loom_order, loomed, MACHINE.report(loomed.design), folder)
+    left_out: list[str] = []
     with outputs.folder(folder) as work:
-        write_chart(charted, work, progress.part(0.5, 0.7, "chart.pdf"))
+        written = write_chart(charted, work, left_out, progress.part(0.5, 0.7, "chart.pdf"))
         write_programme(
             work / "programme.ilmek", loomed.programme, _label(woven), progress=progress.part(0.7, 0.8, "programme")
         )
         write_json(work / "machine.json", machine_json(woven))
-        write_json(work / "report.json", weave_json(woven))
         progress.part(0.8, 1.0, "report")
-        (work / "report.html").write_text(carpet_page(_page(woven)), encoding="utf-8")
+        written = (*written, "programme.ilmek", "machine.json", "report.html", "report.json")
+        woven = replace(woven, written=written, left_out=tuple(left_out))
+        page = made_or_left_out("report.html", lambda: carpet_page(_page(woven), left_out), left_out)
+        if page is not None:
+            (work / "report.html").write_text(page, encoding="utf-8")
+        written = tuple(name for name in written if name != "report.html" or page is not None)
+        woven = replace(woven, written=written, left_out=tuple(left_out))
+        write_json(work / "report.json", weave_json(woven))
     return woven
 
 
@@ -183,5 +195,5 @@ def _page(woven: WeaveResult) -> CarpetPage:
         reports=(woven.loom.own(), *woven.loom.children),
         checks=woven.own_checks,
         files=woven.notes,
-        warnings=(*woven.charted.warnings, *woven.charted.notes),
+        warnings=(*woven.charted.warnings, *woven.charted.notes, *woven.left_out),
     )
