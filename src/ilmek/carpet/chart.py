@@ -128,7 +128,7 @@ def chart_of_design(
     knots = paint(picture, distinct, yarn_of, progress.part(0.8, 0.9))
     lone = progress.part(0.9, 1.0)
     merged, added = (0, 0.0) if keep_lone else merge_lone(knots, picture, distinct, labs, difference, progress=lone)
-    least = float(distinct.counts @ difference)
+    least = float(np.sum(distinct.counts * difference))  # not a dot product: its order depends on the threads
     progress(1.0)
     return Chart(knots, chosen, size, quality, kind, (least + added) / knots.size, least / knots.size, merged)
 

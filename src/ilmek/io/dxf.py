@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from ezdxf._options import options
 from ezdxf.document import Drawing
 from ezdxf.entities.circle import Circle
 from ezdxf.entities.lwpolyline import LWPolyline
@@ -25,6 +26,8 @@ from ilmek.io.plate_shape import PlateShape, plate_shape
 from ilmek.plane.contours import area
 from ilmek.report import Contour, Plate
 from ilmek.units import format_quantity, mm
+
+options.write_fixed_meta_data_for_testing = True  # no time, no random number: the same plate gives the same bytes
 
 LAYERS = {
     "PROFILE": (7, "Continuous", 50),

@@ -28,6 +28,9 @@ from ilmek.plane.contours import STRAIGHT, circle, on_piece
 from ilmek.report import Contour, Plate
 from ilmek.units import mm
 
+TIME_STAMP = "2000-01-01T00:00:00"
+"""Of every file, as in the DXF: the same plate gives the same bytes."""
+
 for _printer in Message.DefaultMessenger_s().Printers():
     _printer.SetTraceLevel(Message_Gravity.Message_Fail)  # otherwise each transfer is printed on standard output
 
@@ -43,6 +46,7 @@ def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
     writer.Transfer(solid, STEPControl_StepModelType.STEPControl_AsIs)
     header = APIHeaderSection_MakeHeader(writer.Model(False))
     header.SetName(TCollection_HAsciiString(plate.title))
+    header.SetTimeStamp(TCollection_HAsciiString(TIME_STAMP))
     header.SetAuthorValue(1, TCollection_HAsciiString("ilmek"))
     header.SetOriginatingSystem(TCollection_HAsciiString("ilmek"))
     if writer.Write(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
