@@ -6,6 +6,7 @@ import resource
 import sqlite3
 import zlib
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ import pytest
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
+from ilmek.cli.inspect import show_row
 from ilmek.errors import IlmekError, LoomError
 from ilmek.io import programme_file, sqlite_readonly
 from ilmek.io.json_file import json_text
@@ -23,6 +25,8 @@ from ilmek.io.programme_meta import Label
 from ilmek.jobs.inspect import inspect_programme
 from ilmek.loom.programme import Times, make_programme
 from ilmek.loom.row import KnotRow
+from ilmek.loom.schedule import PASSES
+from ilmek.loom.sharing import halves, share
 from ilmek.machines.weaver import WeaverParams, design
 
 ROWS, COLUMNS, HEADS, YARNS = 12, 20, 3, 3
@@ -306,6 +310,38 @@ def test_a_row_that_changes_after_the_file_was_opened(written: Path, monkeypatch
 
 def test_json_of_an_inspection_is_json(written: Path) -> None:
     assert json.loads(json_text(inspect_programme(written, 5).as_json()))["rows"] == ROWS
+
+
+def test_a_row_of_many_runs_is_printed_in_part(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "a.ilmek"
+    yarns = tuple(Yarn(f"wool {k}", (k, k, k), (0.0, 0.0, 0.0), 2.5) for k in range(2))
+    label = Label(CarpetSize(1.0, 0.01), Quality(5000.0, 5000.0), "symmetric", yarns, 0.0001)
+    chart = np.tile(np.array([0, 1], np.uint8), (2, 2500))
+    quick_changes = Times(2.0, 0.0, 1.0, 12.0)
+    write_programme(path, make_programme(chart, 2, 1, quick_changes), label)
+    show_row(inspect_programme(path, 1))
+    assert "… 1,000 more: see --json" in capsys.readouterr().out
+
+
+def test_what_is_accepted_is_replayed_within_the_row() -> None:
+    random = np.random.default_rng(1)
+    accepted = 0
+    for _ in range(400):
+        heads, columns = int(random.integers(1, 4)), int(random.integers(6, 20))
+        edges = share(columns, heads)
+        colours = random.choice(np.array([0, 1, 254], np.uint8), columns)
+        parts = [colours[low:high] for low, high in pairwise(edges)]
+        keys = np.array([(PASSES, *random.permutation(np.resize(np.unique(part), 4))[:2]) for part in parts], np.uint8)
+        try:
+            row = KnotRow(0, colours, keys, edges, heads)
+        except LoomError:
+            continue
+        accepted += 1
+        for block, ties in zip(
+            np.split(np.arange(columns), edges[halves(heads) : -1 : halves(heads)]), row.ties(), strict=True
+        ):
+            assert sorted(ties.pairs.tolist()) == block.tolist()
+    assert accepted > 20
 
 
 CHART = np.arange(2 * COLUMNS, dtype=np.uint8).reshape(2, COLUMNS) % 3

@@ -11,6 +11,9 @@ from ilmek.io.programme_file import ProgrammeFile
 from ilmek.jobs.inspect import InspectionResult, inspect_programme, runs
 from ilmek.units import format_quantity
 
+MOST_RUNS = 4000
+"""Largest number of runs of a row that are printed; a table of more takes seconds, and nobody reads it."""
+
 EXAMPLES = """\b
 Examples:
   ilmek inspect carpet/programme.ilmek
@@ -69,14 +72,17 @@ def show_programme(programme: ProgrammeFile) -> None:
 
 
 def show_row(found: InspectionResult) -> None:
-    """Print one row: for each head its runs of knots in the order of tying."""
+    """Print one row: for each head its runs of knots in the order of tying, up to MOST_RUNS of all heads."""
     row, names = found.row, [yarn.name for yarn in found.programme.label.yarns]
     say(
         f"row {row.number + 1} of {found.programme.rows}, from the bottom: {format_quantity(found.time, 's')}, "
         f"woven to the {'right' if row.forward else 'left'}; knots from the left, in the order of tying"
     )
-    lines = []
+    lines, most = [], max(1, MOST_RUNS // row.heads)
     for head, ties in enumerate(row.ties(), 1):
-        tied = "  ".join(f"{a}–{b} {names[y]}" if a != b else f"{a} {names[y]}" for a, b, y in runs(ties))
-        lines.append((str(head), tied))
+        tied = runs(ties)
+        shown = [f"{a}–{b} {names[y]}" if a != b else f"{a} {names[y]}" for a, b, y in tied[:most]]
+        if len(tied) > most:
+            shown.append(f"… {len(tied) - most:,} more: see --json")
+        lines.append((str(head), "  ".join(shown)))
     show_table(("head", "ties"), lines, right=(0,))
