@@ -175,8 +175,9 @@ class MetaEntry:
 
     def refuse(self, allowed: str) -> NoReturn:
         """Raise LoomError with the path, the value in short, and what is allowed."""
-        kinds = {dict: "a table", list: "a list"}
-        given = kinds.get(type(self.value)) or shown(self.value)
+        given = "a table" if isinstance(self.value, dict) else shown(self.value)
+        if isinstance(self.value, list):
+            given = f"a list of {len(self.value)}"
         raise LoomError(f"{self.path} is {given}", allowed=allowed)
 
     def number(self, low: float = -_GREATEST, high: float = _GREATEST) -> float:
@@ -361,10 +362,14 @@ class _CyclogramReader:
 
     def _segment(self, entry: MetaEntry) -> TrackSegment:
         given = entry.table(*_SEGMENT, "law", "parameters")
-        angles = (given[key].number(0.0, 2 * turn) for key in ("start", "end"))
-        positions = (given[key].number() for key in ("begin", "finish"))
-        law = law_of(given["law"].text(), self._parameters(given["parameters"]))
-        return TrackSegment(given["name"].text(), *angles, *positions, law)
+        return TrackSegment(
+            given["name"].text(),
+            given["start"].number(0.0, 2 * turn),
+            given["end"].number(0.0, 2 * turn),
+            given["begin"].number(),
+            given["finish"].number(),
+            law_of(given["law"].text(), self._parameters(given["parameters"])),
+        )
 
     def _parameters(self, entry: MetaEntry) -> dict[str, Any]:
         if not isinstance(entry.value, dict):
