@@ -36,8 +36,8 @@ from ilmek.units import parse_unit, turn
 MOST_CYCLOGRAMS, MOST_TRACKS, MOST_MOTIONS, MOST_EVENTS = 4, 64, 200, 200
 """Largest numbers of cyclograms, and in all of them of tracks, motions and events: several times those of a loom."""
 
-MOST_LAW_NUMBERS = 1000
-"""Largest number of parameters of all motion laws: a spline through 400 points takes 800 of them and 0.6 s."""
+MOST_LAW_NUMBERS = 500
+"""Largest number of parameters of all motion laws: a spline through 250 points takes all of them and 0.2 s."""
 
 LONGEST_NAME = 200
 """Largest number of characters of a name of a yarn, a carpet size, a track, a motion or an event."""

@@ -5,14 +5,13 @@ be the given one, statement by statement: a view, a trigger, an index or a virtu
 An authorizer allows nothing but reading the columns of the given tables, and each statement has a limit of steps.
 """
 
-import os
 import sqlite3
-import stat
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from ilmek.errors import LoomError, shortened
+from ilmek.io.regular_file import open_regular
 
 LARGEST_VALUE = 1_000_000
 """Largest text, blob or row of a table [bytes]: four times a row of the widest carpet in the finest quality."""
@@ -64,10 +63,13 @@ class SqliteHeader:
 
     def __init__(self, path: Path) -> None:
         try:
-            self._data, self.length = _first_bytes(path)
-        except (OSError, ValueError) as error:  # ValueError: a null character in the path
-            reason = getattr(error, "strerror", None) or str(error)
-            raise LoomError(f"{path} cannot be read: {reason}", allowed="a programme written by ilmek") from error
+            file, self.length = open_regular(path)
+            with file:
+                self._data = file.read(_HEADER)
+        except OSError as error:
+            raise LoomError(
+                f"{path} cannot be read: {error.strerror}", allowed="a programme written by ilmek"
+            ) from error
 
     @property
     def application(self) -> int:
@@ -93,24 +95,6 @@ class SqliteHeader:
 
     def _number(self, at: int, width: int) -> int:
         return int.from_bytes(self._data[at : at + width], "big")
-
-
-def _first_bytes(path: Path) -> tuple[bytes, int]:
-    """The header and the size of a regular file."""
-    _check_regular(path.stat())
-    # Between the two checks the path may become a pipe, which would block without O_NONBLOCK.
-    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
-    with os.fdopen(os.open(path, flags), "rb") as file:
-        status = os.fstat(file.fileno())
-        _check_regular(status)
-        return file.read(_HEADER), status.st_size
-
-
-def _check_regular(status: os.stat_result) -> None:
-    if stat.S_ISDIR(status.st_mode):
-        raise ValueError("Is a directory")
-    if not stat.S_ISREG(status.st_mode):
-        raise ValueError("Is a pipe or a device")
 
 
 class ReadOnlyDatabase:

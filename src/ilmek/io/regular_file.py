@@ -1,0 +1,36 @@
+"""Opening of files of others: a regular file alone, and without waiting for a pipe or a device."""
+
+import errno
+import os
+import stat
+from pathlib import Path
+from typing import BinaryIO
+
+
+def open_regular(path: Path) -> tuple[BinaryIO, int]:
+    """A regular file, open for reading, and its size [bytes]; the caller closes it.
+
+    Raises OSError with the system's reason, IsADirectoryError for a folder, and OSError "Is a pipe or a device" for
+    everything else that is no file. A null character in the path is a file that does not exist.
+    """
+    try:
+        _require_regular(path.stat())
+        # Between the two checks the path may become a pipe, which would block without O_NONBLOCK.
+        flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+        file = os.fdopen(os.open(path, flags), "rb")
+    except ValueError:  # a null character
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT)) from None
+    try:
+        status = os.fstat(file.fileno())
+        _require_regular(status)
+    except BaseException:
+        file.close()
+        raise
+    return file, status.st_size
+
+
+def _require_regular(status: os.stat_result) -> None:
+    if stat.S_ISDIR(status.st_mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not stat.S_ISREG(status.st_mode):
+        raise OSError(errno.EINVAL, "Is a pipe or a device")
