@@ -8,6 +8,7 @@ import errno
 import functools
 import importlib.util
 import os
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -20,17 +21,38 @@ _NO_REPLACE, _EXCHANGE = 1, 2
 _UNSUPPORTED = (errno.ENOSYS, errno.EINVAL, errno.ENOTSUP)
 
 
-def make_folder(path: Path) -> None:
-    """A new folder that is closed to other users. Raises OSError."""
-    path.mkdir(mode=0o700)
+def make_folder(path: Path, mode: int = 0o700) -> None:
+    """A new folder; default: closed to other users. Raises OSError."""
+    path.mkdir(mode)
 
 
-def sync(path: Path) -> None:
-    """Write a file, or the names in a folder, to the disk. Raises OSError."""
+def write(path: Path, content: bytes) -> None:
+    """Write a file. Raises OSError."""
+    path.write_bytes(content)
+
+
+def unlink(path: Path) -> None:
+    """Remove the name of a file. Raises OSError."""
+    path.unlink()
+
+
+def remove_folder(path: Path) -> None:
+    """Remove an empty folder. Raises OSError."""
+    path.rmdir()
+
+
+def sync(path: Path, mode: int | None = None) -> None:
+    """Write a file, or the names in a folder, to the disk.
+
+    mode  permissions that it gets before; they may close it to its owner
+    Raises OSError.
+    """
     if os.name == "nt" and path.is_dir():  # Windows cannot open folders
         return
     handle = os.open(path, os.O_RDONLY)
     try:
+        if mode is not None:
+            path.chmod(mode)
         # The usual call of macOS leaves the data in the cache of the disk.
         if hasattr(fcntl, "F_FULLFSYNC"):
             fcntl.fcntl(handle, fcntl.F_FULLFSYNC)
@@ -58,9 +80,15 @@ def replace(source: Path, target: Path) -> None:
     source.replace(target)
 
 
-def link(source: Path, target: Path) -> None:
-    """A second name of a file. Raises OSError."""
-    os.link(source, target)
+def keep(source: Path, copy: Path) -> None:
+    """A second name of a file; where the system has no such names (FAT), a synced copy. Raises OSError."""
+    try:
+        os.link(source, copy)
+    except OSError as error:
+        if error.errno not in (*_UNSUPPORTED, errno.EPERM, errno.EMLINK, errno.EXDEV):
+            raise
+        shutil.copy2(source, copy)
+        sync(copy)
 
 
 def _renameat2(source: Path, target: Path, flag: int) -> bool:

@@ -7,12 +7,15 @@ digest as an extended attribute instead, where the file system has such.
 """
 
 import contextlib
+import errno
 import hashlib
 import io
 import json
 import os
 import re
+import shutil
 import stat
+import time
 from pathlib import Path
 from typing import TypeAlias
 
@@ -34,74 +37,91 @@ PART, OLD = ".part", ".old"
 """Suffixes of unfinished files and folders, and of an old result in a swap without atomic exchange."""
 
 _VERSION = 1
+_DIGESTS: dict[tuple[int, ...], str] = {}
+"""Digests of unchanged files: an old result is read once, not again when it is replaced and when it is removed."""
+_MOST_DIGESTS = 10_000
+_SETTLED = 2.0
+"""Age from which a change of a file is sure to change its times [s]; FAT has steps of 2 s."""
 _UNFINISHED = json.dumps({"ilmek": _VERSION, "unfinished": True})
 _DIGEST = re.compile("[0-9a-f]{64}")
 
 
 def begin(folder: Path) -> None:
     """Mark a folder as unfinished: everything in it was written by the run that holds its lock. Raises OSError."""
-    (folder / MANIFEST).write_text(_UNFINISHED, encoding="ascii")
+    disk.write(folder / MANIFEST, _UNFINISHED.encode("ascii"))
     disk.sync(folder / MANIFEST)
     disk.sync(folder)
 
 
 def is_unfinished(folder: Path) -> bool:
     """Whether a folder is marked as unfinished, or was left while the mark was written."""
+    read = _read(folder)
+    if read:
+        return read.get("unfinished") is True
     try:
         only = [entry.name for entry in folder.iterdir()] == [MANIFEST]
-        bare = only and (folder / MANIFEST).lstat().st_size < len(_UNFINISHED)
+        return only and (folder / MANIFEST).lstat().st_size <= len(_UNFINISHED)
     except OSError:
         return False
-    return bare or _read(folder).get("unfinished") is True
 
 
 def finish(folder: Path) -> None:
     """Sync all files in a folder, write their manifest, and sync the folder.
 
-    Raises OSError, also for an entry that is not a file.
+    Raises OSError, also for an entry that is not a file, and for more files than a manifest may list.
     """
     names = sorted(entry.name for entry in folder.iterdir() if entry.name != MANIFEST)
     listed = {name: dict(zip(("size", "sha256"), _entry(folder / name), strict=True)) for name in names}
     for name in names:
         disk.sync(folder / name)
     work = folder / f"{MANIFEST}{PART}"
-    work.write_text(json.dumps({"ilmek": _VERSION, "files": listed}, indent=1), encoding="ascii")
+    text = json.dumps({"ilmek": _VERSION, "files": listed}, indent=1)
+    if len(text) > LARGEST:
+        raise OSError(errno.EFBIG, f"{len(names)} files are too many for a manifest")
+    disk.write(work, text.encode("ascii"))
     disk.sync(work)
     disk.replace(work, folder / MANIFEST)
     disk.sync(folder)
 
 
-def files(folder: Path) -> dict[str, Entry]:
-    """The entries of a folder's manifest; none if it has no valid one."""
+def files(folder: Path) -> dict[str, Entry] | None:
+    """The entries of a folder's manifest; None if it has no valid one."""
     listed = _read(folder).get("files")
     if not isinstance(listed, dict):
-        return {}
+        return None
     return {name: entry for name, given in listed.items() if _is_name(name) and (entry := _parsed(given)) is not None}
 
 
 def foreign(folder: Path) -> list[str]:
     """Names in a folder that its manifest does not list as they are: foreign or changed files. Raises OSError."""
     listed = files(folder)
-    known = {MANIFEST} if listed or is_unfinished(folder) else set()
-    return sorted(e.name for e in folder.iterdir() if e.name not in known and not _matches(e, listed.get(e.name)))
+    known = {MANIFEST} if listed is not None or is_unfinished(folder) else set()
+    entries = listed or {}
+    return sorted(e.name for e in folder.iterdir() if e.name not in known and not _matches(e, entries.get(e.name)))
 
 
 def is_whole(folder: Path) -> bool:
     """Whether a folder has a manifest, and every file of it is there as it was written."""
     listed = files(folder)
-    return bool(listed) and all(_matches(folder / name, entry) for name, entry in listed.items())
+    return listed is not None and all(_matches(folder / name, entry) for name, entry in listed.items())
 
 
-def remove(folder: Path) -> bool:
-    """Remove the files that match the manifest, and the folder if nothing else is in it; whether it is gone."""
-    with contextlib.suppress(OSError):
-        kept = foreign(folder)
-        folder.chmod(folder.stat().st_mode | stat.S_IRWXU)  # a folder that its user has closed to himself
-        for entry in list(folder.iterdir()):
-            if entry.name not in kept and (entry.name != MANIFEST or not kept):
-                entry.unlink()
-        folder.rmdir()
-    return not folder.exists()
+def clear(folder: Path) -> None:
+    """Remove a folder with all that is in it, its manifest last: what a killed run leaves of it is still described.
+
+    Raises OSError.
+    """
+    folder.chmod(folder.stat().st_mode | stat.S_IRWXU)  # a folder that its user has closed to himself
+    for entry in list(folder.iterdir()):
+        if entry.is_dir() and not entry.is_symlink():
+            shutil.rmtree(entry)
+        elif entry.name != MANIFEST:
+            with contextlib.suppress(FileNotFoundError):  # a temporary file of the run that is being ended
+                disk.unlink(entry)
+    disk.sync(folder)
+    if os.path.lexists(folder / MANIFEST):
+        disk.unlink(folder / MANIFEST)
+    disk.remove_folder(folder)
 
 
 def mark(path: Path) -> None:
@@ -153,10 +173,16 @@ def _matches(path: Path, entry: Entry | None) -> bool:
 
 
 def _entry(path: Path) -> Entry:
-    """Size and digest of a regular file. Raises OSError."""
+    """Size and digest of a regular file, computed again only if the file may have changed. Raises OSError."""
     with _opened(path) as file:
-        digest = hashlib.file_digest(file, "sha256").hexdigest()
-        return os.fstat(file.fileno()).st_size, digest
+        found = os.fstat(file.fileno())
+        key = (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns, found.st_ctime_ns)
+        digest = _DIGESTS.get(key) or hashlib.file_digest(file, "sha256").hexdigest()
+        if time.time() - max(found.st_mtime, found.st_ctime) > _SETTLED:
+            if len(_DIGESTS) >= _MOST_DIGESTS:
+                _DIGESTS.clear()
+            _DIGESTS[key] = digest
+        return found.st_size, digest
 
 
 def _opened(path: Path) -> io.BufferedReader:

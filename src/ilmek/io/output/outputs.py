@@ -76,7 +76,7 @@ class Outputs:
         if resolved(path) not in self._targets:
             self.expect_folder(path)
         target = self._targets[resolved(path)]
-        with _as_output_error(target):
+        with self._as_output_error(target):
             with _COMMIT:
                 work = target.stage()
             try:
@@ -97,7 +97,7 @@ class Outputs:
         target = self._targets[resolved(path)]
         if not isinstance(target, FileTarget):
             raise OutputError(f"{path} is not a file", do="give the name of a file")
-        with _as_output_error(target):
+        with self._as_output_error(target):
             with _COMMIT:
                 target.stage()
             yield target.new
@@ -108,7 +108,7 @@ class Outputs:
         if resolved(path) not in self._targets:
             self.expect_file(path)
         target = self._targets[resolved(path)]
-        with _as_output_error(target):
+        with self._as_output_error(target):
             with _COMMIT:
                 target.stage()
             target.fill(content.encode("utf-8") if isinstance(content, str) else content)
@@ -119,8 +119,11 @@ class Outputs:
         complete = (target for target in self._targets.values() if target.complete)
         staged = sorted(complete, key=lambda target: isinstance(target, StreamTarget))  # what cannot be undone, last
         for target in staged:
-            with _as_output_error(target):
+            with self._as_output_error(target):
                 target.seal()
+        for target in staged:
+            with self._as_output_error(target):
+                target.check()
         self.progress(1.0)
         with _undisturbed():
             self._put(staged)
@@ -130,13 +133,18 @@ class Outputs:
 
     def discard(self) -> None:
         """Remove what is staged, and folders made for it. What is in place stays."""
-        for target in self._targets.values():
+        for target in list(self._targets.values()):  # a thread that is being ended may add one
             target.discard()
 
     @property
     def kept(self) -> list[Path]:
         """Outputs of the call that existed before it."""
-        return [target.path for target in self._targets.values() if target.existed]
+        return [target.path for target in list(self._targets.values()) if target.existed]
+
+    @property
+    def streamed(self) -> list[Path]:
+        """Devices and pipes that have been written."""
+        return [t.path for t in list(self._targets.values()) if isinstance(t, StreamTarget) and t.begun]
 
     def __enter__(self) -> "Outputs":
         if not _OPEN:
@@ -155,8 +163,9 @@ class Outputs:
             _OPEN.remove(self)
 
     def _expect(self, target: Target) -> None:
-        target.repair()
-        target.check()
+        with self._as_output_error(target):
+            target.repair()
+            target.check()
         self._check_apart(target)
         self._targets[target.target] = target
 
@@ -182,25 +191,34 @@ class Outputs:
         done: list[Target] = []
         try:
             for target in staged:
-                with _as_output_error(target):
-                    target.check()
-                    done.append(target)
+                done.append(target)
+                with self._as_output_error(target):
                     target.put()
-        except BaseException:
-            for target in reversed(done):
-                _undo(target)
+        except BaseException as error:
+            rescued = [text for target in reversed(done) if (text := _undone(target))]
+            if rescued:
+                given = error.given if isinstance(error, OutputError) else "the outputs cannot be written"
+                raise OutputError(given, do="; ".join(rescued)) from error
             raise
 
+    @contextlib.contextmanager
+    def _as_output_error(self, target: Target) -> Iterator[None]:
+        try:
+            yield
+        except (OSError, sqlite3.Error) as error:
+            reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
+            kept = "; the old one is kept" if target.existed else ""
+            done = f"{_nothing_but(self.streamed)} was written{kept}"
+            raise OutputError(f"{target.path} cannot be written: {reason}", do=done) from error
 
-def _undo(target: Target) -> None:
-    """Put the old result in place again. Raises OutputError, with the name of the old result, if that fails."""
+
+def _undone(target: Target) -> str:
+    """Put the old result in place again; what lies where if that fails, else nothing."""
     try:
         target.undo()
-    except OSError as error:
-        old = target.staging.folder.parent if target.staging else target.path.parent
-        raise OutputError(
-            f"{target.path} cannot be restored: {error.strerror}", do=f"the old result is in {old}, under a hidden name"
-        ) from error
+    except OSError:
+        return target.rescue()
+    return ""
 
 
 @contextlib.contextmanager
@@ -227,17 +245,24 @@ def abandon() -> str:
     if not _COMMIT.acquire(timeout=_PATIENCE):
         return "the new result was being put in place: it is whole, or the old one is"
     written = account()
-    for outputs in _OPEN:
+    for outputs in tuple(_OPEN):
         outputs.discard()
     return written
 
 
 def account() -> str:
     """What the call that is running, or the last one, has written."""
-    kept = [path for outputs in _OPEN for path in outputs.kept]
+    running = list(_OPEN)
+    kept = [path for outputs in running for path in outputs.kept]
     if _WRITTEN:
         return f"the new result is in place: {_listed(_WRITTEN)}"
-    return f"nothing was written; the old result is kept: {_listed(kept)}" if kept else "nothing was written"
+    nothing = f"{_nothing_but([path for outputs in running for path in outputs.streamed])} was written"
+    return f"{nothing}; the old result is kept: {_listed(kept)}" if kept else nothing
+
+
+def _nothing_but(streamed: Sequence[Path]) -> str:
+    """What was written where no file or folder was."""
+    return f"only {_listed(streamed)}" if streamed else "nothing"
 
 
 def _listed(paths: Sequence[Path]) -> str:
@@ -264,13 +289,3 @@ def _undisturbed() -> Iterator[None]:
             signal.signal(number, handler)
         for number in arrived:
             signal.raise_signal(number)
-
-
-@contextlib.contextmanager
-def _as_output_error(target: Target) -> Iterator[None]:
-    try:
-        yield
-    except (OSError, sqlite3.Error) as error:
-        reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
-        kept = "; the old one is kept" if target.existed else ""
-        raise OutputError(f"{target.path} cannot be written: {reason}", do=f"nothing was written{kept}") from error

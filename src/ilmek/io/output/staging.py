@@ -8,7 +8,6 @@ import contextlib
 import os
 import re
 import secrets
-import shutil
 from hashlib import sha256
 from pathlib import Path
 
@@ -19,23 +18,37 @@ from ilmek.records import record
 _TRIES = 20
 
 
+class Lock:
+    """A handle that locks a folder; released with it, also where an interrupt cuts the release off."""
+
+    def __init__(self, handle: int | None) -> None:
+        self._handle = handle
+
+    def release(self) -> None:
+        """Release the lock."""
+        handle, self._handle = self._handle, None
+        if handle is not None:
+            with contextlib.suppress(OSError):
+                os.close(handle)
+
+    __del__ = release
+
+
 @record
 class Staging:
-    """A new, locked folder beside a target; `handle` holds the lock."""
+    """A new, locked folder beside a target."""
 
     folder: Path
-    handle: int | None
+    lock: Lock
 
     @property
     def old(self) -> Path:
         """The name of the old result between two renames."""
         return self.folder.with_suffix(OLD)
 
-    def unlock(self) -> None:
-        """Release the lock."""
-        if self.handle is not None:
-            with contextlib.suppress(OSError):
-                os.close(self.handle)
+    def kept(self, suffix: str = "") -> Path:
+        """A name that can be seen, for what must not be removed."""
+        return _visible(self.folder, suffix)
 
 
 def new_staging(target: Path) -> Staging:
@@ -46,7 +59,7 @@ def new_staging(target: Path) -> Staging:
         handle = _opened(folder)
         # Another run may have taken the folder for one without an owner before it was locked.
         if handle is None or (_lock(handle) is not False and _is_at(handle, folder)):
-            return _begun(Staging(folder, handle))
+            return _begun(Staging(folder, Lock(handle)))
         os.close(handle)
     raise OSError(f"no temporary folder could be made beside {target}")
 
@@ -55,8 +68,9 @@ def _begun(staged: Staging) -> Staging:
     try:
         manifest.begin(staged.folder)
     except BaseException:
-        shutil.rmtree(staged.folder, ignore_errors=True)
-        staged.unlock()
+        with contextlib.suppress(OSError):
+            manifest.clear(staged.folder)
+        staged.lock.release()
         raise
     return staged
 
@@ -65,6 +79,7 @@ def repair(target: Path) -> None:
     """Complete or undo the swap of a killed run, and remove what such runs left beside `target`.
 
     A missing target whose old result has been renamed gets the new result if that is whole, else the old one again.
+    Raises OSError if it cannot; then nothing is removed.
     """
     left = [folder for folder in _left(target) if folder.is_dir() and not folder.is_symlink()]
     for old in left:
@@ -80,14 +95,21 @@ def remove(folder: Path) -> None:
 
     What its manifest does not describe is kept under a name that can be seen.
     """
-    if manifest.is_unfinished(folder):
-        for _ in range(_TRIES):  # an interrupted run may still be writing
-            shutil.rmtree(folder, ignore_errors=True)
-            if not folder.exists():
-                return
-    elif folder.is_dir() and not manifest.remove(folder):
+    if not folder.is_dir():
+        return
+    with contextlib.suppress(OSError):
+        if not manifest.is_unfinished(folder) and manifest.foreign(folder):
+            disk.rename(folder, _visible(folder))
+            return
+    for _ in range(_TRIES):  # an interrupted run may still be writing
         with contextlib.suppress(OSError):
-            disk.rename(folder, folder.with_name(folder.name.strip(".")).with_suffix(".kept"))
+            manifest.clear(folder)
+        if not folder.exists():
+            return
+
+
+def _visible(folder: Path, suffix: str = "") -> Path:
+    return folder.with_name(f"{folder.stem.strip('.')}.kept{suffix}")
 
 
 def _left(target: Path) -> list[Path]:
@@ -103,19 +125,20 @@ def _finish_swap(old: Path, target: Path) -> None:
     handle = _opened(new if new.is_dir() else old)  # a run that lives holds the lock of the new folder
     if handle is None:
         return
-    with contextlib.suppress(OSError):
-        if _lock(handle):
-            disk.rename(new if manifest.is_whole(new) else old, target)
-            disk.sync(target.parent)
-    os.close(handle)
+    lock = Lock(handle)
+    if _lock(handle):
+        disk.rename(new if manifest.is_whole(new) else old, target)
+        disk.sync(target.parent)  # before the other one is removed
+    lock.release()
 
 
 def _remove_if_free(folder: Path) -> None:
     handle = _opened(folder)
     if handle is not None:
+        lock = Lock(handle)
         if _lock(handle):
             remove(folder)
-        os.close(handle)
+        lock.release()
 
 
 def _stem(target: Path) -> str:

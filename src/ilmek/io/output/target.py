@@ -1,6 +1,7 @@
 """One target of the write protocol: a file, a folder, or a device or pipe."""
 
 import contextlib
+import errno
 import os
 import stat
 from collections.abc import Iterable
@@ -17,11 +18,17 @@ _STREAMS = tuple(map(Path, ("/dev", "/dev/fd", "/proc/self/fd")))
 
 
 def resolved(path: Path) -> Path:
-    """The path without links. Raises OutputError for circular links."""
+    """The path without links. Raises OutputError for circular links, and for a name that the system does not take."""
     try:
+        with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+            path.stat()
         return path.resolve()
-    except (OSError, RuntimeError):
-        raise OutputError(f"{path} cannot be resolved: its links are circular", do="choose another path") from None
+    except PermissionError:
+        return path.absolute()
+    except (OSError, RuntimeError, ValueError) as error:
+        circular = isinstance(error, RuntimeError) or getattr(error, "errno", None) == errno.ELOOP
+        reason = "its links are circular" if circular else getattr(error, "strerror", None) or str(error)
+        raise OutputError(f"{path} cannot be resolved: {reason}", do="choose another path") from None
 
 
 def is_stream(path: Path) -> bool:
@@ -36,6 +43,7 @@ class Target:
     path, label   as given, and its name in messages          target  the path without links
     force         replace what ilmek did not write            complete  its content is staged
     contains      the target is a folder                      existed  there is an old result
+    new_id        device and number of the sealed new result  stuck    nothing that is staged may be removed
     """
 
     path: Path
@@ -45,9 +53,15 @@ class Target:
     complete: bool = False
     contains: bool = False
     existed: bool = False
-    placed: bool = False
+    stuck: bool = False
     staging: Staging | None = None
+    new_id: tuple[int, int] | None = None
     made: list[Path] = field(default_factory=list)
+
+    @property
+    def placed(self) -> bool:
+        """Whether the new result is in place; read from the disk, so that no interrupt can make it false."""
+        return self.new_id is not None and _id(self.target) == self.new_id
 
     def meets(self, path: Path) -> bool:
         """Whether a path is this target, or in it."""
@@ -83,21 +97,42 @@ class Target:
         raise NotImplementedError
 
     def undo(self) -> None:
-        """Put the old result in place again."""
+        """Put the old result in place again, durably. Raises OSError."""
         raise NotImplementedError
+
+    def old_result(self) -> Path | None:
+        """Where the old result lies if it is not in place."""
+        return None
+
+    def rescue(self) -> str:
+        """After an undo that failed: keep everything, the old result under a name that can be seen; what lies where."""
+        old, staged = self.old_result(), self.staging
+        if old is None or staged is None:
+            self.stuck = not self.placed  # the undo may not be durable
+            return f"the new result is in place: {self.path}" if self.placed else "nothing was written"
+        if not self.placed:
+            return f"the old result is kept: {old}; the next run with this output puts it back"
+        self.stuck = True
+        with contextlib.suppress(OSError):
+            kept = staged.kept("" if self.contains else self.target.suffix)
+            disk.rename(old, kept)
+            old, self.stuck = kept, False
+            disk.sync(self.target.parent)
+        return f"the new result is in place: {self.path}; the old one is kept: {old}"
 
     def discard(self) -> None:
         """Remove what is staged, or the old result if the new one is in place; the lock is released."""
-        staged, self.staging = self.staging, None
+        placed, staged, self.staging = self.placed, self.staging, None  # whoever takes it removes it
         if staged is not None:
-            staging.remove(staged.folder)
-            if self.placed:  # else it is the only copy
-                staging.remove(staged.old)
-            staged.unlock()
-        if not self.placed:
+            if not self.stuck:
+                staging.remove(staged.folder)
+                if placed:  # else it is the only copy
+                    staging.remove(staged.old)
+            staged.lock.release()
+        if not placed:
             for folder in self.made:
                 with contextlib.suppress(OSError):
-                    folder.rmdir()
+                    disk.remove_folder(folder)
         self.made.clear()
 
 
@@ -126,7 +161,7 @@ class FolderTarget(Target):
         if self.target in (Path.cwd(), *Path.cwd().parents):
             raise OutputError(f"output folder {self.path} is the folder you are in", do="choose another")
         try:
-            listed = manifest.files(self.target)
+            listed = manifest.files(self.target) or {}
             foreign = [f"{n} (changed since)" if n in listed else n for n in manifest.foreign(self.target)]
         except OSError as error:
             raise OutputError(f"output folder {self.path} cannot be read ({error})", do="choose another") from None
@@ -149,8 +184,8 @@ class FolderTarget(Target):
                 if old.is_file() and new.name != manifest.MANIFEST:
                     new.chmod(old.stat().st_mode & _MODES)
         manifest.finish(work)
-        work.chmod(mode)
-        disk.sync(work)
+        disk.sync(work, mode)
+        self.new_id = _id(work)
 
     def put(self) -> None:
         """Exchange the new folder with the old one, or rename it."""
@@ -162,11 +197,10 @@ class FolderTarget(Target):
             disk.rename(self.target, staged.old)
             disk.sync(self.target.parent)
             disk.rename(staged.folder, self.target)
-        self.placed = True
         sync_parents(self.target.parent, self.made)
 
     def undo(self) -> None:
-        """Give each folder its name back."""
+        """Give each folder its name back. Raises OSError."""
         staged = self.staging
         assert staged is not None
         if staged.old.is_dir():
@@ -175,7 +209,14 @@ class FolderTarget(Target):
             disk.rename(staged.old, self.target)
         elif self.placed and not (self.existed and disk.exchange(staged.folder, self.target)):
             disk.rename(self.target, staged.folder)
-        self.placed = False
+        disk.sync(self.target.parent)  # before the new result is removed
+
+    def old_result(self) -> Path | None:
+        """The old folder under its name between two renames, or where the new one was staged."""
+        staged = self.staging
+        if staged is None or not self.existed:
+            return None
+        return staged.old if staged.old.is_dir() else staged.folder if self.placed else None
 
 
 @dataclass(slots=True, eq=False)
@@ -208,23 +249,21 @@ class FileTarget(Target):
 
     def fill(self, content: bytes) -> None:
         """Write the content into the staging folder."""
-        self.new.write_bytes(content)
+        disk.write(self.new, content)
 
     def seal(self) -> None:
         """Mark the file, copy the mode of the old one, sync it."""
         manifest.mark(self.new)
-        if self.existed:
-            self.new.chmod(self.target.stat().st_mode & _MODES)
-        disk.sync(self.new)
+        disk.sync(self.new, self.target.stat().st_mode & _MODES if self.existed else None)
+        self.new_id = _id(self.new)
 
     def put(self) -> None:
         """Exchange the new file with the old one, or rename it."""
         if not self.existed:
             disk.rename(self.new, self.target)
         elif not disk.exchange(self.new, self.target):
-            disk.link(self.target, self._old)
+            disk.keep(self.target, self._old)
             disk.replace(self.new, self.target)
-        self.placed = True
         sync_parents(self.target.parent, ())
 
     @property
@@ -232,7 +271,7 @@ class FileTarget(Target):
         return self.stage() / f"old{self.target.suffix}"
 
     def undo(self) -> None:
-        """Put the old file in place again, or remove the new one."""
+        """Put the old file in place again, or remove the new one. Raises OSError."""
         if self.placed:
             if not self.existed:
                 disk.rename(self.target, self.new)
@@ -240,7 +279,13 @@ class FileTarget(Target):
                 disk.replace(self._old, self.target)
             else:
                 disk.exchange(self.new, self.target)
-        self.placed = False
+            disk.sync(self.target.parent)  # before the new result is removed
+
+    def old_result(self) -> Path | None:
+        """The old file where the new one was staged, or its second name."""
+        if self.staging is None or not (self.existed and self.placed):
+            return None
+        return self._old if self._old.exists() else self.new
 
 
 @dataclass(slots=True, eq=False)
@@ -248,6 +293,7 @@ class StreamTarget(Target):
     """A device or a pipe: written directly, before anything is put in place."""
 
     content: bytes = b""
+    begun: bool = False
 
     def repair(self) -> None:
         """Nothing: a stream has no staging folder."""
@@ -267,8 +313,11 @@ class StreamTarget(Target):
 
     def seal(self) -> None:
         """Write the content, at the end where a file stands behind the stream."""
-        with self.path.open("ab") as stream:
-            stream.write(self.content)
+        with self.path.open("ab", buffering=0) as stream:
+            left = memoryview(self.content)
+            while left:
+                left = left[stream.write(left) or 0 :]
+                self.begun = True
 
     def put(self) -> None:
         """Nothing: the content has been written."""
@@ -282,6 +331,15 @@ def sync_parents(folder: Path, made: Iterable[Path]) -> None:
     disk.sync(folder)
     for new in made:
         disk.sync(new.parent)
+
+
+def _id(path: Path) -> tuple[int, int] | None:
+    """Device and number of a file or folder; None where there is none."""
+    try:
+        found = path.lstat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 def _first_that_exists(folder: Path) -> Path:
