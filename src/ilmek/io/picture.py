@@ -8,6 +8,7 @@ formats `WHOLE`), and some 50 MB. The result has 3 bytes a pixel.
 """
 
 import contextlib
+import re
 import threading
 import warnings
 from collections.abc import Iterator
@@ -55,6 +56,15 @@ _READS = 8
 _HEADER = 64_000_000
 """Bytes of a header that may be read, besides a file that is read whole: text, profiles, preview pictures."""
 
+_REPORT = 0.1
+"""Time between reports while a picture is decoded [s]."""
+
+_OF_A_CODEC = re.compile(
+    r"(?:tempfile\.tif|(?:Fax|CCITT|LZW|ZIP|PackBits|JPEG|OJPEG|Thunder|NeXT|LERC|LZMA|ZSTD|WebP|PixarLog|SGILog|LogLuv|Dump)\w*)"
+    r": [^\x1b\r\n]+"
+)
+"""A message of a codec of libtiff: the others concern tags that are not used."""
+
 _LOCK = threading.RLock()
 
 
@@ -78,7 +88,7 @@ def read_picture(path: Path, progress: Progress = SILENT) -> Picture:
     with _pillow_settings():
         try:
             check_structure(data, progress.part(0.1, 0.2))
-            stream = MeteredBytes(data, progress.part(0.2, 0.7))
+            stream = MeteredBytes(data)
             stream.allow(_ENTRIES, _HEADER + len(data) * (data[:4] == b"RIFF" or data[4:8] == b"ftyp"))
             with contextlib.closing(Image.open(stream, formats=_OPENED)) as opened:
                 _check_size(path, opened)
@@ -154,7 +164,7 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, progress: Progress) -> P
     stream.allow(_ENTRIES + singly + stream.size // 64, _HEADER + 2 * stream.size)
     orientation, about_exif = _orientation(opened)  # loads a PNG
     by_pillow = opened.format == "TIFF"
-    _load(opened)
+    _load(opened, stream, progress.part(0.2, 0.7))
     pixels, converted = srgb_pixels(opened, progress.part(0.7, 1.0))
     opened.close()  # before the pixels are copied
     upright = pixels if by_pillow else turned(pixels, orientation)
@@ -188,12 +198,32 @@ def _is_deep(opened: Image.Image) -> bool:
 _DEEP = ("RGB", "RGBA", "RGBX", "LA", "CMYK")
 
 
-def _load(opened: Image.Image) -> None:
-    """Decode. What libtiff writes to the error stream is an error, also where it goes on."""
-    if not any(tile[0] == "libtiff" for tile in getattr(opened, "tile", ())[:1]):
-        opened.load()
-        return
-    with native_messages() as messages:
-        opened.load()
-    if found := [line for line in messages if not line.startswith("TIFF")]:
-        raise DamagedError(found[0])
+def _load(opened: Image.Image, stream: MeteredBytes, progress: Progress) -> None:
+    """Decode in a thread of its own, because one call of a decoder may take seconds; this one reports and is stopped.
+
+    What a codec of libtiff writes to the error stream is an error, also where it goes on. A bar of the progress that is
+    drawn in that time is lost.
+    """
+    failed: list[BaseException] = []
+
+    def decode() -> None:
+        try:
+            opened.load()
+        except BaseException as error:  # raised again by the caller's thread
+            failed.append(error)
+
+    by_libtiff = any(tile[0] == "libtiff" for tile in getattr(opened, "tile", ())[:1])
+    with native_messages() if by_libtiff else contextlib.nullcontext([]) as messages:
+        decoder = threading.Thread(target=decode, daemon=True)
+        decoder.start()
+        try:
+            while decoder.is_alive():
+                decoder.join(_REPORT)
+                progress(min(1.0, stream.furthest / stream.size))
+        except BaseException:
+            stream.allow(0, 0)  # ends the thread at its next read
+            raise
+    if failed:
+        raise failed[0]
+    if found := _OF_A_CODEC.search("\n".join(messages)):
+        raise DamagedError(found.group())

@@ -39,14 +39,16 @@ class DamagedError(Exception):
 
 
 class MeteredBytes(io.BytesIO):
-    """The bytes of a file with a limit on the work of reading them, and progress by the position.
+    """The bytes of a file with a limit on the work of reading them: `read` raises DamagedError when the reads or the
+    bytes allowed by `allow` are used up.
 
-    Raises DamagedError from `read` when the reads or the bytes allowed by `allow` are used up; Cancelled.
+    size      of the file [bytes]
+    furthest  the end of what was read
     """
 
-    def __init__(self, data: bytes, progress: Progress = SILENT) -> None:
+    def __init__(self, data: bytes) -> None:
         super().__init__(data)
-        self.size, self._progress, self._furthest = len(data), progress, 0
+        self.size, self.furthest = len(data), 0
         self._reads = self._bytes = 0
 
     def allow(self, reads: int, size: int) -> None:
@@ -60,9 +62,7 @@ class MeteredBytes(io.BytesIO):
         self._bytes -= len(found)
         if self._reads < 0 or self._bytes < 0:
             raise DamagedError("its header has too many entries")
-        if self.tell() >= self._furthest + 4096:
-            self._furthest = self.tell()
-            self._progress(min(1.0, self._furthest / self.size))
+        self.furthest = max(self.furthest, self.tell())
         return found
 
 
