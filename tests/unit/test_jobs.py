@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from ilmek.errors import LoomError, ParameterError, YarnError
+from ilmek.errors import CarpetError, LoomError, ParameterError, YarnError
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.design import WorkshopOrder, design_machine
 from ilmek.jobs.inspect import inspect_programme
@@ -144,3 +144,9 @@ def test_a_job_goes_on_without_what_cannot_be_drawn(tmp_path: Path, monkeypatch:
     there = {path.name for path in (tmp_path / "out").iterdir()}
     assert there == {Path(file).name for file in woven.files} | {".ilmek"}
     assert not there & {"chart.pdf", "report.html"}
+
+
+def test_too_many_sheets_are_refused_before_any_work() -> None:
+    with pytest.raises(CarpetError, match="13,552 sheets; at most 2,000"):
+        read_order(Path("gone.png"), size="290x400cm", quality="250x250/dm", pdf=True)
+    assert read_order(Path("gone.png"), size="290x400cm", quality="250x250/dm").pdf is None

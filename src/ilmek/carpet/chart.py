@@ -5,6 +5,7 @@ difference (`palette`), and lone knots take the yarn of a neighbour (`isolated_k
 """
 
 from collections.abc import Sequence
+from dataclasses import field, fields
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import PictureError, YarnError
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.records import brief, record
 
 
 @record
@@ -40,6 +41,11 @@ class Chart:
     mean_delta_e: float
     least_delta_e: float
     merged: int = 0
+    _counts: list[tuple[int, ...]] = field(default_factory=list, init=False)
+    """The counts, once they are computed: many results need them."""
+
+    def __repr__(self) -> str:
+        return brief(self, (one.name for one in fields(self) if one.init))
 
     @property
     def rows(self) -> int:
@@ -54,10 +60,12 @@ class Chart:
     @property
     def counts(self) -> tuple[int, ...]:
         """Knots of each yarn, in the order of `yarns`."""
-        counts = np.zeros(len(self.yarns), dtype=np.int64)
-        for band in bands(*self.knots.shape):
-            counts += np.bincount(self.knots[band].ravel(), minlength=len(self.yarns))
-        return tuple(counts.tolist())
+        if not self._counts:
+            counts = np.zeros(len(self.yarns), dtype=np.int64)
+            for band in bands(*self.knots.shape):
+                counts += np.bincount(self.knots[band].ravel(), minlength=len(self.yarns))
+            self._counts.append(tuple(counts.tolist()))
+        return self._counts[0]
 
     @property
     def colours(self) -> int:

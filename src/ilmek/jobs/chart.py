@@ -19,7 +19,7 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
-from ilmek.jobs.order import CarpetOrder
+from ilmek.jobs.order import MOST_PRINTED, CarpetOrder
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, at_most
 from ilmek.report.left_out import made_or_left_out
@@ -134,7 +134,8 @@ def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
     sheets = chart_cut(chart).count
     if order.pdf is not None or sheets <= MOST_SHEETS:
         return ()
-    return (f"chart.pdf would have {sheets:,} sheets and is left out; --pdf writes it",)
+    remedy = "--pdf writes it" if sheets <= MOST_PRINTED else f"at most {MOST_PRINTED:,} are written"
+    return (f"chart.pdf would have {sheets:,} sheets and is left out; {remedy}",)
 
 
 def _fit(rgb: Rgb, size: CarpetSize, rows: int, columns: int) -> tuple[str, ...]:
@@ -186,12 +187,12 @@ def write_chart(
 
     Raises OSError.
     """
-    write_chart_png(folder / "chart.png", charted.chart)
+    write_chart_png(folder / "chart.png", charted.chart, progress.part(0.0, 0.3, "chart.png"))
     write_yarn_csv(folder / "yarn.csv", charted.bill, charted.chart.yarns)
     written = charted.files
     if "chart.pdf" in written:
-        pdf, before = folder / "chart.pdf", len(left_out)
-        made_or_left_out("chart.pdf", lambda: write_chart_pdf(pdf, charted.chart, progress=progress), left_out)
+        pdf, before, printing = folder / "chart.pdf", len(left_out), progress.part(0.3, 1.0, "chart.pdf")
+        made_or_left_out("chart.pdf", lambda: write_chart_pdf(pdf, charted.chart, progress=printing), left_out)
         if len(left_out) > before:
             pdf.unlink(missing_ok=True)
             written = tuple(name for name in written if name != "chart.pdf")

@@ -10,9 +10,13 @@ from ilmek.carpet.quality import Quality, parse_quality
 from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.elements.knot_kinds import parse_knot
-from ilmek.errors import YarnError
+from ilmek.errors import CarpetError, YarnError
+from ilmek.io.chart.sheets import cut
 from ilmek.io.yarn_file import default_yarns, read_yarns
 from ilmek.params import Setting
+
+MOST_PRINTED = 2_000
+"""Largest number of sheets of a chart.pdf: 50 s, 13 MB and 300 MB of memory."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,10 +70,22 @@ def read_order(
     """The order from texts; the picture is not opened. Raises CarpetError, YarnError or ParameterError."""
     kind, wide, fine = parse_knot(knot), parse_size(size), parse_quality(quality)
     pile = PileParams.read({"pile_height": pile_height})
-    knot_grid(wide, fine)
+    _check_sheets(wide, fine, pdf)
     yarns = default_yarns() if yarn_file is None else read_yarns(yarn_file)
     if colours is not None and not 2 <= colours <= len(yarns):
         raise YarnError(
             f"--colours {colours}", allowed=f"2 to {len(yarns)}, the yarns of the list", do="or leave it out"
         )
     return CarpetOrder(picture, wide, fine, kind, yarns, colours, keep_lone, pile, pdf)
+
+
+def _check_sheets(size: CarpetSize, quality: Quality, pdf: bool | None) -> None:
+    """Raise CarpetError for a carpet of too few or too many knots, and for a PDF of more than MOST_PRINTED sheets."""
+    rows, columns = knot_grid(size, quality)
+    sheets = cut(rows, columns, quality.across / quality.along).count
+    if pdf and sheets > MOST_PRINTED:
+        raise CarpetError(
+            f"--pdf: the chart of {size} at {quality} has {sheets:,} sheets",
+            allowed=f"at most {MOST_PRINTED:,}",
+            do="leave --pdf out, or take a coarser quality",
+        )

@@ -103,15 +103,15 @@ def _weave(
     woven = WeaveResult(charted, loom_order, loomed, MACHINE.report(loomed.design), folder)
     left_out: list[str] = []
     with outputs.folder(folder) as work:
-        written = write_chart(charted, work, left_out, progress.part(0.5, 0.7, "chart.pdf"))
+        written = write_chart(charted, work, left_out, progress.part(0.5, 0.7, "chart"))
         write_programme(
             work / "programme.ilmek", loomed.programme, _label(woven), progress=progress.part(0.7, 0.8, "programme")
         )
         write_json(work / "machine.json", machine_json(woven))
-        progress.part(0.8, 1.0, "report")
+        drawing = progress.part(0.8, 1.0, "report")
         written = (*written, "programme.ilmek", "machine.json", "report.html", "report.json")
         woven = replace(woven, written=written, left_out=tuple(left_out))
-        page = made_or_left_out("report.html", lambda: carpet_page(_page(woven), left_out), left_out)
+        page = made_or_left_out("report.html", lambda: carpet_page(_page(woven), left_out, drawing), left_out)
         if page is not None:
             (work / "report.html").write_text(page, encoding="utf-8")
         written = tuple(name for name in written if name != "report.html" or page is not None)

@@ -16,6 +16,7 @@ import ilmek
 from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
 from ilmek.errors import encodable
+from ilmek.progress import SILENT, Progress
 from ilmek.report import Animation, Check, Figure, Report, Timing
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.animation import SECONDS
@@ -79,14 +80,17 @@ class _Judged:
     check: Check
 
 
-def carpet_page(page: CarpetPage, left_out: list[str] | None = None) -> str:
+def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: Progress = SILENT) -> str:
     """The page of a carpet as self-contained HTML.
 
     left_out  list to which a warning is appended for each figure and picture that cannot be drawn
     """
     left_out = [] if left_out is None else left_out
-    sections = [_section(number, report, left_out) for number, report in enumerate(page.reports, 1)]
-    shown = pictures(page.chart, left_out)
+    shown = pictures(page.chart, left_out, progress.part(0.0, 0.5))
+    sections = []
+    for index, report in enumerate(page.reports, 1):
+        sections.append(_section(index, report, left_out))
+        progress(0.5 + 0.5 * index / len(page.reports))
     judged = [_Judged("", check) for check in page.checks]
     judged += [_Judged(report.title, check) for report in page.reports for check in report.checks]
     warnings = [*page.warnings, *(f"{r.title}: {warning}" for r in page.reports for warning in r.warnings), *left_out]

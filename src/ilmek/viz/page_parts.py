@@ -12,6 +12,7 @@ from PIL import Image
 from ilmek.carpet.bill import YarnBill, YarnNeed
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import LINEAR
+from ilmek.progress import SILENT, Progress
 from ilmek.report import Check
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_number
@@ -106,10 +107,15 @@ def _cm(length: float) -> str:
     return format_number(100 * length)
 
 
-def pictures(chart: Chart, left_out: list[str]) -> list[PagePicture]:
+def pictures(chart: Chart, left_out: list[str], progress: Progress = SILENT) -> list[PagePicture]:
     """The chart, the simulated carpet, and a close-up of its knots; without those that cannot be drawn."""
-    makers = {"of the chart": _of_the_chart, "of the carpet": _of_the_carpet, "of the knots": _of_the_knots}
+    makers = {
+        "of the chart": _of_the_chart,
+        "of the carpet": partial(_of_the_carpet, progress=progress),
+        "of the knots": _of_the_knots,
+    }
     made = [made_or_left_out(f"the picture {name}", partial(make, chart), left_out) for name, make in makers.items()]
+    progress(1.0)
     return [picture for picture in made if picture is not None]
 
 
@@ -121,8 +127,8 @@ def _of_the_chart(chart: Chart) -> PagePicture:
     )  # fmt: skip
 
 
-def _of_the_carpet(chart: Chart) -> PagePicture:
-    whole = carpet_picture(chart)
+def _of_the_carpet(chart: Chart, progress: Progress) -> PagePicture:
+    whole = carpet_picture(chart, progress=progress)
     return PagePicture(
         _address(whole, "jpeg"), *_size(whole), "The finished carpet.", f"Simulated carpet, {_knots(chart)}",
         "Simulated pile, fringe and selvedge.", times=1.25,
