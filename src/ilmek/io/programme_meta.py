@@ -51,6 +51,9 @@ _GREATEST = 1e9
 _SAME = 1e-9
 """Relative difference of sums that are taken in another order."""
 
+_BLOCK = 1 << 21
+"""Knots that are counted at once."""
+
 _KEYS = (
     "size", "quality", "knot", "yarns", "warp_pitch", "rows", "columns", "heads", "edges", "times", "totals", "work",
     "cyclograms",
@@ -110,8 +113,9 @@ class ProgrammeMeta:
 def meta_texts(programme: Programme, label: Label) -> dict[str, str]:
     """The description as JSON texts by key. Raises an IlmekError for a label that would be refused when it is read."""
     counts = np.zeros(programme.yarns, np.int64)
-    for first in range(0, programme.rows, 256):
-        counts += np.bincount(programme.knots[first : first + 256].ravel(), minlength=programme.yarns)
+    step = max(1, _BLOCK // programme.columns)
+    for first in range(0, programme.rows, step):
+        counts += np.bincount(programme.knots[first : first + step].ravel(), minlength=programme.yarns)
     data = {
         "size": asdict(label.size),
         "quality": asdict(label.quality),
