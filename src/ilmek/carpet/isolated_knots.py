@@ -106,9 +106,11 @@ def merge_lone(
     """
     rgb = np.ascontiguousarray(rgb)
     found = (0, 0.0)
-    for band in bands(*knots.shape, _SLICE):
-        rows = band.start, band.stop
-        merged, added = _merge(knots, rgb, colours.index, colours.labs, yarn_labs, difference, rows, found)
+    rows, columns = knots.shape
+    for band in bands(rows, columns, _SLICE):
+        merged, added = _merge(
+            knots, rgb, colours.index, colours.labs, yarn_labs, difference, (band.start, band.stop), found
+        )
         found = int(merged), float(added)
-        progress(band.stop / len(knots))
+        progress(band.stop / rows)
     return found

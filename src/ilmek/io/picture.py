@@ -162,9 +162,11 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, progress: Progress) -> P
     deep = ("16 bits per channel reduced to 8",) if _is_deep(opened) else ()
     singly = _READS * min(opened.width * opened.height, LARGEST_INTERPRETED)
     stream.allow(_ENTRIES + singly + stream.size // 64, _HEADER + 2 * stream.size)
-    orientation, about_exif = _orientation(opened)  # loads a PNG
-    by_pillow = opened.format == "TIFF"
+    by_pillow = opened.format == "TIFF"  # turned when it is loaded
+    orientation, about_exif = _orientation(opened) if by_pillow else (1, ())
     _load(opened, stream, progress.part(0.2, 0.7))
+    if not by_pillow:
+        orientation, about_exif = _orientation(opened)
     pixels, converted = srgb_pixels(opened, progress.part(0.7, 1.0))
     opened.close()  # before the pixels are copied
     upright = pixels if by_pillow else turned(pixels, orientation)
@@ -179,7 +181,7 @@ def _several_frames(opened: Image.Image) -> tuple[str, ...]:
 
 
 def _orientation(opened: Image.Image) -> tuple[int, tuple[str, ...]]:
-    """The EXIF orientation, 1 to 8, and a note on it. Pillow turns a TIFF when it loads it."""
+    """The EXIF orientation, 1 to 8, and a note on it; of a TIFF before it is loaded, of a PNG after."""
     raw = opened.info.get("exif", b"") or opened.info.get("Raw profile type exif", "")
     if len(raw) > (MOST_EXIF if isinstance(raw, bytes) else 3 * MOST_EXIF):
         return 1, ("its EXIF data are too large and ignored",)
@@ -213,7 +215,10 @@ def _load(opened: Image.Image, stream: MeteredBytes, progress: Progress) -> None
             failed.append(error)
 
     by_libtiff = any(tile[0] == "libtiff" for tile in getattr(opened, "tile", ())[:1])
-    with native_messages() if by_libtiff else contextlib.nullcontext([]) as messages:
+    messages: list[str] = []
+    with contextlib.ExitStack() as caught:
+        if by_libtiff:
+            messages = caught.enter_context(native_messages())
         decoder = threading.Thread(target=decode, daemon=True)
         decoder.start()
         try:

@@ -6,16 +6,16 @@ error, not in hours of work.
 
 import difflib
 import io
-import os
 import re
-import stat
 import struct
 import zlib
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 
 from ilmek.errors import PictureError
+from ilmek.io.regular_file import open_regular
 from ilmek.progress import SILENT, Progress
 
 MOST_BYTES = 500_000_000
@@ -72,20 +72,17 @@ def read_bytes(path: Path, progress: Progress = SILENT) -> bytes:
     Raises PictureError unless it is a regular file of 1 to MOST_BYTES bytes; a pipe or a device is not waited for.
     """
     try:
-        if not path.is_file():  # a device may act when it is opened
+        if not path.is_file():
             raise PictureError(_not_a_file(path), do="give the path of a picture")
-        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-        with os.fdopen(handle, "rb", buffering=0) as file:
-            found = os.fstat(handle)
-            if not stat.S_ISREG(found.st_mode):
-                raise PictureError(f"{path} is not a file", do="give the path of a picture")
-            if found.st_size > MOST_BYTES:
+        file, size = open_regular(path)
+        with file:
+            if size > MOST_BYTES:
                 raise PictureError(
-                    f"{path} has {found.st_size / 1e6:,.0f} MB",
+                    f"{path} has {size / 1e6:,.0f} MB",
                     allowed=f"at most {MOST_BYTES // 1_000_000} MB",
                     do="scale the picture down, or save it as PNG or JPEG",
                 )
-            data = _read_up_to(file, found.st_size, progress)
+            data = _read_up_to(file, size, progress)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise PictureError(f"{path} cannot be read ({reason})") from None
@@ -94,7 +91,7 @@ def read_bytes(path: Path, progress: Progress = SILENT) -> bytes:
     return data
 
 
-def _read_up_to(file: io.RawIOBase, size: int, progress: Progress) -> bytes:
+def _read_up_to(file: BinaryIO, size: int, progress: Progress) -> bytes:
     """The first `size` bytes; what is appended to the file in the meantime is not read."""
     data = bytearray()
     while len(data) < size and (block := file.read(min(_BLOCK, size - len(data)))):

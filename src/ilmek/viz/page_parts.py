@@ -2,7 +2,7 @@
 
 import base64
 import io
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -109,7 +109,7 @@ def _cm(length: float) -> str:
 
 def pictures(chart: Chart, left_out: list[str], progress: Progress = SILENT) -> list[PagePicture]:
     """The chart, the simulated carpet, and a close-up of its knots; without those that cannot be drawn."""
-    makers = {
+    makers: dict[str, Callable[[Chart], PagePicture]] = {
         "of the chart": _of_the_chart,
         "of the carpet": partial(_of_the_carpet, progress=progress),
         "of the knots": _of_the_knots,
