@@ -4,11 +4,15 @@ import json
 from pathlib import Path
 from typing import Any
 
+from ilmek.progress import SILENT, Progress
 from ilmek.report import plain
 
+CHUNKS = 10_000
+"""Pieces of text between two reports of progress."""
 
-def json_text(data: Any) -> str:
-    """The data as JSON text with a newline at the end.
+
+def json_text(data: Any, progress: Progress = SILENT) -> str:
+    """The data as JSON text with a newline at the end. Raises Cancelled.
 
     >>> print(json_text({"crank": 0.25, "slope": float("nan")}), end="")
     {
@@ -16,9 +20,22 @@ def json_text(data: Any) -> str:
       "slope": null
     }
     """
-    return json.dumps(plain(data), indent=2, allow_nan=False) + "\n"
+    whole, parts = plain(data), []
+    values = _values(whole)
+    for count, part in enumerate(json.JSONEncoder(indent=2, allow_nan=False).iterencode(whole)):
+        parts.append(part)
+        if count % CHUNKS == 0:
+            progress(min(1.0, count / values))
+    return "".join(parts) + "\n"
 
 
-def write_json(path: Path, data: Any) -> None:
-    """Write the data to a file. Raises OSError."""
-    path.write_text(json_text(data), encoding="utf-8")
+def _values(data: Any) -> int:
+    """The number of values in plain data, at least 1."""
+    inner = list(data.values()) if isinstance(data, dict) else data if isinstance(data, list) else []
+    deep = inner and any(isinstance(value, dict | list) for value in inner)
+    return 1 + (sum(map(_values, inner)) if deep else len(inner))
+
+
+def write_json(path: Path, data: Any, progress: Progress = SILENT) -> None:
+    """Write the data to a file. Raises OSError, Cancelled."""
+    path.write_text(json_text(data, progress), encoding="utf-8")

@@ -4,11 +4,21 @@ import math
 from collections.abc import Mapping
 
 from ilmek.arrays import FloatArray
+from ilmek.errors import IlmekError
 from ilmek.io.csv_cells import csv_rows
+from ilmek.progress import SILENT, Progress
+
+MOST_NUMBERS = 2_000_000
+"""Largest number of numbers of a table; its text has 40 MB as CSV and 90 MB as JSON."""
+
+ROWS = 1000
+"""Rows between two reports of progress."""
 
 
-def csv_text(columns: Mapping[str, FloatArray]) -> str:
+def csv_text(columns: Mapping[str, FloatArray], progress: Progress = SILENT) -> str:
     """Columns by heading as CSV text with full precision; a number that is not finite is an empty cell.
+
+    Raises Cancelled.
 
     >>> import numpy as np
     >>> print(csv_text({"angle [rad]": np.array([0.1, 0.2]), "x [m]": np.array([1.0, np.nan])}), end="")
@@ -16,5 +26,22 @@ def csv_text(columns: Mapping[str, FloatArray]) -> str:
     0.1,1.0
     0.2,
     """
-    values = [[repr(value) if math.isfinite(value) else "" for value in column.tolist()] for column in columns.values()]
-    return csv_rows([list(columns)]) + "".join(f"{','.join(row)}\n" for row in zip(*values, strict=True))
+    parts, rows = [csv_rows([list(columns)])], min(map(len, columns.values()), default=0)
+    for start in range(0, rows, ROWS):
+        block = [map(_cell, column[start : start + ROWS].tolist()) for column in columns.values()]
+        parts += [f"{','.join(row)}\n" for row in zip(*block, strict=True)]
+        progress(min(1.0, (start + ROWS) / rows))
+    return "".join(parts)
+
+
+def check_size(rows: int, columns: int, option: str, error: type[IlmekError]) -> None:
+    """Raise `error` where a table has more than `MOST_NUMBERS` numbers; `option` sets its number of rows."""
+    if rows * columns > MOST_NUMBERS:
+        raise error(
+            f"{option} {rows - 1} gives {rows * columns} numbers, {columns} per step",
+            allowed=f"at most {MOST_NUMBERS}: {option} {MOST_NUMBERS // columns - 1}",
+        )
+
+
+def _cell(value: float) -> str:
+    return repr(value) if math.isfinite(value) else ""

@@ -13,19 +13,23 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import Float, Int
+from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.equations import relative_angle, travel
 from ilmek.linkage.groups.general import GeneralGroup
 from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.model import GROUND, Mechanism, Rotation, Slide
 from ilmek.linkage.structure import Plan
-from ilmek.units import deg
+from ilmek.units import deg, format_quantity
 
 TURN = 5 * deg
 """Longest step of a rotating input on the path from the pose [rad]."""
 
 SHIFT = 0.02
 """Longest step of a sliding input on the path from the pose, relative to the mechanism's size."""
+
+MOST_STEPS = 10_000
+"""Largest number of steps on the path from the pose; more than 100 turns."""
 
 
 def starts(plan: Plan, drives: Mapping[str, InputMotion]) -> dict[str, BodyMotion]:
@@ -77,6 +81,13 @@ def _count(
 ) -> int:
     """Number of steps from the pose to the farthest target."""
     far = max(float(np.max(np.abs(value - reference[name]))) / stride[name] for name, value in targets.items())
+    if far > MOST_STEPS:
+        raise MechanismError(
+            f"the inputs are {far:.3g} steps of {format_quantity(TURN, 'deg')}, or {SHIFT:.0%} of the mechanism's size, "
+            "from the mechanism's pose",
+            allowed=f"at most {MOST_STEPS}",
+            do="give a shorter range, or a pose nearer to it",
+        )
     return max(1, int(np.ceil(far)))
 
 

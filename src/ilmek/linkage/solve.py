@@ -17,19 +17,29 @@ from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.status import judge
 from ilmek.linkage.structure import Plan
+from ilmek.progress import SILENT, Progress
 
 BLOCK = 16384
 """Samples per block: enough to make calls cheap, few enough for the second-level cache."""
 
 NEWTON_BLOCK = 1 << 15
-"""Samples per block with a group for Newton's method, which first follows the path from the mechanism's pose."""
+"""Largest number of samples per block with a group for Newton's method, which first follows the path from the
+mechanism's pose."""
+
+NEWTON_MEMORY = 60_000_000
+"""Largest size of the matrices of a block [bytes]; a group of 5 bodies reaches it with `NEWTON_BLOCK` samples."""
 
 InputValues = RealField | Mapping[str, RealField]
 """One input's values, or several inputs' by name: a rotation's by its body, a displacement's by its slide."""
 
 
 def solve(
-    plan: Plan, angle: InputValues, speed: InputValues = 0.0, acceleration: InputValues = 0.0, jerk: InputValues = 0.0
+    plan: Plan,
+    angle: InputValues,
+    speed: InputValues = 0.0,
+    acceleration: InputValues = 0.0,
+    jerk: InputValues = 0.0,
+    progress: Progress = SILENT,
 ) -> Motion:
     """Motion of the mechanism for a batch of input values.
 
@@ -40,10 +50,11 @@ def solve(
     For several inputs: mappings from the input's name; default of a rate: zero.
 
     Never fails for a sample: see `Motion.status` and `Motion.require`. Raises MechanismError for unknown or missing
-    inputs, values that are not finite, and arrays that are empty or of different lengths.
+    inputs, values that are not finite, arrays that are empty or of different lengths, and for a group that Newton's
+    method would have to follow over too long a path from the pose; Cancelled.
     """
     drives = drives_of(plan, angle, speed, acceleration, jerk)
-    size = NEWTON_BLOCK if any(isinstance(step, GeneralGroup) for step in plan.steps) else BLOCK
+    size = _block_size(plan)
     samples = np.size(drives[plan.mechanism.inputs[0].name].value)
     status = np.zeros(samples, dtype=np.int8)
     columns: dict[str, Columns] = {}
@@ -55,7 +66,14 @@ def solve(
                 columns = {body: _room(fields, samples) for body, fields in solved.items()}
             for body, fields in solved.items():
                 _write(columns[body], fields, part)
+            progress(min(1.0, (start + size) / samples))
     return Motion(plan, drives, columns, status)
+
+
+def _block_size(plan: Plan) -> int:
+    """Samples per block."""
+    largest = max((len(step.bodies) for step in plan.steps if isinstance(step, GeneralGroup)), default=0)
+    return min(NEWTON_BLOCK, NEWTON_MEMORY // (8 * (3 * largest) ** 2)) if largest else BLOCK
 
 
 def _block(plan: Plan, drives: Mapping[str, InputMotion], status: np.ndarray) -> dict[str, Columns]:

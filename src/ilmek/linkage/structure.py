@@ -13,9 +13,10 @@ coupler and rocker joined at B (branch +1), attached to crank and ground: RRR
 """
 
 from collections.abc import Callable, Iterable
-from itertools import combinations
+from itertools import combinations, islice
 
 from ilmek.errors import MechanismError
+from ilmek.linkage.constraint_assignment import Constraints, assigned_constraints
 from ilmek.linkage.groups import follower, geared, general, prp, rpp, rpr, rrp, rrr, shift, turn
 from ilmek.linkage.groups.group import Group, Step
 from ilmek.linkage.model import GROUND, Mechanism, degrees_of_freedom
@@ -47,6 +48,10 @@ class Plan:
         return next(step for step in self.steps if body in step.bodies)
 
 
+SUBSETS = 5000
+"""Sets of bodies that are searched for the smallest over-constrained one."""
+
+
 def plan(mechanism: Mechanism, *, closed_forms: bool = True) -> Plan:
     """The steps that solve `mechanism`; with `closed_forms=False` all undriven groups are solved by Newton's method.
 
@@ -54,25 +59,60 @@ def plan(mechanism: Mechanism, *, closed_forms: bool = True) -> Plan:
     and where a group lacks its branch.
     """
     known, steps = {GROUND}, []
+    assigned = assigned_constraints(mechanism)
     while len(known) <= len(mechanism.moving):
-        group = _next_group(mechanism, known)
+        if assigned.excess:
+            group = _first_group(mechanism, known, assigned.excess)
+        else:
+            group = _group(mechanism, _next_bodies(mechanism, known, assigned.constraints), known)
         recognised = (recognise(group) for recognise in (CLOSED_FORMS if closed_forms else CLOSED_FORMS[:2]))
         steps.append(next((step for step in recognised if step is not None), None) or general.from_group(group))
         known.update(group.bodies)
     return Plan(mechanism, tuple(steps))
 
 
-def _next_group(mechanism: Mechanism, known: set[str]) -> Group:
-    """The smallest group without degrees of freedom that is attached to known bodies only."""
+def _next_bodies(mechanism: Mechanism, known: set[str], assigned: Constraints) -> tuple[str, ...]:
+    """The bodies of the smallest group without degrees of freedom that is attached to known bodies only.
+
+    A group is closed under its constraints: where every body has three of them, it contains the other bodies of each.
+    Raises MechanismError for an under-constrained mechanism.
+    """
     left = [body for body in mechanism.moving if body not in known]
-    for size in range(1, len(left) + 1):
-        for bodies in combinations(left, size):
-            group = _group(mechanism, bodies, known)
-            if group.degrees_of_freedom < 0:
-                raise _over_constrained(group)
-            if group.degrees_of_freedom == 0:
-                return group
-    raise _under_constrained(_group(mechanism, left, known))
+    order = {body: number for number, body in enumerate(left)}
+    groups = (_closed(body, assigned, known) for body in left)
+    numbers = [sorted(order[body] for body in group) for group in groups if group]
+    if not numbers:
+        raise _under_constrained(_group(mechanism, left, known))
+    return tuple(left[number] for number in min(numbers, key=lambda group: (len(group), group)))
+
+
+def _closed(body: str, assigned: Constraints, known: set[str]) -> set[str]:
+    """The smallest group that contains a body; empty if a body of it keeps a degree of freedom."""
+    group, open_bodies = {body}, [body]
+    while open_bodies:
+        constraints = assigned[open_bodies.pop()]
+        if len(constraints) < 3:
+            return set()
+        more = {other for constraint in constraints for other in constraint} - known - group
+        group |= more
+        open_bodies += more
+    return group
+
+
+def _first_group(mechanism: Mechanism, known: set[str], excess: frozenset[str]) -> Group:
+    """The next group of an over-constrained mechanism, by trial.
+
+    Raises MechanismError for the smallest over-constrained set; for `excess` if it is not found within `SUBSETS`.
+    """
+    left = [body for body in mechanism.moving if body not in known]
+    sets = (bodies for size in range(1, len(left) + 1) for bodies in combinations(left, size))
+    for bodies in islice(sets, SUBSETS):
+        group = _group(mechanism, bodies, known)
+        if group.degrees_of_freedom < 0:
+            raise _over_constrained(group)
+        if group.degrees_of_freedom == 0:
+            return group
+    raise _over_constrained(_group(mechanism, [body for body in left if body in excess], known))
 
 
 def _group(mechanism: Mechanism, bodies: Iterable[str], known: set[str]) -> Group:
