@@ -55,7 +55,7 @@ class CallOutputs:
             found = data()
             if self._left_out and isinstance(found, dict):
                 found = {**found, "warnings": [*found.get("warnings", ()), *self._left_out]}
-            self.give("--json", lambda: json_text(found))
+            self.give("--json", lambda: json_text(found, self.progress.part(0.0, 1.0, "JSON")))
 
     def give_page(self, option: str, report: "Report") -> None:
         """Stage the page of a report. What cannot be drawn is left out, which is noted at the end."""

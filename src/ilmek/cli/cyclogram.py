@@ -10,7 +10,7 @@ from ilmek.cli.options import force_option, json_option
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, passed, say, show_checks, show_table
 from ilmek.io.cyclogram_file import cyclogram_writer
-from ilmek.io.table_csv import csv_text
+from ilmek.io.table_csv import MOST_NUMBERS, csv_text
 from ilmek.jobs.cyclogram import GOALS, binding_words, columns, find, report, solve
 from ilmek.report import Report
 from ilmek.timing.solver import Solution
@@ -36,7 +36,7 @@ Examples:
 @click.option("--csv", "csv_to", metavar="-|FILE", help="Write all motions as CSV; - writes to standard output.")
 @click.option(
     "--steps",
-    type=click.IntRange(1, 1_000_000),
+    type=click.IntRange(1, MOST_NUMBERS),
     default=360,
     show_default=True,
     help="Steps of the CSV table per turn.",
@@ -75,7 +75,7 @@ def command(
         if write is not None:
             call.give("--out", partial(write, found))
         call.give_json(shown.as_json)
-        call.give("--csv", lambda: csv_text(columns(found, steps)))
+        call.give("--csv", lambda: csv_text(columns(found, steps), call.progress.part(0.0, 1.0, "table")))
     if not call.quiet:
         _show(shown, solution)
         for option, kind in (("--report", "report"), ("--out", "cyclogram"), ("--csv", "table")):

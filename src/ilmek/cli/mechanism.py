@@ -9,7 +9,7 @@ from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import note, say, show_table
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism
-from ilmek.io.table_csv import csv_text
+from ilmek.io.table_csv import MOST_NUMBERS, csv_text
 from ilmek.jobs.mechanism import MotionRequest, run
 from ilmek.jobs.mechanism_report import as_json, columns, report
 from ilmek.report import Report
@@ -38,7 +38,9 @@ Examples:
 @click.option(
     "--speed", default="", metavar="SPEED", help="Speed of the driving input, like 60rpm; default: 1 rad/s or 1 m/s."
 )
-@click.option("--steps", type=click.IntRange(1, 1_000_000), default=72, show_default=True, help="Steps of the range.")
+@click.option(
+    "--steps", type=click.IntRange(1, MOST_NUMBERS), default=72, show_default=True, help="Steps of the range."
+)
 @click.option(
     "--csv", "csv_to", metavar="-|FILE", help="Write the motion as CSV, SI and radians; - writes to standard output."
 )
@@ -71,7 +73,7 @@ def command(
         found_report = report(moved)
         call.give_page("--report", found_report)
         call.give_json(lambda: as_json(moved))
-        call.give("--csv", lambda: csv_text(columns(moved)))
+        call.give("--csv", lambda: csv_text(columns(moved), call.progress.part(0.0, 1.0, "table")))
     if not call.quiet:
         show(found_report)
         for option, noun in (("--report", "report"), ("--csv", "table")):

@@ -54,6 +54,9 @@ from ilmek.linkage.model import (
 from ilmek.linkage.structure import Plan, plan
 from ilmek.records import brief
 
+MOST_ENTRIES = 100
+"""Largest number of bodies, of joints and of couplings of a file."""
+
 
 @dataclass(frozen=True, slots=True)
 class MechanismFile:
@@ -90,7 +93,12 @@ def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) ->
 
 def _read(text: DataText, name: str) -> MechanismFile:
     source = SourceText(name, text.lines)
-    return _built(Reader(schema(), source).read(text.data), source)
+    data = Reader(schema(), source).read(text.data)
+    for key in ("bodies", "joints", "couplings"):
+        if len(data.get(key, ())) > MOST_ENTRIES:
+            given = f"has {len(data[key])} {key}"
+            source.refuse((key,), MechanismError(given, allowed=f"at most {MOST_ENTRIES}"))
+    return _built(data, source)
 
 
 def write_mechanism(path: Path, mechanism: Mechanism, inertias: Mapping[str, Inertia] | None = None) -> None:

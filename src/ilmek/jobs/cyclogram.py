@@ -9,6 +9,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 from ilmek.io.cyclogram_file import cyclogram_data, read_cyclogram
+from ilmek.io.table_csv import check_size
 from ilmek.machines.catalogue import MACHINES
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Column, Report, Result, Table, at_most
@@ -100,7 +101,9 @@ def columns(cyclogram: Cyclogram, steps: int) -> dict[str, FloatArray]:
     """Columns of a table by heading with unit: master angle, time; position, velocity, acceleration of each track.
 
     steps  of a turn; the table has one row more
+    Raises ParameterError for a table of more than `MOST_NUMBERS` numbers.
     """
+    check_size(steps + 1, 2 + 3 * len(cyclogram.tracks), "--steps", ParameterError)
     angle = np.linspace(0.0, turn, steps + 1)
     w = cyclogram.speed
     found = {"master angle [deg]": np.linspace(0.0, 360.0, steps + 1), "time [s]": angle / w}

@@ -7,8 +7,10 @@ import numpy as np
 from ilmek.arrays import FloatArray, RealField
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import MechanismFile
+from ilmek.io.table_csv import check_size
+from ilmek.linkage.groups.general import GeneralGroup
 from ilmek.linkage.model import Input, Rotation
-from ilmek.linkage.motion import Motion
+from ilmek.linkage.motion import Motion, moving_points
 from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
@@ -18,6 +20,14 @@ from ilmek.units import parse_quantity, turn
 
 CUTS, PIECES = 9, 64
 """The end of a range is located by so many subdivisions of a step into so many pieces, to machine precision."""
+
+
+MOST_RANGES = 100
+"""Largest number of ranges in which a mechanism closes; the ends of each are located."""
+
+
+MOST_BODIES = 20
+"""Largest number of bodies of a group that is solved by Newton's method: its equations are solved for every sample."""
 
 
 @record
@@ -65,10 +75,15 @@ class MechanismRun:
     @property
     def closing(self) -> tuple[tuple[float, float], ...]:
         """Ranges of the driving input in which the mechanism closes [rad or m]; their ends are exact to rounding."""
+        ends = self.samples_that_close
+        return tuple((self._end(first, first - 1), self._end(last, last + 1)) for first, last in ends)
+
+    @property
+    def samples_that_close(self) -> list[tuple[int, int]]:
+        """First and last sample of each range in which the mechanism closes."""
         good = np.flatnonzero(self.motion.status == Status.OK)
         runs = np.split(good, np.flatnonzero(np.diff(good) > 1) + 1) if len(good) else []
-        ends = [(int(run[0]), int(run[-1])) for run in runs]
-        return tuple((self._end(first, first - 1), self._end(last, last + 1)) for first, last in ends)
+        return [(int(run[0]), int(run[-1])) for run in runs]
 
     def _end(self, good: int, bad: int) -> float:
         """Input value at which the mechanism ceases to close between two samples; at an end of the range, that end."""
@@ -86,10 +101,13 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
     """The motion of the mechanism of a file.
 
     Raises MechanismError if the mechanism cannot be solved, if the request names an unknown input or leaves two inputs
-    to drive, or if the mechanism closes nowhere; UnitError for a value that cannot be read.
+    to drive, if the mechanism closes nowhere or in more than `MOST_RANGES` ranges, and if its motion has more than
+    `MOST_NUMBERS` numbers or a group more than `MOST_BODIES` bodies; UnitError for a value that cannot be read;
+    Cancelled.
     """
-    progress.part(0.0, 1.0, "motion")
+    motion_progress = progress.part(0.0, 1.0, "motion")
     plan = file.plan()
+    _check_groups(plan)
     inputs = {entry.name: entry for entry in plan.mechanism.inputs}
     fixed = _fixed(plan, inputs, request.fixed)
     free = [entry for name, entry in inputs.items() if name not in fixed]
@@ -100,11 +118,38 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
         motion = solve(plan, fixed).require()
         return MechanismRun(plan.mechanism.name, plan, motion, None, np.zeros(1), 0.0)
     (running,) = free
+    check_size(request.steps + 1, _columns(plan), "--steps", MechanismError)
     values, speed = _values(running, request), _speed(running, request.speed)
-    motion = solve(plan, {**fixed, running.name: values}, {running.name: speed})
+    motion = solve(plan, {**fixed, running.name: values}, {running.name: speed}, progress=motion_progress)
     if (motion.status != Status.OK).all():
         motion.require()
-    return MechanismRun(plan.mechanism.name, plan, motion, running, values, speed)
+    made = MechanismRun(plan.mechanism.name, plan, motion, running, values, speed)
+    _check_ranges(made)
+    return made
+
+
+def _check_groups(plan: Plan) -> None:
+    for step in plan.steps:
+        if isinstance(step, GeneralGroup) and len(step.bodies) > MOST_BODIES:
+            raise MechanismError(
+                f"{plan.mechanism.name} has a group of {len(step.bodies)} bodies without a closed form",
+                allowed=f"at most {MOST_BODIES} bodies in such a group",
+            )
+
+
+def _columns(plan: Plan) -> int:
+    """The number of columns of `Motion.table`."""
+    mechanism = plan.mechanism
+    return len(mechanism.inputs) + 3 * len(mechanism.moving) + 6 * len(moving_points(mechanism))
+
+
+def _check_ranges(made: MechanismRun) -> None:
+    if len(made.samples_that_close) > MOST_RANGES:
+        raise MechanismError(
+            f"{made.name} closes in {len(made.samples_that_close)} ranges of {made.values[0]:g} to {made.values[-1]:g}",
+            allowed=f"at most {MOST_RANGES}",
+            do="give a shorter range with --over",
+        )
 
 
 def _fixed(plan: Plan, inputs: Mapping[str, Input], texts: Mapping[str, str]) -> dict[str, RealField]:

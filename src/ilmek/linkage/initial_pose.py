@@ -28,8 +28,8 @@ TURN = 5 * deg
 SHIFT = 0.02
 """Longest step of a sliding input on the path from the pose, relative to the mechanism's size."""
 
-MOST_STEPS = 10_000
-"""Largest number of steps on the path from the pose; more than 100 turns."""
+MOST_STEPS = 2000
+"""Largest number of steps on the path from the pose: 27 turns."""
 
 
 def starts(plan: Plan, drives: Mapping[str, InputMotion]) -> dict[str, BodyMotion]:
@@ -83,8 +83,8 @@ def _count(
     far = max(float(np.max(np.abs(value - reference[name]))) / stride[name] for name, value in targets.items())
     if far > MOST_STEPS:
         raise MechanismError(
-            f"the inputs are {far:.3g} steps of {format_quantity(TURN, 'deg')}, or {SHIFT:.0%} of the mechanism's size, "
-            "from the mechanism's pose",
+            f"the inputs are {far:.3g} steps from the mechanism's pose, of {format_quantity(TURN, 'deg')} or "
+            f"{SHIFT:.0%} of its size",
             allowed=f"at most {MOST_STEPS}",
             do="give a shorter range, or a pose nearer to it",
         )

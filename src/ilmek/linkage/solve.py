@@ -39,6 +39,7 @@ def solve(
     speed: InputValues = 0.0,
     acceleration: InputValues = 0.0,
     jerk: InputValues = 0.0,
+    *,
     progress: Progress = SILENT,
 ) -> Motion:
     """Motion of the mechanism for a batch of input values.
