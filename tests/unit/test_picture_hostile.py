@@ -5,6 +5,8 @@ import io
 import os
 import random
 import struct
+import subprocess
+import sys
 import time
 import zlib
 from pathlib import Path
@@ -12,9 +14,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image, ImageFile
+from PIL.PngImagePlugin import PngInfo
 
 from ilmek.errors import PictureError
 from ilmek.io import picture_file
+from ilmek.io.chart.png import KEY, read_chart_png
 from ilmek.io.native_messages import native_messages
 from ilmek.io.picture import LARGEST_INTERPRETED, LARGEST_WHOLE, read_picture
 from ilmek.progress import Cancelled, Progress
@@ -261,3 +265,47 @@ def test_mutants_are_read_or_refused(tmp_path: Path, name: str, capfd: pytest.Ca
         with contextlib.suppress(PictureError):
             assert read_picture(file).rgb.dtype == np.uint8
     assert capfd.readouterr().err == ""
+
+
+def chart_with(facts: str, size: tuple[int, int] = (9, 9)) -> bytes:
+    """A picture with a palette and these data of a chart."""
+    info = PngInfo()
+    info.add_itxt(KEY, facts)
+    return saved("PNG", Image.new("P", size), pnginfo=info)
+
+
+@pytest.mark.parametrize(
+    "facts",
+    [
+        "[" * 100_000,
+        "{}",
+        '{"yarns": [], "size": [1, 1], "quality": [1, 1], "knot": "symmetric"}',
+        '{"yarns": [{"name": "a", "srgb": [0, 0, 256]}], "size": [1, 1], "quality": [1, 1], "knot": ""}',
+        '{"yarns": [{"name": "a", "srgb": [0, 0, 0]}], "size": [1], "quality": [1, 1], "knot": ""}',
+        '{"yarns": [{"name": "a", "srgb": [0, 0, 0]}], "size": [NaN, 1], "quality": [1, 1], "knot": ""}',
+        '{"yarns": [{"name": "a", "srgb": [0, 0, 0]}], "size": [1e999, 1], "quality": [1, 1], "knot": ""}',
+    ],
+)
+def test_charts_of_others_are_checked(tmp_path: Path, facts: str) -> None:
+    (tmp_path / "chart.png").write_bytes(chart_with(facts))
+    with pytest.raises(PictureError, match="is no knot chart"):
+        read_chart_png(tmp_path / "chart.png")
+
+
+MEMORY = """
+import resource, sys
+from pathlib import Path
+from ilmek.io.picture import read_picture
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+read_picture(Path(sys.argv[1]))
+print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * 1000)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is counted in kB on Linux only")
+def test_memory_of_a_picture_is_bounded(tmp_path: Path) -> None:
+    side = 5000
+    (tmp_path / "a.png").write_bytes(saved("PNG", Image.new("LA", (side, side), (7, 200)), compress_level=1))
+    run = [sys.executable, "-c", MEMORY, str(tmp_path / "a.png")]
+    used = int(subprocess.run(run, check=True, capture_output=True, text=True).stdout)
+    assert used < 7 * side**2 + 60e6

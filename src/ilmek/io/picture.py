@@ -10,16 +10,22 @@ formats `WHOLE`), and some 50 MB. The result has 3 bytes a pixel.
 import contextlib
 import re
 import threading
-import warnings
-from collections.abc import Iterator
 from pathlib import Path
 
-from PIL import Image, ImageFile, UnidentifiedImageError
+from PIL import Image, UnidentifiedImageError
 
 from ilmek.arrays import Rgb
 from ilmek.errors import PictureError
 from ilmek.io.native_messages import native_messages
-from ilmek.io.picture_file import MOST_EXIF, DamagedError, MeteredBytes, check_structure, read_bytes, shortened
+from ilmek.io.picture_file import (
+    MOST_EXIF,
+    DamagedError,
+    MeteredBytes,
+    check_structure,
+    pillow_settings,
+    read_bytes,
+    shortened,
+)
 from ilmek.io.picture_pixels import srgb_pixels, turned
 from ilmek.progress import SILENT, Cancelled, Progress
 from ilmek.records import record
@@ -65,8 +71,6 @@ _OF_A_CODEC = re.compile(
 )
 """A message of a codec of libtiff: the others concern tags that are not used."""
 
-_LOCK = threading.RLock()
-
 
 @record
 class Picture:
@@ -85,7 +89,7 @@ def read_picture(path: Path, progress: Progress = SILENT) -> Picture:
     (`picture_file.MOST_BYTES`); Cancelled.
     """
     data = read_bytes(path, progress.part(0.0, 0.1))
-    with _pillow_settings():
+    with pillow_settings(LARGEST):
         try:
             check_structure(data, progress.part(0.1, 0.2))
             stream = MeteredBytes(data)
@@ -124,23 +128,6 @@ _USE = "use a PNG, JPEG, TIFF, WebP, BMP or GIF file"
 
 def _at_most(pixels: int, name: str = "") -> str:
     return f"at most {pixels // 1_000_000} megapixels" + (f" of {name}" if name else "")
-
-
-@contextlib.contextmanager
-def _pillow_settings() -> Iterator[None]:
-    """Pillow refuses pictures above LARGEST, also those inside others (ICO, DCX), and cut files. It warns of nothing.
-
-    The settings are global; they are put back at the end.
-    """
-    with _LOCK, warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the notes cover Pillow's warnings
-        warnings.simplefilter("error", Image.DecompressionBombWarning)
-        before = Image.MAX_IMAGE_PIXELS, ImageFile.LOAD_TRUNCATED_IMAGES
-        Image.MAX_IMAGE_PIXELS, ImageFile.LOAD_TRUNCATED_IMAGES = LARGEST, False
-        try:
-            yield
-        finally:
-            Image.MAX_IMAGE_PIXELS, ImageFile.LOAD_TRUNCATED_IMAGES = before
 
 
 def _check_size(path: Path, opened: Image.Image) -> None:

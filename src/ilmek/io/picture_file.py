@@ -4,15 +4,20 @@ A decoder reads from a `MeteredBytes`, which limits the number of reads: a heade
 error, not in hours of work.
 """
 
+import contextlib
 import difflib
 import io
 import re
 import struct
+import threading
+import warnings
 import zlib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
+from PIL import Image, ImageFile
 
 from ilmek.errors import PictureError
 from ilmek.io.regular_file import open_regular
@@ -32,6 +37,9 @@ _MOST_STRIPS = 200_000
 """Largest number of strips or tiles of a TIFF file."""
 
 _STRIPS, _TILES = 273, 324
+
+
+_LOCK = threading.RLock()
 
 
 class DamagedError(Exception):
@@ -64,6 +72,24 @@ class MeteredBytes(io.BytesIO):
             raise DamagedError("its header has too many entries")
         self.furthest = max(self.furthest, self.tell())
         return found
+
+
+@contextlib.contextmanager
+def pillow_settings(largest: int) -> Iterator[None]:
+    """Pillow refuses pictures above `largest` pixels, also those inside others (ICO, DCX), and cut files. It warns of
+    nothing.
+
+    The settings are global; they are put back at the end.
+    """
+    with _LOCK, warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the notes of `read_picture` cover Pillow's warnings
+        warnings.simplefilter("error", Image.DecompressionBombWarning)
+        before = Image.MAX_IMAGE_PIXELS, ImageFile.LOAD_TRUNCATED_IMAGES
+        Image.MAX_IMAGE_PIXELS, ImageFile.LOAD_TRUNCATED_IMAGES = largest, False
+        try:
+            yield
+        finally:
+            Image.MAX_IMAGE_PIXELS, ImageFile.LOAD_TRUNCATED_IMAGES = before
 
 
 def read_bytes(path: Path, progress: Progress = SILENT) -> bytes:

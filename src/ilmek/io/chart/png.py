@@ -6,20 +6,27 @@ chunks have the title and, as JSON under `ilmek-chart`, yarns, size, quality and
 
 import io
 import json
+import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image, UnidentifiedImageError
+from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.design import MOST_KNOTS
+from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
+from ilmek.io.picture_file import MeteredBytes, check_structure, pillow_settings, read_bytes
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
 KEY = "ilmek-chart"
+_CHUNKS = 1_000_000
+"""Reads allowed of a chart: Pillow writes 64 kB in a chunk, and reads it in four pieces."""
+
 _METRE = 0.0254
 """Metres per inch: Pillow takes dots per inch and writes dots per metre."""
 
@@ -78,27 +85,40 @@ def write_chart_png(path: Path, chart: Chart, progress: Progress = SILENT) -> No
 
 
 def read_chart_png(path: Path) -> ChartPicture:
-    """Read a chart that `write_chart_png` wrote. Raises PictureError for any other file."""
-    no_chart = PictureError(f"{path} is no knot chart", allowed="a chart.png written by ilmek")
+    """Read a chart that `write_chart_png` wrote, of at most `carpet.design.MOST_KNOTS` knots.
+
+    Raises PictureError for any other file.
+    """
+    data = read_bytes(path)
     try:
-        with Image.open(path, formats=("PNG",)) as picture:
-            picture.load()
-            text = str(getattr(picture, "text", {}).get(KEY, ""))
-            if picture.mode != "P" or not text:
-                raise no_chart
-            return _chart(np.array(picture, dtype=np.uint8), json.loads(text))
-    except (UnidentifiedImageError, SyntaxError, ValueError, KeyError, TypeError, OSError) as error:
-        raise no_chart from error
+        with pillow_settings(MOST_KNOTS):
+            check_structure(data)
+            stream = MeteredBytes(data)
+            stream.allow(_CHUNKS, 2 * len(data))
+            with Image.open(stream, formats=("PNG",)) as picture:
+                if picture.mode != "P":
+                    raise ValueError("a chart has a palette")
+                picture.load()
+                facts = json.loads(str(getattr(picture, "text", {})[KEY]))
+                return _chart(np.array(picture, dtype=np.uint8), facts)
+    except MemoryError:
+        raise
+    except Exception as error:  # a decoder may raise any
+        raise PictureError(f"{path} is no knot chart", allowed="a chart.png written by ilmek") from error
 
 
 def _chart(knots: Indices, facts: dict[str, object]) -> ChartPicture:
-    """The chart from the JSON of its text chunk. Raises KeyError, TypeError or ValueError for invalid JSON data."""
+    """The chart from the JSON of its text chunk. Raises KeyError, TypeError, IndexError or ValueError."""
     yarns, size, quality = facts["yarns"], facts["size"], facts["quality"]
     if not (isinstance(yarns, list) and isinstance(size, list) and isinstance(quality, list)):
         raise TypeError("yarns, size and quality are lists")
-    if int(knots.max()) >= len(yarns):
+    if not int(knots.max()) < len(yarns) <= MOST_YARNS:
         raise ValueError("a knot without a yarn")
     colours = [yarn["srgb"] for yarn in yarns]
+    if not all(0 <= channel <= 255 for colour in colours for channel in colour):
+        raise ValueError("a colour out of bounds")
+    if not all(0 < float(number) < math.inf for number in (*size, *quality)):
+        raise ValueError("a size or quality out of bounds")
     return ChartPicture(
         knots,
         tuple(str(yarn["name"]) for yarn in yarns),
