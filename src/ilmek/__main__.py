@@ -1,19 +1,31 @@
 """`python -m ilmek` is `ilmek`."""
 
 import importlib
+import os
 import signal
+from types import FrameType
+
+_SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
 
 def run() -> None:
-    """Run the command line as a program: Ctrl-C ends it without a traceback, also while it starts and ends."""
-    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    """Run the command line as a program: a signal ends it with one line, also while it starts and ends."""
+    usual = (signal.SIG_DFL, signal.default_int_handler)
+    numbers = [number for number in _SIGNALS if signal.getsignal(number) in usual]
+    for number in numbers:
+        signal.signal(number, _end)
     try:
-        importlib.import_module("ilmek.cli").main(prog_name="ilmek")  # after the signals
+        cli = importlib.import_module("ilmek.cli")  # after the signals
+        importlib.import_module("ilmek.cli.interrupts").handle(numbers)
+        cli.main(prog_name="ilmek")
     finally:
         for number in numbers:  # the outcome is settled
             signal.signal(number, signal.SIG_IGN)
+
+
+def _end(number: int, _frame: FrameType | None) -> None:
+    os.write(2, b"ilmek: interrupted; nothing was written\n")
+    os._exit(128 + number)
 
 
 if __name__ == "__main__":

@@ -8,10 +8,11 @@ followed by the repair that the next run does, so that there is only one course 
 
 import contextlib
 import os
+import select
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from types import FrameType
 from typing import Any, NoReturn
 
@@ -31,31 +32,32 @@ _POLL = 0.1
 """Interval in which the main thread looks for signals that another thread has received [s]."""
 
 
-class _Stopped(BaseException):
-    """A signal that ends the program."""
-
-    def __init__(self, number: int) -> None:
-        self.number = number
-
-
 def supervised(run: Callable[[], object]) -> object:
     """The value of `run`, computed in a thread; its errors are raised here.
 
     Where the program around this one handles signals itself, `run` is called directly.
     """
+    _output("new_account")
     if threading.current_thread() is not threading.main_thread():
         return run()
-    with _signals_raised() as numbers:
-        if not numbers:
-            return run()
-        try:
-            return _in_thread(run)
-        except _Stopped as stopped:
-            _end(stopped.number)
+    with _handled() as numbers:
+        return _in_thread(run) if numbers else run()
+
+
+def handle(numbers: Iterable[int]) -> None:
+    """Let signals end the process, from now on."""
+    for number in numbers:
+        signal.signal(number, _end)
 
 
 def leave(message: str, status: int) -> NoReturn:
-    """Print one line on the error stream and exit with `status`."""
+    """Print one line on the error stream, with the results that are in place, and exit with `status`."""
+    for number in SIGNALS:
+        if signal.getsignal(number) is _end:
+            signal.signal(number, signal.SIG_IGN)  # the outcome is settled
+    placed = _output("in_place")
+    if placed and placed not in message:
+        message = f"{message}; {placed}"
     with contextlib.suppress(OSError):
         click.echo(_line(message), err=True, nl=False)
     sys.exit(status)
@@ -88,40 +90,45 @@ def _in_thread(run: Callable[[], object]) -> object:
 
 
 @contextlib.contextmanager
-def _signals_raised() -> Iterator[list[int]]:
-    """Raise signals in the main thread as `_Stopped`; yields those that were not handled or ignored before."""
-
-    def stop(number: int, _frame: FrameType | None) -> None:
-        for other in before:
-            signal.signal(other, signal.SIG_IGN)  # one is enough
-        raise _Stopped(number)
-
-    before: dict[int, Any] = {n: signal.getsignal(n) for n in SIGNALS if signal.getsignal(n) in _USUAL}
+def _handled() -> Iterator[list[int]]:
+    """Handle signals in the block; yields those that were not handled otherwise or ignored before."""
+    before: dict[int, Any] = {n: handler for n in SIGNALS if (handler := signal.getsignal(n)) in (*_USUAL, _end)}
     try:
-        for number in before:
-            signal.signal(number, stop)
+        handle(before)
         yield list(before)
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
-def _end(number: int) -> NoReturn:
-    """Remove what the command has staged, state what has been written, end the process."""
+def _end(number: int, _frame: FrameType | None) -> NoReturn:
+    """Remove what the command has staged, state what has been written, end the process.
+
+    This is the handler itself, and raises nothing: there is no instant at which an exception could be lost or arrive
+    where nobody expects it. It runs in the main thread, which holds no lock while a command works in its own.
+    """
+    for other in SIGNALS:
+        signal.signal(other, signal.SIG_IGN)  # one is enough
     line = _line(f"interrupted; {_output('abandon')}")
-    with contextlib.suppress(OSError, ValueError):
+    with contextlib.suppress(OSError, ValueError, AttributeError):
         if sys.stderr.isatty():
             line = f"\r\x1b[2K\x1b[?25h{line}"  # on the line of the progress bar, with the cursor that it hid
         # Written directly: the command's thread may hold the lock of the stream.
-        os.write(sys.stderr.fileno(), line.encode(sys.stderr.encoding, "replace"))
+        if _writable(sys.stderr.fileno()):
+            os.write(sys.stderr.fileno(), line.encode(sys.stderr.encoding, "replace"))
     os._exit(128 + number)
 
 
+def _writable(handle: int) -> bool:
+    """Whether a stream takes a line without waiting for its reader."""
+    return os.name == "nt" or handle in select.select([], [handle], [], _POLL)[1]
+
+
 def _output(function: str) -> str:
-    """What has been written, from `account` or `abandon` of ilmek.io.output."""
+    """What has been written, from `account`, `abandon` or `in_place` of ilmek.io.output."""
     output = sys.modules.get("ilmek.io.output")  # a command that has not loaded it has written nothing
     found = getattr(output, function, None)
-    return str(found()) if found is not None else "nothing was written"
+    return str(found()) if found is not None else "" if function == "in_place" else "nothing was written"
 
 
 def _line(message: str) -> str:

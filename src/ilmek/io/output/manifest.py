@@ -54,15 +54,12 @@ def begin(folder: Path) -> None:
 
 
 def is_unfinished(folder: Path) -> bool:
-    """Whether a folder is marked as unfinished, or was left while the mark was written."""
+    """Whether a folder is marked as unfinished, or was left while the mark was written. Raises OSError."""
     read = _read(folder)
     if read:
         return read.get("unfinished") is True
-    try:
-        only = [entry.name for entry in folder.iterdir()] == [MANIFEST]
-        return only and (folder / MANIFEST).lstat().st_size <= len(_UNFINISHED)
-    except OSError:
-        return False
+    only = [entry.name for entry in folder.iterdir()] == [MANIFEST]
+    return only and (folder / MANIFEST).lstat().st_size <= len(_UNFINISHED)
 
 
 def finish(folder: Path) -> None:
@@ -85,7 +82,7 @@ def finish(folder: Path) -> None:
 
 
 def files(folder: Path) -> dict[str, Entry] | None:
-    """The entries of a folder's manifest; None if it has no valid one."""
+    """The entries of a folder's manifest; None if it has no valid one. Raises OSError."""
     listed = _read(folder).get("files")
     if not isinstance(listed, dict):
         return None
@@ -101,7 +98,7 @@ def foreign(folder: Path) -> list[str]:
 
 
 def is_whole(folder: Path) -> bool:
-    """Whether a folder has a manifest, and every file of it is there as it was written."""
+    """Whether a folder has a manifest, and every file of it is there as it was written. Raises OSError."""
     listed = files(folder)
     return listed is not None and all(_matches(folder / name, entry) for name, entry in listed.items())
 
@@ -142,12 +139,14 @@ def is_marked(path: Path) -> bool:
 
 
 def _read(folder: Path) -> dict[str, object]:
-    """The manifest's data; nothing for a missing or invalid one."""
+    """The manifest's data; nothing for a missing or invalid one. Raises OSError for one that cannot be read."""
+    if not _is_file(folder / MANIFEST):
+        return {}
+    with _opened(folder / MANIFEST) as file:
+        text = file.read(LARGEST + 1)
     try:
-        with _opened(folder / MANIFEST) as file:
-            text = file.read(LARGEST + 1)
         data = json.loads(text) if len(text) <= LARGEST else None
-    except (OSError, ValueError, RecursionError):
+    except (ValueError, RecursionError):
         return {}
     return data if isinstance(data, dict) and data.get("ilmek") == _VERSION else {}
 
@@ -166,9 +165,14 @@ def _parsed(given: object) -> Entry | None:
 
 
 def _matches(path: Path, entry: Entry | None) -> bool:
+    return entry is not None and _is_file(path) and path.lstat().st_size == entry[0] and _entry(path) == entry
+
+
+def _is_file(path: Path) -> bool:
+    """Whether there is a regular file, and no link to one. Raises OSError where that cannot be seen."""
     try:
-        return entry is not None and path.lstat().st_size == entry[0] and _entry(path) == entry
-    except OSError:
+        return stat.S_ISREG(path.lstat().st_mode)
+    except (FileNotFoundError, NotADirectoryError):
         return False
 
 

@@ -147,8 +147,7 @@ class Outputs:
         return [t.path for t in list(self._targets.values()) if isinstance(t, StreamTarget) and t.begun]
 
     def __enter__(self) -> "Outputs":
-        if not _OPEN:
-            _WRITTEN.clear()
+        new_account()
         _OPEN.append(self)
         return self
 
@@ -254,10 +253,19 @@ def account() -> str:
     """What the call that is running, or the last one, has written."""
     running = list(_OPEN)
     kept = [path for outputs in running for path in outputs.kept]
-    if _WRITTEN:
-        return f"the new result is in place: {_listed(_WRITTEN)}"
     nothing = f"{_nothing_but([path for outputs in running for path in outputs.streamed])} was written"
-    return f"{nothing}; the old result is kept: {_listed(kept)}" if kept else nothing
+    return in_place() or (f"{nothing}; the old result is kept: {_listed(kept)}" if kept else nothing)
+
+
+def in_place() -> str:
+    """The results that the call that is running, or the last one, has put in place; empty if none."""
+    return f"the new result is in place: {_listed(_WRITTEN)}" if _WRITTEN else ""
+
+
+def new_account() -> None:
+    """Begin a call: what earlier ones have written is not of it."""
+    if not _OPEN:
+        _WRITTEN.clear()
 
 
 def _nothing_but(streamed: Sequence[Path]) -> str:

@@ -93,14 +93,17 @@ def repair(target: Path) -> None:
 def remove(folder: Path) -> None:
     """Remove a staging folder: an unfinished one, or an old result that its manifest describes.
 
-    What its manifest does not describe is kept under a name that can be seen.
+    What its manifest does not describe is kept under a name that can be seen. What cannot be read or removed now is
+    left to the next run.
     """
     if not folder.is_dir():
         return
-    with contextlib.suppress(OSError):
+    try:
         if not manifest.is_unfinished(folder) and manifest.foreign(folder):
             disk.rename(folder, _visible(folder))
             return
+    except OSError:
+        return
     for _ in range(_TRIES):  # an interrupted run may still be writing
         with contextlib.suppress(OSError):
             manifest.clear(folder)
