@@ -256,6 +256,28 @@ def mutant(data: bytes, chance: random.Random) -> bytes:
     return bytes(changed)
 
 
+SILENT_CASE = """
+import sys
+from pathlib import Path
+from ilmek.errors import PictureError
+from ilmek.io.picture import read_picture
+try:
+    read_picture(Path(sys.argv[1]))
+except PictureError:
+    print("refused")
+"""
+
+
+def test_pillow_logs_nothing_to_the_error_stream(tmp_path: Path) -> None:
+    data = bytearray(saved("TIFF"))
+    at = data.index(struct.pack("<HHI", 277, 3, 1))
+    struct.pack_into("<H", data, at + 8, 8)  # samples per pixel
+    (tmp_path / "a.tif").write_bytes(data)
+    run = [sys.executable, "-c", SILENT_CASE, str(tmp_path / "a.tif")]
+    done = subprocess.run(run, check=True, capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("refused\n", "")
+
+
 @pytest.mark.parametrize("name", SEEDS)
 def test_mutants_are_read_or_refused(tmp_path: Path, name: str, capfd: pytest.CaptureFixture[str]) -> None:
     chance = random.Random(name)

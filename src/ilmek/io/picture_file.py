@@ -7,6 +7,7 @@ error, not in hours of work.
 import contextlib
 import difflib
 import io
+import logging
 import re
 import struct
 import threading
@@ -40,6 +41,8 @@ _STRIPS, _TILES = 273, 324
 
 
 _LOCK = threading.RLock()
+
+logging.getLogger("PIL").addHandler(logging.NullHandler())  # else Pillow's messages go to the error stream
 
 
 class DamagedError(Exception):
