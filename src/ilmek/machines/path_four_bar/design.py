@@ -65,7 +65,8 @@ class PathFourBar(FourBarDesign):
 def design(params: PathFourBarParams, progress: Progress = SILENT) -> PathFourBar:
     """All four-bars for the path.
 
-    Raises ParameterError where the task cannot be read, or no start of the search can be brought within the limits; Cancelled.
+    Raises ParameterError where the task cannot be read, or no start of the search can be brought within the limits;
+    Cancelled.
     """
     points = params.positions()
     if params.exact:
