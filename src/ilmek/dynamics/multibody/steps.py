@@ -26,7 +26,7 @@ SampleArrays: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
 """States, slopes and reactions at the sample times, to be filled."""
 
 REST = 1e-6
-"""Least angular velocity times the system's length over the greatest speed, and the inverse, in the scales of errors."""
+"""Least angular velocity times the system's length over the greatest speed, and the inverse, in scales of errors."""
 
 STAGES = 12
 """Stages of the method; one more evaluation at the end of a step is used for its error and for the next step."""
