@@ -8,13 +8,14 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help weave test lint types layers unit shapes mutants bench docs venv lock clean
+.PHONY: help weave test lint types layers unit shapes mutants fuzz bench docs venv lock clean
 
 help:
 	@echo "make weave   weave the shipped example and print where its report lies"
 	@echo "make test    every check and every test"
 	@echo "make shapes  the engine's tests with the shapes of all arrays checked (slower)"
 	@echo "make mutants small wrong changes of the sources, and which of them no test notices (about an hour)"
+	@echo "make fuzz    20,000 hostile inputs for every command (about ten minutes)"
 	@echo "make bench   the benchmarks, side by side with their peers"
 	@echo "make docs    the documentation, in docs/_build/html"
 	@echo "make venv    .venv with everything for development"
@@ -61,6 +62,10 @@ shapes: venv
 # Options as of `python -m mutants --help`: make mutants MUTANTS="--number 50 'ilmek.linkage.*'"
 mutants: venv
 	PYTHONPATH=src:tests/support $(BIN)/python -m mutants $(MUTANTS)
+
+# Options as of `python -m fuzz --help`: make fuzz FUZZ="--only 1234", make fuzz FUZZ="out/fuzz/*.json"
+fuzz: venv
+	PYTHONPATH=src:tests/support $(BIN)/python -m fuzz $(FUZZ)
 
 bench: venv
 	$(BIN)/python -m benchmarks

@@ -17,7 +17,7 @@ from ilmek.carpet.palette import Colours
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 
-_SLICE = 1 << 17
+_SLICE = 1 << 20
 """Knots of one call of the kernel, which computes up to four differences for each."""
 
 
@@ -83,14 +83,10 @@ def _merge(  # noqa: PLR0917
     return merged, added
 
 
-def count_lone(knots: Indices, progress: Progress = SILENT) -> int:
+def count_lone(knots: Indices) -> int:
     """Number of lone knots of a chart (rows, columns)."""
     knots = np.ascontiguousarray(knots)
-    lone = 0
-    for band in bands(*knots.shape):
-        lone += int(_count_lone(knots, band.start, band.stop))
-        progress(band.stop / len(knots))
-    return lone
+    return sum(int(_count_lone(knots, band.start, band.stop)) for band in bands(*knots.shape))
 
 
 def merge_lone(

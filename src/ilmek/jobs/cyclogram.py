@@ -60,7 +60,8 @@ def solve(cyclogram: Cyclogram, goal: str, progress: Progress = SILENT) -> Solut
     """
     if goal not in GOALS:
         raise ParameterError(f"--solve {goal}", allowed=" or ".join(GOALS))
-    return GOALS[goal](cyclogram, progress.part(0.0, 1.0, "solve"))
+    progress.part(0.0, 1.0, "solve")
+    return GOALS[goal](cyclogram)
 
 
 def report(cyclogram: Cyclogram, solution: Solution | None = None) -> Report:

@@ -20,7 +20,6 @@ MACHINE = Component(
     summary=SUMMARIES["path-four-bar"],
     params=PathFourBarParams,
     design=design,
-    long=True,
     results=lambda made: (made, made.choice),
     reported=(PathFourBar, FourBarSelection),
     checks=checks,

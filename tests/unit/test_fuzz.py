@@ -1,0 +1,64 @@
+"""A minute of `make fuzz`, the reduced cases of what it found, and the harness itself."""
+
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from fuzz.case import Case, read_case
+from fuzz.corpus import make_corpus
+from fuzz.inputs import make_case
+from fuzz.pool import Limits, Task, outcomes
+from fuzz.reduction import reduced
+
+CASES = Path(__file__).parents[1] / "fuzz_cases"
+LIMITS = Limits(hang=300.0, timing=False)
+"""No test of time: the machine may be busy, and kernels may have to be compiled."""
+
+SECONDS = 45.0
+FIRST = 1_000_000
+"""The first input of the share: not those of `make fuzz`."""
+
+
+@pytest.fixture(autouse=True)
+def checked_indices(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ILMEK_BOUNDS_CHECK", "1")
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "1")
+
+
+def findings(tasks: Sequence[Task], until: float = float("inf")) -> list[str]:
+    return [
+        f"{outcome.name}: {finding.kind}: {finding.key}\n{finding.detail}"
+        for outcome in outcomes(tasks, 1, LIMITS, until)
+        for finding in outcome.findings
+    ]
+
+
+def test_what_was_found_once_stays_repaired() -> None:
+    cases = [read_case(path.read_text(encoding="utf-8")) for path in sorted(CASES.glob("*.json"))]
+    assert cases
+    assert not findings(cases)
+
+
+def test_a_minute_of_inputs_has_no_finding() -> None:
+    assert not findings(range(FIRST, FIRST + 100_000), time.monotonic() + SECONDS)
+
+
+def test_an_input_follows_from_its_number() -> None:
+    corpus = make_corpus()
+    first, second = ([make_case(corpus, seed) for seed in range(60)] for _ in range(2))
+    assert first == second
+    assert len({case.command for case in first}) > 6
+
+
+def test_a_case_is_read_as_written() -> None:
+    case = Case(("knot", "p.csv"), {"p.csv": b"x,y\n", "raw": b"\xff\0"}, {"TERM": "dumb"}, terminal=True)
+    assert read_case(case.as_json()) == case
+
+
+def test_a_case_is_reduced_to_what_matters() -> None:
+    lines = b"name,srgb,nm\nred,#800000,2\n=1+1,#000080,two\ngreen,#008000,2\n"
+    case = Case(("inspect", "p.ilmek", "--json", "-"), {"p.ilmek": lines, "more.csv": b"more"})
+    (outcome,) = outcomes([case], 1, LIMITS)
+    assert (outcome.code, outcome.findings) == (2, [])
+    assert reduced(case, "no such finding", LIMITS) == case
