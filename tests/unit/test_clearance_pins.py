@@ -148,3 +148,12 @@ def test_places_of_clearance_that_are_not_there_are_refused() -> None:
         with_clearance(system, replace(PIN, name="Q"))
     with pytest.raises(MechanismError, match="no pin with clearance 'Q'"):
         simulate(system, np.array([0.0, 1e-6])).eccentricity("Q")
+
+
+@pytest.mark.parametrize("restitution", [0.9, 1.0])
+def test_an_oblique_impact_without_friction_is_not_limited_by_rounding_of_a_spin_of_0(restitution: float) -> None:
+    pose = BodyState(0.5j * CLEARANCE, 0.0, 0.3 + 0.1j)
+    system = disc(replace(PIN, restitution=restitution), pose)
+    run = simulate(system, np.array([0.0, 20 * CLEARANCE / 0.3]), steps=2000)
+    balance = run.energy - run.energy[0] - run.work
+    assert np.max(np.abs(balance)) < 1e-4 * run.energy[0]

@@ -16,10 +16,12 @@ from ilmek.carpet.sizes import parse_size
 from ilmek.elements.tubes import find_tube
 from ilmek.errors import CarpetError, IlmekError, ParameterError, UnitError
 from ilmek.io.csv_cells import csv_rows, read_cell, write_cell
+from ilmek.io.cyclogram_file import parse_cyclogram
 from ilmek.io.data_text import parse_data
 from ilmek.io.path_file import MOST_POINTS, read_path
 from ilmek.io.table_csv import csv_text
 from ilmek.io.text_file import read_text
+from ilmek.jobs.knot import KnotRequest, judged
 from ilmek.machines.function_four_bar.params import FunctionFourBarParams, named
 from ilmek.params.text_lists import read_angles, read_bounds, read_pairs, read_points, read_poses
 from ilmek.units import LONGEST, parse_quantity, parse_unit, read_number
@@ -322,3 +324,62 @@ def test_random_data_give_errors_of_ilmek_only(toml: bool) -> None:
 
 def test_blanks_of_a_printed_page_are_read() -> None:
     assert parse_data('a = "60\u00a0mm"', name="", toml=True, error=ParameterError).data == {"a": "60\u00a0mm"}
+
+
+def cyclogram(tracks: int, motions: int, relations: int, exclusions: int) -> str:
+    lines = ['period = "1s"']
+    for track in range(tracks):
+        lines.append(f"[tracks.t{track}.motions]")
+        for number in range(motions):
+            start, ends = 6.28 / motions * number, (0, 0.1) if number % 2 == 0 else (0.1, 0)
+            lines.append(
+                f"m{number} = {{ start = {start}, end = {start + 4 / motions}, from = {ends[0]}, to = {ends[1]}, "
+                'law = "harmonic" }'
+            )
+    moments = 'then = { track = "t0", starts = "m0" }\nfirst = { track = "t0", ends = "m0" }\ngap = -6'
+    zones = 'first = { track = "t0", above = 0.099 }\nsecond = { track = "t1", below = 0.001 }\ngap = 0'
+    lines += [f"[[relations]]\n{moments}"] * relations + [f"[[exclusions]]\n{zones}"] * exclusions
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize(
+    ("counts", "said"),
+    [
+        ((51, 2, 0, 0), "51 tracks; at most 50"),
+        ((2, 60, 0, 0), "120 motions; at most 100"),
+        ((2, 2, 201, 0), "201 relations; at most 200"),
+        ((2, 50, 0, 4), "400 motions through zones of exclusions; at most 300"),
+    ],
+)
+def test_a_cyclogram_is_bounded(counts: tuple[int, int, int, int], said: str) -> None:
+    begin = time.perf_counter()
+    with pytest.raises(ParameterError, match=said):
+        parse_cyclogram(cyclogram(*counts))
+    assert time.perf_counter() - begin < 2.0
+
+
+def test_a_law_is_bounded() -> None:
+    text = cyclogram(1, 2, 0, 0).replace('"harmonic"', '{ name = "harmonic", points = [' + "1, " * 200 + "] }")
+    with pytest.raises(ParameterError, match="has 201 numbers; at most 100"):
+        parse_cyclogram(text)
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"pitch": 1e-20}, "a pitch of 1e-06 m"),
+        ({"first": 1e20 + 0j}, "from the origin"),
+        ({"keep_out": -1e-3}, "0 mm or more"),
+    ],
+)
+def test_a_row_of_warps_is_bounded(settings: dict, said: str) -> None:
+    with pytest.raises(CarpetError, match=said):
+        KnotRequest(**{"count": 12, "pitch": 0.002, "first": 0j, "keep_out": 0.0, **settings})
+
+
+def test_a_path_passes_at_most_so_many_warps() -> None:
+    request = KnotRequest(10_000, 0.002, 0j, 0.0)
+    with pytest.raises(CarpetError, match="passes 1e\\+07 warps; at most 1000000"):
+        judged([np.tile([-1.0 + 1j, 21.0 + 1j, 21.0 - 1j, -1.0 - 1j], 500)], request)
+    with pytest.raises(CarpetError, match="check the unit"):
+        judged([np.array([1e20 + 1j, 0j])], request)

@@ -8,6 +8,7 @@ import pytest
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.path_four_bar import MACHINE
+from ilmek.progress import Cancelled, Progress
 from ilmek.report import Animation, Report
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.four_bar import FourBar
@@ -152,3 +153,13 @@ def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
     with pytest.raises(ParameterError) as refused:
         answer(**settings)
     assert said in str(refused.value)
+
+
+def test_a_long_search_reports_its_progress_and_is_cancelled() -> None:
+    shares = list[float]()
+    params = MACHINE.params.read({"starts": "768", "kind": "either"})
+    MACHINE.designed(params, Progress(lambda _, share: shares.append(share)))
+    assert shares == sorted(shares)
+    assert len(set(shares)) > 3
+    with pytest.raises(Cancelled):
+        MACHINE.designed(params, Progress(cancelled=lambda: len(shares) > 0))

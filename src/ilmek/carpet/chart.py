@@ -5,7 +5,7 @@ difference (`palette`), and lone knots take the yarn of a neighbour (`isolated_k
 """
 
 from collections.abc import Sequence
-from dataclasses import field, fields
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
@@ -20,6 +20,15 @@ from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import PictureError, YarnError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record
+
+
+@dataclass(frozen=True, slots=True)
+class _Tally:
+    """Numbers of a chart: knots of each yarn, changes of yarn along the rows, lone knots."""
+
+    counts: tuple[int, ...]
+    changes: int
+    lone: int
 
 
 @record
@@ -41,8 +50,8 @@ class Chart:
     mean_delta_e: float
     least_delta_e: float
     merged: int = 0
-    _counts: list[tuple[int, ...]] = field(default_factory=list, init=False)
-    """The counts, once they are computed: many results need them."""
+    _tallies: list[_Tally] = field(default_factory=list, init=False)
+    """The tally, once it is made: many results need it."""
 
     def __repr__(self) -> str:
         return brief(self, (one.name for one in fields(self) if one.init))
@@ -57,15 +66,16 @@ class Chart:
         """Knots per row."""
         return int(self.knots.shape[1])
 
+    def tally(self, progress: Progress = SILENT) -> _Tally:
+        """The counts of the whole chart, made once."""
+        if not self._tallies:
+            self._tallies.append(_tally(self.knots, len(self.yarns), progress))
+        return self._tallies[0]
+
     @property
     def counts(self) -> tuple[int, ...]:
         """Knots of each yarn, in the order of `yarns`."""
-        if not self._counts:
-            counts = np.zeros(len(self.yarns), dtype=np.int64)
-            for band in bands(*self.knots.shape):
-                counts += np.bincount(self.knots[band].ravel(), minlength=len(self.yarns))
-            self._counts.append(tuple(counts.tolist()))
-        return self._counts[0]
+        return self.tally().counts
 
     @property
     def colours(self) -> int:
@@ -75,13 +85,23 @@ class Chart:
     @property
     def lone_fraction(self) -> float:
         """Share of lone knots [-]."""
-        return count_lone(self.knots) / self.knots.size
+        return self.tally().lone / self.knots.size
 
     @property
     def changes_per_knot(self) -> float:
         """Changes of yarn along the rows, per knot [-]."""
-        rows = (self.knots[band] for band in bands(*self.knots.shape))
-        return sum(int(np.count_nonzero(part[:, 1:] != part[:, :-1])) for part in rows) / self.knots.size
+        return self.tally().changes / self.knots.size
+
+
+def _tally(knots: Indices, yarns: int, progress: Progress) -> _Tally:
+    counts = np.zeros(yarns, dtype=np.int64)
+    changes = 0
+    for band in bands(*knots.shape):
+        part = knots[band]
+        counts += np.bincount(part.ravel(), minlength=yarns)
+        changes += int(np.count_nonzero(part[:, 1:] != part[:, :-1]))
+        progress(0.5 * band.stop / len(knots))
+    return _Tally(tuple(counts.tolist()), changes, count_lone(knots, progress.part(0.5, 1.0)))
 
 
 def make_chart(
@@ -134,11 +154,12 @@ def chart_of_design(
     labs = yarn_labs(chosen)
     yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.6, 0.8))
     knots = paint(picture, distinct, yarn_of, progress.part(0.8, 0.9))
-    lone = progress.part(0.9, 1.0)
+    lone = progress.part(0.9, 0.95)
     merged, added = (0, 0.0) if keep_lone else merge_lone(knots, picture, distinct, labs, difference, progress=lone)
     least = float(np.sum(distinct.counts * difference))  # not a dot product: its order depends on the threads
-    progress(1.0)
-    return Chart(knots, chosen, size, quality, kind, (least + added) / knots.size, least / knots.size, merged)
+    chart = Chart(knots, chosen, size, quality, kind, (least + added) / knots.size, least / knots.size, merged)
+    chart.tally(progress.part(0.95, 1.0))
+    return chart
 
 
 def _check_yarns(yarns: Sequence[Yarn]) -> None:

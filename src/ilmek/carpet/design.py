@@ -20,6 +20,10 @@ from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 
 MOST_KNOTS = 200_000_000
+"""Largest number of knots: 32 m² of 250 x 250 knots per dm². With a picture of 150 megapixels `weave` takes 70 s and
+1.2 GB, of random colours 4 min and 1.7 GB.
+"""
+
 LARGEST_DISTORTION = 0.02
 """Largest distortion that is not noticeable; above it a job should warn."""
 

@@ -17,7 +17,7 @@ from ilmek.carpet.palette import Colours
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 
-_SLICE = 1 << 20
+_SLICE = 1 << 17
 """Knots of one call of the kernel, which computes up to four differences for each."""
 
 
@@ -83,10 +83,14 @@ def _merge(  # noqa: PLR0917
     return merged, added
 
 
-def count_lone(knots: Indices) -> int:
+def count_lone(knots: Indices, progress: Progress = SILENT) -> int:
     """Number of lone knots of a chart (rows, columns)."""
     knots = np.ascontiguousarray(knots)
-    return sum(int(_count_lone(knots, band.start, band.stop)) for band in bands(*knots.shape))
+    lone = 0
+    for band in bands(*knots.shape):
+        lone += int(_count_lone(knots, band.start, band.stop))
+        progress(band.stop / len(knots))
+    return lone
 
 
 def merge_lone(

@@ -119,7 +119,7 @@ def best_yarns(
     """
     if not 2 <= count <= len(yarn_labs):
         raise YarnError(f"{count} colours cannot be picked from the list", allowed=f"2 to {len(yarn_labs)}, its length")
-    labs, weights = _pooled(colours, _LARGEST_TABLE // len(yarn_labs))
+    labs, weights = _pooled(colours, _LARGEST_TABLE // len(yarn_labs), progress)
     table = np.empty((len(yarn_labs), len(labs)), dtype=np.float32)
     for number, (row, lab) in enumerate(zip(table, yarn_labs, strict=True)):
         for part in bands(len(labs), 1, _BATCH):
@@ -137,11 +137,12 @@ def total_difference(table: Float[np.ndarray, "yarns colours"], choice: tuple[in
     return float(table[list(choice)].min(axis=0).sum(dtype=float))
 
 
-def _pooled(colours: Colours, most: int) -> tuple[FloatArray, FloatArray]:
+def _pooled(colours: Colours, most: int, progress: Progress = SILENT) -> tuple[FloatArray, FloatArray]:
     """CIELAB and knots of the colours; more than `most` colours are pooled by cells of the Lab space."""
     labs, weights = colours.labs, colours.counts.astype(float)
     cell = 1.0
     while len(labs) > most:
+        progress(0.0)
         group = _cells(colours.labs, cell)
         weights = np.bincount(group, weights=colours.counts)
         labs = np.stack(

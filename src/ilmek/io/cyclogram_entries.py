@@ -11,6 +11,9 @@ from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.io.line_numbers import Path
 from ilmek.io.schema import SourceText, key_faults, read_quantity, shown
 
+MOST_LAW_NUMBERS = 100
+"""Largest number of numbers of a law; a spline through so many points takes some milliseconds."""
+
 _MISSING = object()
 
 
@@ -109,6 +112,9 @@ class FileEntry:
         table = {"name": value} if isinstance(value, str) else value
         inner = FileEntry(table, (*self.path, key), self.source)
         name = inner.text("name")
+        numbers = sum(len(one) if isinstance(one, list) else 1 for one in inner.data.values())
+        if numbers > MOST_LAW_NUMBERS:
+            inner.refuse(ParameterError(f"has {numbers} numbers", allowed=f"at most {MOST_LAW_NUMBERS}"))
         with inner.located():
             return law_of(name, {given: number for given, number in inner.data.items() if given != "name"})
 

@@ -60,6 +60,12 @@ from ilmek.timing.track import MotionLaw, riding
 from ilmek.timing.windows import windows_of
 from ilmek.units import in_bounds, parse_quantity, parse_unit
 
+MOST_TRACKS, MOST_MOTIONS, MOST_EVENTS, MOST_RELATIONS = 50, 100, 200, 200
+"""Largest numbers of tracks, of motions and events of all tracks, and of relations and of exclusions."""
+
+MOST_PASSAGES = 300
+"""Largest number of motions that the zones of all exclusions are compared with; each takes some milliseconds."""
+
 _EDGES = {"starts": "start", "ends": "end", "event": "event", "past": "past"}
 _LIMITS = {"speed": "/s", "acceleration": "/s^2", "jerk": "/s^3"}
 
@@ -125,6 +131,7 @@ def _cyclogram(root: FileEntry) -> Cyclogram:
     with root.located():
         relations = tuple(_relation(entry, units) for entry in root.rows("relations"))
         exclusions = tuple(_exclusion(entry, units) for entry in root.rows("exclusions"))
+        _check_counts(root, tracks, exclusions)
         for relation, entry in zip(relations, root.rows("relations"), strict=True):
             with entry.located():
                 replace(known, relations=(relation,))
@@ -132,6 +139,23 @@ def _cyclogram(root: FileEntry) -> Cyclogram:
             with entry.located():
                 replace(known, exclusions=(exclusion,))
         return Cyclogram(known.name, known.period, tracks, relations, exclusions)
+
+
+def _check_counts(root: FileEntry, tracks: Sequence[Track], exclusions: Sequence[Exclusion]) -> None:
+    motions = {track.name: len(track.segments) for track in tracks}
+    presences = [one for exclusion in exclusions for one in (exclusion.first, exclusion.second)]
+    zones = [one.track for one in presences if isinstance(one, Zone)]
+    counts = (
+        ("tracks", len(tracks), MOST_TRACKS, "tracks"),
+        ("tracks", sum(motions.values()), MOST_MOTIONS, "motions"),
+        ("tracks", sum(len(track.events) for track in tracks), MOST_EVENTS, "events"),
+        ("relations", len(root.rows("relations")), MOST_RELATIONS, "relations"),
+        ("exclusions", sum(motions[track] for track in zones), MOST_PASSAGES, "motions through zones of exclusions"),
+        ("exclusions", len(exclusions), MOST_RELATIONS, "exclusions"),
+    )
+    for key, count, most, noun in counts:
+        if count > most:
+            root.refuse(ParameterError(f"has {count} {noun}", allowed=f"at most {most}"), key)
 
 
 def _track(name: str, entry: FileEntry) -> Track:

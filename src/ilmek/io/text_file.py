@@ -1,10 +1,10 @@
 """Reading of text files of a user or of others: the file is checked before it is read."""
 
-import os
-import stat
+import errno
 from pathlib import Path
 
 from ilmek.errors import IlmekError
+from ilmek.io.regular_file import open_regular
 
 _CONTROL = bytes({*range(32), 127} - {*b"\t\n\r"})
 """Control characters that no text file of ilmek needs."""
@@ -20,9 +20,13 @@ def read_text(path: Path, *, noun: str, largest: int, error: type[IlmekError], d
     """
     try:
         data = _bounded(path, noun, largest, error)
-    except (FileNotFoundError, ValueError):  # ValueError: a null character in the path
+    except FileNotFoundError:
         raise error("does not exist", do=do) from None
+    except IsADirectoryError:
+        raise error("is a folder", do=f"give a {noun}") from None
     except OSError as failed:
+        if failed.errno == errno.EINVAL:
+            raise error("is not a file", do=f"give a {noun}") from None
         raise error(f"cannot be read ({failed.strerror})") from None
     if not data.strip():
         raise error("is empty", do=f"give a {noun}")
@@ -38,21 +42,12 @@ def read_text(path: Path, *, noun: str, largest: int, error: type[IlmekError], d
 
 def _bounded(path: Path, noun: str, largest: int, error: type[IlmekError]) -> bytes:
     """The content of a regular file of at most `largest` bytes; OSError as the system."""
-    _check_regular(path.stat(), noun, error)
-    # Between the two checks the path may become a pipe, which would block without O_NONBLOCK.
-    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
-    with os.fdopen(os.open(path, flags), "rb") as file:
-        status = os.fstat(file.fileno())
-        _check_regular(status, noun, error)
-        data = file.read(largest + 1) if status.st_size <= largest else None
+    file, size = open_regular(path)
+    with file:
+        data = file.read(largest + 1) if size <= largest else None
     if data is None or len(data) > largest:
         raise error(f"is too large for a {noun}", allowed=f"at most {largest // 1000} kB")
     return data
-
-
-def _check_regular(status: os.stat_result, noun: str, error: type[IlmekError]) -> None:
-    if not stat.S_ISREG(status.st_mode):
-        raise error("is a folder" if stat.S_ISDIR(status.st_mode) else "is not a file", do=f"give a {noun}")
 
 
 def _line(data: bytes, at: int) -> int:

@@ -24,9 +24,9 @@ import numpy as np
 
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
-from ilmek.errors import YarnError, did_you_mean
+from ilmek.errors import YarnError, did_you_mean, shortened
 from ilmek.io.csv_lines import csv_lines, decimal_points
-from ilmek.io.data_text import parse_data
+from ilmek.io.data_text import LONGEST_NAME, parse_data
 from ilmek.io.schema import finite_number, key_faults
 from ilmek.io.text_file import read_text
 
@@ -133,13 +133,14 @@ def yarns_from_records(records: Sequence[Record]) -> tuple[Yarn, ...]:
 def _yarn(record: Record, number: int) -> Yarn:
     """The yarn of a record; `number` counts from 1."""
     name = str(record.get("name") or "").strip()
-    called = f"yarn {number} ({name})" if name else f"yarn {number}"
+    called = f"yarn {number} ({shortened(name)})" if name else f"yarn {number}"
     for _, error in key_faults(record, FIELDS, noun="field"):
         raise YarnError(f"{called}: {error.given}", allowed=error.allowed, do=error.do)
     if not name:
         raise YarnError(f"{called} has no name", do='give it one, like name = "madder red"')
-    if not name.isprintable():
-        raise YarnError(f"yarn {number} has the name {name!r}", allowed="letters, digits and signs on one line")
+    if not name.isprintable() or len(name) > LONGEST_NAME:
+        allowed = f"at most {LONGEST_NAME} letters, digits and signs on one line"
+        raise YarnError(f"yarn {number} has the name {shortened(ascii(name))}", allowed=allowed)
     srgb, lab = _colour(record, called)
     count = _number(record, "nm", called)
     if count is None:

@@ -60,8 +60,7 @@ def solve(cyclogram: Cyclogram, goal: str, progress: Progress = SILENT) -> Solut
     """
     if goal not in GOALS:
         raise ParameterError(f"--solve {goal}", allowed=" or ".join(GOALS))
-    progress.part(0.0, 1.0, "solve")
-    return GOALS[goal](cyclogram)
+    return GOALS[goal](cyclogram, progress.part(0.0, 1.0, "solve"))
 
 
 def report(cyclogram: Cyclogram, solution: Solution | None = None) -> Report:

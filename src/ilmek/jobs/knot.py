@@ -19,6 +19,15 @@ from ilmek.weaving.knots.word import word_text
 RING = np.exp(2j * np.pi * np.arange(72) / 72)
 """Polygon of a round warp of radius 1."""
 
+MOST_PASSES = 1_000_000
+"""Largest number of warps that a path passes; the crossings take about 2 s."""
+
+MOST_DRAWN = 200
+"""Largest number of warps that are drawn, from the left of those that the path reaches."""
+
+SMALLEST_PITCH, FARTHEST = 1e-6, 1e4
+"""Smallest pitch, and largest distance of a path from warp 1 and of that from the origin [m]."""
+
 BESIDE = 2
 """Number of warps drawn on each side of those that the path reaches."""
 
@@ -47,6 +56,12 @@ class KnotRequest:
             raise CarpetError(
                 f"a pitch of {format_quantity(self.pitch, 'mm')}", allowed="more than 0", do="see --pitch"
             )
+        if not SMALLEST_PITCH <= self.pitch <= FARTHEST or abs(self.first) > FARTHEST:
+            given = f"warps of a pitch of {self.pitch:g} m, the first {abs(self.first):g} m from the origin"
+            allowed = f"a pitch of {SMALLEST_PITCH:g} m to {FARTHEST:g} m, at most {FARTHEST:g} m from the origin"
+            raise CarpetError(given, allowed=allowed)
+        if self.keep_out < 0:
+            raise CarpetError(f"keep-out {format_quantity(self.keep_out, 'mm')}", allowed="0 mm or more")
         if self.keep_out >= self.pitch / 2:
             raise CarpetError(
                 f"keep-out {format_quantity(self.keep_out, 'mm')} at warps {format_quantity(self.pitch, 'mm')} apart "
@@ -78,8 +93,19 @@ def knot_of(
 def judged(paths: Sequence[ComplexArray], request: KnotRequest) -> tuple[ComplexArray, TiedKnot]:
     """The yarn's whole path [m], of one end or of two that start at one point, and the knot that it ties."""
     path = paths[0] if len(paths) == 1 else joined_ends(paths[0], paths[1])
+    _check_passes(path, request)
     lengths = arc_lengths(np.append(path, path[0]) if request.closed else path) if request.smooth else None
     return path, tied_knot(path, request.warps, keep_out=request.keep_out, lengths=lengths, closed=request.closed)
+
+
+def _check_passes(path: ComplexArray, request: KnotRequest) -> None:
+    """Raise CarpetError for a path that passes too many warps, or is too far from them."""
+    if float(np.abs(path - request.first).max()) > FARTHEST:
+        raise CarpetError(f"a path farther than {FARTHEST:g} m from warp 1", do="check the unit of its columns")
+    along = np.clip((path.real - request.first.real) / request.pitch, -1.0, request.count)
+    passes = float(np.abs(np.diff(along)).sum())
+    if passes > MOST_PASSES:
+        raise CarpetError(f"a path that passes {passes:.3g} warps", allowed=f"at most {MOST_PASSES}")
 
 
 def report(path: Complex[np.ndarray, " points"], tied: TiedKnot, request: KnotRequest) -> Report:
@@ -110,7 +136,7 @@ def _drawing(path: ComplexArray, tied: TiedKnot, request: KnotRequest) -> Drawin
     """The path among the warps that it reaches."""
     along = (path.real - request.first.real) / request.pitch
     low, high = int(np.floor(along.min())) - BESIDE, int(np.ceil(along.max())) + BESIDE
-    numbers = [number for number in range(request.count) if low <= number <= high]
+    numbers = [number for number in range(request.count) if low <= number <= high][:MOST_DRAWN]
     radius = request.keep_out or request.pitch / 20
     rings = [Stroke(request.warps[number] + radius * RING, "outline", closed=True) for number in numbers]
     names = [Dot(complex(request.warps[number]), str(number + 1), "point") for number in numbers]

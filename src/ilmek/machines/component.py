@@ -16,6 +16,7 @@ from ilmek.machines.beat import PlannedBeat
 from ilmek.machines.invariants import broken
 from ilmek.machines.loom_task import LoomTask
 from ilmek.params import Params, Setting
+from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report import CamTable, Check, Figure, Part, Plate, Report, Table, Work, results_of
 from ilmek.report.left_out import LazyFigure, made_figures
@@ -37,6 +38,7 @@ class Component:
     name        as typed on the command line: `beat-up`          title    heading of its report
     summary     one line for `ilmek machines`                    params   its declared parameters
     design      parameters -> design, a frozen record of the machine's own
+    long        whether `design` also takes a `Progress`: it can take more than 2 s
     analysis    design -> what is computed for its report only; default: the design
     results     analysis -> records with declared results (one, or a tuple of them); default: the analysis
     reported    the classes of these records, from which the reference of its JSON names is made
@@ -55,7 +57,7 @@ class Component:
     title: str
     summary: str
     params: type[Params]
-    design: Callable[[Any], Any]
+    design: Callable[..., Any]
     analysis: Callable[[Any], Any] = _itself
     results: Callable[[Any], Any] = _itself
     reported: tuple[type, ...] = ()
@@ -74,9 +76,15 @@ class Component:
     fit: Callable[[LoomTask], Any] | None = None
     beat: Callable[[LoomTask], PlannedBeat] | None = None
     own_figures: tuple[str, ...] = ()
+    long: bool = False
 
     def __repr__(self) -> str:
         return f"<Component {self.name}: {self.summary[:200]}>"
+
+    def designed(self, params: Params, progress: Progress = SILENT) -> Any:
+        """The design for parameters. Raises any IlmekError, and Cancelled."""
+        progress(0.0)
+        return self.design(params, progress) if self.long else self.design(params)
 
     def report(self, design: Any, *, in_a_loom: bool = False) -> Report:
         """The report of a design, with those of the machines in it.

@@ -18,6 +18,7 @@ import scipy
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
+from ilmek.progress import SILENT, Progress
 from ilmek.timing.constraints import Constraint, Form, Unknowns, exclusion_rows, standing_rows, unknowns
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, TrackSegment, peak_acceleration
@@ -69,12 +70,12 @@ class _Answer:
     multipliers: FloatArray
 
 
-def least_acceleration(cyclogram: Cyclogram) -> Solution:
+def least_acceleration(cyclogram: Cyclogram, progress: Progress = SILENT) -> Solution:
     """The cyclogram with the least peak acceleration at its period, within all limits.
 
     Accelerations are divided by the tracks' limits; for a track without a limit, by its present peak. They are not
     weighted where no track has a limit and all have one dimension.
-    Raises ParameterError where no motion is free, and for contradicting relations, which it names.
+    Raises ParameterError where no motion is free, and for contradicting relations, which it names; Cancelled.
     """
     known = unknowns(cyclogram)
     weights, measure, unit = _weights(cyclogram)
@@ -88,7 +89,7 @@ def least_acceleration(cyclogram: Cyclogram) -> Solution:
         for track, part in parts
     ]
     rows = [*standing_rows(known, period_free=False), *bounds]
-    _, rows, answer = _best(known, rows, motions)
+    _, rows, answer = _best(known, rows, motions, progress)
     answer = _even(known, rows, motions, answer)
     solved = _placed(known, answer.x, cyclogram.period)
     before, after = (_level(one, weights) for one in (cyclogram, solved))
@@ -96,11 +97,11 @@ def least_acceleration(cyclogram: Cyclogram) -> Solution:
     return Solution(solved, "acceleration", before, after, measure, unit, binding)
 
 
-def least_period(cyclogram: Cyclogram) -> Solution:
+def least_period(cyclogram: Cyclogram, progress: Progress = SILENT) -> Solution:
     """The cyclogram with the shortest period within the tracks' limits, then with the least accelerations.
 
     Raises ParameterError for a moving track without a limit, where no motion is free, and for contradicting relations,
-    which it names.
+    which it names; Cancelled.
     """
     known = unknowns(cyclogram)
     _moving(cyclogram)
@@ -117,7 +118,7 @@ def least_period(cyclogram: Cyclogram) -> Solution:
         for part in track.segments
         for what, value in _limited(track, part)
     ]
-    _, rows, answer = _best(known, standing_rows(known, period_free=True), motions)
+    _, rows, answer = _best(known, standing_rows(known, period_free=True), motions, progress)
     binding = _binding([*rows, *motions], answer, power=1)
     period = turn / float(answer.x[0])
     quick = _placed(known, answer.x, period)
@@ -209,17 +210,19 @@ def _level(cyclogram: Cyclogram, weights: dict[str, float]) -> float:
 
 
 def _best(
-    known: Unknowns, rows: list[Constraint], motions: list[Constraint]
+    known: Unknowns, rows: list[Constraint], motions: list[Constraint], progress: Progress = SILENT
 ) -> tuple[float, list[Constraint], _Answer]:
     """The largest r over all orders of overlapping presences, with the rows of that order and the solution."""
     alternatives = [one for exclusion in known.cyclogram.exclusions for one in exclusion_rows(known, exclusion)]
-    if math.prod(map(len, alternatives)) > ORDERS:
+    orders = math.prod(map(len, alternatives))
+    if orders > ORDERS:
         raise ParameterError(
             f"{sum(len(one) > 1 for one in alternatives)} pairs of presences overlap: too many orders to try",
             do="arrange the motions roughly in the required order",
         )
     best: tuple[float, list[Constraint], _Answer] | None = None
-    for chosen in itertools.product(*alternatives):
+    for number, chosen in enumerate(itertools.product(*alternatives)):
+        progress(number / orders)
         all_rows = [*rows, *(row for one in chosen for row in one)]
         answer = _maximum([*all_rows, *motions])
         if answer is not None and (best is None or answer.x[0] > best[0]):

@@ -25,6 +25,9 @@ Method: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
 SampleArrays: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
 """States, slopes and reactions at the sample times, to be filled."""
 
+REST = 1e-6
+"""Least angular velocity times the system's length over the greatest speed, and the inverse, in scales of errors."""
+
 STAGES = 12
 """Stages of the method; one more evaluation at the end of a step is used for its error and for the next step."""
 
@@ -86,7 +89,10 @@ def project(model: Model, y: np.ndarray) -> float:
 
 @compiled
 def _error_scales(model: Model, clock: np.ndarray, y: np.ndarray, slope: np.ndarray, h: float, out: np.ndarray) -> None:
-    """Scale of each error: the system's length, 1 rad, the greatest speeds so far, the energy."""
+    """Scale of each error: the system's length, 1 rad, the greatest speeds so far, the energy.
+
+    Where nothing rotates, or all only rotates, rounding alone must not count: see REST.
+    """
     size = model.masses.shape[0]
     fast, spin, energy = clock[FASTEST], clock[FASTEST_SPIN], 0.0
     for i in range(size):
@@ -96,6 +102,7 @@ def _error_scales(model: Model, clock: np.ndarray, y: np.ndarray, slope: np.ndar
             spin = max(spin, v + reach)
         else:
             fast = max(fast, v + reach)
+    fast, spin = max(fast, REST * spin * model.length), max(spin, REST * fast / model.length)
     for i in range(size):
         turning = i % 3 == 2
         out[i] = 1.0 if turning else model.length

@@ -20,6 +20,7 @@ MACHINE = Component(
     summary=SUMMARIES["path-four-bar"],
     params=PathFourBarParams,
     design=design,
+    long=True,
     results=lambda made: (made, made.choice),
     reported=(PathFourBar, FourBarSelection),
     checks=checks,

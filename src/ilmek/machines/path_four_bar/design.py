@@ -7,6 +7,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.machines.path_four_bar.params import PathFourBarParams
+from ilmek.progress import SILENT, Progress
 from ilmek.records import computed, record
 from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate, judge
@@ -61,10 +62,11 @@ class PathFourBar(FourBarDesign):
         ] or None
 
 
-def design(params: PathFourBarParams) -> PathFourBar:
+def design(params: PathFourBarParams, progress: Progress = SILENT) -> PathFourBar:
     """All four-bars for the path.
 
-    Raises ParameterError where the task cannot be read, or no start of the search can be brought within the limits.
+    Raises ParameterError where the task cannot be read, or no start of the search can be brought within the limits;
+    Cancelled.
     """
     points = params.positions()
     if params.exact:
@@ -72,7 +74,7 @@ def design(params: PathFourBarParams) -> PathFourBar:
     else:
         # The search keeps both limits, and ends at them: a filter would find them exceeded by rounding.
         filters = dataclasses.replace(params.filters(), transmission_min=0.0, full_turn=False)
-        choice = choose(_searched(params), (), params, filters=filters, rank=_nearest)
+        choice = choose(_searched(params, progress), (), params, filters=filters, rank=_nearest)
     siblings = _siblings(choice.best.candidate) if choice.best is not None and params.cognates else ()
     return PathFourBar(choice=choice, params=params, points=points, cognates=siblings)
 
@@ -83,13 +85,14 @@ def _nearest(one: FourBarOption) -> tuple[float, float]:
     return (0.0 if greatest <= MET * one.candidate.size else greatest), -one.candidate.least_transmission
 
 
-def _searched(params: PathFourBarParams) -> tuple[FourBarOption, ...]:
+def _searched(params: PathFourBarParams, progress: Progress) -> tuple[FourBarOption, ...]:
     """The nearest four-bars of each class that is searched."""
-    return tuple(
-        _option(params, task, fit)
-        for task in params.tasks()
-        for fit in path_four_bars(task, count=params.count, seed=params.seed, starts=params.starts)
-    )
+    tasks, found = params.tasks(), list[FourBarOption]()
+    for number, task in enumerate(tasks):
+        part = progress.part(number / len(tasks), (number + 1) / len(tasks))
+        fits = path_four_bars(task, count=params.count, seed=params.seed, starts=params.starts, progress=part)
+        found += [_option(params, task, fit) for fit in fits]
+    return tuple(found)
 
 
 def _option(params: PathFourBarParams, task: PathTask, fit: PathFit) -> FourBarOption:

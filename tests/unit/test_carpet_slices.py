@@ -1,0 +1,66 @@
+"""Charts are made in slices of rows, with the same result for slices of any size."""
+
+import numpy as np
+import pytest
+
+from ilmek.carpet import design, isolated_knots, palette
+from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import CarpetSize
+from ilmek.io.yarn_file import default_yarns
+from ilmek.progress import Cancelled, Progress
+from ilmek.viz.carpet_picture import carpet_picture
+
+PICTURE = np.random.default_rng(3).integers(0, 256, (90, 70, 3), dtype=np.uint8)
+SIZE = CarpetSize(0.6, 0.7)
+
+
+def made(quality: float, progress: Progress | None = None) -> Chart:
+    yarns = default_yarns()
+    return make_chart(PICTURE, SIZE, Quality(quality, quality), yarns, colours=7, progress=progress or Progress())
+
+
+@pytest.mark.parametrize("quality", [40.0, 200.0])
+@pytest.mark.parametrize("most", [1, 1000])
+def test_slices_change_nothing(monkeypatch: pytest.MonkeyPatch, quality: float, most: int) -> None:
+    whole = made(quality)
+    picture = carpet_picture(whole)
+    bands = design.bands
+    for module in (design, isolated_knots):
+        monkeypatch.setattr(module, "_SLICE", most)
+    for module in (palette, isolated_knots):
+        monkeypatch.setattr(module, "bands", lambda rows, columns, _=0: bands(rows, columns, most))
+    sliced = made(quality)
+    assert np.array_equal(sliced.knots, whole.knots)
+    for name in ("mean_delta_e", "least_delta_e", "merged", "counts", "lone_fraction", "changes_per_knot", "yarns"):
+        assert getattr(sliced, name) == getattr(whole, name)
+    assert carpet_picture(sliced) == picture
+
+
+def test_cells_are_numbered_as_their_keys_ascend() -> None:
+    codes = np.random.default_rng(5).integers(0, 256, (5000, 3), dtype=np.uint8)
+    corners = np.array([[r, g, b] for r in (0, 255) for g in (0, 255) for b in (0, 255)], dtype=np.uint8)
+    labs = palette.srgb_to_lab(np.concatenate([codes, corners]))
+    for cell in (1.0, 1.5, 5.1):
+        keys = (np.floor(labs / cell).astype(np.int64) + 512) @ np.array([1 << 20, 1 << 10, 1])
+        assert np.array_equal(palette._cells(labs, cell), np.unique(keys, return_inverse=True)[1])
+
+
+def test_progress_ascends_and_is_cancelled() -> None:
+    shares: list[float] = []
+    made(400.0, Progress(lambda _, share: shares.append(share)))
+    assert shares == sorted(shares)
+    assert len(shares) > 20
+    for last in range(0, len(shares), 5):
+        calls = iter(range(len(shares)))
+        with pytest.raises(Cancelled):
+            made(400.0, Progress(cancelled=lambda calls=calls, last=last: next(calls) >= last))
+
+
+def test_the_tally_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    chart = made(100.0)
+    assert sum(chart.counts) == chart.knots.size
+    monkeypatch.setattr("ilmek.carpet.chart._tally", None)
+    assert chart.colours == 7
+    assert chart.tally().lone == 0
+    assert "_tallies" not in repr(chart)
