@@ -18,6 +18,7 @@ from ilmek.jobs.workshop import Tolerance, read_tolerance, write_workshop
 from ilmek.machines.component import Component
 from ilmek.params import Params, param
 from ilmek.report import CamTable, Plate, Report
+from ilmek.report.left_out import SWITCH
 
 
 def table(name: str = "Slide, left", unit: str = "mm") -> CamTable:
@@ -106,6 +107,20 @@ def test_a_plate_that_does_not_enclose_its_area_leaves_nothing(tmp_path: Path) -
     ):
         write_workshop(report(plates=(crank(), wrong)), tmp_path / "out")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_part_that_cannot_be_made_is_left_out_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(path: Path, plate: Plate) -> None:
+        path.write_text("half", encoding="utf-8")
+        raise ZeroDivisionError(f"of {plate.name}")
+
+    monkeypatch.delenv(SWITCH)
+    monkeypatch.setattr("ilmek.jobs.workshop.write_dxf", fail)
+    made = write_workshop(report(plates=(crank(),), tables=(table(),)), tmp_path / "out")
+    assert made.notes[0] == "part 'crank' is left out: of crank"
+    assert {entry["of"] for entry in made.entries} == {"Slide, left"}
+    assert not list((tmp_path / "out").glob("crank*"))
+    assert all(Path(file).is_file() for file in made.files)
 
 
 def test_a_machine_without_parts_is_refused(tmp_path: Path) -> None:

@@ -2,8 +2,9 @@
 
 import importlib
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -18,6 +19,7 @@ from ilmek.io.plate_shape import PlateShape
 from ilmek.plane.contours import area
 from ilmek.records import record
 from ilmek.report import CamTable, Plate, Report
+from ilmek.report.left_out import made_or_left_out
 from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, turn, um
 
 _Named = TypeVar("_Named", Plate, CamTable)
@@ -60,11 +62,13 @@ class Tolerance:
 class Workshop:
     """The files that were written.
 
-    entries  of the index, one per file: part, error, number of points
+    entries   of the index, one per file: part, error, number of points
+    left_out  warnings of parts whose files cannot be made
     """
 
     folder: Path
     entries: tuple[dict[str, Any], ...]
+    left_out: tuple[str, ...] = ()
 
     @property
     def files(self) -> list[str]:
@@ -82,8 +86,8 @@ class Workshop:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Notes: tolerances not met, axes that move at master angle 0, STEP not installed."""
-        return (*self._missed(), *self._moving(), *self._without_step())
+        """Notes: parts left out, tolerances not met, axes that move at master angle 0, STEP not installed."""
+        return (*self.left_out, *self._missed(), *self._moving(), *self._without_step())
 
     def _missed(self) -> Iterator[str]:
         for entry in self.entries:
@@ -150,12 +154,28 @@ def write_workshop(
     plates, tables = _own_names(report.all_plates), _own_names(report.all_cam_tables)
     allowed = tolerance or Tolerance()
     with joined(outputs, force=force) as made, made.folder(folder) as work:
+        left_out: list[str] = []
         files = [
-            *(entry for name, plate in plates.items() for entry in _plate_files(plate, work, name)),
-            *(entry for name, table in tables.items() for entry in _table_files(table, work, name, allowed)),
+            *_files(plates, lambda plate, name: tuple(_plate_files(plate, work, name)), work, left_out),
+            *_files(tables, lambda table, name: tuple(_table_files(table, work, name, allowed)), work, left_out),
         ]
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
-    return Workshop(folder, tuple(files))
+    return Workshop(folder, tuple(files), tuple(left_out))
+
+
+def _files(
+    parts: Mapping[str, _Named],
+    write: Callable[[_Named, str], tuple[dict[str, Any], ...]],
+    work: Path,
+    left_out: list[str],
+) -> Iterator[dict[str, Any]]:
+    """The entries of the files of parts by name; the files of a part that cannot be made are left out together."""
+    for name, part in parts.items():
+        entries = made_or_left_out(f"part {part.name!r}", partial(write, part, name), left_out)
+        if entries is None:
+            for path in work.glob(f"{name}.*"):
+                path.unlink()
+        yield from entries or ()
 
 
 def _own_names(parts: Sequence[_Named]) -> dict[str, _Named]:
