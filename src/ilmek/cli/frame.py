@@ -72,6 +72,7 @@ class LazyGroup(click.Group):
         if not standalone_mode:
             return run()
         _open_streams()
+        _forget_bad_date()
         _write_any_character()
         try:
             status = supervised(lambda: _flushed(run()))
@@ -111,6 +112,17 @@ def _open_streams() -> None:
                 os.dup2(nowhere, number)
                 os.close(nowhere)
             setattr(sys, name, os.fdopen(number, "w" if number else "r", encoding="utf-8", closefd=False))
+
+
+def _forget_bad_date() -> None:
+    """Remove a SOURCE_DATE_EPOCH that is no time in seconds: NumPy and SciPy fail on it when they are imported."""
+    date = os.environ.get("SOURCE_DATE_EPOCH", "0")
+    if not (date.isascii() and date.isdigit() and len(date) <= len(_LAST_DATE)):
+        del os.environ["SOURCE_DATE_EPOCH"]
+
+
+_LAST_DATE = "99999999999"
+"""Seconds since 1970, in the year 5138."""
 
 
 def _write_any_character() -> None:
