@@ -12,7 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ilmek.cli import main
 from ilmek.linkage.groups import rrp, rrr
+from ilmek.num import machine_code
 from ilmek.num.compiled import compiled
 from ilmek.num.machine_code import discarded
 
@@ -47,6 +49,7 @@ def test_division_by_zero_is_infinite_not_an_error():
 FILES = {
     "constants": "SCALE = 2.0\nUNUSED = 1.0\n",
     "leaf": '''
+from ilmek.num import machine_code
 from ilmek.num.compiled import compiled
 from sample.constants import SCALE
 
@@ -56,6 +59,7 @@ def leaf(x: float) -> float:
     return SCALE * x
 ''',
     "outer": """
+from ilmek.num import machine_code
 from ilmek.num.compiled import compiled
 from sample import leaf as module
 
@@ -143,6 +147,14 @@ def test_a_damaged_entry_is_noted_once_for_each(sample, tmp_path):
     assert sorted(discarded[before:]) == entries(tmp_path)
     sample()
     assert len(discarded) == before + 3
+
+
+def test_damaged_entries_are_one_note_of_the_run(monkeypatch, capsys):
+    monkeypatch.setattr(machine_code, "discarded", [Path("cache", "a.kernel"), Path("cache", "b.kernel")])
+    for shown in ("note: 2 damaged kernels in cache were removed and built anew\n", ""):
+        with pytest.raises(SystemExit):
+            main.main(["machines"])
+        assert capsys.readouterr().err == shown
 
 
 def test_without_a_private_folder_nothing_is_kept(sample, tmp_path):

@@ -86,6 +86,7 @@ class LazyGroup(click.Group):
             leave("out of memory; try a smaller picture, size or quality", 2)
         except OSError as error:
             leave(f"{error.filename or 'the output'} cannot be read or written: {error.strerror or error}", 2)
+        _note_rebuilt_kernels()
         sys.exit(status if isinstance(status, int) else 0)
 
 
@@ -94,6 +95,15 @@ def _help_alone() -> None:
     context = click.get_current_context()
     if context.invoked_subcommand is None:
         click.echo(context.get_help())
+
+
+def _note_rebuilt_kernels() -> None:
+    """A note where entries of the kernel cache were damaged, in one line for all."""
+    kernels = sys.modules.get("ilmek.num.machine_code")
+    if kernels is not None and kernels.discarded:
+        folder = kernels.discarded[0].parent
+        click.echo(f"note: {len(kernels.discarded)} damaged kernels in {folder} were removed and built anew", err=True)
+        kernels.discarded.clear()
 
 
 def _usage(error: click.ClickException) -> str:

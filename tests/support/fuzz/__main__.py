@@ -21,7 +21,8 @@ CASES = ROOT / "tests" / "fuzz_cases"
 def main() -> int:
     """Run the inputs given on the command line."""
     given = _arguments()
-    os.environ.setdefault("ILMEK_BOUNDS_CHECK", "1")
+    for name in ("ILMEK_BOUNDS_CHECK", "ILMEK_LEAVE_NOTHING_OUT"):
+        os.environ.setdefault(name, "1")
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     limits = Limits(hang=given.hang)
     tasks: Sequence[Task] = given.only or range(given.seed, given.seed + given.number)

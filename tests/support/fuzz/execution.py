@@ -160,7 +160,7 @@ def _inside(folder: Path, environment: Mapping[str, str]) -> Iterator[None]:
     finally:
         os.chdir(folder.parent)
         for name in environment:
-            os.environ.pop(name)
+            os.environ.pop(name, None)
             if name in before:
                 os.environ[name] = before[name]
 

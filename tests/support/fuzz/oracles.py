@@ -7,12 +7,15 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from hashlib import sha256
 from itertools import pairwise
 from typing import Any
 
 from fuzz.case import shortened
 from fuzz.execution import Run
 from fuzz.mutations import IMAGE, SCRIPT
+from ilmek.io.output import MANIFEST
+from ilmek.machines.invariants import SOURCE
 
 CODES = (0, 2, 3)
 LONGEST_MESSAGE = 2050
@@ -39,7 +42,7 @@ class Finding:
 
 def judged(run: Run, timing: bool = True) -> list[Finding]:
     """All findings of a run; without `timing` none of time and memory."""
-    oracles = (_exit, _messages, _streams, _warnings, _inputs, _refused, _outputs, _json_alone)
+    oracles = (_exit, _messages, _streams, _warnings, _inputs, _refused, _outputs, _folders, _invariants, _json_alone)
     found = [finding for oracle in oracles for finding in oracle(run)]
     return found + list(_costs(run)) if timing else found
 
@@ -135,6 +138,44 @@ def _outputs(run: Run) -> Iterator[Finding]:
         problem = check(content) if check else ""
         if problem:
             yield Finding(f"{ending} file", f"{run.case.command} {problem[:50]}", f"{name}: {problem}")
+
+
+def _folders(run: Run) -> Iterator[Finding]:
+    """Every new folder has a manifest that lists what is in it."""
+    for folder in [name for name, content in run.after.items() if content is None and name not in run.before]:
+        inside = {name[len(folder) + 1 :]: data for name, data in run.after.items() if name.startswith(f"{folder}/")}
+        try:
+            listed = json.loads(inside.pop(MANIFEST) or b"")["files"]
+        except (KeyError, ValueError):
+            yield Finding("folder", f"{run.case.command} writes no manifest", folder)
+            continue
+        found = {
+            name: {"size": len(data or b""), "sha256": sha256(data or b"").hexdigest()} for name, data in inside.items()
+        }
+        if found != listed or not found:
+            yield Finding("folder", f"{run.case.command} manifest does not agree", f"{sorted(listed)} {sorted(found)}")
+
+
+def _invariants(run: Run) -> Iterator[Finding]:
+    """No design breaks an invariant: that would be a failed check."""
+    new = [
+        content for name, content in run.after.items() if content and name not in run.before and name.endswith("json")
+    ]
+    for text in (run.stdout, *(content.decode(errors="replace") for content in new)):
+        if SOURCE in text and text.startswith("{"):
+            broken = sorted({check["name"] for check in _broken(json.loads(text))})
+            yield Finding("invariant", f"{run.case.command} {broken[0]}", ", ".join(broken))
+        elif SOURCE in text:
+            yield Finding("invariant", f"{run.case.command} a check", text[-2000:])
+
+
+def _broken(tree: Any) -> Iterator[dict[str, Any]]:
+    """Failed checks of invariants anywhere in a tree."""
+    if isinstance(tree, dict) and tree.get("source") == SOURCE:
+        yield tree
+    elif isinstance(tree, dict | list):
+        for one in tree.values() if isinstance(tree, dict) else tree:
+            yield from _broken(one)
 
 
 def _json_alone(run: Run) -> Iterator[Finding]:

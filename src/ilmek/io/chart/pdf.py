@@ -7,7 +7,6 @@ the carpet's middle, and the neighbours' sheet numbers; the 3 knots that belong 
 chart gives the same file.
 """
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,24 +17,18 @@ from reportlab.lib.pagesizes import A4
 from reportlab.pdfgen.canvas import Canvas
 
 from ilmek.carpet.chart import Chart
-from ilmek.errors import OutputError
 from ilmek.io.chart.front_pages import draw_legend, draw_overview
 from ilmek.io.chart.grid import Inks, draw_sheet
 from ilmek.io.chart.sheets import SheetLayout, cut
 from ilmek.io.chart.symbols import register_fonts, symbols
 from ilmek.progress import SILENT, Progress
 
-_LAST_DATE = 253_402_300_799
-"""The end of the year 9999 [s since 1970]."""
-
 
 def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title: str = "") -> None:
     """Write the chart to `path`.
 
-    A sheet takes about 0.01 s; `chart_cut` gives the number of sheets. The file's date is the environment variable
-    SOURCE_DATE_EPOCH, default: the beginning of 2000. Raises OutputError where that is no date.
+    A sheet takes about 0.01 s; `chart_cut` gives the number of sheets.
     """
-    _check_date(os.environ.get("SOURCE_DATE_EPOCH", ""))
     register_fonts()
     plan = chart_cut(chart)
     inks = Inks.of(chart.yarns, symbols(len(chart.yarns)))
@@ -50,17 +43,6 @@ def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title
             draw_sheet(canvas, chart, plan, sheet, inks)
             progress(sheet.number / plan.count)
         canvas.save()
-
-
-def _check_date(given: str) -> None:
-    """The library reads it as it begins a file."""
-    plain = given.strip()
-    if plain and not (plain.isascii() and plain.isdigit() and int(plain[:20]) <= _LAST_DATE):
-        raise OutputError(
-            f"SOURCE_DATE_EPOCH={plain[:40]!r} is no date",
-            allowed=f"whole seconds since 1970, at most {_LAST_DATE}",
-            do="unset it",
-        )
 
 
 def chart_cut(chart: Chart) -> SheetLayout:
