@@ -56,11 +56,16 @@ class CamDesign:
         lambda it: it.cam.prime_radius,
     )
     prime_radius_min = computed("mm", "smallest for the limit", lambda it: it.size.smallest.value)
-    curvature_radius_min = computed(
+
+    @computed(
         "mm",
         "least convex radius of curvature of the pitch curve, of a flat follower's surface",
-        lambda it: limits.convex_radius_min(it.cam).value,
+        absent="it is nowhere convex",
     )
+    def curvature_radius_min(self) -> float | None:
+        convex = limits.convex_radius_min(self.cam).value
+        return convex if math.isfinite(convex) else None
+
     curvature_at = computed("deg", "cam angle of that radius", lambda it: limits.convex_radius_min(it.cam).at)
 
     @computed("mm", "least concave radius of curvature of that curve", absent="it is convex all round")

@@ -14,6 +14,9 @@ from ilmek.params import Params
 from ilmek.params import kind as declare
 from ilmek.units import N, deg, format_quantity, kg, mm, rpm
 
+LEAST_ANGLE = 0.1 * deg
+"""Least cam angle of a rise and of a fall [rad]."""
+
 NO_DWELL = 1e-9
 """Angles below this are rounding [rad]."""
 
@@ -36,11 +39,11 @@ class CamParams(Params):
     lift: float = declare.length(
         20 * mm, at_least=0.01 * mm, at_most=1.0, doc="lift of the follower; of an arm along its arc", symbol="L"
     )
-    rise: float = declare.angle(90 * deg, at_least=0.1 * deg, below=TURN, doc="cam angle of the rise", symbol="beta")
+    rise: float = declare.angle(90 * deg, at_least=LEAST_ANGLE, below=TURN, doc="cam angle of the rise", symbol="beta")
     dwell: float = declare.angle(0.0, at_least=0.0, below=TURN, doc="cam angle for which the follower stays lifted")
     fall: float | None = declare.angle(
         None,
-        at_least=0.1 * deg,
+        at_least=LEAST_ANGLE,
         below=TURN,
         doc="cam angle of the fall; default: that of the rise, or the rest of the turn",
     )
@@ -173,9 +176,11 @@ class CamParams(Params):
 
     def _check_motion(self) -> None:
         taken = self.rise + self.dwell + (self.fall or 0.0)
-        if taken > TURN + NO_DWELL or self.fall_angle <= NO_DWELL:
+        if taken > TURN + NO_DWELL or self.fall_angle < LEAST_ANGLE * (1 - NO_DWELL):
             taken_by = "rise + dwell + fall" if self.fall else "rise + dwell"
-            allowed = "they must fit one turn, 360 deg" if self.fall else "below 360 deg, so that a fall is left"
+            allowed = (
+                "they must fit one turn, 360 deg" if self.fall else "a fall of 0.1 deg or more must be left of 360 deg"
+            )
             raise ParameterError(
                 f"{taken_by} = {format_quantity(taken, 'deg')}", allowed=allowed, do="shorten one of them"
             )

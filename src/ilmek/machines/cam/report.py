@@ -48,12 +48,13 @@ def _pressure_angle_checks(found: CamAnalysis) -> tuple[Check, ...]:
 def _shape_checks(design: CamDesign) -> tuple[Check, ...]:
     params, radius, programme = design.params, design.cam.roller_radius, design.programme
     hollow, convex = design.concave_radius_min, design.curvature_radius_min
-    made = [
-        at_least("convex radius of curvature (no undercut)", convex, radius, "mm", f"{NORTON}, 7: rho > roller radius")
-    ]
+    made = []
+    if convex is not None:
+        source = f"{NORTON}, 7: rho > roller radius"
+        made.append(at_least("convex radius of curvature (no undercut)", convex, radius, "mm", source))
     if params.kind in ("grooved", "barrel") and hollow is not None:
         made.append(at_least("concave radius of the pitch curve", hollow, radius, "mm", f"{NORTON}, 7: outer flank"))
-    if not params.led:
+    if not params.led and math.isfinite(design.lift_off.speed):
         source = "m w^2 s'' + k s + P + load >= 0"
         made.append(at_least("speed of lift-off", design.lift_off.speed, params.speed, "rpm", source))
     drop, bump = (
@@ -137,7 +138,7 @@ def _undercut_warning(design: CamDesign) -> str:
     if params.follower == "flat":
         least = format_quantity(design.size.smallest.value, "mm")
         return f"a flat follower needs a cam that is convex all round: the smallest base radius is {least}"
-    convex = format_quantity(design.curvature_radius_min, "mm")
+    convex = format_quantity(limits.convex_radius_min(cam).value, "mm")
     least_radius = size_without_undercut(params, design.programme, cam.roller_radius)
     remedy = "take a smaller roller"
     if math.isfinite(least_radius):
