@@ -355,7 +355,7 @@ def test_corner_of_the_uniform_law_is_no_way_for_a_roller() -> None:
     ("settings", "said"),
     [
         (dict(rise="200deg", fall="170deg"), "rise \\+ dwell \\+ fall = 370 deg; they must fit one turn, 360 deg"),
-        (dict(rise="200deg", dwell="160deg"), "rise \\+ dwell = 360 deg; a fall of 0.1 deg or more must be left of 360 deg"),
+        (dict(rise="200deg", dwell="160deg"), "rise \\+ dwell = 360 deg; a fall of 0.1 deg or more must be left"),
         (dict(rise="90"), "did you mean 90deg\\? a bare number is in radians"),
         (dict(law="harmonik"), "did you mean harmonic\\?"),
         (

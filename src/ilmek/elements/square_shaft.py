@@ -90,7 +90,7 @@ class ShaftBearings:
     """
 
     reaction: float = result("N", "load of the most loaded bearing, without the safety", name="bearing_load")
-    journal: float = result("mm", "least diameter of the journal, in torsion")
+    journal: float = result("mm", "least diameter of the journal, in torsion", least=0.0)
     bearing: RollingBearing | None
     life: float
 
@@ -111,14 +111,16 @@ class SquareShaft:
     """The square shaft; `torque`: the largest, with the safety [N m]; `loads`: None for a given load."""
 
     load: float = result("kN/m", "load of the shaft, with its safety", name="shaft_load")
-    length: float = result("m", "length of the shaft between its first and last support", name="shaft_length")
-    span: float = result("m", "distance of two supports", name="shaft_span")
+    length: float = result(
+        "m", "length of the shaft between its first and last support", name="shaft_length", least=0.0
+    )
+    span: float = result("m", "distance of two supports", name="shaft_span", least=0.0)
     torque: float
     side_slope: float = result("mm", "least side of the shaft for the slope", name="shaft_side_slope")
     side_deflection: float = result("mm", "least side of the shaft for the deflection", name="shaft_side_deflection")
     side_twist: float = result("mm", "least side of the shaft for the twist", name="shaft_side_twist")
     side_strength: float = result("mm", "least side of the shaft for its strength", name="shaft_side_strength")
-    bar: float = result("mm", "side of the bar chosen: as given, or from stock", name="shaft_bar")
+    bar: float = result("mm", "side of the bar chosen: as given, or from stock", name="shaft_bar", least=0.0)
     slope: float = result("rad", "slope of the shaft at the supports", name="shaft_slope")
     deflection: float = result("mm", "deflection of the shaft between the supports", name="shaft_deflection")
     twist: float = result("deg", "twist from end to end by the largest torque, without the safety", name="shaft_twist")

@@ -47,13 +47,14 @@ class CamDesign:
     lift_off: LiftOff
     extremes: CamExtremes
     area: float
-    face_width: float = result("mm", "thickness of the cam")
+    face_width: float = result("mm", "thickness of the cam", least=0.0)
     pressure_limit: float = result("MPa", "allowed Hertz pressure", name="hertz_pressure_limit")
 
     prime_radius = computed(
         "mm",
         "prime radius Rp; base radius of a flat follower, mean radius of a barrel, travel per radian of a wedge",
         lambda it: it.cam.prime_radius,
+        least=0.0,
     )
     prime_radius_min = computed("mm", "smallest for the limit", lambda it: it.size.smallest.value)
 
@@ -102,7 +103,9 @@ class CamDesign:
         name="roller",
         absent="none, or none fits",
     )
-    roller_radius = computed("mm", "radius of roller or ball; 0 of knife and flat", lambda it: it.cam.roller_radius)
+    roller_radius = computed(
+        "mm", "radius of roller or ball; 0 of knife and flat", lambda it: it.cam.roller_radius, least=0.0
+    )
 
     @computed("h", "life of the roller", absent="no roller of the table, or without load")
     def roller_life(self) -> float | None:

@@ -61,9 +61,9 @@ class CombDrive:
     stroke_needed: float = result("mm", "least stroke in which the comb meets the row, packs it and presses the fell")
     balance: float = result("N", "weight that the axes hold, the balanced part taken off", name="weight_carried")
     contact_speed: float = result("mm/s", "speed of the comb where it meets the row: it presses, it does not strike")
-    axes: int = result("1", "vertical axes: ball screws or toothed belts")
+    axes: int = result("1", "vertical axes: ball screws or toothed belts", least=0.0)
     brake: float = result("Nm", "torque that holds a screw or pulley: neither locks itself", name="brake_torque")
-    screw: float | None = result("mm", "diameter of a ball screw", name="screw_diameter", absent="belts")
+    screw: float | None = result("mm", "diameter of a ball screw", name="screw_diameter", absent="belts", least=0.0)
     buckling: float | None = result(
         "1", "safety of a screw against buckling, Euler", name="buckling_safety", absent="belts"
     )

@@ -19,7 +19,7 @@ class Comb:
     """The comb under the beat; line: its pressure across the width."""
 
     line: FellPressure
-    depth: float = result("mm", "height of the comb's bar: as given, or chosen", name="comb_depth")
+    depth: float = result("mm", "height of the comb's bar: as given, or chosen", name="comb_depth", least=0.0)
     mass: float = result("kg", "mass of bar and leaves", name="comb_mass")
     rigidity: float = result("N*m^2", "E I of the comb's bar", name="comb_rigidity")
     foundation: float = result("Pa", "stiffness of the fell: force over width and displacement", name="fell_stiffness")

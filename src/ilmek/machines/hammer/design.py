@@ -25,7 +25,7 @@ class CombLinkage:
     """Crank-rockers that share the comb, all alike: `one` of them."""
 
     one: beat_up.BeatUp
-    number: int = result("1", "crank-rockers that share the comb", name="beaters")
+    number: int = result("1", "crank-rockers that share the comb", name="beaters", least=0.0)
     force: float = result("N", "force of all at the beat, by the comb's inertia", name="linkage_force")
     torque: float = result("Nm", "largest torque on their crank shaft", name="linkage_torque")
     energy: float = result("J", "kinetic energy of the comb at its largest speed", name="swing_energy")

@@ -38,9 +38,9 @@ from ilmek.report import Json
 class CamStack:
     """The cams on the shaft; cams and guide cams are weighed bored, the stack with the shaft in its bores."""
 
-    thickness: float = result("mm", "thickness of a cam", name="cam_thickness")
-    guide_thickness: float = result("mm", "thickness of a guide cam: the rest of the pitch")
-    guide_radius: float = result("mm", "radius of a guide cam")
+    thickness: float = result("mm", "thickness of a cam", name="cam_thickness", least=0.0)
+    guide_thickness: float = result("mm", "thickness of a guide cam: the rest of the pitch", least=0.0)
+    guide_radius: float = result("mm", "radius of a guide cam", least=0.0)
     cam_mass: float = result("kg", "mass of a cam, bored")
     guide_mass: float = result("kg", "mass of a guide cam, bored")
     mass: float = result("kg", "mass of all cams, guide cams and the shaft between them")
@@ -107,7 +107,7 @@ class SheddingDesign:
     drive: SheddingDrive
     shuttle_window: tuple[float, float]
 
-    prime_radius = computed("mm", "prime radius of the cam, Rp", lambda it: it.cam.prime_radius)
+    prime_radius = computed("mm", "prime radius of the cam, Rp", lambda it: it.cam.prime_radius, least=0.0)
     prime_radius_min = computed("mm", "smallest for the pressure angle", lambda it: it.smallest_prime.value)
     prime_radius_for_bore = computed(
         "mm",

@@ -78,10 +78,10 @@ class WarpTensionAnalysis:
     bearing = computed("", "bearings of each cylinder", lambda it: {one.name: one.bearing.name for one in it.cylinders})
     bearing_life = computed("1", "their life in turns [ISO 281]", lambda it: it.of_each("life"))
     bearing_time = computed("h", "the same at the take-up's mean speed", lambda it: it.of_each("time"))
-    bearing_static_safety = computed("1", "C0 / P0 [ISO 76]", lambda it: it.of_each("static_safety"))
+    bearing_static_safety = computed("1", "C0 / P0 [ISO 76]", lambda it: it.of_each("static_safety"), least=0.0)
     stub_stress = computed("MPa", "stress in the shaft ends [von Mises]", lambda it: it.of_each("stub_stress"))
     mass_cylinders = computed("kg", "mass of the three tubes", lambda it: sum(one.mass for one in it.cylinders))
-    spacer_radius = computed("mm", "outer radius of the spacer", lambda it: it.spacer.outer + it.slots.depth)
+    spacer_radius = computed("mm", "outer radius of the spacer", lambda it: it.spacer.outer + it.slots.depth, least=0.0)
     tension_spacer = computed("N", "tension beyond the spacer in slip", lambda it: tension_beyond(it.design.params))
 
     @property

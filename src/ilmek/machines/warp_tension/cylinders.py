@@ -101,10 +101,10 @@ class Cylinder:
 class Slots:
     """The spacer's slots."""
 
-    pitch: float = result("mm", "distance of the spacer's slots", name="slot_pitch")
-    width: float = result("mm", "width of a slot", name="slot_width")
-    depth: float = result("mm", "depth of a slot", name="slot_depth")
-    warp: float = result("mm", "diameter of a warp", name="warp_diameter")
+    pitch: float = result("mm", "distance of the spacer's slots", name="slot_pitch", least=0.0)
+    width: float = result("mm", "width of a slot", name="slot_width", least=0.0)
+    depth: float = result("mm", "depth of a slot", name="slot_depth", least=0.0)
+    warp: float = result("mm", "diameter of a warp", name="warp_diameter", least=0.0)
 
     land = computed("mm", "metal between two slots", lambda it: it.pitch - it.width, name="slot_land")
 

@@ -67,7 +67,10 @@ class CamResults:
     spring_rate = _each("N/m", "rates of the return springs; 0: none", lambda cam: cam.rate)
     spring_preload = _each("N", "preloads of the return springs", lambda cam: cam.preload)
     cam_stack_width = computed(
-        "mm", "width of the five cams on their shaft", lambda it: stack_width(it.params, it.cams)
+        "mm",
+        "width of the five cams on their shaft",
+        lambda it: stack_width(it.params, it.cams),
+        least=0.0,
     )
 
 
