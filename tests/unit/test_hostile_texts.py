@@ -136,6 +136,8 @@ def test_a_text_parameter_is_bounded_and_printable() -> None:
     ):
         with pytest.raises(ParameterError, match=said):
             FunctionFourBarParams.read({"samples": text})
+    with pytest.raises(ParameterError, match="is not a text"):
+        FunctionFourBarParams.read({"samples": 5.0})
 
 
 def test_a_file_that_grows_after_the_check_is_not_read_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -383,3 +385,18 @@ def test_a_path_passes_at_most_so_many_warps() -> None:
         judged([np.tile([-1.0 + 1j, 21.0 + 1j, 21.0 - 1j, -1.0 - 1j], 500)], request)
     with pytest.raises(CarpetError, match="check the unit"):
         judged([np.array([1e20 + 1j, 0j])], request)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('period = "1s"', "period = 5e-324", "line 1, period: 4.94066e-324 s is too short"),
+        ("start = 0.0, end = 2.0", "start = 0.0, end = 5e-324", "is too short; 1e-09 rad"),
+        ("[tracks.t0.motions]", "[tracks.t0]\nlimits = { speed = 5e-324 }\n[tracks.t0.motions]", "is too small"),
+    ],
+)
+def test_tiny_numbers_of_a_cyclogram_are_refused(old: str, new: str, said: str) -> None:
+    text = cyclogram(1, 2, 0, 0)
+    assert old in text
+    with pytest.raises(ParameterError, match=said):
+        parse_cyclogram(text.replace(old, new))

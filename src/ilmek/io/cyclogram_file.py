@@ -66,6 +66,9 @@ MOST_TRACKS, MOST_MOTIONS, MOST_EVENTS, MOST_RELATIONS = 50, 100, 200, 200
 MOST_PASSAGES = 300
 """Largest number of motions that the zones of all exclusions are compared with; each takes some milliseconds."""
 
+LEAST = 1e-9
+"""Least period [s], angle of a motion [rad] and limit of an actuator [SI]: divisions by them stay finite."""
+
 _EDGES = {"starts": "start", "ends": "end", "event": "event", "past": "past"}
 _LIMITS = {"speed": "/s", "acceleration": "/s^2", "jerk": "/s^3"}
 
@@ -125,7 +128,10 @@ def _cyclogram(root: FileEntry) -> Cyclogram:
     root.keys("name", "period", "tracks", "relations", "exclusions", needs=("period", "tracks"))
     tracks = tuple(_track(name, entry) for name, entry in root.table("tracks").entries())
     units = {track.name: track.unit for track in tracks}
-    known = Cyclogram(root.text("name", "cyclogram"), root.quantity("period", "s"), tracks) if tracks else None
+    period = root.quantity("period", "s")
+    if 0 < period < LEAST:
+        root.refuse(ParameterError(f"{period:g} s is too short", allowed=f"{LEAST:g} s or more"), "period")
+    known = Cyclogram(root.text("name", "cyclogram"), period, tracks) if tracks else None
     if known is None:
         root.refuse(ParameterError("has no tracks", allowed="at least one table [tracks.NAME]"))
     with root.located():
@@ -173,6 +179,8 @@ def _track(name: str, entry: FileEntry) -> Track:
 def _motion(name: str, entry: FileEntry, unit: str) -> TrackSegment:
     entry.keys("start", "end", "from", "to", "law", needs=("start", "end", "from", "to", "law"))
     angles = entry.quantity("start", "rad"), entry.quantity("end", "rad")
+    if 0 < angles[1] - angles[0] < LEAST:
+        entry.refuse(ParameterError("is too short", allowed=f"{LEAST:g} rad or more from start to end"))
     return TrackSegment(name, *angles, entry.quantity("from", unit), entry.quantity("to", unit), entry.law("law"))
 
 
@@ -194,6 +202,9 @@ def _limits(entry: FileEntry, unit: str) -> ActuatorLimits:
     entry.keys(*_LIMITS, "time")
     with entry.located():
         found = {key: entry.quantity(key, unit + per, math.inf) for key, per in _LIMITS.items()}
+        for key, limit in found.items():
+            if 0 < limit < LEAST:
+                entry.refuse(ParameterError(f"{limit:g} is too small", allowed=f"{LEAST:g} or more in SI"), key)
         return ActuatorLimits(**found, time=entry.quantity("time", "s", 0.0))
 
 

@@ -54,7 +54,6 @@ class Parameter:
         text = setting.strip()
         try:
             if self.kind is str:
-                self._check_text(text)
                 return text
             if self.kind is bool:
                 return _TRUTH[text.lower()]
@@ -74,8 +73,10 @@ class Parameter:
             return round(number)
         return number
 
-    def _check_text(self, text: str) -> None:
-        """Raise ParameterError for a text that is too long or has characters that are not printed, except line ends."""
+    def _check_text(self, text: Value) -> None:
+        """Raise ParameterError for a value that is no text, is too long, or has characters that cannot be printed."""
+        if not isinstance(text, str):
+            raise ParameterError(f"{self.name}={text!r} is not a text", allowed=self.allowed())
         given = f"{self.name}={text[:20]!r}{'...' if len(text) > 20 else ''}"
         if len(text) > LONGEST_TEXT:
             raise ParameterError(f"{given} is too long", allowed=f"at most {LONGEST_TEXT} characters")
@@ -87,6 +88,7 @@ class Parameter:
         if value is None and self.default is None:
             return
         if self.kind is str:
+            self._check_text(value)
             if self.choices and value not in self.choices:
                 near = difflib.get_close_matches(str(value), self.choices, n=1)
                 hint = f"did you mean {near[0]}?" if near else ""
