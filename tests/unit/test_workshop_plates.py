@@ -2,6 +2,9 @@
 
 import importlib.util
 import math
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import ezdxf
@@ -100,6 +103,18 @@ def test_keyway_and_mark_are_where_they_belong(tmp_path: Path) -> None:
     (mark,) = space.query('LWPOLYLINE[layer=="MARK"]')
     assert mark.get_points("xy") == [pytest.approx((36.0, 0.0)), pytest.approx((40.0, 0.0))]
     assert len(space.query('LWPOLYLINE[layer=="CUTTER_PATH"]')) == len(space.query('LWPOLYLINE[layer=="PITCH"]')) == 1
+
+
+def test_the_same_plate_gives_the_same_bytes_in_every_process(tmp_path: Path) -> None:
+    script = (
+        "import sys; from pathlib import Path; import numpy as np; from ilmek.io.dxf import write_dxf\n"
+        "from ilmek.report import Plate\n"
+        "write_dxf(Path(sys.argv[1]), Plate('p', 'p', np.array([0, 0.1, 0.1 + 0.1j]), 0.01, 'steel'))"
+    )
+    for seed in "123":
+        environment = dict(os.environ, PYTHONHASHSEED=seed)
+        subprocess.run([sys.executable, "-c", script, str(tmp_path / seed)], env=environment, check=True)
+    assert len({path.read_bytes() for path in tmp_path.iterdir()}) == 1
 
 
 def test_a_file_that_is_no_plate_is_refused(tmp_path: Path) -> None:

@@ -62,6 +62,8 @@ def write_dxf(path: Path, plate: Plate) -> PlateShape:
     """Write a plate to a file. Returns its shape as written. Raises OSError."""
     shape = plate_shape(plate)
     document = dxf_document(plate, shape)
+    for name in sorted(document.entitydb.dxf_types_in_use()):  # the library adds them in the order of a set
+        document.classes.add_class(name)
     with path.open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream:
         document.write(stream)
     return shape

@@ -4,6 +4,7 @@ OCP is the extra `step`; without it, importing this module raises ImportError. I
 all imports of it are here, and the extra is pinned below the next release.
 """
 
+import io
 from pathlib import Path
 
 import numpy as np
@@ -49,14 +50,17 @@ def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
     header.SetTimeStamp(TCollection_HAsciiString(TIME_STAMP))
     header.SetAuthorValue(1, TCollection_HAsciiString("ilmek"))
     header.SetOriginatingSystem(TCollection_HAsciiString("ilmek"))
-    if writer.Write(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
+    written = io.BytesIO()  # the library opens only paths in UTF-8
+    if writer.WriteStream(written) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise OutputError(f"{path} cannot be written as STEP")
+    path.write_bytes(written.getvalue())
 
 
 def read_step_volume(path: Path) -> float:
     """Volume of the solid in a file, read back [m^3]. Raises OutputError if there is none."""
     reader = STEPControl_Reader()
-    if reader.ReadFile(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
+    content = path.read_bytes() if path.is_file() else b""
+    if reader.ReadStream("plate", io.BytesIO(content)) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise OutputError(f"{path} cannot be read back as STEP")
     reader.TransferRoots()
     found = GProp_GProps()
