@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help weave test lint types layers unit shapes mutants fuzz bench docs venv lock clean
+.PHONY: help weave test lint types layers unit shapes mutants fuzz kills bench docs venv lock clean
 
 help:
 	@echo "make weave   weave the shipped example and print where its report lies"
@@ -16,6 +16,7 @@ help:
 	@echo "make shapes  the engine's tests with the shapes of all arrays checked (slower)"
 	@echo "make mutants small wrong changes of the sources, and which of them no test notices (about an hour)"
 	@echo "make fuzz    20,000 hostile inputs for every command (about ten minutes)"
+	@echo "make kills   500 signals at random instants of real commands: no result is lost, no message is false (10 minutes)"
 	@echo "make bench   the benchmarks, side by side with their peers"
 	@echo "make docs    the documentation, in docs/_build/html"
 	@echo "make venv    .venv with everything for development"
@@ -58,6 +59,10 @@ unit: venv
 
 shapes: venv
 	$(BIN)/pytest -n 2 --dist worksteal --jaxtyping-packages=ilmek,typecheck.checker $$($(BIN)/python tests/support/engine_paths.py)
+
+# Options as of `python -m kills --help`: make kills KILLS="--long --number 40"
+kills: venv
+	PYTHONPATH=src:tests/support $(BIN)/python -m kills $(KILLS)
 
 # Options as of `python -m mutants --help`: make mutants MUTANTS="--number 50 'ilmek.linkage.*'"
 mutants: venv

@@ -10,6 +10,7 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 import pytest
+from ezdxf.entitydb import EntityDB
 from ezdxf.path import make_path
 
 from ilmek.cams.laws import LAWS
@@ -164,3 +165,13 @@ def test_links_that_cannot_be_made_are_refused() -> None:
 
 def test_a_plain_bore_is_a_hole() -> None:
     assert round_bore(0.15, key=False).holes == (Hole(0j, 0.075, "bore"),)
+
+
+def test_dxf_does_not_depend_on_the_order_of_a_set(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    in_use = EntityDB.dxf_types_in_use
+    for backward in (False, True):
+        monkeypatch.setattr(
+            EntityDB, "dxf_types_in_use", lambda db, b=backward: dict.fromkeys(sorted(in_use(db), reverse=b))
+        )
+        write_dxf(tmp_path / f"{backward}.dxf", coupler())
+    assert (tmp_path / "False.dxf").read_bytes() == (tmp_path / "True.dxf").read_bytes()
