@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from ilmek.io.picture import read_picture
 from ilmek.io.programme_file import open_programme
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
@@ -25,6 +26,8 @@ def warm() -> float:
     with tempfile.TemporaryDirectory() as folder:
         picture, out = Path(folder) / "noise.png", Path(folder) / "out"
         Image.fromarray(noise).save(picture)
+        Image.fromarray(noise).save(Path(folder) / "noise.jpg")
+        read_picture(Path(folder) / "noise.jpg")
         order = read_order(picture, size="16x16cm", quality="10x10/dm", colours=8)
         weave(order, read_loom_order(order, deadline="100h"), out)
         with open_programme(out / "programme.ilmek") as programme:
