@@ -30,7 +30,7 @@ _SEQUENTIAL = (0xC0, 0xC1)
 _FRAMES = frozenset(range(0xC0, 0xD0)) - {0xC4, 0xC8, 0xCC}
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class JpegTables:
     """What the segments of a JPEG before a scan state.
 
