@@ -36,7 +36,7 @@ def assigned_constraints(mechanism: Mechanism) -> Assignment:
 
 def _constraints(mechanism: Mechanism) -> list[Constraint]:
     joints = {joint.name: joint for joint in mechanism.joints}
-    held = [joint.bodies for joint in mechanism.joints for _ in range(2)]
+    held: list[tuple[str, ...]] = [joint.bodies for joint in mechanism.joints for _ in range(2)]
     held += [joints[entry.joint].bodies for entry in mechanism.inputs]
     held += [coupling.bodies for coupling in mechanism.couplings]
     return [found for found in (frozenset(bodies) - {GROUND} for bodies in held) if found]
