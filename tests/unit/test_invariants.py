@@ -2,6 +2,8 @@
 
 import math
 from dataclasses import replace
+from types import NoneType
+from typing import get_args, get_type_hints
 
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from ilmek.errors import IlmekError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.invariants import SOURCE, broken
 from ilmek.plane.contours import circle
-from ilmek.records import declared_results
+from ilmek.records import declared_results, layout
 from ilmek.report import CamTable, Hole, Part, Plate, Report, Result, at_most
 from ilmek.units import mm
 
@@ -111,3 +113,15 @@ def test_every_mass_and_time_has_a_bound() -> None:
 def test_the_reference_states_when_a_result_is_null() -> None:
     (one,) = (one for one in declared_results(*MACHINES["cam"].reported) if one.name == "lift_off_speed")
     assert one.meaning.endswith("; null: never")
+
+
+def test_a_result_that_may_be_none_is_optional_or_states_when() -> None:
+    unstated = [
+        f"{cls.__name__}.{attribute}"
+        for machine in MACHINES.values()
+        for cls in machine.reported
+        for attribute, declaration, _ in layout(cls)
+        if declaration is not None and attribute in (hints := get_type_hints(cls))
+        if NoneType in get_args(hints[attribute]) and not (declaration.optional or declaration.absent)
+    ]
+    assert unstated == []
