@@ -13,7 +13,7 @@ from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.invariants import SOURCE, broken
 from ilmek.plane.contours import circle
 from ilmek.records import declared_results, layout
-from ilmek.report import CamTable, Hole, Part, Plate, Report, Result, at_most
+from ilmek.report import CamTable, Hole, Part, Plate, Report, Result, Work, at_most
 from ilmek.units import mm
 
 SQUARE = np.array([0, 1, 1 + 1j, 1j])
@@ -62,6 +62,13 @@ def result(value: object, unit: str = "1", **more: object) -> Report:
 def test_a_broken_invariant_is_a_failed_check(report: Report, name: str) -> None:
     (check,) = broken(report)
     assert (check.name, check.ok, check.source) == (name, False, SOURCE)
+
+
+@pytest.mark.parametrize("energy", [-1.0, math.nan, math.inf])
+def test_work_is_finite_and_not_negative(energy: float) -> None:
+    (check,) = broken(SOUND, [Work("beating", 1.0, "row"), Work("shedding", energy, "row")])
+    assert check.name == "energy of shedding is positive"
+    assert not check.ok
 
 
 @pytest.mark.parametrize(

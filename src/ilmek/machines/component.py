@@ -113,7 +113,7 @@ class Component:
             parts=self.parts(design),
             children=tuple(child.report for child in self.children(design)),
         )
-        return replace(made, checks=(*made.checks, *broken(made)))
+        return replace(made, checks=(*made.checks, *broken(made, self.work(design))))
 
     def report_for(self, settings: Mapping[str, Setting]) -> Report:
         """The report of the design for settings of its parameters, texts with units allowed. Raises any IlmekError."""

@@ -2,12 +2,12 @@
 
 Numbers are finite; no mass, area, time, or result with a declared bound is below it; a value is absent only where its
 declaration states when; parts have a count, a mass, a length and a power of 0 and more; plates have a thickness, an
-area, and holes inside their outline; axes have a period. Machines refuse impossible input themselves: a broken
-invariant is a defect, and becomes a failed check, so that such a design is never reported as sound.
+area, and holes inside their outline; axes have a period; acts take energy. Machines refuse impossible input themselves:
+a broken invariant is a defect, and becomes a failed check, so that such a design is never reported as sound.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -15,19 +15,27 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.plane import biarcs, contours
 from ilmek.plane.vectors import dot
-from ilmek.report import CamTable, Check, Contour, Part, Plate, Report, Result
+from ilmek.report import CamTable, Check, Contour, Part, Plate, Report, Result, Work
 
 SOURCE = "invariant of every design"
 
 
-def broken(report: Report) -> tuple[Check, ...]:
-    """A failed check for each invariant that does not hold of the report; those of the machines in it are its own."""
+ROUNDING = 1e-9
+"""Energy below 0 that counts as rounding [J]: it is a sum of work in both directions."""
+
+
+def broken(report: Report, work: Iterable[Work] = ()) -> tuple[Check, ...]:
+    """A failed check for each invariant that does not hold of a report, and of the work of its machine.
+
+    The reports of the machines in it have their own.
+    """
     return (
         *(check for one in report.results for check in _of_result(one)),
         *(check for one in report.checks for check in _of_check(one)),
         *(check for one in report.parts for check in _of_part(one)),
         *(check for one in report.plates for check in _of_plate(one)),
         *(check for one in report.cam_tables for check in _of_cam_table(one)),
+        *(check for one in work for check in _of_work(one)),
     )
 
 
@@ -72,6 +80,11 @@ def _of_plate(plate: Plate) -> Iterator[Check]:
 def _of_cam_table(table: CamTable) -> Iterator[Check]:
     if not table.period > 0:  # a cam at rest has an infinite one
         yield from _above(f"period of {table.name} is positive", table.period, "s")
+
+
+def _of_work(work: Work) -> Iterator[Check]:
+    if not -ROUNDING <= work.energy < math.inf:
+        yield Check(f"energy of {work.name} is positive", work.energy, 0.0, "J", False, SOURCE, ">=")
 
 
 def _count(name: str, number: int) -> Check:
