@@ -63,7 +63,7 @@ def test_one_number_stands_for_the_knots_per_area() -> None:
         ("40raj@70cm", "gereh"),
         ("40raj@.cm", "gereh"),
         ("25x25/km", "unknown quality"),
-        ("9" * 400 + "/dm", "unknown quality"),
+        ("9" * 400 + "/dm", "too long"),
         ("1e3/m2", "unknown quality"),
     ],
 )

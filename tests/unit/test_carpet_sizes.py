@@ -68,7 +68,7 @@ def test_size_says_itself() -> None:
         ("120x51m", "1 cm to 50 m"),
         ("120x180x5cm", "unknown unit"),
         ("1,2x1,8m", "unknown size"),
-        ("9" * 400 + "x1m", "unknown size"),
+        ("9" * 400 + "x1m", "too long"),
         ("nanxnan cm", "unknown size"),
     ],
 )

@@ -19,6 +19,9 @@ from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
 from ilmek.linkage.structure import plan
 from ilmek.progress import Progress
 
+PATIENCE = 20.0
+"""Far above the time on any processor [s]: what this guards against takes minutes."""
+
 
 def network(bodies: int, seed: int, extra: int = 0) -> Mechanism:
     """A crank and an odd number of links in a random network; without `extra` joints it has no degree of freedom."""
@@ -54,7 +57,7 @@ def test_groups_of_a_large_network_are_found_soon() -> None:
     begin = time.perf_counter()
     steps = plan(mechanism).steps
     assert sum(len(step.bodies) for step in steps) == 25
-    assert time.perf_counter() - begin < 1.0
+    assert time.perf_counter() - begin < PATIENCE
 
 
 def test_an_over_constrained_network_is_found_soon() -> None:
@@ -62,7 +65,7 @@ def test_an_over_constrained_network_is_found_soon() -> None:
     begin = time.perf_counter()
     with pytest.raises(MechanismError, match="over-constrained"):
         plan(mechanism, closed_forms=False)
-    assert time.perf_counter() - begin < 2.0
+    assert time.perf_counter() - begin < PATIENCE
 
 
 def test_a_large_group_is_refused_before_it_is_solved() -> None:
@@ -71,7 +74,7 @@ def test_a_large_group_is_refused_before_it_is_solved() -> None:
     begin = time.perf_counter()
     with pytest.raises(MechanismError, match=f"at most {MOST_BODIES} bodies"):
         run(file, MotionRequest({}))
-    assert time.perf_counter() - begin < 1.0
+    assert time.perf_counter() - begin < PATIENCE
 
 
 def test_a_file_has_at_most_so_many_bodies() -> None:

@@ -26,6 +26,10 @@ from ilmek.machines.function_four_bar.params import FunctionFourBarParams, named
 from ilmek.params.text_lists import read_angles, read_bounds, read_pairs, read_points, read_poses
 from ilmek.units import LONGEST, parse_quantity, parse_unit, read_number
 
+PATIENCE = 20.0
+"""Far above the time on any processor [s]: what this guards against takes minutes."""
+
+
 WORDS = (
     *(
         "mm",
@@ -102,7 +106,7 @@ def test_long_texts_are_refused_soon(name: str, piece: str) -> None:
     begin = time.perf_counter()
     with pytest.raises(IlmekError):
         READERS[name](f"x^{piece * 20_000}!")
-    assert time.perf_counter() - begin < 1.0
+    assert time.perf_counter() - begin < PATIENCE
 
 
 @pytest.mark.parametrize("text", ["km^400", "km^13", "GPa^12*GPa^12", "mm^-12*mm^-12", "m" * 200, "m²²²"])
@@ -173,7 +177,7 @@ def test_headings_of_a_path_are_read_in_linear_time(tmp_path: Path, heading: str
     begin = time.perf_counter()
     with pytest.raises(CarpetError):
         read_path(path)
-    assert time.perf_counter() - begin < 1.0
+    assert time.perf_counter() - begin < PATIENCE
 
 
 @pytest.mark.parametrize("cell", ["1_0", "٣", "inf", "1e400", "9" * 100_000, "1 " * 9_000])
@@ -270,7 +274,7 @@ def test_data_of_others_is_bounded(text: str, toml: bool, said: str) -> None:
     begin = time.perf_counter()
     with pytest.raises(ParameterError, match=said) as caught:
         parse_data(text, name="a file", toml=toml, error=ParameterError)
-    assert time.perf_counter() - begin < 1.0
+    assert time.perf_counter() - begin < PATIENCE
     assert len(str(caught.value)) < 300
     assert str(caught.value).isascii()
 
@@ -357,7 +361,7 @@ def test_a_cyclogram_is_bounded(counts: tuple[int, int, int, int], said: str) ->
     begin = time.perf_counter()
     with pytest.raises(ParameterError, match=said):
         parse_cyclogram(cyclogram(*counts))
-    assert time.perf_counter() - begin < 2.0
+    assert time.perf_counter() - begin < PATIENCE
 
 
 def test_a_law_is_bounded() -> None:

@@ -23,6 +23,10 @@ from ilmek.io.native_messages import native_messages
 from ilmek.io.picture import LARGEST_INTERPRETED, LARGEST_WHOLE, read_picture
 from ilmek.progress import Cancelled, Progress
 
+PATIENCE = 20.0
+"""Far above the time on any processor [s]: what this guards against takes minutes."""
+
+
 SMOOTH = Image.fromarray(np.random.default_rng(7).integers(0, 256, (6, 8, 3), dtype=np.uint8)).resize((80, 60))
 
 
@@ -129,7 +133,7 @@ def test_is_refused_at_once(tmp_path: Path, name: str, capfd: pytest.CaptureFixt
     begun = time.perf_counter()
     with pytest.raises(PictureError, match=f"(?i){reason}") as caught:
         read_picture(tmp_path / "picture")
-    assert time.perf_counter() - begun < 5
+    assert time.perf_counter() - begun < PATIENCE
     assert "\n" not in str(caught.value)
     assert capfd.readouterr().err == ""
 
@@ -138,7 +142,7 @@ def test_many_directories_are_not_walked(tmp_path: Path) -> None:
     (tmp_path / "a.tif").write_bytes(tiff_of(100_000))
     begun = time.perf_counter()
     picture = read_picture(tmp_path / "a.tif")
-    assert time.perf_counter() - begun < 5
+    assert time.perf_counter() - begun < PATIENCE
     assert picture.notes == ("the first of several frames is used",)
     assert np.array_equal(picture.rgb, np.asarray(SMOOTH))
 

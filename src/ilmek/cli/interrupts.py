@@ -55,7 +55,7 @@ def leave(message: str, status: int) -> NoReturn:
     for number in SIGNALS:
         if signal.getsignal(number) is _end:
             signal.signal(number, signal.SIG_IGN)  # the outcome is settled
-    placed = _output("in_place")
+    placed = _output("results_written")
     if placed and placed not in message:
         message = f"{message}; {placed}"
     with contextlib.suppress(OSError):
@@ -125,10 +125,10 @@ def _writable(handle: int) -> bool:
 
 
 def _output(function: str) -> str:
-    """What has been written, from `account`, `abandon` or `in_place` of ilmek.io.output."""
+    """What has been written, from `account`, `abandon` or `results_written` of ilmek.io.output."""
     output = sys.modules.get("ilmek.io.output")  # a command that has not loaded it has written nothing
     found = getattr(output, function, None)
-    return str(found()) if found is not None else "" if function == "in_place" else "nothing was written"
+    return str(found()) if found is not None else "" if function == "results_written" else "nothing was written"
 
 
 def _line(message: str) -> str:

@@ -20,7 +20,7 @@ from ilmek.io.output.manifest import MANIFEST as MANIFEST
 from ilmek.io.output.outputs import Outputs as Outputs
 from ilmek.io.output.outputs import abandon as abandon
 from ilmek.io.output.outputs import account as account
-from ilmek.io.output.outputs import in_place as in_place
 from ilmek.io.output.outputs import joined as joined
 from ilmek.io.output.outputs import new_account as new_account
+from ilmek.io.output.outputs import results_written as results_written
 from ilmek.io.output.outputs import write_file as write_file

@@ -254,10 +254,10 @@ def account() -> str:
     running = list(_OPEN)
     kept = [path for outputs in running for path in outputs.kept]
     nothing = f"{_nothing_but([path for outputs in running for path in outputs.streamed])} was written"
-    return in_place() or (f"{nothing}; the old result is kept: {_listed(kept)}" if kept else nothing)
+    return results_written() or (f"{nothing}; the old result is kept: {_listed(kept)}" if kept else nothing)
 
 
-def in_place() -> str:
+def results_written() -> str:
     """The results that the call that is running, or the last one, has put in place; empty if none."""
     return f"the new result is in place: {_listed(_WRITTEN)}" if _WRITTEN else ""
 

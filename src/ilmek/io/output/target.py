@@ -4,6 +4,7 @@ import contextlib
 import errno
 import os
 import stat
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -37,7 +38,7 @@ def is_stream(path: Path) -> bool:
 
 
 @dataclass(slots=True, eq=False)
-class Target:
+class Target(ABC):
     """What all targets share.
 
     path, label   as given, and its name in messages          target  the path without links
@@ -80,25 +81,25 @@ class Target:
             self.staging = staging.new_staging(self.target)
         return self.staging.folder
 
+    @abstractmethod
     def check(self) -> None:
         """Raise OutputError unless the target can be written; nothing is changed."""
-        raise NotImplementedError
 
-    def fill(self, content: bytes) -> None:
-        """Stage the content of a file. Raises OSError."""
-        raise NotImplementedError
+    def fill(self, content: bytes) -> None:  # noqa: ARG002 - files take it
+        """Stage the content of a file. Raises OSError; OutputError for a folder."""
+        raise OutputError(f"{self.path} is a folder", do="give the name of a file")
 
+    @abstractmethod
     def seal(self) -> None:
         """Sync what is staged. Raises OSError."""
-        raise NotImplementedError
 
+    @abstractmethod
     def put(self) -> None:
         """Put what is staged in place. Raises OSError."""
-        raise NotImplementedError
 
+    @abstractmethod
     def undo(self) -> None:
         """Put the old result in place again, durably. Raises OSError."""
-        raise NotImplementedError
 
     def old_result(self) -> Path | None:
         """Where the old result lies if it is not in place."""
