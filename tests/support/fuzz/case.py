@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 COMMANDS = ("weave", "chart", "machines", "design", "mechanism", "cyclogram", "knot", "reproduce", "inspect")
-TAKEN = "taken"
-"""A folder that every input finds, with a file that ilmek did not write."""
+TAKEN, OLD, MINE = "taken", "old", "mine.txt"
+"""A folder that every input finds, one that some find with a result of ilmek, and a file that ilmek did not write."""
 
 
 @dataclass(frozen=True)
@@ -36,8 +36,9 @@ class Case:
     def lay_out(self, folder: Path) -> None:
         """Write the files into an empty folder."""
         (folder / TAKEN).mkdir()
-        (folder / TAKEN / "mine.txt").write_bytes(b"mine")
+        (folder / TAKEN / MINE).write_bytes(b"mine")
         for name, content in self.files.items():
+            (folder / name).parent.mkdir(exist_ok=True)
             (folder / name).write_bytes(content)
 
     def as_json(self) -> str:

@@ -10,6 +10,7 @@ import zlib
 from collections.abc import Iterator
 from contextlib import closing
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -17,7 +18,8 @@ from typing import Any
 import numpy as np
 from PIL import Image, UnidentifiedImageError, features
 
-from fuzz.mutations import changed_bytes, changed_tree, scalar
+from fuzz.case import MINE, OLD
+from fuzz.mutations import changed_bytes, changed_text, changed_tree, scalar
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import weave
@@ -72,6 +74,23 @@ _FORMATS: dict[str, tuple[str, dict[str, Any]]] = {
     "rgb.dds": ("RGB", {}),
     "few.blp": ("P", {}),
 }
+
+
+def old_result(draw: Random) -> dict[str, bytes]:
+    """The files of a folder that ilmek wrote, mostly with a file that is foreign or changed, or a wrong manifest."""
+    files = {"chart.json": b"{}", "yarn.csv": b"yarn\n"}
+    listed = {name: {"size": len(data), "sha256": sha256(data).hexdigest()} for name, data in files.items()}
+    manifest = json.dumps({"ilmek": 1, "files": listed}).encode()
+    kind = draw.randrange(5)
+    if kind == 1:
+        files[MINE] = b"mine"
+    elif kind == 2:
+        files["yarn.csv"] = b"mine"
+    elif kind == 3:
+        manifest = changed_text(draw, manifest.decode()).encode("utf-8", "replace")
+    elif kind == 4:
+        manifest = changed_bytes(draw, manifest)
+    return {f"{OLD}/{name}": data for name, data in {**files, ".ilmek": manifest}.items()}
 
 
 @dataclass(frozen=True)
@@ -188,12 +207,15 @@ def changed_programme(draw: Random, content: bytes) -> bytes:
         base.row_factory = None
         for _ in range(draw.choice((1, 1, 2))):
             try:
-                if not all(base.execute(f"SELECT count(*) FROM {table}").fetchone()[0] for table in ("meta", "row")):
+                tables = base.execute("SELECT name FROM sqlite_master WHERE type = 'table'").fetchall()
+                if not {("meta",), ("row",)} <= set(tables):
+                    break
+                if not all(base.execute(f"SELECT 1 FROM {table} LIMIT 1").fetchone() for (table,) in tables):
                     break
                 (_change_meta if draw.random() < 0.55 else _change_row)(draw, base)
                 if draw.random() < 0.25:
                     base.executescript(draw.choice(_STATEMENTS))
-            except sqlite3.Error:  # an earlier change took the table away
+            except (sqlite3.Error, ValueError, RecursionError):  # an earlier change took it away
                 break
         base.commit()
         return bytes(base.serialize())

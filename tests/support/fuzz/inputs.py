@@ -8,8 +8,8 @@ from typing import Any
 
 from designs import random_settings
 
-from fuzz.case import COMMANDS, TAKEN, Case
-from fuzz.corpus import PATH_CSV, QUALITY, SIZE, VALUES, YARNS_CSV, Corpus, changed_png, changed_programme
+from fuzz.case import COMMANDS, MINE, OLD, TAKEN, Case
+from fuzz.corpus import PATH_CSV, QUALITY, SIZE, VALUES, YARNS_CSV, Corpus, changed_png, changed_programme, old_result
 from fuzz.mutations import (
     TEXTS,
     changed_bytes,
@@ -58,6 +58,9 @@ def make_case(corpus: Corpus, seed: int) -> Case:
         words = changed_line(draw, words)
     if draw.random() < 0.02 and files:
         words = [*words, draw.choice(("--json", "--out", "--report", "--csv")), draw.choice(list(files))]
+    if OLD in words:
+        files |= old_result(draw)
+        words += draw.choice(([], ["--force"], ["--force"]))
     environment = draw.choice(_ENVIRONMENTS) if draw.random() < 0.03 else {}
     return Case(tuple(map(_typed, words)), files, environment, draw.random() < ON_A_TERMINAL)
 
@@ -86,7 +89,9 @@ def _output(draw: Random, ending: str) -> str:
         return f"new{ending}"
     others = (
         TAKEN,
-        f"{TAKEN}/mine.txt",
+        f"{TAKEN}/{MINE}",
+        OLD,
+        f"{OLD}/yarn.csv",
         f"gone/new{ending}",
         "/dev/full",
         "/dev/null/x",
@@ -259,7 +264,9 @@ def _carpet(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     words += _given(draw, 0.2, "--colours", _one_of("2", "5", "16", "255", "1", "-1"))
     words += _given(draw, 0.1, "--pile-height", _one_of("8mm", "0mm", "1km"))
     words += draw.choice(([], [], [], ["--keep-lone"], ["--no-pdf"], ["--pdf"])) + _json(draw)
-    words += _given(draw, 0.5, "--out", lambda draw: _output(draw, "") if draw.random() < 0.4 else "new")
+    words += _given(
+        draw, 0.5, "--out", lambda draw: _output(draw, "") if draw.random() < 0.4 else draw.choice(("new", OLD))
+    )
     words += draw.choice(([], [], ["--force"]))
     return [name, *words], {name: content, **files}
 

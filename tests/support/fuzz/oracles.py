@@ -11,7 +11,7 @@ from hashlib import sha256
 from itertools import pairwise
 from typing import Any
 
-from fuzz.case import shortened
+from fuzz.case import OLD, shortened
 from fuzz.execution import Run
 from fuzz.mutations import IMAGE, SCRIPT
 from ilmek.io.output import MANIFEST
@@ -109,15 +109,14 @@ def _warnings(run: Run) -> Iterator[Finding]:
 
 
 def _inputs(run: Run) -> Iterator[Finding]:
-    changed = [name for name, content in run.before.items() if run.after.get(name, ...) != content]
     forced = "--force" in run.case.arguments
-    for name in changed:
-        if not (forced and name.startswith("taken")):
-            yield Finding("input changed", f"{run.case.command} exit {run.code}", name)
-        elif name in run.after:
+    for name, content in run.before.items():
+        gone = name not in run.after
+        if not gone and run.after[name] == content:
             continue
-        else:
-            yield Finding("foreign file lost", f"{run.case.command} exit {run.code}", name)
+        foreign = content == b"mine" or not name.startswith(OLD)
+        if not forced or (gone and foreign):
+            yield Finding("input changed", f"{run.case.command} exit {run.code} {'gone' if gone else ''}", name)
     for name in run.after:
         if any(_PARTIAL.search(part) for part in name.split("/")) and name not in run.before:
             yield Finding("left behind", f"{run.case.command} leaves a partial output", name)
