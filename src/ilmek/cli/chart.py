@@ -19,6 +19,8 @@ Examples:
   ilmek chart photo.jpg --size 120x180cm --quality 40x40/dm --out photo-chart
   ilmek chart photo.jpg --size kelle --colours 8 --yarns wool.toml
   ilmek chart photo.jpg --json -
+
+Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots.
 """
 
 

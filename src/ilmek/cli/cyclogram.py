@@ -25,6 +25,8 @@ Examples:
   ilmek cyclogram examples/press.toml --solve period --json -
   ilmek cyclogram weaver --solve acceleration
   ilmek cyclogram automated-loom:row --set heads=4 --out row.toml
+
+Limits: file 250 kB; 50 tracks, 100 motions, 200 events, relations, exclusions; 2,000,000 numbers in a table.
 """
 
 

@@ -18,7 +18,7 @@ Examples:
   ilmek design shedding --set lift=60mm --set pressure_angle_limit=30deg --report shedding.html
   ilmek design weaver --workshop parts --tolerance 2um
 
-The parameters of a machine: ilmek machines MACHINE
+The parameters of a machine, and their limits: ilmek machines MACHINE
 """
 
 

@@ -19,6 +19,8 @@ Examples:
   ilmek inspect carpet/programme.ilmek
   ilmek inspect carpet/programme.ilmek --row 1
   ilmek inspect carpet/programme.ilmek --row 1 --json -
+
+Limits: file 1,000 MB.
 """
 
 

@@ -19,6 +19,8 @@ Examples:
   ilmek knot left.csv right.csv --pitch 4mm --keep-out 0.6mm --report knot.html
   ilmek mechanism mine.toml --csv motion.csv
   ilmek knot motion.csv --columns "coupler.P x" "coupler.P y" --pitch 20mm --smooth
+
+Limits: path file 20 MB, 100,000 points; 10,000 warps.
 """
 
 

@@ -22,6 +22,8 @@ Examples:
   ilmek mechanism examples/jansen_leg.toml --speed 60rpm --steps 360 --csv motion.csv
   ilmek mechanism examples/tufting_needle.toml --at 30deg --json -
   ilmek mechanism mine.toml --as json
+
+Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table.
 """
 
 
