@@ -94,6 +94,7 @@ def test_a_sound_report_gets_no_further_check(report: Report) -> None:
         ("cam", {"kind": "barrel", "bore": "100mm"}, "does not fit into the barrel cam"),
         ("beat-up", {"motor_torque": "1e6"}, "needs more than 10000 steps"),
         ("beat-up", {"members": "100000"}, "at most 10000"),
+        ("hammer", {"warps": "100000", "comb_depth": "1mm", "warp_pitch": "50mm"}, "at most 500"),
     ],
 )
 def test_impossible_parameters_are_refused(machine: str, settings: dict[str, str], refused: str) -> None:

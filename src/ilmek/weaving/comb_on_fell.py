@@ -18,7 +18,12 @@ import math
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
+from ilmek.errors import ParameterError
 from ilmek.records import record
+from ilmek.units import format_quantity
+
+MOST_PIECES = 500
+"""Pieces of a comb: their equations are solved in about half a second."""
 
 RIGID = 0.02
 """Largest l W of a rigid comb: its deflection is below 1e-7 of the displacement of the fell."""
@@ -71,7 +76,8 @@ def fell_pressure(
 
     width     W of the comb [m]             supports    their positions from its left end [m], one or more
     rigidity  E I of the comb [N m^2]       foundation  k, stiffness of the fell over the width [N/m^2]
-    A comb that is rigid relative to the fell presses evenly, or tilts about a single support.
+    A comb that is rigid relative to the fell presses evenly, or tilts about a single support. Raises ParameterError for
+    a comb so long and soft that it needs more than MOST_PIECES pieces.
     """
     root = (foundation / (4 * rigidity)) ** 0.25
     number = root * width
@@ -104,6 +110,12 @@ def _nodes(width: float, supports: FloatArray, longest: float) -> FloatArray:
     """Ends and supports, and positions between them at most `longest` apart."""
     fixed = np.unique(np.concatenate([[0.0, width], supports]))
     parts = [max(1, math.ceil(step / longest)) for step in np.diff(fixed).tolist()]
+    if sum(parts) > MOST_PIECES:
+        raise ParameterError(
+            f"a comb {format_quantity(width, 'm')} wide is too soft: {sum(parts)} pieces of its length bend apart",
+            allowed=f"at most {MOST_PIECES}",
+            do="set a larger comb_depth, or fewer warps",
+        )
     filled = [np.linspace(fixed[i], fixed[i + 1], part + 1)[:-1] for i, part in enumerate(parts)]
     return np.concatenate([*filled, [width]])
 
