@@ -4,6 +4,7 @@ import contextlib
 import signal
 import sqlite3
 import threading
+import weakref
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import FrameType, MappingProxyType, TracebackType
@@ -19,7 +20,7 @@ _COMMIT = threading.Lock()
 _PATIENCE = 20.0
 """Time that an interrupted run waits for a commit to end [s]."""
 
-_OPEN: list["Outputs"] = []
+_OPEN: list["weakref.ref[Outputs]"] = []
 _WRITTEN: list[Path] = []
 
 
@@ -56,8 +57,9 @@ class Outputs:
         Raises OutputError for a folder, a path that is an input or another output of the call, a missing or closed
         folder, and, without `force`, for a file that ilmek did not write.
         """
+        target = resolved(path)
         kind = StreamTarget if is_stream(path) else FileTarget
-        self._expect(kind(path, label or str(path), resolved(path), self.force))
+        self._expect(kind(path, label or str(path), target, self.force))
 
     def expect_folder(self, path: Path, label: str = "") -> None:
         """Check, before any work, that a folder can be written at `path`; nothing is changed.
@@ -148,7 +150,7 @@ class Outputs:
 
     def __enter__(self) -> "Outputs":
         new_account()
-        _OPEN.append(self)
+        _OPEN.append(weakref.ref(self))
         return self
 
     def __exit__(
@@ -158,8 +160,10 @@ class Outputs:
             if kind is None:
                 self.commit()
         finally:
-            self.discard()
-            _OPEN.remove(self)
+            try:
+                self.discard()
+            finally:
+                _OPEN[:] = [one for one in _OPEN if one() not in (None, self)]
 
     def _expect(self, target: Target) -> None:
         with self._as_output_error(target):
@@ -244,14 +248,14 @@ def abandon() -> str:
     if not _COMMIT.acquire(timeout=_PATIENCE):
         return "the new result was being put in place: it is whole, or the old one is"
     written = account()
-    for outputs in tuple(_OPEN):
+    for outputs in _running():
         outputs.discard()
     return written
 
 
 def account() -> str:
     """What the call that is running, or the last one, has written."""
-    running = list(_OPEN)
+    running = _running()
     kept = [path for outputs in running for path in outputs.kept]
     nothing = f"{_nothing_but([path for outputs in running for path in outputs.streamed])} was written"
     return results_written() or (f"{nothing}; the old result is kept: {_listed(kept)}" if kept else nothing)
@@ -264,8 +268,12 @@ def results_written() -> str:
 
 def new_account() -> None:
     """Begin a call: what earlier ones have written is not of it."""
-    if not _OPEN:
+    if not _running():
         _WRITTEN.clear()
+
+
+def _running() -> list[Outputs]:
+    return [outputs for one in list(_OPEN) if (outputs := one()) is not None]
 
 
 def _nothing_but(streamed: Sequence[Path]) -> str:

@@ -19,17 +19,41 @@ _TRIES = 20
 
 
 class Lock:
-    """A handle that locks a folder; released with it, also where an interrupt cuts the release off."""
+    """A lock of a folder; released with this object, also where an interrupt cuts the release off."""
 
-    def __init__(self, handle: int | None) -> None:
-        self._handle = handle
+    def __init__(self, folder: Path) -> None:
+        self._handles: list[int] = []
+        with contextlib.suppress(OSError):  # it is gone, or the system cannot open folders
+            self._handles.append(os.open(folder, os.O_RDONLY))
+
+    @property
+    def opened(self) -> bool:
+        """Whether the folder could be opened."""
+        return bool(self._handles)
+
+    def take(self) -> bool | None:
+        """Whether the lock was free; None if there are no locks."""
+        if disk.fcntl is None or not self._handles:
+            return None
+        try:
+            disk.fcntl.flock(self._handles[0], disk.fcntl.LOCK_EX | disk.fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+        except OSError:
+            return None
+        return True
+
+    def is_at(self, folder: Path) -> bool:
+        """Whether the folder still has this name."""
+        try:
+            return bool(self._handles) and os.path.samestat(os.fstat(self._handles[0]), folder.lstat())
+        except OSError:
+            return False
 
     def release(self) -> None:
         """Release the lock."""
-        handle, self._handle = self._handle, None
-        if handle is not None:
-            with contextlib.suppress(OSError):
-                os.close(handle)
+        with contextlib.suppress(OSError, IndexError, AttributeError):
+            os.close(self._handles.pop())
 
     __del__ = release
 
@@ -56,11 +80,10 @@ def new_staging(target: Path) -> Staging:
     for _ in range(_TRIES):
         folder = target.parent / f".{_stem(target)}.{secrets.token_hex(4)}{PART}"
         disk.make_folder(folder)
-        handle = _opened(folder)
+        lock = Lock(folder)
         # Another run may have taken the folder for one without an owner before it was locked.
-        if handle is None or (_lock(handle) is not False and _is_at(handle, folder)):
-            return _begun(Staging(folder, Lock(handle)))
-        os.close(handle)
+        if not lock.opened or (lock.take() is not False and lock.is_at(folder)):
+            return _begun(Staging(folder, lock))
     raise OSError(f"no temporary folder could be made beside {target}")
 
 
@@ -125,53 +148,20 @@ def _left(target: Path) -> list[Path]:
 
 def _finish_swap(old: Path, target: Path) -> None:
     new = old.with_suffix(PART)
-    handle = _opened(new if new.is_dir() else old)  # a run that lives holds the lock of the new folder
-    if handle is None:
-        return
-    lock = Lock(handle)
-    if _lock(handle):
+    lock = Lock(new if new.is_dir() else old)  # a run that lives holds the lock of the new folder
+    if lock.take():
         disk.rename(new if manifest.is_whole(new) else old, target)
         disk.sync(target.parent)  # before the other one is removed
     lock.release()
 
 
 def _remove_if_free(folder: Path) -> None:
-    handle = _opened(folder)
-    if handle is not None:
-        lock = Lock(handle)
-        if _lock(handle):
-            remove(folder)
-        lock.release()
+    lock = Lock(folder)
+    if lock.take():
+        remove(folder)
+    lock.release()
 
 
 def _stem(target: Path) -> str:
     """The name, or a digest of it if it is too long for a suffix."""
     return target.name if len(os.fsencode(target.name)) <= 200 else sha256(os.fsencode(target.name)).hexdigest()[:32]
-
-
-def _opened(folder: Path) -> int | None:
-    """A handle of the folder; None where it is gone, or the system cannot open folders."""
-    try:
-        return os.open(folder, os.O_RDONLY)
-    except OSError:
-        return None
-
-
-def _lock(handle: int) -> bool | None:
-    """Whether the lock was free; None if there are no locks."""
-    if disk.fcntl is None:
-        return None
-    try:
-        disk.fcntl.flock(handle, disk.fcntl.LOCK_EX | disk.fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError:
-        return None
-    return True
-
-
-def _is_at(handle: int, folder: Path) -> bool:
-    try:
-        return os.path.samestat(os.fstat(handle), folder.lstat())
-    except OSError:
-        return False

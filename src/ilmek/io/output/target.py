@@ -125,11 +125,13 @@ class Target(ABC):
         """Remove what is staged, or the old result if the new one is in place; the lock is released."""
         placed, staged, self.staging = self.placed, self.staging, None  # whoever takes it removes it
         if staged is not None:
-            if not self.stuck:
-                staging.remove(staged.folder)
-                if placed:  # else it is the only copy
-                    staging.remove(staged.old)
-            staged.lock.release()
+            try:
+                if not self.stuck:
+                    staging.remove(staged.folder)
+                    if placed:  # else it is the only copy
+                        staging.remove(staged.old)
+            finally:
+                staged.lock.release()
         if not placed:
             for folder in self.made:
                 with contextlib.suppress(OSError):
