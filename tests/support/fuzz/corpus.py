@@ -215,7 +215,7 @@ def changed_programme(draw: Random, content: bytes) -> bytes:
                 (_change_meta if draw.random() < 0.55 else _change_row)(draw, base)
                 if draw.random() < 0.25:
                     base.executescript(draw.choice(_STATEMENTS))
-            except (sqlite3.Error, ValueError, RecursionError):  # an earlier change took it away
+            except (sqlite3.Error, zlib.error, ValueError, RecursionError):  # an earlier change took it away
                 break
         base.commit()
         return bytes(base.serialize())

@@ -143,6 +143,8 @@ def _folders(run: Run) -> Iterator[Finding]:
     """Every new folder has a manifest that lists what is in it."""
     for folder in [name for name, content in run.after.items() if content is None and name not in run.before]:
         inside = {name[len(folder) + 1 :]: data for name, data in run.after.items() if name.startswith(f"{folder}/")}
+        if inside and all(data is None or "/" in name for name, data in inside.items()):
+            continue  # made for the folder in it
         try:
             listed = json.loads(inside.pop(MANIFEST) or b"")["files"]
         except (KeyError, ValueError):
