@@ -20,11 +20,14 @@ from PIL import Image, UnidentifiedImageError, features
 
 from fuzz.case import MINE, OLD
 from fuzz.mutations import changed_bytes, changed_text, changed_tree, scalar
+from ilmek.io.cyclogram_file import cyclogram_toml
+from ilmek.jobs.cyclogram import find
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import weave
 
 ROOT = Path(__file__).parents[3]
+CYCLOGRAMS = ("weaver", "automated-loom:row", "automated-loom:knot")
 SIZE, QUALITY = "40x20cm", "5x10/dm"
 
 YARNS_CSV = (
@@ -115,6 +118,7 @@ def make_corpus() -> Corpus:
         weave(order, read_loom_order(order, heads=2), out)
         programme = (out / "programme.ilmek").read_bytes()
     examples = {path.name: path.read_bytes() for path in sorted((ROOT / "examples").glob("*.toml"))}
+    examples |= {f"{name.replace(':', '-')}.toml": cyclogram_toml(find(name, {})).encode() for name in CYCLOGRAMS}
     trees = {name: tomllib.loads(text.decode()) for name, text in examples.items()}
     return Corpus(
         pictures,

@@ -9,7 +9,18 @@ from typing import Any
 from designs import random_settings
 
 from fuzz.case import COMMANDS, MINE, OLD, TAKEN, Case
-from fuzz.corpus import PATH_CSV, QUALITY, SIZE, VALUES, YARNS_CSV, Corpus, changed_png, changed_programme, old_result
+from fuzz.corpus import (
+    CYCLOGRAMS,
+    PATH_CSV,
+    QUALITY,
+    SIZE,
+    VALUES,
+    YARNS_CSV,
+    Corpus,
+    changed_png,
+    changed_programme,
+    old_result,
+)
 from fuzz.mutations import (
     TEXTS,
     changed_bytes,
@@ -129,11 +140,8 @@ def design(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     words = ["design", machine, *settings, *_json(draw)]
     words += _given(draw, 0.06, "--report", lambda draw: _output(draw, ".html"))
     if draw.random() < 0.03:
-        words += [
-            "--workshop",
-            _output(draw, ""),
-            *_given(draw, 0.5, "--tolerance", _one_of("1um", "0.01deg", "0.01%")),
-        ]
+        words += ["--workshop", _output(draw, "")]
+        words += _given(draw, 0.5, "--tolerance", _one_of("1um", "0.01deg", "0.01%"))
     return words + draw.choice(([], [], [], ["--force"])), files
 
 
@@ -176,9 +184,7 @@ def mechanism(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
 def cyclogram(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     files: Files = {}
     if draw.random() < 0.12:
-        machine = draw.choice(
-            ("weaver", "weaver", "shedding", "automated-loom:row", "automated-loom:knot", "cam", "beat-up")
-        )
+        machine = draw.choice((*CYCLOGRAMS, "weaver", "weaver", "cam"))
         given = [machine]
         given += [word for one in _settings(draw, machine.partition(":")[0], files) for word in ("--set", one)]
     else:
@@ -193,8 +199,14 @@ def cyclogram(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     return words + _given(draw, 0.07, "--report", lambda draw: _output(draw, ".html")), files
 
 
+def _random_path(draw: Random) -> bytes:
+    """A path of random points."""
+    points = [f"{draw.uniform(-5, 30):.3f},{draw.uniform(-9, 9):.3f}" for _ in range(draw.choice((2, 3, 8, 40, 400)))]
+    return ("\n".join(("x [mm],y [mm]", *points)) + "\n").encode()
+
+
 def knot(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
-    content = draw.choice((PATH_CSV, corpus_path(draw), f"{FORMULA_HEADING},y\n1,2\n".encode()))
+    content = draw.choice((PATH_CSV, _random_path(draw), b"=1+1,y\n1,2\n"))
     kind = draw.random()
     if kind < 0.35:
         content = changed_text(draw, content.decode()).encode("utf-8", "surrogatepass")
@@ -206,21 +218,10 @@ def knot(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     words += _given(draw, 0.15, "--first", _one_of("(0mm,0mm)", "(1mm,-1mm)", "(0,0)", "(-7um,3mm)", "(0,0) (1,1)"))
     words += _given(draw, 0.2, "--keep-out", _one_of("0mm", "0.1mm", "0.3mm"))
     if draw.random() < 0.1:
-        words += [
-            "--columns",
-            *draw.choice((("x", "y"), ("y", "x"), ("x [mm]", "y [mm]"), ("x", "x"), ("z", scalar(draw)))),
-        ]
+        headings = (("x", "y"), ("y", "x"), ("x [mm]", "y [mm]"), ("x", "x"), ("z", scalar(draw)))
+        words += ["--columns", *draw.choice(headings)]
     words += draw.choice(([], [], ["--smooth"], ["--closed"], ["--smooth", "--closed"])) + _json(draw)
     return words + _given(draw, 0.05, "--report", lambda draw: _output(draw, ".html")), {"path.csv": content}
-
-
-FORMULA_HEADING = "=1+1"
-
-
-def corpus_path(draw: Random) -> bytes:
-    """A path of random points."""
-    points = [f"{draw.uniform(-5, 30):.3f},{draw.uniform(-9, 9):.3f}" for _ in range(draw.choice((2, 3, 8, 40, 400)))]
-    return ("\n".join(("x [mm],y [mm]", *points)) + "\n").encode()
 
 
 def _picture(draw: Random, corpus: Corpus) -> tuple[str, bytes]:
@@ -242,9 +243,8 @@ def _yarns(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
         return [], {}
     if kind < 0.2:
         text = YARNS_CSV.decode()
-        content = (
-            changed_text(draw, text) if draw.random() < 0.7 else text.replace("madder", draw.choice(TEXTS))
-        ).encode()
+        text = changed_text(draw, text) if draw.random() < 0.7 else text.replace("madder", draw.choice(TEXTS))
+        content = text.encode()
         return ["--yarns", "yarns.csv"], {"yarns.csv": content if draw.random() < 0.9 else changed_bytes(draw, content)}
     _, content = _tree_file(draw, corpus.yarns, corpus.texts["wool.toml"])
     return ["--yarns", "yarns.toml"], {"yarns.toml": content}
@@ -264,9 +264,8 @@ def _carpet(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     words += _given(draw, 0.2, "--colours", _one_of("2", "5", "16", "255", "1", "-1"))
     words += _given(draw, 0.1, "--pile-height", _one_of("8mm", "0mm", "1km"))
     words += draw.choice(([], [], [], ["--keep-lone"], ["--no-pdf"], ["--pdf"])) + _json(draw)
-    words += _given(
-        draw, 0.5, "--out", lambda draw: _output(draw, "") if draw.random() < 0.4 else draw.choice(("new", OLD))
-    )
+    folder = _output(draw, "") if draw.random() < 0.4 else draw.choice(("new", OLD))
+    words += _given(draw, 0.5, "--out", _one_of(folder))
     words += draw.choice(([], [], ["--force"]))
     return [name, *words], {name: content, **files}
 
@@ -327,7 +326,8 @@ def usual_cases(corpus: Corpus) -> list[Case]:
         *(("design", machine, "--json", "-") for machine in _MACHINES),
         *(("machines", machine) for machine in _MACHINES),
         *(("mechanism", name, "--csv", "new.csv") for name in corpus.mechanisms),
-        *(("cyclogram", name, "--solve", goal) for name in corpus.cyclograms for goal in ("acceleration", "period")),
+        *(("cyclogram", name, "--solve", "acceleration") for name in corpus.cyclograms),
+        ("cyclogram", "press.toml", "--solve", "period"),
         *(("reproduce", "--paper", paper) for paper in _PAPERS),
     ]
     return [Case(line, {name: files[name] for name in line if name in files}) for line in lines]
