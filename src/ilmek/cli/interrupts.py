@@ -107,16 +107,18 @@ def _end(number: int, _frame: FrameType | None) -> NoReturn:
     This is the handler itself, and raises nothing: there is no instant at which an exception could be lost or arrive
     where nobody expects it. It runs in the main thread, which holds no lock while a command works in its own.
     """
-    for other in SIGNALS:
-        signal.signal(other, signal.SIG_IGN)  # one is enough
-    line = _line(f"interrupted; {_output('abandon')}")
-    with contextlib.suppress(OSError, ValueError, AttributeError):
-        if sys.stderr.isatty():
-            line = f"\r\x1b[2K\x1b[?25h{line}"  # on the line of the progress bar, with the cursor that it hid
-        # Written directly: the command's thread may hold the lock of the stream.
-        if _writable(sys.stderr.fileno()):
-            os.write(sys.stderr.fileno(), line.encode(sys.stderr.encoding, "replace"))
-    os._exit(128 + number)
+    try:
+        for other in SIGNALS:
+            signal.signal(other, signal.SIG_IGN)  # one is enough
+        line = _line(f"interrupted; {_output('abandon')}")
+        with contextlib.suppress(OSError, ValueError, AttributeError):
+            if sys.stderr.isatty():
+                line = f"\r\x1b[2K\x1b[?25h{line}"  # on the line of the progress bar, with the cursor that it hid
+            # Written directly: the command's thread may hold the lock of the stream.
+            if _writable(sys.stderr.fileno()):
+                os.write(sys.stderr.fileno(), line.encode(sys.stderr.encoding, "replace"))
+    finally:
+        os._exit(128 + number)
 
 
 def _writable(handle: int) -> bool:
