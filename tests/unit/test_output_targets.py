@@ -211,11 +211,21 @@ print(sorted(os.listdir(".")), Path("out/a.txt").read_text(), *modes)
 """
 
 
-def test_folders_and_files_that_are_closed_to_their_owner(tmp_path: Path) -> None:
-    for folder in (tmp_path, *tmp_path.parents[:2]):
-        folder.chmod(0o777)
+@pytest.fixture
+def passable(tmp_path: Path) -> Iterator[Path]:
+    """A folder in which everybody can write, below folders through which everybody can pass."""
+    tmp_path.chmod(0o777)
+    above = {folder: folder.stat().st_mode for folder in tmp_path.parents if not folder.stat().st_mode & 0o001}
+    for folder, mode in above.items():
+        folder.chmod(mode | 0o011)
+    yield tmp_path
+    for folder, mode in above.items():
+        folder.chmod(mode)
+
+
+def test_folders_and_files_that_are_closed_to_their_owner(passable: Path) -> None:
     done = subprocess.run(
-        [sys.executable, "-B", "-c", AS_NOBODY, str(tmp_path)], capture_output=True, text=True, check=False
+        [sys.executable, "-B", "-c", AS_NOBODY, str(passable)], capture_output=True, text=True, check=False
     )
     assert done.stdout == "['a.json', 'out'] b 0o100200 0o40555\n", done.stderr
 
