@@ -116,6 +116,7 @@ def test_an_overshooting_law_knows_its_true_bounds() -> None:
         ("modified-sine", {"constant_velocity": 1.0}, "constant_velocity=1; 0 to below 1"),
         ("modified-sine", {"constant_velocity": "much"}, "constant_velocity='much'; a number"),
         ("modified-sine", {"constant_velocity": math.inf}, "inf; a finite number"),
+        ("modified-sine", {"constant_velocity": 10**400}, "has too many digits"),
         ("modified-uniform", {"b1": 0.7, "b2": 0.4}, "b1=0.7, b2=0.4; above 0, together at most 1"),
         ("scca", {"b": 0.7, "c": 0.4, "d": 0.1}, "their sum above 0 and at most 1"),
         ("scca", {"b": -0.1, "c": 0.4, "d": 0.1}, "each at least 0"),

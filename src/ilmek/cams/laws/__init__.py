@@ -102,6 +102,8 @@ def _value(law: str, key: str, given: object, like: object) -> float | tuple[flo
 def _number(law: str, key: str, given: object) -> float:
     try:
         return float(given)  # type: ignore[arg-type]
+    except OverflowError:
+        raise ParameterError(f"law {law}: {key} has too many digits", allowed="a number up to 1e308") from None
     except (TypeError, ValueError) as error:
         raise ParameterError(f"law {law}: {key}={given!r}", allowed="a number") from error
 
