@@ -27,6 +27,9 @@ TEXTS = (
 )
 BYTES = (b"\0", b"\xff", b"\xff\xfe", b"\xef\xbb\xbf", b"\x80", b"\r", b"\r\n", b"\x1b[2J", b"\xed\xa0\x80")
 
+LONGEST_TEXT = 200_000
+"""Largest number of letters of a changed text: repeated changes multiply it."""
+
 _TOKEN = re.compile(r"[-+]?\d[\d.eE+-]*|\w+|\"[^\"\n]*\"|\s+|.", re.DOTALL)
 
 
@@ -52,7 +55,7 @@ def scalar(draw: Random) -> str:
 def changed_text(draw: Random, text: str) -> str:
     """A text after one to four changes of its tokens or lines."""
     for _ in range(draw.choice((1, 1, 1, 2, 4))):
-        text = draw.choice((_other_token, _other_token, _other_token, _other_lines))(draw, text)
+        text = draw.choice((_other_token, _other_token, _other_token, _other_lines))(draw, text)[:LONGEST_TEXT]
     return text
 
 
