@@ -166,6 +166,8 @@ class Outputs:
                 _OPEN[:] = [one for one in _OPEN if one() not in (None, self)]
 
     def _expect(self, target: Target) -> None:
+        if not target.contains:  # of a file, that it is an input says more than that it exists
+            self._check_apart(target)
         with self._as_output_error(target):
             target.repair()
             target.check()
