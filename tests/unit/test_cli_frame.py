@@ -181,9 +181,15 @@ LazyGroup(name="ilmek", modules={}).main(["go"])
 """
 
 
-def test_no_library_can_swallow_ctrl_c(tmp_path: Path) -> None:
+CAUGHT = SWALLOWED.replace("def command():", "def command():\n    native_messages().__enter__()").replace(
+    "import click", "import click\nfrom ilmek.io.native_messages import native_messages"
+)
+
+
+@pytest.mark.parametrize("program", [SWALLOWED, CAUGHT])
+def test_no_library_can_swallow_ctrl_c_or_its_message(tmp_path: Path, program: str) -> None:
     heeded = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-    command = [sys.executable, "-c", heeded + SWALLOWED]
+    command = [sys.executable, "-c", heeded + program]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "working\n"

@@ -154,6 +154,9 @@ def test_formats_decoded_whole_have_their_own_limit(tmp_path: Path) -> None:
     (tmp_path / "a.webp").write_bytes(data)
     with pytest.raises(PictureError, match="damaged|40 megapixels of WEBP"):
         read_picture(tmp_path / "a.webp")
+    Image.new("L", (2000, 1001)).save(tmp_path / "a.jp2")
+    with pytest.raises(PictureError, match="2 megapixels of JPEG 2000; save it as PNG"):
+        read_picture(tmp_path / "a.jp2")
     assert LARGEST_WHOLE == 40_000_000
     assert LARGEST_INTERPRETED == 4_000_000
 

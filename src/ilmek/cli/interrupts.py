@@ -28,6 +28,9 @@ _USUAL = (signal.SIG_DFL, signal.default_int_handler)
 _LONGEST = 2000
 """Largest number of characters of an error line; the longest list of parameters has 1,200."""
 
+_ERRORS: list[int] = []
+"""A handle of the error stream of its own: from the usual one, messages of a library that decodes are caught."""
+
 _POLL = 0.1
 """Interval in which the main thread looks for signals that another thread has received [s]."""
 
@@ -46,6 +49,9 @@ def supervised(run: Callable[[], object]) -> object:
 
 def handle(numbers: Iterable[int]) -> None:
     """Let signals end the process, from now on."""
+    if not _ERRORS:
+        with contextlib.suppress(OSError, ValueError, AttributeError):  # no error stream
+            _ERRORS.append(os.dup(sys.stderr.fileno()))
     for number in numbers:
         signal.signal(number, _end)
 
@@ -111,12 +117,12 @@ def _end(number: int, _frame: FrameType | None) -> NoReturn:
         for other in SIGNALS:
             signal.signal(other, signal.SIG_IGN)  # one is enough
         line = _line(f"interrupted; {_output('abandon')}")
-        with contextlib.suppress(OSError, ValueError, AttributeError):
-            if sys.stderr.isatty():
+        for errors in _ERRORS:
+            if os.isatty(errors):
                 line = f"\r\x1b[2K\x1b[?25h{line}"  # on the line of the progress bar, with the cursor that it hid
             # Written directly: the command's thread may hold the lock of the stream.
-            if _writable(sys.stderr.fileno()):
-                os.write(sys.stderr.fileno(), line.encode(sys.stderr.encoding, "replace"))
+            if _writable(errors):
+                os.write(errors, line.encode(sys.stderr.encoding, "replace"))
     finally:
         os._exit(128 + number)
 
