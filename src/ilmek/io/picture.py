@@ -48,7 +48,7 @@ WHOLE = ("WEBP", "AVIF", "JPEG2000", "ICNS")
 LARGEST_WHOLE = 40_000_000
 """Largest number of pixels of the formats `WHOLE`."""
 
-LARGEST_HELD = 2_000_000
+LARGEST_JPEG_2000 = 2_000_000
 """Largest number of pixels of JPEG 2000: its decoder holds Python's lock, 0.26 s a megapixel, while Ctrl-C waits."""
 
 LARGEST_INTERPRETED = 4_000_000
@@ -140,7 +140,7 @@ def _check_size(path: Path, opened: Image.Image) -> None:
         raise PictureError(size, allowed=f"at least {SMALLEST} x {SMALLEST}", do="use a larger picture")
     limit, name, do = LARGEST, "", "scale it down"
     if opened.format == "JPEG2000":
-        limit, name, do = LARGEST_HELD, "JPEG 2000", "save it as PNG"
+        limit, name, do = LARGEST_JPEG_2000, "JPEG 2000", "save it as PNG"
     elif opened.format in WHOLE:
         limit, name, do = LARGEST_WHOLE, str(opened.format), "scale it down, or save it as PNG"
     elif any(tile[0] in Image.DECODERS for tile in getattr(opened, "tile", ())[:1]):

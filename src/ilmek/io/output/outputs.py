@@ -31,12 +31,12 @@ class Outputs:
     inputs    name of an input in messages -> its path; an output never replaces one without `force`
     progress  its stop flag is read before the commit
 
-    >>> with Outputs() as outputs:                                     # doctest: +SKIP
-    ...     outputs.expect_file(page, "--report")                      # checked before any work
-    ...     with outputs.folder(path) as work:                         # written in a hidden folder
-    ...         (work / "chart.png").write_bytes(png)
-    ...     outputs.write(page, html)
-    ...                                                                # here both are put in place, or none
+    with Outputs() as outputs:
+        outputs.expect_file(page, "--report")       checked before any work
+        with outputs.folder(path) as work:          written in a hidden folder
+            (work / "chart.png").write_bytes(png)
+        outputs.write(page, html)
+    Here both are in place, or none.
     """
 
     def __init__(
