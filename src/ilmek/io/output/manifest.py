@@ -9,7 +9,6 @@ digest as an extended attribute instead, where the file system has such.
 import contextlib
 import errno
 import hashlib
-import io
 import json
 import os
 import re
@@ -20,6 +19,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ilmek.io.output import disk
+from ilmek.io.regular_file import open_regular
 
 Entry: TypeAlias = tuple[int, str]
 """Size [bytes] and SHA-256 of a file."""
@@ -142,7 +142,8 @@ def _read(folder: Path) -> dict[str, object]:
     """The manifest's data; nothing for a missing or invalid one. Raises OSError for one that cannot be read."""
     if not _is_file(folder / MANIFEST):
         return {}
-    with _opened(folder / MANIFEST) as file:
+    file, _ = open_regular(folder / MANIFEST, follow=False)
+    with file:
         text = file.read(LARGEST + 1)
     try:
         data = json.loads(text) if len(text) <= LARGEST else None
@@ -178,7 +179,8 @@ def _is_file(path: Path) -> bool:
 
 def _entry(path: Path) -> Entry:
     """Size and digest of a regular file, computed again only if the file may have changed. Raises OSError."""
-    with _opened(path) as file:
+    file, _ = open_regular(path, follow=False)
+    with file:
         found = os.fstat(file.fileno())
         key = (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns, found.st_ctime_ns)
         digest = _DIGESTS.get(key) or hashlib.file_digest(file, "sha256").hexdigest()
@@ -187,12 +189,3 @@ def _entry(path: Path) -> Entry:
                 _DIGESTS.clear()
             _DIGESTS[key] = digest
         return found.st_size, digest
-
-
-def _opened(path: Path) -> io.BufferedReader:
-    """A regular file, opened without following a link and without waiting. Raises OSError."""
-    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
-    if not stat.S_ISREG(os.fstat(handle).st_mode):
-        os.close(handle)
-        raise OSError(f"{path} is not a regular file")
-    return os.fdopen(handle, "rb")

@@ -5,7 +5,7 @@ import signal
 import sqlite3
 import threading
 import weakref
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import FrameType, MappingProxyType, TracebackType
 from typing import Any
@@ -75,9 +75,7 @@ class Outputs:
 
         Raises OutputError as `expect_folder`, and for an OSError inside the block.
         """
-        if resolved(path) not in self._targets:
-            self.expect_folder(path)
-        target = self._targets[resolved(path)]
+        target = self._target(path, self.expect_folder)
         with self._as_output_error(target):
             with _COMMIT:
                 work = target.stage()
@@ -94,9 +92,7 @@ class Outputs:
 
         Raises OutputError as `expect_file`, for a device or a pipe, and for an OSError inside the block.
         """
-        if resolved(path) not in self._targets:
-            self.expect_file(path)
-        target = self._targets[resolved(path)]
+        target = self._target(path, self.expect_file)
         if not isinstance(target, FileTarget):
             raise OutputError(f"{path} is not a file", do="give the name of a file")
         with self._as_output_error(target):
@@ -107,9 +103,7 @@ class Outputs:
 
     def write(self, path: Path, content: str | bytes) -> None:
         """Stage the content of a file. Raises OutputError as `expect_file`, and if it cannot be written."""
-        if resolved(path) not in self._targets:
-            self.expect_file(path)
-        target = self._targets[resolved(path)]
+        target = self._target(path, self.expect_file)
         with self._as_output_error(target):
             with _COMMIT:
                 target.stage()
@@ -165,13 +159,20 @@ class Outputs:
             finally:
                 _OPEN[:] = [one for one in _OPEN if one() not in (None, self)]
 
+    def _target(self, path: Path, expect: Callable[[Path], None]) -> Target:
+        """The target of a path, checked by `expect` if it is new. Raises OutputError."""
+        if resolved(path) not in self._targets:
+            expect(path)
+        return self._targets[resolved(path)]
+
     def _expect(self, target: Target) -> None:
-        if not target.contains:  # of a file, that it is an input says more than that it exists
+        if not target.contains:  # that a file is an input says more than that it exists
             self._check_apart(target)
         with self._as_output_error(target):
             target.repair()
             target.check()
-        self._check_apart(target)
+        if target.contains:
+            self._check_apart(target)
         self._targets[target.target] = target
 
     def _check_apart(self, target: Target) -> None:
