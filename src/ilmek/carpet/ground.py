@@ -3,8 +3,7 @@
 Two wefts follow every row of knots: a straight, thick weft (Turkish alt atkı), nearly straight between the two planes
 of warps, and a sinuous, thin weft (üst atkı), which passes alternately over and under the warps.
 
-Default counts follow the density: the warp is the usual one of its pitch [`ilmek.elements.yarns`]. By default the
-straight weft has the density of a warp and the sinuous weft half of it; both are parameters.
+Warp and wefts are those of `ilmek.elements.carpet_yarns`, the same as of the loom's machines.
 
 Sources: warp counts and the rule `warps = 2 × knots across, length = carpet + up to 60 cm`, iran-carpet.com 1726, 1804;
 the two wefts, haliciomer.com.tr.
@@ -17,25 +16,21 @@ import scipy
 
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.elements.yarns import WOOL, warp_density
-from ilmek.params import Params, param
+from ilmek.elements.carpet_yarns import CarpetYarnParams, carpet_yarns
+from ilmek.params import Params, nested, param
 from ilmek.units import mm
+
+SELVEDGE_WARPS = 8
+"""Usual warps without knots, both edges together."""
 
 
 @dataclass(frozen=True, slots=True)
 class GroundParams(Params):
-    """Warp and wefts. The default densities follow the quality (see the module)."""
+    """Warp and wefts."""
 
     fringe: float = param(0.10, unit="mm", at_least=0.0, at_most=1.0, doc="warp left at each end as fringe")
     loom_waste: float = param(0.40, unit="mm", at_least=0.0, at_most=10.0, doc="warp lost in the loom, both ends")
-    selvedge_warps: int = param(8, at_least=0, at_most=200, doc="warps without knots, both edges together")
-    warp_density: float | None = param(None, unit="g/m", above=0.0, at_most=0.05, doc="mass per length of a warp")
-    straight_weft_density: float | None = param(
-        None, unit="g/m", above=0.0, at_most=0.05, doc="mass per length of the straight weft"
-    )
-    sinuous_weft_density: float | None = param(
-        None, unit="g/m", above=0.0, at_most=0.05, doc="mass per length of the sinuous weft"
-    )
+    selvedge_warps: int = param(SELVEDGE_WARPS, at_least=0, at_most=200, doc="warps without knots, both edges together")
     weft_turn: float = param(20 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="weft for the turn of a pick")
     weft_share: float = param(
         0.5,
@@ -43,6 +38,7 @@ class GroundParams(Params):
         at_most=1.0,
         doc="share of the sinuous weft in the amplitude of a crossing, the rest the warps",
     )
+    yarns: CarpetYarnParams = nested(CarpetYarnParams, doc="materials and counts of the yarns")
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,14 +86,13 @@ def ground_yarns(
     the warp, w of the weft); the warps bend by the rest.
     """
     params = params or GroundParams()
-    warp = params.warp_density or warp_density(quality.warp_pitch)
-    straight = params.straight_weft_density or warp
-    sinuous = params.sinuous_weft_density or warp / 2
-    amplitude = params.weft_share * (WOOL.diameter(warp) + WOOL.diameter(sinuous)) / 2
+    yarns = carpet_yarns(params.yarns, quality.warp_pitch)
+    straight, sinuous = yarns.straight_weft.linear_density, yarns.sinuous_weft.linear_density
+    amplitude = params.weft_share * (yarns.warp.diameter + yarns.sinuous_weft.diameter) / 2
     straight_length = rows * (size.width + params.weft_turn)
     winding = rows * (sinuous_length(size.width, quality.warp_pitch, amplitude) + params.weft_turn)
     return (
-        warp_need(columns, size.length, warp, params),
+        warp_need(columns, size.length, yarns.warp.linear_density, params),
         GroundYarn("straight weft", straight_length, straight_length * straight),
         GroundYarn("sinuous weft", winding, winding * sinuous),
     )

@@ -26,8 +26,9 @@ n); a yarn of P strands then has the metric count Nm = P / (1000 mu).
 from dataclasses import dataclass
 
 from ilmek.carpet.quality import Quality
+from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.knot_kinds import WRAPS, parse_knot
-from ilmek.elements.yarns import WOOL, warp_diameter, yarn_diameter
+from ilmek.elements.yarns import WOOL, yarn_diameter
 from ilmek.params import Params, param
 from ilmek.units import mm
 
@@ -52,7 +53,7 @@ class PileParams(Params):
         unit="mm",
         above=0.0,
         at_most=10 * mm,
-        doc="diameter of a warp; default: that of the usual wool warp",
+        doc="diameter of a warp; default: of the usual warp",
         symbol="D",
     )
     fibre_density: float = param(WOOL.density, unit="kg/m^3", above=0.0, doc="density of the pile's fibre, wool 1310")
@@ -69,11 +70,11 @@ def knot_length(knot: str, quality: Quality, linear_density: float, pile: PilePa
     Raises CarpetError for an unknown knot.
 
     >>> round(knot_length("symmetric", Quality(250.0, 250.0), 0.8e-3) * 1e3, 1)
-    36.6
+    34.2
     """
     pile = pile or PileParams()
     wrap = WRAPS[parse_knot(knot)]
-    warp = pile.warp_diameter or warp_diameter(quality.warp_pitch)
+    warp = pile.warp_diameter or usual_warp(quality.warp_pitch).diameter
     yarn = yarn_diameter(linear_density, pile.fibre_density, pile.packing)
     leg = leg_length(warp, yarn, pile)
     return pile.calibration * (2 * leg + wrap(quality.warp_pitch, (warp + yarn) / 2))

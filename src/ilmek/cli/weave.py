@@ -20,7 +20,7 @@ Examples:
   ilmek weave photo.jpg
   ilmek weave photo.jpg --size 120x180cm --quality 40x40/dm --yarns wool.toml --knot symmetric --deadline 72h
   ilmek weave photo.jpg --size kelle --colours 8 --heads 6 --out carpet --force
-  ilmek weave photo.jpg --loom hammer=comb --loom shedding.law=modified-sine --loom prices=@prices.txt
+  ilmek weave photo.jpg --loom beat=comb --loom shedding.law=modified-sine --loom prices=@prices.txt
 
 Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1,000 heads.
 """
@@ -40,7 +40,7 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
     "settings",
     multiple=True,
     metavar="NAME=VALUE",
-    help="Set a parameter of the loom or its machines: hammer=comb, shedding.law=modified-sine; @FILE reads a file.",
+    help="Set a parameter of the loom or its machines: beat=comb, shedding.law=modified-sine; @FILE reads a file.",
 )
 @force_option
 @json_option

@@ -1,4 +1,4 @@
-"""Yarns: properties of their materials, and the usual warp of a carpet.
+"""Yarns: properties of their materials, and the usual warps of a carpet.
 
 A yarn of linear density mu [kg/m] has
 
@@ -13,7 +13,8 @@ Specific quantities are in N m/kg: 1 N/tex = 1e6 N m/kg.    [derived from mu = p
 import math
 from dataclasses import dataclass
 
-from ilmek.errors import ParameterError
+import numpy as np
+
 from ilmek.units import g, mm
 
 
@@ -24,14 +25,14 @@ class YarnMaterial:
     density             of the fibre [kg/m³]
     packing             share of the yarn's section that is fibre
     specific_strength   breaking force over linear density [N m/kg]
-    specific_stiffness  force over strain and linear density [N m/kg]; None: not known
+    specific_stiffness  force over strain and linear density [N m/kg]
     """
 
     name: str
     density: float
     packing: float
     specific_strength: float
-    specific_stiffness: float | None
+    specific_stiffness: float
     source: str
 
     def diameter(self, linear_density: float) -> float:
@@ -45,13 +46,9 @@ class YarnMaterial:
     def stiffness(self, linear_density: float) -> float:
         """Force over strain EA [N] of a yarn of a linear density [kg/m].
 
-        Raises ParameterError for a material of unknown stiffness.
-
         >>> round(COTTON.stiffness(857e-6), 1)
         1799.7
         """
-        if self.specific_stiffness is None:
-            raise ParameterError(f"the stiffness of {self.name} yarn is not known", do="give the stiffness of the yarn")
         return self.specific_stiffness * linear_density
 
     def breaking_force(self, linear_density: float) -> float:
@@ -68,9 +65,9 @@ WOOL = YarnMaterial(
     density=1310.0,
     packing=0.45,
     specific_strength=0.12e6,
-    specific_stiffness=None,
+    specific_stiffness=1.0e6,
     source="strength of the fibres: Morton and Hearle, Physical Properties of Textile Fibres; packing of a soft "
-    "woollen yarn",
+    "woollen yarn; stiffness, less than half of its fibres', assumed by this project",
 )
 """Soft woollen yarn: pile, warp and weft of a woollen ground. Strength of all its fibres together: 12 cN/tex."""
 
@@ -85,8 +82,41 @@ COTTON = YarnMaterial(
 )
 """Carded ring-spun cotton yarn: breaks at 17 cN/tex and 8 % strain, so that its specific stiffness is 2.1 N/tex."""
 
-WARP_DENSITY_PER_PITCH = 3 / 7 * g / mm
-"""Linear density of the usual warp over the pitch of the warps [kg/m²]."""
+SILK = YarnMaterial(
+    name="silk",
+    density=1340.0,
+    packing=0.65,
+    specific_strength=0.38e6,
+    specific_stiffness=7.3e6,
+    source="Morton and Hearle, Physical Properties of Textile Fibres: tenacity and initial modulus of the fibre; "
+    "reeled silk runs on through the whole yarn; packing assumed by this project",
+)
+"""Reeled silk: warp and pile of the finest carpets."""
+
+MATERIALS = {material.name: material for material in (COTTON, WOOL, SILK)}
+"""The materials of yarns by name."""
+
+WOOL_WARP_PER_PITCH = 3 / 7 * g / mm
+"""Linear density of the usual woollen warp over the pitch of the warps [kg/m²]."""
+
+_TEX = 590.5e-6
+"""Linear density of a cotton strand of English count 1 [kg/m]."""
+
+_COTTON_WARPS = (
+    (15, 20, 24),
+    (20, 20, 20),
+    (25, 20, 18),
+    (30, 20, 16),
+    (40, 20, 12),
+    (50, 20, 6),
+    (60, 40, 6),
+    (70, 40, 4),
+)
+"""Usual cotton warps: raj (knots in 7 cm), English count of a strand, strands [iran-carpet.com 1726, 1804]."""
+
+_COTTON_PITCH, _COTTON_DENSITY = np.array(
+    [(0.07 / (2 * raj), _TEX * ply / count) for raj, count, ply in reversed(_COTTON_WARPS)]
+).T
 
 
 def yarn_diameter(linear_density: float, density: float, packing: float) -> float:
@@ -97,31 +127,23 @@ def yarn_diameter(linear_density: float, density: float, packing: float) -> floa
     return math.sqrt(4 * linear_density / (math.pi * density * packing))
 
 
-def warp_density(pitch: float) -> float:
-    """Linear density of the usual warp [kg/m] at a pitch of the warps [m]: 3/7 g/m for each millimetre.
+def usual_warp_density(pitch: float, material: str = COTTON.name) -> float:
+    """Linear density of the usual warp [kg/m] at a pitch of the warps [m], of a material of `MATERIALS`.
 
-    The counts given for hand-knotted wool (Nm/ply 3/3, 4/3, 5/3, 6/3, 8/3 for 15, 20, 25, 30, 40 raj) follow this law
-    exactly.                                                                            [iran-carpet.com 1726, 1804]
+    Cotton: interpolated between the usual counts of 15 to 70 raj, and proportional to the pitch beyond them. Wool: 3/7
+    g/m for each millimetre; the counts given for hand-knotted wool (Nm/ply 3/3, 4/3, 5/3, 6/3, 8/3 for 15, 20, 25, 30,
+    40 raj) follow this law exactly. Silk: as thick as the usual cotton, by the sections of their fibres; assumed by
+    this project.                                                                   [iran-carpet.com 1726, 1804]
 
-    >>> round(warp_density(0.07 / 80) * 1e3, 6)  # 40 raj: 40 knots in 7 cm, two warps a knot; 8/3 = 0.375 g/m
+    >>> round(usual_warp_density(0.07 / 80, "wool") * 1e3, 6)  # 40 raj: 40 knots in 7 cm, two warps a knot; 8/3
     0.375
+    >>> round(usual_warp_density(0.07 / 80) * 1e3, 4)  # 20/12
+    0.3543
     """
-    return WARP_DENSITY_PER_PITCH * pitch
-
-
-def warp_diameter(pitch: float) -> float:
-    """Diameter of the usual woollen warp [m] at a pitch of the warps [m].
-
-    >>> round(warp_diameter(2e-3) * 1e3, 3)
-    1.361
-    """
-    return WOOL.diameter(warp_density(pitch))
-
-
-def warp_stiffness(pitch: float) -> float:
-    """Force over strain EA [N] of a cotton warp of the usual linear density, at a pitch of the warps [m].
-
-    >>> round(warp_stiffness(2e-3))
-    1800
-    """
-    return COTTON.stiffness(warp_density(pitch))
+    if material == WOOL.name:
+        return WOOL_WARP_PER_PITCH * pitch
+    nearest = min(max(pitch, float(_COTTON_PITCH[0])), float(_COTTON_PITCH[-1]))
+    cotton = float(np.interp(nearest, _COTTON_PITCH, _COTTON_DENSITY)) * pitch / nearest
+    if material == SILK.name:
+        return cotton * SILK.density * SILK.packing / (COTTON.density * COTTON.packing)
+    return cotton

@@ -54,6 +54,7 @@ OF_THE_CARPET = {
     "warp_pitch": "--warp-pitch",
     "colours": "--colours",
     "knot_yarn": "--pile-height",
+    "yarns.pile_density": "--yarns",
     "changes_per_knot": "the picture",
 }
 """Parameters of a loom that follow from the carpet, and the option that sets each."""
@@ -107,8 +108,13 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
     Raises LoomError if the heads do not fit or the deadline cannot be met, and errors of the machines.
     """
     longest = max(knot_length(chart.knot, chart.quality, yarn.linear_density, order.pile) for yarn in chart.yarns)
+    heaviest = max(yarn.linear_density for yarn in chart.yarns)
     params = replace(
-        loom_order.params, colours=chart.colours, knot_yarn=longest, changes_per_knot=min(1.0, chart.changes_per_knot)
+        loom_order.params,
+        yarns=replace(loom_order.params.yarns, pile_density=heaviest),
+        colours=chart.colours,
+        knot_yarn=longest,
+        changes_per_knot=min(1.0, chart.changes_per_knot),
     )
     made = design(params)
     heads = _heads(loom_order, made, chart, progress.part(0.0, 0.7))

@@ -7,29 +7,32 @@ from dataclasses import dataclass
 class Entry:
     """A machine of the catalogue.
 
-    part      whether every automated loom has one      beat  the name by which a loom's beat is chosen, if it can beat
+    part      whether every automated loom has one      beats  names of the kinds of beat that it can be in a loom
     knotting  whether it can tie the knots in a loom's heads, beside the weaver
     """
 
     summary: str
     part: bool = False
-    beat: str = ""
+    beats: tuple[str, ...] = ()
     knotting: bool = False
 
     @property
     def in_a_loom(self) -> bool:
         """Whether an automated loom can have one."""
-        return self.part or self.knotting or bool(self.beat)
+        return self.part or self.knotting or bool(self.beats)
 
 
 ENTRIES = {
     "automated-loom": Entry("the loom for one carpet: heads, shedding, beat-up, warp tension, timed together"),
     "weaver": Entry("knotting head: five cams on one shaft, one knot a turn (thesis, 2.2.3)", part=True),
-    "beat-up": Entry("crank-rocker that beats weft and knots to the fell: links, motion, forces", beat="linkage"),
+    "beat-up": Entry(
+        "crank-rocker that beats weft and knots to the fell: links, motion, forces", beats=("travelling",)
+    ),
     "cam": Entry("a cam and its follower: profile, pressure angle, curvature, forces, spring, roller"),
     "shedding": Entry("cams that open the shed: profile, pressure angle, curvature, torque, square shaft", part=True),
     "hammer": Entry(
-        "comb that beats the rows: force per warp, rows it leaves, uniformity, stroke or crank-rockers", beat="comb"
+        "comb that beats the rows: force per warp, rows it leaves, uniformity, stroke or crank-rockers",
+        beats=("linkage", "comb", "guide-cams"),
     ),
     "warp-tension": Entry(
         "cylinder that tensions the warps: slope, deflection, torque, reducer and motor, take-up", part=True
@@ -58,8 +61,8 @@ ENTRIES = {
 SUMMARIES = {name: entry.summary for name, entry in ENTRIES.items()}
 """What each machine is, by its name."""
 
-BEATS = {entry.beat: name for name, entry in ENTRIES.items() if entry.beat}
-"""Machines that can beat in a loom, by the name of the choice."""
+BEATS = {beat: name for name, entry in ENTRIES.items() for beat in entry.beats}
+"""Machines that can beat in a loom, by the kind of beat."""
 
 
 def loom_parts() -> tuple[str, ...]:

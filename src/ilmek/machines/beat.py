@@ -3,7 +3,7 @@
 The component of such a machine has `beat`, a function of the loom's task. It plans the beat before the row is timed,
 and designs its drive after:
 
-    plan = MACHINES[BEATS[params.hammer]].beat(task)        `plan.beat`: stroke and time, from which the row is timed
+    plan = MACHINES[BEATS[kind]].beat(task, kind)           `plan.beat`: stroke and time, from which the row is timed
     drive = plan.drive(task)                                with `task.period`, and the shedding among `task.designs`
 
 The drive states force, torque, parts and work of all its mechanisms together, and the rows that it leaves. Values that

@@ -18,7 +18,7 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.params import Params, Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import CamTable, Check, Figure, Part, Plate, Report, Table, Work, results_of
+from ilmek.report import CamTable, Check, Choice, Figure, Part, Plate, Report, Table, Work, results_of
 from ilmek.report.left_out import LazyFigure, made_figures
 from ilmek.timing.cyclogram import Cyclogram, Track
 
@@ -46,10 +46,11 @@ class Component:
     plates, cam_tables, cyclograms      design -> what is made of it, what its axes follow, its timing
     parts       design -> lines of the parts list                work     design -> work of its acts
     tracks      design -> its tracks on the loom's cyclogram of a row
+    choices     design -> what it chose of what was left open, and which check decided
     children    design -> the machines in it
     parameters  design -> the parameters in force, where the design chose some that were left open
     fit         loom's task -> parameters, for a machine that can be in a loom
-    beat        loom's task -> its planned beat, for a machine that can beat the rows (`ilmek.machines.beat`)
+    beat        loom's task, kind of beat -> its planned beat, for a machine that can beat (`ilmek.machines.beat`)
     own_figures beginnings of the names of figures that only its own page shows, not a loom's
     """
 
@@ -71,10 +72,11 @@ class Component:
     parts: Callable[[Any], tuple[Part, ...]] = _nothing
     work: Callable[[Any], tuple[Work, ...]] = _nothing
     tracks: Callable[[Any], tuple[Track, ...]] = _nothing
+    choices: Callable[[Any], tuple[Choice, ...]] = _nothing
     children: Callable[[Any], "tuple[Child, ...]"] = _nothing
     parameters: Callable[[Any], Params] = field(default=lambda design: design.params)
     fit: Callable[[LoomTask], Any] | None = None
-    beat: Callable[[LoomTask], PlannedBeat] | None = None
+    beat: Callable[[LoomTask, str], PlannedBeat] | None = None
     own_figures: tuple[str, ...] = ()
     long: bool = False
 
@@ -112,6 +114,7 @@ class Component:
             cam_tables=self.cam_tables(design),
             parts=self.parts(design),
             children=tuple(child.report for child in self.children(design)),
+            choices=self.choices(design),
         )
         return replace(made, checks=(*made.checks, *broken(made, self.work(design))))
 

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ilmek.elements.carpet_yarns import CarpetYarns
 from ilmek.params import Params
 from ilmek.records import record
 
@@ -17,7 +18,7 @@ class LoomTask:
     """The loom's task for one of its machines.
 
     params   of the loom                                   rows, columns  of knots
-    tension, stiffness  of a warp [N], force over strain [N]
+    yarns    of the carpet: warp, wefts, pile            tension  of a warp at rest [N]
     period   time of a row's wefts and beats [s]; nan before it is known
     take_up_time, row_time  [s]: of the take-up; of the shortest row; nan before they are known
     designs  of the machines designed before, by their names
@@ -26,8 +27,8 @@ class LoomTask:
     params: "AutomatedLoomParams"
     rows: int
     columns: int
+    yarns: CarpetYarns
     tension: float
-    stiffness: float
     designs: Mapping[str, Any]
     period: float = float("nan")
     take_up_time: float = float("nan")
@@ -35,13 +36,18 @@ class LoomTask:
 
     @property
     def warps(self) -> int:
-        """Warps: two for each knot of a row."""
-        return 2 * self.columns
+        """Warps: two for each knot of a row, and the selvedges'."""
+        return 2 * self.columns + self.params.selvedge_warps
+
+    @property
+    def cloth_width(self) -> float:
+        """Width of all warps [m], selvedges included."""
+        return self.warps * self.params.pitch
 
     @property
     def width(self) -> float:
         """Distance of the bearings of cylinders and cam shaft [m]."""
-        return self.params.frame_width
+        return self.cloth_width + 2 * self.params.margin
 
     @property
     def knot_pitch(self) -> float:

@@ -6,7 +6,8 @@ machine. Values are SI; the unit beside a value is the one to show it in.
 
 from ilmek.records import DeclaredResult, computed, declared_results, group, record, result
 from ilmek.report.bill import NOT_WEIGHED, Part, Work
-from ilmek.report.check import Check, at_least, at_most, snap_to_limit
+from ilmek.report.check import Check, at_least, at_most, must, snap_to_limit
+from ilmek.report.choice import Choice
 from ilmek.report.document import Report
 from ilmek.report.figure import (
     Animation,
@@ -31,6 +32,7 @@ from ilmek.report.figure import (
 from ilmek.report.json import Json, plain
 from ilmek.report.results import Result, results_of
 from ilmek.report.table import Column, Table, columns
+from ilmek.report.verdict import Reason, reasons
 from ilmek.report.workshop import CamTable, Contour, Hole, Plate
 
 __all__ = [
@@ -39,6 +41,7 @@ __all__ = [
     "Axis",
     "CamTable",
     "Check",
+    "Choice",
     "Column",
     "Contour",
     "DeclaredResult",
@@ -58,6 +61,7 @@ __all__ = [
     "Plate",
     "Plot",
     "Reading",
+    "Reason",
     "Report",
     "Result",
     "Series",
@@ -72,7 +76,9 @@ __all__ = [
     "computed",
     "declared_results",
     "group",
+    "must",
     "plain",
+    "reasons",
     "record",
     "result",
     "results_of",

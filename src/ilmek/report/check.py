@@ -12,7 +12,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """A judgement: `value` against `limit` [SI, shown in `unit`], and the source of the limit."""
+    """A judgement: `value` against `limit` [SI, shown in `unit`], the source of the limit, and what cures a failure."""
 
     name: str
     value: float
@@ -21,26 +21,32 @@ class Check:
     ok: bool
     source: str
     relation: str = "<="
+    cure: str = ""
 
     def as_json(self) -> dict[str, Any]:
-        """The check as plain data: name, value, limit, unit (to show it in), ok, source, relation."""
+        """The check as plain data: name, value, limit, unit (to show it in), ok, source, relation, cure."""
         return {name: plain(getattr(self, name)) for name in Check.__slots__}
 
 
-def at_most(name: str, value: float, limit: float, unit: str, source: str) -> Check:
+def at_most(name: str, value: float, limit: float, unit: str, source: str, *, cure: str = "") -> Check:
     """The check value <= limit; a value that differs from the limit by rounding keeps it, NaN fails.
 
     >>> at_most("pressure angle", 0.1 + 0.2, 0.3, "rad", "given").ok
     True
     """
     value = snap_to_limit(value, limit)
-    return Check(name, value, float(limit), unit, bool(value <= limit), source, "<=")
+    return Check(name, value, float(limit), unit, bool(value <= limit), source, "<=", cure)
 
 
-def at_least(name: str, value: float, limit: float, unit: str, source: str) -> Check:
+def at_least(name: str, value: float, limit: float, unit: str, source: str, *, cure: str = "") -> Check:
     """The check value >= limit; a value that differs from the limit by rounding keeps it, NaN fails."""
     value = snap_to_limit(value, limit)
-    return Check(name, value, float(limit), unit, bool(value >= limit), source, ">=")
+    return Check(name, value, float(limit), unit, bool(value >= limit), source, ">=", cure)
+
+
+def must(name: str, holds: bool, source: str, *, cure: str = "") -> Check:
+    """The check of a plain yes or no, 1 or 0: what the machine must do, or a part that it must have."""
+    return Check(name, float(holds), 1.0, "", holds, source, ">=", cure)
 
 
 def snap_to_limit(value: float, limit: float) -> float:

@@ -8,10 +8,12 @@ from ilmek.errors import did_you_mean
 from ilmek.records import record
 from ilmek.report.bill import Part
 from ilmek.report.check import Check
+from ilmek.report.choice import Choice
 from ilmek.report.figure import Figure
 from ilmek.report.json import Json, plain
 from ilmek.report.results import Result
 from ilmek.report.table import Table
+from ilmek.report.verdict import Reason, reasons
 from ilmek.report.workshop import CamTable, Plate
 
 _Named = TypeVar("_Named", Plate, CamTable)
@@ -37,6 +39,7 @@ class Report:
     cam_tables: tuple[CamTable, ...] = ()
     parts: tuple[Part, ...] = ()
     children: tuple["Report", ...] = ()
+    choices: tuple[Choice, ...] = ()
 
     @property
     def key(self) -> str:
@@ -73,6 +76,21 @@ class Report:
     def failed(self) -> tuple[Check, ...]:
         """The checks of the whole tree that do not hold."""
         return tuple(check for check in self.all_checks if not check.ok)
+
+    @property
+    def reasons(self) -> tuple[Reason, ...]:
+        """Why the machine does not do its work, the heaviest reason first; empty where every check holds."""
+        return reasons(self.all_checks)
+
+    @property
+    def all_choices(self) -> tuple[Choice, ...]:
+        """The choices of the whole tree; those of a machine in it begin with its name."""
+        below = (
+            replace(choice, name=f"{child.machine}: {choice.name}")
+            for child in self.children
+            for choice in child.all_choices
+        )
+        return (*self.choices, *below)
 
     def __getitem__(self, name: str) -> Json:
         """The value of a result [SI] by its name, of a machine in it by a dotted name: `beat_up.crank`.

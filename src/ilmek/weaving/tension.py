@@ -21,20 +21,24 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.elements.yarns import usual_warp_density
 from ilmek.units import N, mm
 
-TENSION_PER_PITCH = 15 * N / (2 * mm)
-"""Usual tension of a warp over the pitch of the warps [N/m]: 15 N at 2 mm [thesis 3.1]. The mass
-of a warp and its strength are proportional to its pitch: the tension per width is constant."""
+USUAL_TENSION, USUAL_PITCH = 15 * N, 2 * mm
+"""Tension of a usual warp [N] at a pitch [m]: the thesis' loom [thesis 3.1]."""
 
 
-def usual_tension(pitch: float) -> float:
-    """Usual tension of a warp [N] at a pitch of the warps [m]: 15 N at 2 mm.                        [thesis 3.1]
+def usual_tension(pitch: float, density: float | None = None) -> float:
+    """Usual tension of a warp [N]: 15 N for the usual warp at 2 mm, proportional to the warp's mass.   [thesis 3.1]
+
+    pitch    of the warps [m]
+    density  mass per length of a warp [kg/m]; default: of the usual warp at the pitch
 
     >>> round(usual_tension(2e-3), 9)
     15.0
     """
-    return TENSION_PER_PITCH * pitch
+    mass = usual_warp_density(pitch) if density is None else density
+    return USUAL_TENSION * mass / usual_warp_density(USUAL_PITCH)
 
 
 @dataclass(frozen=True, slots=True)

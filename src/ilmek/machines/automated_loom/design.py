@@ -6,14 +6,14 @@ from dataclasses import replace
 
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.elements.yarns import warp_stiffness
+from ilmek.elements.carpet_yarns import carpet_yarns
 from ilmek.errors import LoomError
 from ilmek.loom.programme import Times, least_time
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import BEATS, loom_parts
 from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, knot_cyclogram, shortest_row, take_up_time
 from ilmek.machines.automated_loom.knotting import KnottingArms, arms_for
-from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.automated_loom.params import AUTO, AutomatedLoomParams
 from ilmek.machines.beat import Beat, BeatDrive, PlannedBeat
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
@@ -89,8 +89,8 @@ class LoomDesign:
 
     @property
     def warps(self) -> int:
-        """Warps: two for each knot of a row."""
-        return 2 * self.columns
+        """Warps: two for each knot of a row, and the selvedges'."""
+        return self.task.warps
 
     @property
     def knot_pitch(self) -> float:
@@ -123,13 +123,15 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     rows, columns = knot_grid(CarpetSize(params.width, params.length), params.quality)
     most = heads_that_fit(columns, 2 * params.pitch, params.head_width)
     heads = _heads(params, most)
-    task = LoomTask(params, rows, columns, tension_of(params), stiffness_of(params), {})
+    yarns = carpet_yarns(params.yarns, params.pitch)
+    tension = params.tension or usual_tension(params.pitch, yarns.warp.linear_density)
+    task = LoomTask(params, rows, columns, yarns, tension, {})
     machines: dict[str, Child] = {}
     for name in BEFORE_THE_ROW:
         machines[name], task = _made(name, task)
     head, cams = machines["weaver"].design, machines["shedding"].design
     plan = _planned_beat(task)
-    timing = _row_timing(params, cams, plan.beat)
+    timing = _row_timing(task, cams, plan.beat)
     period = _row_period(params, timing, turn / cams.params.speed)
     if period > turn / cams.params.speed:
         component = machines["shedding"].component
@@ -162,10 +164,11 @@ def _made(name: str, task: LoomTask) -> tuple[Child, LoomTask]:
 
 
 def _planned_beat(task: LoomTask) -> PlannedBeat:
-    """The beat before the row is timed, of the machine that the parameter `hammer` chooses."""
-    component = MACHINES[BEATS[task.params.hammer]]
+    """The beat before the row is timed, of the machine that the parameter `beat` chooses."""
+    chosen = "comb" if task.params.beat == AUTO else task.params.beat
+    component = MACHINES[BEATS[chosen]]
     assert component.beat is not None
-    plan: PlannedBeat = component.beat(task)
+    plan: PlannedBeat = component.beat(task, chosen)
     return plan
 
 
@@ -181,16 +184,6 @@ def times_at(head: Weaver, knot_pitch: float, weft: float) -> Times:
     )
 
 
-def tension_of(params: AutomatedLoomParams) -> float:
-    """Tension of a warp [N]: as given, or the thesis' for the warp's mass."""
-    return params.tension or usual_tension(params.pitch)
-
-
-def stiffness_of(params: AutomatedLoomParams) -> float:
-    """Force over strain of a warp [N]: as given, or of cotton of its mass."""
-    return params.warp_stiffness or warp_stiffness(params.pitch)
-
-
 def _heads(params: AutomatedLoomParams, most: int) -> int:
     """The number of heads: as given, or the usual, if so many fit."""
     if params.heads is not None and params.heads > most:
@@ -203,15 +196,16 @@ def _heads(params: AutomatedLoomParams, most: int) -> int:
     return params.heads or min(USUAL_HEADS, most)
 
 
-def _row_timing(params: AutomatedLoomParams, cams: SheddingDesign, beat: Beat) -> RowTiming:
+def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
+    params = task.params
     return RowTiming(
         lift=cams.params.lift,
         law=cams.params.law,
         window=cams.shuttle_window,
-        shuttle_stroke=params.width + 2 * params.shuttle_run,
+        shuttle_stroke=task.cloth_width + 2 * params.shuttle_run,
         beat=beat,
         beat_end=params.beat_end,
-        row_pitch=1 / params.quality.along,
+        row_pitch=task.row_pitch,
         take_up_end=params.take_up_end,
     )
 

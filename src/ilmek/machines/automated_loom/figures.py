@@ -143,7 +143,7 @@ def time_of_one_head(loom: LoomDesign) -> Plot:
 def front(loom: LoomDesign) -> Drawing:
     """The loom from the front, true across; heights chosen."""
     params = loom.params
-    edge, wide, at = params.margin, params.frame_width, _heights(loom)
+    edge, wide, at, cloth = params.margin, loom.task.width, _heights(loom), loom.task.cloth_width
     strokes = (
         *(
             _box(complex(x, 0), complex(0.06, at.top + loom.tube[0] / 2 + 0.08), "outline", filled=True)
@@ -151,12 +151,16 @@ def front(loom: LoomDesign) -> Drawing:
         ),
         *_cylinders(wide, loom.tube[0], at),
         *_warps(loom, edge, at),
-        _box(complex(edge, at.spacer), complex(params.width, at.fell - at.spacer), "yarn", filled=True),
-        Stroke(np.array([edge, edge + params.width]) + 1j * at.comb, "link"),
+        _box(complex(edge, at.spacer), complex(cloth, at.fell - at.spacer), "yarn", filled=True),
+        Stroke(np.array([edge, edge + cloth]) + 1j * at.comb, "link"),
         _cams(loom, edge, wide, at.cams),
         *_heads(loom, edge, at),
-        Stroke(np.array([edge, edge + params.width]) + 1j * _WIDTH, "dimension", format_quantity(params.width, "m")),
-        *_names(edge + params.width, wide, at),
+        Stroke(
+            np.array([edge, edge + cloth]) + 1j * _WIDTH,
+            "dimension",
+            format_quantity(cloth, "m"),
+        ),
+        *_names(edge + cloth, wide, at),
     )
     note = f"{loom.warps} warps at {params.pitch * 1e3:.4g} mm, not all drawn; true across, heights chosen"
     return Drawing("loom-front", "The loom from the front", strokes, (), "m", note)
@@ -204,7 +208,7 @@ def _spread(heights: list[float], apart: float) -> list[float]:
 
 def _warps(loom: LoomDesign, edge: float, at: _Heights) -> tuple[Stroke, ...]:
     number = min(loom.warps, _MOST_LINES)
-    places = edge + loom.params.width * (np.arange(number) + 0.5) / number
+    places = edge + loom.task.cloth_width * (np.arange(number) + 0.5) / number
     return tuple(Stroke(np.array([x + 1j * at.fell, x + 1j * at.top]), "construction") for x in places.tolist())
 
 

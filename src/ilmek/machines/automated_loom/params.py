@@ -3,18 +3,26 @@
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
+from ilmek.carpet.ground import SELVEDGE_WARPS
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST
+from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.machines import BEATS, loom_machines
 from ilmek.machines.catalogue import MACHINES
-from ilmek.params import Overrides, Params, kind, overrides, param
+from ilmek.params import Overrides, Params, kind, nested, overrides, param
 from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
 
 QUALITY = 25 / dm
 """Knots per metre where neither density nor pitch is given: the thesis' loom."""
 
+
+AUTO = "auto"
+"""The choice of what is left open."""
+
+AIMS = ("price", "time")
+"""What the choice of a loom makes least."""
 
 WIDEST = 12.0
 """The widest loom [m]."""
@@ -24,7 +32,8 @@ WIDEST = 12.0
 class AutomatedLoomParams(Params):
     """The carpet, the heads, and the limits of what moves; the defaults are the thesis' loom with four heads."""
 
-    width: float = kind.length(1.2, unit="m", at_least=SMALLEST, at_most=WIDEST, doc="width of the carpet")
+    aim: str = param("price", choices=AIMS, doc="what is least in the choice of all that is left open")
+    width: float = kind.length(1.2, unit="m", at_least=SMALLEST, at_most=WIDEST, doc="width of the carpet's knots")
     length: float = kind.length(1.8, unit="m", at_least=SMALLEST, at_most=LARGEST, doc="length of the carpet")
     knots_across: float | None = kind.knot_density(
         None, at_least=COARSEST, at_most=FINEST, doc="knots along a row; default: what the warp pitch gives"
@@ -36,9 +45,15 @@ class AutomatedLoomParams(Params):
         None, above=0.0, at_most=0.05, doc="distance of two warps; default: two warps a knot"
     )
     knot: str = param("symmetric", choices=tuple(WRAPS), doc="kind of knot")
+    selvedge_warps: int = param(SELVEDGE_WARPS, at_least=0, at_most=200, doc="warps without knots, both edges together")
+    yarns: CarpetYarnParams = nested(CarpetYarnParams, doc="materials and counts of warp, wefts and pile")
     heads: int | None = param(
-        None, at_least=1, at_most=1000, doc="knotting heads that share a row; default: four, or as many as fit"
+        None, at_least=1, at_most=1000, doc="knotting heads that share a row; default: chosen by aim and deadline"
     )
+    deadline: float | None = kind.time(
+        None, unit="h", at_least=1.0, at_most=1e9, doc="time in which the carpet is to be woven; default: any"
+    )
+    price_limit: float | None = param(None, at_least=0.0, at_most=1e12, doc="price of the loom at most; default: any")
     head_width: float = kind.length(80 * mm, above=0.0, at_most=1.0, doc="least distance of two heads")
     colours: int = param(16, at_least=1, at_most=255, doc="yarns, a tube for each in every head")
     knot_cycle: float = kind.time(2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot")
@@ -59,17 +74,11 @@ class AutomatedLoomParams(Params):
         at_most=1e3,
         doc="tension of a warp; default: 15 N at a pitch of 2 mm, proportional to the warp's mass",
     )
-    warp_stiffness: float | None = kind.force(
-        None, at_least=1.0, at_most=1e7, doc="force over strain of a warp; default: cotton of its mass"
-    )
     warp_length: float = kind.length(
         1.5, unit="m", at_least=0.35, at_most=100.0, doc="warp from the fell to its cylinder"
     )
     margin: float = kind.length(50 * mm, at_least=0.0, at_most=1.0, doc="from the carpet's edge to a bearing")
     lift: float = kind.length(60 * mm, at_least=1 * mm, at_most=0.5, doc="lift of the warps for the shed")
-    half_span: float = kind.length(
-        170 * mm, at_least=1 * mm, at_most=2.0, doc="shedding cams to the next hold of the warps"
-    )
     shed_speed: float = kind.angular_speed(5 * rpm, at_least=0.01 * rpm, at_most=60 * rpm, doc="speed of the cams")
     shaft_span: float = kind.length(
         1.5, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the cam shaft between its supports"
@@ -82,8 +91,11 @@ class AutomatedLoomParams(Params):
     shuttle_acceleration: float = kind.acceleration(
         20.0, at_least=0.01, at_most=1e5, doc="allowed acceleration of the shuttle"
     )
-    hammer: str = param(
-        "linkage", choices=tuple(BEATS), doc="crank-rockers beat the rows, or the comb on the guide cams"
+    beat: str = param(
+        AUTO,
+        choices=(AUTO, *BEATS),
+        doc="what beats the rows: a travelling beater, a comb on crank-rockers, on axes of its own or on the guide cams; "
+        "auto: chosen by aim",
     )
     comb_stroke: float = kind.length(100 * mm, at_least=1 * mm, at_most=1.0, doc="vertical stroke of the comb")
     comb_acceleration: float = kind.acceleration(
@@ -127,11 +139,6 @@ class AutomatedLoomParams(Params):
         lambda: {name: MACHINES[name].params for name in loom_machines()},
         doc="parameters of the machines in the loom, shedding.law, in place of those that the loom derives",
     )
-
-    @property
-    def frame_width(self) -> float:
-        """Distance of the bearings of cylinders and cam shaft [m]."""
-        return self.width + 2 * self.margin
 
     @property
     def pitch(self) -> float:

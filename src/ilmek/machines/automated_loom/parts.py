@@ -70,7 +70,7 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
 def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
     """The load of this loom's frame, with the mass of the parts that it carries [kg]."""
     params, cylinder = loom.params, loom.warp_tension
-    wide = params.frame_width
+    wide = loom.task.width
     return FrameTask(
         width=wide,
         height=params.frame_height,
@@ -100,7 +100,7 @@ def _own(loom: LoomDesign) -> tuple[Part, ...]:
     track = row.track(SHUTTLE)
     thrust = params.shuttle_mass * peak_acceleration(track, row.period)
     return (
-        Part("rail of the heads", 1, "with a belt for each head", "", "linear axis", length=params.frame_width),
+        Part("rail of the heads", 1, "with a belt for each head", "", "linear axis", length=loom.task.width),
         Part("shuttle", 1, "with its bobbin", "", "machined link", params.shuttle_mass),
         Part("axis of the shuttle", 1, "belt drive", "", "linear axis", length=track.stroke),
         belt_motor_part("motor of the shuttle", thrust, peak_speed(track, row.period)),

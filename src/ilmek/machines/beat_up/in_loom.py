@@ -78,7 +78,7 @@ class CrankRockers:
             design=self.design,
             task=task,
             beat=self.beat,
-            fabric=assumed_fabric(task.row_pitch, task.tension, task.stiffness, task.params.warp_length),
+            fabric=assumed_fabric(task.row_pitch, task.tension, task.yarns.warp.stiffness, task.params.warp_length),
             parts=parts(self.design, self.number),
             work=work(self.design, self.number),
             torque=self.number * self.design.drive_torque_max,
@@ -87,6 +87,6 @@ class CrankRockers:
         )
 
 
-def planned_beat(task: LoomTask) -> CrankRockers:
+def planned_beat(task: LoomTask, _kind: str) -> CrankRockers:
     """The crank-rockers of a loom. Raises the errors of `beat_up.design`."""
     return CrankRockers(design(task.parameters("beat-up", fit(task))), crank_rockers(task))

@@ -23,18 +23,18 @@ from ilmek.report import Part, Work
 from ilmek.units import format_quantity, turn
 
 
-def fit(task: LoomTask) -> HammerParams:
-    """The comb for the loom's warps and rows, within the row's time, with the shedding's cams on it."""
-    beat = planned_beat(task).beat
+def fit(task: LoomTask, kind: str = "comb") -> HammerParams:
+    """The comb for the loom's warps and rows, within the row's time; with the shedding's cams on it for guide-cams."""
+    beat = planned_beat(task, kind).beat
     return replace(
-        _of_carpet(task),
+        _of_carpet(task, kind),
         shed_speed=turn / task.period,
         step=beat.time / task.period * turn,
-        stack_mass=task.designs["shedding"].stack.mass,
+        stack_mass=task.designs["shedding"].stack.mass if kind == "guide-cams" else 0.0,
     )
 
 
-def _of_carpet(task: LoomTask) -> HammerParams:
+def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
     """The comb for the loom's warps and rows; what depends on the row's time is left as it is."""
     params = task.params
     return HammerParams(
@@ -42,7 +42,8 @@ def _of_carpet(task: LoomTask) -> HammerParams:
         warp_pitch=params.pitch,
         row_pitch=task.row_pitch,
         tension=task.tension,
-        warp_stiffness=params.warp_stiffness,
+        warp_stiffness=task.yarns.warp.stiffness,
+        drive="linkage" if kind == "linkage" else "comb",
         warp_length=params.warp_length,
         stroke=params.comb_stroke,
     )
@@ -78,18 +79,21 @@ class CombBeat:
 
     params: HammerParams
     acceleration: float
+    kind: str
 
     @property
     def beat(self) -> Beat:
-        """The comb's beat, as quick as its acceleration allows."""
+        """The comb's beat, as quick as its acceleration allows; of crank-rockers a turn of the crank."""
         params = self.params
+        if self.kind == "linkage":
+            return Beat(params.stroke, turn / params.beat_speed, 0.5, 0.0, "harmonic", "beat-up crank")
         peak, share = LAWS[params.law].acceleration_peak, (1 - params.press_share) / 2
         time = math.sqrt(peak * params.stroke / self.acceleration) / share
         return Beat(params.stroke, time, share, params.press_share, params.law, "vertical axes")
 
     def drive(self, task: LoomTask) -> BeatDrive:
         """The comb at the period of the row, with the shedding's cams on it."""
-        hammer = design(task.parameters("hammer", fit(task)))
+        hammer = design(task.parameters("hammer", fit(task, self.kind)))
         return BeatDrive(
             name="hammer",
             design=hammer,
@@ -104,6 +108,6 @@ class CombBeat:
         )
 
 
-def planned_beat(task: LoomTask) -> CombBeat:
+def planned_beat(task: LoomTask, kind: str) -> CombBeat:
     """The comb's beat in a loom. Raises ParameterError where values set for it contradict each other."""
-    return CombBeat(task.parameters("hammer", _of_carpet(task)), task.params.comb_acceleration)
+    return CombBeat(task.parameters("hammer", _of_carpet(task, kind)), task.params.comb_acceleration, kind)

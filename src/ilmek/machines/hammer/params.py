@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
+from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import MATERIALS
-from ilmek.elements.yarns import warp_stiffness
 from ilmek.errors import ParameterError
 from ilmek.params import Params, kind
 from ilmek.units import MPa, deg, format_quantity, mm, rpm, turn
@@ -169,7 +169,7 @@ class HammerParams(Params):
     @property
     def fabric(self) -> Fabric:
         """The fabric at the fell, for one warp."""
-        pitch, stiffness = self.required_pitch, self.warp_stiffness or warp_stiffness(self.warp_pitch)
+        pitch, stiffness = self.required_pitch, self.warp_stiffness or usual_warp(self.warp_pitch).stiffness
         return Fabric(
             tension=self.tension or usual_tension(self.warp_pitch),
             laid=self.laid_pitch or LAID * pitch,

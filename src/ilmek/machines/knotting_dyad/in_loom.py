@@ -5,8 +5,6 @@ to the root of the pitch: 0.8 mm at 2 mm. The needles take a share of the gap th
 The finer the pitch, the thinner the needle, until the yarn deflects it into the warps: then arms cannot tie the carpet.
 """
 
-import math
-
 import numpy as np
 
 from ilmek.elements.drive_parts import motor_part, reducer_part
@@ -31,7 +29,7 @@ CLOSEST = 0.9
 def params_for(task: LoomTask) -> KnottingDyadParams:
     """The parameters of the arms of a loom. Raises ParameterError for a pitch out of the bounds of its lengths."""
     pitch = task.params.pitch
-    warp = min(WARP * math.sqrt(pitch / PITCH), CLOSEST * pitch)
+    warp = task.yarns.warp.diameter
     gap = pitch - warp
     return KnottingDyadParams(
         knot=task.params.knot,
@@ -39,7 +37,7 @@ def params_for(task: LoomTask) -> KnottingDyadParams:
         warp_diameter=warp,
         needle_diameter=min(NEEDLE, NEEDLE_SHARE * gap),
         clearance=min(CLEARANCE, CLEARANCE_SHARE * gap),
-        yarn_diameter=min(WARP, gap),
+        yarn_diameter=task.yarns.pile.diameter,
     )
 
 

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 from ilmek.elements.drive_parts import motor_part, positive_work, reducer_part
+from ilmek.machines.arrangement import HALF_SPAN
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding.design import SheddingDesign, design
 from ilmek.machines.shedding.params import SheddingParams
@@ -30,9 +31,9 @@ def fit(task: LoomTask) -> SheddingParams:
             warps=task.warps,
             warp_pitch=params.pitch,
             tension=task.tension,
-            half_span=params.half_span,
-            warp_stiffness=task.stiffness,
-            warp_length=max(params.warp_length, 2 * params.half_span),
+            half_span=HALF_SPAN,
+            warp_stiffness=task.yarns.warp.stiffness,
+            warp_length=max(params.warp_length, 2 * HALF_SPAN),
             shuttle_height=params.shuttle_height,
             speed=params.shed_speed,
             shaft_length=task.width,

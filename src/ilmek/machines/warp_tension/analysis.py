@@ -8,8 +8,8 @@ degrees over the ratio: the smallest change that the motor can set.
 from typing import Any
 
 from ilmek.arrays import FloatArray
+from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.motors import FULL_STEPS
-from ilmek.elements.yarns import COTTON, warp_density, warp_stiffness
 from ilmek.machines.warp_tension.cylinders import Cylinder, Slots, cylinders, slots_of, tension_beyond
 from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.records import computed, group, record, result
@@ -38,14 +38,14 @@ class WarpTension:
 def tension_of(design: WarpTensionDesign) -> WarpTension:
     """The warps' tensions over the rows between two take-ups."""
     params = design.params
-    stiffness = params.warp_stiffness or warp_stiffness(params.pitch)
+    stiffness = params.warp_stiffness or usual_warp(params.pitch).stiffness
     rate, woven = stiffness / params.free_length, params.rows_between * params.row_pitch
     lengthening = float(shed_lengthening(params.shed_lift, params.shed_span, params.shed_span))
     return WarpTension(
         take_up_tension(params.tension, rate, woven, params.crimp, lengthening),
         params.rows_between,
         stiffness,
-        COTTON.breaking_force(warp_density(params.pitch)),
+        usual_warp(params.pitch).breaking_force,
         woven * params.crimp / design.outer_radius,
         rate * design.outer_radius * turn / FULL_STEPS / design.reducer.ratio,
     )

@@ -31,9 +31,9 @@ from ilmek.elements.bearings import (
     slope_limit,
     static_load,
 )
+from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.tubes import TUBES, Tube, find_tube
-from ilmek.elements.yarns import warp_diameter
 from ilmek.errors import ParameterError
 from ilmek.machines.warp_tension.design import WarpTensionDesign, keeps_limits, tube_weight
 from ilmek.machines.warp_tension.params import WarpTensionParams
@@ -111,7 +111,7 @@ class Slots:
 
 def slots_of(params: WarpTensionParams) -> Slots:
     """The spacer's slots, one for each warp."""
-    usual = min(warp_diameter(params.pitch), TAUT * params.pitch)
+    usual = min(usual_warp(params.pitch).diameter, TAUT * params.pitch)
     warp = params.warp_diameter or usual
     depth = warp if params.slot_depth is None else params.slot_depth
     return Slots(params.pitch, params.slot_width or 1.1 * warp, depth, warp)

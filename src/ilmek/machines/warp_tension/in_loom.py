@@ -5,6 +5,7 @@ from dataclasses import replace
 from ilmek.elements.drive_parts import motor_part, reducer_part
 from ilmek.elements.tubes import Tube, find_tube
 from ilmek.errors import LoomError
+from ilmek.machines.arrangement import HALF_SPAN
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders
 from ilmek.machines.warp_tension.design import WarpTensionDesign, tubes_within_limits
@@ -40,9 +41,11 @@ def fit(task: LoomTask) -> WarpTensionParams:
             carpet_length=params.length,
             warp_pitch=params.pitch,
             free_length=params.warp_length,
-            warp_stiffness=task.stiffness,
+            warp_stiffness=task.yarns.warp.stiffness,
+            warp_diameter=task.yarns.warp.diameter,
+            friction=task.yarns.warp.friction,
             shed_lift=params.lift,
-            shed_span=params.half_span,
+            shed_span=HALF_SPAN,
         ),
     )
     if any(one is not None for one in (derived.tube, derived.outer_radius, derived.inner_radius)):

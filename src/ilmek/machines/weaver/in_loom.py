@@ -18,7 +18,10 @@ def params_for(task: LoomTask) -> WeaverParams:
     return WeaverParams(
         cycle=loom.knot_cycle,
         law=loom.knot_law,
+        knot=loom.knot,
         knot_yarn=loom.knot_yarn,
+        yarn_density=task.yarns.pile.linear_density,
+        warp_diameter=task.yarns.warp.diameter,
         acceleration_limit=loom.head_acceleration,
         head_width=loom.head_width,
         head_mass=loom.head_mass,

@@ -7,8 +7,9 @@ from typing import Any
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
+from ilmek.elements.carpet_yarns import PILE_DENSITY, usual_warp
 from ilmek.elements.knot_kinds import WRAPS
-from ilmek.elements.yarns import WOOL, warp_diameter
+from ilmek.elements.yarns import WOOL
 from ilmek.errors import ParameterError
 from ilmek.machines.weaver.motions import (
     CENTRE_GRASP,
@@ -24,7 +25,7 @@ from ilmek.machines.weaver.motions import (
 )
 from ilmek.params import Params, kind, nested
 from ilmek.timing.s_curve import AxisLimits
-from ilmek.units import deg, format_quantity, g, m, mm, turn
+from ilmek.units import deg, format_quantity, mm, turn
 
 LEAST_STEP = 10 * deg
 """Least angle of a step of the turn."""
@@ -97,9 +98,9 @@ class WeaverParams(Params):
     )
     pile_height: float = kind.length(8 * mm, at_least=0.0, at_most=100 * mm, doc="pile above the knots, shorn")
     cut_waste: float = kind.length(1 * mm, at_least=0.0, at_most=100 * mm, doc="shorn off each end of a knot")
-    yarn_density: float = kind.line_density(0.8 * g / m, above=0.0, at_most=0.1, doc="mass per length of the pile yarn")
+    yarn_density: float = kind.line_density(PILE_DENSITY, above=0.0, at_most=0.1, doc="mass per length of the pile")
     warp_diameter: float | None = kind.length(
-        None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual wool warp"
+        None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual warp"
     )
     speed_limit: float = _speed(1.0, "allowed speed of grippers, sley and handler's tip")
     acceleration_limit: float = _acceleration(20.0, "allowed acceleration of the same")
@@ -185,7 +186,7 @@ class WeaverParams(Params):
     @property
     def warp(self) -> float:
         """Diameter of a warp [m]."""
-        return self.warp_diameter or warp_diameter(self.quality.warp_pitch)
+        return self.warp_diameter or usual_warp(self.quality.warp_pitch).diameter
 
     @property
     def yarn(self) -> float:

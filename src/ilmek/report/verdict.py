@@ -1,0 +1,42 @@
+"""The verdict on a machine: whether it does its work, and if not, the reasons in order of weight.
+
+A machine does its work if every check of it and of the machines in it holds. The weight of a failed check is how far
+the value misses its limit, |ln(value / limit)|; a value that is no number, or has another sign, weighs most.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from ilmek.report.check import Check
+from ilmek.report.json import plain
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """A failed check: value against limit [SI, shown in `unit`], and what would cure it."""
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    cure: str
+    source: str
+    relation: str
+
+    def as_json(self) -> dict[str, Any]:
+        """The reason as plain data: name, value, limit, unit, cure."""
+        return {name: plain(getattr(self, name)) for name in ("name", "value", "limit", "unit", "cure")}
+
+
+def reasons(checks: Iterable[Check]) -> tuple[Reason, ...]:
+    """The failed checks, the heaviest first; equal ones in their order."""
+    failed = sorted((check for check in checks if not check.ok), key=weight, reverse=True)
+    return tuple(Reason(one.name, one.value, one.limit, one.unit, one.cure, one.source, one.relation) for one in failed)
+
+
+def weight(check: Check) -> float:
+    """How far a failed check misses its limit: |ln(value / limit)|; inf where that is no number."""
+    ratio = check.value / check.limit if check.limit else math.inf
+    return abs(math.log(ratio)) if math.isfinite(ratio) and ratio > 0 else math.inf
