@@ -7,7 +7,7 @@ machine. Values are SI; the unit beside a value is the one to show it in.
 from ilmek.records import DeclaredResult, computed, declared_results, group, record, result
 from ilmek.report.bill import NOT_WEIGHED, Part, Work
 from ilmek.report.check import Check, at_least, at_most, must, snap_to_limit
-from ilmek.report.choice import Choice
+from ilmek.report.choice import Candidate, Choice, choose, failing
 from ilmek.report.document import Report
 from ilmek.report.figure import (
     Animation,
@@ -40,6 +40,7 @@ __all__ = [
     "Animation",
     "Axis",
     "CamTable",
+    "Candidate",
     "Check",
     "Choice",
     "Column",
@@ -72,9 +73,11 @@ __all__ = [
     "Work",
     "at_least",
     "at_most",
+    "choose",
     "columns",
     "computed",
     "declared_results",
+    "failing",
     "group",
     "must",
     "plain",

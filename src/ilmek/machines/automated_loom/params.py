@@ -94,7 +94,7 @@ class AutomatedLoomParams(Params):
     beat: str = param(
         AUTO,
         choices=(AUTO, *BEATS),
-        doc="what beats the rows: a travelling beater, a comb on crank-rockers, on axes of its own or on the guide cams; "
+        doc="what beats the rows: a travelling beater, a comb on crank-rockers, on its own axes or on the guide cams; "
         "auto: chosen by aim",
     )
     comb_stroke: float = kind.length(100 * mm, at_least=1 * mm, at_most=1.0, doc="vertical stroke of the comb")
