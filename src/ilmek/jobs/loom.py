@@ -12,7 +12,6 @@ from ilmek.errors import ParameterError, UnitError
 from ilmek.jobs.order import CarpetOrder
 from ilmek.loom.programme import Programme, heads_for, make_programme
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
-from ilmek.machines.automated_loom.design import USUAL_HEADS
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.units import format_quantity, parse_quantity
@@ -23,7 +22,7 @@ class LoomOrder:
     """An order for a loom.
 
     params    parameters of the loom, as far as they are known without the picture
-    heads     number of knotting heads; default: as many as the deadline needs, or USUAL_HEADS
+    heads     number of knotting heads; default: as many as the deadline needs, or as the loom chooses
     deadline  time for the whole carpet [s]; default: none
     """
 
@@ -85,7 +84,7 @@ def read_loom_order(
         knots_across=order.quality.across,
         knots_along=order.quality.along,
         knot=order.knot,
-        heads=1 if heads is None else heads,
+        heads=heads,
         **loom,
     )
     if warp_pitch is not None:
@@ -118,16 +117,14 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
     )
     made = design(params)
     heads = _heads(loom_order, made, chart, progress.part(0.0, 0.7))
-    if heads != params.heads:
+    if heads != made.heads:
         made = design(replace(params, heads=heads))
     programme = make_programme(chart.knots, len(chart.yarns), heads, made.times, progress=progress.part(0.7, 1.0))
     return LoomResult(made, programme)
 
 
 def _heads(loom_order: LoomOrder, made: LoomDesign, chart: Chart, progress: Progress) -> int:
-    if loom_order.heads is not None:
-        return loom_order.heads
     if loom_order.deadline is None:
-        return min(USUAL_HEADS, made.heads_max)
+        return made.heads
     yarns = len(chart.yarns)
     return heads_for(chart.knots, yarns, loom_order.deadline, made.times, made.heads_max, progress=progress)

@@ -59,4 +59,5 @@ MACHINE = Component(
     cyclograms=cyclograms,
     parts=lambda loom: parts_of_loom(loom).parts,
     children=lambda loom: loom.children,
+    choices=lambda loom: loom.choices,
 )

@@ -10,11 +10,12 @@ from ilmek.elements.carpet_yarns import carpet_yarns
 from ilmek.errors import LoomError
 from ilmek.loom.programme import Times, least_time
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
-from ilmek.machines import BEATS, loom_parts
+from ilmek.machines import loom_parts
+from ilmek.machines.automated_loom.choice import beat_options, chosen_beat, chosen_heads
 from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, knot_cyclogram, shortest_row, take_up_time
 from ilmek.machines.automated_loom.knotting import KnottingArms, arms_for
-from ilmek.machines.automated_loom.params import AUTO, AutomatedLoomParams
-from ilmek.machines.beat import Beat, BeatDrive, PlannedBeat
+from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.beat import Beat, BeatDrive
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.loom_task import LoomTask
@@ -22,13 +23,11 @@ from ilmek.machines.shedding import SheddingDesign
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.weaver import Weaver
 from ilmek.records import record
+from ilmek.report import Choice
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.s_curve import move_time, travel_time
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.tension import usual_tension
-
-USUAL_HEADS = 4
-"""Heads of a loom for which no number is given, where so many fit."""
 
 BEFORE_THE_ROW = ("weaver", "shedding")
 """Machines whose designs set the timing of a row; all others are designed for it."""
@@ -43,6 +42,7 @@ class LoomDesign:
     beat           the drive of the beat
     row_timing, row_cyclogram   of the wefts and beats of a row, one turn of the shedding cams
     times          of the acts of weaving, as the programme counts them
+    choices        of what the parameters left open; `params` has what was chosen
     """
 
     params: AutomatedLoomParams
@@ -56,6 +56,7 @@ class LoomDesign:
     row_timing: RowTiming
     row_cyclogram: Cyclogram
     times: Times
+    choices: tuple[Choice, ...] = ()
 
     @property
     def weaver(self) -> Weaver:
@@ -121,8 +122,6 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     and beat; CarpetError for a carpet without knots; the errors of the machines where those cannot be made.
     """
     rows, columns = knot_grid(CarpetSize(params.width, params.length), params.quality)
-    most = heads_that_fit(columns, 2 * params.pitch, params.head_width)
-    heads = _heads(params, most)
     yarns = carpet_yarns(params.yarns, params.pitch)
     tension = params.tension or usual_tension(params.pitch, yarns.warp.linear_density)
     task = LoomTask(params, rows, columns, yarns, tension, {})
@@ -130,13 +129,17 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     for name in BEFORE_THE_ROW:
         machines[name], task = _made(name, task)
     head, cams = machines["weaver"].design, machines["shedding"].design
-    plan = _planned_beat(task)
-    timing = _row_timing(task, cams, plan.beat)
-    period = _row_period(params, timing, turn / cams.params.speed)
+    options = beat_options(task, lambda plan: _row_period(params, _row_timing(task, cams, plan.beat), cams))
+    option, choices = chosen_beat(options, params.aim)
+    timing, period = _row_timing(task, cams, option.plan.beat), option.period
     if period > turn / cams.params.speed:
         component = machines["shedding"].component
         machines["shedding"] = Child(component, component.design(replace(cams.params, speed=turn / period)))
     times = times_at(head, 2 * params.pitch, period)
+    most = heads_that_fit(columns, 2 * params.pitch, params.head_width)
+    _require_room(params, most)
+    busy = with_changes(times, params.changes_per_knot)
+    heads, of_heads = chosen_heads(params, most, lambda number: least_time(rows, columns, number, busy))
     task = replace(
         task,
         designs={name: child.design for name, child in machines.items()},
@@ -144,7 +147,7 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
         take_up_time=take_up_time(timing, period),
         row_time=least_time(1, columns, heads, times),
     )
-    beat = plan.drive(task)
+    beat = option.plan.drive(task)
     for name in loom_parts():
         if name not in BEFORE_THE_ROW:
             machines[name], task = _made(name, task)
@@ -152,7 +155,9 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     row = cyclogram(timing, period)
     tracks = (track for child in machines.values() for track in child.component.tracks(child.design))
     row = replace(row, tracks=(*row.tracks, *tracks))
-    return LoomDesign(params, rows, columns, heads, most, machines, task, beat, timing, row, times)
+    chosen = replace(params, beat=option.kind, heads=heads)
+    every = (*choices, *of_heads)
+    return LoomDesign(chosen, rows, columns, heads, most, machines, task, beat, timing, row, times, every)
 
 
 def _made(name: str, task: LoomTask) -> tuple[Child, LoomTask]:
@@ -161,15 +166,6 @@ def _made(name: str, task: LoomTask) -> tuple[Child, LoomTask]:
     assert component.fit is not None
     made = component.design(task.parameters(name, component.fit(task)))
     return Child(component, made), replace(task, designs={**task.designs, name: made})
-
-
-def _planned_beat(task: LoomTask) -> PlannedBeat:
-    """The beat before the row is timed, of the machine that the parameter `beat` chooses."""
-    chosen = "comb" if task.params.beat == AUTO else task.params.beat
-    component = MACHINES[BEATS[chosen]]
-    assert component.beat is not None
-    plan: PlannedBeat = component.beat(task, chosen)
-    return plan
 
 
 def times_at(head: Weaver, knot_pitch: float, weft: float) -> Times:
@@ -184,8 +180,13 @@ def times_at(head: Weaver, knot_pitch: float, weft: float) -> Times:
     )
 
 
-def _heads(params: AutomatedLoomParams, most: int) -> int:
-    """The number of heads: as given, or the usual, if so many fit."""
+def with_changes(times: Times, changes: float) -> Times:
+    """The times with the mean of the colour changes, `changes` a knot, in the knot's."""
+    return replace(times, knot=times.knot + changes * times.colour_change)
+
+
+def _require_room(params: AutomatedLoomParams, most: int) -> None:
+    """Raise LoomError where more heads are given than fit."""
     if params.heads is not None and params.heads > most:
         width, head = format_quantity(params.width, "m"), format_quantity(params.head_width, "mm")
         raise LoomError(
@@ -193,7 +194,6 @@ def _heads(params: AutomatedLoomParams, most: int) -> int:
             allowed=f"at most {most}: neighbours keep half a head's share of the row between them",
             do=f"set heads={most}, or narrower heads",
         )
-    return params.heads or min(USUAL_HEADS, most)
 
 
 def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
@@ -210,7 +210,7 @@ def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
     )
 
 
-def _row_period(params: AutomatedLoomParams, timing: RowTiming, period: float) -> float:
+def _row_period(params: AutomatedLoomParams, timing: RowTiming, cams: SheddingDesign) -> float:
     """Time of a turn of the shedding cams [s]: the given one, or the shortest that shuttle and beat allow."""
     shed, window = format_quantity(timing.lift, "mm"), timing.window
     if window[1] - window[0] < 1e-6:
@@ -228,4 +228,4 @@ def _row_period(params: AutomatedLoomParams, timing: RowTiming, period: float) -
         )
     if params.take_up_end <= params.beat_end:
         raise LoomError("the take-up ends before the beat", do="set take_up_end after beat_end")
-    return max(period, shortest)
+    return max(turn / cams.params.speed, shortest)

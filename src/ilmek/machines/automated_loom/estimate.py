@@ -16,8 +16,8 @@ from ilmek.carpet.design import knot_grid
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import LoomError
-from ilmek.loom.programme import Programme, Times, heads_for, least_time, make_programme
-from ilmek.machines.automated_loom.design import LoomDesign, design, times_at
+from ilmek.loom.programme import Programme, heads_for, least_time, make_programme
+from ilmek.machines.automated_loom.design import LoomDesign, design, times_at, with_changes
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.records import computed, record, result
 
@@ -44,7 +44,9 @@ def programme_for(
 
 def estimated_time(loom: LoomDesign, heads: int | None = None) -> float:
     """Weaving time [s] without a chart, for the loom's heads or another number."""
-    return least_time(loom.rows, loom.columns, heads or loom.heads, _with_changes(loom, loom.times))
+    return least_time(
+        loom.rows, loom.columns, heads or loom.heads, with_changes(loom.times, loom.params.changes_per_knot)
+    )
 
 
 def estimated_times_at(loom: LoomDesign, pitch: float, heads: Sequence[int]) -> FloatArray:
@@ -56,7 +58,7 @@ def estimated_times_at(loom: LoomDesign, pitch: float, heads: Sequence[int]) -> 
     quality = loom.params.quality
     size = CarpetSize(loom.params.width, loom.params.length)
     rows, columns = knot_grid(size, Quality(quality.across * finer, quality.along * finer))
-    times = _with_changes(loom, times_at(loom.weaver, 2 * pitch, loom.times.weft))
+    times = with_changes(times_at(loom.weaver, 2 * pitch, loom.times.weft), loom.params.changes_per_knot)
     return np.array([least_time(rows, columns, number, times) for number in heads])
 
 
@@ -87,8 +89,3 @@ def time_shares(loom: LoomDesign) -> TimeShares:
     knotting = (1 - wefts) * times.knot / (times.knot + change)
     busy = loom.rows * loom.columns * (times.knot + change) / loom.heads
     return TimeShares(knotting, 1 - wefts - knotting, wefts, busy / total)
-
-
-def _with_changes(loom: LoomDesign, times: Times) -> Times:
-    """The times with the mean of the colour changes in the knot's."""
-    return replace(times, knot=times.knot + loom.params.changes_per_knot * times.colour_change)

@@ -9,6 +9,7 @@ from ilmek.elements.prices import PriceRates, read_prices
 from ilmek.machines.automated_loom.cyclogram import SHUTTLE
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
+from ilmek.machines.automated_loom.pricing import price_of
 from ilmek.machines.weaver import head_mass
 from ilmek.records import computed, group, record
 from ilmek.report import Part
@@ -44,12 +45,6 @@ class PartsList:
 def driven_axes(parts: tuple[Part, ...]) -> int:
     """Axes of the control: the motors of a parts list."""
     return sum(part.number for part in parts if part.drives)
-
-
-def price_of(part: Part, prices: Mapping[str, PriceRates]) -> float:
-    """Price of all pieces of a part."""
-    weighed = 0.0 if math.isnan(part.mass) else part.mass
-    return part.number * prices[part.kind].price(weighed, part.length, part.power)
 
 
 def parts_of_loom(loom: LoomDesign) -> PartsList:

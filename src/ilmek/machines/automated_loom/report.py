@@ -6,21 +6,20 @@ from typing import Any
 import numpy as np
 
 from ilmek.elements.columns import STEEL
+from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, SHUTTLE, TAKE_UP, cam_tables_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.frame import BOW_LIMIT, BUCKLING_SAFETY, STRESS_SAFETY, LoomFrame
-from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom, price_of
+from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
+from ilmek.machines.automated_loom.pricing import price_of
 from ilmek.machines.beat import BeatDrive
 from ilmek.records import computed, record
 from ilmek.report import CamTable, Check, Json, Table, at_least, at_most, columns
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
-
-ROW_TOLERANCE = 0.02
-"""Share by which rows may be left farther apart than required; assumed by this project."""
 
 HEAVY_SHARE = 0.25
 """Weight of a cylinder over the pull of its warps from which there is a warning; assumed by this project."""
@@ -85,7 +84,8 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width"),
         *(apart if loom.heads > 1 else ()),
         *loom.arms.checks(loom.times.knot),
-        _row_check(found.beat),
+        row_check(found.beat),
+        *_wishes(found),
         at_most("shuttle: speed", speed, params.shuttle_speed, "m/s", "shuttle_speed"),
         at_most("shuttle: acceleration", acceleration, params.shuttle_acceleration, "m/s^2", "shuttle_acceleration"),
         at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
@@ -95,12 +95,18 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
     )
 
 
-def _row_check(beat: BeatDrive) -> Check:
-    """The distance of the rows that the beat leaves."""
-    most = beat.task.row_pitch * (1 + ROW_TOLERANCE)
-    source = "row pitch of the quality, 2 % more allowed; fabric as assumed by this project: laid, jammed, packing"
-    cure = "set beat=auto or beat=comb, or a coarser quality along"
-    return at_most("distance of the rows that the beat leaves", beat.row_pitch_left, most, "mm", source, cure=cure)
+def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
+    """The deadline and the price, where they are limited."""
+    params, price = found.loom.params, found.listed.price
+    cure = "set a higher price_limit, fewer heads, or a coarser quality"
+    return (
+        *(() if params.deadline is None else (deadline_check(params.deadline, found.time),)),
+        *(
+            ()
+            if params.price_limit is None
+            else (at_most("price of the loom", price, params.price_limit, "1", "parameter price_limit", cure=cure),)
+        ),
+    )
 
 
 def _frame_checks(frame: LoomFrame) -> tuple[Check, ...]:
