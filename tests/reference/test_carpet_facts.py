@@ -9,7 +9,7 @@ from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality, parse_quality, write_quality
 from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
-from ilmek.elements.yarns import warp_density
+from ilmek.elements.yarns import usual_warp_density
 from ilmek.units import cm, g, mg, mm
 
 
@@ -98,7 +98,16 @@ def test_warp_of_the_worked_example() -> None:
 @pytest.mark.parametrize(("raj", "count", "ply"), [(15, 3, 3), (20, 4, 3), (25, 5, 3), (30, 6, 3), (40, 8, 3)])
 def test_wool_warp_counts_follow_one_law(raj: int, count: int, ply: int) -> None:
     """Nm/ply of wool warps by raj (iran-carpet.com 1804): 3/7 g/m for each mm of pitch gives all five."""
-    assert warp_density(parse_quality(f"{raj} raj").warp_pitch) == pytest.approx(ply / count * g)
+    assert usual_warp_density(parse_quality(f"{raj} raj").warp_pitch, "wool") == pytest.approx(ply / count * g)
+
+
+@pytest.mark.parametrize(
+    ("raj", "count", "ply"),
+    [(15, 20, 24), (20, 20, 20), (25, 20, 18), (30, 20, 16), (40, 20, 12), (50, 20, 6), (60, 40, 6), (70, 40, 4)],
+)
+def test_cotton_warp_counts(raj: int, count: int, ply: int) -> None:
+    """Ne/ply of cotton warps by raj (iran-carpet.com 1804): 590.5 tex for a strand of Ne 1."""
+    assert usual_warp_density(parse_quality(f"{raj} raj").warp_pitch) == pytest.approx(0.5905 * ply / count * g)
 
 
 @pytest.mark.parametrize(
@@ -114,9 +123,9 @@ def test_knot_length_within_the_hand_weavers_range(
 
 
 def test_knot_of_40_raj_with_the_waste_of_a_hand_cut() -> None:
-    """40 mm at 40 raj (iran-carpet.com 1705) is a pile of 8 mm with 6 to 7 mm cut off each end."""
+    """40 mm at 40 raj (iran-carpet.com 1705) is a pile of 8 mm with 7 to 8 mm cut off each end."""
     quality = parse_quality("40raj")
-    least, most = (knot_length("symmetric", quality, 0.25 * g, PileParams(cut_waste=c * mm)) / mm for c in (6, 7))
+    least, most = (knot_length("symmetric", quality, 0.25 * g, PileParams(cut_waste=c * mm)) / mm for c in (7, 8))
     assert least <= 40 <= most
 
 

@@ -10,6 +10,7 @@ from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
+from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.elements.knot_kinds import asymmetric_wrap, parse_knot, symmetric_wrap
 from ilmek.errors import CarpetError, PictureError, YarnError
 from ilmek.io.yarn_file import yarns_from_records
@@ -162,7 +163,8 @@ def test_bill_adds_up(chart: Chart) -> None:
 
 
 def test_bill_of_the_ground(chart: Chart) -> None:
-    params = GroundParams(warp_density=1e-3, straight_weft_density=2e-3, sinuous_weft_density=0.5e-3, weft_share=0.0)
+    yarns = CarpetYarnParams(warp_density=1e-3, straight_weft_density=2e-3, sinuous_weft_density=0.5e-3)
+    params = GroundParams(weft_share=0.0, yarns=yarns)
     warp, straight, sinuous = yarn_bill(chart, ground=params).ground
     assert warp.length == pytest.approx((2 * 600 + 8) * (0.9 + 0.6))
     assert straight.length == pytest.approx(900 * 0.62) == sinuous.length

@@ -5,7 +5,8 @@ import pytest
 
 from ilmek.carpet.pile import PileParams, knot_length, leg_length
 from ilmek.carpet.quality import Quality
-from ilmek.elements.yarns import WOOL, warp_diameter
+from ilmek.elements.carpet_yarns import usual_warp
+from ilmek.elements.yarns import WOOL
 from ilmek.errors import CarpetError
 from ilmek.units import mm
 from ilmek.weaving.knots.drawing import knot_drawing
@@ -88,7 +89,7 @@ def test_mirror_image_of_the_knot_is_the_mirror_image_of_its_curve(known: Knot) 
 def test_curve_is_as_long_as_the_yarn_that_is_bought(kind: str) -> None:
     """The path and `knot_length` are one geometry: the same knot in the same carpet takes the same yarn."""
     quality, density, pile = Quality(150.0, 150.0), 0.3e-3, PileParams()
-    warp, yarn = warp_diameter(quality.warp_pitch), WOOL.diameter(density)
+    warp, yarn = usual_warp(quality.warp_pitch).diameter, WOOL.diameter(density)
     size = KnotDimensions(quality.warp_pitch, warp, yarn, leg=leg_length(warp, yarn, pile))
     assert knot_path(knot(kind), size).length == pytest.approx(knot_length(kind, quality, density, pile), rel=1e-14)
 

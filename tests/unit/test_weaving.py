@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from ilmek.elements.yarns import COTTON, WOOL, warp_density, warp_diameter, warp_stiffness
-from ilmek.errors import CarpetError, ParameterError
+from ilmek.elements.carpet_yarns import CarpetYarnParams, carpet_yarns, usual_warp
+from ilmek.elements.yarns import COTTON, SILK, WOOL, usual_warp_density
+from ilmek.errors import CarpetError
 from ilmek.weaving import ShedWarp, capstan, shed_lengthening, take_up_tension, tension_history, usual_tension
 from ilmek.weaving.knots import SampledPath, end_path, knot_of_ends, yarn_between
 
@@ -17,15 +18,26 @@ def test_yarn_of_a_material_is_as_thick_stiff_and_strong_as_its_mass_makes_it() 
     assert COTTON.stiffness(1e-3) == pytest.approx(2100.0)
     assert COTTON.breaking_force(1e-3) == pytest.approx(170.0)
     assert WOOL.breaking_force(1e-3) == pytest.approx(120.0)
-    with pytest.raises(ParameterError, match="stiffness of wool"):
-        WOOL.stiffness(1e-3)
+    assert WOOL.stiffness(1e-3) == pytest.approx(1000.0)
 
 
 def test_the_usual_warp_follows_its_pitch() -> None:
-    assert warp_density(2e-3) == pytest.approx(6 / 7 * 1e-3)
-    assert warp_diameter(8e-3) == pytest.approx(2 * warp_diameter(2e-3))
-    assert warp_stiffness(2e-3) == pytest.approx(1800.0)
-    assert usual_tension(3e-3) == pytest.approx(22.5)
+    """Wool 3/7 g/m for a millimetre; cotton beyond its table in proportion; silk as thick; tension as the mass."""
+    assert usual_warp_density(2e-3, "wool") == pytest.approx(6 / 7 * 1e-3)
+    assert usual_warp_density(8e-3) == pytest.approx(2 * usual_warp_density(4e-3))
+    assert usual_warp_density(0.25e-3) == pytest.approx(usual_warp_density(0.5e-3) / 2)
+    assert SILK.diameter(usual_warp_density(1e-3, "silk")) == pytest.approx(usual_warp(1e-3).diameter)
+    assert usual_warp(2e-3).stiffness == pytest.approx(2.1e6 * usual_warp_density(2e-3))
+    assert usual_tension(1e-3) == pytest.approx(15 * usual_warp_density(1e-3) / usual_warp_density(2e-3))
+    assert usual_tension(2e-3, 2 * usual_warp_density(2e-3)) == pytest.approx(30.0)
+
+
+def test_what_is_given_of_a_yarn_stays() -> None:
+    params = CarpetYarnParams(warp="silk", warp_diameter=0.4e-3, warp_stiffness=3e3, straight_weft_density=1e-3)
+    yarns = carpet_yarns(params, 1e-3)
+    assert (yarns.warp.material, yarns.warp.diameter, yarns.warp.stiffness) == ("silk", 0.4e-3, 3e3)
+    assert yarns.straight_weft.diameter == pytest.approx(COTTON.diameter(1e-3))
+    assert yarns.sinuous_weft.linear_density == pytest.approx(yarns.warp.linear_density / 2)
 
 
 def test_the_shed_lengthens_a_warp_by_both_hypotenuses() -> None:
