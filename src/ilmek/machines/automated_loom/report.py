@@ -95,6 +95,12 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
     )
 
 
+def all_checks(loom: LoomDesign) -> tuple[Check, ...]:
+    """The checks of a loom and of the machines in it, without its figures and tables."""
+    below = (child.component.checks(child.component.analysis(child.design)) for child in loom.children)
+    return (*checks(analyse(loom)), *(check for one in below for check in one))
+
+
 def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
     """The deadline and the price, where they are limited."""
     params, price = found.loom.params, found.listed.price

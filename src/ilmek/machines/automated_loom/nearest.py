@@ -1,0 +1,86 @@
+"""The nearest carpets that a loom can weave, where it cannot weave the one that is required.
+
+One wish is relaxed at a time, all others are kept: a coarser quality, a narrower carpet, the other knot, a later
+deadline. Quality and width are searched on a ladder of shares of what is required, by bisection: what fits at a share
+is taken to fit at every smaller one.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from ilmek.carpet.quality import COARSEST
+from ilmek.carpet.sizes import SMALLEST
+from ilmek.elements.knot_kinds import WRAPS
+from ilmek.errors import IlmekError
+from ilmek.machines.automated_loom.design import design
+from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.automated_loom.report import all_checks
+from ilmek.progress import SILENT, Progress
+from ilmek.records import record
+from ilmek.units import format_quantity
+
+SHARES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
+"""Shares of the quality, and of the width, that are tried."""
+
+
+@record
+class NearestFit:
+    """A carpet that the loom could weave: the wish that is relaxed, and its value as a text with a unit."""
+
+    wish: str
+    value: str
+
+
+def nearest_fits(params: AutomatedLoomParams, progress: Progress = SILENT) -> tuple[NearestFit, ...]:
+    """The nearest carpets that a loom for these wishes can weave, one for each wish that helps when it is relaxed."""
+    found: list[NearestFit] = []
+    steps = (_coarser, _narrower, _other_knots)
+    for number, step in enumerate(steps):
+        progress.part(number / len(steps), (number + 1) / len(steps), "nearest carpet that can be woven")
+        found += step(params)
+    return tuple(found)
+
+
+def weaves(params: AutomatedLoomParams) -> bool:
+    """Whether every check of the loom for these wishes holds; False where it cannot be designed."""
+    try:
+        return all(check.ok for check in all_checks(design(params)))
+    except IlmekError:
+        return False
+
+
+def _coarser(params: AutomatedLoomParams) -> Iterator[NearestFit]:
+    across, along = params.quality.across, params.quality.along
+
+    def scaled(share: float) -> AutomatedLoomParams | None:
+        if min(across, along) * share < COARSEST:
+            return None
+        return replace(params, knots_across=across * share, knots_along=along * share, warp_pitch=None)
+
+    for share in _largest(scaled):
+        yield NearestFit("quality", " x ".join(format_quantity(one * share, "1/dm", 3) for one in (across, along)))
+
+
+def _narrower(params: AutomatedLoomParams) -> Iterator[NearestFit]:
+    def scaled(share: float) -> AutomatedLoomParams | None:
+        return replace(params, width=params.width * share) if params.width * share >= SMALLEST else None
+
+    for share in _largest(scaled):
+        yield NearestFit("width", format_quantity(params.width * share, "m", 3))
+
+
+def _other_knots(params: AutomatedLoomParams) -> Iterator[NearestFit]:
+    for knot in WRAPS:
+        if knot != params.knot and weaves(replace(params, knot=knot)):
+            yield NearestFit("knot", knot)
+
+
+def _largest(scaled: Callable[[float], AutomatedLoomParams | None]) -> Iterator[float]:
+    """The largest of `SHARES` at which the loom weaves; none where it weaves at no share."""
+    low, high = 0, len(SHARES)
+    while low < high:
+        middle = (low + high) // 2
+        tried = scaled(SHARES[middle])
+        low, high = (low, middle) if tried is not None and weaves(tried) else (middle + 1, high)
+    if low < len(SHARES):
+        yield SHARES[low]
