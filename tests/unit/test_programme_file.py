@@ -12,6 +12,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.errors import LoomError
 from ilmek.io.programme_file import open_programme, write_programme
 from ilmek.io.programme_meta import Label
+from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.programme import Programme, Times, make_programme
 from ilmek.machines.weaver import WeaverParams, design
 from ilmek.progress import Progress
@@ -21,7 +22,8 @@ ROWS, COLUMNS = 40, 30
 
 def programme() -> Programme:
     knots = np.random.default_rng(3).integers(0, 3, (ROWS, COLUMNS)).astype(np.uint8)
-    return make_programme(knots, 3, 3, Times(2.0, 0.5, 0.02, 12.0))
+    bobbins = (Bobbin("straight weft", 7, 90.0), Bobbin("sinuous weft", 14, 60.0))
+    return make_programme(knots, 3, 3, Times(2.0, 0.5, 0.02, 12.0), bobbins=bobbins)
 
 
 def label() -> Label:
@@ -44,6 +46,8 @@ def test_everything_comes_back(written: Path) -> None:
         assert (file.rows, file.columns, file.heads, file.times) == (ROWS, COLUMNS, 3, meant.times)
         assert file.label == label()
         assert file.totals.duration == meant.duration
+        assert (file.bobbins, file.stops) == (meant.bobbins, meant.stops)
+        assert file.totals.duration == pytest.approx(meant.row_times.sum() + 5 * 90.0 + 2 * 60.0)
         assert file.totals.counts == tuple(np.bincount(meant.knots.ravel()).tolist())
         assert file.totals.changes_per_knot == meant.work.changes.sum() / (ROWS * COLUMNS)
         assert file.work.busy.tolist() == meant.work.busy.tolist()
@@ -100,7 +104,15 @@ def test_a_newer_format(written: Path) -> None:
     data = bytearray(written.read_bytes())
     data[60:64] = (9).to_bytes(4, "big")
     written.write_bytes(data)
-    with pytest.raises(LoomError, match="has format 9; this ilmek reads up to format 1"):
+    with pytest.raises(LoomError, match="has format 9; this ilmek reads up to format 2"):
+        open_programme(written)
+
+
+def test_an_older_format(written: Path) -> None:
+    data = bytearray(written.read_bytes())
+    data[60:64] = (1).to_bytes(4, "big")
+    written.write_bytes(data)
+    with pytest.raises(LoomError, match="has format 1; this ilmek reads format 2; write the programme again"):
         open_programme(written)
 
 

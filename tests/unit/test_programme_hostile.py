@@ -23,6 +23,7 @@ from ilmek.io.json_file import json_text
 from ilmek.io.programme_file import ProgrammeFile, open_programme, write_programme
 from ilmek.io.programme_meta import Label
 from ilmek.jobs.inspect import inspect_programme
+from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.programme import Times, make_programme
 from ilmek.loom.row import KnotRow
 from ilmek.loom.schedule import PASSES
@@ -31,6 +32,8 @@ from ilmek.machines.weaver import WeaverParams, design
 
 ROWS, COLUMNS, HEADS, YARNS = 12, 20, 3, 3
 PARTS = 2 * HEADS
+TIMES = Times(2.0, 0.5, 0.02, 12.0)
+BOBBINS = (Bobbin("straight weft", 4, 60.0), Bobbin("sinuous weft", 5, 60.0))
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +43,7 @@ def content(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     yarns = tuple(Yarn(f"wool {k}", (k, 2 * k, 255), (50.5, 1.0, -3.25), 2.5, 2) for k in range(YARNS))
     cyclograms = (design(WeaverParams()).cyclogram,)
     label = Label(CarpetSize(0.08, 0.048), Quality(250.0, 250.0), "symmetric", yarns, 0.002, cyclograms)
-    write_programme(path, make_programme(knots, YARNS, HEADS, Times(2.0, 0.5, 0.02, 12.0)), label)
+    write_programme(path, make_programme(knots, YARNS, HEADS, TIMES, bobbins=BOBBINS), label)
     return path.read_bytes()
 
 
@@ -200,6 +203,15 @@ DEEP = "[" * 100_000
         ("times", put("knot", 0), "time of knot 0 s"),
         ("times", put("weft", -1), r"times\.weft is -1"),
         ("times", put("more", 1), "times is a table"),
+        ("bobbins", lambda _: {}, "bobbins is a table"),
+        ("bobbins", lambda bobbins: bobbins * 9, "a list of 18; a list of 0 to 16"),
+        ("bobbins", lambda bobbins: bobbins * 2, "two bobbins"),
+        ("bobbins", lambda bobbins: bobbins[:1], "weaving time is not the sum of its rows and stops"),
+        ("bobbins", put(0, "rows", 0), r"bobbins\[0\]\.rows is 0"),
+        ("bobbins", put(0, "rows", 4.0), r"bobbins\[0\]\.rows is 4\.0"),
+        ("bobbins", put(0, "time", -1), r"bobbins\[0\]\.time is -1"),
+        ("bobbins", put(1, "yarn", ""), r"bobbins\[1\]\.yarn"),
+        ("bobbins", put(1, "more", 1), r"bobbins\[1\] is a table"),
         ("quality", put("across", 1e999), r"quality\.across is inf"),
         ("size", put("name", "\x1b]0;x\x07"), "printable"),
         ("size", put("name", "a" * 300_000), "200 characters"),

@@ -2,6 +2,7 @@
 
 Two wefts follow every row of knots: a straight, thick weft (Turkish alt atkı), nearly straight between the two planes
 of warps, and a sinuous, thin weft (üst atkı), which passes alternately over and under the warps.
+Both run from edge to edge of the cloth, selvedges included, and on by the turn into the next row.
 
 Warp and wefts are those of `ilmek.elements.carpet_yarns`, the same as of the loom's machines.
 
@@ -16,12 +17,18 @@ import scipy
 
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.elements.carpet_yarns import CarpetYarnParams, carpet_yarns
+from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, carpet_yarns
 from ilmek.params import Params, nested, param
 from ilmek.units import mm
 
 SELVEDGE_WARPS = 8
 """Usual warps without knots, both edges together."""
+
+WEFT_TURN = 20 * mm
+"""Weft beyond the cloth for a row [m]: the turn into the next row, or both ends tucked in; assumed by this project."""
+
+WEFT_SHARE = 0.5
+"""Share of the sinuous weft in the amplitude of a crossing, the rest the warps'; assumed by this project."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,9 +38,9 @@ class GroundParams(Params):
     fringe: float = param(0.10, unit="mm", at_least=0.0, at_most=1.0, doc="warp left at each end as fringe")
     loom_waste: float = param(0.40, unit="mm", at_least=0.0, at_most=10.0, doc="warp lost in the loom, both ends")
     selvedge_warps: int = param(SELVEDGE_WARPS, at_least=0, at_most=200, doc="warps without knots, both edges together")
-    weft_turn: float = param(20 * mm, unit="mm", at_least=0.0, at_most=0.5, doc="weft for the turn of a pick")
+    weft_turn: float = param(WEFT_TURN, unit="mm", at_least=0.0, at_most=0.5, doc="weft for the turn of a pick")
     weft_share: float = param(
-        0.5,
+        WEFT_SHARE,
         at_least=0.0,
         at_most=1.0,
         doc="share of the sinuous weft in the amplitude of a crossing, the rest the warps",
@@ -67,6 +74,32 @@ def sinuous_length(width: float, pitch: float, amplitude: float) -> float:
     return width * over_pitch / pitch
 
 
+@dataclass(frozen=True, slots=True)
+class WeftLengths:
+    """Length of each weft for a row, with its turn [m]."""
+
+    straight: float
+    sinuous: float
+
+
+def weft_lengths(
+    width: float, pitch: float, yarns: CarpetYarns, turn: float = WEFT_TURN, share: float = WEFT_SHARE
+) -> WeftLengths:
+    """Length of each weft for a row.
+
+    width  of the cloth, selvedges included [m]      pitch  of the warps [m]
+    turn   beyond the cloth for a row [m]            share  of the sinuous weft in the amplitude of a crossing
+
+    Where the sinuous weft passes a warp, its axis is share · (D + w)/2 from the plane of the warps (D diameter of the
+    warp, w of the weft); the warps bend by the rest.
+
+    >>> weft_lengths(1.216, 2e-3, carpet_yarns(CarpetYarnParams(), 2e-3)).straight
+    1.236
+    """
+    amplitude = share * (yarns.warp.diameter + yarns.sinuous_weft.diameter) / 2
+    return WeftLengths(width + turn, sinuous_length(width, pitch, amplitude) + turn)
+
+
 def warp_need(columns: int, length: float, density: float, params: GroundParams) -> GroundYarn:
     """Warp for `columns` knots across: two per knot and the selvedges.
 
@@ -80,19 +113,15 @@ def warp_need(columns: int, length: float, density: float, params: GroundParams)
 def ground_yarns(
     size: CarpetSize, quality: Quality, rows: int, columns: int, params: GroundParams | None = None
 ) -> tuple[GroundYarn, GroundYarn, GroundYarn]:
-    """Warp, straight weft and sinuous weft of a carpet of rows × columns knots.
-
-    Where the sinuous weft passes a warp, its axis is weft_share · (D + w)/2 from the plane of the warps (D diameter of
-    the warp, w of the weft); the warps bend by the rest.
-    """
+    """Warp, straight weft and sinuous weft of a carpet of rows × columns knots; the wefts bind the selvedges too."""
     params = params or GroundParams()
-    yarns = carpet_yarns(params.yarns, quality.warp_pitch)
-    straight, sinuous = yarns.straight_weft.linear_density, yarns.sinuous_weft.linear_density
-    amplitude = params.weft_share * (yarns.warp.diameter + yarns.sinuous_weft.diameter) / 2
-    straight_length = rows * (size.width + params.weft_turn)
-    winding = rows * (sinuous_length(size.width, quality.warp_pitch, amplitude) + params.weft_turn)
+    pitch = quality.warp_pitch
+    yarns = carpet_yarns(params.yarns, pitch)
+    cloth = (2 * columns + params.selvedge_warps) * pitch
+    a_row = weft_lengths(cloth, pitch, yarns, params.weft_turn, params.weft_share)
+    straight, sinuous = rows * a_row.straight, rows * a_row.sinuous
     return (
         warp_need(columns, size.length, yarns.warp.linear_density, params),
-        GroundYarn("straight weft", straight_length, straight_length * straight),
-        GroundYarn("sinuous weft", winding, winding * sinuous),
+        GroundYarn("straight weft", straight, straight * yarns.straight_weft.linear_density),
+        GroundYarn("sinuous weft", sinuous, sinuous * yarns.sinuous_weft.linear_density),
     )

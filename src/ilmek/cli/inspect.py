@@ -1,5 +1,6 @@
 """`ilmek inspect`: show a loom programme."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -9,10 +10,14 @@ from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import say, show_pairs, show_table
 from ilmek.io.programme_file import ProgrammeFile
 from ilmek.jobs.inspect import InspectionResult, inspect_programme, runs
+from ilmek.loom.bobbins import ChangeStop
 from ilmek.units import format_quantity
 
 MOST_RUNS = 4000
 """Largest number of runs of a row that are printed; a table of more takes seconds, and nobody reads it."""
+
+MOST_STOPS = 20
+"""Largest number of stops that are printed."""
 
 EXAMPLES = """\b
 Examples:
@@ -58,8 +63,15 @@ def show_programme(programme: ProgrammeFile) -> None:
             ("loom", f"{programme.heads} heads, warp pitch {format_quantity(label.warp_pitch, 'mm')}"),
             ("weaving time", f"{format_quantity(totals.duration, 'h')}"),
             ("colour changes", f"{totals.changes:,}, {totals.changes_per_knot:.3f} per knot"),
+            ("stops", stops_in_words(programme.stops)),
         ]
     )
+    bobbins = [
+        (one.yarn, f"{one.rows:,}", f"{one.changes(programme.rows):,}", format_quantity(one.time, "s"))
+        for one in programme.bobbins
+    ]
+    if bobbins:
+        show_table(("bobbin", "rows", "changes", "time of one"), bobbins, right=(1, 2, 3))
     counted = [
         (yarn.name, yarn.hex, f"{count:,}", f"{count / totals.knots:.1%}")
         for yarn, count in zip(label.yarns, totals.counts, strict=True)
@@ -71,6 +83,16 @@ def show_programme(programme: ProgrammeFile) -> None:
         for head, (knots, changes, busy) in enumerate(zip(work.knots, work.changes, work.busy, strict=True))
     ]
     show_table(("head", "knots", "colour changes", "busy"), heads, right=(0, 1, 2, 3))
+
+
+def stops_in_words(stops: Sequence[ChangeStop]) -> str:
+    """The rows before which the loom stops, from 1 at the bottom, up to MOST_STOPS."""
+    if not stops:
+        return "none: no bobbin of weft is changed"
+    rows = ", ".join(str(one.row + 1) for one in stops[:MOST_STOPS])
+    more = f", … {len(stops) - MOST_STOPS:,} more: see --json" if len(stops) > MOST_STOPS else ""
+    time = format_quantity(sum(one.time for one in stops), "min", 3)
+    return f"{len(stops):,}, {time} in all, to change bobbins before row {rows}{more}"
 
 
 def show_row(found: InspectionResult) -> None:

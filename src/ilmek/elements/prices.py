@@ -11,10 +11,12 @@ any currency. A text with other rates has one line for each rate that differs fr
 """
 
 import difflib
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ilmek.errors import ParameterError
+from ilmek.report import Part
 
 _RATES = {"each": "each", "per kg": "per_kg", "per m": "per_m", "per W": "per_W"}
 
@@ -72,6 +74,12 @@ def read_prices(text: str | None) -> Mapping[str, PriceRates]:
             kind, rate, value = _line(entry)
             prices[kind] = replace(prices[kind], **{rate: value})
     return prices
+
+
+def price_of(part: Part, prices: Mapping[str, PriceRates]) -> float:
+    """Price of all pieces of a part, in the currency of the table of prices."""
+    weighed = 0.0 if math.isnan(part.mass) else part.mass
+    return part.number * prices[part.kind].price(weighed, part.length, part.power)
 
 
 def written(prices: Mapping[str, PriceRates] = PRICES) -> str:

@@ -21,13 +21,14 @@ from ilmek.arrays import FloatArray, IntArray, UInt8
 from ilmek.errors import IlmekError, LoomError
 from ilmek.io.programme_meta import Label, ProgrammeMeta, Totals, meta_texts, read_meta
 from ilmek.io.sqlite_readonly import DamagedDatabase, ReadOnlyDatabase, SqliteHeader
+from ilmek.loom.bobbins import Bobbin, ChangeStop, change_stops, stop_time
 from ilmek.loom.programme import HeadWork, Programme, Times, least_time
 from ilmek.loom.row import KnotRow, invalid_rows
 from ilmek.loom.schedule import PASSES
 from ilmek.loom.sharing import halves
 from ilmek.progress import SILENT, Progress
 
-APPLICATION, VERSION = 0x696C6D6B, 1
+APPLICATION, VERSION = 0x696C6D6B, 2
 """Application id (the letters `ilmk`) and version of the format, in the file's header."""
 
 _LEVEL = 6
@@ -96,10 +97,13 @@ class ProgrammeFile:
     """An open programme: its label, its totals, and its rows one by one.
 
     label, times, heads, edges, rows, columns    as in `Label` and `loom.programme.Programme`
+    bobbins                                      of weft: when each is changed
     totals, work                                 totals of the carpet, and the work of each head
     """
 
-    __slots__ = ("_database", "columns", "edges", "heads", "label", "path", "rows", "times", "totals", "work")
+    __slots__ = (
+        "_database", "bobbins", "columns", "edges", "heads", "label", "path", "rows", "times", "totals", "work",
+    )  # fmt: skip
 
     label: Label
     rows: int
@@ -107,6 +111,7 @@ class ProgrammeFile:
     heads: int
     edges: IntArray
     times: Times
+    bobbins: tuple[Bobbin, ...]
     totals: Totals
     work: HeadWork
 
@@ -114,6 +119,11 @@ class ProgrammeFile:
         self.path, self._database = path, database
         for one in fields(meta):
             setattr(self, one.name, getattr(meta, one.name))
+
+    @property
+    def stops(self) -> tuple[ChangeStop, ...]:
+        """The stops in which bobbins of weft are changed."""
+        return change_stops(self.bobbins, self.rows)
 
     def row(self, number: int) -> KnotRow:
         """Loom row `number`, 0 at the carpet's bottom edge. Raises LoomError beyond the carpet or if it is damaged."""
@@ -193,6 +203,9 @@ def _check_header(path: Path) -> None:
     if header.version > VERSION:
         newer = f"{path} has format {header.version}"
         raise LoomError(newer, allowed=f"this ilmek reads up to format {VERSION}", do="use a newer ilmek")
+    if header.version < VERSION:
+        older = f"{path} has format {header.version}"
+        raise LoomError(older, allowed=f"this ilmek reads format {VERSION}", do=_AGAIN)
     if header.length > LARGEST_FILE:
         raise LoomError(f"{path} has {header.length} bytes", allowed=f"at most {LARGEST_FILE // 1_000_000} MB")
     if header.length < header.expected_length:
@@ -254,8 +267,9 @@ def _check_times(file: ProgrammeFile, times: FloatArray) -> None:
     invalid = ~((times >= least) & (times <= file.totals.duration * (1 + _ROUNDING)))
     if invalid.any():
         raise file.damaged(f"row {int(invalid.argmax())} has an impossible time")
-    if abs(times.sum() - file.totals.duration) > _ROUNDING * file.totals.duration:
-        raise file.damaged("the weaving time is not the sum of its rows")
+    woven = times.sum() + stop_time(file.bobbins, file.rows)
+    if abs(woven - file.totals.duration) > _ROUNDING * file.totals.duration:
+        raise file.damaged("the weaving time is not the sum of its rows and stops")
 
 
 @contextlib.contextmanager

@@ -2,6 +2,7 @@
 
     size, quality, knot, yarns, warp_pitch, cyclograms    of the carpet and the loom (`Label`)
     rows, columns, heads, edges, times                    as in `loom.programme.Programme`
+    bobbins                                               of weft: yarn, rows that each lasts, time of its change
     totals, work                                          of the carpet (`Totals`), and of each head (`HeadWork`)
 
 What is read is checked whole: every key, type, range and length, and that the numbers agree with each other. What is
@@ -27,6 +28,7 @@ from ilmek.errors import LoomError, shortened
 from ilmek.io.schema import shown
 from ilmek.io.sqlite_readonly import LARGEST_VALUE
 from ilmek.io.yarn_file import yarns_from_records
+from ilmek.loom.bobbins import Bobbin, stop_time
 from ilmek.loom.programme import LONGEST_TIME, MOST_PER_SIDE, HeadWork, Programme, Times
 from ilmek.loom.sharing import MOST_HEADS, halves, share
 from ilmek.records import record
@@ -38,6 +40,9 @@ MOST_CYCLOGRAMS, MOST_TRACKS, MOST_MOTIONS, MOST_EVENTS = 4, 64, 200, 200
 
 MOST_LAW_NUMBERS = 500
 """Largest number of parameters of all motion laws: a spline through 250 points takes all of them and 0.2 s."""
+
+MOST_BOBBINS = 16
+"""Largest number of yarns of weft."""
 
 LONGEST_NAME = 200
 """Largest number of characters of a name of a yarn, a carpet size, a track, a motion or an event."""
@@ -55,8 +60,8 @@ _BLOCK = 1 << 21
 """Knots that are counted at once."""
 
 _KEYS = (
-    "size", "quality", "knot", "yarns", "warp_pitch", "rows", "columns", "heads", "edges", "times", "totals", "work",
-    "cyclograms",
+    "size", "quality", "knot", "yarns", "warp_pitch", "rows", "columns", "heads", "edges", "times", "bobbins", "totals",
+    "work", "cyclograms",
 )  # fmt: skip
 _SEGMENT = ("name", "start", "end", "begin", "finish")
 
@@ -106,6 +111,7 @@ class ProgrammeMeta:
     heads: int
     edges: IntArray
     times: Times
+    bobbins: tuple[Bobbin, ...]
     totals: Totals
     work: HeadWork
 
@@ -127,6 +133,7 @@ def meta_texts(programme: Programme, label: Label) -> dict[str, str]:
         "heads": programme.heads,
         "edges": programme.edges.tolist(),
         "times": asdict(programme.times),
+        "bobbins": [asdict(bobbin) for bobbin in programme.bobbins],
         "totals": {
             "duration": programme.duration,
             "knots": int(counts.sum()),
@@ -164,8 +171,8 @@ def read_meta(texts: Mapping[str, str]) -> ProgrammeMeta:
         entries["warp_pitch"].number(1e-6, 1.0),
         _CyclogramReader().cyclograms(entries["cyclograms"]),
     )
-    totals = _totals(entries["totals"], len(label.yarns))
-    meta = ProgrammeMeta(label, rows, columns, heads, edges, times, totals, _work(entries["work"], heads))
+    bobbins, totals = _bobbins(entries["bobbins"]), _totals(entries["totals"], len(label.yarns))
+    meta = ProgrammeMeta(label, rows, columns, heads, edges, times, bobbins, totals, _work(entries["work"], heads))
     _require_agreement(meta)
     return meta
 
@@ -261,6 +268,18 @@ def _yarns(entry: MetaEntry) -> tuple[Yarn, ...]:
     return tuple(found)
 
 
+def _bobbins(entry: MetaEntry) -> tuple[Bobbin, ...]:
+    """The bobbins of weft, one for each yarn."""
+    found = []
+    for one in entry.rows(0, MOST_BOBBINS):
+        given = one.table(*(field.name for field in fields(Bobbin)))
+        lasts = given["rows"].whole(1, sys.maxsize)
+        found.append(Bobbin(given["yarn"].text(least=1), lasts, given["time"].number(0.0, LONGEST_TIME)))
+    if len({bobbin.yarn for bobbin in found}) < len(found):
+        raise LoomError("a yarn of weft has two bobbins", allowed="one for each")
+    return tuple(found)
+
+
 def _totals(entry: MetaEntry, yarns: int) -> Totals:
     given = entry.table(*(field.name for field in fields(Totals)))
     return Totals(
@@ -282,7 +301,7 @@ def _require_agreement(meta: ProgrammeMeta) -> None:
     """Raise LoomError unless totals, work and times agree: knots and sums exactly, times within their bounds.
 
     A head is busy for knots t_knot + changes t_change, and for at most t_travel longer per pitch. The weaving time is
-    at least the wefts and the busiest head, at most the wefts and all heads one after the other.
+    at least wefts, stops and the busiest head, at most wefts, stops and all heads one after the other.
     """
     work, totals, times = meta.work, meta.totals, meta.times
     blocks = np.diff(meta.edges[:: halves(meta.heads)])
@@ -295,7 +314,7 @@ def _require_agreement(meta: ProgrammeMeta) -> None:
     most = least + work.travel * times.travel
     if not np.all((least <= work.busy * (1 + _SAME)) & (work.busy <= most * (1 + _SAME))):
         raise LoomError("the working times of the heads are not those of their work")
-    tying = totals.duration - meta.rows * times.weft
+    tying = totals.duration - meta.rows * times.weft - stop_time(meta.bobbins, meta.rows)
     rounding = _SAME * totals.duration
     if not work.busy.max() - rounding <= tying <= work.busy.sum() + rounding:
         raise LoomError("the weaving time is not that of the heads and wefts")

@@ -26,6 +26,7 @@ class InspectionResult:
         """The programme's statistics and the row, SI.
 
         Rows count from 1 at the bottom and pairs of warps (one knot each) from 1 at the left, as on the printed chart.
+        A stop is before its row.
         Yarns are indices of the list `yarn`, from 0.
         """
         programme, row = self.programme, self.row
@@ -43,6 +44,11 @@ class InspectionResult:
             "knot": label.knot,
             "warp_pitch": label.warp_pitch,
             "times": {name: getattr(programme.times, name) for name in programme.times.__slots__},
+            "bobbins": [
+                {"yarn": one.yarn, "rows": one.rows, "changes": one.changes(programme.rows), "time": one.time}
+                for one in programme.bobbins
+            ],
+            "stops": [{"row": one.row + 1, "yarns": list(one.yarns), "time": one.time} for one in programme.stops],
             "yarn": [{"name": y.name, "knots": n} for y, n in zip(label.yarns, totals.counts, strict=True)],
             "work": {one.name: getattr(work, one.name) for one in fields(work)},
             "row": {

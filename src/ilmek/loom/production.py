@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from ilmek.loom.bobbins import stop_time
 from ilmek.loom.programme import Programme
 
 HAND_KNOT = 2.4
@@ -13,12 +14,14 @@ class Production:
     """Breakdown of the weaving time of a carpet [s].
 
     total        weaving time                       wefts      share of wefts and beats
-    tying, changing, travelling, waiting            shares of the heads, their mean; their sum is total - wefts
+    stops        share of the stops in which bobbins of weft are changed
+    tying, changing, travelling, waiting            shares of the heads, their mean; their sum is the rest of the total
     knots        number of knots                    by_hand    time of the best hand weaver for the knots alone
     """
 
     total: float
     wefts: float
+    stops: float
     tying: float
     changing: float
     travelling: float
@@ -44,8 +47,8 @@ def production_time(programme: Programme) -> Production:
     knots = int(work.knots.sum())
     tying, changing = knots * times.knot / heads, int(work.changes.sum()) * times.colour_change / heads
     busy = float(work.busy.sum()) / heads
-    total = programme.duration
-    waiting = max(0.0, total - wefts - busy)
+    total, stops = programme.duration, stop_time(programme.bobbins, programme.rows)
+    waiting = max(0.0, total - wefts - stops - busy)
     # The remaining working time of a head is travel.
     travelling = max(0.0, busy - tying - changing)
-    return Production(total, wefts, tying, changing, travelling, waiting, knots, knots * HAND_KNOT)
+    return Production(total, wefts, stops, tying, changing, travelling, waiting, knots, knots * HAND_KNOT)

@@ -1,11 +1,14 @@
 """The loom's programme: head, colour and warp pair of every knot, in order, and the weaving time.
 
-    time = sum over rows of ( wefts + sum over halves of max over heads of their part's time )
+    time = sum over rows of ( wefts + sum over halves of max over heads of their part's time ) + stops
+
+Stops: changes of the bobbins of weft (`loom.bobbins`).
 
 Rows are woven from the carpet's bottom edge upward: loom row 0 is the chart's last row.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +19,7 @@ from ilmek.carpet.quality import FINEST
 from ilmek.carpet.sizes import LARGEST
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import LoomError
+from ilmek.loom.bobbins import Bobbin, ChangeStop, change_stops, stop_time
 from ilmek.loom.row import KnotRow
 from ilmek.loom.schedule import NONE, ByteTable, Layout, RowSpan, ScheduleResult, schedule
 from ilmek.loom.sharing import MOST_HEADS, halves, require_whole, share
@@ -88,6 +92,7 @@ class Programme:
     knots      chart, row 0 = top          yarns  length of the yarn list        edges  see `loom.sharing`
     keys       uint8 (rows, parts, 3), loom row first: order, first and last colour, see `loom.schedule`
     row_times  of each loom row, wefts included [s]
+    bobbins    of weft: when each is changed
     """
 
     knots: Indices
@@ -98,6 +103,7 @@ class Programme:
     keys: UInt8[np.ndarray, "rows parts 3"]
     row_times: FloatArray
     work: HeadWork
+    bobbins: tuple[Bobbin, ...] = ()
 
     @property
     def rows(self) -> int:
@@ -111,8 +117,13 @@ class Programme:
 
     @property
     def duration(self) -> float:
-        """Weaving time of the whole carpet [s]."""
-        return float(self.row_times.sum())
+        """Weaving time of the whole carpet [s], stops included."""
+        return float(self.row_times.sum()) + stop_time(self.bobbins, self.rows)
+
+    @property
+    def stops(self) -> tuple[ChangeStop, ...]:
+        """The stops in which bobbins of weft are changed."""
+        return change_stops(self.bobbins, self.rows)
 
     def row(self, number: int) -> KnotRow:
         """Loom row `number`, 0 at the carpet's bottom edge. Raises LoomError beyond the carpet."""
@@ -121,10 +132,19 @@ class Programme:
         return KnotRow(number, self.knots[self.rows - 1 - number], self.keys[number], self.edges, self.heads)
 
 
-def make_programme(knots: Indices, yarns: int, heads: int, times: Times, *, progress: Progress = SILENT) -> Programme:
+def make_programme(
+    knots: Indices,
+    yarns: int,
+    heads: int,
+    times: Times,
+    *,
+    bobbins: Sequence[Bobbin] = (),
+    progress: Progress = SILENT,
+) -> Programme:
     """The programme of a chart for a number of heads.
 
-    knots  indices of yarns, below `yarns`, (rows, columns), row 0 = top
+    knots    indices of yarns, below `yarns`, (rows, columns), row 0 = top
+    bobbins  of weft
     Raises LoomError for an empty chart, one of another kind than uint8 or of more than MOST_KNOTS knots or
     MOST_PER_SIDE on a side, more than 255 yarns, an index of no yarn, and more heads than half the knots of a row.
     """
@@ -134,7 +154,7 @@ def make_programme(knots: Indices, yarns: int, heads: int, times: Times, *, prog
     outcome, _ = _run(knots, Layout(yarns, heads, edges), times, keys, math.inf, progress=progress)
     counted = outcome.work
     work = HeadWork(counted[:, 0], counted[:, 1], counted[:, 2], counted[:, 3], outcome.busy)
-    return Programme(knots, yarns, heads, times, edges, keys, outcome.row_times, work)
+    return Programme(knots, yarns, heads, times, edges, keys, outcome.row_times, work, tuple(bobbins))
 
 
 def weaving_time(
@@ -146,7 +166,10 @@ def weaving_time(
     *,
     progress: Progress = SILENT,
 ) -> float:
-    """Weaving time [s] without the programme; beyond the deadline [s], a lower bound that exceeds the deadline."""
+    """Weaving time [s] without the programme and without stops.
+
+    Beyond the deadline [s], a lower bound that exceeds the deadline.
+    """
     _require_chart(knots, yarns)
     layout = Layout(yarns, heads, share(knots.shape[1], heads))
     return _run(knots, layout, times, np.zeros((0, 1, 3), np.uint8), deadline, progress=progress)[1]
@@ -158,9 +181,16 @@ def least_time(rows: int, columns: int, heads: int, times: Times) -> float:
 
 
 def heads_for(
-    knots: Indices, yarns: int, deadline: float, times: Times, heads_max: int, *, progress: Progress = SILENT
+    knots: Indices,
+    yarns: int,
+    deadline: float,
+    times: Times,
+    heads_max: int,
+    *,
+    bobbins: Sequence[Bobbin] = (),
+    progress: Progress = SILENT,
 ) -> int:
-    """The smallest number of heads, up to `heads_max`, that weaves the chart within the deadline [s].
+    """The smallest number of heads, up to `heads_max`, that weaves the chart within the deadline [s], stops included.
 
     Numbers whose least time exceeds the deadline are skipped. A trial ends as soon as its remaining rows cannot meet
     the deadline. Raises LoomError, with the reason, where no number meets the deadline.
@@ -168,17 +198,19 @@ def heads_for(
     _require_chart(knots, yarns)
     require_whole("heads", heads_max, MOST_HEADS)
     rows, columns = knots.shape
-    _require_wefts(rows, deadline, times)
+    stops = stop_time(bobbins, rows)
+    _require_wefts(rows, deadline, times, stops)
+    limit = (deadline - stops) * _ROUNDING
     for heads in range(1, heads_max + 1):
-        if least_time(rows, columns, heads, times) > deadline * _ROUNDING:
+        if least_time(rows, columns, heads, times) > limit:
             continue
         trial = progress.part((heads - 1) / heads_max, heads / heads_max)
-        if weaving_time(knots, yarns, heads, times, deadline, progress=trial) <= deadline * _ROUNDING:
+        if weaving_time(knots, yarns, heads, times, deadline - stops, progress=trial) <= limit:
             return heads
     reached = weaving_time(knots, yarns, heads_max, times, progress=progress.part(1.0, 1.0))
     raise LoomError(
         f"the deadline of {_hours(deadline)} cannot be met",
-        allowed=f"at most {heads_max} heads fit this width; they weave it in {_hours(reached)}",
+        allowed=f"at most {heads_max} heads fit this width; they weave it in {_hours(reached + stops)}",
         do="give more time, a coarser quality, a faster knot or narrower heads",
     )
 
@@ -227,8 +259,8 @@ def _require_chart(knots: Indices, yarns: int) -> None:
         raise LoomError(f"a knot of yarn {int(knots.max())}", allowed=f"the list has yarns 0 to {yarns - 1}")
 
 
-def _require_wefts(rows: int, deadline: float, times: Times) -> None:
-    wefts = rows * times.weft
+def _require_wefts(rows: int, deadline: float, times: Times, stops: float) -> None:
+    wefts = rows * times.weft + stops
     if not wefts < deadline:
         raise LoomError(
             f"the deadline of {_hours(deadline)} cannot be met by any number of heads",

@@ -7,10 +7,9 @@ where none does, the one that misses its limits least, and its failed checks are
 from collections.abc import Callable
 from dataclasses import replace
 
-from ilmek.elements.prices import read_prices
+from ilmek.elements.prices import price_of, read_prices
 from ilmek.machines import BEATS
 from ilmek.machines.automated_loom.params import AUTO, AutomatedLoomParams
-from ilmek.machines.automated_loom.pricing import price_of
 from ilmek.machines.beat import BeatDrive, PlannedBeat
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.loom_task import LoomTask

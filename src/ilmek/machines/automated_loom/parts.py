@@ -5,11 +5,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from ilmek.elements.drive_parts import belt_motor_part
-from ilmek.elements.prices import PriceRates, read_prices
+from ilmek.elements.prices import PriceRates, price_of, read_prices
 from ilmek.machines.automated_loom.cyclogram import SHUTTLE
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
-from ilmek.machines.automated_loom.pricing import price_of
 from ilmek.machines.weaver import head_mass
 from ilmek.records import computed, group, record
 from ilmek.report import Part

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.elements.columns import STEEL
+from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, SHUTTLE, TAKE_UP, cam_tables_of
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -13,7 +14,6 @@ from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.frame import BOW_LIMIT, BUCKLING_SAFETY, STRESS_SAFETY, LoomFrame
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
-from ilmek.machines.automated_loom.pricing import price_of
 from ilmek.machines.beat import BeatDrive
 from ilmek.records import computed, record
 from ilmek.report import CamTable, Check, Json, Table, at_least, at_most, columns
