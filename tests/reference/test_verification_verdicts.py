@@ -15,67 +15,74 @@ EXPECTED = {
     "beat-up": {
         "rounding": """φ=160° β=65°: a; φ=160° β=55°: b; φ=180° β=67°: a; φ=180° β=55°: c; φ=200° β=67°: a;
             φ=210° β=75°: a; φ=210° β=75°: μ_min""",
-        "misprint": """Eq 6; Eq 9; φ=160° β=55°: c; φ=180° β=35°: c; solutions in all; crank rotation angles tried;
-            β of the least deviation of μ_min from 90°; moment of inertia DC;
-            crank angle of the greatest speed, 'at about beating point';
-            crank angle of the greatest force in joint B, 'at the beat-up position'""",
+        "misprint": """Eq 9; φ=160° β=55°: c; φ=180° β=35°: c; solutions in all; crank rotation angles tried;
+            moment of inertia DC""",
+        "off": """crank angle of the greatest acceleration, 'at the beating points';
+            crank angle of the greatest force in joint B, 'at the beat-up position';
+            crank angle of the greatest force in joint C, 'at the beat-up position'""",
+        "unsound": """Eq 6 beyond 180°+ψ; case studies I to IV with a best β inside their range, 'in each case study';
+            crank angle of the greatest speed, 'at about beating point'""",
         "not reproducible": "greatest forces in joints B and C",
     },
     # The re-computation calls 125.12 of Table 3.1 a misprint of 125.11; it is off by 0.65 units of its last digit.
     "thesis": {
         "rounding": "R_inner 125 mm: least R_outer",
-        "misprint": """Eq 2.26, 2.27; Eq 2.32; Eq 2.34 with 2.35; Eq 2.37 f., text; Eq 2.43; Eq 2.44; Eq 2.46;
-            Eq 2.47; Eq 2.49; Eq 2.55; Eq 2.56; simple harmonic motion is 'uniformly changing velocity';
-            greatest jerk of the cycloidal law, 'a jerk-free motion', by L (ω/β)³;
-            R_inner 50 mm, R_outer 60 mm: y_max; R_inner 75 mm, R_outer 85 mm: y_max;
-            R_inner 100 mm, R_outer 110 mm: y_max; R_inner 125 mm, R_outer 135 mm: y_max;
-            R_inner 150 mm, R_outer 160 mm: y_max; tube 140 x 5 mm: y_max;
-            motor torque that is enough behind a self-locking 1:100 reducer; SF 1: B_ec, taken for the sag;
+        "misprint": """Eq 2.7; Eq 2.10 f., text; Eq 2.26, 2.27; Eq 2.32; Eq 2.34 with 2.35; Eq 2.37 f., text; Eq 2.43;
+            Eq 2.44; Eq 2.46; Eq 2.47; Eq 2.49; Eq 2.55; Eq 2.56; R_inner 50 mm, R_outer 60 mm: y_max;
+            R_inner 75 mm, R_outer 85 mm: y_max; R_inner 100 mm, R_outer 110 mm: y_max;
+            R_inner 125 mm, R_outer 135 mm: y_max; R_inner 150 mm, R_outer 160 mm: y_max; tube 140 x 5 mm: y_max;
+            tube 140 x 5 mm: slope; SF 1: B_ec, taken for the sag;
             SF 2: B_ec, the side for eccentricity as its heading says; allowed deflection of the shaft;
             weight of cams of 550 kg; resultant of weight and 600 warps of 10 N""",
-        "not reproducible": """precision points and lengths of the knotting arm; phase angles of the weaver's cams;
+        "unsound": """simple harmonic motion is 'uniformly changing velocity';
+            greatest jerk of the cycloidal law, 'a jerk-free motion', by L (ω/β)³; one beam in columns 2 and 4;
+            cylinder's torque from 7 N m by a self-locking 1:100 reducer, at most, 'sufficient' for 630 N m""",
+        "not reproducible": """Eqs 2.1 to 2.3; Eqs 2.4, 2.5; Eqs 2.6, J1 and J2; Eqs 2.11 to 2.22;
+            precision points and lengths of the knotting arm; phase angles of the weaver's cams;
             prime circle and torque of the cams; speed of the cam shaft; time of a prayer rug by hand;
-            tube 140 x 5 mm: slope""",
+            names and sizes of carpets; densities of the Pazyryk carpet and of silk carpets;
+            given: tension, pitch, opening, thickness of a cam, limits of slope""",
     },
-    # The re-computation counts 108 and 287 deg as off by a degree; its Eq 23 is not judged there.
+    # Eq 23 is not judged in the re-computation.
     "tufting": {
-        "rounding": "crank angle of the lowest point; crank angle of the highest point",
-        "misprint": """Eq 23; Eq 33; Eq 35 (and 43); columns of matrix A; columns of matrix C; least θ4;
-            inertia force on driven shaft by main shaft""",
+        "misprint": """Eq 15, text; Eq 23; Eq 33; Eq 35 (and 43); Eq 40 to 43; columns of matrix A;
+            columns of matrix C; least θ4""",
+        "off": "crank angle of the lowest point; crank angle of the highest point",
+        "unsound": "force of inertia on driven shaft by main shaft, without friction and weight",
         "not reproducible": """where the friction of 1000 N acts; moments of inertia of l1 to l6;
-            velocity and acceleration of the needle; forces in the joints; measured torque""",
+            Eq 19, acceleration of the needle; velocity and acceleration of the needle; forces in the joints;
+            measured torque""",
     },
     # p, q, r are one row there, a misprint; r alone is the product of the rounded 0.0309 and 0.02. Moments of inertia
     # it calls reproduced; they follow from the report's rounded masses and centre only.
     "knotting": {
-        "rounding": """f3 of pose 2; f3 of pose 3; r;
-            θ3; ω3/ω1; ω2/ω1; α3/ω1²; G1 from O1, x; G1 from O1, y; O2' from O1', x; O2' from O1', y;
-            G3 from O1', x; G3 from O1', y; a of G1, x; a of G1, y; a of G3, x; a of G3, y;
-            mass by place of link 2, link; mass by place of link 2, holder; mass by place of link 2, gripper;
-            moment of inertia of link 2, link; moment of inertia of link 2, link away from the centre;
+        "rounding": """f3 of pose 2; f3 of pose 3; r; θ3; ω3/ω1; ω2/ω1; α3/ω1²; G1 from O1, x; G1 from O1, y;
+            O2' from O1', x; O2' from O1', y; G3 from O1', x; G3 from O1', y; a of G1, x; a of G1, y; a of G3, x;
+            a of G3, y; mass by place of link 2, link; mass by place of link 2, holder;
+            mass by place of link 2, gripper; moment of inertia of link 2, link;
+            moment of inertia of link 2, link away from the centre;
             moment of inertia of link 2, holder away from the centre; moment of inertia of link 2, gripper;
             moment of inertia of link 2, gripper away from the centre; moment of inertia of link 2;
-            moment of inertia of link 1;
-            α2: r3 ω3²; α2: r1 cos(θ1-θ3); α2: r2 ω2² cos(θ2-θ3); α2, α3: r3 sin(θ3-θ2); α3: r2 ω2²;
-            α3: -r3 ω3² cos(θ3-θ2); a of G3: α3 x R, x; a of G3: α3 x R, y; a of G3: ω3 x (ω3 x R), x;
+            moment of inertia of link 1; α2: r3 ω3²; α2: r1 cos(θ1-θ3); α2: r2 ω2² cos(θ2-θ3); α2, α3: r3 sin(θ3-θ2);
+            α3: r2 ω2²; α3: -r3 ω3² cos(θ3-θ2); a of G3: α3 x R, x; a of G3: α3 x R, y; a of G3: ω3 x (ω3 x R), x;
             a of G3: ω3 x (ω3 x R), y; m3 a of G3, x; m3 a of G3, y; link 3: moment of the weight;
             link 3: moment of the inertia force, by its y; link 3: moment of the inertia force, by its x;
             link 3: -J3 α3""",
-        "misprint": """F; numeric form; f3 of pose 2, written again; x of pose 3 in f3; f4 of pose 2; f4 of pose 3;
-            F of pose 1, first written; m2; m3; p; q; Δ; λ1; λ2; case 1: p2; case 1: p3; case 1: a0; case 1: a2;
-            case 1: a1; case 2: p2; case 2: p3; case 2: a0; case 2: a2; case 2: a1; a0';
-            a0', as used from section 4 on; a2';
-            square of s; closure across s, written again; acceleration of r2, in numbers;
-            direction of the ground, 180° - θ0; angles that are chosen, θ1 and θ2; α2/ω1²; G2 from O2, x; G2 from O2, y;
-            a of G2, x; a of G2, y; weight of link 2;
-            F2' at rest, x; F2' at rest, y; F2 at rest, x; F2 at rest, y; F1' at rest, x; F1' at rest, y;
-            F1 at rest, x; F1 at rest, y; F2' by ω1², x; F2' by ω1², y; F2 by ω1², x; F2 by ω1², y;
-            F1' by ω1², x; F1' by ω1², y; F1 by ω1², x; F1 by ω1², y; M1 at rest; M1 by ω1²;
+        "misprint": """F; numeric form; first link, written again in case 1; f3 of pose 2, written again;
+            x of pose 3 in f3; f4 of pose 2; f4 of pose 3; F of pose 1, first written; m2; m3; p; q; Δ; λ1; λ2;
+            case 1: p2; case 1: p3; case 1: a0; case 1: a2; case 1: p1 in the root; case 1: p2 p3 in the root;
+            case 1: p2² in the root; case 1: p3² in the root; case 1: a1; case 2: p2; case 2: p3; case 2: a0;
+            case 2: a2; case 2: a1; a0'; a0', as used from section 4 on; a2'; square of s;
+            closure across s, written again; acceleration of r2, in numbers; α2/ω1²; G2 from O2, x; G2 from O2, y;
+            a of G2, x; a of G2, y; weight of link 2; F2' at rest, x; F2' at rest, y; F2 at rest, x; F2 at rest, y;
+            F1' at rest, x; F1' at rest, y; F1 at rest, x; F1 at rest, y; F2' by ω1², x; F2' by ω1², y; F2 by ω1², x;
+            F2 by ω1², y; F1' by ω1², x; F1' by ω1², y; F1 by ω1², x; F1 by ω1², y; M1 at rest; M1 by ω1²;
             a of G2: α2 x R, x; a of G2: α2 x R, y; a of G2: ω2 x (ω2 x R), x; a of G2: ω2 x (ω2 x R), y;
-            m2 a of G2, x; m2 a of G2, y; link 2: moment of the weight; link 2: moment at rest; link 2: -J2 α2;
-            F2'x: denominator; F2'x: numerator at rest; F2'x: numerator by ω1²; link 1: moment of F2y at rest;
-            link 1: moment of F2x at rest; link 1: moment of F2y by ω1²; link 1: moment of F2x by ω1²""",
-        "not reproducible": "a1'",
+            weight of link 3 in F1'y; m2 a of G2, x; m2 a of G2, y; link 2: moment of the weight;
+            link 2: moment at rest; link 2: -J2 α2; F2'x: denominator; F2'x: numerator at rest;
+            F2'x: numerator by ω1²; link 1: moment of F2y at rest; link 1: moment of F2x at rest;
+            link 1: moment of F2y by ω1²; link 1: moment of F2x by ω1²""",
+        "unsound": "a1'; direction of the ground, 180° - θ0; angles that are chosen, θ1 and θ2",
     },
 }
 
@@ -107,10 +114,15 @@ def test_all_165_numbers_of_the_beat_up_table_are_claims(verdicts: dict[str, tup
         ("beat-up", "moment of inertia DC", 4.8038e-5),
         ("beat-up", "greatest acceleration of the beater", 25.4315),
         ("beat-up", "force on the beater", 63.5787),
+        ("beat-up", "crank angle of the greatest acceleration, 'at the beating points'", 40.875),
+        ("beat-up", "crank angle of the greatest force in joint B, 'at the beat-up position'", 38.47),
+        ("beat-up", "crank angle of the greatest force in joint C, 'at the beat-up position'", 38.84),
+        ("beat-up", "crank angle of the greatest speed, 'at about beating point'", 339.2),
         ("thesis", "R_inner 125 mm: least R_outer", 125.1135),
         ("thesis", "R_inner 50 mm, R_outer 60 mm: y_max", 0.1830),
         ("thesis", "R_inner 150 mm, R_outer 160 mm: y_max", 0.0082),
         ("thesis", "tube 140 x 5 mm: y_max", 0.199333),
+        ("thesis", "tube 140 x 5 mm: slope", 5.3155e-4),
         ("thesis", "SF 1: B_ec, taken for the sag", 58.0301),
         ("thesis", "SF 3: B_def, taken for the slope", 69.0098),
         ("thesis", "safety of the chosen 80 mm shaft", 3.612),
@@ -120,8 +132,10 @@ def test_all_165_numbers_of_the_beat_up_table_are_claims(verdicts: dict[str, tup
         ("tufting", "stroke of the needle, 'about'", 32.78838),
         ("tufting", "crank angle of the lowest point", 106.9765),
         ("tufting", "crank angle of the highest point", 288.2304),
-        ("tufting", "exit, at half of the stroke", 193.694),
+        ("tufting", "exit", 193.694),
         ("tufting", "torque of driven shaft by main shaft, 'far greater'", 7.66),
+        ("tufting", "force on driven shaft by main shaft", 1.8825),
+        ("tufting", "force of inertia on driven shaft by main shaft, without friction and weight", 0.636),
         ("knotting", "m3", 16.79518930),
         ("knotting", "q", -0.4689081799),
         ("knotting", "λ1", 0.04622123980),
@@ -150,7 +164,7 @@ def test_all_165_numbers_of_the_beat_up_table_are_claims(verdicts: dict[str, tup
         ("knotting", "m3 a of G3, y", 2.7791002e-3 * 2009037.125),
         ("knotting", "link 3: -J3 α3", 999.6797e-9 * 62809.53679),
         ("knotting", "link 2: -J2 α2", -208.9951571e-9 * 261779.7656),
-        ("thesis", "resultant of weight and 600 warps of 10 N", 8132),
+        ("thesis", "resultant of weight and 600 warps of 10 N", 8069.2),
     ],
 )
 def test_right_values_are_those_of_the_independent_computation(

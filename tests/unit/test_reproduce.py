@@ -2,6 +2,7 @@
 
 import json
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -9,7 +10,18 @@ from click.testing import CliRunner, Result
 
 from ilmek.cli import main
 from ilmek.verification import PAPERS, TITLES, VERDICTS
-from ilmek.verification.claim import COUNT, MISPRINT, NOT_REPRODUCIBLE, REPRODUCED, RESIDUAL, ROUNDING, Claim, judge
+from ilmek.verification.claim import (
+    COUNT,
+    MISPRINT,
+    NOT_REPRODUCIBLE,
+    OFF,
+    REPRODUCED,
+    RESIDUAL,
+    ROUNDING,
+    UNSOUND,
+    Claim,
+    judge,
+)
 from ilmek.verification.wording import computed_text
 
 
@@ -24,11 +36,16 @@ def everything() -> list[dict[str, Any]]:
     return json.loads(result.stdout)
 
 
-def test_json_has_its_names_and_the_four_verdicts_only(everything: list[dict[str, Any]]) -> None:
-    names = ["paper", "item", "printed", "computed", "unit", "difference", "verdict", "note", "source"]
+def test_json_has_its_names_and_the_six_verdicts_only(everything: list[dict[str, Any]]) -> None:
+    names = ["paper", "item", "printed", "computed", "unit", "difference", "verdict", "fitted", "note", "source"]
     assert all(list(found) == names for found in everything)
     assert {found["verdict"] for found in everything} == set(VERDICTS)
     assert {found["paper"] for found in everything} == set(PAPERS) == set(TITLES)
+
+
+def test_the_readme_states_the_number_of_rows(everything: list[dict[str, Any]]) -> None:
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    assert f"recomputes four published papers in {len(everything)} rows" in readme
 
 
 def test_every_claim_has_its_own_name_and_a_source(everything: list[dict[str, Any]]) -> None:
@@ -39,19 +56,62 @@ def test_every_claim_has_its_own_name_and_a_source(everything: list[dict[str, An
 
 def test_a_number_is_missing_only_where_it_is_said_why(everything: list[dict[str, Any]]) -> None:
     for found in everything:
-        assert (found["computed"] is None) <= (found["verdict"] == "not reproducible")
-        if found["verdict"] in ("misprint", "not reproducible"):
+        assert (found["computed"] is None) <= (found["verdict"] in ("not reproducible", "unsound"))
+        if found["verdict"] in ("misprint", "off", "unsound", "not reproducible"):
             assert found["note"], found["item"]
         if found["verdict"] == "reproduced":
             assert not found["note"]
 
 
-def test_the_difference_is_computed_minus_printed(everything: list[dict[str, Any]]) -> None:
+FACTORS = {
+    **dict.fromkeys(("", "count", "rad", "m", "s", "kg", "N", "N m", "N s²", "m/s²", "kg m²"), 1.0),
+    **dict.fromkeys(("mm", "mm/s²", "mN", "N mm", "N mm s²", "g"), 1e-3),
+    **dict.fromkeys(("mm²", "mN mm", "g mm", "N mm²", "N mm² s²"), 1e-6),
+    "mm³": 1e-9,
+    "1/mm": 1e3,
+    "1/mm²": 1e6,
+    "kN/m": 1e3,
+    "deg": math.pi / 180,
+}
+"""SI of the units as printed, written down again."""
+
+
+def test_computed_and_difference_are_in_si(everything: list[dict[str, Any]]) -> None:
+    """The difference is computed minus printed; `unit` is that of the printed text alone."""
     numbers = [found for found in everything if found["computed"] is not None and found["unit"] != RESIDUAL]
-    assert len(numbers) > 165
+    assert len(numbers) > 400
     for found in numbers:
-        printed = float(found["printed"].strip("<> "))
-        assert found["difference"] == pytest.approx(found["computed"] - printed, abs=1e-12 * max(1, abs(printed)))
+        printed = float(found["printed"].strip("<> ")) * FACTORS[found["unit"]]
+        assert found["difference"] == pytest.approx(found["computed"] - printed, rel=1e-9, abs=1e-12 * abs(printed))
+
+
+@pytest.mark.parametrize(
+    ("item", "value"),
+    [
+        ("stroke of the needle, 'about'", 0.03278838),
+        ("crank angle of the lowest point", 1.867092),
+        ("R_inner 50 mm, R_outer 60 mm: y_max", 1.8298e-4),
+        ("load on the shaft at a safety of 2", 13666.67),
+        ("λ1", 46221.23980),
+        ("M1 at rest", -46.42874564),
+        ("m3 a of G3, y", 5.583315),
+        ("volume of link 1", 2.47035e-6),
+    ],
+)
+def test_numbers_of_the_json_are_in_si(item: str, value: float, everything: list[dict[str, Any]]) -> None:
+    found = next(found for found in everything if found["item"] == item)
+    assert found["computed"] == pytest.approx(value, rel=1e-4)
+
+
+def test_fitted_constants_are_reported_on_their_rows(everything: list[dict[str, Any]]) -> None:
+    fitted = {found["item"]: found["fitted"] for found in everything if found["fitted"]}
+    assert fitted["R_inner 50 mm: least R_outer"].startswith("l = 1.25 m, E = 210 GPa; on the beam of y_max, 1.2 m")
+    assert fitted["tube 140 x 5 mm: slope"] == "l = 1.2 m, E = 210 GPa"
+    assert fitted["length AE"] == "AE = 1.3 AB"
+    assert fitted["entry"] == "backing at half of the stroke"
+    shown = " ".join(run("--paper", "thesis").stdout.split())
+    assert "fitted: E = 200 GPa" in shown
+    assert f"; {sum(found['paper'] == 'thesis' and bool(found['fitted']) for found in everything)} with fitted" in shown
 
 
 def test_one_paper_can_be_asked_for() -> None:
@@ -104,6 +164,21 @@ def test_numbers_are_judged_by_their_last_printed_digit(printed: str, value: flo
     assert found.note == ("" if verdict == REPRODUCED else "why")
 
 
+@pytest.mark.parametrize("missed", [OFF, UNSOUND])
+def test_a_reading_or_a_reasoning_gets_its_own_verdict(missed: str) -> None:
+    assert judge(claim("108", 107.6, missed=missed)).verdict == REPRODUCED
+    assert judge(claim("108", 106.98, missed=missed)).verdict == missed  # no allowance for rounding
+    assert judge(claim("> 1", 0.64, missed=missed)).verdict == missed
+    assert judge(claim("4", 3, COUNT, missed=missed)).verdict == missed
+    assert judge(claim("a = b", 0.5, RESIDUAL, missed=missed)).verdict == missed
+    assert judge(claim("a = b", 1e-15, RESIDUAL, missed=missed)).verdict == REPRODUCED
+
+
+def test_a_reasoning_without_a_number_is_unsound_and_a_reading_is_not_reproducible() -> None:
+    assert judge(claim("65.4", None, missed=UNSOUND)).verdict == UNSOUND
+    assert judge(claim("curve", None, missed=OFF)).verdict == NOT_REPRODUCIBLE
+
+
 def test_a_count_off_by_one_is_wrong() -> None:
     assert judge(claim("32", 33, COUNT)).verdict == MISPRINT
     assert judge(claim("33", 33, COUNT)).verdict == REPRODUCED
@@ -133,7 +208,8 @@ def test_computed_numbers_are_shown_with_two_digits_more(printed: str, value: fl
 def test_the_table_has_what_is_not_reproduced_first_and_counts_at_its_end(everything: list[dict[str, Any]]) -> None:
     said = run("--paper", "tufting", "--paper", "thesis").stdout
     tufting = said[said.index("tufting: Xu") :]
-    places = [tufting.index(f"  {verdict}  ") for verdict in ("misprint", "not reproducible", "rounding", "reproduced")]
+    order = ("unsound", "misprint", "off", "not reproducible", "reproduced")
+    places = [tufting.index(f"  {verdict}  ") for verdict in order]
     assert places == sorted(places)
     counted = {paper: sum(found["paper"] == paper for found in everything) for paper in ("thesis", "tufting")}
     table = said[said.index("claims  ") :]

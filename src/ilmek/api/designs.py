@@ -57,7 +57,7 @@ def _check_densities(name: str, settings: Mapping[str, Setting]) -> None:
 
 
 def reproduce(*papers: str, progress: Progress = SILENT) -> ReproductionResult:
-    """Compute every number that the papers of the verification manual print, and judge it.
+    """Recompute the numbers, equations and statements of the papers of the verification manual, and judge each.
 
     papers  names like "beat-up"; default: all
     Raises ParameterError for an unknown paper; Cancelled.

@@ -32,7 +32,7 @@ main = LazyGroup(
         "mechanism": ("ilmek.cli.mechanism", "Analyse a mechanism from a file: structure, mobility, motion, report."),
         "cyclogram": ("ilmek.cli.cyclogram", "Check, optimise, tabulate and draw a cyclogram."),
         "knot": ("ilmek.cli.knot", "Prove which knot the motion of a gripper ties."),
-        "reproduce": ("ilmek.cli.reproduce", "Recompute every number of four published papers and compare."),
+        "reproduce": ("ilmek.cli.reproduce", "Recompute four published papers and compare, number by number."),
         "inspect": ("ilmek.cli.inspect", "Show a loom programme: rows, colours, statistics."),
     },
 )

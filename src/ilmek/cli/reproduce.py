@@ -10,10 +10,10 @@ from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import say, show_table
 from ilmek.jobs.reproduce import reproduce_papers
 from ilmek.verification import PAPERS, TITLES, VERDICTS, Verdict
-from ilmek.verification.claim import MISPRINT, NOT_REPRODUCIBLE, REPRODUCED, ROUNDING
+from ilmek.verification.claim import MISPRINT, NOT_REPRODUCIBLE, OFF, REPRODUCED, ROUNDING, UNSOUND
 from ilmek.verification.wording import HEADINGS, row, summary
 
-ORDER = (MISPRINT, NOT_REPRODUCIBLE, ROUNDING, REPRODUCED)
+ORDER = (UNSOUND, MISPRINT, OFF, NOT_REPRODUCIBLE, ROUNDING, REPRODUCED)
 """The verdicts, worst first."""
 
 EXAMPLES = """\b
@@ -25,7 +25,10 @@ Examples:
 reproduced        agrees to the last printed digit; an equation leaves no residual
 rounding          within 1.5 units of the last printed digit, or follows from the paper's rounded numbers
 misprint          the computed number is right; the note gives the correct equation
-not reproducible  the note gives the reason
+off               a reading of a curve or of the machine misses by more than its last digit
+unsound           the reasoning does not hold; the note gives the reason
+not reproducible  nothing can be computed; the note gives the reason
+fitted            constants that the paper does not state, chosen to make the row fit
 """
 
 
@@ -40,10 +43,10 @@ not reproducible  the note gives the reason
 @force_option
 @json_option
 def command(papers: tuple[str, ...], force: bool, json_to: str | None) -> None:
-    """Compute every number that the four papers print and report which are reproduced.
+    """Recompute the numbers, equations and statements of the four papers and report which are reproduced.
 
-    Numbers that are not reproduced are listed first, then the rest in the order of the pages. Numbers are in the unit
-    as printed, in the JSON too, so that they can be compared with the paper.
+    Those that are not reproduced are listed first, then the rest in the order of the pages. The table has the unit as
+    printed, so that it can be compared with the paper; the JSON is in SI.
     """
     with call_outputs({"--json": json_to}, force=force) as call:
         result = reproduce_papers(papers, progress=call.progress)
@@ -65,9 +68,16 @@ def show_paper(paper: str, verdicts: Sequence[Verdict]) -> None:
 
 
 def show_summary(verdicts: Mapping[str, Sequence[Verdict]]) -> None:
-    """Print the number of claims by paper and verdict."""
-    counted = {paper: Counter(verdict.verdict for verdict in of_paper) for paper, of_paper in verdicts.items()}
-    if len(counted) > 1:
-        counted["all"] = sum(counted.values(), Counter())
-    rows = [(paper, str(count.total()), *(str(count[name]) for name in VERDICTS)) for paper, count in counted.items()]
-    show_table(("paper", "claims", *VERDICTS), rows[:-1], rows[-1:], right=range(1, 6))
+    """Print the number of claims by paper and verdict, and of those with fitted constants."""
+    listed = {paper: tuple(of_paper) for paper, of_paper in verdicts.items()}
+    if len(listed) > 1:
+        listed["all"] = tuple(verdict for of_paper in verdicts.values() for verdict in of_paper)
+    rows = [(paper, *map(str, counts(of_paper))) for paper, of_paper in listed.items()]
+    show_table(("paper", "claims", *VERDICTS, "fitted"), rows[:-1], rows[-1:], right=range(1, len(VERDICTS) + 3))
+
+
+def counts(verdicts: Sequence[Verdict]) -> tuple[int, ...]:
+    """The number of claims, of each verdict, and of claims with fitted constants."""
+    counted = Counter(verdict.verdict for verdict in verdicts)
+    fitted = sum(bool(verdict.claim.fitted) for verdict in verdicts)
+    return (len(verdicts), *(counted[name] for name in VERDICTS), fitted)

@@ -18,12 +18,12 @@ class ReproductionResult:
     seconds: float
 
     def as_json(self) -> list[dict[str, Any]]:
-        """Every verdict as plain data, in the unit as printed."""
+        """Every verdict as plain data, in SI."""
         return [verdict.as_json() for of_paper in self.verdicts.values() for verdict in of_paper]
 
 
 def reproduce_papers(papers: Sequence[str] = (), *, progress: Progress = SILENT) -> ReproductionResult:
-    """Compute every number that the papers print, with a verdict on each.
+    """Recompute the numbers, equations and statements of the papers, with a verdict on each.
 
     papers  names of `PAPERS`; default: all
     Raises ParameterError for an unknown paper; Cancelled between two papers.

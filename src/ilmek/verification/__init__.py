@@ -1,4 +1,4 @@
-"""The verification manual: every computable number of the four papers, with a verdict.
+"""The verification manual: the numbers, equations and statements of four papers, with a verdict on each.
 
 A paper is one entry of `PAPERS`: the function that lists its claims. Nothing is computed before `reproduce` is called.
 """
@@ -12,6 +12,7 @@ from ilmek.verification import (
     knotting_pose,
     knotting_steps,
     knotting_synthesis,
+    thesis_approximation,
     thesis_cams,
     thesis_dyad,
     thesis_loom,
@@ -23,7 +24,12 @@ __all__ = ["PAPERS", "TITLES", "VERDICTS", "Claim", "Verdict", "reproduce"]
 
 PAPERS: dict[str, Callable[[], tuple[Claim, ...]]] = {
     "beat-up": beat_up.claims,
-    "thesis": lambda: (*thesis_dyad.claims(), *thesis_cams.claims(), *thesis_loom.claims()),
+    "thesis": lambda: (
+        *thesis_approximation.claims(),
+        *thesis_dyad.claims(),
+        *thesis_cams.claims(),
+        *thesis_loom.claims(),
+    ),
     "tufting": tufting.claims,
     "knotting": lambda: (
         *knotting_synthesis.claims(),

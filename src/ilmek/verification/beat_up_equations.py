@@ -12,7 +12,6 @@ from ilmek.arrays import FloatArray
 from ilmek.synthesis.crank_rocker.dead_centres import (
     DeadCentres,
     LinkRatios,
-    beta_limits,
     dead_centres,
     grashof_margin,
     links_of_beta,
@@ -25,7 +24,7 @@ from ilmek.synthesis.crank_rocker.dead_centres import (
 )
 from ilmek.units import deg
 from ilmek.verification.beat_up_table import SWING
-from ilmek.verification.claim import RESIDUAL, Claim, Computation, residual
+from ilmek.verification.claim import RESIDUAL, UNSOUND, Claim, Computation, residual
 
 SMALL, LARGE = (105.5, 179.0), (181.0, 284.5)
 """Crank rotations below and above 180 deg that are tested [deg]."""
@@ -37,12 +36,17 @@ def claims() -> tuple[Claim, ...]:
         _equation("1", "a = -sin(α1) cos(β1)/sin(α2),  b = sin(α1) sin(β1)/cos(α2)", _eq_1),
         _equation("3", "c² = (a+b)² + 1 - 2 (a+b) cos β", _eq_3),
         _equation("4, 5", "c² = K1 + K2 cos(α3+2β) + K2²/2 cos(2α3+2β)", _eq_4),
-        _equation(
-            "6",
+        _equation("6", "180° < φ < 180°+ψ: 90°-ψ/2 ≥ β ≥ 0", _eq_6),
+        Claim(
+            "beat-up",
+            "Eq 6 beyond 180°+ψ",
             "φ > 180°: 90°-ψ/2 ≥ β ≥ 0",
-            _eq_6,
-            "right for 180° < φ < 180°+ψ only; beyond, 90°-ψ/2 < β < 360°-φ. The ends themselves are change points",
-            _eq_6_mended,
+            RESIDUAL,
+            _eq_6_beyond,
+            "Eq 6",
+            "stated for every φ > 180°; beyond 180°+ψ the range is 90°-ψ/2 ≤ β ≤ 360°-φ. The paper's own φ = 200° "
+            "lies below",
+            missed=UNSOUND,
         ),
         _equation("7", "φ > 180°: cos μ_min = (b²+c²-(1-a)²)/(2bc)", partial(_transmission, -1, 1, LARGE)),
         _equation("8", "φ < 180°: 90°-ψ/2 ≥ β ≥ 180°-φ", _eq_8),
@@ -108,13 +112,15 @@ def _change_point(rotation: FloatArray, beta: FloatArray) -> float:
 
 
 def _eq_6() -> float:
-    rotation = np.linspace(181, 280, 45) * deg
+    return _ends_of_eq_6(np.linspace(181, 209, 29) * deg)
+
+
+def _eq_6_beyond() -> float:
+    return _ends_of_eq_6(np.linspace(211, 280, 70) * deg)
+
+
+def _ends_of_eq_6(rotation: FloatArray) -> float:
     return max(_change_point(rotation, 0 * rotation), _change_point(rotation, 0 * rotation + np.pi / 2 - SWING / 2))
-
-
-def _eq_6_mended() -> float:
-    rotation = np.linspace(181, 280, 45) * deg
-    return max(_change_point(rotation, np.asarray(end)) for end in beta_limits(SWING, rotation))
 
 
 def _eq_8() -> float:

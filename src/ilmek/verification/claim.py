@@ -1,4 +1,4 @@
-"""A printed number or equation, and the verdict of a computation on it.
+"""A printed number, equation or statement, and the verdict of a computation on it.
 
 A claim has the printed text, the function that computes the same, and a note, which is shown only if the computation
 disagrees. The verdict is formed on request:
@@ -7,9 +7,13 @@ disagrees. The verdict is formed on request:
                       is the same; an equation as printed leaves no residual
     rounding          off by at most 1.5 units of the last printed digit, or follows from the paper's rounded numbers
     misprint          neither: the computed value is correct; the corrected form of an equation leaves no residual
-    not reproducible  nothing can be computed, or the printed equation cannot be corrected; the note has the reason
+    off               a reading of a curve or of the running machine misses by more than its last digit
+    unsound           the paper's reasoning does not hold, whatever its arithmetic
+    not reproducible  nothing can be computed (a curve without numbers, data, a definition), or the printed equation
+                      cannot be corrected; the note has the reason
 
-Numbers are in the unit as printed, so that they can be compared with the paper.
+A constant that the paper does not state, and that is chosen so that a number fits, is named in `fitted`. Claims and
+verdicts hold numbers in the unit as printed, so that they can be compared with the paper; `as_json` gives them in SI.
 """
 
 import math
@@ -22,8 +26,16 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
+from ilmek.units import parse_unit
 
-REPRODUCED, ROUNDING, MISPRINT, NOT_REPRODUCIBLE = VERDICTS = ("reproduced", "rounding", "misprint", "not reproducible")
+REPRODUCED, ROUNDING, MISPRINT, OFF, UNSOUND, NOT_REPRODUCIBLE = VERDICTS = (
+    "reproduced",
+    "rounding",
+    "misprint",
+    "off",
+    "unsound",
+    "not reproducible",
+)
 
 COUNT = "count"
 """Unit of a count, which must agree exactly."""
@@ -42,7 +54,7 @@ Computation: TypeAlias = Callable[[], float | int | None]
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """A printed number or equation, and its computation.
+    """A printed number, equation or statement, and its computation.
 
     paper    a key of PAPERS
     item     name of the number
@@ -53,6 +65,8 @@ class Claim:
     note     reason of a disagreement, with the correct form of an equation
     follows  the number from the paper's rounded numbers, if they decide
     mended   residual of the equation in its correct form
+    fitted   constants that the paper does not state, chosen to make the row fit
+    missed   verdict of a disagreement: MISPRINT, OFF of a reading, UNSOUND of the paper's reasoning
     """
 
     paper: str
@@ -64,6 +78,15 @@ class Claim:
     note: str = ""
     follows: Computation | None = None
     mended: Computation | None = None
+    fitted: str = ""
+    missed: str = MISPRINT
+
+    @property
+    def si_factor(self) -> float:
+        """The unit as printed, in SI; 1 of counts, residuals and units in which nothing is computed."""
+        if self.unit in (COUNT, RESIDUAL):
+            return 1.0
+        return parse_unit(self.unit.replace(" ", "*")).factor
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,16 +104,18 @@ class Verdict:
         return "" if self.verdict == REPRODUCED else self.claim.note
 
     def as_json(self) -> dict[str, object]:
-        """Plain data: paper, item, printed (text), computed (in the printed unit), unit, difference, verdict, ..."""
+        """Plain data: paper, item, printed (text), computed and difference (SI), unit (of the printed text), ..."""
         claim = self.claim
+        factor = 1.0 if self.computed is None else claim.si_factor
         return {
             "paper": claim.paper,
             "item": claim.item,
             "printed": claim.printed,
-            "computed": self.computed,
+            "computed": None if self.computed is None else self.computed * factor,
             "unit": claim.unit,
-            "difference": self.difference,
+            "difference": None if self.difference is None else self.difference * factor,
             "verdict": self.verdict,
+            "fitted": claim.fitted,
             "note": self.note,
             "source": claim.source,
         }
@@ -106,14 +131,14 @@ def judge(claim: Claim) -> Verdict:
     """Compute a claim and its verdict."""
     value = claim.compute()
     if value is None or not math.isfinite(value):
-        return Verdict(claim, None, None, NOT_REPRODUCIBLE)
+        return Verdict(claim, None, None, UNSOUND if claim.missed == UNSOUND else NOT_REPRODUCIBLE)
     if claim.unit == RESIDUAL:
         return Verdict(claim, value, value, _of_equation(claim, value))
     relation, number = read_printed(claim.printed)
     difference = value - float(number)
     if relation:
         holds = difference > 0 if relation == ">" else difference < 0
-        return Verdict(claim, value, difference, REPRODUCED if holds else MISPRINT)
+        return Verdict(claim, value, difference, REPRODUCED if holds else claim.missed)
     return Verdict(claim, value, difference, _of_number(claim, number, value))
 
 
@@ -153,15 +178,19 @@ def last_digit(number: Decimal) -> float:
 def _of_equation(claim: Claim, residual: float) -> str:
     if residual <= NO_RESIDUAL:
         return REPRODUCED
+    if claim.missed != MISPRINT:
+        return claim.missed
     mended = claim.mended() if claim.mended else None
     return MISPRINT if mended is not None and mended <= NO_RESIDUAL else NOT_REPRODUCIBLE
 
 
 def _of_number(claim: Claim, number: Decimal, value: float) -> str:
     if claim.unit == COUNT:
-        return REPRODUCED if value == number else MISPRINT
+        return REPRODUCED if value == number else claim.missed
     if agrees(number, value):
         return REPRODUCED
+    if claim.missed != MISPRINT:
+        return claim.missed
     if abs(value - float(number)) <= UNITS_OF_ROUNDING * last_digit(number):
         return ROUNDING
     carried = claim.follows() if claim.follows else None

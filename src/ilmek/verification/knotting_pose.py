@@ -15,7 +15,7 @@ from ilmek.machines.knotting_four_bar.design import KnottingFourBar, design
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.units import deg, mm
 from ilmek.verification import knotting_equations
-from ilmek.verification.claim import COUNT, Claim, Computation
+from ilmek.verification.claim import COUNT, UNSOUND, Claim, Computation
 
 ROUNDED_TH3 = 192.524 * deg
 """theta3 in the report's further computation."""
@@ -84,6 +84,7 @@ def _pose() -> tuple[Claim, ...]:
             lambda: quoted().ground_angle / deg,
             "3, parameters; 4",
             "with -95° the loop is open by 156 mm; both θ1 and θ2 were chosen, which turns the ground",
+            missed=UNSOUND,
         ),
         _claim(
             "angles that are chosen, θ1 and θ2",
@@ -92,6 +93,7 @@ def _pose() -> tuple[Claim, ...]:
             mobility,
             "4",
             "a four-bar has one degree of freedom: θ2 follows",
+            missed=UNSOUND,
         ),
     )
 
@@ -115,7 +117,7 @@ def _speeds() -> tuple[Claim, ...]:
             "",
             of("alpha", "coupler"),
             at,
-            "the denominator is r2 sin(θ2-θ3), not r3 sin(θ3-θ2); and 0.01° from a dead point it hangs on θ3",
+            "the denominator is r2 sin(θ2-θ3), not r3 sin(θ3-θ2); and 0.01° from a dead point θ3 decides",
         ),
         _claim(
             "α3/ω1²",

@@ -66,7 +66,7 @@ def _alpha() -> Iterator[Claim]:
         return term(StepPose(angle("rocker"), _speed("coupler"), _speed("rocker")))
 
     for item, (printed, term) in terms.items():
-        yield _claim(item, printed, "", partial(exact, term), "4", NEAR, partial(term, ROUNDED))
+        yield _claim(item, printed, "mm", partial(exact, term), "4", NEAR, partial(term, ROUNDED))
 
 
 def _arm(body: str) -> complex:
@@ -158,6 +158,7 @@ def _third() -> Iterator[Claim]:
     )
     for item, printed, unit, compute, note, follows in terms:
         yield _claim(f"link 3: {item}", printed, unit, compute, at, note, follows)
+    yield _claim("weight of link 3 in F1'y", "27.26e-6", "N", partial(_weight, "rocker"), at, "27.26e-3, as before")
 
 
 def _second() -> Iterator[Claim]:

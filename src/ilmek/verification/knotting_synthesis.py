@@ -12,7 +12,7 @@ import numpy as np
 from ilmek.arrays import Float
 from ilmek.synthesis.dyad import Lengths, TwoLinkArm, dyads_through_poses, four_bar
 from ilmek.units import deg
-from ilmek.verification.claim import RESIDUAL, Claim, Computation, residual
+from ilmek.verification.claim import RESIDUAL, UNSOUND, Claim, Computation, residual
 
 Three: TypeAlias = Float[np.ndarray, "3"]
 
@@ -87,11 +87,11 @@ def _equations() -> tuple[Claim, ...]:
         factor = np.array([1 / (arm.ground * arm.second) for arm in dyads()])
         return residual(p * factor**2 + r, -q * factor)
 
-    def of_first() -> float:
+    def of_first(power: float) -> float:
         found = steps()
         P = [found.L + factor * found.M for factor in found.factors]
         return residual(
-            np.array([np.sqrt(P1 / (P2 * P3) + P2**-2 + P3**-2) for P1, P2, P3 in P]),
+            np.array([(P1 / (P2 * P3) + P2**-2 + P3**-2) ** power for P1, P2, P3 in P]),
             np.array([arm.first for arm in dyads()]),
         )
 
@@ -116,7 +116,14 @@ def _equations() -> tuple[Claim, ...]:
             lambda: _residual_of_poses(steps().F, square=-1),
         ),
         equation("quadratic", "M2 M3 λ² + (l2 M3 + l3 M2 - 1) λ + l2 l3 = 0", of_quadratic),
-        equation("first link", "a1 = (P1/(P2 P3) + P2⁻² + P3⁻²)^0.5", of_first),
+        equation("first link", "a1 = (P1/(P2 P3) + P2⁻² + P3⁻²)^0.5", partial(of_first, 0.5)),
+        equation(
+            "first link, written again in case 1",
+            "a1 = P1/(P2 P3) + P2⁻² + P3⁻²",
+            partial(of_first, 1.0),
+            "the root is missing, as the numbers have it",
+            partial(of_first, 0.5),
+        ),
     )
 
 
@@ -132,16 +139,14 @@ def _given() -> tuple[Claim, ...]:
     return (
         *(
             _claim(f"ρ{k + 1}", text, "mm", partial(_rho, k), f"{at}, table")
-            for k, text in enumerate(("0", "29.154", "30.016"))
+            for k, text in enumerate(("29.154", "30.016"), start=1)
         ),
         _claim("f2 of pose 2", "-25.528", "mm", of("f2", 1), at),
         _claim("f2 of pose 3", "3.236", "mm", of("f2", 2), at),
         _claim("f3 of pose 2", "51.49", "mm", of("f3", 1), at, typed),
         _claim("f3 of pose 2, written again", "51.499", "mm", of("f3", 1), at, typed),
         _claim("f3 of pose 3", "53.534", "mm", of("f3", 2), at),
-        _claim(
-            "x of pose 3 in f3", "10", "mm", lambda: float(POINTS[2].real), at, "30 cos(-25°), as the result has it"
-        ),
+        _claim("x of pose 3 in f3", "10", "mm", _x_in_f3, at, "its own result, 53.534, has 30"),
         _claim("f4 of pose 2", "849.955", "mm²", lambda: -(_rho(1) ** 2), at, wrong_sign),
         _claim("f4 of pose 3", "900.96", "mm²", lambda: -(_rho(2) ** 2), at, wrong_sign),
         _claim("F of pose 1, first written", "0.174", "", of("F", 0), at, "the sign; -0.174 in the next lines"),
@@ -149,6 +154,11 @@ def _given() -> tuple[Claim, ...]:
         _claim("F of pose 2", "0.069", "", of("F", 1), at),
         _claim("F of pose 3", "1", "", of("F", 2), at),
     )
+
+
+def _x_in_f3() -> float:
+    """The x [mm] in 2 (x cos θ2 + y sin θ2) = 53.534 with y = 1 mm."""
+    return float((53.534 / 2 - POINTS[2].imag * np.sin(TH2[2])) / np.cos(TH2[2]))
 
 
 def _rho(pose: int) -> float:
@@ -160,12 +170,12 @@ def _systems() -> tuple[Claim, ...]:
     at = "2, matrix equation"
     return (
         *(
-            _claim(f"l{k + 1}", text, "", partial(_of_system, "L", k), at)
-            for k, text in enumerate(("-0.174", "0.0309", "0.02"))
+            _claim(f"l{k + 1}", text, unit, partial(_of_system, "L", k), at)
+            for k, (text, unit) in enumerate((("-0.174", ""), ("0.0309", "1/mm"), ("0.02", "1/mm")))
         ),
         *(
-            _claim(f"m{k + 1}", text, "", partial(_of_system, "M", k), at, "the sign of ρ²")
-            for k, text in enumerate(("0", "-0.585", "-16.79"))
+            _claim(f"m{k + 1}", text, unit, partial(_of_system, "M", k), at, "the sign of ρ²")
+            for k, (text, unit) in enumerate((("0", "mm²"), ("-0.585", "mm"), ("-16.79", "mm")))
         ),
     )
 
@@ -183,28 +193,46 @@ def _quadratic() -> tuple[Claim, ...]:
         return q**2 - 4 * p * r
 
     return (
-        _claim("p", "9.822", "", lambda: steps().quadratic[0], at, "from m2, m3 of ρ² cut to 849.955 and 900.96"),
+        _claim("p", "9.822", "mm²", lambda: steps().quadratic[0], at, "from m2, m3 of ρ² cut to 849.955 and 900.96"),
         _claim("q", "-1.5305", "", lambda: steps().quadratic[1], at, note),
-        _claim("r", "6.18e-4", "", lambda: steps().quadratic[2], at, "0.0309 x 0.02", lambda: 0.0309 * 0.02),
+        _claim("r", "6.18e-4", "1/mm²", lambda: steps().quadratic[2], at, "0.0309 x 0.02", lambda: 0.0309 * 0.02),
         _claim("Δ", "2.317", "", discriminant, at, note),
-        _claim("λ1", "0.155", "", lambda: steps().factors[0], at, note),
-        _claim("λ2", "0.000432", "", lambda: steps().factors[1], at, f"{note}; its own quadratic gives 0.000405"),
+        _claim("λ1", "0.155", "1/mm²", lambda: steps().factors[0], at, note),
+        _claim("λ2", "0.000432", "1/mm²", lambda: steps().factors[1], at, f"{note}; its own quadratic gives 0.000405"),
     )
 
 
 def _cases() -> tuple[Claim, ...]:
     """The two arms; the printed ones miss the poses 2 and 3 by 10 to 29 mm."""
     printed = {
-        1: {"p1": "-0.174", "p2": "-0.059", "p3": "-2.582", "a0": "-0.387", "a2": "-16.949", "a1": "16.919"},
+        1: {
+            "p1": "-0.174",
+            "p2": "-0.059",
+            "p3": "-2.582",
+            "a0": "-0.387",
+            "a2": "-16.949",
+            "p1 in the root": "-0.274",
+            "p2 p3 in the root": "0.152",
+            "p2² in the root": "0.003481",
+            "p3² in the root": "6.666",
+            "a1": "16.919",
+        },
         2: {"p1": "-0.174", "p2": "0.03064", "p3": "0.01274", "a0": "78.492", "a2": "32.637", "a1": "82.345"},
     }
     notes = {
         1: "from the wrong λ1; the printed arm misses the poses 2 and 3 by 28 and 29 mm",
         2: "from the wrong λ2; the printed arm misses the poses 2 and 3 by 10 and 11 mm",
     }
+    slip = {"p1 in the root": "a slip of the pen: 16.919 follows from -0.174"}
+    units = {"p1": "", "p2": "1/mm", "p3": "1/mm", "p2 p3": "1/mm²", "p2²": "1/mm²", "p3²": "1/mm²"}
     return tuple(
         _claim(
-            f"case {case}: {name}", text, "mm" if name[0] == "a" else "", partial(_of_arm, case, name), "2", notes[case]
+            f"case {case}: {name}",
+            text,
+            units.get(name.removesuffix(" in the root"), "mm"),
+            partial(_of_arm, case, name.removesuffix(" in the root")),
+            "2",
+            slip.get(name, notes[case]),
         )
         for case, texts in printed.items()
         for name, text in texts.items()
@@ -214,8 +242,9 @@ def _cases() -> tuple[Claim, ...]:
 def _of_arm(case: int, name: str) -> float:
     arm = dyads()[case - 1]
     squares = arm.first**2 - arm.ground**2 - arm.second**2
-    values = {"a0": arm.ground, "a1": arm.first, "a2": arm.second, "p2": 1 / arm.second, "p3": 1 / arm.ground}
-    return {**values, "p1": squares / (arm.ground * arm.second)}[name]
+    lam, p2, p3 = 1 / (arm.ground * arm.second), 1 / arm.second, 1 / arm.ground
+    values = {"a0": arm.ground, "a1": arm.first, "a2": arm.second, "p1": squares * lam}
+    return {**values, "p2": p2, "p3": p3, "p2 p3": lam, "p2²": p2**2, "p3²": p3**2}[name]
 
 
 def _results() -> tuple[Claim, ...]:
@@ -233,7 +262,8 @@ def _results() -> tuple[Claim, ...]:
             "mm",
             lambda: None,
             at,
-            "no such link: the first links of the arms, 17.166 and 37.525 mm, are crank and rocker",
+            "no such link: the first links of the arms, 17.166 and 37.525 mm, are two links, crank and rocker",
+            missed=UNSOUND,
         ),
         _claim("a2'", "15.688", "mm", lambda: mechanism().coupler, at, "coupler of the four-bar of both right arms"),
     )

@@ -24,7 +24,7 @@ def _equation(
 
 def _loop() -> tuple[Claim, ...]:
     return (
-        _equation("2.24, 2.25", "ρ e^{jα} = a0 e^{jθ0} + a1 e^{jθ1} + a2 e^{jθ2}", arm.eq_2_24),
+        _equation("2.23 to 2.25", "ρ e^{jα} = a0 e^{jθ0} + a1 e^{jθ1} + a2 e^{jθ2}", arm.eq_2_24),
         _equation(
             "2.26, 2.27",
             "a2 e^{jθ2} = a0 e^{jθ0} + a1 e^{jθ1} - ρ e^{jα}",
@@ -46,10 +46,15 @@ def _loop() -> tuple[Claim, ...]:
 
 
 def _error_function() -> tuple[Claim, ...]:
-    """Eqs 2.32 to 2.36 with required second links a2 instead of the arm's ã2."""
+    """Eqs 2.31 to 2.36 with required second links a2 instead of the arm's ã2."""
     required, had = np.array([0.5, 0.6, 0.7]), arm.ARM.second
     delta = required - had
     return (
+        _equation(
+            "2.31, 2.33",
+            "Δ = a2 - ã2, to first order (a2² - ã2²)/(2 a2)",
+            lambda: residual(1.0, _first_order(had)),
+        ),
         _equation(
             "2.32",
             "Δ (a2+ã2) = (a2-ã2) + (a2+ã2)",
@@ -66,6 +71,12 @@ def _error_function() -> tuple[Claim, ...]:
         ),
         _equation("2.36", "P0 f0 + P1 f1 + P2 f2 + P3 f3 + P4 f4 + P5 f5 - F = 0", arm.eq_2_36),
     )
+
+
+def _first_order(a2: float) -> float:
+    """d/dΔ of (a2² - (a2-Δ)²)/(2 a2) at Δ = 0, by a complex step."""
+    step = 1e-20
+    return float(((a2**2 - (a2 - 1j * step) ** 2) / (2 * a2)).imag / step)
 
 
 def _superposition() -> tuple[Claim, ...]:

@@ -41,11 +41,12 @@ def item_text(verdict: Verdict) -> str:
 
 
 def source_text(verdict: Verdict) -> str:
-    """The source, and the note if there is one."""
-    return f"{verdict.claim.source}; {verdict.note}" if verdict.note else verdict.claim.source
+    """The source, the fitted constants and the note, as far as there are any."""
+    claim = verdict.claim
+    return "; ".join(filter(None, (claim.source, f"fitted: {claim.fitted}" if claim.fitted else "", verdict.note)))
 
 
-HEADINGS = ("item", "printed", "computed", "verdict", "source; note")
+HEADINGS = ("item", "printed", "computed", "verdict", "source; fitted; note")
 
 
 def row(verdict: Verdict) -> tuple[str, str, str, str, str]:
@@ -55,12 +56,15 @@ def row(verdict: Verdict) -> tuple[str, str, str, str, str]:
 
 
 def summary(verdicts: Iterable[Verdict]) -> str:
-    """The number of claims, in total and by verdict.
+    """The number of claims, in total and by verdict, and of those with fitted constants.
 
     >>> summary(())
     '0 claims'
     """
-    counted = Counter(verdict.verdict for verdict in verdicts)
+    listed = tuple(verdicts)
+    counted = Counter(verdict.verdict for verdict in listed)
+    fitted = sum(bool(verdict.claim.fitted) for verdict in listed)
     parts = [f"{counted[name]} {name}" for name in VERDICTS if counted[name]]
     total = f"{counted.total()} claim{'' if counted.total() == 1 else 's'}"
-    return f"{total}: {', '.join(parts)}" if parts else total
+    kinds = f"{total}: {', '.join(parts)}" if parts else total
+    return f"{kinds}; {fitted} with fitted constants" if fitted else kinds
