@@ -22,13 +22,15 @@ Examples:
   ilmek reproduce --paper beat-up
   ilmek reproduce --json -
 
-reproduced        agrees to the last printed digit; an equation leaves no residual
-rounding          within 1.5 units of the last printed digit, or follows from the paper's rounded numbers
-misprint          the computed number is right; the note gives the correct equation
-off               a reading of a curve or of the machine misses by more than its last digit
-unsound           the reasoning does not hold; the note gives the reason
-not reproducible  nothing can be computed; the note gives the reason
-fitted            constants that the paper does not state, chosen to make the row fit
+\b
+Verdicts, and what is fitted:
+  reproduced        agrees to the last printed digit; no residual
+  rounding          within 1.5 units of the last printed digit
+  misprint          the computed number is right
+  off               a reading of a curve or of the machine misses
+  unsound           the reasoning does not hold
+  not reproducible  nothing can be computed
+  fitted            constants that the paper does not state
 """
 
 

@@ -96,7 +96,7 @@ def _superposition() -> tuple[Claim, ...]:
 
 
 def _elimination() -> tuple[Claim, ...]:
-    note = "of 1/2 only 1 is consistent with Eqs 2.38 to 2.42: {}"
+    note = "1 for 1/2, which contradicts Eqs 2.38 to 2.42: {}"
     return (
         _equation(
             "2.43",
