@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from ilmek.elements.drive_parts import positive_work
 from ilmek.elements.prices import PRICES, read_prices
-from ilmek.errors import LoomError, ParameterError
+from ilmek.errors import ParameterError
 from ilmek.machines import warp_tension
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.cyclogram import BEATER, SHUTTLE
@@ -22,6 +22,7 @@ from ilmek.machines.automated_loom.frame import (
     STEEL,
     FrameTask,
     HollowSquare,
+    column_load,
     eccentric,
     euler,
     frame_for,
@@ -177,11 +178,30 @@ def test_as_many_heads_count_on_a_span_as_find_room_on_it():
     assert rail_sag(replace(task_of_frame(), heads=3, head_width=0.5, width=3.0, rail_spans=2), section) == few
 
 
-def test_a_frame_that_no_section_makes_is_told():
-    with pytest.raises(LoomError, match="rail"):
-        frame_for(replace(task_of_frame(), width=50.0))
-    with pytest.raises(LoomError, match="columns"):
-        frame_for(replace(task_of_frame(), pull=1e8))
+def test_a_frame_that_no_section_makes_is_of_the_largest_and_fails():
+    wide, pulled = (frame_for(replace(task_of_frame(), **one)) for one in ({"width": 50.0}, {"pull": 1e8}))
+    assert wide.rail.side == pulled.column.side == max(side for side, _ in SECTIONS)
+    assert [check.name for check in wide.checks if not check.ok] == ["frame: sag of the heads' rail"]
+    assert {check.name for check in pulled.checks if not check.ok} == {
+        "frame: stress of a column",
+        "frame: bow of a column",
+    } | ({"frame: against buckling"} if pulled.buckling_factor < 4 else set())
+    assert all(check.cure for check in (*wide.checks, *pulled.checks))
+
+
+def test_the_beat_bends_a_column_as_a_beam_loaded_in_the_middle():
+    section = HollowSquare(0.1, 0.005)
+    task = replace(task_of_frame(), pull=1.0, carried=0.0, lever=0.0, height=2.0, reaction=1000.0)
+    stress, bow = column_load(task, section)
+    assert stress == pytest.approx(500 * 2 / 4 * 0.05 / section.inertia, rel=1e-3)
+    assert bow == pytest.approx(500 * 2**3 / (48 * STEEL.modulus * section.inertia), rel=1e-3)
+
+
+def test_the_frame_bears_the_worst_case_of_the_warps():
+    assert task_of_frame().pull == loom().warp_tension.loads.worst > loom().warp_tension.params.pull
+    (columns, rail) = listed().frame.choices
+    assert (columns.name, rail.name) == ("frame_columns", "frame_rail")
+    assert columns.decided_by.startswith("frame: ")
 
 
 def test_time_at_the_own_pitch_is_the_time_and_half_the_pitch_is_four_times_the_knots():

@@ -59,5 +59,5 @@ MACHINE = Component(
     cyclograms=cyclograms,
     parts=lambda loom: parts_of_loom(loom).parts,
     children=lambda loom: loom.children,
-    choices=lambda loom: loom.choices,
+    choices=lambda loom: (*loom.choices, *parts_of_loom(loom).frame.choices),
 )

@@ -1,15 +1,18 @@
 """The loom's frame: two columns that bear the warps' pull, and beams across: heads' rail, top, bottom.
 
-Columns: the cylinders at their ends are drawn together by all warps, half of the pull on each column, off its axis by
-the radius e of the cylinder; half the weight of what the frame carries comes on top, P in all, as if at e too
-[`elements.columns`].
+Columns: the cylinders at their ends are drawn together by all warps, in the worst of their three cases half of the pull
+on each column, off its axis by the radius e of the cylinder; half the weight of what the frame carries comes on top, P
+in all, as if at e too [`elements.columns`]. The beat's reaction F comes at half height, half of it on each column:
+stress F h c / (8 I) and bow F h^3 / (96 E I) more, magnified by the compression by 1 / (1 - P / Euler's load)
+[Timoshenko and Gere, Theory of Elastic Stability, 1.11].
 
 The rail: each span between columns and posts simply supported, its own weight and as many heads as find room side by
 side in its middle, which is the worst they can do.
-Sections are the lightest square hollow ones of a table that keep the limits.
+Sections are the lightest square hollow ones of a table that keep the limits, the largest where none does.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,8 +20,8 @@ import numpy as np
 from ilmek.elements.beam import uniform
 from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, eccentric, euler
 from ilmek.elements.materials import GRAVITY
-from ilmek.errors import LoomError
 from ilmek.records import computed, record, result
+from ilmek.report import Candidate, Check, Choice, at_least, at_most, choose
 from ilmek.units import mm
 
 STRESS_SAFETY, BUCKLING_SAFETY = 2.0, 4.0
@@ -33,7 +36,8 @@ class FrameTask:
     """What the frame bears.
 
     width, height   between the columns, and of them [m]      depth   of the feet [m]
-    pull            of all warps [N]                           lever   of the pull off a column's axis [m]
+    pull            of all warps, worst case [N]               lever   of the pull off a column's axis [m]
+    reaction        of the beat, across the columns [N]
     carried         mass on the columns [kg]
     heads           that ride on the rail                      head_mass, head_width  of one [kg, m]
     rail_spans      of the rail, between columns and posts     sag_limit  of the rail [m]
@@ -50,6 +54,7 @@ class FrameTask:
     head_width: float
     rail_spans: int
     sag_limit: float
+    reaction: float = 0.0
 
     @property
     def force(self) -> float:
@@ -59,11 +64,12 @@ class FrameTask:
 
 @record
 class LoomFrame:
-    """The frame, designed: sections, stress [Pa] and bow [m] of a column, its safety against buckling, sag [m] of the
-    rail.
+    """The frame, designed: choice of its sections, sections, stress [Pa] and bow [m] of a column, its safety against
+    buckling, sag [m] of the rail.
     """
 
     task: FrameTask
+    choices: tuple[Choice, ...]
     column: HollowSquare
     rail: HollowSquare
     column_stress: float
@@ -75,28 +81,60 @@ class LoomFrame:
     frame_column = computed("", "square hollow section of the two columns", lambda it: it.column.name)
     frame_rail = computed("", "square hollow section of the heads' rail", lambda it: it.rail.name)
 
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Strength and stiffness of the columns and of the heads' rail."""
+        return (*column_checks(self.task, self.column), *rail_checks(self.task, self.rail))
+
 
 def frame_for(task: FrameTask) -> LoomFrame:
-    """The frame of the lightest sections. Raises LoomError where none of the table is strong or stiff enough."""
-    sections = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area)
-    column = next((section for section in sections if _column_holds(task, section)), None)
-    rail = next((section for section in sections if rail_sag(task, section) <= task.sag_limit), None)
-    if column is None or rail is None:
-        what = "columns" if column is None else "rail"
-        raise LoomError(
-            f"no section of the table is enough for the frame's {what}",
-            allowed=f"up to {sections[-1].name}",
-            do="set a lower tension or a narrower carpet"
-            if column is None
-            else "set a shorter rail_span or a larger rail_sag",
-        )
-    stress, bow = eccentric(task.force, task.lever, task.height, column)
+    """The frame of the lightest sections that keep their checks; of the largest where none of the table does."""
+    (column, of_column), (rail, of_rail) = _chosen(task, "columns", column_checks), _chosen(task, "rail", rail_checks)
+    stress, bow = column_load(task, column)
     upright = column.line_mass * task.height * (2 + 0.5 * (task.rail_spans - 1))  # posts reach to the rail, half-way up
     across = column.line_mass * 2 * (task.width + 2 * task.depth)
     mass = upright + across + rail.line_mass * task.width
-    return LoomFrame(
-        task, column, rail, stress, bow, euler(task.height, column) / task.force, rail_sag(task, rail), mass
+    factor, sag = euler(task.height, column) / task.force, rail_sag(task, rail)
+    return LoomFrame(task, (of_column, of_rail), column, rail, stress, bow, factor, sag, mass)
+
+
+def _chosen(
+    task: FrameTask, name: str, checks_of: Callable[[FrameTask, HollowSquare], tuple[Check, ...]]
+) -> tuple[HollowSquare, Choice]:
+    """The lightest section that keeps its checks, or the largest, and the choice."""
+    sections = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area)
+    candidates = [Candidate(section.name, checks_of(task, section)) for section in sections]
+    index, choice = choose(f"frame_{name}", candidates)
+    if not candidates[index].failed:
+        return sections[index], choice
+    return sections[-1], Choice(choice.name, sections[-1].name, "the largest of the table")
+
+
+def column_load(task: FrameTask, section: HollowSquare) -> tuple[float, float]:
+    """Greatest stress [Pa] and bow [m] of a column; inf at or above Euler's load."""
+    stress, bow = eccentric(task.force, task.lever, task.height, section)
+    if not math.isfinite(stress):
+        return stress, bow
+    share = task.reaction / 2 / (1 - task.force / euler(task.height, section))
+    bent = share * task.height * section.side / 2 / (4 * section.inertia)
+    return stress + bent, bow + share * task.height**3 / (48 * STEEL.modulus * section.inertia)
+
+
+def column_checks(task: FrameTask, section: HollowSquare) -> tuple[Check, ...]:
+    """Stress, bow and buckling of a column of a section."""
+    (stress, bow), limit = column_load(task, section), STEEL.strength / STRESS_SAFETY
+    cure, factor = "set a lower tension, a narrower carpet, or a lower frame_height", euler(task.height, section)
+    return (
+        at_most("frame: stress of a column", stress, limit, "MPa", "half of yield, S235", cure=cure),
+        at_most("frame: bow of a column", bow, BOW_LIMIT, "mm", "as the cylinders' deflection, thesis 3.1", cure=cure),
+        at_least("frame: against buckling", factor / task.force, BUCKLING_SAFETY, "1", "Euler's load", cure=cure),
     )
+
+
+def rail_checks(task: FrameTask, section: HollowSquare) -> tuple[Check]:
+    """Sag of the heads' rail of a section."""
+    cure, sag = "set a shorter rail_span or a larger rail_sag", rail_sag(task, section)
+    return (at_most("frame: sag of the heads' rail", sag, task.sag_limit, "mm", "rail_sag", cure=cure),)
 
 
 def rail_sag(task: FrameTask, section: HollowSquare) -> float:
@@ -110,9 +148,3 @@ def rail_sag(task: FrameTask, section: HollowSquare) -> float:
     wide = min(number * task.head_width, span)
     force = number * task.head_mass * GRAVITY
     return float(np.add(own, force * (8 * span**3 - 4 * span * wide**2 + wide**3) / (384 * stiff)))
-
-
-def _column_holds(task: FrameTask, section: HollowSquare) -> bool:
-    stress, bow = eccentric(task.force, task.lever, task.height, section)
-    strong = stress * STRESS_SAFETY <= STEEL.strength and bow <= BOW_LIMIT
-    return strong and euler(task.height, section) >= BUCKLING_SAFETY * task.force

@@ -47,7 +47,7 @@ def driven_axes(parts: tuple[Part, ...]) -> int:
 
 
 def parts_of_loom(loom: LoomDesign) -> PartsList:
-    """The parts list. Raises LoomError where no section carries the frame, ParameterError for unreadable prices."""
+    """The parts list. Raises ParameterError for unreadable prices."""
     prices = read_prices(loom.params.prices)
     carried = (*_of_machines(loom), *_own(loom))
     frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried)))
@@ -69,7 +69,7 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         width=wide,
         height=params.frame_height,
         depth=_DEPTH * params.frame_height,
-        pull=cylinder.params.warps * cylinder.params.tension,
+        pull=cylinder.loads.worst,
         lever=loom.tube[0] / 2,
         carried=carried,
         heads=loom.heads,

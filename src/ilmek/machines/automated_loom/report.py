@@ -5,14 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from ilmek.elements.columns import STEEL
 from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, SHUTTLE, TAKE_UP, cam_tables_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
-from ilmek.machines.automated_loom.frame import BOW_LIMIT, BUCKLING_SAFETY, STRESS_SAFETY, LoomFrame
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
 from ilmek.machines.beat import BeatDrive
 from ilmek.records import computed, record
@@ -91,7 +89,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
         *(replace(check, name=f"row: {check.name}") for check in check_all(row, row.relations)),
         *(replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}") for one in knot.exclusions),
-        *_frame_checks(found.listed.frame),
+        *found.listed.frame.checks,
     )
 
 
@@ -112,17 +110,6 @@ def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
             if params.price_limit is None
             else (at_most("price of the loom", price, params.price_limit, "1", "parameter price_limit", cure=cure),)
         ),
-    )
-
-
-def _frame_checks(frame: LoomFrame) -> tuple[Check, ...]:
-    stress = STEEL.strength / STRESS_SAFETY
-    bow = "as the cylinders' deflection, thesis 3.1"
-    return (
-        at_most("frame: stress of a column", frame.column_stress, stress, "MPa", "half of yield, S235"),
-        at_most("frame: bow of a column", frame.column_bow, BOW_LIMIT, "mm", bow),
-        at_least("frame: against buckling", frame.buckling_factor, BUCKLING_SAFETY, "1", "Euler's load"),
-        at_most("frame: sag of the heads' rail", frame.rail_sag, frame.task.sag_limit, "mm", "rail_sag"),
     )
 
 

@@ -11,6 +11,7 @@ takes an efficiency of 0.9 where self-locking allows one half.
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis, analyse
+from ilmek.machines.warp_tension.choices import choices
 from ilmek.machines.warp_tension.design import WarpTensionDesign, design
 from ilmek.machines.warp_tension.figures import figures
 from ilmek.machines.warp_tension.in_loom import fit, parts, work
@@ -33,5 +34,6 @@ MACHINE = Component(
     warnings=warnings,
     parts=parts,
     work=work,
+    choices=choices,
     fit=fit,
 )

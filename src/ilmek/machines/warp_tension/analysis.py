@@ -12,10 +12,10 @@ from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.motors import FULL_STEPS
 from ilmek.machines.warp_tension.cylinders import Cylinder, Slots, cylinders, slots_of, tension_beyond
 from ilmek.machines.warp_tension.design import WarpTensionDesign
+from ilmek.machines.warp_tension.loads import stiffness_of, tensions_of
 from ilmek.records import computed, group, record, result
 from ilmek.units import turn
-from ilmek.weaving.shed import shed_lengthening
-from ilmek.weaving.tension import TakeUpTension, take_up_tension, tension_history
+from ilmek.weaving.tension import TakeUpTension, tension_history
 
 
 @record
@@ -25,7 +25,7 @@ class WarpTension:
     over: TakeUpTension
     rows_between: int
     stiffness: float = result("kN", "force over strain of a warp", name="warp_stiffness")
-    breaking: float = result("N", "breaking force of a cotton warp", name="tension_breaking")
+    breaking: float = result("N", "breaking force of a warp", name="tension_breaking")
     correction: float = result("deg", "release of the upper cylinder beyond the lower one", name="correction_angle")
     step: float = result("N", "change of tension for a full step of the motor", name="tension_step")
 
@@ -37,17 +37,14 @@ class WarpTension:
 
 def tension_of(design: WarpTensionDesign) -> WarpTension:
     """The warps' tensions over the rows between two take-ups."""
-    params = design.params
-    stiffness = params.warp_stiffness or usual_warp(params.pitch).stiffness
-    rate, woven = stiffness / params.free_length, params.rows_between * params.row_pitch
-    lengthening = float(shed_lengthening(params.shed_lift, params.shed_span, params.shed_span))
+    params, over = design.params, tensions_of(design.params)
     return WarpTension(
-        take_up_tension(params.tension, rate, woven, params.crimp, lengthening),
+        over,
         params.rows_between,
-        stiffness,
-        usual_warp(params.pitch).breaking_force,
-        woven * params.crimp / design.outer_radius,
-        rate * design.outer_radius * turn / FULL_STEPS / design.reducer.ratio,
+        stiffness_of(params),
+        params.breaking_force or usual_warp(params.pitch).breaking_force,
+        params.rows_between * params.row_pitch * params.crimp / design.outer_radius,
+        over.rate * design.outer_radius * turn / FULL_STEPS / design.reducer.ratio,
     )
 
 
@@ -85,6 +82,11 @@ class WarpTensionAnalysis:
     tension_spacer = computed("N", "tension beyond the spacer in slip", lambda it: tension_beyond(it.design.params))
 
     @property
+    def spacer_wall(self) -> float:
+        """Wall of the spacer's tube [m], its slots not cut."""
+        return self.spacer.tube.wall if self.spacer.tube else self.spacer.outer - self.spacer.inner
+
+    @property
     def spacer(self) -> Cylinder:
         """The spacer."""
         return self.cylinders[2]
@@ -95,5 +97,5 @@ class WarpTensionAnalysis:
 
 
 def analyse(design: WarpTensionDesign) -> WarpTensionAnalysis:
-    """The analysis of a design. Raises ParameterError where the spacer's tube is cut through by its slots."""
+    """The analysis of a design."""
     return WarpTensionAnalysis(design, cylinders(design), slots_of(design.params), tension_of(design))

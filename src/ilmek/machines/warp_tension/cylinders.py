@@ -5,7 +5,8 @@
     spacer   the warps wrap it by an angle phi, from behind to straight down: the resultant of both strands,
              T n / l (-i + i exp(i phi)), 2 T sin(phi/2) a warp, and its weight; its slots reduce the tube's section
 
-Loads are complex, x to the front, y upwards. A cylinder bends in the plane of its load, as a beam between its bearings.
+T n is the pull of the worst case. Loads are complex, x to the front, y upwards. A cylinder bends in the plane of its
+load, as a beam between its bearings.
 The warps slip over the spacer: on its other side they pull with T exp(mu phi) while they move.
 
 Bearings: the load is the reaction; life after ISO 281 in turns of the cylinder, which are few, so that the static
@@ -34,22 +35,22 @@ from ilmek.elements.bearings import (
 from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.tubes import TUBES, Tube, find_tube
-from ilmek.errors import ParameterError
-from ilmek.machines.warp_tension.design import WarpTensionDesign, keeps_limits, tube_weight
+from ilmek.machines.warp_tension.design import WarpTensionDesign, keeps_limits, tube_weight, worst_load
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.records import computed, record, result
-from ilmek.units import format_quantity, hour, mm
+from ilmek.report import Check, at_least, at_most
+from ilmek.units import hour, mm
 from ilmek.weaving.tension import capstan
 
 STATIC_SAFETY = 1.5
 STUB = MATERIALS["heat-treatable steel"]
 STUB_SAFETY = 1.5
 THESIS_BEARING = "UCF 207"
-TAUT = 0.6
-"""Largest diameter of a warp over the pitch: under tension it is thinner than as yarn, and leaves room for metal."""
-
 LEAST_WALL = 3 * mm
-"""Metal under the slots of the spacer."""
+"""Metal under the slots of the spacer; assumed by this project."""
+
+SLIT = 1e-3
+"""Share of the wall that counts as left where slots cut through the spacer; its checks fail."""
 
 
 @record
@@ -111,30 +112,22 @@ class Slots:
 
 def slots_of(params: WarpTensionParams) -> Slots:
     """The spacer's slots, one for each warp."""
-    usual = min(usual_warp(params.pitch).diameter, TAUT * params.pitch)
-    warp = params.warp_diameter or usual
+    warp = params.warp_diameter or usual_warp(params.pitch).diameter
     depth = warp if params.slot_depth is None else params.slot_depth
-    return Slots(params.pitch, params.slot_width or 1.1 * warp, depth, warp)
+    width = params.slot_width or min(1.1 * warp, (warp + params.pitch) / 2)
+    return Slots(params.pitch, width, depth, warp)
 
 
 def cylinders(design: WarpTensionDesign) -> tuple[Cylinder, Cylinder, Cylinder]:
-    """Upper and lower cylinder, and the spacer. Raises ParameterError where its slots cut through it."""
+    """Upper and lower cylinder, and the spacer, in the worst case of the warps' loads."""
     params, tube = design.params, stock(design.inner_radius, design.outer_radius)
-    sizes = design.outer_radius, design.inner_radius
-    upper = _cylinder(design, "upper", sizes, tube, -1j * design.load, design.torque)
-    lower = _cylinder(design, "lower", sizes, tube, 1j * design.load, design.torque_full)
-    chosen = _spacer_tube(params, design.load)
-    solid = (chosen.outer_radius, chosen.inner_radius) if chosen else sizes
-    depth = slots_of(params).depth
-    if solid[0] - solid[1] <= depth:
-        wall = format_quantity(solid[0] - solid[1], "mm")
-        raise ParameterError(
-            f"slots of {format_quantity(depth, 'mm')} cut through a spacer with a wall of {wall}",
-            allowed=f"less than {wall}",
-            do="set a smaller slot_depth, or a spacer_tube with a thicker wall",
-        )
-    under = (solid[0] - depth, solid[1])
-    spacer = _cylinder(design, "spacer", under, chosen or tube, spacer_load(params, design.load), 0.0)
+    load, sizes = design.loads.worst / params.width, (design.outer_radius, design.inner_radius)
+    upper = _cylinder(design, "upper", sizes, tube, -1j * load, design.loads.worst * design.outer_radius)
+    lower = _cylinder(design, "lower", sizes, tube, 1j * load, design.holding_torque)
+    chosen, depth = spacer_tube(params), slots_of(params).depth
+    wall = chosen.wall
+    under = (chosen.inner_radius + max(wall - depth, SLIT * wall), chosen.inner_radius)
+    spacer = _cylinder(design, "spacer", under, chosen, spacer_load(params, load), 0.0)
     return upper, lower, spacer
 
 
@@ -189,18 +182,34 @@ def _cylinder(  # noqa: PLR0917
 
 
 def bearing_for(params: WarpTensionParams, reaction: float, torque: float, slope: float) -> RollingBearing:
-    """The bearing given; default: the thesis', or where that is not enough the smallest that is.
-
-    Flanged inserts come first, as in the thesis, then deep-groove ball and cylindrical roller bearings, each by its
-    bore. Where none is enough it is the largest ball bearing, and a check fails.
-    """
+    """The bearing given; default: the first of `bearings_offered` that is enough, else the strongest ball bearing."""
     if params.bearing is not None:
         return find_bearing(params.bearing)
-    offered = sorted(ROLLING_BEARINGS.values(), key=lambda one: (_KINDS.index(one.kind), one.bore, one.mass))
-    kept = [one for one in offered if one.kind != INSERT or one.name.startswith("UCF")]
-    usual = find_bearing(THESIS_BEARING)
-    enough = (one for one in (usual, *kept) if _enough(params, one, reaction, torque, slope))
-    return next(enough, max(kept, key=lambda one: one.static * (one.kind == DEEP_GROOVE)))
+    offered = bearings_offered()
+    enough = (one for one in offered if all(one.ok for one in bearing_checks(params, one, reaction, torque, slope)))
+    return next(enough, max(offered, key=lambda one: one.static * (one.kind == DEEP_GROOVE)))
+
+
+def bearings_offered() -> tuple[RollingBearing, ...]:
+    """The thesis' bearing; then flanged inserts, deep-groove ball and cylindrical roller bearings, each by its bore."""
+    by_bore = sorted(ROLLING_BEARINGS.values(), key=lambda one: (_KINDS.index(one.kind), one.bore, one.mass))
+    return find_bearing(THESIS_BEARING), *(one for one in by_bore if one.kind != INSERT or one.name.startswith("UCF"))
+
+
+def bearing_checks(
+    params: WarpTensionParams, bearing: RollingBearing, reaction: float, torque: float, slope: float
+) -> tuple[Check, ...]:
+    """Static safety, slope and shaft end of a bearing under a reaction [N], a torque [N m] and a slope [rad]."""
+    static, stress = (
+        bearing.static / static_load(bearing, reaction),
+        stub_stress(params, reaction, torque, bearing.bore),
+    )
+    safety = STUB.strength / stress if stress > 0 else math.inf
+    return (
+        at_least("static safety", static, STATIC_SAFETY, "1", "ISO 76"),
+        at_most("slope of the bearing", slope, slope_limit(bearing), "rad", "its kind"),
+        at_least("shaft end", safety, STUB_SAFETY, "1", f"yield of {STUB.name}"),
+    )
 
 
 def stub_stress(params: WarpTensionParams, reaction: float, torque: float, diameter: float) -> float:
@@ -212,17 +221,18 @@ def stub_stress(params: WarpTensionParams, reaction: float, torque: float, diame
 _KINDS = (INSERT, DEEP_GROOVE, CYLINDRICAL)
 
 
-def _enough(params: WarpTensionParams, bearing: RollingBearing, reaction: float, torque: float, slope: float) -> bool:
-    strong = STUB.strength >= STUB_SAFETY * stub_stress(params, reaction, torque, bearing.bore)
-    bears = bearing.static >= STATIC_SAFETY * static_load(bearing, reaction)
-    return strong and bears and slope <= slope_limit(bearing)
-
-
-def _spacer_tube(params: WarpTensionParams, load: float) -> Tube | None:
-    """The spacer's tube: as given, or the lightest that keeps the limits below its slots; None where none does."""
+def spacer_tubes(params: WarpTensionParams) -> tuple[Tube, ...]:
+    """The stock tubes with metal enough under the slots, the lightest first."""
     depth = slots_of(params).depth
+    thick = [tube for tube in TUBES.values() if tube.wall >= depth + LEAST_WALL]
+    return tuple(sorted(thick or [max(TUBES.values(), key=lambda tube: tube.wall)], key=lambda tube: tube.area))
+
+
+def spacer_tube(params: WarpTensionParams) -> Tube:
+    """The spacer's tube: as given, or the lightest that keeps the limits below its slots; the stiffest if none does."""
     if params.spacer_tube is not None:
         return find_tube(params.spacer_tube)
-    pull, by_mass = spacer_load(params, load), sorted(TUBES.values(), key=lambda tube: tube.area)
-    thick = (tube for tube in by_mass if tube.wall >= depth + LEAST_WALL)
-    return next((one for one in thick if keeps_limits(params, one.inner_radius, one.outer_radius - depth, pull)), None)
+    depth, pull = slots_of(params).depth, spacer_load(params, abs(worst_load(params)))
+    offered = spacer_tubes(params)
+    kept = (one for one in offered if keeps_limits(params, one.inner_radius, one.outer_radius - depth, pull))
+    return next(kept, max(offered, key=lambda tube: tube.inertia))

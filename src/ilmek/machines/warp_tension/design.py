@@ -3,9 +3,11 @@
     w = T n / l,   slope = w l^3 / (24 E I),   deflection = 5 w l^4 / (384 E I),   M = n T R       [thesis, eq. 3.4-3.8]
 
 All warps pull the cylinder in one direction, each with its tension T. Slope and deflection are the thesis', of the pull
-alone. The weight of the tube, 2 % of the pull on the thesis' loom but half of it on a wide one, is added for checks and
-for the choice of a tube: the upper cylinder of a loom with upright warps carries both. Carpet wound on the cylinder
-increases its radius, and with it the torque: pi (R^2 - Ro^2) = length x thickness.
+alone, standing. Checks and the choice of a tube take the worst of three cases, standing, shed open and beat
+(`warp_loads`), with the weight of the tube, 2 % of the pull on the thesis' loom but half of it on a wide one: the upper
+cylinder of a loom with upright warps carries both. Carpet wound on the cylinder increases its radius, and with it the
+torque: pi (R^2 - Ro^2) = length x thickness. The motor takes up while the warps stand; the reducer holds the
+worst case.
 """
 
 import math
@@ -18,15 +20,27 @@ from ilmek.elements.bearings import bearings_for
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import NO_MOTOR, Motor, Reducer, geared_motor, most_torque
 from ilmek.elements.tubes import TUBES, Tube, find_tube
-from ilmek.errors import ParameterError
+from ilmek.machines.warp_loads import WarpLoads
+from ilmek.machines.warp_tension.loads import loads_of
 from ilmek.machines.warp_tension.params import WarpTensionParams
-from ilmek.records import computed, record, result
-from ilmek.units import format_quantity, mm, turn
+from ilmek.records import computed, group, record, result
+from ilmek.units import mm, turn
 
 INNER_RADIUS = 65 * mm
 """The thesis' tube, 140 x 5 mm."""
 
-LIGHTEST = "lightest"
+LIGHTEST, USUAL = "lightest", "usual"
+"""Values of the parameter `tube`: the lightest of all stock tubes, and of the usual ones."""
+
+USUAL_TUBES = (
+    *map(find_tube, ("140x5", "139.7x10", "168.3x6.3", "168.3x10", "193.7x8", "219.1x8", "219.1x12.5", "244.5x10")),
+    *map(find_tube, ("273x10", "273x16", "323.9x12.5", "355.6x16", "406.4x16", "457x20")),
+    *(Tube(outer * mm, wall * mm, "EN 10210-2") for outer, wall in ((508, 25), (610, 30), (711, 40))),
+)
+"""Tubes for the cylinders of a loom: the thesis' 140 x 5 mm, others of stock, and three large ones for wide looms."""
+
+STEPS = 1000
+"""Millimetres by which the radius of a tube is increased at most."""
 
 TAKE_UP_LAW = LAWS["3-4-5"]
 """Motion of the cylinder for a row, from rest to rest; its motor must reach 15/8 of the mean speed."""
@@ -40,19 +54,21 @@ class WarpTensionDesign:
     """The design of the cylinders; `motor_limit`: continuous torque of the motor [N m], or the most of any so quick."""
 
     params: WarpTensionParams
+    loads: WarpLoads = group()
     slope: float = result("rad", "slope of the cylinder in its bearings, under the warps alone")
     deflection: float = result("mm", "deflection at mid-width, under the warps alone")
-    slope_loaded: float = result("rad", "slope with the tube's own weight")
-    deflection_loaded: float = result("mm", "deflection with the tube's own weight")
+    slope_loaded: float = result("rad", "slope in the worst case, with the tube's own weight")
+    deflection_loaded: float = result("mm", "deflection in the worst case, with the tube's own weight")
     torque: float = result("Nm", "torque of all warps on the bare cylinder")
     outer_radius: float = result("mm", "outer radius of the tube", least=0.0)
     inner_radius: float = result("mm", "inner radius of the tube", least=0.0)
     outer_radius_min: float = result("mm", "least outer radius for the slope, at this inner radius")
     outer_radius_min_deflection: float = result("mm", "least outer radius for the deflection")
     load: float = result("kN/m", "pull of the warps per length of the cylinder")
-    stress: float = result("MPa", "bending stress at mid-width, own weight included")
+    stress: float = result("MPa", "bending stress at mid-width in the worst case, own weight included")
     roll_radius: float = result("mm", "radius with the carpet wound on", least=0.0)
     torque_full: float = result("Nm", "torque of all warps with the carpet wound on")
+    holding_torque: float = result("Nm", "torque that the reducer holds in the worst case, the carpet wound on")
     reducer: Reducer
     motor_torque: float = result("Nm", "required torque of the motor")
     motor_speed: float = result("rpm", "largest speed of the motor while a row is taken up")
@@ -98,16 +114,17 @@ class WarpTensionDesign:
 
 
 def design(params: WarpTensionParams) -> WarpTensionDesign:
-    """Cylinder and drive for the parameters. Raises ParameterError where no tube keeps the limits."""
-    load, pull = params.pull / params.width, params.pull
+    """Cylinder and drive for the parameters; with the largest tube where none keeps the limits."""
+    load, pull, loads = params.pull / params.width, params.pull, loads_of(params)
     inner, outer = _tube(params)
     for_slope, for_deflection = outer_radii_min(params, inner)
-    loaded = load + tube_weight(params, inner, outer)
+    loaded = loads.worst / params.width + tube_weight(params, inner, outer)
     bent = (params.width, params.modulus, float(uniform.tube_inertia(outer, inner)))
     roll = math.sqrt(outer**2 + params.carpet_length * params.carpet_thickness / math.pi)
-    reducer, motor, speed = _drive(params, pull * roll, _peak_rate(params, outer))
+    reducer, motor, speed = _drive(params, pull * roll, peak_rate(params, outer))
     return WarpTensionDesign(
         params=params,
+        loads=loads,
         slope=float(uniform.slope_max(load, *bent)),
         deflection=float(uniform.deflection_max(load, *bent)),
         slope_loaded=float(uniform.slope_max(loaded, *bent)),
@@ -121,6 +138,7 @@ def design(params: WarpTensionParams) -> WarpTensionDesign:
         stress=float(uniform.bending_stress(uniform.moment_max(loaded, params.width), outer, bent[2])),
         roll_radius=roll,
         torque_full=pull * roll,
+        holding_torque=loads.worst * roll,
         reducer=reducer,
         motor_torque=reducer.motor_torque(pull * roll),
         motor_speed=speed,
@@ -134,63 +152,66 @@ def tube_weight(params: WarpTensionParams, inner: float, outer: float) -> float:
     return math.pi * (outer**2 - inner**2) * params.density * GRAVITY
 
 
-def keeps_limits(params: WarpTensionParams, inner: float, outer: float, load: complex | None = None) -> bool:
+def keeps_limits(params: WarpTensionParams, inner: float, outer: float, load: complex) -> bool:
     """Whether a tube of these radii [m] keeps slope and deflection under its own weight and a load.
 
-    load  [N/m], complex, the weight along -i; default: the pull of the warps, downwards
+    load  [N/m], complex, the weight along -i
     """
-    loaded = abs((-1j * params.pull / params.width if load is None else load) - 1j * tube_weight(params, inner, outer))
+    loaded = abs(load - 1j * tube_weight(params, inner, outer))
     bent = (loaded, params.width, params.modulus, uniform.tube_inertia(outer, inner))
     return bool(
         uniform.slope_max(*bent) <= params.slope_limit and uniform.deflection_max(*bent) <= params.deflection_limit
     )
 
 
+def worst_load(params: WarpTensionParams) -> complex:
+    """Load of the upper cylinder in the worst case [N/m], downwards."""
+    return -1j * loads_of(params).worst / params.width
+
+
 def tubes_within_limits(params: WarpTensionParams, tubes: Iterable[Tube]) -> tuple[Tube, ...]:
     """Those of the tubes that keep slope and deflection under the warps and their own weight, the lightest first."""
-    by_mass = sorted(tubes, key=lambda tube: tube.area)
-    return tuple(tube for tube in by_mass if keeps_limits(params, tube.inner_radius, tube.outer_radius))
+    by_mass, load = sorted(tubes, key=lambda tube: tube.area), worst_load(params)
+    return tuple(tube for tube in by_mass if keeps_limits(params, tube.inner_radius, tube.outer_radius, load))
 
 
-def _peak_rate(params: WarpTensionParams, outer: float) -> float:
+def peak_rate(params: WarpTensionParams, outer: float) -> float:
     """Largest speed of the cylinder [rad/s] while a row is taken up."""
     return TAKE_UP_LAW.velocity_peak * params.row_pitch / outer / params.take_up_time
 
 
 def _tube(params: WarpTensionParams) -> tuple[float, float]:
-    """Inner and outer radius [m]: as given; the other by the wall; both, the first millimetre that keeps the limits."""
+    """Inner and outer radius [m]: as given; the other by the wall; both, the first millimetre that keeps the limits.
+
+    Where no tube that was tried keeps them, the largest: its checks fail.
+    """
     if params.tube is not None:
-        chosen = lightest_tube(params) if params.tube.strip().casefold() == LIGHTEST else find_tube(params.tube)
+        offered = tubes_offered(params)
+        chosen = lightest_tube(params, offered) if offered else find_tube(params.tube)
         return chosen.inner_radius, chosen.outer_radius
     inner, outer, wall = params.inner_radius, params.outer_radius, params.wall
     if outer is not None:
         return (max(outer - wall, 0.0) if inner is None else inner), outer
-    steps = (step * mm for step in range(2000))
+    least = inner + wall if inner is not None else INNER_RADIUS + wall
     if inner is not None:
-        least = _whole_millimetre(max(*outer_radii_min(params, inner), inner + wall))
-        tubes = ((inner, least + step) for step in steps)
-    else:
-        # A wider tube with the same wall is stiffer; no cylinder is wider than the largest radius that can be given.
-        tubes = ((INNER_RADIUS + step, INNER_RADIUS + step + wall) for step in steps)
-    found = next((tube for tube in tubes if keeps_limits(params, *tube)), None)
-    if found is None:
-        given = f"no tube with a wall of {format_quantity(wall, 'mm')} keeps slope and deflection"
-        raise ParameterError(given, do="set a larger wall or inner_radius")
-    return found
+        least = _whole_millimetre(max(*outer_radii_min(params, inner), least))
+    load, steps = worst_load(params), [step * mm for step in range(STEPS)]
+    # A wider tube with the same wall is stiffer.
+    tubes = [(INNER_RADIUS + step if inner is None else inner, least + step) for step in steps]
+    return next((tube for tube in tubes if keeps_limits(params, *tube, load)), tubes[-1])
 
 
-def lightest_tube(params: WarpTensionParams) -> Tube:
-    """The lightest stock tube that keeps slope and deflection. Raises ParameterError where none does."""
-    found = tubes_within_limits(params, TUBES.values())
-    if found:
-        return found[0]
-    widest = max(TUBES.values(), key=lambda tube: tube.inertia)
-    pull = format_quantity(params.pull / params.width, "kN/m")
-    raise ParameterError(
-        f"no stock tube carries {pull} of warps over {format_quantity(params.width, 'm')}",
-        allowed=f"up to {widest.name} mm, with {format_quantity(params.deflection_limit, 'mm')} of deflection",
-        do="set a lower tension, or a narrower loom",
-    )
+def tubes_offered(params: WarpTensionParams) -> tuple[Tube, ...]:
+    """The tubes that the parameter `tube` leaves open; none where it names one, or is not given."""
+    named = (params.tube or "").strip().casefold()
+    return {LIGHTEST: tuple(TUBES.values()), USUAL: USUAL_TUBES}.get(named, ())
+
+
+def lightest_tube(params: WarpTensionParams, tubes: Iterable[Tube]) -> Tube:
+    """The lightest of some tubes that keeps slope and deflection; the stiffest where none does."""
+    offered = tuple(tubes)
+    found = tubes_within_limits(params, offered)
+    return found[0] if found else max(offered, key=lambda tube: tube.inertia)
 
 
 def _drive(params: WarpTensionParams, torque: float, rate: float) -> tuple[Reducer, Motor | None, float]:

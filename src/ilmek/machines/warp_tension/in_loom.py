@@ -3,32 +3,21 @@
 from dataclasses import replace
 
 from ilmek.elements.drive_parts import motor_part, reducer_part
-from ilmek.elements.tubes import Tube, find_tube
-from ilmek.errors import LoomError
 from ilmek.machines.arrangement import HALF_SPAN
 from ilmek.machines.loom_task import LoomTask
+from ilmek.machines.warp_loads import loads_in_loom
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders
-from ilmek.machines.warp_tension.design import WarpTensionDesign, tubes_within_limits
+from ilmek.machines.warp_tension.design import USUAL, WarpTensionDesign
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.report import Part, Work
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity
 
 STEEL = "structural steel"
 
-STOCK_TUBES = (
-    *map(find_tube, ("140x5", "139.7x10", "168.3x6.3", "168.3x10", "193.7x8", "219.1x8", "219.1x12.5", "244.5x10")),
-    *map(find_tube, ("273x10", "273x16", "323.9x12.5", "355.6x16", "406.4x16", "457x20")),
-    *(Tube(outer * mm, wall * mm, "EN 10210-2") for outer, wall in ((508, 25), (610, 30), (711, 40))),
-)
-"""Tubes for the cylinders of a loom: the thesis' 140 x 5 mm, others of stock, and three large ones for wide looms."""
-
 
 def fit(task: LoomTask) -> WarpTensionParams:
-    """The parameters for a loom, with the lightest of `STOCK_TUBES` that keeps slope and deflection.
-
-    Raises LoomError where none does.
-    """
-    params = task.params
+    """The parameters for a loom, with the lightest of the usual tubes that keeps slope and deflection."""
+    params, loads = task.params, loads_in_loom(task)
     derived = task.parameters(
         "warp-tension",
         WarpTensionParams(
@@ -46,19 +35,15 @@ def fit(task: LoomTask) -> WarpTensionParams:
             friction=task.yarns.warp.friction,
             shed_lift=params.lift,
             shed_span=HALF_SPAN,
+            tension_shed=loads.lifted,
+            tension_shed_low=loads.others,
+            tension_beat=loads.beat,
+            breaking_force=task.yarns.warp.breaking_force,
         ),
     )
     if any(one is not None for one in (derived.tube, derived.outer_radius, derived.inner_radius)):
         return derived
-    found = tubes_within_limits(derived, STOCK_TUBES)
-    if not found:
-        pull, across = format_quantity(derived.pull / derived.width, "kN/m"), format_quantity(derived.width, "m")
-        raise LoomError(
-            f"no stock tube carries {pull} of warps over {across}",
-            allowed=f"slope {derived.slope_limit:g} rad, deflection {format_quantity(derived.deflection_limit, 'mm')}",
-            do="set a lower tension or a narrower carpet",
-        )
-    return replace(derived, outer_radius=found[0].outer_radius, inner_radius=found[0].inner_radius)
+    return replace(derived, tube=USUAL)
 
 
 def parts(made: WarpTensionDesign) -> tuple[Part, ...]:

@@ -55,7 +55,8 @@ class WarpTensionParams(Params):
     )
     tube: str | None = kind.text(
         None,
-        doc="stock tube like 140x5, or lightest: the lightest that keeps the limits; default: by the radii and wall",
+        doc="stock tube like 140x5; lightest, usual: the lightest of all, or of the usual ones, that keeps the limits; "
+        "default: by the radii and wall",
     )
     bearing: str | None = kind.text(
         None, doc="bearing of the cylinders by its designation; default: the thesis' UCF 207, or a larger one if needed"
@@ -68,9 +69,11 @@ class WarpTensionParams(Params):
         None, above=0.0, at_most=50 * mm, doc="pitch of the spacer's slots; default: width over warps"
     )
     warp_diameter: float | None = kind.length(
-        None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual warp, or 0.6 pitches"
+        None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual warp"
     )
-    slot_width: float | None = kind.length(None, above=0.0, at_most=50 * mm, doc="width of a slot; default: 1.1 warps")
+    slot_width: float | None = kind.length(
+        None, above=0.0, at_most=50 * mm, doc="width of a slot; default: 1.1 warps, at most half-way to the pitch"
+    )
     slot_depth: float | None = kind.length(
         None, at_least=0.0, at_most=20 * mm, doc="depth of a slot; default: one warp"
     )
@@ -85,6 +88,21 @@ class WarpTensionParams(Params):
     shed_lift: float = kind.length(60 * mm, at_least=0.0, at_most=0.5, doc="lift of a warp for the shed; 0: none")
     shed_span: float = kind.length(
         170 * mm, at_least=1 * mm, at_most=2.0, doc="shedding cam to the holds on both sides"
+    )
+    tension_shed: float | None = kind.force(
+        None,
+        at_least=1e-6,
+        at_most=1e5,
+        doc="tension of a lifted warp in the open shed, after a take-up; default: by its lengthening, not compensated",
+    )
+    tension_shed_low: float | None = kind.force(
+        None, at_least=0.0, at_most=1e5, doc="tension of the other warps in the open shed; default: not changed by it"
+    )
+    tension_beat: float | None = kind.force(
+        None, at_least=1e-6, at_most=1e5, doc="tension of a warp at the beat; default: as the required rows need"
+    )
+    breaking_force: float | None = kind.force(
+        None, at_least=1e-6, at_most=1e6, doc="breaking force of a warp; default: of the usual warp, of cotton"
     )
     rows_between: int = kind.count(1, at_least=1, at_most=1000, doc="rows between two take-ups")
 

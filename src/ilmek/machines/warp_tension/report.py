@@ -4,8 +4,9 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.bearings import BEARINGS, bearings_for, slope_limit
 from ilmek.elements.drive_parts import no_motor
 from ilmek.elements.tubes import TUBES
+from ilmek.machines.warp_loads import WarpLoads
 from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis
-from ilmek.machines.warp_tension.cylinders import STATIC_SAFETY, STUB, STUB_SAFETY, Cylinder
+from ilmek.machines.warp_tension.cylinders import LEAST_WALL, STATIC_SAFETY, STUB, STUB_SAFETY, Cylinder
 from ilmek.machines.warp_tension.design import WarpTensionDesign, outer_radii_min, tubes_within_limits
 from ilmek.report import Check, Table, at_least, at_most, columns
 from ilmek.units import format_number, format_quantity, mm
@@ -25,42 +26,89 @@ def checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
     return (*_design_checks(found.design), *_cylinder_checks(found))
 
 
+TUBE_CURE = "set a larger tube, a lower tension, or a narrower loom"
+SPACER_CURE = "set a larger spacer_tube, a lower tension, or a narrower loom"
+SLOT_CURE = "set a larger warp_pitch, or thinner warps"
+
+
 def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
     params, locking = design.params, "nothing comes back: 2 - 1/efficiency <= 0"
-    slope, sag = f"{THESIS}, eq. 3.5 and 3.7; own weight included", f"{THESIS}, eq. 3.4; own weight included"
+    worst = f"worst case: {design.loads.worst_case}; own weight included"
+    slope, sag = f"{THESIS}, eq. 3.5 and 3.7; {worst}", f"{THESIS}, eq. 3.4; {worst}"
+    locks = at_most(
+        *("efficiency, to lock itself", params.efficiency, LOCKING, "1", locking),
+        cure="set a lower efficiency, or self_locking=no with a brake",
+    )
     return (
-        at_most("slope in the bearings", design.slope_loaded, params.slope_limit, "rad", slope),
-        at_most("deflection", design.deflection_loaded, params.deflection_limit, "mm", sag),
-        at_most("bending stress", design.stress, params.strength, "MPa", "yield strength of the tube"),
-        *(
-            (at_most("efficiency, to lock itself", params.efficiency, LOCKING, "1", locking),)
-            if params.self_locking
-            else ()
+        at_most("slope in the bearings", design.slope_loaded, params.slope_limit, "rad", slope, cure=TUBE_CURE),
+        at_most("deflection", design.deflection_loaded, params.deflection_limit, "mm", sag, cure=TUBE_CURE),
+        at_most("bending stress", design.stress, params.strength, "MPa", f"yield of the tube; {worst}", cure=TUBE_CURE),
+        *((locks,) if params.self_locking else ()),
+        at_most(
+            *("motor torque", design.motor_torque, design.motor_limit, "Nm", f"{THESIS}, eq. 3.8"),
+            cure="set a larger ratio or a longer take_up_time",
         ),
-        at_most("motor torque", design.motor_torque, design.motor_limit, "Nm", f"{THESIS}, eq. 3.8"),
     )
 
 
 def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
-    params, slots, tension, spacer = found.design.params, found.slots, found.tension, found.spacer
+    params, spacer, case = found.design.params, found.spacer, f"worst case: {found.design.loads.worst_case}"
     tired = min(found.cylinders, key=lambda one: one.static_safety)
     weak = min(found.cylinders, key=lambda one: one.stub_safety)
-    step = STEP_SHARE * params.tension
+    under, wider, larger = f"under the slots; {case}", "set a stiffer tube", "set a larger bearing, or a lower tension"
     return (
-        at_most("slope of the spacer", spacer.slope, params.slope_limit, "rad", "under the slots"),
-        at_most("deflection of the spacer", spacer.deflection, params.deflection_limit, "mm", "under the slots"),
+        at_most("slope of the spacer", spacer.slope, params.slope_limit, "rad", under, cure=SPACER_CURE),
+        at_most("deflection of the spacer", spacer.deflection, params.deflection_limit, "mm", under, cure=SPACER_CURE),
         *(
             # Within the limit, but more than the kind of the bearing allows.
-            at_most(f"slope of {one.bearing.name}, {one.name}", one.slope, slope_limit(one.bearing), "rad", "its kind")
+            at_most(
+                *(f"slope of {one.bearing.name}, {one.name}", one.slope, slope_limit(one.bearing), "rad", "its kind"),
+                cure=wider,
+            )
             for one in found.cylinders
             if slope_limit(one.bearing) < one.slope <= params.slope_limit
         ),
-        at_least(f"static safety, {tired.bearing.name}", tired.static_safety, STATIC_SAFETY, "1", "ISO 76"),
-        at_least(f"shaft end of the {weak.name} cylinder", weak.stub_safety, STUB_SAFETY, "1", f"yield of {STUB.name}"),
-        at_most("warp in its slot", slots.warp, slots.width, "mm", "slots of the spacer"),
-        at_least("land between slots", slots.land, 0.0, "mm", "pitch of the warps"),
-        at_most("tension with the shed open", tension.over.shed, tension.breaking, "N", "cotton breaks at 17 cN/tex"),
-        at_most("tension of a motor's step", tension.step, step, "N", "a twentieth of the tension"),
+        at_least(
+            *(f"static safety, {tired.bearing.name}", tired.static_safety, STATIC_SAFETY, "1", f"ISO 76; {case}"),
+            cure=larger,
+        ),
+        at_least(
+            *(f"shaft end of the {weak.name} cylinder", weak.stub_safety, STUB_SAFETY, "1"),
+            f"yield of {STUB.name}; {case}",
+            cure=f"{larger}, or a shorter stub",
+        ),
+        *_warp_checks(found),
+    )
+
+
+def _warp_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
+    """The warps in their slots, and their strength."""
+    params, slots, tension = found.design.params, found.slots, found.tension
+    metal = found.spacer_wall - slots.depth
+    breaks = "breaking force of the warp"
+    step = STEP_SHARE * params.tension
+    return (
+        at_most("warps beside each other", slots.warp, slots.pitch, "mm", "pitch of the warps", cure=SLOT_CURE),
+        at_most(
+            "warp in its slot", slots.warp, slots.width, "mm", "slots of the spacer", cure="set a wider slot_width"
+        ),
+        at_least("land between slots", slots.land, 0.0, "mm", "pitch of the warps", cure=SLOT_CURE),
+        at_least(
+            *("metal under the slots", metal, LEAST_WALL, "mm", "assumed by this project"),
+            cure="set a smaller slot_depth, or a spacer_tube with a thicker wall",
+        ),
+        at_most(
+            *("tension with the shed open", tension.over.shed, tension.breaking, "N", breaks),
+            cure="set a lower tension or lift, or thicker warps",
+        ),
+        at_most(
+            *("tension at the beat", found.design.loads.beat, tension.breaking, "N", breaks),
+            cure="set a lower tension, or thicker warps",
+        ),
+        at_most(
+            *("tension of a motor's step", tension.step, step, "N", "a twentieth of the tension"),
+            cure="set a larger ratio, or a longer warp",
+        ),
     )
 
 
@@ -92,7 +140,17 @@ def tables(found: WarpTensionAnalysis) -> tuple[Table, ...]:
     """The three cylinders, stock tubes, bearings, the thesis' tubes, reducers."""
     design = found.design
     stock, bearings = _stock_table(design), _bearing_table(design)
-    return _cylinder_table(found.cylinders), stock, bearings, _tube_table(design), _efficiency_table(design)
+    loads = _loads_table(design.loads)
+    return loads, _cylinder_table(found.cylinders), stock, bearings, _tube_table(design), _efficiency_table(design)
+
+
+def _loads_table(loads: WarpLoads) -> Table:
+    """The three cases of the warps' loads."""
+    heads = columns("case", "mean tension of a warp [N]", "pull of all warps [kN]", "decides")
+    rows = tuple(
+        (case, mean, loads.pull(case), "yes" if case == loads.worst_case else "") for case, mean in loads.cases.items()
+    )
+    return Table("warp-tension-loads", "Pull of the warps in the three cases", heads, rows)
 
 
 def _cylinder_table(three: tuple[Cylinder, ...]) -> Table:

@@ -1,0 +1,72 @@
+"""What all warps pull in the three cases of a loom: standing, shed open, beat. What bears them is checked by the worst.
+
+standing    n T
+shed open   n/2 (T' + T''): the lifted half and the other one, after the tension compensator
+beat        n (T + kw x): the fell yields by x under the force R that the required rows need     [`weaving.fell`]
+"""
+
+from ilmek.machines.arrangement import HALF_SPAN
+from ilmek.machines.loom_task import LoomTask
+from ilmek.records import computed, record, result
+from ilmek.weaving.fell import Fabric, assumed_fabric
+from ilmek.weaving.shed import shed_lengthening
+
+STANDING, SHED, BEAT = "standing", "shed open", "beat"
+
+
+@record
+class WarpLoads:
+    """Tensions of a warp in the three cases [N]."""
+
+    warps: int
+    rest: float
+    lifted: float = result("N", "tension of a lifted warp, the shed open", name="tension_lifted")
+    others: float = result("N", "tension of the other warps then", name="tension_not_lifted")
+    beat: float = result("N", "tension of a warp at the beat", name="tension_beat")
+
+    pulls = computed("kN", "pull of all warps, by case", lambda it: {one: it.pull(one) for one in it.cases})
+    worst_case = computed("", "case of the greatest pull", lambda it: max(it.cases, key=it.pull))
+    worst_pull = computed("kN", "greatest pull of all warps", lambda it: it.worst)
+    worst_tension = computed("N", "greatest tension of a warp", lambda it: max(it.rest, it.lifted, it.beat))
+
+    @property
+    def cases(self) -> dict[str, float]:
+        """Mean tension of a warp by case [N]."""
+        even = (self.warps + 1) // 2 / self.warps
+        shed = even * max(self.lifted, self.others) + (1 - even) * min(self.lifted, self.others)
+        return {STANDING: self.rest, SHED: shed, BEAT: self.beat}
+
+    def pull(self, case: str) -> float:
+        """Pull of all warps in a case [N]."""
+        return self.warps * self.cases[case]
+
+    @property
+    def worst(self) -> float:
+        """Greatest pull of all warps [N]."""
+        return max(map(self.pull, self.cases))
+
+
+def beat_tension(fabric: Fabric, row_pitch: float) -> float:
+    """Tension of a warp [N] while the fell resists with the force that rows at a pitch [m] need.
+
+    >>> round(beat_tension(assumed_fabric(4e-3, 15.0, 1800.0, 1.5), 4e-3), 9)
+    17.5
+    """
+    needed = float(fabric.resistance(row_pitch))
+    return fabric.tension + fabric.warp_rate * float(fabric.fell(needed))
+
+
+def loads_in_loom(task: LoomTask) -> WarpLoads:
+    """The loads of a loom's warps; with the tensions that its compensator leaves, where it is among the designs.
+
+    The beat is taken as too quick for the compensator: that stretches the warps most.
+    """
+    params, tension, stiffness = task.params, task.tension, task.yarns.warp.stiffness
+    fabric = assumed_fabric(task.row_pitch, tension, stiffness, params.warp_length)
+    compensator = task.designs.get("tension-compensator")
+    if compensator is None:
+        longer = float(shed_lengthening(params.lift, HALF_SPAN, HALF_SPAN))
+        lifted, others = tension + stiffness / params.warp_length * longer, tension
+    else:
+        lifted, others = compensator.tension_open, compensator.tension_low
+    return WarpLoads(task.warps, tension, lifted, others, beat_tension(fabric, task.row_pitch))
