@@ -7,12 +7,14 @@ follower is
 
     F = m w² s'' + b + k s + P + load        b of the brake during the motion forward: sup m w² |s''|
 
+The load is what the tool's work takes, i times the force on the tool (virtual work), positive against the lift.
+
 The contact force is N = F / cos(mu), the torque F s'. The spring is the weakest one whose force doubles over the lift
 and that keeps the follower on the cam at 1.2 times the speed; a groove requires none. Prime circle and forces are
 maxima over samples every 1/8 degree and on both sides of every joint of the motion.
 
-The torque of the shaft is the sum of F s' of all cams. At constant speed its mean over a turn is the torque of the
-brakes. Friction is not included.          [derived from the equation of motion of the follower and virtual power]
+The torque of the shaft is the sum of F s' of all cams. At constant speed its mean over a turn is the torque of brakes
+and loads. Friction is not included.          [derived from the equation of motion of the follower and virtual power]
 """
 
 import math
@@ -60,6 +62,7 @@ class LoadedPlateCam:
     programme, cam   of the follower            lift     of the follower [m]
     angle, motion, trace  over the turn         mass_moved  at the follower, forward and back [kg]
     rate, preload    of the spring [N/m, N]     brake    on what it moves forward [N]
+    load             of the tool's work over the turn, against the lift [N]
     force, contact   F and N over the turn [N]  pressure Hertz, over the turn [Pa]
     lift_off         speed of the shaft at which the follower would leave the cam [rad/s]
     area [m²]        of the face without bore   inertia  about the axis [kg m²]
@@ -78,6 +81,7 @@ class LoadedPlateCam:
     rate: float
     preload: float
     brake: float
+    load: FloatArray
     force: FloatArray
     contact: FloatArray
     pressure: FloatArray
@@ -141,6 +145,7 @@ class PlateCamTask:
     braked       whether a brake holds the forward mass       closure  "spring", doubling over the lift, or "groove"
     contact_force  least of a sprung roller [N]               pressure_angle  largest [rad]
     shaft        its diameter [m]          roller_radius, thickness   of the roller and of the plate [m]
+    load         force on the follower against its lift [N] at angles of the shaft [rad]; default: none
     """
 
     speed: float
@@ -152,6 +157,7 @@ class PlateCamTask:
     shaft: float
     roller_radius: float
     thickness: float
+    load: Callable[[FloatArray], FloatArray] | None = None
 
 
 def loaded_plate_cam(
@@ -168,9 +174,10 @@ def loaded_plate_cam(
     need = np.where(motion.ds >= 0, forward, back) * speed**2 * motion.dds
     brake = float(np.max(forward * speed**2 * np.abs(motion.dds[motion.ds > 0]), initial=0.0)) if task.braked else 0.0
     need = need + brake * (motion.ds > 0)
+    load = np.zeros(angle.shape) if task.load is None else task.load(angle)
     weight = 1 + motion.s / lift
-    preload = _preload(task, need * FASTER**2, weight)
-    force = need + (preload * weight + task.contact_force if task.closure == "spring" else 0.0)
+    preload = _preload(task, need * FASTER**2 + load, weight)
+    force = need + load + (preload * weight + task.contact_force if task.closure == "spring" else 0.0)
     contact = np.abs(force) / np.cos(trace.pressure_angle)
     width = task.thickness
     pressure = line_contact(contact / width, 1 / task.roller_radius + trace.surface_curvature, MODULUS).pressure
@@ -189,10 +196,11 @@ def loaded_plate_cam(
         rate=preload / lift,
         preload=preload,
         brake=brake,
+        load=load,
         force=force,
         contact=contact,
         pressure=pressure,
-        lift_off=_lift_off(task, need / speed**2, preload * weight + task.contact_force),
+        lift_off=_lift_off(task, need / speed**2, preload * weight + task.contact_force + load),
         area=area,
         inertia=polar * width * STEEL.density,
         thickness=width,
@@ -254,7 +262,7 @@ class CamShaftDrive:
     torque_max: float = result("Nm", "greatest torque of all cams on their shaft", name="cam_torque_max")
     torque_rms: float = result("Nm", "root mean square of the same", name="cam_torque_rms")
     power_max: float = result("W", "greatest power of the same, in both directions", name="cam_power_max")
-    power_mean: float = result("W", "mean power, of the brakes", name="cam_power_mean")
+    power_mean: float = result("W", "mean power, of brakes and loads", name="cam_power_mean")
     inertia: float = result("kg*m^2", "moment of inertia of the cams", name="cam_inertia")
     servo: ServoDrive | None
 
@@ -267,10 +275,17 @@ class CamShaftDrive:
     )
 
 
-def drive_for(cams: Sequence[LoadedPlateCam], speed: float) -> CamShaftDrive:
-    """The drive of a cam shaft with these cams at a speed [rad/s]."""
+def drive_for(
+    cams: Sequence[LoadedPlateCam], speed: float, besides: Callable[[FloatArray], FloatArray] | None = None
+) -> CamShaftDrive:
+    """The drive of a cam shaft with these cams at a speed [rad/s].
+
+    besides  torque on the shaft [N m] of what is no cam, at its angles [rad]; default: none
+    """
     angle = np.arange(DRIVE_SAMPLES) * (turn / DRIVE_SAMPLES)
     torque = torque_at(cams, angle)
+    if besides is not None:
+        torque = torque + besides(angle)
     most, inertia = float(np.max(np.abs(torque))), sum(cam.inertia for cam in cams)
     cycle = LoadCycle(np.full(DRIVE_SAMPLES, speed), np.zeros(DRIVE_SAMPLES), torque, inertia)
     return CamShaftDrive(

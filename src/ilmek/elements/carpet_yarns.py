@@ -2,7 +2,15 @@
 
 from dataclasses import dataclass, replace
 
-from ilmek.elements.yarns import COTTON, MATERIALS, WOOL, usual_warp_density
+from ilmek.elements.yarns import (
+    COTTON,
+    FLATTENING,
+    MATERIALS,
+    PRESSED_PACKING,
+    WOOL,
+    pressed_thickness,
+    usual_warp_density,
+)
 from ilmek.params import Params, kind
 from ilmek.records import record, result
 from ilmek.units import g, m, mm
@@ -39,6 +47,12 @@ class CarpetYarnParams(Params):
     pile_density: float = kind.line_density(
         PILE_DENSITY, unit="g/m", above=0.0, at_most=0.1, doc="mass per length of the heaviest pile yarn"
     )
+    pressed_packing: float = kind.ratio(
+        PRESSED_PACKING, at_least=0.3, at_most=0.9, doc="packing of pile yarn pressed between warps or jaws; assumed"
+    )
+    flattening: float = kind.ratio(
+        FLATTENING, at_least=1.0, at_most=10.0, doc="width over thickness of pile yarn pressed there; assumed"
+    )
     friction: float = kind.ratio(FRICTION, at_least=0.0, at_most=2.0, doc="friction coefficient of yarn on steel")
 
 
@@ -59,12 +73,16 @@ class YarnProperties:
 
 @record
 class CarpetYarns:
-    """The four yarns of a carpet."""
+    """The four yarns of a carpet.
+
+    pressed  thickness of the pile between warps or jaws [m]: one value for gaps, needles and grippers
+    """
 
     warp: YarnProperties
     straight_weft: YarnProperties
     sinuous_weft: YarnProperties
     pile: YarnProperties
+    pressed: float
 
 
 def carpet_yarns(params: CarpetYarnParams, pitch: float) -> CarpetYarns:
@@ -80,6 +98,9 @@ def carpet_yarns(params: CarpetYarnParams, pitch: float) -> CarpetYarns:
         straight_weft=yarn(params.weft, params.straight_weft_density or warp, friction),
         sinuous_weft=yarn(params.weft, params.sinuous_weft_density or warp / 2, friction),
         pile=yarn(params.pile, params.pile_density, friction),
+        pressed=pressed_thickness(
+            params.pile_density, MATERIALS[params.pile], params.pressed_packing, params.flattening
+        ),
     )
 
 

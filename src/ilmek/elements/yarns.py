@@ -127,6 +127,25 @@ def yarn_diameter(linear_density: float, density: float, packing: float) -> floa
     return math.sqrt(4 * linear_density / (math.pi * density * packing))
 
 
+PRESSED_PACKING, FLATTENING = 0.65, 2.0
+"""Packing of a yarn pressed between warps or jaws, where it is not denser by itself, and its width over its thickness
+there: a flat section as of Kemp's race-track model; both values are assumed by this project."""
+
+
+def pressed_thickness(
+    linear_density: float, material: YarnMaterial, packing: float = PRESSED_PACKING, flattening: float = FLATTENING
+) -> float:
+    """Thickness of a yarn pressed flat [m]: the short axis of an ellipse, d / sqrt(flattening) at the pressed packing.
+
+    linear_density  [kg/m]      packing  pressed; the material's own where that is denser
+    flattening      width over thickness, at least 1
+
+    >>> round(pressed_thickness(0.8e-3, WOOL) * 1e3, 3)
+    0.773
+    """
+    return yarn_diameter(linear_density, material.density, max(packing, material.packing)) / math.sqrt(flattening)
+
+
 def usual_warp_density(pitch: float, material: str = COTTON.name) -> float:
     """Linear density of the usual warp [kg/m] at a pitch of the warps [m], of a material of `MATERIALS`.
 

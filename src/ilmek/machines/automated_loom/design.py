@@ -99,6 +99,11 @@ class LoomDesign:
         return 2 * self.params.pitch
 
     @property
+    def head_width(self) -> float:
+        """Width of a head, the least distance of two [m]."""
+        return self.weaver.width
+
+    @property
     def head_distance(self) -> float:
         """The least distance that two heads ever have [m]; inf for one head."""
         return least_distance(share(self.columns, self.heads), self.heads, self.knot_pitch)
@@ -136,8 +141,8 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
         component = machines["shedding"].component
         machines["shedding"] = Child(component, component.design(replace(cams.params, speed=turn / period)))
     times = times_at(head, 2 * params.pitch, period)
-    most = heads_that_fit(columns, 2 * params.pitch, params.head_width)
-    _require_room(params, most)
+    most = heads_that_fit(columns, 2 * params.pitch, head.width)
+    _require_room(params, most, head.width)
     busy = with_changes(times, params.changes_per_knot)
     heads, of_heads = chosen_heads(params, most, lambda number: least_time(rows, columns, number, busy))
     task = replace(
@@ -185,10 +190,10 @@ def with_changes(times: Times, changes: float) -> Times:
     return replace(times, knot=times.knot + changes * times.colour_change)
 
 
-def _require_room(params: AutomatedLoomParams, most: int) -> None:
+def _require_room(params: AutomatedLoomParams, most: int, wide: float) -> None:
     """Raise LoomError where more heads are given than fit."""
     if params.heads is not None and params.heads > most:
-        width, head = format_quantity(params.width, "m"), format_quantity(params.head_width, "mm")
+        width, head = format_quantity(params.width, "m"), format_quantity(wide, "mm")
         raise LoomError(
             f"{params.heads} heads of {head} do not fit a carpet {width} wide",
             allowed=f"at most {most}: neighbours keep half a head's share of the row between them",

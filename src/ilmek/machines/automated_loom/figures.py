@@ -107,7 +107,7 @@ def time_against_pitch(loom: LoomDesign) -> Plot:
         if not _finest(loom) <= factor <= _coarsest(loom):
             continue
         columns = round(params.width / (2 * pitch))
-        heads = range(1, heads_that_fit(columns, 2 * pitch, params.head_width) + 1)
+        heads = range(1, heads_that_fit(columns, 2 * pitch, loom.head_width) + 1)
         total = estimated_times_at(loom, pitch, heads)
         label = f"{format_quantity(pitch, 'mm', 3)}: {format_quantity(0.5 / pitch, '1/dm', 3)}"
         series.append(Series(label, np.array(heads, dtype=float), total, dashed=factor != 1.0))
@@ -230,13 +230,12 @@ def _cams(loom: LoomDesign, edge: float, wide: float, height: float) -> Stroke:
 
 def _heads(loom: LoomDesign, edge: float, at: _Heights) -> tuple[Stroke, ...]:
     """Each head in the middle of the half it works first, and its block of the row under it."""
-    params = loom.params
     parts = halves(loom.heads)
     edges = share(loom.columns, loom.heads) * loom.knot_pitch + edge
     strokes = []
     for head in range(loom.heads):
         low, high, end = (float(edges[head * parts + k]) for k in (0, 1, parts))
-        body = (low + high) / 2 + params.head_width * np.array([-0.5, 0.5])
+        body = (low + high) / 2 + loom.head_width * np.array([-0.5, 0.5])
         strokes += [
             Stroke(body + 1j * at.heads, "link"),
             Stroke(np.array([low, end]) + 1j * (at.fell + 0.05), "dimension"),

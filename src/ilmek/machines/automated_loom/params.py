@@ -54,7 +54,9 @@ class AutomatedLoomParams(Params):
         None, unit="h", at_least=1.0, at_most=1e9, doc="time in which the carpet is to be woven; default: any"
     )
     price_limit: float | None = param(None, at_least=0.0, at_most=1e12, doc="price of the loom at most; default: any")
-    head_width: float = kind.length(80 * mm, above=0.0, at_most=1.0, doc="least distance of two heads")
+    head_width: float | None = kind.length(
+        None, at_least=0.01, at_most=1.0, doc="width of a head, least distance of two; default: what its contents need"
+    )
     colours: int = param(16, at_least=1, at_most=255, doc="yarns, a tube for each in every head")
     knot_cycle: float = kind.time(2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot")
     knot_yarn: float | None = kind.length(

@@ -74,7 +74,7 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         carried=carried,
         heads=loom.heads,
         head_mass=head_mass(loom.weaver),
-        head_width=params.head_width,
+        head_width=loom.head_width,
         rail_spans=math.ceil(wide / params.rail_span - 1e-9),
         sag_limit=params.rail_sag,
     )

@@ -77,7 +77,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
     shuttle = row.track(SHUTTLE)
     speed, acceleration = peak_speed(shuttle, row.period), peak_acceleration(shuttle, row.period)
     shed = loom.shedding.params.shuttle_height
-    apart = (at_least("distance of two heads", loom.head_distance, params.head_width, "mm", "head_width"),)
+    apart = (at_least("distance of two heads", loom.head_distance, loom.head_width, "mm", "head_width"),)
     return (
         at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width"),
         *(apart if loom.heads > 1 else ()),

@@ -8,12 +8,21 @@ from dataclasses import replace
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
-from ilmek.machines.weaver.cyclogram import relations
-from ilmek.machines.weaver.design import Weaver, design
+from ilmek.machines.weaver.design import Weaver, design, head_relations
 from ilmek.machines.weaver.in_loom import params_for, parts, work
 from ilmek.machines.weaver.limits import head_mass, mass_of
 from ilmek.machines.weaver.params import WeaverParams
-from ilmek.machines.weaver.report import WeaverAnalysis, analyse, cam_tables, checks, figures, plates, tables, warnings
+from ilmek.machines.weaver.report import (
+    WeaverAnalysis,
+    analyse,
+    cam_tables,
+    checks,
+    choices,
+    figures,
+    plates,
+    tables,
+    warnings,
+)
 from ilmek.timing.cyclogram import Cyclogram
 
 __all__ = [
@@ -29,7 +38,7 @@ __all__ = [
 
 def cyclograms(weaver: Weaver) -> tuple[Cyclogram, ...]:
     """The head's cyclogram with the order of its motions."""
-    order = (*weaver.cyclogram.relations, *relations(weaver.params.relation_gap))
+    order = (*weaver.cyclogram.relations, *head_relations(weaver))
     return (replace(weaver.cyclogram, relations=tuple(dict.fromkeys(order))),)
 
 
@@ -50,6 +59,7 @@ MACHINE = Component(
     cyclograms=cyclograms,
     parts=parts,
     work=work,
+    choices=choices,
     fit=params_for,
     own_figures=("knot", "weaver-moving", "acceleration"),
 )

@@ -11,9 +11,9 @@ import numpy as np
 from ilmek.cams.laws import LAWS
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam, PlateCamTask, loaded_plate_cam
 from ilmek.cams.programme import CamProgramme, CamSegment, dwell
+from ilmek.machines.weaver.forces import HeadForces, load_on
 from ilmek.machines.weaver.motions import HANDLER
 from ilmek.machines.weaver.params import WeaverParams
-from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track
 from ilmek.units import turn
 
@@ -22,12 +22,13 @@ _REST = 0.03
 """Share of the rest of the turn for which the rack stands before and after its return."""
 
 
-def cams_for(params: WeaverParams, cyclogram: Cyclogram, handler_radius: float) -> tuple[LoadedPlateCam, ...]:
-    """The cams of a head, one for each track; the radius at which the handler draws [m]."""
-    return tuple(_cam_for(params, track, cyclogram.speed, handler_radius) for track in cyclogram.tracks)
+def cams_for(head: HeadForces) -> tuple[LoadedPlateCam, ...]:
+    """The cams of a head, one for each track."""
+    return tuple(_cam_for(head, track) for track in head.cyclogram.tracks)
 
 
-def _cam_for(params: WeaverParams, track: Track, speed: float, handler_radius: float) -> LoadedPlateCam:
+def _cam_for(head: HeadForces, track: Track) -> LoadedPlateCam:
+    params, speed, handler_radius = head.params, head.cyclogram.speed, head.radius
     turns = track.name == HANDLER
     ratio = 1 / params.pinion if turns else params.lever
     moved = params.tool_mass * ((handler_radius * ratio) ** 2 if turns else ratio**2)
@@ -41,6 +42,7 @@ def _cam_for(params: WeaverParams, track: Track, speed: float, handler_radius: f
         shaft=params.shaft,
         roller_radius=params.roller_radius,
         thickness=params.cam_thickness,
+        load=load_on(head, track.name, ratio),
     )
     return loaded_plate_cam(track.name, track.actuator, ratio, programme_of(track, ratio), task)
 
@@ -74,6 +76,6 @@ def _still(span: float) -> list[CamSegment]:
 
 
 def stack_width(params: WeaverParams, cams: Sequence[LoadedPlateCam]) -> float:
-    """Width of the cams that sit on the cam shaft itself, with their gaps [m]."""
+    """Width of the cams that sit on the cam shaft itself, with their gaps, between the side plates [m]."""
     on_it = sum(1 for cam in cams if cam.actuator.startswith("cam"))
     return on_it * params.cam_thickness + (on_it + 1) * params.cam_gap

@@ -8,9 +8,18 @@ required one, the cyclogram of the required one whose largest acceleration, over
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import TypeAlias
 
 from ilmek.cams.laws import LAWS
-from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, SIDE_GRASP, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.motions import (
+    CENTRE_GRASP,
+    CENTRE_MOTION,
+    HANDLER,
+    OPENER,
+    SIDE_GRASP,
+    SIDE_MOTION,
+    SLEY,
+)
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Track, TrackEvent, TrackSegment, riding
 from ilmek.timing.solver import least_acceleration, least_period
@@ -24,16 +33,48 @@ TUBE_TURN, DRAW_TURN, PRESENT_TURN = 90 * deg, 110 * deg, 70 * deg
 
 _ITERATIONS, _SAME = 20, 1e-9
 
+_Needed: TypeAlias = tuple[float, float | None]
+"""Times of the cutter and of the arms [s]."""
+
 
 def cyclogram(params: WeaverParams, crossing: float) -> Cyclogram:
     """The head's cyclogram at the required cycle; positions [m], of the handler [rad].
 
     crossing  travel of the side grippers along the screw [m]
     """
-    jaw, back, centre, sley = params.jaw, params.pull_back, params.centre_stroke, params.sley_stroke
-    opened, far = params.opening, params.opening + crossing
     drawn, shown = TUBE_TURN + DRAW_TURN, TUBE_TURN + DRAW_TURN + PRESENT_TURN
-    tracks = (
+    sley = params.sley_stroke
+    tools = (
+        _track(
+            params,
+            Track(HANDLER, "cam 5", (), unit="deg", revolves=turn),
+            {
+                "to tube": (0.0, TUBE_TURN),
+                "draw": (TUBE_TURN, drawn),
+                "present": (drawn, shown),
+                "home": (shown, 2 * math.pi),
+            },
+            {"grasp": "", "cut": ""},
+        ),
+        _track(params, Track(SLEY, "gear", ()), {"down": (0.0, sley), "up": (sley, 0.0)}, {"knot down": "down"}),
+    )
+    return Cyclogram(
+        "knot", params.cycle, (*(_opener(params) if params.with_arms else _grippers(params, crossing)), *tools)
+    )
+
+
+def _opener(params: WeaverParams) -> tuple[Track, ...]:
+    """The opener on a cam of its own, where arms tie."""
+    opened = params.opening
+    positions = {"open warps": (0.0, opened), "return": (opened, 0.0)}
+    return (_track(params, Track(OPENER, "cam 2", ()), positions, {"warps open": "open warps"}),)
+
+
+def _grippers(params: WeaverParams, crossing: float) -> tuple[Track, ...]:
+    """Side and centre grippers, four cams."""
+    jaw, back, centre = params.jaw, params.pull_back, params.centre_stroke
+    opened, far = params.opening, params.opening + crossing
+    return (
         _track(
             params,
             Track(SIDE_GRASP, "cam 1", ()),
@@ -65,20 +106,7 @@ def cyclogram(params: WeaverParams, crossing: float) -> Cyclogram:
             {"forward": (0.0, centre), "return": (centre, 0.0)},
             {"ends drawn out": "return"},
         ),
-        _track(
-            params,
-            Track(HANDLER, "cam 5", (), unit="deg", revolves=turn),
-            {
-                "to tube": (0.0, TUBE_TURN),
-                "draw": (TUBE_TURN, drawn),
-                "present": (drawn, shown),
-                "home": (shown, 2 * math.pi),
-            },
-            {"grasp": "", "cut": ""},
-        ),
-        _track(params, Track(SLEY, "gear", ()), {"down": (0.0, sley), "up": (sley, 0.0)}, {"knot down": "down"}),
     )
-    return Cyclogram("knot", params.cycle, tracks)
 
 
 def _track(
@@ -91,54 +119,87 @@ def _track(
     return replace(track, segments=tuple(parts.values()), events=tuple(found))
 
 
-def relations(gap: float, cut: float = 0.0) -> tuple[Relation, ...]:
-    """The order of the motions, each at least `gap` after the other; the cutter needs the angle `cut` [rad]."""
+def relations(gap: float, cut: float = 0.0, arms: float | None = None) -> tuple[Relation, ...]:
+    """The order of the motions, each at least `gap` after the other [rad].
+
+    cut   angle that the cutter needs     arms  angle that arms need between opener and sley; default: no arms
+    """
     blade = Relation(Moment(HANDLER, "present", "start"), Moment(HANDLER, "draw", "end"), max(gap, cut), "the cutter")
-    order = (
+    handler = (
         (Moment(HANDLER, "grasp", "event"), Moment(HANDLER, "to tube", "end")),
         (Moment(HANDLER, "draw", "start"), Moment(HANDLER, "grasp", "event")),
         (Moment(HANDLER, "cut", "event"), Moment(HANDLER, "draw", "end")),
         (Moment(HANDLER, "present", "start"), Moment(HANDLER, "cut", "event")),
-        (Moment(SIDE_GRASP, "close", "start"), Moment(HANDLER, "present", "end")),
-        (Moment(SIDE_MOTION, "pull back", "start"), Moment(SIDE_GRASP, "close", "end")),
-        (Moment(HANDLER, "home", "start"), Moment(SIDE_MOTION, "pull back", "end")),
-        (Moment(SIDE_MOTION, "open warps", "start"), Moment(HANDLER, "home", "end")),
-        (Moment(CENTRE_MOTION, "forward", "start"), Moment(SIDE_MOTION, "cross", "end")),
-        (Moment(CENTRE_GRASP, "close", "start"), Moment(CENTRE_MOTION, "forward", "end")),
-        (Moment(SIDE_GRASP, "open", "start"), Moment(CENTRE_GRASP, "close", "end")),
-        (Moment(SIDE_MOTION, "turn back", "start"), Moment(SIDE_GRASP, "open", "end")),
-        (Moment(CENTRE_MOTION, "return", "start"), Moment(SIDE_GRASP, "open", "end")),
-        (Moment(SIDE_MOTION, "return", "start"), Moment(CENTRE_MOTION, "return", "end")),
-        (Moment(SLEY, "down", "start"), Moment(CENTRE_MOTION, "return", "end")),
-        (Moment(CENTRE_GRASP, "open", "start"), Moment(SLEY, "down", "end")),
-        (Moment(SLEY, "up", "start"), Moment(SLEY, "down", "end")),
     )
-    return (*(Relation(then, first, gap, SOURCE) for then, first in order), blade)
+    order = (*handler, *(_GRIPPERS_ORDER if arms is None else _ARMS_ORDER))
+    between = (
+        ()
+        if arms is None
+        else tuple(
+            Relation(then, Moment(OPENER, "open warps", "end"), max(gap, arms), "the arms tie the knot")
+            for then in (Moment(SLEY, "down", "start"), Moment(OPENER, "return", "start"))
+        )
+    )
+    return (*(Relation(then, first, gap, SOURCE) for then, first in order), blade, *between)
 
 
-def optimised(required: Cyclogram, limits: Mapping[str, ActuatorLimits], gap: float, cutting: float) -> Cyclogram:
+_ARMS_ORDER = (
+    (Moment(HANDLER, "home", "start"), Moment(HANDLER, "present", "end")),
+    (Moment(OPENER, "open warps", "start"), Moment(HANDLER, "home", "end")),
+    (Moment(SLEY, "up", "start"), Moment(SLEY, "down", "end")),
+)
+
+_GRIPPERS_ORDER = (
+    (Moment(SIDE_GRASP, "close", "start"), Moment(HANDLER, "present", "end")),
+    (Moment(SIDE_MOTION, "pull back", "start"), Moment(SIDE_GRASP, "close", "end")),
+    (Moment(HANDLER, "home", "start"), Moment(SIDE_MOTION, "pull back", "end")),
+    (Moment(SIDE_MOTION, "open warps", "start"), Moment(HANDLER, "home", "end")),
+    (Moment(CENTRE_MOTION, "forward", "start"), Moment(SIDE_MOTION, "cross", "end")),
+    (Moment(CENTRE_GRASP, "close", "start"), Moment(CENTRE_MOTION, "forward", "end")),
+    (Moment(SIDE_GRASP, "open", "start"), Moment(CENTRE_GRASP, "close", "end")),
+    (Moment(SIDE_MOTION, "turn back", "start"), Moment(SIDE_GRASP, "open", "end")),
+    (Moment(CENTRE_MOTION, "return", "start"), Moment(SIDE_GRASP, "open", "end")),
+    (Moment(SIDE_MOTION, "return", "start"), Moment(CENTRE_MOTION, "return", "end")),
+    (Moment(SLEY, "down", "start"), Moment(CENTRE_MOTION, "return", "end")),
+    (Moment(CENTRE_GRASP, "open", "start"), Moment(SLEY, "down", "end")),
+    (Moment(SLEY, "up", "start"), Moment(SLEY, "down", "end")),
+)
+
+
+def arms_window(cyclogram: Cyclogram) -> tuple[float, float]:
+    """Cam angles between which arms tie [rad]: from the opened warps until the opener or the sley moves."""
+    opener, sley = cyclogram.track(OPENER), cyclogram.track(SLEY)
+    last = min(opener.segment("return").start, sley.segment("down").start)
+    return opener.segment("open warps").end, last
+
+
+def optimised(
+    required: Cyclogram, limits: Mapping[str, ActuatorLimits], gap: float, cutting: float, arms: float | None = None
+) -> Cyclogram:
     """The cyclogram with the same motions at better cam angles, at its period, or at the shortest that is possible.
 
-    limits  of each track      gap  of motions in sequence [rad]      cutting  time that the cutter needs [s]
+    limits  of each track      gap  of motions in sequence [rad]      cutting, arms  times that cutter and arms need [s]
     """
     tracks = tuple(replace(track, limits=limits[track.name]) for track in required.tracks)
     limited = replace(required, tracks=tracks)
-    shortest = _shortest(limited, gap, cutting)
+    shortest = _shortest(limited, gap, (cutting, arms))
     if shortest.period >= required.period:
         return replace(shortest, period=shortest.period * (1 + _SAME))
-    return least_acceleration(_ordered(limited, gap, cutting, required.period)).cyclogram
+    return least_acceleration(_ordered(limited, gap, (cutting, arms), required.period)).cyclogram
 
 
-def _shortest(limited: Cyclogram, gap: float, cutting: float) -> Cyclogram:
-    """The shortest cycle in which the cutter has its time; its angle follows the cycle, so it is found by iteration."""
-    found = least_period(_ordered(limited, gap, 0.0, 1.0)).cyclogram
+def _shortest(limited: Cyclogram, gap: float, needed: _Needed) -> Cyclogram:
+    """The shortest cycle in which cutter and arms have their times; the angles follow the cycle: found by iteration."""
+    found = least_period(_ordered(limited, gap, (0.0, needed[1] and 0.0), 1.0)).cyclogram
     for _ in range(_ITERATIONS):
-        then = least_period(_ordered(limited, gap, cutting, found.period)).cyclogram
+        then = least_period(_ordered(limited, gap, needed, found.period)).cyclogram
         if abs(then.period - found.period) <= _SAME * found.period:
             break
         found = then
     return then
 
 
-def _ordered(limited: Cyclogram, gap: float, cutting: float, period: float) -> Cyclogram:
-    return replace(limited, relations=relations(gap, cutting / period * turn))
+def _ordered(limited: Cyclogram, gap: float, needed: _Needed, period: float) -> Cyclogram:
+    cutting, arms = needed
+    angle = turn / period
+    return replace(limited, relations=relations(gap, cutting * angle, None if arms is None else arms * angle))

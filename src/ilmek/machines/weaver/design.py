@@ -1,22 +1,33 @@
 """The knotting head's design: cycle, limits, carriage and colour selector."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for
-from ilmek.machines.weaver.cams import cams_for
-from ilmek.machines.weaver.cyclogram import DRAW_TURN, optimised
+from ilmek.arrays import FloatArray
+from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for, torque_at
+from ilmek.elements.carpet_yarns import usual_warp
+from ilmek.machines.weaver.cams import cams_for, stack_width
+from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
+from ilmek.machines.weaver.forces import HeadForces, cutter_torque
 from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
 from ilmek.machines.weaver.knot import on_the_pair, proof_text, tied_by
-from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.magazine import Magazine, fewest_tiers
+from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.opener import Opener, opener_for
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.records import computed, record, result
-from ilmek.timing.cyclogram import Cyclogram
-from ilmek.timing.s_curve import mean_move_time, move_time, travel_time
+from ilmek.timing.cyclogram import Cyclogram, Relation
+from ilmek.timing.s_curve import move_time, travel_time
 from ilmek.timing.track import ActuatorLimits, Track, peak_acceleration, peak_speed, shortest_period
-from ilmek.units import turn
-from ilmek.weaving.knots.proof import TiedKnot
+from ilmek.units import mm, turn
+from ilmek.weaving.knots.proof import TiedKnot, no_knot
+from ilmek.weaving.tension import usual_tension
+from ilmek.weaving.warp_opening import WarpSpans
+
+_WHOLE = 1e-9
+"""Part of a millimetre, and of a tier, that is rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +47,10 @@ class Weaver:
     """A designed knotting head.
 
     cyclogram  at its cycle                   peaks   by track, in order of the cyclogram
-    grippers   in plan view                   tied    the knot that their motions tie, proved
+    grippers   in plan view                   tied    the knot that their motions tie, proved; none where arms tie
     cams       one for each track             drive   of the cam shaft
+    opener     of the warps                   magazine  of the tubes
+    needs      width of what is in the head [m], by name
     """
 
     params: WeaverParams
@@ -54,6 +67,10 @@ class Weaver:
     colour_change: float = result("s", "mean time to bring another tube in line", name="colour_change_time")
     cams: tuple[LoadedPlateCam, ...]
     drive: CamShaftDrive
+    opener: Opener
+    magazine: Magazine
+    width: float = result("mm", "width of the head, along the row", name="head_width_chosen")
+    needs: Mapping[str, float] = result("mm", "width that each content of the head needs", name="head_width_needed")
 
     shortest = computed(
         "s",
@@ -90,7 +107,7 @@ class Weaver:
 
     @computed("s", "time from the first tube to the last")
     def colour_change_longest(self) -> float:
-        return move_time((self.params.tubes - 1) * self.params.tube_pitch, self.params.selector)
+        return self.magazine.longest_time
 
     @computed("", "the track that sets the shortest cycle", name="cycle_time_set_by")
     def limiting(self) -> str:
@@ -104,10 +121,17 @@ class Weaver:
 
 def design(params: WeaverParams) -> Weaver:
     """The head that ties a knot in the required time, or in the shortest that speeds and accelerations allow."""
-    drawn = max(params.billed, yarn_needed(params))
+    drawn = max(params.billed, params.arms.yarn if params.with_arms else yarn_needed(params))
     radius, grippers = drawn / DRAW_TURN, grippers_for(params, drawn)
     cycle = _within_limits(params, knot_cyclogram(params, grippers.crossing), radius)
-    window, cams = carriage_window(cycle), cams_for(params, cycle, radius)
+    opener = _opener(params, grippers)
+    forces = HeadForces(params, cycle, opener, radius)
+    window, cams = carriage_window(cycle), cams_for(forces)
+    rest = {"cams": stack_width(params, cams) + 2 * params.side_plate, "warps pushed aside": opener.crowd}
+    if params.with_arms:
+        rest["arms"] = params.arms.width
+    magazine = _magazine(params, max(rest.values()))
+    needs = {**rest, "tubes": magazine.width}
     return Weaver(
         params=params,
         cyclogram=cycle,
@@ -116,14 +140,63 @@ def design(params: WeaverParams) -> Weaver:
         drawn=drawn,
         handler_radius=radius,
         grippers=grippers,
-        tied=tied_by(cycle, grippers, params.jaw),
+        tied=no_knot("arms tie it") if params.with_arms else tied_by(cycle, grippers, params.jaw),
         carriage_step=move_time(params.knot_pitch, params.carriage),
         carriage_window=window,
         travel=travel_time(params.knot_pitch, window, params.carriage),
-        colour_change=mean_move_time(params.tubes, params.tube_pitch, params.selector),
+        colour_change=magazine.mean_time,
         cams=cams,
-        drive=drive_for(cams, cycle.speed),
+        drive=drive_for(cams, cycle.speed, lambda angle: cutter_torque(params, cycle, angle)),
+        opener=opener,
+        magazine=magazine,
+        width=params.head_width or math.ceil(max(needs.values()) / mm - _WHOLE) * mm,
+        needs=needs,
     )
+
+
+def head_relations(weaver: Weaver) -> tuple[Relation, ...]:
+    """The order of the head's motions, the time of arms included."""
+    time = weaver.params.arms.time
+    return relations(weaver.params.relation_gap, arms=None if time is None else time / weaver.cycle * turn)
+
+
+def shaft_torque(weaver: Weaver, angle: FloatArray) -> FloatArray:
+    """Torque on the cam shaft, of cams and cutter [N m], at cam angles [rad], any shape."""
+    return torque_at(weaver.cams, angle) + cutter_torque(weaver.params, weaver.cyclogram, angle)
+
+
+def _opener(params: WeaverParams, grippers: Grippers) -> Opener:
+    """The opener for the grippers, or for the arms."""
+    own, pitch = params.opener, params.quality.warp_pitch
+    usual = usual_warp(pitch)
+    spans = WarpSpans(
+        tension=usual_tension(pitch) if own.warp_tension is None else own.warp_tension,
+        stiffness=usual.stiffness if own.warp_stiffness is None else own.warp_stiffness,
+        length=max(own.warp_length, own.front_span + own.back_span),
+        front=own.front_span,
+        back=own.back_span,
+    )
+    arms = params.arms
+    outside = params.pair / 2 + (arms.outer or pitch)
+    reach = arms.depth if params.with_arms else params.opening + grippers.crossing
+    return opener_for(
+        params.pair,
+        outside if params.with_arms else abs(grippers.warps[-1].real),
+        params.opening,
+        pitch,
+        params.warp,
+        spans,
+        params.forces.friction,
+        (own.wall, own.breadth, reach),
+    )
+
+
+def _magazine(params: WeaverParams, rest: float) -> Magazine:
+    """The magazine in as few tiers as make it no wider than the head, or than the rest of it [m]."""
+    most = max(1, min(params.tubes, math.floor(params.magazine_room / params.tube_pitch + _WHOLE)))
+    width = params.head_width or rest
+    tiers = params.tube_tiers or fewest_tiers(params.magazine, params.tubes, params.tube_pitch, width, most)
+    return Magazine(params.magazine, params.tubes, params.tube_pitch, params.selector, min(tiers, params.tubes))
 
 
 def _within_limits(params: WeaverParams, required: Cyclogram, radius: float) -> Cyclogram:
@@ -132,20 +205,21 @@ def _within_limits(params: WeaverParams, required: Cyclogram, radius: float) -> 
         speed, acceleration = params.speed_limit, params.acceleration_limit
         arms = {track.name: radius if track.name == HANDLER else 1.0 for track in required.tracks}
         limits = {name: ActuatorLimits(speed / arm, acceleration / arm) for name, arm in arms.items()}
-        return optimised(required, limits, params.relation_gap, params.cutting_time)
+        return optimised(required, limits, params.relation_gap, params.cutting_time, params.arms.time)
     shortest = max(_peaks(track, required.period, radius, params).shortest for track in required.tracks)
+    if params.arms.time is not None:
+        first, last = arms_window(required)
+        shortest = max(shortest, params.arms.time * turn / max(last - first, params.relation_gap))
     return replace(required, period=max(required.period, shortest))
 
 
 def carriage_window(cyclogram: Cyclogram) -> float:
     """Time in which the head may step along the row [s]: from the last tool out of the warps to the opener's entry."""
-    out = max(
-        cyclogram.track(SIDE_MOTION).segment("return").end,
-        cyclogram.track(CENTRE_MOTION).segment("return").end,
-        cyclogram.track(SLEY).segment("up").end,
-    )
-    entry = cyclogram.track(SIDE_MOTION).segment("open warps").start
-    return (turn - out + entry) / cyclogram.speed
+    names = {track.name for track in cyclogram.tracks}
+    opener = cyclogram.track(SIDE_MOTION if SIDE_MOTION in names else OPENER)
+    returns = [cyclogram.track(name).segment("return").end for name in (opener.name, CENTRE_MOTION) if name in names]
+    out = max(*returns, cyclogram.track(SLEY).segment("up").end)
+    return (turn - out + opener.segment("open warps").start) / cyclogram.speed
 
 
 def _peaks(track: Track, period: float, radius: float, params: WeaverParams) -> TrackPeaks:

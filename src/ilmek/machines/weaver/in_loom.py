@@ -2,14 +2,18 @@
 
 from dataclasses import replace
 
-from ilmek.cams.loaded_plate_cam import torque_at
 from ilmek.elements.drive_parts import belt_motor_part, motor_part, positive_work, reducer_part
+from ilmek.machines.arrangement import HALF_SPAN
 from ilmek.machines.loom_task import LoomTask
-from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.design import Weaver, shaft_torque
 from ilmek.machines.weaver.limits import head_mass
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.machines.weaver.tool_params import OpenerParams, ToolForces
 from ilmek.report import NOT_WEIGHED, Part, Work
 from ilmek.timing.s_curve import s_curve
+
+LEAST_FRICTION = 0.01
+"""Least friction with which jaws hold a yarn."""
 
 
 def params_for(task: LoomTask) -> WeaverParams:
@@ -21,6 +25,8 @@ def params_for(task: LoomTask) -> WeaverParams:
         knot=loom.knot,
         knot_yarn=loom.knot_yarn,
         yarn_density=task.yarns.pile.linear_density,
+        yarn_diameter=task.yarns.pile.diameter,
+        yarn_pressed=task.yarns.pressed,
         warp_diameter=task.yarns.warp.diameter,
         acceleration_limit=loom.head_acceleration,
         head_width=loom.head_width,
@@ -30,6 +36,20 @@ def params_for(task: LoomTask) -> WeaverParams:
         carriage_speed=loom.carriage_speed,
         tubes=loom.colours,
         tube_mass=loom.tube_mass,
+        opener=opener_for(task),
+        forces=ToolForces(friction=max(task.yarns.warp.friction, LEAST_FRICTION)),
+    )
+
+
+def opener_for(task: LoomTask) -> OpenerParams:
+    """The opener's parameters for a loom: its warps, and its position between fell and guide cams."""
+    front, warp = OpenerParams().front_span, task.yarns.warp
+    return OpenerParams(
+        back_span=max(HALF_SPAN - front, front),
+        warp_length=task.params.warp_length,
+        warp_tension=task.tension,
+        warp_stiffness=warp.stiffness,
+        warp_strength=warp.breaking_force,
     )
 
 
@@ -38,31 +58,32 @@ def parts(weaver: Weaver) -> tuple[Part, ...]:
     params, servo, mass = weaver.params, weaver.drive.servo, head_mass(weaver)
     motor = servo.motor if servo else None
     tubes = params.tubes * params.tube_mass * params.selector_acceleration
+    colours = belt_motor_part("motor of the colours", tubes, params.selector_speed)
     within = (
         motor_part("motor of a head", motor, weaver.drive.torque_max, weaver.cyclogram.speed),
-        belt_motor_part("motor of the colours", tubes, params.selector_speed),
+        *((colours,) if weaver.magazine.tiers == 1 else (colours, replace(colours, name="motor of the tiers"))),
     )
-    cam_motor, colour_motor = (replace(part, mass=NOT_WEIGHED) for part in within)
+    cam_motor, *colour_motors = (replace(part, mass=NOT_WEIGHED) for part in within)
     return (
         Part("knotting head", 1, "cams, tools, tubes, motors", "", "head mechanism", mass),
         Part("yarn tube", params.tubes, "one for each colour, weighed with the head", "", "yarn tube"),
         cam_motor,
         *((reducer_part("reducer of a head", servo.reducer.ratio, motor),) if servo else ()),
         belt_motor_part("motor of a carriage", mass * params.carriage_acceleration, params.carriage_speed),
-        colour_motor,
+        *colour_motors,
     )
 
 
 def work(weaver: Weaver) -> tuple[Work, ...]:
-    """Work of a turn of the cam shaft, of the carriage's step, and of a move over a third of the tubes, the mean.
+    """Work of a turn of the cam shaft, of the carriage's step, and of a move over a third of a tier's tubes, the mean.
 
     A move takes the kinetic energy at its greatest speed, m v² / 2.
     """
     params = weaver.params
     step = s_curve(params.knot_pitch, params.carriage)
-    change = s_curve(params.tubes * params.tube_pitch / 3, params.selector)
+    change = s_curve(weaver.magazine.per_tier * params.tube_pitch / 3, params.selector)
     return (
-        Work("knotting", positive_work(lambda angle: torque_at(weaver.cams, angle)), "knot"),
+        Work("knotting", positive_work(lambda angle: shaft_torque(weaver, angle)), "knot"),
         Work("carriages", 0.5 * head_mass(weaver) * step.speed**2, "knot"),
         Work("colours", 0.5 * params.tubes * params.tube_mass * change.speed**2, "colour change"),
     )

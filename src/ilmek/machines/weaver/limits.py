@@ -1,7 +1,7 @@
 """The shortest cycle of a knot that each limit allows, and the head's cutter, colour selector and masses.
 
-Speeds of a cam shaft that turns once for a knot are as 1/T, accelerations, forces and torques as 1/T². So from the
-cycle T of the design
+Speeds of a cam shaft that turns once for a knot are as 1/T, accelerations, forces and torques at most as 1/T²: those of
+springs, warps and yarn do not grow with the speed. So from the cycle T of the design, at most
 
     tools       T such that no track exceeds speed and acceleration      cutter   sqrt(4 h / a) over its share of a turn
     cams        T p / p_limit         since p² is as the force           carriage its step over the window's share
@@ -101,19 +101,21 @@ def selector_of(weaver: Weaver) -> Selector:
     """The selector's stepper, on a belt round its pulley."""
     params = weaver.params
     radius, mass = params.selector_pulley, params.tubes * params.tube_mass
+    # A drum turns its tubes at the radius of their pitch: the same mass, moved along its circumference.
     torque, speed = MARGIN * mass * params.selector_acceleration * radius, params.selector_speed / radius
     return Selector(torque, speed, turn * radius / FULL_STEPS, smallest_motor(torque, speed, kind="stepper"))
 
 
 def mass_of(weaver: Weaver) -> Mapping[str, float]:
-    """Masses of the head's parts [kg]."""
+    """Masses of the head's parts [kg]; with arms, theirs are added in the loom."""
     params, servo, stepper = weaver.params, weaver.drive.servo, selector_of(weaver).stepper
+    axes = 1 if weaver.magazine.tiers == 1 else 2
     return {
         "cams": sum(cam.mass for cam in weaver.cams),
-        "shaft": math.pi / 4 * params.shaft**2 * params.head_width * STEEL.density,
+        "shaft": math.pi / 4 * params.shaft**2 * weaver.width * STEEL.density,
         "tools": params.tool_mass * len(weaver.cams),
         "tubes": params.tubes * params.tube_mass,
-        "motors": (servo.motor.mass if servo else 0) + (stepper.mass if stepper else 0),
+        "motors": (servo.motor.mass if servo else 0) + (axes * stepper.mass if stepper else 0),
     }
 
 

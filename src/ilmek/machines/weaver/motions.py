@@ -13,6 +13,8 @@ keeps the order [thesis, 2.2.3, Figure 2.11; the thesis prints no angles, the sh
 The thesis lets the centre gripper return "finally", after it has opened. It must return before: ends that are released
 behind the warps stay there, and no knot is tied.
 
+Where arms tie in place of the grippers, cam 2 moves the opener alone, and they tie in step 3 until the sley moves.
+
 A tool moves forward and then back, each in one or more motions. Where the angles of a tool are set, its motions forward
 or back keep their shares of the angle that they take together.
 """
@@ -28,6 +30,7 @@ from ilmek.units import format_quantity, turn
 SIDE_GRASP, SIDE_MOTION = "side-gripper grasp", "side-gripper motion"
 CENTRE_GRASP, CENTRE_MOTION = "centre-gripper grasp", "centre-gripper motion"
 HANDLER, SLEY = "pile handler", "sley"
+OPENER = "warp opener"
 
 ROUNDING = 1e-9
 """Angles this near to each other are the same [rad]."""
@@ -52,8 +55,9 @@ MOTIONS: Mapping[str, tuple[tuple[StepMotion, ...], tuple[StepMotion, ...]]] = {
         (("home", 2, 0.23, 0.605),),
     ),
     SLEY: ((("down", 4, 0.35, 0.67),), (("up", 4, 0.685, 1.0),)),
+    OPENER: ((("open warps", 2, 0.62, 1.0),), (("return", 4, 0.35, 0.64),)),
 }
-"""Of each track its motions forward, and its motions back."""
+"""Of each track its motions forward, and its motions back; the opener has a track of its own where arms tie."""
 
 
 @dataclass(frozen=True, slots=True)

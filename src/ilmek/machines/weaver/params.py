@@ -9,12 +9,14 @@ from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.elements.carpet_yarns import PILE_DENSITY, usual_warp
 from ilmek.elements.knot_kinds import WRAPS
-from ilmek.elements.yarns import WOOL
+from ilmek.elements.yarns import WOOL, pressed_thickness
 from ilmek.errors import ParameterError
+from ilmek.machines.weaver.magazine import DRUM, SLIDE
 from ilmek.machines.weaver.motions import (
     CENTRE_GRASP,
     CENTRE_MOTION,
     HANDLER,
+    OPENER,
     SIDE_GRASP,
     SIDE_MOTION,
     SLEY,
@@ -23,6 +25,7 @@ from ilmek.machines.weaver.motions import (
     motion_angles,
     require_order,
 )
+from ilmek.machines.weaver.tool_params import ArmsInHead, OpenerParams, ToolForces
 from ilmek.params import Params, kind, nested
 from ilmek.timing.s_curve import AxisLimits
 from ilmek.units import deg, format_quantity, mm, turn
@@ -40,8 +43,12 @@ TOOLS = {
     CENTRE_MOTION: "centre_gripper",
     HANDLER: "pile_handler",
     SLEY: "sley",
+    OPENER: "side_grippers",
 }
 """Of each track the parameters of its tool."""
+
+WITH_ARMS = (OPENER, HANDLER, SLEY)
+"""Tracks of a head whose knots arms tie."""
 
 
 def _speed(default: float, doc: str) -> Any:
@@ -99,9 +106,18 @@ class WeaverParams(Params):
     pile_height: float = kind.length(8 * mm, at_least=0.0, at_most=100 * mm, doc="pile above the knots, shorn")
     cut_waste: float = kind.length(1 * mm, at_least=0.0, at_most=100 * mm, doc="shorn off each end of a knot")
     yarn_density: float = kind.line_density(PILE_DENSITY, above=0.0, at_most=0.1, doc="mass per length of the pile")
+    yarn_diameter: float | None = kind.length(
+        None, above=0.0, at_most=0.05, doc="diameter of the pile yarn; default: of wool"
+    )
+    yarn_pressed: float | None = kind.length(
+        None, above=0.0, at_most=0.05, doc="its thickness pressed between jaws; default: of wool, packed to 0.65, flat"
+    )
     warp_diameter: float | None = kind.length(
         None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual warp"
     )
+    opener: OpenerParams = nested(OpenerParams, doc="warp opener, and the warps that it displaces")
+    forces: ToolForces = nested(ToolForces, doc="forces of the tools' work")
+    arms: ArmsInHead = nested(ArmsInHead, doc="arms in place of the side and centre grippers")
     speed_limit: float = _speed(1.0, "allowed speed of grippers, sley and handler's tip")
     acceleration_limit: float = _acceleration(20.0, "allowed acceleration of the same")
     tool_mass: float = kind.mass(0.15, at_least=0.0, at_most=100.0, doc="mass that each cam moves")
@@ -118,7 +134,10 @@ class WeaverParams(Params):
     cam_thickness: float = kind.length(8 * mm, at_least=5e-4, at_most=0.05, doc="thickness of a cam")
     cam_gap: float = kind.length(3 * mm, at_least=0.0, at_most=0.05, doc="gap between cams, and beside them")
     shaft: float = kind.length(15 * mm, at_least=0.007, at_most=0.1, doc="diameter of the cam shaft")
-    head_width: float = kind.length(80 * mm, at_least=0.01, at_most=1.0, doc="width of the head, along the row")
+    side_plate: float = kind.length(8 * mm, at_least=0.0, at_most=0.1, doc="side plates with the shaft's bearings")
+    head_width: float | None = kind.length(
+        None, at_least=0.01, at_most=1.0, doc="width of the head, along the row; default: what its contents need"
+    )
     head_mass: float | None = kind.mass(
         None, at_least=0.1, at_most=500.0, doc="mass of the head on its carriage; default: as designed"
     )
@@ -132,6 +151,11 @@ class WeaverParams(Params):
     carriage_jerk: float = _jerk(100.0, "jerk of the head along the row")
     cutter_acceleration: float = _acceleration(50.0, "acceleration of the cutter's blade")
     tubes: int = kind.count(16, at_least=1, at_most=255, doc="yarn tubes, one for each colour")
+    magazine: str = kind.choice(DRUM, (DRUM, SLIDE), doc="tubes on a drum, or on slides")
+    tube_tiers: int | None = kind.count(
+        None, at_least=1, at_most=255, doc="tiers of tubes; default: the fewest that are no wider than the rest"
+    )
+    magazine_room: float = kind.length(0.25, at_least=1e-3, at_most=5.0, doc="room for the height of all tiers")
     tube_pitch: float = kind.length(12 * mm, at_least=1e-6, at_most=1.0, doc="distance of neighbouring tubes")
     selector_speed: float = _speed(0.2, "speed of the colour selector")
     selector_acceleration: float = _acceleration(1.0, "acceleration of the colour selector")
@@ -151,7 +175,7 @@ class WeaverParams(Params):
                 )
             before, at = name, end
         self._check_tools()
-        if self.pair_opened is not None and self.pair_opened < self.centre_room:
+        if not self.with_arms and self.pair_opened is not None and self.pair_opened < self.centre_room:
             shown, room = (format_quantity(size, "mm") for size in (self.pair_opened, self.centre_room))
             raise ParameterError(
                 f"pair_opened={shown} leaves the centre gripper no path between the warps",
@@ -160,7 +184,9 @@ class WeaverParams(Params):
             )
 
     def _check_tools(self) -> None:
-        for track, tool in TOOLS.items():
+        tracks = WITH_ARMS if self.with_arms else tuple(track for track in TOOLS if track != OPENER)
+        for track in tracks:
+            tool = TOOLS[track]
             angles: ToolAngles = getattr(self, tool)
             if self.optimise and angles.given:
                 raise ParameterError(
@@ -191,7 +217,17 @@ class WeaverParams(Params):
     @property
     def yarn(self) -> float:
         """Diameter of the pile yarn [m]."""
-        return WOOL.diameter(self.yarn_density)
+        return self.yarn_diameter or WOOL.diameter(self.yarn_density)
+
+    @property
+    def pressed(self) -> float:
+        """Thickness of the pile yarn pressed between jaws [m]."""
+        return self.yarn_pressed or pressed_thickness(self.yarn_density, WOOL)
+
+    @property
+    def with_arms(self) -> bool:
+        """Whether arms tie in place of the side and centre grippers."""
+        return self.arms.time is not None
 
     @property
     def billed(self) -> float:
@@ -224,4 +260,6 @@ class WeaverParams(Params):
     @property
     def pair(self) -> float:
         """Distance of the pair of warps in the opener's slots [m]."""
+        if self.with_arms:
+            return self.arms.pair or self.quality.warp_pitch
         return self.pair_opened or max(PAIR, self.centre_room)

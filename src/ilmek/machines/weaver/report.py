@@ -5,16 +5,18 @@ from typing import Any
 
 import numpy as np
 
-from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL, CamShaftDrive, LoadedPlateCam
+from ilmek.cams.loaded_plate_cam import STEEL, CamShaftDrive, LoadedPlateCam
 from ilmek.elements.plates import round_bore, zero_mark
-from ilmek.loom.production import HAND_KNOT
 from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.weaver.cams import stack_width
-from ilmek.machines.weaver.cyclogram import relations
-from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.checks import head_checks
+from ilmek.machines.weaver.design import Weaver, shaft_torque
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE, Grippers
 from ilmek.machines.weaver.limits import HeadLimits, head_limits
+from ilmek.machines.weaver.magazine import Magazine, tier_width
 from ilmek.machines.weaver.motions import HANDLER
+from ilmek.machines.weaver.opener import Opener
+from ilmek.machines.weaver.opener_figures import opener_figures
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.plan_view import animation, plan_view
 from ilmek.records import Computed, computed, group, record
@@ -22,6 +24,7 @@ from ilmek.report import (
     Axis,
     CamTable,
     Check,
+    Choice,
     Drawing,
     Figure,
     Plate,
@@ -30,14 +33,16 @@ from ilmek.report import (
     Stroke,
     Table,
     Timing,
-    at_least,
     at_most,
     columns,
+    failing,
 )
-from ilmek.timing.cyclogram import check_all
 from ilmek.timing.figures import draw
 from ilmek.timing.track import sample
-from ilmek.units import format_quantity, rpm, turn
+from ilmek.units import format_quantity, turn
+
+SAME = 1e-9
+"""Relative difference of times that is rounding."""
 
 OUTLINE = 4
 """Every n-th sample of a cam's contour is a point of its drawing."""
@@ -79,7 +84,9 @@ class WeaverAnalysis:
     """A head, its grippers, cams and drive, and its limits."""
 
     weaver: Weaver = group()
-    grippers: Grippers = group()
+    grippers: Grippers | None = group()
+    opener: Opener = group()
+    magazine: Magazine = group()
     cams: CamResults = group()
     drive: CamShaftDrive = group()
     limits: HeadLimits = group()
@@ -88,60 +95,46 @@ class WeaverAnalysis:
 def analyse(weaver: Weaver) -> WeaverAnalysis:
     """The results of a head."""
     cams = CamResults(weaver.params, weaver.cams)
-    return WeaverAnalysis(weaver, weaver.grippers, cams, weaver.drive, head_limits(weaver))
+    grippers = None if weaver.params.with_arms else weaver.grippers
+    return WeaverAnalysis(weaver, grippers, weaver.opener, weaver.magazine, cams, weaver.drive, head_limits(weaver))
 
 
 def checks(found: WeaverAnalysis) -> tuple[Check, ...]:
-    """Limits of every track, order of the motions, the carriage's step, the hand weaver's time, the knot, the cams."""
-    weaver, params = found.weaver, found.weaver.params
-    limits: list[Check] = []
-    for name, peak in weaver.peaks.items():
-        speed, acceleration = (rounded(value, 12) for value in (peak.speed, peak.acceleration))
-        limits += [
-            at_most(f"{name}: speed", speed, params.speed_limit, "m/s", "parameter speed_limit"),
-            at_most(f"{name}: acceleration", acceleration, params.acceleration_limit, "m/s^2", "acceleration_limit"),
-        ]
-    return (
-        *limits,
-        *check_all(weaver.cyclogram, relations(params.relation_gap)),
-        at_most("carriage: step to the next knot", weaver.carriage_step, weaver.carriage_window, "s", "tools out"),
-        at_most("knot cycle", weaver.cycle, HAND_KNOT, "s", "best hand weaver: 25 knots a minute"),
-        *_knot_checks(weaver),
-        *cam_checks(weaver, found.limits),
-    )
+    """The checks of a head."""
+    return head_checks(found.weaver, found.limits)
 
 
-def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
-    """The required knot is tied; the yarn is long enough, for the knot and between the grippers; they have room."""
-    by, params, yarn = weaver.grippers, weaver.params, YARN_TOLERANCE
-    tied = float(weaver.knot_tied == params.knot)
-    return (
-        at_least(f"{params.knot} knot tied", tied, 1.0, "", f"proof: {weaver.knot_why}"),
-        at_most("yarn needed between the grippers", by.yarn_taut_max, by.apart + yarn, "mm", "yarn held between them"),
-        at_least("yarn drawn", weaver.drawn + yarn, params.billed, "mm", "yarn bill: carpet.pile, of this knot"),
-        at_least(
-            "room of the side grippers", by.gripper_clearance + yarn, params.clearance, "mm", "parameter clearance"
-        ),
-    )
+def choices(weaver: Weaver) -> tuple[Choice, ...]:
+    """Width, and tiers of the tubes, where they were left open, and what decided them."""
+    params, magazine = weaver.params, weaver.magazine
+    found: list[Choice] = []
+    if params.head_width is None:
+        widest = max(weaver.needs, key=lambda name: weaver.needs[name])
+        found.append(Choice("head_width", format_quantity(weaver.width, "mm", 4), f"width of the {widest}"))
+    if params.tube_tiers is None:
+        fewer = magazine.tiers - 1
+        wide = tier_width(magazine.kind, -(-magazine.tubes // fewer), magazine.pitch) if fewer else 0.0
+        check = at_most("tubes on the head", wide, weaver.width, "mm", "head_width")
+        failed = failing(check) if not check.ok else ""
+        found.append(Choice("tube_tiers", str(magazine.tiers), check.name, str(fewer) if fewer else "", failed))
+    return tuple(found)
 
 
 def warnings(found: WeaverAnalysis) -> tuple[str, ...]:
-    """Another knot or more yarn than required, a longer cycle than required, no motor."""
+    """More yarn than required, a longer cycle than required."""
     weaver = found.weaver
-    warned, required, drive = list(_knot_warnings(weaver)), weaver.params.cycle, weaver.drive
+    warned, required = list(_knot_warnings(weaver)), weaver.params.cycle
     if weaver.cycle > required:
         longer = f"a knot takes {weaver.cycle:.4g} s, not the required {required:.4g} s"
-        warned.append(f"{longer}: the limits of the {weaver.limiting} allow no less")
-    if drive.servo is None:
-        needed = f"{drive.torque_max:.3g} Nm at {weaver.cyclogram.speed / rpm:.3g} rpm"
-        warned.append(f"no motor of the table gives {needed} of the cam shaft: lighter tools or a longer cycle")
+        why = f"limits of the {weaver.limiting}" if weaver.shortest >= weaver.cycle * (1 - SAME) else "time of the arms"
+        warned.append(f"{longer}: the {why} allow no less")
     return tuple(warned)
 
 
 def _knot_warnings(weaver: Weaver) -> tuple[str, ...]:
     """A knot that the thesis' mechanism does not tie; more yarn drawn than billed."""
     params, warned = weaver.params, []
-    if weaver.knot_tied != params.knot:
+    if weaver.knot_tied != params.knot and not params.with_arms:
         warned.append(
             "the thesis' head ties no asymmetric knot, whatever its dimensions: both ends go round the outside of "
             "their warps and both come out between them; the machine knotting-dyad ties it"
@@ -186,7 +179,12 @@ def tables(found: WeaverAnalysis) -> tuple[Table, ...]:
             (track.name, part.name, part.start, part.end, part.law.name) for track in tracks for part in track.segments
         ),
     )
-    return peaks, cams_table(weaver), motions
+    return peaks, cams_table(weaver), motions, _room_table(weaver)
+
+
+def _room_table(weaver: Weaver) -> Table:
+    rows = tuple(sorted(weaver.needs.items(), key=lambda one: one[1], reverse=True))
+    return Table("head-width", "Width of the head by its contents", columns("content", "width [mm]"), rows)
 
 
 def figures(found: WeaverAnalysis) -> tuple[Figure, ...]:
@@ -194,8 +192,8 @@ def figures(found: WeaverAnalysis) -> tuple[Figure, ...]:
     weaver = found.weaver
     return (
         timing(weaver),
-        plan_view(weaver),
-        animation(weaver),
+        *(() if weaver.params.with_arms else (plan_view(weaver), animation(weaver))),
+        *opener_figures(weaver),
         cams_drawing(weaver),
         _accelerations(weaver),
         torque_plot(weaver),
@@ -220,34 +218,6 @@ def _accelerations(weaver: Weaver) -> Plot:
     return Plot("acceleration", "Acceleration of the tools", *axes, series, note=note)
 
 
-def cam_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
-    """Cams within their limits and the head, the cutter within its time."""
-    params, cams = weaver.params, weaver.cams
-    worst, widest = max(cams, key=lambda cam: cam.pressure_max), max(cams, key=lambda cam: cam.radius)
-    sharpest, steep = min(cams, key=lambda cam: cam.convex_radius), max(cams, key=lambda cam: cam.pressure_angle)
-    angle = rounded(steep.pressure_angle, 9)
-    found = (
-        at_most(f"pressure angle, {steep.name}", angle, params.pressure_angle_limit, "deg", "limit"),
-        at_most(f"roller, {sharpest.name}", params.roller_radius, sharpest.convex_radius, "mm", "no undercut"),
-        at_most(f"Hertz pressure, {worst.name}", worst.pressure_max, PRESSURE_LIMIT, "MPa", STEEL.name),
-        at_most("cams beside each other", stack_width(params, cams), params.head_width, "mm", "head_width"),
-        at_most(f"diameter, {widest.name}", 2 * widest.radius, params.cam_room, "mm", "cam_room"),
-        at_most("cutter", limits.cutting_time, limits.cutting_window, "s", "draw to presenting"),
-    )
-    if params.closure == "groove":
-        hollow = min(cams, key=lambda cam: cam.concave_radius)
-        outer = at_most(f"roller in the groove, {hollow.name}", params.roller_radius, hollow.concave_radius, "mm", "")
-        return (*found, outer)
-    loose = min(cams, key=lambda cam: cam.lift_off)
-    speed = weaver.cyclogram.speed
-    return (*found, at_most(f"speed before lift-off, {loose.name}", speed, loose.lift_off, "rpm", "return springs"))
-
-
-def rounded(value: float, digits: int) -> float:
-    """The value in significant digits, for a check of what was made for exactly its limit."""
-    return float(f"{value:.{digits}g}")
-
-
 def cams_table(weaver: Weaver) -> Table:
     """The cams one by one."""
     heads = columns(
@@ -263,6 +233,7 @@ def cams_table(weaver: Weaver) -> Table:
         "preload [N]",
         "greatest force [N]",
         "Hertz pressure [MPa]",
+        "load of the work [N]",
         "torque [Nm]",
     )
     rows = tuple(
@@ -279,6 +250,7 @@ def cams_table(weaver: Weaver) -> Table:
             cam.preload,
             cam.contact_max,
             cam.pressure_max,
+            float(np.abs(cam.load).max()),
             float(np.abs(cam.torque).max()),
         )
         for cam in weaver.cams
@@ -311,9 +283,9 @@ def torque_plot(weaver: Weaver) -> Plot:
     angle = np.linspace(0, turn, 721)
     each = [np.interp(angle, cam.angle, cam.torque) for cam in weaver.cams]
     series = tuple(Series(cam.name, angle, torque, dashed=True) for cam, torque in zip(weaver.cams, each, strict=True))
-    total = Series("all", angle, np.sum(each, axis=0))
+    total = Series("all, and the cutter", angle, shaft_torque(weaver, angle))
     axes = Axis("cam angle", "deg"), Axis("torque", "Nm")
-    note = "inertia, springs and the handler's brake, without friction"
+    note = "inertia, springs, the handler's brake, and the tools' work"
     return Plot("cam-torque", "Torque on the head's cam shaft", *axes, (total, *series), note=note)
 
 

@@ -1,0 +1,246 @@
+"""The checks of a knotting head: tools, knot, cams, opener, magazine, drive."""
+
+from dataclasses import replace
+
+from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
+from ilmek.elements.carpet_yarns import usual_warp
+from ilmek.loom.production import HAND_KNOT
+from ilmek.machines.weaver.cams import stack_width
+from ilmek.machines.weaver.design import Weaver, head_relations
+from ilmek.machines.weaver.forces import cutting_energy
+from ilmek.machines.weaver.grippers import YARN_TOLERANCE
+from ilmek.machines.weaver.limits import HeadLimits
+from ilmek.machines.weaver.opener import LEAST_ROOM
+from ilmek.machines.weaver.rods import rod_bend
+from ilmek.report import Check, at_least, at_most, must
+from ilmek.timing.cyclogram import check_all
+
+LONGER = "set a longer knot_cycle"
+FINER = "set a coarser quality, or thinner warps"
+
+
+def head_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
+    """All checks of a head."""
+    return (
+        *_tool_checks(weaver),
+        *_order_checks(weaver),
+        *(() if weaver.params.with_arms else _knot_checks(weaver)),
+        *cam_checks(weaver, limits),
+        *opener_checks(weaver),
+        *_room_checks(weaver),
+    )
+
+
+def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """Limits of every track, the carriage's step, the hand weaver's time."""
+    params = weaver.params
+    found: list[Check] = []
+    for name, peak in weaver.peaks.items():
+        speed, acceleration = (rounded(value, 12) for value in (peak.speed, peak.acceleration))
+        source = "parameter speed_limit", "acceleration_limit"
+        found += [
+            at_most(f"{name}: speed", speed, params.speed_limit, "m/s", source[0], cure=LONGER),
+            at_most(f"{name}: acceleration", acceleration, params.acceleration_limit, "m/s^2", source[1], cure=LONGER),
+        ]
+    step, hand = "set a longer knot_cycle, or a faster carriage", "set a shorter knot_cycle, or higher limits"
+    return (
+        *found,
+        at_most(
+            "carriage: step to the next knot", weaver.carriage_step, weaver.carriage_window, "s", "tools out", cure=step
+        ),
+        at_most("knot cycle", weaver.cycle, HAND_KNOT, "s", "best hand weaver: 25 knots a minute", cure=hand),
+    )
+
+
+def _order_checks(weaver: Weaver) -> tuple[Check, ...]:
+    cure = "leave the tools' angles to the steps of the turn, or set a longer knot_cycle"
+    checked = check_all(weaver.cyclogram, head_relations(weaver))
+    return tuple(replace(check, cure=cure) for check in checked)
+
+
+def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """The required knot is tied; the yarn is long enough, for the knot and between the grippers; they have room."""
+    by, params, yarn = weaver.grippers, weaver.params, YARN_TOLERANCE
+    tied = float(weaver.knot_tied == params.knot)
+    bend = rod_bend(params, by)
+    asymmetric = "set knotting=arms: arms tie it; or knot=symmetric"
+    cure = asymmetric if params.knot == "asymmetric" else "leave the grippers' dimensions to the design"
+    return (
+        at_least(f"{params.knot} knot tied", tied, 1.0, "", f"proof: {weaver.knot_why}", cure=cure),
+        at_most(
+            "yarn needed between the grippers",
+            by.yarn_taut_max,
+            by.apart + yarn,
+            "mm",
+            "yarn held between them",
+            cure="set a longer knot_yarn",
+        ),
+        at_least(
+            "yarn drawn",
+            weaver.drawn + yarn,
+            params.billed,
+            "mm",
+            "yarn bill: carpet.pile, of this knot",
+            cure="leave knot_yarn to the bill",
+        ),
+        at_least(
+            "room of the side grippers",
+            by.gripper_clearance + yarn,
+            params.clearance,
+            "mm",
+            "parameter clearance",
+            cure="leave crossing_turn to the design, or set thinner fingers",
+        ),
+        at_most(
+            "bend of a side gripper by the yarn",
+            bend,
+            params.clearance,
+            "mm",
+            "parameter clearance; pull of the yarn assumed by this project: parameter forces.yarn_pull",
+            cure="set a thicker weaver.finger",
+        ),
+    )
+
+
+def cam_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
+    """Cams within their limits and the head, the cutter within its time, a motor for the shaft."""
+    params, cams = weaver.params, weaver.cams
+    worst, widest = max(cams, key=lambda cam: cam.pressure_max), max(cams, key=lambda cam: cam.radius)
+    sharpest, steep = min(cams, key=lambda cam: cam.convex_radius), max(cams, key=lambda cam: cam.pressure_angle)
+    angle = rounded(steep.pressure_angle, 9)
+    roller = params.roller_radius
+    larger = "set a larger weaver.cam_room, shorter strokes, or a larger weaver.lever"
+    found = (
+        at_most(
+            f"pressure angle, {steep.name}", angle, params.pressure_angle_limit, "deg", "limit", cure="shorter strokes"
+        ),
+        at_most(
+            f"roller, {sharpest.name}",
+            roller,
+            sharpest.convex_radius,
+            "mm",
+            "no undercut",
+            cure="set a smaller weaver.roller_radius",
+        ),
+        at_most(
+            f"Hertz pressure, {worst.name}",
+            worst.pressure_max,
+            PRESSURE_LIMIT,
+            "MPa",
+            STEEL.name,
+            cure="set a larger weaver.cam_thickness, or lighter tools",
+        ),
+        at_most(
+            "cams beside each other",
+            stack_width(params, cams) + 2 * params.side_plate,
+            weaver.width,
+            "mm",
+            "head_width",
+            cure="leave head_width to the design, or set thinner cams",
+        ),
+        at_most(f"diameter, {widest.name}", 2 * widest.radius, params.cam_room, "mm", "cam_room", cure=larger),
+        at_most("cutter", limits.cutting_time, limits.cutting_window, "s", "draw to presenting", cure=LONGER),
+        must(
+            "motor of the cam shaft",
+            weaver.drive.servo is not None,
+            f"motors of the table; {weaver.drive.torque_max:.3g} Nm with a cut of {cutting_energy(params):.3g} J",
+            cure="set lighter tools, a longer knot_cycle, or a lower tension",
+        ),
+    )
+    if params.closure == "groove":
+        hollow = min(cams, key=lambda cam: cam.concave_radius)
+        cure = "set a smaller weaver.roller_radius"
+        return (
+            *found,
+            at_most(f"roller in the groove, {hollow.name}", roller, hollow.concave_radius, "mm", "", cure=cure),
+        )
+    loose = min(cams, key=lambda cam: cam.lift_off)
+    speed, cure = weaver.cyclogram.speed, "set closure=groove, or lighter tools"
+    name = f"speed before lift-off, {loose.name}"
+    return (*found, at_most(name, speed, loose.lift_off, "rpm", "return springs", cure=cure))
+
+
+def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """The opener enters between two warps, does not overload them, pushes no warp of a neighbour's, and holds."""
+    params, own, opener = weaver.params, weaver.params.opener, weaver.opener
+    pitch, warp = opener.pitch, params.warp
+    strength = own.warp_strength or usual_warp(pitch).breaking_force
+    return (
+        at_most(
+            "opener: points between two warps",
+            own.tip + 2 * own.placing,
+            pitch - warp,
+            "mm",
+            "gap of the warps; assumed by this project: parameters opener.tip, opener.placing",
+            cure=FINER,
+        ),
+        at_most(
+            "opener: tension of a displaced warp",
+            opener.tension,
+            own.strength_used * strength,
+            "N",
+            "breaking force of the warp; share assumed by this project: parameter opener.strength_used",
+            cure="set a lower tension, stronger warps, or longer spans of the warps",
+        ),
+        at_most(
+            "opener: wedge against friction",
+            opener.wedge,
+            1 - LEAST_ROOM,
+            "1",
+            "no self-locking: slope of its walls times the friction",
+            cure="set a longer weaver.opening",
+        ),
+        at_most(
+            "opener: bend of its walls",
+            opener.bend,
+            own.bend_limit,
+            "mm",
+            "assumed by this project: parameter opener.bend_limit",
+            cure="set a thicker weaver.opener.wall, or a lower tension",
+        ),
+        at_most(
+            "opener: width of the warps that it displaces",
+            opener.crowd,
+            weaver.width,
+            "mm",
+            "head_width: the neighbouring head's warps stay where they are",
+            cure="leave head_width to the design, or set thinner warps",
+        ),
+    )
+
+
+def _room_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """The magazine within the head; the arms too."""
+    params, magazine = weaver.params, weaver.magazine
+    fewer = "set fewer colours, more weaver.tube_tiers, or leave head_width to the design"
+    found = (
+        at_most("tubes on the head", magazine.width, weaver.width, "mm", "head_width", cure=fewer),
+        at_most(
+            "tiers of the tubes",
+            magazine.height,
+            params.magazine_room,
+            "mm",
+            "parameter magazine_room",
+            cure="set a larger weaver.magazine_room, or fewer colours",
+        ),
+    )
+    if not params.with_arms:
+        return found
+    cure = "leave head_width to the design"
+    return (
+        *found,
+        at_most("arms on the head", params.arms.width, weaver.width, "mm", "head_width", cure=cure),
+        at_least(
+            "yarn drawn",
+            weaver.drawn + YARN_TOLERANCE,
+            max(params.billed, params.arms.yarn),
+            "mm",
+            "yarn bill, and need of the arms",
+            cure="set a longer knot_yarn",
+        ),
+    )
+
+
+def rounded(value: float, digits: int) -> float:
+    """The value in significant digits, for a check of what was made for exactly its limit."""
+    return float(f"{value:.{digits}g}")

@@ -1,0 +1,75 @@
+"""Parameters of a head's opener, of the forces on its tools, and of arms that tie in place of its grippers."""
+
+from dataclasses import dataclass
+
+from ilmek.elements.carpet_yarns import FRICTION
+from ilmek.params import Params, kind
+from ilmek.units import mm
+
+
+@dataclass(frozen=True, slots=True)
+class OpenerParams(Params):
+    """The warp opener, and the warps as strings between the holds in front of it and behind it."""
+
+    front_span: float = kind.length(60 * mm, at_least=1e-3, at_most=5.0, doc="from the opener to the fell")
+    back_span: float = kind.length(
+        110 * mm, at_least=1e-3, at_most=20.0, doc="from the opener to the next hold of the warps"
+    )
+    warp_length: float = kind.length(1.5, unit="m", at_least=0.05, at_most=100.0, doc="warp from cylinder to cylinder")
+    warp_tension: float | None = kind.force(
+        None, at_least=0.0, at_most=1e3, doc="tension of a warp; default: usual for the pitch"
+    )
+    warp_stiffness: float | None = kind.force(
+        None, at_least=0.0, at_most=1e7, doc="force over strain of a warp; default: of the usual warp"
+    )
+    warp_strength: float | None = kind.force(
+        None, above=0.0, at_most=1e5, doc="breaking force of a warp; default: of the usual warp"
+    )
+    strength_used: float = kind.ratio(
+        0.5, above=0.0, at_most=1.0, doc="tension of a displaced warp over its breaking force, at most"
+    )
+    tip: float = kind.length(
+        0.1 * mm, at_least=0.0, at_most=0.05, doc="thickness of the points that enter between two warps"
+    )
+    placing: float = kind.length(
+        0.04 * mm, at_least=0.0, at_most=0.05, doc="error of the head's position against the warps"
+    )
+    wall: float = kind.length(2 * mm, at_least=1e-4, at_most=0.05, doc="thickness of the walls that hold warps away")
+    breadth: float = kind.length(8 * mm, at_least=1e-4, at_most=0.1, doc="breadth of the walls, along the warps")
+    bend_limit: float = kind.length(0.5 * mm, above=0.0, at_most=0.05, doc="allowed deflection of a wall's end")
+
+
+@dataclass(frozen=True, slots=True)
+class ToolForces(Params):
+    """What the tools' work takes; assumed by this project where the yarn does not give it."""
+
+    yarn_pull: float = kind.force(0.5, at_least=0.0, at_most=1e3, doc="pull of an end of the pile that is led or drawn")
+    friction: float = kind.ratio(FRICTION, above=0.0, at_most=2.0, doc="friction coefficient of yarn on steel")
+    grip_safety: float = kind.ratio(1.5, at_least=1.0, at_most=10.0, doc="grip of the jaws over the yarn's pull")
+    tightening: float = kind.force(
+        2.5, at_least=0.0, at_most=1e3, doc="pull on each end of a knot that tightens it about its warps"
+    )
+    tightening_travel: float = kind.length(
+        5 * mm, above=0.0, at_most=0.3, doc="last part of the centre gripper's return, which tightens the knot"
+    )
+    sley: float = kind.force(10.0, at_least=0.0, at_most=1e4, doc="force of the sley that pushes a knot down")
+    sley_travel: float = kind.length(5 * mm, above=0.0, at_most=0.3, doc="last part of its stroke, against the knot")
+    cutter_mass: float = kind.mass(0.02, at_least=0.0, at_most=10.0, doc="mass of the cutter's blade and slide")
+
+
+@dataclass(frozen=True, slots=True)
+class ArmsInHead(Params):
+    """Arms that tie the knot in place of the side and centre grippers, as the machine knotting-dyad states them."""
+
+    time: float | None = kind.time(
+        None, at_least=1e-3, at_most=3600.0, doc="their time of a knot; default: none, the grippers tie it"
+    )
+    yarn: float = kind.length(30 * mm, at_least=0.0, at_most=0.5, doc="pile yarn that they need for a knot")
+    pair: float | None = kind.length(
+        None, above=0.0, at_most=0.1, doc="the pair of warps in the opener's slots; default: as they stand"
+    )
+    outer: float | None = kind.length(
+        None, above=0.0, at_most=0.1, doc="from a warp of the pair to the next warp; default: the pitch"
+    )
+    width: float = kind.length(40 * mm, at_least=0.0, at_most=5.0, doc="width of the head that they take")
+    depth: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="reach of the opener's walls past the warps")
