@@ -47,7 +47,8 @@ EXPECTED = {
     "tufting": {
         "misprint": """Eq 15, text; Eq 23; Eq 33; Eq 35 (and 43); Eq 40 to 43; columns of matrix A;
             columns of matrix C; least θ4""",
-        "off": "crank angle of the lowest point; crank angle of the highest point",
+        "off": """crank angle of the lowest point; crank angle from which the needle rises;
+            crank angle of the highest point""",
         "unsound": "force of inertia on driven shaft by main shaft, without friction and weight",
         "not reproducible": """where the friction of 1000 N acts; moments of inertia of l1 to l6;
             Eq 19, acceleration of the needle; velocity and acceleration of the needle; forces in the joints;
@@ -82,7 +83,8 @@ EXPECTED = {
             link 2: moment at rest; link 2: -J2 α2; F2'x: denominator; F2'x: numerator at rest;
             F2'x: numerator by ω1²; link 1: moment of F2y at rest; link 1: moment of F2x at rest;
             link 1: moment of F2y by ω1²; link 1: moment of F2x by ω1²""",
-        "unsound": "a1'; direction of the ground, 180° - θ0; angles that are chosen, θ1 and θ2",
+        "unsound": """least θ2 of the poses, taken from 0° to 90°; a1'; direction of the ground, 180° - θ0;
+            angles that are chosen, θ1 and θ2""",
     },
 }
 

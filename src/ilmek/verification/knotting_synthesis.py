@@ -141,6 +141,15 @@ def _given() -> tuple[Claim, ...]:
             _claim(f"ρ{k + 1}", text, "mm", partial(_rho, k), f"{at}, table")
             for k, text in enumerate(("29.154", "30.016"), start=1)
         ),
+        _claim(
+            "least θ2 of the poses, taken from 0° to 90°",
+            "> 0",
+            "deg",
+            lambda: float(np.min(TH2)) / deg,
+            f"{at}, intervals",
+            "pose 3 has -25°; the other givens keep their intervals",
+            missed=UNSOUND,
+        ),
         _claim("f2 of pose 2", "-25.528", "mm", of("f2", 1), at),
         _claim("f2 of pose 3", "3.236", "mm", of("f2", 2), at),
         _claim("f3 of pose 2", "51.49", "mm", of("f3", 1), at, typed),

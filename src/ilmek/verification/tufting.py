@@ -53,6 +53,15 @@ def _needle() -> tuple[Claim, ...]:
     return (
         _claim("stroke of the needle, 'about'", "33", "mm", lambda: _made().stroke / mm, TEXT),
         _claim("crank angle of the lowest point", "108", "deg", lambda: _made().lowest / deg, TEXT, flat, missed=OFF),
+        _claim(
+            "crank angle from which the needle rises",
+            "109",
+            "deg",
+            lambda: _made().lowest / deg,
+            TEXT,
+            flat,
+            missed=OFF,
+        ),
         _claim("crank angle of the highest point", "287", "deg", lambda: _made().highest / deg, TEXT, flat, missed=OFF),
         _claim("entry", "22", "deg", partial(_half_way, 5, 60), TEXT, fitted=backing),
         _claim("exit", "194", "deg", partial(_half_way, 150, 230), TEXT, fitted=backing),
