@@ -7,7 +7,7 @@ machine. Values are SI; the unit beside a value is the one to show it in.
 from ilmek.records import DeclaredResult, computed, declared_results, group, record, result
 from ilmek.report.bill import NOT_WEIGHED, Part, Work
 from ilmek.report.check import Check, at_least, at_most, must, snap_to_limit
-from ilmek.report.choice import Candidate, Choice, choose, failing
+from ilmek.report.choice import Alternative, Choice, choose, failing
 from ilmek.report.document import Report
 from ilmek.report.figure import (
     Animation,
@@ -37,10 +37,10 @@ from ilmek.report.workshop import CamTable, Contour, Hole, Plate
 
 __all__ = [
     "NOT_WEIGHED",
+    "Alternative",
     "Animation",
     "Axis",
     "CamTable",
-    "Candidate",
     "Check",
     "Choice",
     "Column",

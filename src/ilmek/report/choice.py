@@ -32,7 +32,7 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class Alternative:
     """What could be chosen: its name, with a unit, and its checks."""
 
     name: str
@@ -44,14 +44,14 @@ class Candidate:
         return tuple(check for check in self.checks if not check.ok)
 
 
-def choose(name: str, candidates: Sequence[Candidate], aim: str = "price") -> tuple[int, Choice]:
+def choose(name: str, candidates: Sequence[Alternative], aim: str = "price") -> tuple[int, Choice]:
     """The first candidate whose checks hold, of candidates in ascending order of what the aim makes least.
 
     Where none holds, the one whose heaviest failed check weighs least. Returns its index and the choice. Raises
     ValueError without candidates.
 
     >>> from ilmek.report.check import at_least
-    >>> bars = [Candidate(f"{d} mm", (at_least("stress", d, 15, "mm", "limit"),)) for d in (10, 20)]
+    >>> bars = [Alternative(f"{d} mm", (at_least("stress", d, 15, "mm", "limit"),)) for d in (10, 20)]
     >>> choose("bar", bars)[1]
     Choice(name='bar', chosen='20 mm', decided_by='stress', next_cheaper='10 mm', failed='10000 mm, limit >= 15000 mm')
     """

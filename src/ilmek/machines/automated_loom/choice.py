@@ -14,7 +14,7 @@ from ilmek.machines.beat import BeatDrive, PlannedBeat
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
-from ilmek.report import Candidate, Check, Choice, at_most, choose
+from ilmek.report import Alternative, Check, Choice, at_most, choose
 
 ROW_TOLERANCE = 0.02
 """Share by which rows may be left farther apart than required; assumed by this project."""
@@ -54,7 +54,7 @@ def beat_options(task: LoomTask, period_of: Callable[[PlannedBeat], float]) -> t
 
 def chosen_beat(options: tuple[BeatOption, ...], aim: str) -> tuple[BeatOption, tuple[Choice, ...]]:
     """The beat of the loom, and the choice where it was left open."""
-    index, choice = choose("beat", [Candidate(one.kind, one.checks) for one in options], aim)
+    index, choice = choose("beat", [Alternative(one.kind, one.checks) for one in options], aim)
     return options[index], (choice,) if len(options) > 1 else ()
 
 
@@ -72,7 +72,7 @@ def chosen_heads(
     if params.deadline is None:
         return 1, (Choice("heads", "1", "price"),)
     candidates = [
-        Candidate(str(heads), (deadline_check(params.deadline, time_of(heads)),)) for heads in range(1, most + 1)
+        Alternative(str(heads), (deadline_check(params.deadline, time_of(heads)),)) for heads in range(1, most + 1)
     ]
     index, choice = choose("heads", candidates)
     return index + 1, (choice,)

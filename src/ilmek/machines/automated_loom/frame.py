@@ -21,7 +21,7 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, eccentric, euler
 from ilmek.elements.materials import GRAVITY
 from ilmek.records import computed, record, result
-from ilmek.report import Candidate, Check, Choice, at_least, at_most, choose
+from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
 from ilmek.units import mm
 
 STRESS_SAFETY, BUCKLING_SAFETY = 2.0, 4.0
@@ -103,7 +103,7 @@ def _chosen(
 ) -> tuple[HollowSquare, Choice]:
     """The lightest section that keeps its checks, or the largest, and the choice."""
     sections = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area)
-    candidates = [Candidate(section.name, checks_of(task, section)) for section in sections]
+    candidates = [Alternative(section.name, checks_of(task, section)) for section in sections]
     index, choice = choose(f"frame_{name}", candidates)
     if not candidates[index].failed:
         return sections[index], choice

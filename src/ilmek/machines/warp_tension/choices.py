@@ -22,7 +22,7 @@ from ilmek.machines.warp_tension.design import (
     worst_load,
 )
 from ilmek.machines.warp_tension.params import WarpTensionParams
-from ilmek.report import Candidate, Check, Choice, at_most, choose
+from ilmek.report import Alternative, Check, Choice, at_most, choose
 
 
 def choices(design: WarpTensionDesign) -> tuple[Choice, ...]:
@@ -34,22 +34,22 @@ def _choices(design: WarpTensionDesign) -> Iterator[Choice]:
     params, load = design.params, worst_load(design.params)
     offered = sorted(tubes_offered(params), key=lambda tube: tube.area)
     if offered:
-        yield choose("tube", [Candidate(one.name, tube_checks(params, one, 0.0, load)) for one in offered])[1]
+        yield choose("tube", [Alternative(one.name, tube_checks(params, one, 0.0, load)) for one in offered])[1]
     if params.spacer_tube is None:
         depth, pull = slots_of(params).depth, spacer_load(params, abs(load))
-        found = [Candidate(one.name, tube_checks(params, one, depth, pull)) for one in spacer_tubes(params)]
+        found = [Alternative(one.name, tube_checks(params, one, depth, pull)) for one in spacer_tubes(params)]
         yield choose("spacer_tube", found)[1]
     if params.bearing is None:
         most = max(cylinders(design), key=lambda one: one.reaction)
         given = most.reaction, most.torque, most.slope
         yield choose(
-            "bearing", [Candidate(one.name, bearing_checks(params, one, *given)) for one in bearings_offered()]
+            "bearing", [Alternative(one.name, bearing_checks(params, one, *given)) for one in bearings_offered()]
         )[1]
     if params.motor_torque is None:
         by_power = sorted(MOTORS, key=lambda motor: motor.power)
-        yield choose("motor", [Candidate(one.name, motor_checks(design, one)) for one in by_power])[1]
+        yield choose("motor", [Alternative(one.name, motor_checks(design, one)) for one in by_power])[1]
     if params.motor_torque is None and params.ratio is None and design.motor is not None:
-        yield choose("ratio", [Candidate(f"{one:g}", ratio_checks(design, one, design.motor)) for one in RATIOS])[1]
+        yield choose("ratio", [Alternative(f"{one:g}", ratio_checks(design, one, design.motor)) for one in RATIOS])[1]
 
 
 def tube_checks(params: WarpTensionParams, tube: Tube, depth: float, load: complex) -> tuple[Check, ...]:
