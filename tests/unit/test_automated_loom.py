@@ -99,7 +99,7 @@ def test_shuttle_and_beater_are_never_in_the_shed_together() -> None:
     assert beating.any()
     assert not (moving & beating).any()
     opening = np.abs(loom.shedding.shed.opening(angle[moving]))
-    assert opening.min() >= loom.params.shuttle_height - 1e-9
+    assert opening.min() >= loom.params.open_share * loom.params.lift - 1e-9
 
 
 def test_a_wide_loom_takes_the_time_that_its_shuttle_needs() -> None:
@@ -176,8 +176,8 @@ def test_pitch_and_quality_follow_each_other(settings: dict[str, Any], pitch: fl
         ),
         (dict(warp_pitch=2 * mm, knots_across=20 / dm), "25 knots/dm is what that 2 mm pitch gives"),
         (dict(heads=9), "9 heads of 80 mm do not fit a carpet 1.2 m wide; at most 7"),
-        (dict(shuttle_height=70 * mm), "a shed of 60 mm has no room for a shuttle of 70 mm"),
-        (dict(beat_end=120 * deg), "the shed is free of the shuttle from 125.3 deg on"),
+        (dict(open_share=1.0), "a shed of 60 mm is never as open as open_share=1 of it"),
+        (dict(beat_end=105 * deg), "the shed is free of the shuttle from 108.4 deg on"),
         (dict(take_up_end=150 * deg), "the take-up ends before the beat"),
         (dict(width=12.0), "no stock tube carries"),
     ],

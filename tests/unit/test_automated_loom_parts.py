@@ -110,13 +110,13 @@ def test_mass_and_price_of_the_report_are_those_of_its_table():
 
 
 def test_cylinders_of_the_list_are_those_of_the_warp_tension_at_the_looms_own_pitch_and_shed():
-    loom = design(AutomatedLoomParams(width=1.0, warp_pitch=1.6e-3, lift=0.07, warp_length=2.0))
+    loom = design(AutomatedLoomParams(width=1.0, warp_pitch=1.6e-3, lift=0.07))
     results = {one.name: one.value for one in warp_tension.MACHINE.report(loom.warp_tension).results}
     masses = [part.mass_all for part in parts_of_loom(loom).parts if part.kind == "steel tube"]
     assert sum(masses) == pytest.approx(results["mass_cylinders"])
     assert results["slot_pitch"] == loom.params.pitch
-    rate = results["warp_stiffness"] / 2.0
-    shed = 2 * (math.hypot(0.17, 0.07) - 0.17)
+    rate, span = results["warp_stiffness"] / loom.side.warp_length, loom.side.front_span
+    shed = 2 * (math.hypot(span, 0.07) - span)
     assert results["tension_shed"] == pytest.approx(results["tension_woven"] + rate * shed)
 
 

@@ -8,6 +8,7 @@ from ilmek.params import Params
 from ilmek.records import record
 
 if TYPE_CHECKING:
+    from ilmek.machines.arrangement import SideView
     from ilmek.machines.automated_loom.params import AutomatedLoomParams
 
 P = TypeVar("P", bound=Params)
@@ -22,6 +23,7 @@ class LoomTask:
     period   time of a row's wefts and beats [s]; nan before it is known
     take_up_time, row_time  [s]: of the take-up; of the shortest row; nan before they are known
     designs  of the machines designed before, by their names
+    side     the side view of the loom; None before the shedding is designed
     """
 
     params: "AutomatedLoomParams"
@@ -33,6 +35,7 @@ class LoomTask:
     period: float = float("nan")
     take_up_time: float = float("nan")
     row_time: float = float("nan")
+    side: "SideView | None" = None
 
     @property
     def warps(self) -> int:

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from ilmek.loom.production import Production, production_time
 from ilmek.machines import SUMMARIES
+from ilmek.machines.arrangement import SideView
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign, design
 from ilmek.machines.automated_loom.energy import Energy
@@ -50,7 +51,7 @@ MACHINE = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(LoomAnalysis, TimeShares, BeatDrive, Energy, PartsList),
+    reported=(LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, PartsList),
     checks=checks,
     tables=tables,
     figures=lambda found: figures(found.loom),

@@ -11,6 +11,7 @@ from ilmek.errors import LoomError
 from ilmek.loom.programme import Times, least_time
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import loom_parts
+from ilmek.machines.arrangement import SideView, laid_out
 from ilmek.machines.automated_loom.choice import beat_options, chosen_beat, chosen_heads
 from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, knot_cyclogram, shortest_row, take_up_time
 from ilmek.machines.automated_loom.knotting import KnottingArms, arms_for
@@ -38,7 +39,7 @@ class LoomDesign:
     """A loom for one carpet.
 
     machines       its machines by name, in the order of the report: head, shedding, warp tension, ...
-    task           of its machines
+    task           of its machines                        side  the side view
     beat           the drive of the beat
     row_timing, row_cyclogram   of the wefts and beats of a row, one turn of the shedding cams
     times          of the acts of weaving, as the programme counts them
@@ -52,6 +53,7 @@ class LoomDesign:
     heads_max: int
     machines: Mapping[str, Child]
     task: LoomTask
+    side: SideView
     beat: BeatDrive
     row_timing: RowTiming
     row_cyclogram: Cyclogram
@@ -133,6 +135,7 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     machines: dict[str, Child] = {}
     for name in BEFORE_THE_ROW:
         machines[name], task = _made(name, task)
+    task = replace(task, side=laid_out(task))
     head, cams = machines["weaver"].design, machines["shedding"].design
     options = beat_options(task, lambda plan: _row_period(params, _row_timing(task, cams, plan.beat), cams))
     option, choices = chosen_beat(options, params.aim)
@@ -156,13 +159,14 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     for name in loom_parts():
         if name not in BEFORE_THE_ROW:
             machines[name], task = _made(name, task)
+    side = laid_out(task)
     machines["weaver"] = replace(machines["weaver"], number=heads)
     row = cyclogram(timing, period)
     tracks = (track for child in machines.values() for track in child.component.tracks(child.design))
     row = replace(row, tracks=(*row.tracks, *tracks))
     chosen = replace(params, beat=option.kind, heads=heads)
     every = (*choices, *of_heads)
-    return LoomDesign(chosen, rows, columns, heads, most, machines, task, beat, timing, row, times, every)
+    return LoomDesign(chosen, rows, columns, heads, most, machines, task, side, beat, timing, row, times, every)
 
 
 def _made(name: str, task: LoomTask) -> tuple[Child, LoomTask]:
@@ -220,16 +224,16 @@ def _row_period(params: AutomatedLoomParams, timing: RowTiming, cams: SheddingDe
     shed, window = format_quantity(timing.lift, "mm"), timing.window
     if window[1] - window[0] < 1e-6:
         raise LoomError(
-            f"a shed of {shed} has no room for a shuttle of {format_quantity(params.shuttle_height, 'mm')}",
-            allowed="the lift must exceed the shuttle's height",
-            do="set a larger lift or a lower shuttle_height",
+            f"a shed of {shed} is never as open as open_share={params.open_share:g} of it",
+            allowed="an opening that lasts, for the shuttle to pass",
+            do="set a smaller open_share",
         )
     shortest = shortest_row(timing, params.shuttle_speed, params.shuttle_acceleration)
     if not math.isfinite(shortest):
         raise LoomError(
             f"the beater is to be back at {format_quantity(params.beat_end, 'deg')}",
             allowed=f"the shed is free of the shuttle from {format_quantity(window[1], 'deg')} on",
-            do="set a later beat_end, or a higher shuttle_height for a shorter passage",
+            do="set a later beat_end, or a larger open_share for a shorter passage",
         )
     if params.take_up_end <= params.beat_end:
         raise LoomError("the take-up ends before the beat", do="set take_up_end after beat_end")

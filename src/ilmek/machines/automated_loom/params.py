@@ -76,8 +76,8 @@ class AutomatedLoomParams(Params):
         at_most=1e3,
         doc="tension of a warp; default: 15 N at a pitch of 2 mm, proportional to the warp's mass",
     )
-    warp_length: float = kind.length(
-        1.5, unit="m", at_least=0.35, at_most=100.0, doc="warp from the fell to its cylinder"
+    clearance: float = kind.length(
+        2 * mm, at_least=0.0, at_most=0.1, doc="least distance of what moves from all that it must not touch"
     )
     margin: float = kind.length(50 * mm, at_least=0.0, at_most=1.0, doc="from the carpet's edge to a bearing")
     lift: float = kind.length(60 * mm, at_least=1 * mm, at_most=0.5, doc="lift of the warps for the shed")
@@ -85,8 +85,14 @@ class AutomatedLoomParams(Params):
     shaft_span: float = kind.length(
         1.5, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the cam shaft between its supports"
     )
+    open_share: float = kind.ratio(
+        0.9, at_least=0.05, at_most=1.0, doc="opening of the shed at the cams, over the lift, at which a weft may pass"
+    )
     shuttle_height: float = kind.length(
-        40 * mm, at_least=1 * mm, at_most=0.3, doc="height of the shed that the shuttle needs"
+        24 * mm, at_least=1 * mm, at_most=0.3, doc="depth of the shuttle across the shed, from warps to warps"
+    )
+    shuttle_width: float = kind.length(
+        36 * mm, at_least=1 * mm, at_most=0.5, doc="height of the shuttle along the warps"
     )
     shuttle_run: float = kind.length(150 * mm, above=0.0, at_most=1.0, doc="run of the shuttle beyond each edge")
     shuttle_speed: float = kind.speed(3.0, at_least=0.01, at_most=100.0, doc="allowed speed of the shuttle")
@@ -99,7 +105,6 @@ class AutomatedLoomParams(Params):
         doc="what beats the rows: a travelling beater, a comb on crank-rockers, on its own axes or on the guide cams; "
         "auto: chosen by aim",
     )
-    comb_stroke: float = kind.length(100 * mm, at_least=1 * mm, at_most=1.0, doc="vertical stroke of the comb")
     comb_acceleration: float = kind.acceleration(
         3.0, at_least=1e-3, at_most=1e3, doc="allowed acceleration of the comb, cams and all"
     )
@@ -126,7 +131,6 @@ class AutomatedLoomParams(Params):
         0.02, at_least=0.0, at_most=10.0, doc="mass of a yarn tube with its share of the slide"
     )
     shuttle_mass: float = kind.mass(0.5, at_least=0.0, at_most=50.0, doc="mass of the shuttle with its weft")
-    frame_height: float = kind.length(2.0, unit="m", at_least=0.3, at_most=10.0, doc="height of the frame's columns")
     rail_span: float = kind.length(
         2.0, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the heads' rail between columns and posts"
     )

@@ -67,8 +67,8 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
     wide = loom.task.width
     return FrameTask(
         width=wide,
-        height=params.frame_height,
-        depth=_DEPTH * params.frame_height,
+        height=loom.side.loom_height,
+        depth=_DEPTH * loom.side.loom_height,
         pull=cylinder.loads.worst,
         lever=loom.tube[0] / 2,
         carried=carried,

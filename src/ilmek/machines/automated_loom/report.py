@@ -67,7 +67,7 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
 
 def results(found: LoomAnalysis) -> tuple[Any, ...]:
     """The records whose results are reported, in order."""
-    return (found, found.shares, found.beat, found.energy, found.listed)
+    return (found, found.loom.side, found.shares, found.beat, found.energy, found.listed)
 
 
 def checks(found: LoomAnalysis) -> tuple[Check, ...]:

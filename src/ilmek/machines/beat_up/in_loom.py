@@ -73,12 +73,13 @@ class CrankRockers:
 
     def drive(self, task: LoomTask) -> BeatDrive:
         """The same with forces, parts and work of all; nothing in it depends on the period of the row."""
+        assert task.side is not None
         return BeatDrive(
             name="beat-up",
             design=self.design,
             task=task,
             beat=self.beat,
-            fabric=assumed_fabric(task.row_pitch, task.tension, task.yarns.warp.stiffness, task.params.warp_length),
+            fabric=assumed_fabric(task.row_pitch, task.tension, task.yarns.warp.stiffness, task.side.warp_length),
             parts=parts(self.design, self.number),
             work=work(self.design, self.number),
             torque=self.number * self.design.drive_torque_max,

@@ -37,6 +37,7 @@ def fit(task: LoomTask, kind: str = "comb") -> HammerParams:
 def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
     """The comb for the loom's warps and rows; what depends on the row's time is left as it is."""
     params = task.params
+    assert task.side is not None
     return HammerParams(
         warps=task.warps,
         warp_pitch=params.pitch,
@@ -44,8 +45,8 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
         tension=task.tension,
         warp_stiffness=task.yarns.warp.stiffness,
         drive="linkage" if kind == "linkage" else "comb",
-        warp_length=params.warp_length,
-        stroke=params.comb_stroke,
+        warp_length=task.side.warp_length,
+        stroke=task.side.beat_stroke,
     )
 
 

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 from ilmek.elements.drive_parts import motor_part, reducer_part
-from ilmek.machines.arrangement import HALF_SPAN
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.warp_loads import loads_in_loom
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders
@@ -18,6 +17,7 @@ STEEL = "structural steel"
 def fit(task: LoomTask) -> WarpTensionParams:
     """The parameters for a loom, with the lightest of the usual tubes that keeps slope and deflection."""
     params, loads = task.params, loads_in_loom(task)
+    assert task.side is not None
     derived = task.parameters(
         "warp-tension",
         WarpTensionParams(
@@ -29,12 +29,12 @@ def fit(task: LoomTask) -> WarpTensionParams:
             row_time=task.row_time,
             carpet_length=params.length,
             warp_pitch=params.pitch,
-            free_length=params.warp_length,
+            free_length=task.side.warp_length,
             warp_stiffness=task.yarns.warp.stiffness,
             warp_diameter=task.yarns.warp.diameter,
             friction=task.yarns.warp.friction,
             shed_lift=params.lift,
-            shed_span=HALF_SPAN,
+            shed_span=task.side.front_span,
             tension_shed=loads.lifted,
             tension_shed_low=loads.others,
             tension_beat=loads.beat,

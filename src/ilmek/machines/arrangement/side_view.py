@@ -1,0 +1,194 @@
+"""The side view of a loom: coordinates of all that stands in it or moves in it, the fell at 0, x to the front, y up [m].
+
+    y
+    |  upper cylinder - back rest         warps on x = 0, from the fell to the back rest,
+    |      cam shaft  |                   then over it to the back, level, to the upper cylinder
+    |      cam shaft  |  comb             the comb reaches through the warps from the front
+    |                 | carrier           the weft's carrier runs in the shed
+    |                 | head - rail       the heads knot just above the fell
+    0           fell  +------------- x
+    |        spacer   |
+    |        lower    |                   the carpet runs down the fronts of both, is wound on the lower one
+    ---------------------- floor
+
+The lower cylinder has room for the whole carpet; only what lies between it and the spacer stays flat [thesis 3.1].
+"""
+
+import math
+from typing import TYPE_CHECKING
+
+from ilmek.machines.arrangement.head_shape import HeadShape, head_shape
+from ilmek.machines.arrangement.spans import (
+    LEAF_BEHIND,
+    ShedRoom,
+    ShedSpans,
+    cylinder_offset,
+    shed_room,
+    spans_at,
+    warp_length,
+)
+from ilmek.machines.hammer.params import HammerParams
+from ilmek.machines.weaver.design import Weaver
+from ilmek.records import computed, record, result
+from ilmek.units import mm
+
+if TYPE_CHECKING:
+    from ilmek.machines.loom_task import LoomTask
+
+SPACER_BELOW = 50 * mm
+"""From the fell to the top of the spacer [m]."""
+
+BETWEEN_CYLINDERS = 50 * mm
+"""Between spacer and full lower cylinder [m]."""
+
+ABOVE_FLOOR = 100 * mm
+"""The full lower cylinder above the floor [m]."""
+
+ABOVE_CYLINDER = 50 * mm
+"""The frame's columns above the upper cylinder [m]."""
+
+RAIL = 80 * mm
+"""Side of the heads' rail in the side view, before the frame is designed [m]."""
+
+
+@record
+class Roller:
+    """A roller or cylinder: its axis and its radius [m]."""
+
+    at: complex
+    radius: float
+
+
+@record
+class SideBox:
+    """A rectangle: its lower corner towards the warps' back, and depth + i height [m]."""
+
+    corner: complex
+    size: complex
+
+
+@record
+class SideView:
+    """The side view of a loom.
+
+    room, spans   what the spans of the shed leave room for, and the spans
+    cams          axes of the cam shafts, the lowest first [m]
+    prime_radius, guide_radius   of cams and guide cams [m]       lift  of the warps at the cams [m]
+    carrier       of the weft, while it runs through the even shed; in the odd shed it is in the same position
+    comb          leaves and bar at rest
+    back_rest, upper, spacer, lower                                roll  radius of the lower cylinder with the carpet
+    head          while it knots                                   rail  of the heads while they knot
+    """
+
+    room: ShedRoom
+    spans: ShedSpans
+    cams: tuple[complex, ...]
+    prime_radius: float
+    guide_radius: float
+    lift: float
+    carrier: SideBox
+    comb: tuple[SideBox, ...]
+    back_rest: Roller
+    upper: Roller
+    spacer: Roller
+    lower: Roller
+    roll: float
+    pile: float
+    head: HeadShape
+    rail: SideBox
+    retreat: float = result("mm", "retreat of the heads from the warps for wefts and beats", name="head_retreat")
+
+    front_span = computed("mm", "from the fell to the lowest cam shaft", lambda it: it.spans.front[0])
+    back_span = computed("mm", "from the highest cam shaft to the back rest", lambda it: it.spans.back[-1])
+    weft_height = computed(
+        "mm",
+        "laid weft above the fell: the middle of its carrier",
+        lambda it: (it.carrier.corner + it.carrier.size / 2).imag,
+    )
+    beat_stroke = computed("mm", "from the comb at rest, above the carrier, to the fell", lambda it: it.spans.comb)
+    cam_shaft_height = computed("m", "lowest cam shaft above the floor", lambda it: it.spans.front[0] - it.floor)
+    warp_length = computed(
+        "m",
+        "from the fell over the back rest to the upper cylinder, at rest",
+        lambda it: warp_length(it.room, it.spans),
+    )
+    fell_height = computed("m", "fell above the floor", lambda it: -it.floor)
+    loom_height = computed("m", "height of the frame's columns", lambda it: it.top - it.floor)
+
+    @computed("m", "from the rearmost part to the rail of the retreated heads", name="loom_depth")
+    def loom_depth(self) -> float:
+        rear = min(
+            *(axis.real - self.guide_radius for axis in self.cams),
+            *(one.at.real - one.radius for one in (self.upper, self.spacer)),
+            self.lower.at.real - self.roll,
+        )
+        return (self.rail.corner + self.rail.size).real + self.retreat - rear
+
+    @property
+    def floor(self) -> float:
+        """Height of the floor, the fell at 0 [m]."""
+        return self.lower.at.imag - self.roll - ABOVE_FLOOR
+
+    @property
+    def top(self) -> float:
+        """Height of the columns' ends over the fell [m]."""
+        highest = max(axis.imag + self.guide_radius for axis in self.cams)
+        return max(self.upper.at.imag + self.upper.radius, highest) + ABOVE_CYLINDER
+
+
+def laid_out(task: "LoomTask") -> SideView:
+    """The side view of a loom whose head and shedding are designed; the cylinders where they are."""
+    shedding, head = task.designs["shedding"], task.designs["weaver"]
+    room, cylinder = shed_room(task), task.designs.get("warp-tension")
+    prime, guide = shedding.cam.prime_radius, shedding.stack.guide_radius
+    front, back = shedding.params.spans_of_warp
+    spans = spans_at(room, prime, guide, (front,), (back,))
+    radius = cylinder.outer_radius if cylinder else room.tube
+    shape, comb = head_shape(head, room.clearance), _comb(task, spans)
+    spacer, lower, roll = _lower_cylinders(task, radius, head)
+    behind, rest = cylinder_offset(room), complex(-room.back_rest, spans.back_rest)
+    case = shape.body + shape.size
+    return SideView(
+        room=room,
+        spans=spans,
+        cams=tuple(complex(-prime, height) for height in spans.front),
+        prime_radius=prime,
+        guide_radius=guide,
+        lift=shedding.params.lift,
+        carrier=_carrier(room, spans),
+        comb=comb,
+        back_rest=Roller(rest, room.back_rest),
+        upper=Roller(rest - behind + 1j * (room.back_rest - radius), radius),
+        spacer=spacer,
+        lower=lower,
+        roll=roll,
+        pile=head.drawn / 2,
+        head=shape,
+        rail=SideBox(complex(case.real, case.imag - (shape.size.imag + RAIL) / 2), complex(RAIL, RAIL)),
+        retreat=max(0.0, max((one.corner + one.size).real for one in comb) + room.clearance - shape.reach),
+    )
+
+
+def _carrier(room: ShedRoom, spans: ShedSpans) -> SideBox:
+    """The carrier, next to the warps at rest."""
+    corner = complex(room.clearance + room.warp / 2, spans.carrier)
+    return SideBox(corner, complex(room.carrier_depth, room.carrier_width))
+
+
+def _comb(task: "LoomTask", spans: ShedSpans) -> tuple[SideBox, ...]:
+    """Leaves and bar of the comb at rest, before its machine is designed."""
+    usual = task.parameters("hammer", HammerParams())
+    leaves = SideBox(complex(-LEAF_BEHIND, spans.comb), complex(LEAF_BEHIND + usual.leaf_reach, usual.leaf_height))
+    return leaves, SideBox(complex(usual.leaf_reach, spans.comb), complex(usual.comb_thickness, usual.depth))
+
+
+def _lower_cylinders(task: "LoomTask", radius: float, head: Weaver) -> tuple[Roller, Roller, float]:
+    """Spacer, lower cylinder, and the radius of this with the whole carpet wound on it [m].
+
+    A carpet of length L and thickness t fills the ring pi (R² - r²) = L t.
+    """
+    thickness = head.params.pile_height + 3 * task.yarns.warp.diameter
+    roll = math.sqrt(radius**2 + task.params.length * thickness / math.pi)
+    spacer = complex(-radius, -SPACER_BELOW - radius)
+    lower = spacer - 1j * (radius + BETWEEN_CYLINDERS + roll)
+    return Roller(spacer, radius), Roller(lower, radius), roll

@@ -1,0 +1,173 @@
+"""Front and back span of the cam shafts: what must have room between the fell, the guide cams and the back rest.
+
+The warps stand on x = 0. A cam shaft stands behind them at -Rp + i a, so that a cam at rest touches the warps; its
+guide cams, of radius Rg, reach through the warps between a - c and a + c,
+
+    c(x) = sqrt(Rg² - (Rp + x)²)
+
+Below them, between the warps, stands the comb at rest, its leaves h high, and below the comb the carrier of the weft
+runs across the width. The shed is a wedge from the fell to the cams: where it is o wide at the cams, it is o y/a wide
+at the height y. A carrier of depth d, with the clearance e to both sheets of warps of diameter D, has room from
+
+    y/a = (d + 2 e + D) / o = r       upwards, so that      a (1 - r) = c + h + w + 2 e
+
+with the carrier's width w along the warps. Above the guide cams stand the back rest, and the upper cylinder behind it;
+both clear the guide cams. The back span is never shorter than the front span: it would strain the warps more.
+[derived from the geometry; clearances and sizes before they are designed are assumed by this project]
+"""
+
+import math
+from typing import TYPE_CHECKING
+
+from ilmek.machines.arrangement.head_shape import head_shape
+from ilmek.machines.hammer.params import HammerParams
+from ilmek.records import value_record
+from ilmek.units import mm
+
+if TYPE_CHECKING:
+    from ilmek.machines.loom_task import LoomTask
+
+BACK_REST = 30 * mm
+"""Radius of the back rest before it is designed [m]."""
+
+BACK_REST_SWING = 30 * mm
+"""Room for the swing of the back rest [m]."""
+
+TUBE_SHARE = 0.06
+"""Radius of a cylinder over the width of the loom, before it is designed."""
+
+LEAST_TUBE = 70 * mm
+"""Radius of the thesis' cylinders [m]: no thinner ones are used."""
+
+HIGHEST_SHARE = 0.8
+"""Share of the front span above which no carrier runs: a shed too narrow for it there fails its clearance."""
+
+USUAL_HEAD = 50 * mm
+"""Height of a head's tools above the fell before it is designed [m]."""
+
+SPARE = 1.5
+"""Clearance in the arrangement over the least that is allowed."""
+
+LEAF_BEHIND = 5 * mm
+"""A comb's leaves behind the warps [m]."""
+
+
+@value_record
+class ShedRoom:
+    """What must have room between the fell and the upper cylinder [m].
+
+    carrier_depth, carrier_width  of the weft's carrier, across the shed and along the warps
+    opening      of the shed at the cams from which on the carrier moves
+    leaf_height  of the comb                              head      height of the head's tools above the fell
+    back_rest, swing   its radius, and the room for its swing
+    tube         radius of the upper cylinder             warp      diameter of a warp
+    clearance    least distance of what moves
+    """
+
+    carrier_depth: float
+    carrier_width: float
+    opening: float
+    leaf_height: float
+    head: float
+    back_rest: float
+    swing: float
+    tube: float
+    warp: float
+    clearance: float
+
+    @property
+    def share(self) -> float:
+        """Share of the front span, from the fell, at which the shed is wide enough for the carrier."""
+        return min((self.carrier_depth + 2 * self.clearance + self.warp) / self.opening, HIGHEST_SHARE)
+
+
+@value_record
+class ShedSpans:
+    """Heights over the fell [m], and spans of each cam shaft, the lowest first.
+
+    front   from the fell to each cam shaft       back    from each cam shaft to the back rest
+    carrier lower edge of the carrier             comb    lower edge of the comb at rest
+    """
+
+    front: tuple[float, ...]
+    back: tuple[float, ...]
+    carrier: float
+    comb: float
+
+    @property
+    def back_rest(self) -> float:
+        """Height of the back rest over the fell [m]."""
+        return self.front[0] + self.back[0]
+
+
+def shed_room(task: "LoomTask") -> ShedRoom:
+    """What must have room in the shed of a loom; parts that are not yet designed have their usual size."""
+    params = task.params
+    spare, head = SPARE * params.clearance, task.designs.get("weaver")
+    return ShedRoom(
+        carrier_depth=params.shuttle_height,
+        carrier_width=params.shuttle_width,
+        opening=params.open_share * params.lift,
+        leaf_height=task.parameters("hammer", HammerParams()).leaf_height,
+        head=head_shape(head, spare).top if head else USUAL_HEAD,
+        back_rest=BACK_REST,
+        swing=BACK_REST_SWING,
+        tube=max(TUBE_SHARE * task.width, LEAST_TUBE),
+        warp=task.yarns.warp.diameter,
+        clearance=spare,
+    )
+
+
+def shed_spans(room: ShedRoom, prime_radius: float, guide_radius: float, shafts: int = 1) -> ShedSpans:
+    """Spans of the cam shafts, one above the other, that leave all its room.
+
+    prime_radius, guide_radius  of cams and guide cams [m]      shafts  number of cam shafts
+
+    >>> room = ShedRoom(0.024, 0.036, 0.054, 0.02, 0.05, 0.03, 0.03, 0.07, 0.001, 0.003)
+    >>> spans = shed_spans(room, 0.078, 0.148)
+    >>> round(spans.front[0], 3), round(spans.comb - spans.carrier, 3)
+    (0.448, 0.039)
+    """
+    above = _above_carrier(room, prime_radius, guide_radius)
+    first = max(above / (1 - room.share), above + room.head + room.clearance)
+    step = 2 * guide_radius + room.clearance
+    front = tuple(first + step * number for number in range(shafts))
+    back = max(_back_span(room, prime_radius, guide_radius), first)
+    return spans_at(room, prime_radius, guide_radius, front, tuple(back + front[-1] - one for one in front))
+
+
+def spans_at(
+    room: ShedRoom, prime_radius: float, guide_radius: float, front: tuple[float, ...], back: tuple[float, ...]
+) -> ShedSpans:
+    """Given spans [m], with carrier and comb as near below the lowest guide cams as their clearances allow."""
+    carrier = front[0] - _above_carrier(room, prime_radius, guide_radius)
+    return ShedSpans(front, back, carrier, carrier + room.carrier_width + room.clearance)
+
+
+def warp_length(room: ShedRoom, spans: ShedSpans) -> float:
+    """Length of a warp at rest, from the fell over a quarter of the back rest to the upper cylinder [m]."""
+    return spans.back_rest + math.pi / 2 * room.back_rest + cylinder_offset(room)
+
+
+def _above_carrier(room: ShedRoom, prime_radius: float, guide_radius: float) -> float:
+    """From the carrier's lower edge to the axis of the lowest cams [m]: the carrier, the comb, and the guide cams."""
+    chord = _chord(guide_radius, prime_radius - LEAF_BEHIND)
+    return chord + room.leaf_height + room.carrier_width + 2 * room.clearance
+
+
+def cylinder_offset(room: ShedRoom) -> float:
+    """Distance of the upper cylinder's axis behind that of the back rest [m]."""
+    return room.back_rest + room.swing + room.tube + room.clearance
+
+
+def _back_span(room: ShedRoom, prime_radius: float, guide_radius: float) -> float:
+    """The least distance of the back rest above the cam shaft [m]: it and the upper cylinder clear the guide cams."""
+    roller, axis = room.back_rest, -prime_radius
+    rest = _chord(guide_radius + roller + room.swing + room.clearance, -roller - axis)
+    cylinder = _chord(guide_radius + room.tube + room.clearance, -roller - cylinder_offset(room) - axis)
+    return max(rest, cylinder - roller + room.tube)
+
+
+def _chord(radius: float, offset: float) -> float:
+    """Half the chord of a circle at a distance from its centre [m]; 0 outside."""
+    return math.sqrt(max(radius**2 - offset**2, 0.0))
