@@ -1,4 +1,4 @@
-"""The side view of a loom: coordinates of all that stands in it or moves in it, the fell at 0, x to the front, y up [m].
+"""The side view of a loom: coordinates of all that stands or moves in it, the fell at 0, x to the front, y up [m].
 
     y
     |  upper cylinder - back rest         warps on x = 0, from the fell to the back rest,
