@@ -8,7 +8,7 @@ from ilmek.params import Params
 from ilmek.records import record
 
 if TYPE_CHECKING:
-    from ilmek.machines.arrangement import SideView
+    from ilmek.machines.arrangement.side_view import SideView
     from ilmek.machines.automated_loom.params import AutomatedLoomParams
 
 P = TypeVar("P", bound=Params)

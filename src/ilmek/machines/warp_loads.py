@@ -5,7 +5,6 @@ shed open   n/2 (T' + T''): the lifted half and the other one, after the tension
 beat        n (T + kw x): the fell yields by x under the force R that the required rows need     [`weaving.fell`]
 """
 
-from ilmek.machines.arrangement import HALF_SPAN
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import computed, record, result
 from ilmek.weaving.fell import Fabric, assumed_fabric
@@ -61,12 +60,13 @@ def loads_in_loom(task: LoomTask) -> WarpLoads:
 
     The beat is taken as too quick for the compensator: that stretches the warps most.
     """
-    params, tension, stiffness = task.params, task.tension, task.yarns.warp.stiffness
-    fabric = assumed_fabric(task.row_pitch, tension, stiffness, params.warp_length)
+    side, tension, stiffness = task.side, task.tension, task.yarns.warp.stiffness
+    assert side is not None
+    fabric = assumed_fabric(task.row_pitch, tension, stiffness, side.warp_length)
     compensator = task.designs.get("tension-compensator")
     if compensator is None:
-        longer = float(shed_lengthening(params.lift, HALF_SPAN, HALF_SPAN))
-        lifted, others = tension + stiffness / params.warp_length * longer, tension
+        longer = float(shed_lengthening(side.lift, side.front_span, side.back_span))
+        lifted, others = tension + stiffness / side.warp_length * longer, tension
     else:
         lifted, others = compensator.tension_open, compensator.tension_low
     return WarpLoads(task.warps, tension, lifted, others, beat_tension(fabric, task.row_pitch))

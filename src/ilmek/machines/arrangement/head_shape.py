@@ -70,15 +70,16 @@ def head_shape(weaver: Weaver, clearance: float) -> HeadShape:
     rest = tip + params.pull_back
     face = max(rest, weaver.drawn / 2) + clearance
     deep = 2 * max(cam.radius for cam in weaver.cams) + 2 * CASE
-    sley = max(params.sley_stroke, high + OPENER_HEIGHT + 2 * clearance)
-    top = sley + SLEY_HEIGHT + CASE
+    opener = max(params.opener.front_span - OPENER_HEIGHT / 2, high + clearance)
+    sley = max(params.sley_stroke, high + clearance)
+    top = max(sley + SLEY_HEIGHT, opener + OPENER_HEIGHT) + CASE
     forward = grippers.opening + grippers.crossing
     tools = (
         HeadTool("side grippers", SIDE_MOTION, complex(tip, low), complex(face - tip + forward, high - low), -1 + 0j),
         HeadTool(
             "opener",
             SIDE_MOTION,
-            complex(grippers.opening - front, high + clearance),
+            complex(grippers.opening - front, opener),
             complex(face - grippers.opening + front + forward, OPENER_HEIGHT),
             -1 + 0j,
             grippers.opening,

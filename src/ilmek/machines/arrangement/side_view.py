@@ -19,7 +19,9 @@ from typing import TYPE_CHECKING
 
 from ilmek.machines.arrangement.head_shape import HeadShape, head_shape
 from ilmek.machines.arrangement.spans import (
+    BAR,
     LEAF_BEHIND,
+    LEAF_REACH,
     ShedRoom,
     ShedSpans,
     cylinder_offset,
@@ -27,7 +29,6 @@ from ilmek.machines.arrangement.spans import (
     spans_at,
     warp_length,
 )
-from ilmek.machines.hammer.params import HammerParams
 from ilmek.machines.weaver.design import Weaver
 from ilmek.records import computed, record, result
 from ilmek.units import mm
@@ -144,7 +145,7 @@ def laid_out(task: "LoomTask") -> SideView:
     front, back = shedding.params.spans_of_warp
     spans = spans_at(room, prime, guide, (front,), (back,))
     radius = cylinder.outer_radius if cylinder else room.tube
-    shape, comb = head_shape(head, room.clearance), _comb(task, spans)
+    shape, comb = head_shape(head, room.clearance), _comb(room, spans)
     spacer, lower, roll = _lower_cylinders(task, radius, head)
     behind, rest = cylinder_offset(room), complex(-room.back_rest, spans.back_rest)
     case = shape.body + shape.size
@@ -175,11 +176,10 @@ def _carrier(room: ShedRoom, spans: ShedSpans) -> SideBox:
     return SideBox(corner, complex(room.carrier_depth, room.carrier_width))
 
 
-def _comb(task: "LoomTask", spans: ShedSpans) -> tuple[SideBox, ...]:
+def _comb(room: ShedRoom, spans: ShedSpans) -> tuple[SideBox, ...]:
     """Leaves and bar of the comb at rest, before its machine is designed."""
-    usual = task.parameters("hammer", HammerParams())
-    leaves = SideBox(complex(-LEAF_BEHIND, spans.comb), complex(LEAF_BEHIND + usual.leaf_reach, usual.leaf_height))
-    return leaves, SideBox(complex(usual.leaf_reach, spans.comb), complex(usual.comb_thickness, usual.depth))
+    leaves = SideBox(complex(-LEAF_BEHIND, spans.comb), complex(LEAF_BEHIND + LEAF_REACH, room.leaf_height))
+    return leaves, SideBox(complex(LEAF_REACH, spans.comb), complex(BAR, room.leaf_height))
 
 
 def _lower_cylinders(task: "LoomTask", radius: float, head: Weaver) -> tuple[Roller, Roller, float]:

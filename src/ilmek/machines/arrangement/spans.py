@@ -19,8 +19,6 @@ both clear the guide cams. The back span is never shorter than the front span: i
 import math
 from typing import TYPE_CHECKING
 
-from ilmek.machines.arrangement.head_shape import head_shape
-from ilmek.machines.hammer.params import HammerParams
 from ilmek.records import value_record
 from ilmek.units import mm
 
@@ -42,8 +40,17 @@ LEAST_TUBE = 70 * mm
 HIGHEST_SHARE = 0.8
 """Share of the front span above which no carrier runs: a shed too narrow for it there fails its clearance."""
 
-USUAL_HEAD = 50 * mm
+USUAL_HEAD = 80 * mm
 """Height of a head's tools above the fell before it is designed [m]."""
+
+USUAL_PRIME = 80 * mm
+"""Prime radius of the shedding cams before they are designed [m]."""
+
+USUAL_GUIDE = 10 * mm
+"""Height of the guide cams above the noses before they are designed [m]."""
+
+LEAF_HEIGHT, LEAF_REACH, BAR = 20 * mm, 80 * mm, 20 * mm
+"""Of a comb before it is designed: its leaves along the warps, to the front; its bar [m]."""
 
 SPARE = 1.5
 """Clearance in the arrangement over the least that is allowed."""
@@ -103,13 +110,13 @@ class ShedSpans:
 def shed_room(task: "LoomTask") -> ShedRoom:
     """What must have room in the shed of a loom; parts that are not yet designed have their usual size."""
     params = task.params
-    spare, head = SPARE * params.clearance, task.designs.get("weaver")
+    spare = SPARE * params.clearance
     return ShedRoom(
         carrier_depth=params.shuttle_height,
         carrier_width=params.shuttle_width,
         opening=params.open_share * params.lift,
-        leaf_height=task.parameters("hammer", HammerParams()).leaf_height,
-        head=head_shape(head, spare).top if head else USUAL_HEAD,
+        leaf_height=task.params.machines.of("hammer").get("leaf_height", LEAF_HEIGHT),
+        head=USUAL_HEAD,
         back_rest=BACK_REST,
         swing=BACK_REST_SWING,
         tube=max(TUBE_SHARE * task.width, LEAST_TUBE),
@@ -134,6 +141,11 @@ def shed_spans(room: ShedRoom, prime_radius: float, guide_radius: float, shafts:
     front = tuple(first + step * number for number in range(shafts))
     back = max(_back_span(room, prime_radius, guide_radius), first)
     return spans_at(room, prime_radius, guide_radius, front, tuple(back + front[-1] - one for one in front))
+
+
+def expected_spans(room: ShedRoom, lift: float) -> ShedSpans:
+    """The spans before the cams are designed, with cams of the usual size for a lift [m]."""
+    return shed_spans(room, USUAL_PRIME, USUAL_PRIME + lift + USUAL_GUIDE)
 
 
 def spans_at(

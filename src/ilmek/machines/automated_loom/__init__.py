@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from ilmek.loom.production import Production, production_time
 from ilmek.machines import SUMMARIES
-from ilmek.machines.arrangement import SideView
+from ilmek.machines.arrangement.side_view import SideView
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign, design
 from ilmek.machines.automated_loom.energy import Energy

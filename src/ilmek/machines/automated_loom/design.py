@@ -11,7 +11,7 @@ from ilmek.errors import LoomError
 from ilmek.loom.programme import Times, least_time
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import loom_parts
-from ilmek.machines.arrangement import SideView, laid_out
+from ilmek.machines.arrangement.side_view import SideView, laid_out
 from ilmek.machines.automated_loom.choice import beat_options, chosen_beat, chosen_heads
 from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, knot_cyclogram, shortest_row, take_up_time
 from ilmek.machines.automated_loom.knotting import KnottingArms, arms_for

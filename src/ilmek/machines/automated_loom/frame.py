@@ -123,7 +123,7 @@ def column_load(task: FrameTask, section: HollowSquare) -> tuple[float, float]:
 def column_checks(task: FrameTask, section: HollowSquare) -> tuple[Check, ...]:
     """Stress, bow and buckling of a column of a section."""
     (stress, bow), limit = column_load(task, section), STEEL.strength / STRESS_SAFETY
-    cure, factor = "set a lower tension, a narrower carpet, or a lower frame_height", euler(task.height, section)
+    cure, factor = "set a lower tension, or a narrower carpet", euler(task.height, section)
     return (
         at_most("frame: stress of a column", stress, limit, "MPa", "half of yield, S235", cure=cure),
         at_most("frame: bow of a column", bow, BOW_LIMIT, "mm", "as the cylinders' deflection, thesis 3.1", cure=cure),

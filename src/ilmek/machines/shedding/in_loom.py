@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ilmek.elements.drive_parts import motor_part, positive_work, reducer_part
-from ilmek.machines.arrangement import ShedRoom, shed_room, shed_spans, warp_length
+from ilmek.machines.arrangement.spans import ShedRoom, shed_room, shed_spans, warp_length
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding.design import SheddingDesign, design
 from ilmek.machines.shedding.params import SheddingParams

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from ilmek.elements.drive_parts import belt_motor_part, motor_part, positive_work, reducer_part
-from ilmek.machines.arrangement import HALF_SPAN
+from ilmek.machines.arrangement.spans import expected_spans, shed_room, warp_length
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver.design import Weaver, shaft_torque
 from ilmek.machines.weaver.limits import head_mass
@@ -42,11 +42,12 @@ def params_for(task: LoomTask) -> WeaverParams:
 
 
 def opener_for(task: LoomTask) -> OpenerParams:
-    """The opener's parameters for a loom: its warps, and its position between fell and guide cams."""
-    front, warp = OpenerParams().front_span, task.yarns.warp
+    """The opener's parameters for a loom: its warps, and its position between fell and comb at rest."""
+    front, warp, room = OpenerParams().front_span, task.yarns.warp, shed_room(task)
+    spans = expected_spans(room, task.params.lift)
     return OpenerParams(
-        back_span=max(HALF_SPAN - front, front),
-        warp_length=task.params.warp_length,
+        back_span=max(spans.comb - front, front),
+        warp_length=warp_length(room, spans),
         warp_tension=task.tension,
         warp_stiffness=warp.stiffness,
         warp_strength=warp.breaking_force,
