@@ -23,8 +23,9 @@ SMALL = ("--size", "40x60cm", "--quality", "15x15/dm")
 
 
 def run(*arguments: str) -> Result:
+    """Run a command that ends with its results; 3: a check fails, which tests/unit/test_verdict.py is about."""
     result = CliRunner().invoke(main, arguments)
-    assert result.exit_code == 0, result.stderr
+    assert result.exit_code in (0, 3), result.stderr
     return result
 
 
@@ -63,7 +64,7 @@ def test_weave_json_has_its_names(woven: tuple[Path, Any]) -> None:
 def test_checks_name_their_machine_once(woven: tuple[Path, Any]) -> None:
     names = [check["name"] for check in woven[1]["checks"]]
     assert len(names) == len(set(names))
-    assert {name.partition(":")[0] for name in names} >= {"weaver", "beat-up", "shedding", "warp-tension"}
+    assert {name.partition(":")[0] for name in names} >= {"weaver", "hammer", "shedding", "warp-tension"}
 
 
 def test_programme_ties_the_chart(woven: tuple[Path, Any]) -> None:
@@ -80,10 +81,10 @@ def test_programme_ties_the_chart(woven: tuple[Path, Any]) -> None:
 def test_machine_json_has_every_machine(woven: tuple[Path, Any]) -> None:
     machine = json.loads((woven[0] / "machine.json").read_text())
     assert machine["machine"] == "automated-loom"
-    assert set(machine["machines"]) == {"weaver", "knotting-dyad", "beat-up", "shedding", "warp-tension"}
+    assert set(machine["machines"]) >= {"weaver", "knotting-dyad", "hammer", "shedding", "warp-tension"}
     assert machine["machines"]["knotting-dyad"]["parameters"]["warp_pitch"] == machine["results"]["warp_pitch"]
     assert machine["machines"]["knotting-dyad"]["results"]["knot_tied"] == "symmetric"
-    assert "lengths" in machine["machines"]["beat-up"]["results"]
+    assert "row_pitch" in machine["machines"]["hammer"]["results"]
     assert machine["parameters"]["width"] == 0.4
 
 
@@ -115,7 +116,8 @@ def test_weave_shows_a_short_table_and_the_report(tmp_path: Path) -> None:
     for name in ("knots", "colours", "yarn", "weaving time", "heads", "checks", "report"):
         assert re.search(rf"^{name} ", shown, re.MULTILINE), shown
     assert shown.endswith(f" {tmp_path / 'out' / 'report.html'}\n")
-    assert len(shown.splitlines()) <= 12
+    assert re.match(r"weaves: (yes|NO, \d+ reason)", shown)
+    assert len([line for line in shown.splitlines() if not line.startswith("  ")]) <= 12
 
 
 @pytest.mark.usefixtures("plain_page")
@@ -196,7 +198,7 @@ def test_design_gives_json_table_and_page(tmp_path: Path, name: str) -> None:
     assert found["machine"] == name
     assert set(found) >= {"parameters", "results", "checks", "warnings"}
     assert all(result in shown for result in found["results"])
-    assert re.search(r"checks: \d+ passed, \d+ failed", shown)
+    assert re.search(r"^(checks: \d+ passed, \d+ failed|weaves: (yes|NO, \d+ reasons?))$", shown, re.MULTILINE)
     assert "<svg" in page.read_text(encoding="utf-8")
 
 

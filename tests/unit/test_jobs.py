@@ -36,8 +36,8 @@ def test_order_is_judged_before_the_picture_is_opened() -> None:
         read_order(Path("nowhere.png"), colours=17)
     with pytest.raises(LoomError, match=r"1\.25 mm"):
         read_loom_order(read_order(Path("nowhere.png"), quality="40x40/dm"), warp_pitch="2mm")
-    with pytest.raises(ParameterError, match="one of"):
-        read_loom_order(read_order(Path("nowhere.png")), heads=2, deadline="3h")
+    with pytest.raises(ParameterError, match="set it by --deadline"):
+        read_loom_order(read_order(Path("nowhere.png")), loom={"deadline": "3h"})
 
 
 def test_loom_follows_the_chart() -> None:

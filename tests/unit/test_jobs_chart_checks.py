@@ -19,8 +19,9 @@ MEDALLION = str(Path(__file__).parents[2] / "examples" / "medallion.png")
 
 def chart(*options: str, picture: str = MEDALLION) -> tuple[Any, str]:
     result = CliRunner().invoke(main, ["chart", picture, *options, "--json", "-"])
-    assert result.exit_code == 0, result.stderr
-    return json.loads(result.stdout), result.stderr
+    found = json.loads(result.stdout)
+    assert result.exit_code == (0 if all(check["ok"] for check in found["checks"]) else 3), result.stderr
+    return found, result.stderr
 
 
 def test_fill_of_a_square_metre_by_hand() -> None:
@@ -98,7 +99,15 @@ def test_few_sheets_are_left_out_where_asked(tmp_path: Path) -> None:
 
 
 def test_results_stand_in_both_places_and_never_hide_another_name() -> None:
-    found = job_json("chart", {"size": 1}, {"rows": 2}, notes=[])
-    assert found == {"job": "chart", "parameters": {"size": 1}, "results": {"rows": 2}, "notes": [], "rows": 2}
+    found = job_json("chart", {"size": 1}, {"rows": 2}, checks=(), notes=[])
+    verdict = {"holds": True, "reasons": [], "checks": []}
+    assert found == {
+        "job": "chart",
+        "parameters": {"size": 1},
+        "results": {"rows": 2},
+        **verdict,
+        "notes": [],
+        "rows": 2,
+    }
     with pytest.raises(AssertionError):
-        job_json("chart", {}, {"notes": 3}, notes=[])
+        job_json("chart", {}, {"notes": 3}, checks=(), notes=[])

@@ -121,6 +121,7 @@ def weave(
     pile_height: Setting = "8mm",
     heads: int | None = None,
     deadline: str | None = None,
+    aim: str | None = None,
     warp_pitch: Setting = None,
     loom: Mapping[str, Setting] = MappingProxyType({}),
     force: bool = False,
@@ -129,12 +130,15 @@ def weave(
     """Picture to chart, yarn, loom, programme and report in the folder `out`, whole or not at all.
 
     size, quality, knot, yarns, colours, keep_lone  as of `make_chart`; `yarns` is a path
-    heads, deadline  knotting heads, or the time for the whole carpet like "72h"; default: 4 heads, or as many as fit
+    heads, deadline  knotting heads; time for the whole carpet, like "72h"; default: chosen by aim; any time
+    aim              "price" or "time": what is least in the choice of all that is left open; default: price
     warp_pitch       distance of two warps; default: that of the quality
     loom             parameters of the loom by name, those of its machines dotted: {"shedding.law": "modified-sine"}
     force            replace a folder that ilmek made
 
-    Settings are texts with units or numbers in SI. Raises any IlmekError; then nothing is written; Cancelled.
+    Settings are texts with units or numbers in SI. Where the loom cannot weave the carpet, `weaves` of the result is
+    False, its `checks` have the reasons, and there is no programme. Raises any IlmekError; then nothing is written;
+    Cancelled.
     """
     order = read_order(
         Path(picture),
@@ -146,5 +150,5 @@ def weave(
         keep_lone=keep_lone,
         pile_height=pile_height,
     )
-    wanted = read_loom_order(order, heads=heads, deadline=deadline, warp_pitch=warp_pitch, loom=loom)
+    wanted = read_loom_order(order, heads=heads, deadline=deadline, aim=aim, warp_pitch=warp_pitch, loom=loom)
     return weaving.weave(order, wanted, Path(out), force=force, progress=progress)

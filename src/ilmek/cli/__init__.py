@@ -18,6 +18,12 @@ main = LazyGroup(
         "  ilmek machines beat-up\n"
         "  ilmek design beat-up --set swing=30deg --json -\n"
         "\n"
+        "\b\n"
+        "Exit codes:\n"
+        "  0  done, and every check holds\n"
+        "  2  bad input, or an output that cannot be written: nothing is written\n"
+        "  3  done, but a check fails: weave, chart, design, cyclogram\n"
+        "\n"
         "Each command has its own help: ilmek COMMAND --help"
     ),
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},

@@ -9,6 +9,7 @@ from ilmek.carpet.bill import YarnBill
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import carpet_inputs, carpet_options, force_option, json_option
 from ilmek.cli.terminal import note, say, show_pairs, show_table
+from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.jobs.chart import ChartResult, chart_json, chart_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
@@ -28,11 +29,12 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots.
 @carpet_options
 @force_option
 @json_option
-def command(out: Path | None, force: bool, json_to: str | None, **carpet: Any) -> None:
+def command(out: Path | None, force: bool, json_to: str | None, **carpet: Any) -> int:
     """Make the knot chart of PICTURE and the yarn bill.
 
     The output folder contains chart.png (one pixel per knot), chart.pdf (printed chart; see --pdf), yarn.csv and
-    chart.json. With --json and without --out no folder is made.
+    chart.json. With --json and without --out no folder is made. Ends with 3 where a check fails: the pile does not fit
+    the ground.
     """
     order = read_order(**carpet)
     folder = out or (None if json_to else free_folder(order.picture, "chart"))
@@ -43,13 +45,17 @@ def command(out: Path | None, force: bool, json_to: str | None, **carpet: Any) -
         show_chart(charted)
         if folder is not None:
             say(f"files in {folder}: {', '.join(Path(file).name for file in files)}")
+    else:
+        note_verdict(charted.checks)
     for remark in (*charted.notes, *charted.warnings):
         note(remark)
+    return exit_code(charted.checks)
 
 
 def show_chart(charted: ChartResult) -> None:
     """Print a summary of a chart and its yarn bill."""
     chart = charted.chart
+    show_verdict(charted.checks)
     show_pairs(
         [
             ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),

@@ -8,7 +8,8 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import force_option, json_option
 from ilmek.cli.settings import read_settings, setting_files
-from ilmek.cli.terminal import note, passed, say, show_checks, show_table
+from ilmek.cli.terminal import say, show_checks, show_table
+from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.io.cyclogram_file import cyclogram_writer
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
 from ilmek.jobs.cyclogram import GOALS, binding_words, columns, find, report, solve
@@ -63,8 +64,11 @@ def command(
     file_to: Path | None,
     force: bool,
     json_to: str | None,
-) -> None:
-    """Check the cyclogram of FILE (TOML or JSON) or of a MACHINE; with --solve, retime its motions."""
+) -> int:
+    """Check the cyclogram of FILE (TOML or JSON) or of a MACHINE; with --solve, retime its motions.
+
+    Ends with 3 where a check fails.
+    """
     write = None if file_to is None else cyclogram_writer(file_to)
     files = {"--json": json_to, "--csv": csv_to, "--report": page_to, "--out": file_to}
     inputs = {"FILE": Path(file), **setting_files(settings)}
@@ -83,13 +87,15 @@ def command(
         for option, kind in (("--report", "report"), ("--out", "cyclogram"), ("--csv", "table")):
             if option in call.files:
                 say(f"{kind}: {call.files[option]}")
-    elif shown.failed:
-        note(f"checks: {passed(shown.checks)}")
+    else:
+        note_verdict(shown.checks)
+    return exit_code(shown.checks)
 
 
 def _show(shown: Report, solution: Solution | None) -> None:
     """Print motions, checks, and the result of the solver."""
     say(shown.title)
+    show_verdict(shown.checks)
     for table in shown.tables:
         if table.name != "binding":
             rows = [tuple(_cell(cell) for cell in row) for row in table.rows]

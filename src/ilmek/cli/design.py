@@ -6,9 +6,10 @@ import click
 
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import force_option, json_option
-from ilmek.cli.report import show_report
+from ilmek.cli.report import headline_of, show_report
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
+from ilmek.cli.verdict import exit_code, note_verdict
 from ilmek.jobs.design import WorkshopOrder, design_machine
 
 EXAMPLES = """\b
@@ -52,8 +53,8 @@ def command(  # noqa: PLR0917 - click calls it by name
     parts_to: Path | None,
     tolerance: str | None,
     force: bool,
-) -> None:
-    """Design MACHINE and report it: results, checks against limits, warnings."""
+) -> int:
+    """Design MACHINE and report it: results, checks against limits, warnings. Ends with 3 where a check fails."""
     if parts_to is None and tolerance is not None:
         raise click.UsageError("--tolerance needs --workshop DIR")
     given = (*settings, *more)
@@ -69,5 +70,8 @@ def command(  # noqa: PLR0917 - click calls it by name
             say(f"report: {page_to}")
         if made.workshop is not None:
             say(f"workshop: {made.workshop.summary}")
+    else:
+        note_verdict(made.report.all_checks, headline_of(made.report))
     for warning in made.warnings:
         note(warning)
+    return exit_code(made.report.all_checks)

@@ -1,8 +1,9 @@
 """The frame of every command: lazy loading, and error messages of one line.
 
-    exit 0    done
+    exit 0    done, and every check holds
     exit 1    the reader of the output closed it
     exit 2    bad input, or an output that cannot be written: one line on the error stream, nothing written
+    exit 3    done, but a check fails: results and outputs are complete (ilmek.cli.verdict)
     exit 130  Ctrl-C (129: the terminal closed; 143: terminated): one line that states what has been written
 
 Errors of ilmek (IlmekError) and of click are shown alike. A defect of the program keeps its traceback.

@@ -1,15 +1,23 @@
 """A report on a terminal: results, brief tables, checks."""
 
 import math
+from collections.abc import Sequence
 
-from ilmek.cli.terminal import passed, say, show_checks, show_table
-from ilmek.report import Column, Report, Result, Table
+from ilmek.cli.terminal import say, show_checks, show_table
+from ilmek.cli.verdict import CHECKS, WEAVES, show_verdict
+from ilmek.report import Choice, Column, Report, Result, Table
 from ilmek.units import format_number, format_quantity, from_si, printed_unit
 
 
+def headline_of(report: Report) -> str:
+    """The headline of a report's verdict."""
+    return WEAVES if WEAVES in report.headline else CHECKS
+
+
 def show_report(report: Report) -> None:
-    """Print results, brief tables and checks."""
+    """Print the verdict with its reasons, results, brief tables, choices and checks."""
     say(report.title)
+    show_verdict(report.all_checks, headline_of(report))
     shown = [(r.name, _shown(r), r.meaning) for r in report.results if r.shown]
     show_table(("result", "value", "meaning"), shown, right=(1,))
     more = [result.name for result in report.results if not result.shown]
@@ -19,9 +27,16 @@ def show_report(report: Report) -> None:
     for table in report.tables:
         if table.brief:
             _show(table)
+    if report.all_choices:
+        show_choices(report.all_choices)
     if report.all_checks:
         show_checks(report.all_checks)
-        say(f"checks: {passed(report.all_checks)}")
+
+
+def show_choices(choices: Sequence[Choice]) -> None:
+    """Print what was chosen of what was left open, and why nothing cheaper was."""
+    rows = [(one.name, one.chosen, one.decided_by, one.next_cheaper, one.failed) for one in choices]
+    show_table(("choice", "chosen", "decided by", "next cheaper", "fails"), rows)
 
 
 def _show(table: Table) -> None:

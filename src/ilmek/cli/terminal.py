@@ -80,13 +80,6 @@ def show_checks(checks: "Sequence[Check]") -> None:
     show_table(("check", "", "value", "limit", "source"), rows, right=(2,))
 
 
-def passed(checks: "Sequence[Check]") -> str:
-    """The numbers of passed and failed checks, and the names of the failed ones."""
-    failed = [check.name for check in checks if not check.ok]
-    counts = f"{len(checks) - len(failed)} passed, {len(failed)} failed"
-    return f"{counts}: {'; '.join(failed)}" if failed else counts
-
-
 def note(text: str) -> None:
     """Print a note of one line on the error stream."""
     click.echo(f"note: {' '.join(printable(text).split())}", err=True)

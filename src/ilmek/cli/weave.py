@@ -8,11 +8,13 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import carpet_inputs, carpet_options, force_option, json_option
 from ilmek.cli.settings import read_settings, setting_files
-from ilmek.cli.terminal import note, passed, show_pairs
+from ilmek.cli.terminal import note, show_pairs
+from ilmek.cli.verdict import WEAVES, exit_code, note_verdict, show_verdict
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.weave import WeaveResult, time_in_words, weave, weave_json
+from ilmek.machines.automated_loom.params import AIMS
 from ilmek.units import format_quantity
 
 EXAMPLES = """\b
@@ -29,9 +31,12 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
 @click.command(epilog=EXAMPLES)
 @carpet_options
 @click.option(
-    "--heads", type=int, metavar="N", help="Number of knotting heads; default: 4, or as many as --deadline needs."
+    "--heads", type=int, metavar="N", help="Number of knotting heads; default: chosen by --aim and --deadline."
 )
-@click.option("--deadline", metavar="TIME", help="Use the fewest heads that weave the carpet in this time, like 72h.")
+@click.option("--deadline", metavar="TIME", help="Weave the carpet in this time, like 72h, with the fewest heads.")
+@click.option(
+    "--aim", type=click.Choice(AIMS), help="Choose what is left open for least price or time; default: price."
+)
 @click.option(
     "--warp-pitch", metavar="LENGTH", help="Distance between the warps of your loom; default: that of the quality."
 )
@@ -49,20 +54,22 @@ def command(
     out: Path | None,
     heads: int | None,
     deadline: str | None,
+    aim: str | None,
     warp_pitch: str | None,
     settings: tuple[str, ...],
     force: bool,
     json_to: str | None,
     **carpet: Any,
-) -> None:
+) -> int:
     """Turn PICTURE into all that is needed to weave it: knot chart, yarn bill, loom, programme, report.
 
     The output folder contains report.html, report.json, chart.png, chart.pdf (see --pdf), yarn.csv, programme.ilmek and
-    machine.json.
+    machine.json. Where the loom cannot weave the carpet, the report has the reasons and what would cure them, there is
+    no programme, and the command ends with 3.
     """
     order = read_order(**carpet)
     loom_order = read_loom_order(
-        order, heads=heads, deadline=deadline, warp_pitch=warp_pitch, loom=read_settings(settings)
+        order, heads=heads, deadline=deadline, aim=aim, warp_pitch=warp_pitch, loom=read_settings(settings)
     )
     folder = out or free_folder(order.picture, "carpet")
     inputs = {**carpet_inputs(carpet), **setting_files(settings)}
@@ -71,27 +78,40 @@ def command(
         call.give_json(lambda: weave_json(woven))
     if not call.quiet:
         show_woven(woven)
-    for remark in (*woven.charted.notes, *woven.charted.warnings, *woven.left_out):
+    else:
+        note_verdict(woven.checks, WEAVES)
+    for remark in (*woven.charted.notes, *woven.warnings):
         note(remark)
+    return exit_code(woven.checks)
 
 
 def show_woven(woven: WeaveResult) -> None:
-    """Print a summary of the job and the path of the report."""
-    chart, bill, programme = woven.charted.chart, woven.charted.bill, woven.loomed.programme
-    heads = f"{programme.heads} (of {woven.loomed.design.heads_max} that fit)"
-    if woven.loom_order.deadline is not None:
-        heads = f"{programme.heads} needed for the deadline of {time_in_words(woven.loom_order.deadline)}"
-    warnings = [("warnings", f"{len(woven.warnings)}, in the report")] if woven.warnings else []
+    """Print the verdict with its reasons, a summary of the job, the loom's choices, and the path of the report."""
+    chart, bill, checks = woven.charted.chart, woven.charted.bill, woven.checks
+    failed = sum(not check.ok for check in checks)
+    show_verdict(checks, WEAVES)
     show_pairs(
         [
             ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
             ("knots", f"{chart.knots.size:,} ({chart.rows} rows of {chart.columns})"),
             ("colours", f"{chart.colours} of {len(woven.charted.order.yarns)} yarns"),
             ("yarn", f"{format_quantity(bill.mass, 'kg', 3)}, pile {format_quantity(bill.pile_mass, 'kg', 3)}"),
-            ("weaving time", time_in_words(programme.duration)),
-            ("heads", heads),
-            ("checks", passed(woven.checks)),
-            *warnings,
+            *_loom_pairs(woven),
+            ("checks", f"{len(checks) - failed} passed, {failed} failed"),
             ("report", woven.files[0]),
         ]
     )
+
+
+def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
+    """Weaving time, heads and choices of the loom; none where it cannot be designed."""
+    made, programme, deadline = woven.loomed.design, woven.loomed.programme, woven.loom_order.deadline
+    if made is None or programme is None:
+        return []
+    within = "" if deadline is None else f", the deadline is {time_in_words(deadline)}"
+    chosen = [f"{choice.name} {choice.chosen}" for choice in woven.loom.choices]
+    return [
+        ("weaving time", f"{time_in_words(programme.duration)}{within}"),
+        ("heads", f"{programme.heads} (of {made.heads_max} that fit)"),
+        *([("chosen", "; ".join(chosen))] if chosen else []),
+    ]

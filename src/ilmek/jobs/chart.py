@@ -21,7 +21,7 @@ from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.order import MOST_PRINTED, CarpetOrder
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, at_most
+from ilmek.report import Check, at_most, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity
 
@@ -62,7 +62,8 @@ class ChartResult:
         """Share of the ground that the pile fills, against 100 %."""
         fill = pile_fill(self.chart.quality, self.thickest.linear_density, self.order.pile)
         source = "two legs per knot in the knot's cell, fibre packed as in the free yarn"
-        return (at_most("pile: share of the ground filled", fill, 1.0, "%", source),)
+        cure = "take a finer yarn or a coarser quality"
+        return (at_most("pile: share of the ground filled", fill, 1.0, "%", source, cure=cure),)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -205,19 +206,22 @@ def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Any]:
         "chart",
         charted.order.as_dict(),
         chart_results(charted),
-        checks=[check.as_json() for check in charted.checks],
+        checks=charted.checks,
         notes=list(charted.notes),
         warnings=list(charted.warnings),
         files=list(files),
     )
 
 
-def job_json(job: str, parameters: dict[str, Any], results: dict[str, Any], **more: Any) -> dict[str, Any]:
-    """The JSON of a job: `job`, `parameters`, `results`, and `more` (checks, notes, files ...).
+def job_json(
+    job: str, parameters: dict[str, Any], results: dict[str, Any], *, checks: Sequence[Check], **more: Any
+) -> dict[str, Any]:
+    """The JSON of a job: `job`, its verdict, `parameters`, `results`, `checks`, and `more` (notes, files ...).
 
     Each result is given twice: under `results`, as in a machine's report, and at the top level, where a reader of one
     number finds it by name. No result may have the name of another entry of the top level.
     """
-    around = {"job": job, "parameters": parameters, "results": results, **more}
+    judged = {**verdict_json(checks), "checks": [check.as_json() for check in checks]}
+    around = {"job": job, "parameters": parameters, "results": results, **judged, **more}
     assert not results.keys() & around.keys()
     return {**around, **results}

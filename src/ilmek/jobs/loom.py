@@ -8,12 +8,14 @@ from typing import Any
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.pile import knot_length
-from ilmek.errors import ParameterError, UnitError
+from ilmek.errors import IlmekError, ParameterError, UnitError
 from ilmek.jobs.order import CarpetOrder
-from ilmek.loom.programme import Programme, heads_for, make_programme
-from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.jobs.wishes import Wishes, heads_for_wishes, require_price
+from ilmek.loom.programme import Programme, make_programme
+from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
+from ilmek.report import Check, Report, Result, at_most, must
 from ilmek.units import format_quantity, parse_quantity
 
 
@@ -22,25 +24,43 @@ class LoomOrder:
     """An order for a loom.
 
     params    parameters of the loom, as far as they are known without the picture
-    heads     number of knotting heads; default: as many as the deadline needs, or as the loom chooses
-    deadline  time for the whole carpet [s]; default: none
+    wishes    number of heads, and time for the whole carpet
+    settings  names of the parameters that the user set
     """
 
     params: AutomatedLoomParams
-    heads: int | None
-    deadline: float | None
+    wishes: Wishes
+    settings: tuple[str, ...] = ()
+
+    @property
+    def deadline(self) -> float | None:
+        """Time for the whole carpet [s]; None: any."""
+        return self.wishes.deadline
 
     def as_dict(self) -> dict[str, Any]:
         """The order as plain data, SI."""
-        return {"heads": self.heads, "deadline": self.deadline, "warp_pitch": self.params.pitch}
+        wishes = self.wishes
+        return {
+            "heads": wishes.heads,
+            "deadline": wishes.deadline,
+            "warp_pitch": self.params.pitch,
+            "aim": self.params.aim,
+        }
 
 
 @dataclass(frozen=True, slots=True)
 class LoomResult:
-    """A loom for a chart, and the programme that weaves the chart on it."""
+    """A loom for a chart, and the programme that weaves the chart on it.
 
-    design: LoomDesign
-    programme: Programme
+    report  of the loom; without a design it has the reason as a failed check
+    checks  of the loom for this chart: its deadline
+    design, programme  None where the loom cannot be designed
+    """
+
+    report: Report
+    checks: tuple[Check, ...]
+    design: LoomDesign | None = None
+    programme: Programme | None = None
 
 
 OF_THE_CARPET = {
@@ -50,6 +70,8 @@ OF_THE_CARPET = {
     "knots_along": "--quality",
     "knot": "--knot",
     "heads": "--heads",
+    "deadline": "--deadline",
+    "aim": "--aim",
     "warp_pitch": "--warp-pitch",
     "colours": "--colours",
     "knot_yarn": "--pile-height",
@@ -64,6 +86,7 @@ def read_loom_order(
     *,
     heads: int | None = None,
     deadline: str | None = None,
+    aim: str | None = None,
     warp_pitch: Setting = None,
     loom: Mapping[str, Setting] = MappingProxyType({}),
 ) -> LoomOrder:
@@ -75,21 +98,19 @@ def read_loom_order(
     for name in loom:
         if name in OF_THE_CARPET:
             raise ParameterError(f"{name} of the loom follows from the carpet", do=f"set it by {OF_THE_CARPET[name]}")
-    if heads is not None and deadline is not None:
-        raise ParameterError("heads and a deadline are both given", do="give one of --heads and --deadline")
     limit = None if deadline is None else _deadline(deadline)
+    given = {"heads": heads, "deadline": limit, "aim": aim, "warp_pitch": warp_pitch, **loom}
+    given = {name: value for name, value in given.items() if value is not None}
     settings: dict[str, Setting] = dict(
         width=order.size.width,
         length=order.size.length,
         knots_across=order.quality.across,
         knots_along=order.quality.along,
         knot=order.knot,
-        heads=heads,
-        **loom,
+        **given,
     )
-    if warp_pitch is not None:
-        settings["warp_pitch"] = warp_pitch
-    return LoomOrder(AutomatedLoomParams.read(settings), heads, limit)
+    params = AutomatedLoomParams.read(settings)
+    return LoomOrder(params, Wishes(heads, limit, params.price_limit), tuple(given))
 
 
 def _deadline(text: str) -> float:
@@ -104,27 +125,56 @@ def _deadline(text: str) -> float:
 def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progress: Progress = SILENT) -> LoomResult:
     """The loom for a chart, with the number of heads required, and its programme.
 
-    Raises LoomError if the heads do not fit or the deadline cannot be met, and errors of the machines.
+    A loom that cannot be designed is a result without design, with the reason as a failed check.
+    Raises ParameterError for settings and wishes that contradict each other.
     """
-    longest = max(knot_length(chart.knot, chart.quality, yarn.linear_density, order.pile) for yarn in chart.yarns)
+    params = params_for(loom_order, order, chart)
+    try:
+        made = heads_for_wishes(params, loom_order.wishes, chart, progress.part(0.0, 0.7))
+        programme = make_programme(
+            chart.knots, len(chart.yarns), made.heads, made.times, progress=progress.part(0.7, 1.0)
+        )
+    except IlmekError as error:
+        if isinstance(error, ParameterError | UnitError) and loom_order.settings:
+            raise
+        return LoomResult(_without_design(params, error), ())
+    report = MACHINE.report(made)
+    require_price(loom_order.wishes, made, report, programme.duration)
+    return LoomResult(report, deadline_checks(loom_order.deadline, programme), made, programme)
+
+
+def params_for(loom_order: LoomOrder, order: CarpetOrder, chart: Chart) -> AutomatedLoomParams:
+    """The parameters of the loom with what follows from the chart: colours, changes, pile yarn."""
     heaviest = max(yarn.linear_density for yarn in chart.yarns)
-    params = replace(
+    return replace(
         loom_order.params,
         yarns=replace(loom_order.params.yarns, pile_density=heaviest),
         colours=chart.colours,
-        knot_yarn=longest,
+        knot_yarn=yarn_of_a_knot(order, chart),
         changes_per_knot=min(1.0, chart.changes_per_knot),
     )
-    made = design(params)
-    heads = _heads(loom_order, made, chart, progress.part(0.0, 0.7))
-    if heads != made.heads:
-        made = design(replace(params, heads=heads))
-    programme = make_programme(chart.knots, len(chart.yarns), heads, made.times, progress=progress.part(0.7, 1.0))
-    return LoomResult(made, programme)
 
 
-def _heads(loom_order: LoomOrder, made: LoomDesign, chart: Chart, progress: Progress) -> int:
-    if loom_order.deadline is None:
-        return made.heads
-    yarns = len(chart.yarns)
-    return heads_for(chart.knots, yarns, loom_order.deadline, made.times, made.heads_max, progress=progress)
+def yarn_of_a_knot(order: CarpetOrder, chart: Chart) -> float:
+    """The longest pile yarn of a knot of a chart [m]."""
+    return max(knot_length(chart.knot, chart.quality, yarn.linear_density, order.pile) for yarn in chart.yarns)
+
+
+def deadline_checks(deadline: float | None, programme: Programme) -> tuple[Check, ...]:
+    """The check of the deadline [s], if one is given."""
+    if deadline is None:
+        return ()
+    cure = "give more time, more heads, or a coarser quality"
+    return (at_most("weaving time", programme.duration, deadline, "h", "the deadline given", cure=cure),)
+
+
+def _without_design(params: AutomatedLoomParams, error: IlmekError) -> Report:
+    """The report of a loom that cannot be designed: its parameters, and the reason as a failed check."""
+    cure = "; ".join(part for part in (error.allowed, error.do) if part)
+    check = must("the loom can be designed", False, error.given, cure=cure or "take another quality, size or knot")
+    results = (
+        Result("weaves", False, "", "every check of the loom and of its machines holds"),
+        Result("row_pitch_left", None, "mm", "distance of the rows that the beat leaves; null: no loom"),
+    )
+    headline = tuple(result.name for result in results)
+    return Report(MACHINE.name, MACHINE.title, params.as_dict(), results, (check,), headline=headline)

@@ -12,9 +12,8 @@ from ilmek.io.programme_meta import Label
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed
 from ilmek.jobs.order import CarpetOrder
-from ilmek.machines.automated_loom import MACHINE
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, Report, at_most
+from ilmek.report import Check, Report, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity, hour
 from ilmek.viz.page import CarpetPage, carpet_page
@@ -36,18 +35,26 @@ FILES = (
 class WeaveResult:
     """Results of the job, and the folder of its files.
 
-    loom      the loom's report, with those of its machines
-    written   names of the files in the folder
+    written   names of the files in the folder; there is no programme where the loom cannot weave the carpet
     left_out  warnings: figures and files that could not be made
     """
 
     charted: ChartResult
     loom_order: LoomOrder
     loomed: LoomResult
-    loom: Report
     folder: Path
     written: tuple[str, ...] = tuple(file.name for file in FILES)
     left_out: tuple[str, ...] = ()
+
+    @property
+    def loom(self) -> Report:
+        """The loom's report, with those of its machines."""
+        return self.loomed.report
+
+    @property
+    def weaves(self) -> bool:
+        """Whether the loom weaves the carpet: every check holds."""
+        return all(check.ok for check in self.checks)
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -57,7 +64,7 @@ class WeaveResult:
     @property
     def own_checks(self) -> tuple[Check, ...]:
         """Checks of the job: the carpet, and the deadline if one is given."""
-        return (*self.charted.checks, *job_checks(self.loom_order, self.loomed))
+        return (*self.charted.checks, *self.loomed.checks)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -86,6 +93,8 @@ def weave(
 ) -> WeaveResult:
     """Do the whole job and write its files into a folder.
 
+    Where the loom cannot weave the carpet, there is no programme among the files, and the report has the reasons.
+
     outputs  of the caller, who commits them; default: committed here
     force    replace a folder that ilmek wrote; for outputs of the caller, theirs holds
     Raises OutputError, before any work, for a folder that cannot be written; any IlmekError; then nothing is written.
@@ -100,16 +109,14 @@ def _weave(
 ) -> WeaveResult:
     charted = make_charted(order, progress.part(0.0, 0.4, "picture"))
     loomed = make_loomed(loom_order, order, charted.chart, progress.part(0.4, 0.5, "loom"))
-    woven = WeaveResult(charted, loom_order, loomed, MACHINE.report(loomed.design), folder)
+    woven = WeaveResult(charted, loom_order, loomed, folder)
     left_out: list[str] = []
     with outputs.folder(folder) as work:
         written = write_chart(charted, work, left_out, progress.part(0.5, 0.7, "chart"))
-        write_programme(
-            work / "programme.ilmek", loomed.programme, _label(woven), progress=progress.part(0.7, 0.8, "programme")
-        )
+        written = (*written, *_write_programme(woven, work, progress.part(0.7, 0.8, "programme")))
         write_json(work / "machine.json", machine_json(woven))
         drawing = progress.part(0.8, 1.0, "report")
-        written = (*written, "programme.ilmek", "machine.json", "report.html", "report.json")
+        written = (*written, "machine.json", "report.html", "report.json")
         woven = replace(woven, written=written, left_out=tuple(left_out))
         page = made_or_left_out("report.html", lambda: carpet_page(_page(woven), left_out, drawing), left_out)
         if page is not None:
@@ -120,26 +127,31 @@ def _weave(
     return woven
 
 
-def job_checks(loom_order: LoomOrder, loomed: LoomResult) -> tuple[Check, ...]:
-    """The check of the deadline, if one is given."""
-    if loom_order.deadline is None:
+def _write_programme(woven: WeaveResult, folder: Path, progress: Progress) -> tuple[str, ...]:
+    """Write the programme if the loom weaves the carpet; returns the names of the written files."""
+    chart, made, programme = woven.charted.chart, woven.loomed.design, woven.loomed.programme
+    if not woven.weaves or made is None or programme is None:
         return ()
-    return (at_most("weaving time", loomed.programme.duration, loom_order.deadline, "h", "the deadline given"),)
+    label = Label(chart.size, chart.quality, chart.knot, chart.yarns, made.params.pitch, made.cyclograms)
+    write_programme(folder / "programme.ilmek", programme, label, progress=progress)
+    return ("programme.ilmek",)
 
 
 def weave_results(woven: WeaveResult) -> dict[str, Any]:
-    """The results of the job by their JSON names, SI."""
+    """The results of the job by their JSON names, SI; those of the loom are null where it cannot be designed."""
     programme, made = woven.loomed.programme, woven.loomed.design
     return {
+        "weaves": woven.weaves,
+        "row_pitch_left": woven.loom["row_pitch_left"],
         **chart_results(woven.charted),
-        "heads": programme.heads,
-        "heads_max": made.heads_max,
-        "weaving_time": programme.duration,
-        "knot_time": made.times.knot,
-        "row_time": made.times.weft,
-        "colour_changes": int(programme.work.changes.sum()),
-        "warps": made.warps,
-        "warp_pitch": made.params.pitch,
+        "heads": programme and programme.heads,
+        "heads_max": made and made.heads_max,
+        "weaving_time": programme and programme.duration,
+        "knot_time": made and made.times.knot,
+        "row_time": made and made.times.weft,
+        "colour_changes": programme and int(programme.work.changes.sum()),
+        "warps": made and made.warps,
+        "warp_pitch": made and made.params.pitch,
     }
 
 
@@ -149,7 +161,8 @@ def weave_json(woven: WeaveResult) -> dict[str, Any]:
         "weave",
         {**woven.charted.order.as_dict(), **woven.loom_order.as_dict()},
         weave_results(woven),
-        checks=[check.as_json() for check in woven.checks],
+        checks=woven.checks,
+        choices=[choice.as_json() for choice in woven.loom.all_choices],
         notes=list(woven.charted.notes),
         warnings=list(woven.warnings),
         files=woven.files,
@@ -159,12 +172,7 @@ def weave_json(woven: WeaveResult) -> dict[str, Any]:
 def machine_json(woven: WeaveResult) -> dict[str, Any]:
     """The loom's report as JSON, and under `machines` those of its machines by name."""
     machines = {child.machine: child.as_json() for child in woven.loom.children}
-    return {**woven.loom.own().as_json(), "machines": machines}
-
-
-def _label(woven: WeaveResult) -> Label:
-    chart, made = woven.charted.chart, woven.loomed.design
-    return Label(chart.size, chart.quality, chart.knot, chart.yarns, made.params.pitch, made.cyclograms)
+    return {**woven.loom.own().as_json(), **verdict_json(woven.loom.all_checks), "machines": machines}
 
 
 def time_in_words(seconds: float) -> str:
@@ -177,23 +185,32 @@ def time_in_words(seconds: float) -> str:
 
 
 def _page(woven: WeaveResult) -> CarpetPage:
-    chart, programme, deadline = woven.charted.chart, woven.loomed.programme, woven.loom_order.deadline
-    heads = "as the deadline needs" if deadline is not None else f"{woven.loomed.design.heads_max} would fit"
-    facts = [
-        Fact("Heads", str(programme.heads), heads),
-        Fact("Weaving time", time_in_words(programme.duration), f"{programme.rows} rows"),
-    ]
-    if deadline is not None:
-        facts.append(Fact("Deadline", time_in_words(deadline), "met", "good"))
+    chart = woven.charted.chart
     return CarpetPage(
         title=woven.charted.order.picture.stem,
         lead=f"{chart.size}, {chart.quality}, {chart.knot} knot",
         chart=chart,
         bill=woven.charted.bill,
         symbols=symbols(len(chart.yarns)),
-        facts=tuple(facts),
+        facts=_loom_facts(woven),
         reports=(woven.loom.own(), *woven.loom.children),
         checks=woven.own_checks,
         files=woven.notes,
         warnings=(*woven.charted.warnings, *woven.charted.notes, *woven.left_out),
+        choices=woven.loom.all_choices,
     )
+
+
+def _loom_facts(woven: WeaveResult) -> tuple[Fact, ...]:
+    """Heads, weaving time and deadline of the loom; none where it cannot be designed."""
+    made, programme, deadline = woven.loomed.design, woven.loomed.programme, woven.loom_order.deadline
+    if made is None or programme is None:
+        return ()
+    facts = (
+        Fact("Heads", str(programme.heads), f"{made.heads_max} would fit"),
+        Fact("Weaving time", time_in_words(programme.duration), f"{programme.rows} rows"),
+    )
+    if deadline is None:
+        return facts
+    met = programme.duration <= deadline
+    return (*facts, Fact("Deadline", time_in_words(deadline), "met" if met else "missed", "good" if met else "bad"))

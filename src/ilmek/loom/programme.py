@@ -192,27 +192,48 @@ def heads_for(
 ) -> int:
     """The smallest number of heads, up to `heads_max`, that weaves the chart within the deadline [s], stops included.
 
-    Numbers whose least time exceeds the deadline are skipped. A trial ends as soon as its remaining rows cannot meet
-    the deadline. Raises LoomError, with the reason, where no number meets the deadline.
+    Raises LoomError, with the reason, where no number meets the deadline.
     """
     _require_chart(knots, yarns)
-    require_whole("heads", heads_max, MOST_HEADS)
-    rows, columns = knots.shape
-    stops = stop_time(bobbins, rows)
-    _require_wefts(rows, deadline, times, stops)
-    limit = (deadline - stops) * _ROUNDING
-    for heads in range(1, heads_max + 1):
-        if least_time(rows, columns, heads, times) > limit:
-            continue
-        trial = progress.part((heads - 1) / heads_max, heads / heads_max)
-        if weaving_time(knots, yarns, heads, times, deadline - stops, progress=trial) <= limit:
-            return heads
+    stops = stop_time(bobbins, knots.shape[0])
+    _require_wefts(knots.shape[0], deadline, times, stops)
+    heads = least_heads(knots, yarns, deadline, times, heads_max, bobbins=bobbins, progress=progress)
+    if heads is not None:
+        return heads
     reached = weaving_time(knots, yarns, heads_max, times, progress=progress.part(1.0, 1.0))
     raise LoomError(
         f"the deadline of {_hours(deadline)} cannot be met",
         allowed=f"at most {heads_max} heads fit this width; they weave it in {_hours(reached + stops)}",
         do="give more time, a coarser quality, a faster knot or narrower heads",
     )
+
+
+def least_heads(
+    knots: Indices,
+    yarns: int,
+    deadline: float,
+    times: Times,
+    heads_max: int,
+    *,
+    bobbins: Sequence[Bobbin] = (),
+    progress: Progress = SILENT,
+) -> int | None:
+    """The smallest number of heads, up to `heads_max`, that weaves the chart within the deadline [s], stops included.
+
+    Numbers whose least time exceeds the deadline are skipped. A trial ends as soon as its remaining rows cannot meet
+    the deadline. None: no number meets it.
+    """
+    _require_chart(knots, yarns)
+    require_whole("heads", heads_max, MOST_HEADS)
+    rows, columns = knots.shape
+    left = deadline - stop_time(bobbins, rows)
+    for heads in range(1, heads_max + 1):
+        if least_time(rows, columns, heads, times) > left * _ROUNDING:
+            continue
+        trial = progress.part((heads - 1) / heads_max, heads / heads_max)
+        if weaving_time(knots, yarns, heads, times, left, progress=trial) <= left * _ROUNDING:
+            return heads
+    return None
 
 
 def _run(

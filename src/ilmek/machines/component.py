@@ -52,6 +52,8 @@ class Component:
     fit         loom's task -> parameters, for a machine that can be in a loom
     beat        loom's task, kind of beat -> its planned beat, for a machine that can beat (`ilmek.machines.beat`)
     own_figures beginnings of the names of figures that only its own page shows, not a loom's
+    verdict     report -> a record with results that follow from all checks, of the machines in it too
+    headline    names of results that stand at the top level of the JSON too
     """
 
     name: str
@@ -78,6 +80,8 @@ class Component:
     fit: Callable[[LoomTask], Any] | None = None
     beat: Callable[[LoomTask, str], PlannedBeat] | None = None
     own_figures: tuple[str, ...] = ()
+    verdict: Callable[[Report], Any] | None = None
+    headline: tuple[str, ...] = ()
     long: bool = False
 
     def __repr__(self) -> str:
@@ -115,8 +119,10 @@ class Component:
             parts=self.parts(design),
             children=tuple(child.report for child in self.children(design)),
             choices=self.choices(design),
+            headline=self.headline,
         )
-        return replace(made, checks=(*made.checks, *broken(made, self.work(design))))
+        made = replace(made, checks=(*made.checks, *broken(made, self.work(design))))
+        return replace(made, results=(*results_of(self.verdict(made)), *made.results)) if self.verdict else made
 
     def report_for(self, settings: Mapping[str, Setting]) -> Report:
         """The report of the design for settings of its parameters, texts with units allowed. Raises any IlmekError."""

@@ -32,7 +32,7 @@ from ilmek.report.figure import (
 from ilmek.report.json import Json, plain
 from ilmek.report.results import Result, results_of
 from ilmek.report.table import Column, Table, columns
-from ilmek.report.verdict import Reason, reasons
+from ilmek.report.verdict import Reason, reasons, verdict_json
 from ilmek.report.workshop import CamTable, Contour, Hole, Plate
 
 __all__ = [
@@ -86,4 +86,5 @@ __all__ = [
     "result",
     "results_of",
     "snap_to_limit",
+    "verdict_json",
 ]

@@ -13,7 +13,7 @@ from ilmek.report.figure import Figure
 from ilmek.report.json import Json, plain
 from ilmek.report.results import Result
 from ilmek.report.table import Table
-from ilmek.report.verdict import Reason, reasons
+from ilmek.report.verdict import Reason, reasons, verdict_json
 from ilmek.report.workshop import CamTable, Plate
 
 _Named = TypeVar("_Named", Plate, CamTable)
@@ -24,7 +24,8 @@ class Report:
     """What a design reports; `children` are the reports of the machines in it.
 
     `results`, `checks`, `warnings`, `plates` and `cam_tables` are its own; those of the whole tree carry the name of
-    their machine: `all_checks`, `all_warnings`, `all_plates`, `all_cam_tables`.
+    their machine: `all_checks`, `all_warnings`, `all_plates`, `all_cam_tables`. `headline` names results that stand at
+    the top level of the JSON too.
     """
 
     machine: str
@@ -40,6 +41,7 @@ class Report:
     parts: tuple[Part, ...] = ()
     children: tuple["Report", ...] = ()
     choices: tuple[Choice, ...] = ()
+    headline: tuple[str, ...] = ()
 
     @property
     def key(self) -> str:
@@ -123,12 +125,16 @@ class Report:
         return own | {child.key: child.results_as_json() for child in self.children}
 
     def as_json(self) -> dict[str, Any]:
-        """The contract of `--json`: machine, parameters, results, checks, warnings; SI, full precision."""
+        """The contract of `--json`: machine, verdict, parameters, results, checks, choices; SI, full precision."""
+        results = self.results_as_json()
         return {
             "machine": self.machine,
+            **{name: results[name] for name in self.headline},
+            **verdict_json(self.all_checks),
             "parameters": plain(self.parameters),
-            "results": self.results_as_json(),
+            "results": results,
             "checks": [check.as_json() for check in self.all_checks],
+            "choices": [choice.as_json() for choice in self.all_choices],
             "warnings": list(self.all_warnings),
         }
 

@@ -36,6 +36,12 @@ def reasons(checks: Iterable[Check]) -> tuple[Reason, ...]:
     return tuple(Reason(one.name, one.value, one.limit, one.unit, one.cure, one.source, one.relation) for one in failed)
 
 
+def verdict_json(checks: Iterable[Check]) -> dict[str, Any]:
+    """The verdict as plain data: whether all checks hold, and the reasons where they do not."""
+    failed = reasons(checks)
+    return {"holds": not failed, "reasons": [reason.as_json() for reason in failed]}
+
+
 def weight(check: Check) -> float:
     """How far a failed check misses its limit: |ln(value / limit)|; inf where that is no number."""
     ratio = check.value / check.limit if check.limit else math.inf

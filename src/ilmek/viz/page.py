@@ -5,7 +5,7 @@ figures come from `svg`, pictures from `carpet_picture`.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -17,7 +17,7 @@ from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
 from ilmek.errors import encodable
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Animation, Check, Figure, Report, Timing
+from ilmek.report import Animation, Check, Choice, Figure, Reason, Report, Timing, reasons
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.animation import SECONDS
 from ilmek.viz.number_format import amount, cells, count, fixed, number, quantity, sign, words
@@ -40,6 +40,7 @@ class CarpetPage:
     checks         checks that belong to no machine
     files          the other files of the folder
     warnings       warnings, and notes on changes made to the picture
+    choices        what the loom chose of what was left open
     """
 
     title: str
@@ -52,6 +53,17 @@ class CarpetPage:
     checks: tuple[Check, ...] = ()
     files: tuple[FileNote, ...] = ()
     warnings: tuple[str, ...] = ()
+    choices: tuple[Choice, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Verdict:
+    """The verdict at the top of a page: its question, the answer, and the reasons where it is no."""
+
+    good: str
+    bad: str
+    checks: int
+    reasons: tuple[Reason, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +111,13 @@ def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: P
         title=page.title,
         lead=page.lead,
         facts=carpet_facts(page.chart, page.bill, page.facts, [one.check for one in judged]),
-        failed=[one.check for one in judged if not one.check.ok],
+        verdict=_Verdict(
+            "The loom weaves this carpet.",
+            "The loom cannot weave this carpet, and there is no programme.",
+            len(judged),
+            reasons(_named(one) for one in judged),
+        ),
+        choices=page.choices,
         warnings=warnings,
         pictures=shown,
         yarn=yarn_lines(page.chart, page.bill, page.symbols),
@@ -123,7 +141,8 @@ def machine_page(report: Report, left_out: list[str] | None = None) -> str:
         lead=f"{len(report.all_checks) - len(report.failed)} of {len(report.all_checks)} checks hold"
         if report.all_checks
         else "",
-        failed=report.failed,
+        verdict=_Verdict("Every check holds.", "A check fails.", len(report.all_checks), report.reasons),
+        choices=report.all_choices,
         section=section,
         moves=_holds(section, "moves"),
         timed=_holds(section, "wide timed"),
@@ -151,6 +170,11 @@ def _kind(figure: Figure) -> str:
 
 def _holds(section: _Section, kind: str) -> bool:
     return any(drawn.kind == kind for drawn in section.figures)
+
+
+def _named(judged: _Judged) -> Check:
+    """The check with its machine's title before its name."""
+    return replace(judged.check, name=f"{judged.machine}: {judged.check.name}") if judged.machine else judged.check
 
 
 def _failures_first(judged: Sequence[_Judged]) -> list[_Judged]:

@@ -18,7 +18,16 @@ from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, p
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
-from ilmek.machines.automated_loom.report import LoomAnalysis, analyse, cam_tables, checks, results, tables, warnings
+from ilmek.machines.automated_loom.report import (
+    LoomAnalysis,
+    LoomVerdict,
+    analyse,
+    cam_tables,
+    checks,
+    results,
+    tables,
+    warnings,
+)
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component
 from ilmek.timing.cyclogram import Cyclogram
@@ -51,7 +60,7 @@ MACHINE = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, PartsList),
+    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, PartsList),
     checks=checks,
     tables=tables,
     figures=lambda found: figures(found.loom),
@@ -61,4 +70,6 @@ MACHINE = Component(
     parts=lambda loom: parts_of_loom(loom).parts,
     children=lambda loom: loom.children,
     choices=lambda loom: (*loom.choices, *parts_of_loom(loom).frame.choices),
+    verdict=LoomVerdict,
+    headline=("weaves", "row_pitch_left"),
 )

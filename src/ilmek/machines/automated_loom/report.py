@@ -14,13 +14,26 @@ from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, t
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
 from ilmek.machines.beat import BeatDrive
 from ilmek.records import computed, record
-from ilmek.report import CamTable, Check, Json, Table, at_least, at_most, columns
+from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
 
 HEAVY_SHARE = 0.25
 """Weight of a cylinder over the pull of its warps from which there is a warning; assumed by this project."""
+
+
+@record
+class LoomVerdict:
+    """Whether a loom weaves its carpet, from its whole report."""
+
+    report: Report
+
+    weaves = computed("", "every check of the loom and of its machines holds", lambda it: not it.report.failed)
+
+    @computed("", "checks that do not hold, the heaviest first, with what would cure them", shown=False)
+    def reasons(self) -> list[Json]:
+        return [reason.as_json() for reason in self.report.reasons]
 
 
 @record

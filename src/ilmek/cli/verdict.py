@@ -1,0 +1,56 @@
+"""The verdict of a command: its headline with the reasons, and the exit code."""
+
+from collections.abc import Sequence
+
+import click
+
+from ilmek.cli.terminal import note
+from ilmek.errors import printable
+from ilmek.report import Check, Reason, reasons
+from ilmek.units import format_quantity
+
+CHECK_FAILS = 3
+"""Exit code of a command that is done and has a check that fails."""
+
+WEAVES = "weaves"
+"""The headline of a loom; every other one is CHECKS."""
+
+CHECKS = "checks"
+
+
+def exit_code(checks: Sequence[Check]) -> int:
+    """0 where every check holds, else CHECK_FAILS."""
+    return 0 if all(check.ok for check in checks) else CHECK_FAILS
+
+
+def show_verdict(checks: Sequence[Check], headline: str = CHECKS) -> None:
+    """Print the headline, and each reason with value, limit and cure; nothing without checks."""
+    if checks:
+        failed = reasons(checks)
+        click.echo(f"{headline}: {_words(checks, failed, headline)}")
+        for reason in failed:
+            click.echo(printable(f"  {in_words(reason)}"))
+
+
+def note_verdict(checks: Sequence[Check], headline: str = CHECKS) -> None:
+    """A note with the headline and the names of the reasons, where standard output has something else."""
+    if failed := reasons(checks):
+        names = "; ".join(reason.name for reason in failed)
+        note(f"{headline}: {_words(checks, failed, headline)}: {names}")
+
+
+def in_words(reason: Reason) -> str:
+    """A reason in one line.
+
+    >>> in_words(Reason("sag", 0.003, 0.002, "mm", "set a stiffer rail", "rail_sag", "<="))
+    'sag: 3 mm, must be at most 2 mm; set a stiffer rail'
+    """
+    value, limit = (format_quantity(number, reason.unit) for number in (reason.value, reason.limit))
+    relation = {"<=": "at most", ">=": "at least"}.get(reason.relation, reason.relation)
+    return f"{reason.name}: {value}, must be {relation} {limit}{'; ' if reason.cure else ''}{reason.cure}"
+
+
+def _words(checks: Sequence[Check], failed: Sequence[Reason], headline: str) -> str:
+    if headline == WEAVES:
+        return f"NO, {len(failed)} {'reason' if len(failed) == 1 else 'reasons'}" if failed else "yes"
+    return f"{len(checks) - len(failed)} passed, {len(failed)} failed"

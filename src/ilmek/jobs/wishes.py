@@ -1,0 +1,102 @@
+"""What is wished of a loom beside its carpet: a number of heads, a deadline, a price. Wishes that cannot all hold are
+named together, each with what it would need.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+from ilmek.carpet.chart import Chart
+from ilmek.errors import ParameterError
+from ilmek.loom.programme import least_heads, weaving_time
+from ilmek.loom.sharing import MOST_HEADS, heads_that_fit
+from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.progress import SILENT, Progress
+from ilmek.report import Report
+from ilmek.units import format_number, format_quantity, hour
+
+
+@dataclass(frozen=True, slots=True)
+class Wishes:
+    """Number of heads, time for the whole carpet [s], and price at most; None: any."""
+
+    heads: int | None = None
+    deadline: float | None = None
+    price: float | None = None
+
+
+def heads_for_wishes(
+    params: AutomatedLoomParams, wishes: Wishes, chart: Chart, progress: Progress = SILENT
+) -> LoomDesign:
+    """The loom with the heads that are wished, or that its choice or the deadline needs.
+
+    Raises ParameterError, naming every wish, where they cannot all hold; the errors of the loom's design.
+    """
+    fit = heads_that_fit(chart.columns, 2 * params.pitch, params.head_width)
+    made = design(params if (wishes.heads or 1) <= fit else replace(params, heads=fit))
+    if (wishes.heads or 1) > fit:
+        raise _contradiction(wishes, made, chart)
+    if wishes.deadline is None or _time(made, chart, made.heads, wishes.deadline) <= wishes.deadline:
+        return made
+    needed = _needed(wishes.deadline, made, chart, fit, progress)
+    if needed is None or wishes.heads is not None:
+        raise _contradiction(wishes, made, chart)
+    return design(replace(params, heads=needed))
+
+
+def require_price(wishes: Wishes, made: LoomDesign, report: Report, duration: float) -> None:
+    """Raise ParameterError, naming every wish, for a loom above the price that is wished."""
+    price = report["price"]
+    if wishes.price is None or not isinstance(price, float) or price <= wishes.price:
+        return
+    costs = f"the price is to be at most {format_number(wishes.price)}; this loom costs {format_number(price)}"
+    takes = f"its {_heads(made.heads)} weave the carpet in {_hours(duration)}"
+    deadline = (
+        [] if wishes.deadline is None else [f"the deadline of {_hours(wishes.deadline)} needs {_heads(made.heads)}"]
+    )
+    raise _error([costs, takes, *deadline], "give a higher price_limit, more time, fewer heads, or a narrower carpet")
+
+
+def _contradiction(wishes: Wishes, made: LoomDesign, chart: Chart) -> ParameterError:
+    """The error that names each wish of heads, deadline and width with what it needs."""
+    fit, parts = made.heads_max, []
+    if wishes.heads is not None:
+        shown = _hours(_time(made, chart, wishes.heads)) if wishes.heads <= chart.columns // 2 else ""
+        parts.append(f"{_heads(wishes.heads)} weave it in {shown}" if shown else _heads(wishes.heads))
+    if wishes.deadline is not None:
+        parts.append(_deadline_needs(wishes.deadline, made, chart))
+    width = format_quantity(made.params.width, "m"), format_quantity(made.params.head_width, "mm")
+    reached = _hours(_time(made, chart, fit))
+    parts.append(f"at most {fit} heads of {width[1]} fit {width[0]}, they weave it in {reached}")
+    if wishes.price is not None:
+        parts.append(f"the price is to be at most {format_number(wishes.price)}")
+    return _error(parts, "give more time, other heads, a wider carpet, a coarser quality or narrower heads")
+
+
+def _deadline_needs(deadline: float, made: LoomDesign, chart: Chart) -> str:
+    """How many heads a deadline [s] needs, whether they fit or not."""
+    needed = _needed(deadline, made, chart, min(MOST_HEADS, max(1, chart.columns // 2)), SILENT)
+    if needed is not None:
+        return f"the deadline of {_hours(deadline)} needs {_heads(needed)}"
+    wefts = chart.rows * made.times.weft
+    alone = f": the wefts and beats of {chart.rows} rows alone take {_hours(wefts)}" if wefts >= deadline else ""
+    return f"the deadline of {_hours(deadline)} cannot be met by any number of heads{alone}"
+
+
+def _error(parts: list[str], do: str) -> ParameterError:
+    return ParameterError(f"the wishes contradict each other: {'; '.join(parts)}", do=do)
+
+
+def _time(made: LoomDesign, chart: Chart, heads: int, deadline: float = math.inf) -> float:
+    return weaving_time(chart.knots, len(chart.yarns), heads, made.times, deadline)
+
+
+def _needed(deadline: float, made: LoomDesign, chart: Chart, most: int, progress: Progress) -> int | None:
+    return least_heads(chart.knots, len(chart.yarns), deadline, made.times, most, progress=progress)
+
+
+def _heads(number: int) -> str:
+    return f"{number} {'head' if number == 1 else 'heads'}"
+
+
+def _hours(seconds: float) -> str:
+    return f"{format_number(seconds / hour, 3)} h"
