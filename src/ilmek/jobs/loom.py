@@ -12,7 +12,7 @@ from ilmek.errors import IlmekError, ParameterError, UnitError
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.wishes import Wishes, heads_for_wishes, require_price
 from ilmek.loom.programme import Programme, make_programme
-from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign
+from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Report, Result, at_most, must
@@ -126,7 +126,7 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
     """The loom for a chart, with the number of heads required, and its programme.
 
     A loom that cannot be designed is a result without design, with the reason as a failed check.
-    Raises ParameterError for settings and wishes that contradict each other.
+    Raises ParameterError for wishes that contradict each other, and the errors of a design that only settings prevent.
     """
     params = params_for(loom_order, order, chart)
     try:
@@ -135,7 +135,7 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
             chart.knots, len(chart.yarns), made.heads, made.times, progress=progress.part(0.7, 1.0)
         )
     except IlmekError as error:
-        if isinstance(error, ParameterError | UnitError) and loom_order.settings:
+        if loom_order.settings and _can_be_designed(_without_settings(params)):
             raise
         return LoomResult(_without_design(params, error), ())
     report = MACHINE.report(made)
@@ -166,6 +166,20 @@ def deadline_checks(deadline: float | None, programme: Programme) -> tuple[Check
         return ()
     cure = "give more time, more heads, or a coarser quality"
     return (at_most("weaving time", programme.duration, deadline, "h", "the deadline given", cure=cure),)
+
+
+def _without_settings(params: AutomatedLoomParams) -> AutomatedLoomParams:
+    """The parameters that follow from the carpet alone."""
+    names = ("width", "length", "knots_across", "knots_along", "knot", "colours", "knot_yarn", "changes_per_knot")
+    return replace(AutomatedLoomParams(), **{name: getattr(params, name) for name in names})
+
+
+def _can_be_designed(params: AutomatedLoomParams) -> bool:
+    try:
+        design(params)
+    except IlmekError:
+        return False
+    return True
 
 
 def _without_design(params: AutomatedLoomParams, error: IlmekError) -> Report:

@@ -81,10 +81,11 @@ def _table(found: list[Outcome], seconds: float) -> str:
     for one in found:
         codes[one.command][str(one.code)] += 1
         spent[one.command] += one.seconds
-    lines = [f"{'command':<12}{'inputs':>8}{'exit 0':>8}{'exit 2':>8}{'other':>8}{'s':>8}"]
+    lines = [f"{'command':<12}{'inputs':>8}{'exit 0':>8}{'exit 2':>8}{'exit 3':>8}{'other':>8}{'s':>8}"]
     for name, counted in sorted(codes.items()):
-        rest = counted.total() - counted["0"] - counted["2"]
-        lines.append(f"{name:<12}{counted.total():>8}{counted['0']:>8}{counted['2']:>8}{rest:>8}{spent[name]:>8.0f}")
+        rest = counted.total() - counted["0"] - counted["2"] - counted["3"]
+        shares = "".join(f"{counted[code]:>8}" for code in ("0", "2", "3"))
+        lines.append(f"{name:<12}{counted.total():>8}{shares}{rest:>8}{spent[name]:>8.0f}")
     slow = sorted(found, key=lambda one: -one.seconds)[:8]
     lines.append("slowest: " + ", ".join(f"{one.name} {one.command} {one.seconds:.1f} s" for one in slow))
     memory = max((one.memory for one in found), default=0)

@@ -19,6 +19,9 @@ from kills.commands import EXAMPLES, ROOT, Command, prepare
 
 SIGNALS = (signal.SIGKILL, signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 LONGEST = 120.0
+DONE = (0, 3)
+"""Exit codes of a command that is done; 3: a check fails."""
+
 """Time after which a command is taken to hang [s]."""
 
 _HIDDEN = re.compile(r"\..+\.(part|old)$|.*\.kept(\..+)?$")
@@ -186,7 +189,7 @@ def _next_run(made: Bench) -> list[str]:
         [sys.executable, "-m", "ilmek", *made.command.line(1)], cwd=made.folder, env=environment(), text=True,
         capture_output=True, check=False, timeout=LONGEST,
     )  # fmt: skip
-    if done.returncode or outputs(made.folder, made.command) != made.results[1]:
+    if done.returncode not in DONE or outputs(made.folder, made.command) != made.results[1]:
         return [f"the next run: status {done.returncode}, {done.stderr[-300:]!r}"]
     left = [path.name for path in made.folder.iterdir() if _HIDDEN.match(path.name)]
     return [f"left by the next run: {', '.join(left)}"] if left else []
@@ -223,7 +226,7 @@ def _wait(process: "subprocess.Popen[str]", seconds: float) -> None:
 def _succeed(arguments: list[str], folder: Path) -> None:
     line = [sys.executable, "-m", "ilmek", *arguments]
     done = subprocess.run(line, cwd=folder, env=environment(), text=True, capture_output=True, check=False)
-    if done.returncode:
+    if done.returncode not in DONE:
         raise SystemExit(f"{' '.join(arguments)}: status {done.returncode}, {done.stderr}")
 
 

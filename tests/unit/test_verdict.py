@@ -1,0 +1,198 @@
+"""The verdict as a user meets it: exit code, headline, JSON, page and files agree."""
+
+import json
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from ilmek.cli import main
+from ilmek.errors import MechanismError, ParameterError
+from ilmek.io.output import MANIFEST
+from ilmek.machines.catalogue import MACHINES
+from ilmek.machines.component import Component
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+MEDALLION = str(EXAMPLES / "medallion.png")
+SMALL = ("--size", "40x60cm", "--quality", "15x15/dm", "--no-pdf")
+FAILS = ("--loom", "head_width=20mm")
+"""A setting with which the loom is designed, and fails a check."""
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(main, arguments)
+
+
+@pytest.fixture
+def plain_page(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A page that is drawn at once; the true one has tests of its own."""
+    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.title)
+
+
+def judged(found: dict[str, Any]) -> int:
+    """The exit code that the checks of a JSON demand; its verdict agrees with them."""
+    failed = {check["name"] for check in found["checks"] if not check["ok"]}
+    assert {reason["name"] for reason in found["reasons"]} == failed
+    assert found["holds"] is not bool(failed)
+    weights = [weight(reason) for reason in found["reasons"]]
+    assert weights == sorted(weights, reverse=True)
+    return 3 if failed else 0
+
+
+def weight(reason: dict[str, Any]) -> float:
+    value, limit = reason["value"], reason["limit"]
+    ratio = value / limit if value is not None and limit else math.inf
+    return abs(math.log(ratio)) if math.isfinite(ratio) and ratio > 0 else math.inf
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_design_ends_as_its_checks_demand(name: str) -> None:
+    shown, found = run("design", name), run("design", name, "--json", "-")
+    assert shown.exit_code == found.exit_code == judged(json.loads(found.stdout))
+    assert re.match(r"(checks: \d+ passed|weaves: )", shown.stdout.splitlines()[1])
+
+
+def test_reasons_stand_below_the_headline_and_all_warnings_are_notes() -> None:
+    result = run("design", "knotting-four-bar")
+    assert result.exit_code == 3
+    found = json.loads(run("design", "knotting-four-bar", "--json", "-").stdout)
+    _, headline, *lines = result.stdout.splitlines()
+    assert headline == f"checks: {len(found['checks']) - len(found['reasons'])} passed, {len(found['reasons'])} failed"
+    assert [line.partition(":")[0].strip() for line in lines[: len(found["reasons"])]] == [
+        reason["name"] for reason in found["reasons"]
+    ]
+    assert all(f"note: {warning}" in result.stderr for warning in found["warnings"])
+
+
+def test_the_loom_states_whether_it_weaves() -> None:
+    result = run("design", "automated-loom", "--json", "-")
+    found = json.loads(result.stdout)
+    assert found["weaves"] is found["results"]["weaves"] is found["holds"] is (result.exit_code == 0)
+    assert found["row_pitch_left"] == found["results"]["row_pitch_left"] > 0
+    assert found["results"]["reasons"] == found["reasons"]
+    refused = json.loads(run("design", "automated-loom", "head_width=20mm", "--json", "-").stdout)
+    assert not refused["weaves"]
+    assert "weaver: cams beside each other" in {reason["name"] for reason in refused["reasons"]}
+
+
+@pytest.mark.usefixtures("plain_page")
+def test_a_loom_that_cannot_weave_gets_no_programme(tmp_path: Path) -> None:
+    out = str(tmp_path / "out")
+    first = run("weave", MEDALLION, *SMALL, "--out", out, "--json", "-")
+    found = json.loads(first.stdout)
+    assert first.exit_code == judged(found)
+    assert found["weaves"] is any(file.endswith("programme.ilmek") for file in found["files"])
+
+    refused = run("weave", MEDALLION, *SMALL, *FAILS, "--out", out, "--force")
+    assert refused.exit_code == 3
+    assert re.match(r"weaves: NO, \d+ reasons?\n  ", refused.stdout)
+    there = {path.name for path in (tmp_path / "out").iterdir()}
+    assert there == {"report.html", "report.json", "chart.png", "yarn.csv", "machine.json", MANIFEST}
+    found = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
+    assert (found["weaves"], found["holds"], judged(found)) == (False, False, 3)
+    assert not any(file.endswith("programme.ilmek") for file in found["files"])
+    machine = json.loads((tmp_path / "out" / "machine.json").read_text(encoding="utf-8"))
+    assert not machine["weaves"]
+    assert machine["reasons"]
+
+
+def test_the_page_of_a_loom_that_cannot_weave_is_red(tmp_path: Path) -> None:
+    run("weave", MEDALLION, "--size", "20x30cm", "--quality", "10x10/dm", *FAILS, "--out", str(tmp_path / "out"))
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert '<div class="answer bad" role="alert">' in page
+    assert "The loom cannot weave this carpet, and there is no programme." in page
+    found = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
+    assert all(reason["cure"] in page for reason in found["reasons"])
+
+
+@pytest.mark.parametrize(("name", "kind"), [("knotting-four-bar", "bad"), ("warp-tension", "good")])
+def test_the_page_of_a_machine_begins_with_its_verdict(tmp_path: Path, name: str, kind: str) -> None:
+    page = tmp_path / "page.html"
+    run("design", name, "--report", str(page))
+    main_part = page.read_text(encoding="utf-8").partition("<main>")[2].lstrip()
+    assert main_part.startswith(f'<div class="answer {kind}"')
+
+
+def cannot(*_: object) -> None:
+    raise MechanismError("the crank cannot close", do="take a longer coupler")
+
+
+@pytest.mark.usefixtures("plain_page")
+def test_a_loom_that_cannot_be_designed_leaves_chart_yarn_and_the_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for module in ("loom", "wishes"):
+        monkeypatch.setattr(f"ilmek.jobs.{module}.design", cannot)
+    result = run("weave", MEDALLION, *SMALL, "--deadline", "90h", "--out", str(tmp_path / "out"), "--json", "-")
+    found = json.loads(result.stdout)
+    assert (result.exit_code, found["weaves"], found["heads"], found["row_pitch_left"]) == (3, False, None, None)
+    (reason,) = found["reasons"]
+    assert (reason["name"], reason["cure"]) == ("the loom can be designed", "take a longer coupler")
+    assert next(c for c in found["checks"] if not c["ok"])["source"] == "the crank cannot close"
+    assert {Path(file).name for file in found["files"]} >= {"chart.png", "yarn.csv", "machine.json", "report.html"}
+    assert not (tmp_path / "out" / "programme.ilmek").exists()
+
+
+def test_a_setting_that_prevents_a_design_is_bad_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def contradicting(*_: object) -> None:
+        raise ParameterError("the spacer is heavier than its beam")
+
+    monkeypatch.setattr("ilmek.jobs.wishes.design", contradicting)
+    result = run("weave", MEDALLION, *SMALL, "--loom", "margin=60mm", "--out", str(tmp_path / "out"))
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert "heavier than its beam" in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("wishes", "named"),
+    [
+        (("--heads", "2", "--deadline", "3h"), ("2 heads weave it in", "3 h needs", "heads of 80 mm fit 0.8 m")),
+        (("--heads", "40"), ("40 heads", "heads of 80 mm fit 0.8 m")),
+        (("--deadline", "1h"), ("the deadline of 1 h", "heads of 80 mm fit 0.8 m")),
+        (("--loom", "price_limit=10"), ("the price is to be at most 10", "this loom costs", "weave the carpet in")),
+        (
+            ("--heads", "2", "--deadline", "3h", "--loom", "price_limit=10"),
+            ("2 heads weave it in", "3 h needs", "heads of 80 mm fit", "at most 10"),
+        ),
+    ],
+)
+def test_wishes_that_contradict_are_named_together(
+    tmp_path: Path, wishes: tuple[str, ...], named: tuple[str, ...]
+) -> None:
+    size = ("--size", "80x80cm", "--quality", "15x15/dm", "--no-pdf", "--out", str(tmp_path / "out"))
+    result = run("weave", MEDALLION, *size, *wishes)
+    assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+    assert all(text in result.stderr for text in ("the wishes contradict each other", *named)), result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.usefixtures("plain_page")
+def test_heads_and_a_deadline_that_agree_are_both_kept(tmp_path: Path) -> None:
+    size = ("--size", "80x80cm", "--quality", "15x15/dm", "--no-pdf", "--out", str(tmp_path / "out"))
+    result = run("weave", MEDALLION, *size, "--heads", "2", "--deadline", "90h", "--json", "-")
+    found = json.loads(result.stdout)
+    assert found["heads"] == 2
+    assert next(check for check in found["checks"] if check["name"] == "weaving time")["ok"]
+
+
+def test_the_chart_and_the_cyclogram_end_with_their_checks(tmp_path: Path) -> None:
+    thick = run("chart", MEDALLION, "--size", "20x30cm", "--quality", "80x100/dm", "--json", "-")
+    assert thick.exit_code == judged(json.loads(thick.stdout)) == 3
+    press = str(EXAMPLES / "press.toml")
+    given, solved = run("cyclogram", press, "--json", "-"), run("cyclogram", press, "--solve", "period", "--json", "-")
+    assert given.exit_code == judged(json.loads(given.stdout)) == 3
+    assert solved.exit_code == judged(json.loads(solved.stdout)) == 0
+
+
+def test_every_choice_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = json.loads(run("design", "automated-loom", "--json", "-").stdout)
+    assert {"name", "chosen", "decided_by", "next_cheaper", "failed"} == found["choices"][0].keys()
+    assert {"beat", "heads"} <= {choice["name"] for choice in found["choices"]}
+    shown = run("design", "automated-loom").stdout
+    assert "decided by" in shown
+    machine: Component = MACHINES["automated-loom"]
+    assert [choice.name for choice in machine.report_for({}).all_choices] == [one["name"] for one in found["choices"]]
