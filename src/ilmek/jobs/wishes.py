@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass, replace
 
 from ilmek.carpet.chart import Chart
-from ilmek.errors import ParameterError
+from ilmek.errors import LoomError, ParameterError
 from ilmek.loom.programme import least_heads, weaving_time
-from ilmek.loom.sharing import MOST_HEADS, heads_that_fit
+from ilmek.loom.sharing import MOST_HEADS
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Report
@@ -31,13 +31,17 @@ def heads_for_wishes(
 
     Raises ParameterError, naming every wish, where they cannot all hold; the errors of the loom's design.
     """
-    fit = heads_that_fit(chart.columns, 2 * params.pitch, params.head_width)
-    made = design(params if (wishes.heads or 1) <= fit else replace(params, heads=fit))
-    if (wishes.heads or 1) > fit:
+    try:
+        made = design(params)
+    except LoomError:
+        made = design(replace(params, heads=1))
+        if (wishes.heads or 1) <= made.heads_max:
+            raise
+    if (wishes.heads or 1) > made.heads_max:
         raise _contradiction(wishes, made, chart)
     if wishes.deadline is None or _time(made, chart, made.heads, wishes.deadline) <= wishes.deadline:
         return made
-    needed = _needed(wishes.deadline, made, chart, fit, progress)
+    needed = _needed(wishes.deadline, made, chart, made.heads_max, progress)
     if needed is None or wishes.heads is not None:
         raise _contradiction(wishes, made, chart)
     return design(replace(params, heads=needed))
@@ -64,7 +68,7 @@ def _contradiction(wishes: Wishes, made: LoomDesign, chart: Chart) -> ParameterE
         parts.append(f"{_heads(wishes.heads)} weave it in {shown}" if shown else _heads(wishes.heads))
     if wishes.deadline is not None:
         parts.append(_deadline_needs(wishes.deadline, made, chart))
-    width = format_quantity(made.params.width, "m"), format_quantity(made.params.head_width, "mm")
+    width = format_quantity(made.params.width, "m"), format_quantity(made.head_width, "mm")
     reached = _hours(_time(made, chart, fit))
     parts.append(f"at most {fit} heads of {width[1]} fit {width[0]}, they weave it in {reached}")
     if wishes.price is not None:
