@@ -64,7 +64,7 @@ def clearances(section: WarpSection, arm: SwivelledArm) -> tuple[LeastDistance, 
     found = least("arms to warps", warps, (speed,))
     both = least("arm to arm", arms, (speed, speed))
     u, v = both.at
-    centre = float(section.pitch / 2 - (section.warp + section.needle) / 2)
+    centre = float(section.pair / 2 - (section.warp + section.needle) / 2)
     return (
         found,
         LeastDistance(both.name, both.value, (u * (1 - v / 2), u * v / 2), both.sure),

@@ -5,12 +5,20 @@ link ends. The yarn pulls at the tip against its motion with the force F across 
 warps, x from the clamp of the length L, by
 
     y = F x² (3 L - x) / 6 E I,      I = breadth d³/12                            [cantilever with a force at its end]
+
+Along itself it bears pi² E I / 4 L² before it buckles [Euler, clamped and free]. The yarn must reach from gripper to
+gripper: as the arms rest, a apart, with their tips f above the warps; while an end is handed over, at the depth h; and
+round the pair in the finished knot, on the radius r = (D + d)/2, with both ends at rest:
+
+    a,      |rest - warp| + pi r + |hand-over - warp|,      wrap + 2 f                       and two tails that are held
 """
 
+import math
 from dataclasses import asdict
 
 import numpy as np
 
+from ilmek.elements.knot_kinds import WRAPS
 from ilmek.elements.materials import MATERIALS
 from ilmek.linkage.swivelled_arm import ArmPath, SwivelledArm
 from ilmek.machines.knotting_dyad.clearance import clearances
@@ -49,6 +57,9 @@ class Head:
     least: tuple[LeastDistance, ...]
     tied: TiedKnot
     bent: float = result("um", "deflection of the needle by the yarn's pull, at the warps' axes", name="needle_bent")
+    buckling: float = result("N", "load along the needle under which it buckles", name="needle_buckling")
+    yarn_needed: float = result("mm", "pile yarn that the arms need for a knot")
+    width: float = result("mm", "width that both arms and their motors take, along the row", name="arms_width")
 
     clearances = computed(
         "", "each least distance over the cycle [m]", lambda it: {one.name: one.value for one in it.least}
@@ -97,7 +108,38 @@ def head_of(params: KnottingDyadParams, section: WarpSection, arm: SwivelledArm)
         least=clearances(section, arm),
         tied=tied_by(section, arm, phases),
         bent=needle_deflection(params, section, arm),
+        buckling=buckling_load(params, section),
+        yarn_needed=yarn_of(params, section, arm),
+        width=width_of(params, section, arm),
     )
+
+
+def needle_inertia(params: KnottingDyadParams, section: WarpSection) -> float:
+    """Second moment of area of the needle's section, in the plane of the section across the warps [m⁴]."""
+    return params.needle_breadth * section.needle**3 / 12
+
+
+def buckling_load(params: KnottingDyadParams, section: WarpSection) -> float:
+    """Load along the needle under which it buckles [N]: pi² E I / 4 L²."""
+    return math.pi**2 * STEEL.modulus * needle_inertia(params, section) / (4 * section.needle_length**2)
+
+
+def yarn_of(params: KnottingDyadParams, section: WarpSection, arm: SwivelledArm) -> float:
+    """Pile yarn that the arms need for a knot [m], both tails held included."""
+    rest, radius = complex(arm.tip(np.array([0.0]))[0]), (section.warp + params.yarn) / 2
+    apart = 2 * (section.middle - rest.real)
+    # The other arm, at rest, is the mirror image; the yarn goes from it to the first warp of the pair, and behind.
+    other = complex(2 * section.middle - rest.conjugate())
+    handed = abs(other) + math.pi * radius + abs(section.handover)
+    wrap = WRAPS[params.knot](section.pair, radius)
+    return max(apart, handed, wrap + 2 * section.front) + 2 * params.tail
+
+
+def width_of(params: KnottingDyadParams, section: WarpSection, arm: SwivelledArm) -> float:
+    """Width that both arms take over their motion [m]: pivots with their motors, links."""
+    motor = arm.pivot.real - params.pivot_room / 2
+    links = float(np.min(arm.elbow(np.linspace(0.0, 1.0, BENDING_SAMPLES)).real)) - params.link_width / 2
+    return 2 * (section.middle - min(motor, links))
 
 
 def needle_deflection(params: KnottingDyadParams, section: WarpSection, arm: SwivelledArm) -> float:
@@ -107,6 +149,6 @@ def needle_deflection(params: KnottingDyadParams, section: WarpSection, arm: Swi
     turn = arm.path(s).first[:, 1] * beyond  # the tip across the needle, by s; along it the stroke
     across = params.yarn_pull * np.abs(turn) / np.hypot(turn, arm.stroke)
     x = length - np.maximum(beyond, 0.0)
-    inertia = params.needle_breadth * section.needle**3 / 12
+    inertia = needle_inertia(params, section)
     bent = across * x**2 * (3 * length - x) / (6 * STEEL.modulus * inertia)
     return float(np.max(bent[beyond >= 0]))

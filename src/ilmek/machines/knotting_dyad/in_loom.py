@@ -1,8 +1,7 @@
-"""The knotting arms in a loom: their parameters for the carpet's pitch and knot, their parts and work.
+"""The knotting arms in a loom: their parameters for the carpet's warps, pile and knot, their parts and work.
 
-The mass per length of a warp is proportional to its pitch, as the thesis' tension is, so its diameter is proportional
-to the root of the pitch: 0.8 mm at 2 mm. The needles take a share of the gap that is left, up to their usual thickness.
-The finer the pitch, the thinner the needle, until the yarn deflects it into the warps: then arms cannot tie the carpet.
+An opener gives the needles their room at every pitch. So a needle keeps its usual thickness; what a fine pitch limits is
+the opener, which enters between two warps and crowds their neighbours.
 """
 
 import numpy as np
@@ -14,30 +13,17 @@ from ilmek.machines.knotting_dyad.motion import drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.loom_task import LoomTask
 from ilmek.report import Part, Work
-from ilmek.units import format_quantity, mm
-
-WARP, PITCH = 0.8 * mm, 2 * mm
-"""Diameter of a taut warp [m] at a pitch [m]."""
-
-NEEDLE, NEEDLE_SHARE, CLEARANCE, CLEARANCE_SHARE = 0.5 * mm, 0.4, 0.1 * mm, 0.1
-"""Usual diameter of a needle [m], and its largest share of the gap between two warps; of the clearance likewise."""
-
-CLOSEST = 0.9
-"""Diameter of a warp over its pitch at most."""
+from ilmek.units import format_quantity
 
 
 def params_for(task: LoomTask) -> KnottingDyadParams:
-    """The parameters of the arms of a loom. Raises ParameterError for a pitch out of the bounds of its lengths."""
-    pitch = task.params.pitch
-    warp = task.yarns.warp.diameter
-    gap = pitch - warp
+    """The parameters of the arms of a loom."""
     return KnottingDyadParams(
         knot=task.params.knot,
-        warp_pitch=pitch,
-        warp_diameter=warp,
-        needle_diameter=min(NEEDLE, NEEDLE_SHARE * gap),
-        clearance=min(CLEARANCE, CLEARANCE_SHARE * gap),
+        warp_pitch=task.params.pitch,
+        warp_diameter=task.yarns.warp.diameter,
         yarn_diameter=task.yarns.pile.diameter,
+        yarn_pressed=task.yarns.pressed,
     )
 
 

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
+from ilmek.elements.carpet_yarns import PILE_DENSITY, usual_warp
+from ilmek.elements.yarns import WOOL, pressed_thickness
 from ilmek.errors import ParameterError
 from ilmek.params import Params, kind
 from ilmek.params.text_lists import read_angles, read_points
@@ -21,14 +23,23 @@ class KnottingDyadParams(Params):
     knot: str = kind.choice("symmetric", ("symmetric", "asymmetric"), doc="knot to tie")
     opens: str = kind.choice("left", ("left", "right"), doc="side on which an asymmetric knot is open")
     warp_pitch: float = _size(2 * mm, "distance between two warps", "p")
-    warp_diameter: float = _size(0.8 * mm, "diameter of a warp", "D")
-    yarn_diameter: float = _size(0.8 * mm, "diameter of the pile yarn")
-    opening: float = kind.length(
-        0.0,
+    warp_diameter: float | None = _size(None, "diameter of a warp; default: of the usual warp", "D")
+    yarn_diameter: float | None = _size(None, "diameter of the pile yarn; default: of wool, 0.8 g/m")
+    yarn_pressed: float | None = _size(
+        None, "its thickness pressed beside a needle; default: of wool, packed to 0.65, flat", "w"
+    )
+    opening: float | None = kind.length(
+        None,
         at_least=0.0,
         at_most=50 * mm,
-        doc="displacement of the pair's neighbours by a warp opener",
+        doc="by which a warp opener widens the gaps beside the pair; default: room for needle and yarn",
         symbol="o",
+    )
+    pair_opened: float | None = kind.length(
+        None,
+        above=0.0,
+        at_most=50 * mm,
+        doc="the pair of warps in the opener's slots; default: the pitch, or room for needle and yarn",
     )
     needle_diameter: float = _size(0.5 * mm, "diameter of the grippers where they pass between warps", "d")
     needle_breadth: float = _size(2 * mm, "breadth of the arms' needles, blades, along the warps")
@@ -72,6 +83,10 @@ class KnottingDyadParams(Params):
     link_thickness: float = _size(3 * mm, "thickness of the links, across their plane")
     density: float = kind.density(2700.0, above=0.0, at_most=1e5, doc="density of the links; aluminium")
     gripper_mass: float = kind.mass(2 * g, unit="g", at_least=0.0, at_most=10.0, doc="mass of an arm's gripper")
+    tail: float = kind.length(2 * mm, at_least=0.0, at_most=0.05, doc="yarn held in a gripper, each end")
+    buckling_safety: float = kind.ratio(
+        3.0, at_least=1.0, at_most=100.0, doc="load under which a needle buckles, over the yarn's pull, at least"
+    )
     yarn_pull: float = kind.force(0.5, at_least=0.0, at_most=1e4, doc="force of the yarn against the tip that leads it")
     gravity: float = kind.acceleration(
         9.81, at_least=0.0, at_most=1e3, doc="gravity, in the section's plane and away from the pile; 0: horizontal"
@@ -101,15 +116,23 @@ class KnottingDyadParams(Params):
         points, angles = read_points("points", self.points), read_angles("angles", self.angles)
         require_task("timed point", points, angles, 4, "knotting-dyad")
 
+    @property
+    def warp(self) -> float:
+        """Diameter of a warp [m]."""
+        return self.warp_diameter or usual_warp(self.warp_pitch).diameter
+
+    @property
+    def yarn(self) -> float:
+        """Diameter of the pile yarn [m]."""
+        return self.yarn_diameter or WOOL.diameter(PILE_DENSITY)
+
+    @property
+    def pressed(self) -> float:
+        """Thickness of the pile yarn pressed beside a needle [m]."""
+        return self.yarn_pressed or pressed_thickness(PILE_DENSITY, WOOL)
+
     def _check_section(self) -> None:
-        if self.warp_pitch <= self.warp_diameter:
-            raise ParameterError(
-                f"warps of {format_quantity(self.warp_diameter, 'mm')} at a pitch of "
-                f"{format_quantity(self.warp_pitch, 'mm')} touch each other",
-                allowed=f"a pitch above {format_quantity(self.warp_diameter, 'mm')}",
-                do="take a finer warp, or a wider pitch",
-            )
-        least = (self.warp_diameter + self.needle_diameter) / 2
+        least = (self.warp + self.needle_diameter) / 2
         if self.leg < least + self.clearance:
             raise ParameterError(
                 f"ends taken {format_quantity(self.leg, 'mm')} above the warps' axes are among the warps",

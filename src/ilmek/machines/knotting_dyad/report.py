@@ -14,7 +14,7 @@ from ilmek.machines.knotting_dyad.section import GREATEST_DEPTH, WarpSection
 from ilmek.machines.knotting_dyad.yarn import MISSED
 from ilmek.num.brackets import bracketed_roots
 from ilmek.records import group, record
-from ilmek.report import Check, Figure, Table, at_least, at_most, columns
+from ilmek.report import Check, Figure, Table, at_least, at_most, columns, must
 from ilmek.synthesis.dyad import RootKind
 from ilmek.timing.path_speed.solve import TOLERANCE
 from ilmek.units import format_quantity
@@ -71,14 +71,78 @@ def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
 def _head_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
     section = head.section
     apart = float(abs(head.arm.tip(np.array([1.0]))[0] - section.handover))
-    gap, tied = section.pitch - section.warp, 1.0 if head.knot_tied else 0.0
+    tied, both = 1.0 if head.knot_tied else 0.0, section.needle + section.yarn
+    pressed = "thickness of the pressed pile assumed by this project: yarns.pressed_packing, yarns.flattening"
+    opened = "leave opening and pair_opened to the design, or set a finer pile yarn"
+    pivots = 2 * (section.middle - head.arm.pivot.real)
     return (
-        at_least("the knot asked for is tied, proved: 1", tied, 1.0, "", "word of the yarn's path"),
-        at_least("clearance over the whole cycle", head.clearance_min, section.required - ROUNDING, "mm", "clearance"),
-        at_most("needle bent aside by the yarn", head.bent, max(head.clearance_min, 0.0), "um", "clearance_min"),
+        at_least(
+            "the knot asked for is tied, proved: 1", tied, 1.0, "", "word of the yarn's path", cure="leave the sequence"
+        ),
+        at_least(
+            "clearance over the whole cycle",
+            head.clearance_min,
+            section.required - ROUNDING,
+            "mm",
+            "clearance",
+            cure=_remedy(params, section),
+        ),
+        at_most(
+            "needle bent aside by the yarn",
+            head.bent,
+            max(head.clearance_min, 0.0),
+            "um",
+            "clearance_min; pull of the yarn assumed by this project: parameter yarn_pull",
+            cure="set a broader or thicker needle, narrower links, or a larger opening",
+        ),
+        at_least(
+            "needle against buckling under the yarn's pull",
+            head.buckling,
+            params.buckling_safety * params.yarn_pull,
+            "N",
+            "Euler; assumed by this project: parameters buckling_safety, yarn_pull",
+            cure="set a broader or thicker needle, or narrower links",
+        ),
         at_most("arm and centre gripper apart at the hand-over", apart, MISSED, "um", "grip of the tips"),
         at_most(
-            "pile yarn in the gap between the warps", params.yarn_diameter, gap, "mm", "warp_pitch - warp_diameter"
+            "pile yarn in the gap between the warps",
+            section.yarn,
+            min(section.between, section.beside),
+            "mm",
+            f"gaps of the opened warps; {pressed}",
+            cure=opened,
+        ),
+        at_most(
+            "needle and pile yarn together, beside the pair",
+            both,
+            section.beside,
+            "mm",
+            f"room across the needle; {pressed}",
+            cure=opened,
+        ),
+        at_most(
+            "needle and pile yarn together, between the pair",
+            both,
+            section.between,
+            "mm",
+            f"gap of the pair; {pressed}",
+            cure=opened,
+        ),
+        at_least(
+            "gap between two warps",
+            section.pitch - section.warp,
+            0.0,
+            "mm",
+            "warps beside each other",
+            cure="set a thinner warp, or a wider pitch",
+        ),
+        at_least(
+            "room of the motors between the pivots",
+            pivots,
+            params.pivot_room,
+            "mm",
+            "parameter pivot_room",
+            cure="set a larger link_limit, or a smaller pivot_room",
         ),
     )
 
@@ -87,6 +151,12 @@ def _motion_checks(motion: HeadMotion) -> tuple[Check, ...]:
     used = "greatest use of a drive's limit: speed, acceleration, jerk"
     return (
         at_most(used, motion.cycle.usage, 1 + TOLERANCE, "1", "limits of joints and centre gripper"),
+        must(
+            "servos of the joints",
+            all(joint.motor for joint in motion.joints),
+            "servos of the table",
+            cure="set a lower joint_acceleration, or a gear_ratio",
+        ),
         at_most("power balance of the torques", motion.power_error, BALANCE, "1", "virtual power"),
     )
 
@@ -136,12 +206,12 @@ def _motion_warnings(motion: HeadMotion) -> tuple[str, ...]:
 
 def _remedy(params: KnottingDyadParams, section: WarpSection) -> str:
     """How the needle gets its room."""
-    pair = section.pitch - section.warp - 2 * section.required
+    pair = section.pair - section.warp - 2 * section.required
     if pair < section.needle:
         fine = f"take a needle of {format_quantity(pair, 'mm', 3)} or less" if pair > ROUNDING else "take finer warps"
-        return f"{fine}, or a pitch of {format_quantity(section.pitch + section.needle - pair, 'mm', 3)} or more"
+        return f"{fine}, or a pair of warps {format_quantity(section.pair + section.needle - pair, 'mm', 3)} apart"
     cosine = (section.warp + section.needle + 2 * section.required) / section.outer
-    across = (section.pitch + section.outer) / 2
+    across = (section.pair + section.outer) / 2
     thin = section.needle - 2 * (section.required - section.clearance_bound)
     remedies = [f"a needle of {format_quantity(thin, 'mm', 3)}"] if thin > 0 else []
     if cosine < 1:
@@ -149,8 +219,8 @@ def _remedy(params: KnottingDyadParams, section: WarpSection) -> str:
     opening = _opening(section)
     if opening is not None:
         remedies.append(f"an opening of {format_quantity(opening, 'mm', 3)}")
-    limit = "" if params.depth else f" (unless given, the depth is {GREATEST_DEPTH:g} pitches at most)"
-    return f"try {' or '.join(remedies)}{limit}"
+    limit = "" if params.depth else f" (unless given, the depth is {GREATEST_DEPTH:g} gaps at most)"
+    return f"try {' or '.join(remedies)}{limit}" if remedies else "take finer warps, or a wider pitch"
 
 
 def _opening(section: WarpSection) -> float | None:
@@ -158,7 +228,7 @@ def _opening(section: WarpSection) -> float | None:
 
     def spare(opening: FloatArray) -> FloatArray:
         outer = section.pitch + opening
-        cosine = np.cos(np.arctan2((section.pitch + outer) / 2, section.depth))
+        cosine = np.cos(np.arctan2((section.pair + outer) / 2, section.depth))
         return np.asarray(outer / 2 * cosine - (section.warp + section.needle) / 2 - section.required)
 
     low, high = section.outer - section.pitch, section.outer + 8 * section.pitch

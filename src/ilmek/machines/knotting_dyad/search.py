@@ -10,7 +10,8 @@ greatest that the section has. Of the arms that fit the one is taken whose links
 
     (a1² + a2²) (|dth1| + |dth2|)        inertia and swing
 
-A grid of all three, then finer ones about the best: no chance in it, the same arm every time.
+A grid of all three, then finer ones about the best: no chance in it, the same arm every time. Where no arm keeps every
+limit, the one that misses the fewest is taken, and the checks of the head fail.
 """
 
 from dataclasses import dataclass
@@ -28,13 +29,16 @@ from ilmek.units import format_quantity
 GRID, ZOOM, ROUNDS, SHRINK = (20, 21, 40), 9, 8, 0.45
 """Values of a2, phi0 and t at first; then of each, how often, and by how much the grid shrinks."""
 
+LONGER, MISSED = 1.25, 1e3
+"""Links that are tried where the second one alone is over its limit, over it; cost of a limit that is missed."""
+
 SAMPLES = 17
 """Positions on the path at which tilt and sides are checked."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Tried:
-    """Arms of a grid, each by its number; `cost` is infinite where one does not fit."""
+    """Arms of a grid, each by its number; `cost` has MISSED for each limit missed, and is infinite where none is."""
 
     pivot: ComplexArray
     first: FloatArray
@@ -44,11 +48,9 @@ class _Tried:
 
 
 def best_arm(params: KnottingDyadParams, section: WarpSection) -> SwivelledArm:
-    """The left arm. Raises ParameterError where none fits."""
+    """The left arm. Raises ParameterError where there is none."""
     least = section.needle_length + params.link_width
-    limit = params.link_limit
-    if least > limit:
-        raise _none(params, f"the second link alone needs {format_quantity(least, 'mm')}")
+    limit = max(params.link_limit, LONGER * least)
     seconds = np.geomspace(least, limit, GRID[0])
     tilts = np.linspace(-section.tilt, section.tilt, GRID[1])
     offsets = np.geomspace(section.reach / 10, limit, GRID[2] // 2)
@@ -60,7 +62,7 @@ def best_arm(params: KnottingDyadParams, section: WarpSection) -> SwivelledArm:
     tried = _tried(params, section, at, signs[number])
     chosen = int(np.argmin(tried.cost))
     if not np.isfinite(tried.cost[chosen]):
-        raise _none(params, "none reaches the hand-over bent enough, on its own side")
+        raise _none(params, "none reaches the hand-over")
     steps = np.array([axis[1] - axis[0] for axis in axes])
     return _refined(params, section, at[chosen], steps, float(signs[number[chosen]]))
 
@@ -94,13 +96,19 @@ def _tried(params: KnottingDyadParams, section: WarpSection, at: Float[np.ndarra
     pivot = (E0 + E1) / 2 + offset * 1j * (E1 - E0) / np.abs(E1 - E0)
     first, side = np.abs(pivot - E0), np.sign(cross(pivot - gap, E0 - gap))
     with np.errstate(invalid="ignore", divide="ignore"):
-        fits = (side == np.sign(cross(pivot - gap, E1 - gap))) & (np.abs(tilt) <= section.tilt)
-        fits &= (np.maximum(first, second) <= params.link_limit) & (r1 > 0)
-        fits &= second >= section.needle_length + params.link_width
-        fits &= _bent(np.abs(pivot - gap), first, r0, r1) >= np.sin(params.bend_limit)
-        fits &= _pivot_clear(params, section, pivot) & _own_side(section, pivot, first, second, side)
+        bent = _bent(np.abs(pivot - gap), first, r0, r1)
+        there = (side == np.sign(cross(pivot - gap, E1 - gap))) & (r1 > 0) & (bent > 0)
+        limits = (
+            np.abs(tilt) <= section.tilt,
+            np.maximum(first, second) <= params.link_limit,
+            second >= section.needle_length + params.link_width,
+            bent >= np.sin(params.bend_limit),
+            _pivot_clear(params, section, pivot),
+            _own_side(section, pivot, first, second, side),
+        )
+        missed = sum(~one for one in limits)
         turns = np.abs(np.angle((E1 - pivot) / (E0 - pivot))) + np.abs(tilt - section.tilt)
-    cost = np.where(fits, (first**2 + second**2) * turns, np.inf)
+    cost = np.where(there, (first**2 + second**2) * turns + MISSED * missed, np.inf)
     return _Tried(pivot, first, second, side, cost)
 
 

@@ -1,17 +1,25 @@
 """The section across the warps that the head works in: warps, gaps, hand-over, and the clearance of a needle.
 
-The knot's pair stands at 0 and p. Its neighbours, NEIGHBOURS on each side, stand in the same pitch, and aside by the
-opening o of a warp opener, which holds the pair in two slots and pushes the rest away [thesis 2.2.3, Fig 2.14]. So the
-gaps outside the pair are g = p + o wide between axes, their middles lie g/2 outside the pair.
+A warp opener holds the knot's pair at 0 and e in two slots, as far apart as the pitch p or farther, and pushes the rest
+away [thesis 2.2.3, Fig 2.14]. The gaps outside the pair are g = p + o wide between axes, their middles lie g/2 outside
+the pair; the neighbours, NEIGHBOURS on each side, stand in the pitch.
 
 A needle of diameter d through the middle of such a gap, tilted by phi, stays off both warps of diameter D by
 
     c = (g/2) cos phi - (D + d)/2
 
-To hand over on the line between the pair, h behind the warps' axes, it tilts by phi with tan phi = (p + g)/2h. So the
+To hand over on the line between the pair, h behind the warps' axes, it tilts by phi with tan phi = (e + g)/2h. So the
 clearance c cannot be greater than this, whatever the arm; and it requires the depth
 
-    h = (p + g) / 2 tan phi,     cos phi = (D + d + 2c)/g,     possible where D + d + 2c < g
+    h = (e + g) / 2 tan phi,     cos phi = (D + d + 2c)/g,     possible where D + d + 2c < g
+
+Beside the needle lies the end that it leads, pressed to the thickness w. Several ends in a gap lie above one another
+along the warps, so one counts:
+
+    d + w <= g cos phi - D      beside the pair          d + w <= e - D      between the pair
+
+With the usual depth h = e + g, tan phi = 1/2: e and g are chosen as the least that give needle and yarn this room, with
+the clearance c on both sides where that is more.
 """
 
 import math
@@ -28,7 +36,10 @@ NEIGHBOURS = 6
 """Warps on each side of the pair that must be passed clear."""
 
 USUAL_DEPTH, GREATEST_DEPTH = 2.0, 4.0
-"""Depth of the hand-over, over the pitch: as a rule, and at most, where the clearance requires more."""
+"""Depth of the hand-over over the mean of e and g: as a rule, and at most, where the clearance requires more."""
+
+USUAL_COSINE = USUAL_DEPTH / math.hypot(USUAL_DEPTH, 1.0)
+"""Cosine of the needle's tilt at the usual depth."""
 
 SPARE = 1 * mm
 """Room between wide links and warps, besides the clearance."""
@@ -40,22 +51,32 @@ class WarpSection:
 
     pitch    p                   outer   g, width of the outer gaps between axes      front  height of the ends at rest
     warp     diameter D          needle  diameter d of both needles and of the        width  of the links
-    required clearance                   centre gripper
+    required clearance                   centre gripper                               yarn   pressed, w
     """
 
     pitch: float
-    outer: float
+    pair: float = result("mm", "distance e of the pair of warps in the opener's slots", name="pair_opened")
+    outer: float = result("mm", "distance g from a warp of the pair to its neighbour", name="gap_opened")
     warp: float
     needle: float
     depth: float = result("mm", "depth h of the hand-over behind the warps' axes", name="handover_depth")
     front: float
     width: float
     required: float
+    yarn: float
 
     @computed("mm", "greatest clearance of any needle, and of the centre gripper, at this depth")
     def clearance_bound(self) -> float:
         outer = self.outer / 2 * math.cos(self.tilt)
-        return min(outer, self.pitch / 2) - (self.warp + self.needle) / 2
+        return min(outer, self.pair / 2) - (self.warp + self.needle) / 2
+
+    @computed("mm", "room across the needle beside the pair, between the warps", name="gap_room")
+    def beside(self) -> float:
+        return self.outer * math.cos(self.tilt) - self.warp
+
+    @computed("mm", "room between the pair of warps", name="pair_room")
+    def between(self) -> float:
+        return self.pair - self.warp
 
     @computed("mm", "from the tip to where the second link grows wide")
     def needle_length(self) -> float:
@@ -65,7 +86,7 @@ class WarpSection:
 
     @computed("deg", "tilt of the needle from upright, at the hand-over", name="needle_tilt")
     def tilt(self) -> float:
-        return math.atan2((self.pitch + self.outer) / 2, self.depth)
+        return math.atan2((self.pair + self.outer) / 2, self.depth)
 
     @property
     def gap(self) -> complex:
@@ -75,7 +96,7 @@ class WarpSection:
     @property
     def middle(self) -> float:
         """Abscissa of the line between the pair [m]: of the centre gripper, and of the mirror."""
-        return self.pitch / 2
+        return self.pair / 2
 
     @property
     def handover(self) -> complex:
@@ -96,23 +117,36 @@ class WarpSection:
     def warps(self) -> Complex[np.ndarray, " warps"]:
         """Positions of all warps from left to right [m]; the pair are numbers NEIGHBOURS + 1 and + 2."""
         left = -self.outer - self.pitch * np.arange(NEIGHBOURS)[::-1]
-        return np.concatenate([left, [0.0, self.pitch], self.pitch - left[::-1]]) + 0j
+        return np.concatenate([left, [0.0, self.pair], self.pair - left[::-1]]) + 0j
 
 
 def section_of(params: KnottingDyadParams) -> WarpSection:
-    """The section of the parameters; its depth chosen for the clearance where none is given."""
-    outer = params.warp_pitch + params.opening
-    depth = params.depth or _depth(params, outer)
+    """The section of the parameters; what they leave open is chosen for needle and yarn, the depth for the clearance."""
+    content = params.needle_diameter + max(params.pressed, 2 * params.clearance)
+    pitch, room = params.warp_pitch, params.warp + content
+    pair = params.pair_opened or max(pitch, room)
+    outer = max(pitch, _gap(room, pair, params.depth)) if params.opening is None else pitch + params.opening
     return WarpSection(
-        params.warp_pitch,
+        pitch,
+        pair,
         outer,
-        params.warp_diameter,
+        params.warp,
         params.needle_diameter,
-        depth,
+        params.depth or _depth(params, pair, outer),
         params.leg,
         params.link_width,
         params.clearance,
+        params.pressed,
     )
+
+
+def _gap(room: float, pair: float, depth: float | None) -> float:
+    """The least g with g cos phi = room [m]; of a given depth h with  g² = room² (1 + (e + g)²/4h²)."""
+    usual = room / USUAL_COSINE
+    if depth is None or room >= 2 * depth:  # at this depth no gap is enough; a check fails
+        return usual
+    share = (room / (2 * depth)) ** 2
+    return (share * pair + math.sqrt(share**2 * pair**2 + (1 - share) * (share * pair**2 + room**2))) / (1 - share)
 
 
 def knot_of(params: KnottingDyadParams) -> Knot:
@@ -120,9 +154,9 @@ def knot_of(params: KnottingDyadParams) -> Knot:
     return knot(params.knot, NEIGHBOURS + 1, opens=params.opens)
 
 
-def _depth(params: KnottingDyadParams, outer: float) -> float:
+def _depth(params: KnottingDyadParams, pair: float, outer: float) -> float:
     """As deep as usual, or deeper for the clearance."""
-    usual, greatest = USUAL_DEPTH * params.warp_pitch, GREATEST_DEPTH * params.warp_pitch
-    cosine = (params.warp_diameter + params.needle_diameter + 2 * params.clearance) / outer
-    required = math.inf if cosine >= 1 else (params.warp_pitch + outer) / 2 / math.tan(math.acos(cosine))
-    return min(max(usual, required), greatest)
+    across = (pair + outer) / 2
+    cosine = (params.warp + params.needle_diameter + 2 * params.clearance) / outer
+    required = math.inf if cosine >= 1 else across / math.tan(math.acos(cosine))
+    return min(max(USUAL_DEPTH * across, required), GREATEST_DEPTH * across)
