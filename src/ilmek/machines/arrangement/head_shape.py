@@ -7,7 +7,7 @@ machine states are assumed by this project.
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.records import record
 from ilmek.timing.track import sample
 from ilmek.units import mm
@@ -20,6 +20,9 @@ SLEY_HEIGHT, SLEY_DEPTH = 15 * mm, 10 * mm
 
 OPENER_HEIGHT = 3 * mm
 """Of the opener, along the warps [m]."""
+
+ARM_THICKNESS = 12 * mm
+"""Of two links one behind the other, their blades within, along the warps [m]."""
 
 LAST_ROW = 2 * mm
 """Height of the last knots above the fell before the beat [m]."""
@@ -63,6 +66,8 @@ class HeadShape:
 def head_shape(weaver: Weaver, clearance: float) -> HeadShape:
     """The shape of a head; its tools keep a clearance [m] from the last row and from each other."""
     grippers, params = weaver.grippers, weaver.params
+    if params.with_arms:
+        return _with_arms(weaver, clearance)
     tied = LAST_ROW + clearance + (grippers.lift + grippers.finger) / 2
     low = tied - (grippers.lift + grippers.finger) / 2
     high = tied + grippers.height + grippers.finger / 2
@@ -96,6 +101,32 @@ def head_shape(weaver: Weaver, clearance: float) -> HeadShape:
     return HeadShape(
         complex(face, top - deep), complex(deep, deep), tools, min(tool.corner.real for tool in tools if tool.track)
     )
+
+
+def _with_arms(weaver: Weaver, clearance: float) -> HeadShape:
+    """The shape of a head with arms: they swing in a plane across the warps, of which the side view shows the edge."""
+    params = weaver.params
+    radius, travel = params.warp / 2, weaver.cyclogram.track(LEFT_ARM).stroke
+    tied = LAST_ROW + clearance + ARM_THICKNESS / 2
+    front = max(params.opening, weaver.cyclogram.track(CENTRE_ARM).stroke, travel) + radius
+    face = max(front, weaver.drawn / 2) + clearance
+    deep = 2 * max(cam.radius for cam in weaver.cams) + 2 * CASE
+    low, high = tied - ARM_THICKNESS / 2, tied + ARM_THICKNESS / 2
+    opener = max(params.opener.front_span - OPENER_HEIGHT / 2, high + clearance)
+    sley = max(params.sley_stroke, high + clearance)
+    top = max(sley + SLEY_HEIGHT, opener + OPENER_HEIGHT) + CASE
+    rest, out = params.arms.rest - radius, params.opening - radius - clearance
+    arms = (
+        HeadTool(name, name, complex(rest, low), complex(face - rest + travel, ARM_THICKNESS), -1 + 0j)
+        for name in (LEFT_ARM, RIGHT_ARM, CENTRE_ARM)
+    )
+    tools = (
+        *arms,
+        HeadTool("opener", OPENER, complex(out, opener), complex(face - out + params.opening, OPENER_HEIGHT), -1 + 0j),
+        HeadTool("sley", SLEY, complex(radius + clearance, sley), complex(face - radius - clearance, SLEY_HEIGHT), -1j),
+    )
+    least = min(tool.corner.real for tool in tools)
+    return HeadShape(complex(face, top - deep), complex(deep, deep), tools, least)
 
 
 def moved(tool: HeadTool, weaver: Weaver, angle: FloatArray) -> FloatArray:

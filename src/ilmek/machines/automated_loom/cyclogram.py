@@ -18,8 +18,16 @@ from ilmek.machines.beat import Beat
 from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.warp_tension.design import TAKE_UP_LAW
 from ilmek.machines.weaver import Weaver
-from ilmek.machines.weaver.cyclogram import relations as head_relations
-from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.design import head_relations
+from ilmek.machines.weaver.motions import (
+    CENTRE_ARM,
+    CENTRE_MOTION,
+    LEFT_ARM,
+    OPENER,
+    RIGHT_ARM,
+    SIDE_MOTION,
+    SLEY,
+)
 from ilmek.records import value_record
 from ilmek.report import CamTable
 from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, Track, TrackEvent, TrackSegment, Zone, riding
@@ -63,16 +71,22 @@ def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
     The step, jerk-limited, begins when the last tool is out of the warps, and runs into the next turn where it must.
     """
     tied, limits = head.cyclogram, head.params
+    names = [track.name for track in tied.tracks]
     move = s_curve(limits.knot_pitch, limits.carriage)
-    out = max(tied.track(name).segment(motion).end for name, motion in _OUT)
+    out = max(tied.track(name).segment(motion).end for name, motion in _OUT if name in names)
     law = law_of("s-curve", {"ramp": min(0.25, move.ramp / move.time), "cruise": move.cruise / move.time})
     step = TrackSegment("step", out, out + turn * move.time / period, 0.0, limits.knot_pitch, law)
     track = Track(CARRIAGE, "linear axis", (step,), (riding("at the next knot", step),), revolves=limits.knot_pitch)
     apart = tuple(
-        Exclusion(Zone(CARRIAGE, 0.0, limits.knot_pitch, "between two knots"), Zone(name, 0.0, name=said), why=_CLEAR)
-        for name, said in _IN_THE_WARPS.items()
+        Exclusion(
+            Zone(CARRIAGE, 0.0, limits.knot_pitch, "between two knots"),
+            Zone(name, 0.0, name="in the warps"),
+            why=_CLEAR,
+        )
+        for name in _IN_THE_WARPS
+        if name in names
     )
-    relations = (*tied.relations, *head_relations(limits.relation_gap))
+    relations = (*tied.relations, *head_relations(head))
     return Cyclogram(tied.name, period, (*tied.tracks, track), relations, (*tied.exclusions, *apart))
 
 
@@ -86,8 +100,8 @@ def cam_tables_of(cyclogram: Cyclogram, names: tuple[str, ...]) -> tuple[CamTabl
     )
 
 
-_OUT = ((SIDE_MOTION, "return"), (CENTRE_MOTION, "return"), (SLEY, "up"))
-_IN_THE_WARPS = {SIDE_MOTION: "in the warps", CENTRE_MOTION: "in the warps", SLEY: "in the warps"}
+_OUT = ((SIDE_MOTION, "return"), (CENTRE_MOTION, "return"), (OPENER, "return"), (SLEY, "up"))
+_IN_THE_WARPS = (SIDE_MOTION, CENTRE_MOTION, OPENER, LEFT_ARM, RIGHT_ARM, CENTRE_ARM, SLEY)
 _CLEAR = "the head moves along the row only while no tool of it is in the warps"
 
 

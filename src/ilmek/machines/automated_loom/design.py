@@ -14,7 +14,7 @@ from ilmek.machines import loom_parts
 from ilmek.machines.arrangement.side_view import SideView, laid_out
 from ilmek.machines.automated_loom.choice import beat_options, chosen_beat, chosen_heads
 from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, knot_cyclogram, shortest_row, take_up_time
-from ilmek.machines.automated_loom.knotting import KnottingArms, arms_for
+from ilmek.machines.automated_loom.knotting import KnottingHead, knotting_head
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.beat import Beat, BeatDrive
 from ilmek.machines.catalogue import MACHINES
@@ -40,7 +40,7 @@ class LoomDesign:
 
     machines       its machines by name, in the order of the report: head, shedding, warp tension, ...
     task           of its machines                        side  the side view
-    beat           the drive of the beat
+    head           what ties the knots       beat  the drive of the beat
     row_timing, row_cyclogram   of the wefts and beats of a row, one turn of the shedding cams
     times          of the acts of weaving, as the programme counts them
     choices        of what the parameters left open; `params` has what was chosen
@@ -54,6 +54,7 @@ class LoomDesign:
     machines: Mapping[str, Child]
     task: LoomTask
     side: SideView
+    head: KnottingHead
     beat: BeatDrive
     row_timing: RowTiming
     row_cyclogram: Cyclogram
@@ -79,16 +80,12 @@ class LoomDesign:
         return design
 
     @property
-    def arms(self) -> KnottingArms:
-        """The arms that can tie the knots of its heads, or the reason why none can."""
-        return arms_for(self.task)
-
-    @property
     def children(self) -> tuple[Child, ...]:
         """Every machine in the loom, in the order of the report."""
-        head, *others = self.machines.values()
-        beat = Child(MACHINES[self.beat.name], self.beat.design, self.beat.number)
-        return (head, *self.arms.children, beat, *others)
+        machines = self.machines.items()
+        of_head = tuple(child for name, child in machines if name in self.head.children)
+        others = (child for name, child in machines if name not in self.head.children)
+        return (*of_head, Child(MACHINES[self.beat.name], self.beat.design, self.beat.number), *others)
 
     @property
     def warps(self) -> int:
@@ -132,11 +129,12 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     yarns = carpet_yarns(params.yarns, params.pitch)
     tension = params.tension or usual_tension(params.pitch, yarns.warp.linear_density)
     task = LoomTask(params, rows, columns, yarns, tension, {})
-    machines: dict[str, Child] = {}
-    for name in BEFORE_THE_ROW:
-        machines[name], task = _made(name, task)
+    knotting, of_knotting = knotting_head(task)
+    machines: dict[str, Child] = dict(knotting.children)
+    task = replace(task, designs={name: child.design for name, child in machines.items()})
+    machines["shedding"], task = _made("shedding", task)
     task = replace(task, side=laid_out(task))
-    head, cams = machines["weaver"].design, machines["shedding"].design
+    head, cams = knotting.weaver, machines["shedding"].design
     options = beat_options(task, lambda plan: _row_period(params, _row_timing(task, cams, plan.beat), cams))
     option, choices = chosen_beat(options, params.aim)
     timing, period = _row_timing(task, cams, option.plan.beat), option.period
@@ -160,13 +158,27 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
         if name not in BEFORE_THE_ROW:
             machines[name], task = _made(name, task)
     side = laid_out(task)
-    machines["weaver"] = replace(machines["weaver"], number=heads)
+    machines |= {name: replace(machines[name], number=heads) for name in knotting.children}
     row = cyclogram(timing, period)
     tracks = (track for child in machines.values() for track in child.component.tracks(child.design))
     row = replace(row, tracks=(*row.tracks, *tracks))
-    chosen = replace(params, beat=option.kind, heads=heads)
-    every = (*choices, *of_heads)
-    return LoomDesign(chosen, rows, columns, heads, most, machines, task, side, beat, timing, row, times, every)
+    chosen = replace(params, beat=option.kind, heads=heads, knotting=knotting.kind)
+    return LoomDesign(
+        params=chosen,
+        rows=rows,
+        columns=columns,
+        heads=heads,
+        heads_max=most,
+        machines=machines,
+        task=task,
+        side=side,
+        head=knotting,
+        beat=beat,
+        row_timing=timing,
+        row_cyclogram=row,
+        times=times,
+        choices=(*of_knotting, *choices, *of_heads),
+    )
 
 
 def _made(name: str, task: LoomTask) -> tuple[Child, LoomTask]:

@@ -1,60 +1,167 @@
-"""The arms that can tie the knots in a loom's heads: the knotting dyad for the carpet's own pitch and knot.
+"""What ties the knots of a loom: cams and grippers of the head, or arms on it; one face for both.
 
-The finer the pitch, the thinner the needle, until the yarn bends it into the warps: then arms cannot tie this carpet,
-and the loom reports the reason.
+Either way the head has the weaver's pile handler, colour magazine, cutter, warp opener, sley and carriage:
+
+    cams   the weaver as the thesis has it: side and centre grippers on its cams; they tie the symmetric knot alone
+    arms   the knotting dyad in place of the grippers; the opener keeps cam 2, the arms tie between the opened warps and
+           the sley, as quickly as their drives allow; symmetric and asymmetric knots
+
+Cams are the cheaper ones: one motor in place of four servos. So they are chosen where all their checks hold; with the
+aim of time, where they keep the required time of a knot too. Where neither keeps all limits, the one that misses less.
 """
 
-import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import lru_cache
 
-from ilmek.errors import ParameterError
+from ilmek.cams.laws import LAWS
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
+from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams
+from ilmek.machines.knotting_dyad.drives import head_motion
+from ilmek.machines.knotting_dyad.motion import CyclePart
+from ilmek.machines.knotting_dyad.sequence import LEFT, RIGHT
 from ilmek.machines.loom_task import LoomTask
-from ilmek.params import Params
+from ilmek.machines.weaver import Weaver, WeaverParams
+from ilmek.machines.weaver.cyclogram import arms_window
+from ilmek.machines.weaver.motions import CENTRE_ARM, HANDLER, LEFT_ARM, RIGHT_ARM
+from ilmek.machines.weaver.tool_params import ArmsInHead
 from ilmek.records import record
-from ilmek.report import Check, at_most
-from ilmek.units import format_quantity
+from ilmek.report import Alternative, Check, Choice, choose
+from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
 
-DYAD = "knotting-dyad"
+WEAVER, DYAD = "weaver", "knotting-dyad"
+CAMS, ARMS = "cams", "arms"
+KNOTTING = (CAMS, ARMS)
+"""Kinds of knotting, the cheaper first."""
+
+AUTO = "auto"
+
+ARM_LAW = LAWS["3-4-5"]
+"""Law by which the arms' motions are drawn; their own is the quickest that the drives allow [`timing.path_speed`]."""
 
 
 @record
-class KnottingArms:
-    """The arms of a loom's heads.
+class KnottingHead:
+    """What ties the knots of a loom.
 
-    children  the arms, an alternative to the head's cams and grippers, not in the parts list; empty: none can tie
-    cycle     time of a knot [s]; nan: none            reason  why none can tie
+    kind      cams or arms                     weaver    the head, with the tracks of arms in its cyclogram
+    children  the machines of one head, by name     checks  of all of them
     """
 
-    children: tuple[Child, ...]
-    cycle: float
-    reason: str
+    kind: str
+    weaver: Weaver
+    children: Mapping[str, Child]
+    checks: tuple[Check, ...]
 
-    def checks(self, knot_time: float) -> tuple[Check, ...]:
-        """Whether the arms, where they can tie, tie within the time of a knot [s]."""
-        source = "time of a knot of one head"
-        return tuple(at_most("arms of the heads: cycle", self.cycle, knot_time, "s", source) for _ in self.children)
+    @property
+    def keeps_time(self) -> bool:
+        """Whether it ties within the required time of a knot."""
+        return self.weaver.cycle <= self.weaver.params.cycle * (1 + 1e-9)
+
+    @property
+    def width(self) -> float:
+        """Width of the head along the row [m]."""
+        return self.weaver.width
 
 
-def arms_for(task: LoomTask) -> KnottingArms:
-    """The arms for a loom's pitch and knot; never raises for a pitch that they cannot tie at."""
-    component, shown = MACHINES[DYAD], format_quantity(task.params.pitch, "mm", 3)
+def knotting_head(task: LoomTask) -> tuple[KnottingHead, tuple[Choice, ...]]:
+    """The head of a loom, and the choice where it was left open. Never refuses a pitch or a knot: checks fail."""
+    wanted = task.params.knotting
+    if wanted != AUTO:
+        return _head(wanted, task), ()
+    cams = _head(CAMS, task)
+    good = all(check.ok for check in cams.checks) and (task.params.aim != "time" or cams.keeps_time)
+    found = (cams,) if good else (cams, _head(ARMS, task))
+    if len(found) == 2 and task.params.aim == "time" and found[1].weaver.cycle < cams.weaver.cycle:
+        found = (found[1], cams)
+    index, choice = choose("knotting", [Alternative(one.kind, one.checks) for one in found], task.params.aim)
+    return found[index], (choice,)
+
+
+def _head(kind: str, task: LoomTask) -> KnottingHead:
+    component = MACHINES[WEAVER]
     assert component.fit is not None
-    try:
-        return _designed(task.parameters(DYAD, component.fit(task)), shown)
-    except ParameterError as error:
-        return KnottingArms((), math.nan, f"no arms of a knotting-dyad tie on warps {shown} apart: {error.given}")
+    params: WeaverParams = component.fit(task)
+    if kind == CAMS:
+        return _of(kind, component.design(task.parameters(WEAVER, params)), {})
+    arms = _arms(task)
+    assert arms.head is not None
+    inside = arms.head.section
+    params = replace(
+        params,
+        arms=ArmsInHead(
+            time=head_motion(arms.params, arms.head).cycle.period,
+            yarn=arms.head.yarn_needed,
+            pair=inside.pair,
+            outer=inside.outer,
+            width=arms.head.width,
+            rest=inside.front,
+            mass=sum(part.mass_all for part in MACHINES[DYAD].parts(arms)),
+        ),
+    )
+    made: Weaver = component.design(task.parameters(WEAVER, params))
+    return _of(kind, replace(made, cyclogram=with_arms(made, arms)), {DYAD: Child(MACHINES[DYAD], arms)})
+
+
+def _of(kind: str, weaver: Weaver, others: Mapping[str, Child]) -> KnottingHead:
+    children = {WEAVER: Child(MACHINES[WEAVER], weaver), **others}
+    checks = tuple(
+        check for child in children.values() for check in child.component.checks(child.component.analysis(child.design))
+    )
+    return KnottingHead(kind, weaver, children, checks)
+
+
+def _arms(task: LoomTask) -> KnottingDyad:
+    """The arms for a loom's warps, pile and knot."""
+    component = MACHINES[DYAD]
+    assert component.fit is not None
+    params: KnottingDyadParams = task.parameters(DYAD, component.fit(task))
+    return _designed(params)
 
 
 @lru_cache(maxsize=32)
-def _designed(params: Params, shown: str) -> KnottingArms:
-    """The same, designed once for each set of parameters."""
-    component = MACHINES[DYAD]
-    made = component.design(params)
-    report = component.report(made, in_a_loom=True)
-    if report.failed:
-        why = "; ".join(report.warnings) or ", ".join(check.name for check in report.failed)
-        reason = f"the arms of a knotting-dyad cannot tie on warps {shown} apart: {why}"
-        return KnottingArms((), math.nan, reason)
-    return KnottingArms((Child(component, made, 0, report),), float(str(report["cycle_time"])), "")
+def _designed(params: KnottingDyadParams) -> KnottingDyad:
+    """The arms, designed once for each set of parameters."""
+    made: KnottingDyad = MACHINES[DYAD].design(params)
+    return made
+
+
+def with_arms(weaver: Weaver, arms: KnottingDyad) -> Cyclogram:
+    """The head's cyclogram with the phases of its arms, from the opened warps on.
+
+    The arms grasp the pile while the handler presents it, before it turns home.
+    """
+    assert arms.head is not None
+    motion, tied = head_motion(arms.params, arms.head), weaver.cyclogram
+    parts, speed = motion.cycle.parts, tied.speed
+    begin = arms_window(tied)[0]
+    first = next(part.start for part in parts if not part.grippers)
+    home = tied.track(HANDLER).segment("home").start
+
+    def at(time: float) -> float:
+        return begin + (time - first) * speed if time >= first else home + (time - first) * speed
+
+    moved = [part for part in parts if not part.grippers]
+    tracks: dict[str, list[TrackSegment]] = {LEFT_ARM: [], RIGHT_ARM: [], CENTRE_ARM: []}
+    stroke, front = arms.head.arm.stroke, arms.head.section.front
+    for part, phase in zip(moved, arms.head.sequence, strict=True):
+        spans = (phase.left, stroke, 0.0), (phase.right, stroke, 0.0), (phase.centre, -1.0, front)
+        for name, (span, scale, offset) in zip(tracks, spans, strict=True):
+            if span[0] != span[1]:
+                ends = (scale * one + offset for one in span)
+                tracks[name].append(TrackSegment(part.name, at(part.start), at(part.end), *ends, ARM_LAW))
+    by = {LEFT_ARM: LEFT, RIGHT_ARM: RIGHT, CENTRE_ARM: "centre"}
+    made = (
+        Track(name, "linear axis" if name == CENTRE_ARM else "two servos", tuple(segments), _grips(parts, by[name], at))
+        for name, segments in tracks.items()
+    )
+    opener, *others = tied.tracks
+    return replace(tied, tracks=(opener, *made, *others))
+
+
+def _grips(parts: tuple[CyclePart, ...], gripper: str, at: Callable[[float], float]) -> tuple[TrackEvent, ...]:
+    """The ends of a gripper's grasps and releases as events, numbered."""
+    mine = [part for part in parts if gripper in part.grippers]
+    counted = [sum(one.name == part.name for one in mine[: k + 1]) for k, part in enumerate(mine)]
+    return tuple(TrackEvent(f"{part.name} {k}", at(part.end)) for part, k in zip(mine, counted, strict=True))

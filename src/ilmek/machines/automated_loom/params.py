@@ -58,6 +58,11 @@ class AutomatedLoomParams(Params):
         None, at_least=0.01, at_most=1.0, doc="width of a head, least distance of two; default: what its contents need"
     )
     colours: int = param(16, at_least=1, at_most=255, doc="yarns, a tube for each in every head")
+    knotting: str = param(
+        AUTO,
+        choices=(AUTO, "cams", "arms"),
+        doc="what ties the knots: cams and grippers, or arms; auto: chosen by aim",
+    )
     knot_cycle: float = kind.time(2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot")
     knot_yarn: float | None = kind.length(
         None, above=0.0, at_most=0.3, doc="pile yarn of a knot, from the yarn bill; default: of the head's usual pile"

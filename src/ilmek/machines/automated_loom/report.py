@@ -57,6 +57,7 @@ class LoomAnalysis:
     colour_change_time = computed(
         "s", "mean time to bring another yarn in line", lambda it: it.loom.times.colour_change
     )
+    knotting = computed("", "what ties the knots: cams or arms", lambda it: it.loom.head.kind)
     heads = computed("1", "knotting heads", lambda it: it.loom.heads)
     heads_max = computed("1", "the most that can share a row without meeting", lambda it: it.loom.heads_max)
     rows = computed("1", "rows of knots", lambda it: it.loom.rows)
@@ -94,7 +95,6 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
     return (
         at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width"),
         *(apart if loom.heads > 1 else ()),
-        *loom.arms.checks(loom.times.knot),
         row_check(found.beat),
         *_wishes(found),
         at_most("shuttle: speed", speed, params.shuttle_speed, "m/s", "shuttle_speed"),
@@ -185,11 +185,9 @@ def cam_tables(loom: LoomDesign) -> tuple[CamTable, ...]:
 
 
 def warnings(found: LoomAnalysis) -> tuple[str, ...]:
-    """The arms that cannot tie, heavy cylinders, a slow row."""
+    """Heavy cylinders, a slow row."""
     loom, texts = found.loom, []
-    params, arms = loom.params, loom.arms
-    if arms.reason:
-        texts.append(arms.reason)
+    params = loom.params
     share = loom.warp_tension.self_weight / loom.warp_tension.load
     if share > HEAVY_SHARE:
         mass, part = format_quantity(loom.warp_tension.mass, "kg", 3), format_quantity(share, "%", 2)

@@ -1,7 +1,7 @@
 """The knotting arms in a loom: their parameters for the carpet's warps, pile and knot, their parts and work.
 
-An opener gives the needles their room at every pitch. So a needle keeps its usual thickness; what a fine pitch limits is
-the opener, which enters between two warps and crowds their neighbours.
+An opener gives the needles their room at every pitch. So a needle keeps its usual thickness; a fine pitch limits the
+opener, which enters between two warps and crowds their neighbours.
 """
 
 import numpy as np

@@ -121,7 +121,7 @@ class WarpSection:
 
 
 def section_of(params: KnottingDyadParams) -> WarpSection:
-    """The section of the parameters; what they leave open is chosen for needle and yarn, the depth for the clearance."""
+    """The section of the parameters; gaps left open are chosen for needle and yarn, the depth for the clearance."""
     content = params.needle_diameter + max(params.pressed, 2 * params.clearance)
     pitch, room = params.warp_pitch, params.warp + content
     pair = params.pair_opened or max(pitch, room)

@@ -55,8 +55,9 @@ def opener_for(task: LoomTask) -> OpenerParams:
 
 
 def parts(weaver: Weaver) -> tuple[Part, ...]:
-    """The parts of one head and its carriage; those within the head are weighed with it."""
+    """The parts of one head and its carriage; those within the head are weighed with it, arms by themselves."""
     params, servo, mass = weaver.params, weaver.drive.servo, head_mass(weaver)
+    own = max(mass - (params.arms.mass if params.with_arms else 0.0), 0.0)
     motor = servo.motor if servo else None
     tubes = params.tubes * params.tube_mass * params.selector_acceleration
     colours = belt_motor_part("motor of the colours", tubes, params.selector_speed)
@@ -66,7 +67,7 @@ def parts(weaver: Weaver) -> tuple[Part, ...]:
     )
     cam_motor, *colour_motors = (replace(part, mass=NOT_WEIGHED) for part in within)
     return (
-        Part("knotting head", 1, "cams, tools, tubes, motors", "", "head mechanism", mass),
+        Part("knotting head", 1, "cams, tools, tubes, motors", "", "head mechanism", own),
         Part("yarn tube", params.tubes, "one for each colour, weighed with the head", "", "yarn tube"),
         cam_motor,
         *((reducer_part("reducer of a head", servo.reducer.ratio, motor),) if servo else ()),

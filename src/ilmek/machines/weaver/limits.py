@@ -55,7 +55,7 @@ class HeadLimits:
     cutting_time: float = result("s", "time of the cutter's blade across the yarn")
     cutting_window: float = result("s", "time from the end of drawing to presenting")
     selector: Selector = group("selector_")
-    masses: Mapping[str, float] = result("kg", "masses of cams, shaft, tools, tubes and motors")
+    masses: Mapping[str, float] = result("kg", "masses of cams, shaft, tools, tubes, motors, and arms")
 
     cycle_time_possible = computed(
         "s", "the shortest cycle that all limits allow", lambda it: max(it.cycle_limits.values())
@@ -107,10 +107,11 @@ def selector_of(weaver: Weaver) -> Selector:
 
 
 def mass_of(weaver: Weaver) -> Mapping[str, float]:
-    """Masses of the head's parts [kg]; with arms, theirs are added in the loom."""
+    """Masses of the head's parts [kg]."""
     params, servo, stepper = weaver.params, weaver.drive.servo, selector_of(weaver).stepper
     axes = 1 if weaver.magazine.tiers == 1 else 2
     return {
+        **({"arms": params.arms.mass} if params.with_arms else {}),
         "cams": sum(cam.mass for cam in weaver.cams),
         "shaft": math.pi / 4 * params.shaft**2 * weaver.width * STEEL.density,
         "tools": params.tool_mass * len(weaver.cams),

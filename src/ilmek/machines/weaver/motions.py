@@ -31,6 +31,7 @@ SIDE_GRASP, SIDE_MOTION = "side-gripper grasp", "side-gripper motion"
 CENTRE_GRASP, CENTRE_MOTION = "centre-gripper grasp", "centre-gripper motion"
 HANDLER, SLEY = "pile handler", "sley"
 OPENER = "warp opener"
+LEFT_ARM, RIGHT_ARM, CENTRE_ARM = "left arm", "right arm", "centre gripper"
 
 ROUNDING = 1e-9
 """Angles this near to each other are the same [rad]."""

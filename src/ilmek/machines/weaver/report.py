@@ -154,7 +154,7 @@ def _knot_warnings(weaver: Weaver) -> tuple[str, ...]:
 def tables(found: WeaverAnalysis) -> tuple[Table, ...]:
     """Greatest values of the tracks, cams, motions."""
     weaver = found.weaver
-    tracks = weaver.cyclogram.tracks
+    tracks = tuple(track for track in weaver.cyclogram.tracks if track.name in weaver.peaks)
     peaks = Table(
         "tracks",
         "Tracks of the head; the handler at its tip",
@@ -168,7 +168,8 @@ def tables(found: WeaverAnalysis) -> tuple[Table, ...]:
         ),
         tuple(
             (track.name, track.actuator, peak.stroke, peak.speed, peak.acceleration, peak.shortest)
-            for track, peak in zip(tracks, weaver.peaks.values(), strict=True)
+            for track in tracks
+            for peak in (weaver.peaks[track.name],)
         ),
     )
     motions = Table(
@@ -176,7 +177,9 @@ def tables(found: WeaverAnalysis) -> tuple[Table, ...]:
         "Motions over the cam angle",
         columns("track", "motion", "from [deg]", "to [deg]", "law"),
         tuple(
-            (track.name, part.name, part.start, part.end, part.law.name) for track in tracks for part in track.segments
+            (track.name, part.name, part.start, part.end, part.law.name)
+            for track in weaver.cyclogram.tracks
+            for part in track.segments
         ),
     )
     return peaks, cams_table(weaver), motions, _room_table(weaver)
@@ -203,7 +206,8 @@ def figures(found: WeaverAnalysis) -> tuple[Figure, ...]:
 def timing(weaver: Weaver) -> Timing:
     """The head's cyclogram as a figure."""
     note = "Order of the motions: thesis, 2.2.3; the angles are assumed by this project, the thesis prints none."
-    return draw(weaver.cyclogram, "One knot: the five cams of the head", note)
+    tied_by = "the arms, and the cams of the head" if weaver.params.with_arms else "the five cams of the head"
+    return draw(weaver.cyclogram, f"One knot: {tied_by}", note)
 
 
 def _accelerations(weaver: Weaver) -> Plot:

@@ -73,3 +73,5 @@ class ArmsInHead(Params):
     )
     width: float = kind.length(40 * mm, at_least=0.0, at_most=5.0, doc="width of the head that they take")
     depth: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="reach of the opener's walls past the warps")
+    mass: float = kind.mass(0.0, at_least=0.0, at_most=500.0, doc="mass of their links, servos and gears")
+    rest: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="their tips above the warps at rest")
