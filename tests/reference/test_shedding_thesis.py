@@ -88,4 +88,4 @@ def test_safety_on_a_given_load() -> None:
 @pytest.mark.parametrize("limit", [20, 25, 35, 45])
 def test_prime_radius_by_limit(limit) -> None:
     printed = {20: 137.5561870, 25: 102.1214432, 35: 60.78867895, 45: 37.08203932}[limit]
-    assert results(pressure_angle_limit=f"{limit}deg")["prime_radius"] == pytest.approx(printed * mm, rel=1e-9)
+    assert results(pressure_angle_limit=f"{limit}deg")["prime_radius_min"] == pytest.approx(printed * mm, rel=1e-9)

@@ -67,7 +67,7 @@ def test_the_cylinder_takes_up_its_share_of_the_elongation() -> None:
 
 def test_a_short_warp_that_nothing_gives_way_for_is_strained_too_far() -> None:
     report = answer(tension=15.0, front_span=0.17, back_span=0.17, warp_stiffness=1800.0)
-    assert [check.name for check in report.failed] == ["strain of a lifted warp"]
+    assert [check.name for check in report.failed] == ["tension of a lifted warp", "strain of a lifted warp"]
 
 
 def test_hull_of_a_star() -> None:
@@ -107,10 +107,18 @@ def test_a_draped_yarn_does_the_work_that_lengthens_it() -> None:
     assert yarn.lifted > math.pi
 
 
-def test_holds_within_reach_of_the_nose_are_said() -> None:
+def test_holds_within_reach_of_the_guides_fail() -> None:
+    """Guides of R + L + 10 mm reach sqrt((R + 70 mm)^2 - R^2) along the warps' line, and the gap."""
     report = answer(tension=15.0, half_span=0.1)
     assert result(report, "draped") is None
-    assert any("stands within the 138.2 mm that the cams reach" in said for said in report.warnings)
+    names = ["guides and cams clear of the front hold", "guides and cams clear of the back hold"]
+    assert [check.name for check in report.failed] == names
+    prime = made().cam.prime_radius
+    reach = math.sqrt((prime + 0.07) ** 2 - prime**2) + 0.01
+    assert [check.value for check in report.failed] == pytest.approx([reach, reach])
+    assert answer(tension=15.0, half_span=1.001 * reach).failed == ()
+    near = answer(tension=15.0, front_span=1.001 * reach, back_span=0.08)
+    assert [check.name for check in near.failed] == names[1:]
 
 
 def test_nose_of_the_harmonic_cam() -> None:

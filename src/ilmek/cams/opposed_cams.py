@@ -98,15 +98,17 @@ def turn_knots(*programmes: CamProgramme) -> FloatArray:
     return np.unique(np.concatenate([inner, [0.0, TURN]]))
 
 
-def parities(even: CamProgramme, cams: int, spread: float, groups: int) -> tuple[Parity, Parity]:
-    """The even cams by a programme and the odd ones half a turn later, in groups over a spread [rad]."""
-    evens = cams // 2
+def parities(even: CamProgramme, cams: tuple[int, int], spread: float, groups: int) -> tuple[Parity, Parity]:
+    """The even cams by a programme and the odd ones half a turn later, in groups over a spread [rad].
+
+    cams  number of even and of odd ones
+    """
     made_even, made_odd = (
         Parity(
             tuple(even.shifted(lag + float(offset)) for offset in offsets(spread, groups)),
             tuple(number // groups + (index < number % groups) for index in range(groups)),
         )
-        for lag, number in ((0.0, evens), (TURN / 2, cams - evens))
+        for lag, number in zip((0.0, TURN / 2), cams, strict=True)
     )
     return made_even, made_odd
 

@@ -29,6 +29,7 @@ __all__ = [
     "geared_motor",
     "most_torque",
     "smallest_motor",
+    "strongest_motor",
     "worm_efficiency",
 ]
 
@@ -150,6 +151,16 @@ def geared_motor(
     found = [(smallest_motor(by.motor_torque(torque), by.ratio * speed, kind), by) for by in reducers]
     pairs = [(motor, by) for motor, by in found if motor is not None]
     return min(pairs, key=lambda pair: pair[0].power, default=None)
+
+
+def strongest_motor(speed: float) -> Motor:
+    """The motor of `MOTORS` with the greatest torque at a speed [rad/s]; above all their speeds the quickest.
+
+    >>> strongest_motor(0.0).name
+    'servo 15000 W, 1500 rpm, 95.5 N m'
+    """
+    enough = [motor for motor in MOTORS if motor.speed >= speed * (1 - _ROUNDING)]
+    return max(enough, key=lambda motor: motor.torque) if enough else max(MOTORS, key=lambda motor: motor.speed)
 
 
 def most_torque(speed: float) -> float:

@@ -35,8 +35,8 @@ class SquareShaftTask:
     safety          factor on the load; None: 1 on a given load, 2 on a computed one
     modulus, strength, tensile  Young's modulus, yield and tensile strength [Pa]
     slope, deflection, twist    allowed [rad, m, rad]
-    bar             side of the bar [m]; None: the smallest of stock
-    bearing         by designation; None: the lightest with the required `bearing_life` [s]
+    bar             side of the bar [m]; None: the smallest of stock that keeps the limits, else the largest
+    bearing         by designation; None: the lightest with the required `bearing_life` [s], else the strongest
     """
 
     length: float
@@ -86,24 +86,16 @@ class ShaftLoads:
 class ShaftBearings:
     """The bearings of the shaft.
 
-    bearing  the one chosen; None: none has the required life      life  of it [s], 90 % of them reach it
+    bearing  the one chosen      life  of it [s], 90 % of them reach it
     """
 
     reaction: float = result("N", "load of the most loaded bearing, without the safety", name="bearing_load")
     journal: float = result("mm", "least diameter of the journal, in torsion", least=0.0)
-    bearing: RollingBearing | None
+    bearing: RollingBearing
     life: float
 
-    name = computed(
-        "",
-        "bearing of the shaft",
-        lambda it: it.bearing.name if it.bearing else None,
-        name="bearing",
-        absent="none has the required life",
-    )
-    life_of_bearing = computed(
-        "h", "rating life", lambda it: it.life if it.bearing else None, name="bearing_life", absent="no bearing"
-    )
+    name = computed("", "bearing of the shaft", lambda it: it.bearing.name, name="bearing")
+    life_of_bearing = computed("h", "rating life", lambda it: it.life, name="bearing_life")
 
 
 @record
@@ -168,7 +160,7 @@ def square_shaft(task: SquareShaftTask) -> SquareShaft:
     by_strength = shafts.side_for_strength(moment, safety * torque, task.strength)
     least = max(by_slope, by_deflection, by_twist, by_strength)
     bar = task.bar or _bar(least)
-    while task.bar is None and _endurance(task, moment, safety * torque, bar) < 1:
+    while task.bar is None and bar < shafts.STOCK_SIDES[-1] and _endurance(task, moment, safety * torque, bar) < 1:
         bar = _bar(bar + _STEP)
     inertia = float(uniform.square_inertia(bar))
     return SquareShaft(
@@ -203,18 +195,17 @@ def seat_for(task: SquareShaftTask, span_load: float, torque: float, bar: float)
     """Bearings for the load of a span [N], on journals turned from the bar [m] that bear the torque [N m].
 
     A journal in torsion alone: d = (16 sqrt(3) T / (pi sigma))^(1/3), von Mises. A support between the ends carries a
-    whole span, an end half of one; the bearings of the steadies are taken no larger than those of the ends.
+    whole span, an end half of one; the bearings of the steadies are taken no larger than those of the ends. Where no
+    insert bearing that fits the bar has the life and the bore, the strongest that fits the bar is taken.
     """
     reaction = span_load if task.spans > 1 else span_load / 2
     journal = float((16 * math.sqrt(3) * torque / (math.pi * task.strength)) ** (1 / 3))
     revolutions = task.bearing_life * task.speed / turn
     if task.bearing is None:
-        bearing = bearings.smallest_bearing(reaction, revolutions, kind=INSERT, bore=journal)
-        bearing = bearing if bearing is not None and bearing.bore <= bar else None
+        found = bearings.smallest_bearing(reaction, revolutions, kind=INSERT, bore=journal)
+        bearing = found if found is not None and found.bore <= bar else _strongest(bar)
     else:
         bearing = bearings.find_bearing(task.bearing)
-    if bearing is None:
-        return ShaftBearings(reaction, journal, None, 0.0)
     lives = bearings.life(bearing.dynamic, bearings.equivalent_load(bearing, reaction), bearing.kind)
     return ShaftBearings(reaction, journal, bearing, lives * turn / task.speed)
 
@@ -224,5 +215,12 @@ _STEP = 1e-3
 
 
 def _bar(least: float) -> float:
-    """The smallest stock bar; beyond the largest of stock one made to measure, in whole centimetres [m]."""
-    return shafts.stock_side(least) or math.ceil(least * 100) / 100
+    """The smallest stock bar that is not below a side; the largest of stock beyond it [m]."""
+    return shafts.stock_side(least) or shafts.STOCK_SIDES[-1]
+
+
+def _strongest(bar: float) -> RollingBearing:
+    """The insert bearing of greatest load rating that fits a bar [m]; the smallest bore where none fits."""
+    offered = [one for one in bearings.ROLLING_BEARINGS.values() if one.kind == INSERT]
+    fitting = [one for one in offered if one.bore <= bar]
+    return max(fitting, key=lambda one: one.dynamic) if fitting else min(offered, key=lambda one: one.bore)

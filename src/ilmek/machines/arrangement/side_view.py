@@ -143,7 +143,8 @@ def laid_out(task: "LoomTask") -> SideView:
     room, cylinder = shed_room(task), task.designs.get("warp-tension")
     prime, guide = shedding.cam.prime_radius, shedding.stack.guide_radius
     front, back = shedding.params.spans_of_warp
-    spans = spans_at(room, prime, guide, (front,), (back,))
+    along, last = [one.beyond for one in shedding.shafts], shedding.shafts[-1].beyond
+    spans = spans_at(room, prime, guide, tuple(front + one for one in along), tuple(back + last - one for one in along))
     radius = cylinder.outer_radius if cylinder else room.tube
     shape, comb = head_shape(head, room.clearance), _comb(room, spans)
     spacer, lower, roll = _lower_cylinders(task, radius, head)
@@ -152,7 +153,9 @@ def laid_out(task: "LoomTask") -> SideView:
     return SideView(
         room=room,
         spans=spans,
-        cams=tuple(complex(-prime, height) for height in spans.front),
+        cams=tuple(
+            complex(-one.cam.prime_radius, height) for one, height in zip(shedding.shafts, spans.front, strict=True)
+        ),
         prime_radius=prime,
         guide_radius=guide,
         lift=shedding.params.lift,

@@ -1,4 +1,4 @@
-"""The shedding cams: a cam for each warp, opposed for odd and even ones, on a square shaft.
+"""The shedding cams: a cam for each warp, opposed for odd and even ones, on one to four square shafts.
 
 Sized by the lift and the motion law, with the smallest prime circle that keeps the pressure angle, after the thesis on
 carpet robots, chapter 3.2; the cams stand on `ilmek.cams`, the shaft and its drive on `ilmek.elements`.
@@ -12,14 +12,19 @@ from ilmek.elements.square_shaft import SquareShaft
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.shedding.analysis import SheddingAnalysis, analyse, results
-from ilmek.machines.shedding.design import CamStack, SheddingDesign, SheddingDrive, design
+from ilmek.machines.shedding.cam_shaft import SheddingDrive
+from ilmek.machines.shedding.checks import checks
+from ilmek.machines.shedding.choices import choices
+from ilmek.machines.shedding.design import SheddingDesign, design, shed_lengthenings
 from ilmek.machines.shedding.figures import figures
+from ilmek.machines.shedding.guideway import Guideway
 from ilmek.machines.shedding.in_loom import fit, parts, work
 from ilmek.machines.shedding.params import SheddingParams
-from ilmek.machines.shedding.report import checks, tables, warnings
+from ilmek.machines.shedding.report import tables, warnings
+from ilmek.machines.shedding.stack import CamStack
 from ilmek.machines.shedding.workshop import cam_tables, plates
 
-__all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design"]
+__all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design", "shed_lengthenings"]
 
 MACHINE = Component(
     name="shedding",
@@ -29,8 +34,9 @@ MACHINE = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(SheddingDesign, CamStack, SquareShaft, SheddingDrive, SheddingAnalysis),
+    reported=(SheddingDesign, Guideway, CamStack, SquareShaft, SheddingDrive, SheddingAnalysis),
     checks=checks,
+    choices=choices,
     tables=tables,
     figures=figures,
     warnings=warnings,

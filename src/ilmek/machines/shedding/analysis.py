@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from ilmek.machines.shedding.design import SheddingDesign
+from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.phases import Shed, flattest, shed_of
 from ilmek.machines.shedding.warp import bridged, draped, nose_radius, shed_warp, warp_force
 from ilmek.records import computed, record
@@ -16,7 +17,7 @@ from ilmek.weaving.tension import capstan
 
 @record
 class SheddingAnalysis:
-    """A design, other phases of its cams, and its warps.
+    """A design, other phases of the cams of its first shaft, and the warps on them.
 
     together, flattest  the cams all at once, and in the phases of least torque
     warp                that the cams lift; None where only its force is given
@@ -33,7 +34,7 @@ class SheddingAnalysis:
 
     @computed("mm", "elongation of a lifted warp", absent="no tension is given")
     def warp_lengthening(self) -> float | None:
-        return float(self.warp.lengthening(self.design.params.lift)) if self.warp else None
+        return lengthening_of(self.design.first.params)
 
     @computed(
         "%",
@@ -41,18 +42,15 @@ class SheddingAnalysis:
         absent="no tension or no stiffness is given",
     )
     def warp_strain(self) -> float | None:
-        params, longer = self.design.params, self.warp_lengthening
-        if self.warp is None or longer is None or params.warp_stiffness is None:
-            return None
-        return (1 - params.compensation) * longer / (params.warp_length or self.warp.front + self.warp.back)
+        return strain_of(self.design.first.params, self.warp_lengthening)
 
     @computed("N", "tension of a lifted warp", absent="no tension is given")
     def warp_tension_max(self) -> float | None:
-        return float(self.warp.tension_at(self.design.params.lift)) if self.warp else None
+        return float(self.warp.tension_at(self.design.first.params.lift)) if self.warp else None
 
     @computed("N", "force of a lifted warp across the shaft")
     def warp_force_max(self) -> float:
-        return float(warp_force(self.design.params, np.array(self.design.params.lift)))
+        return float(warp_force(self.design.first.params, np.array(self.design.first.params.lift)))
 
     @computed("", "hollows of the cam that a taut yarn bridges [rad, m]", absent="there is none")
     def bridged(self) -> Json:
@@ -82,12 +80,28 @@ class SheddingAnalysis:
 
 def analyse(design: SheddingDesign) -> SheddingAnalysis:
     """The analysis of a design."""
-    params, even, cam = design.params, design.even, design.cam
-    flat = design.shed if params.phase == "flattest" else flattest(params, even)
-    return SheddingAnalysis(design, shed_of(params, even), flat, shed_warp(params), draped(params, cam), bridged(cam))
+    first = design.first
+    params, even, cam, numbers = first.params, first.even, first.cam, first.numbers
+    flat = first.shed if params.phase == "flattest" else flattest(params, even, numbers)
+    together = shed_of(params, even, numbers=numbers)
+    return SheddingAnalysis(design, together, flat, shed_warp(params), draped(params, cam), bridged(cam))
+
+
+def lengthening_of(params: SheddingParams) -> float | None:
+    """Elongation of a lifted warp of a shaft [m]; None where only its force is given."""
+    warp = shed_warp(params)
+    return float(warp.lengthening(params.lift)) if warp else None
+
+
+def strain_of(params: SheddingParams, longer: float | None) -> float | None:
+    """Strain of a warp of a shaft by an elongation [m], without the share of its cylinder; None without stiffness."""
+    spans = params.spans_of_warp
+    if spans is None or longer is None or params.warp_stiffness is None:
+        return None
+    return (1 - params.compensation) * longer / (params.warp_length or sum(spans))
 
 
 def results(found: SheddingAnalysis) -> tuple[object, ...]:
-    """The records whose results are reported: cams and shed, stack, shaft, drive, warps."""
+    """The records whose results are reported: cams and shed, guideway, stack, shaft, drive, warps."""
     design = found.design
-    return design, design.stack, design.shaft, design.drive, found
+    return design, design.guideway, design.stack, design.shaft, design.drive, found

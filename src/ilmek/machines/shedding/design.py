@@ -1,118 +1,146 @@
-"""Shedding cams: one cam per warp, opposed for odd and even warps, on a square shaft.     [thesis, chapter 3.2]
+"""Shedding cams: one cam per warp, opposed for odd and even warps, on square shafts.    [thesis, chapter 3.2]
 
 Each cam lifts its warp by the programme rise, dwell, fall, rest; the cams of the odd warps are the same, half a turn
-later. Between the cams stand guide cams (round, higher than the nose), which fill the rest of the pitch and keep the
-warps apart. A warp drawn taut over the cam presses with F across the cam's axis: the given force, or, from its tension
-T over the half span H, F = 2 T s / sqrt(s^2 + H^2). The speed is low: the torque is that of the warps alone,
+later. Between the cams stand round guide cams, higher than the nose, or the dents of a reed, and keep the warps apart.
+A warp drawn taut over the cam presses with F across the cam's axis: the given force, or that of its tension (`warp`).
 
-    M(theta) = n_even F(s_even) s'_even + n_odd F(s_odd) s'_odd
+Where the pitch leaves no room for cams that stand, k shafts stand one above the other along the warps, each for every
+k-th warp (`stack`). The guides of neighbouring shafts clear each other. A shaft at the distance z beyond the first,
+which is at a from the fell, lifts its warps by
 
-so that with the usual opposed cams only half of the warps ever load the shaft (the thesis takes all 600). Cams of a
-parity that are staggered: `phases`; tension and force of a warp: `warp`.
+    L(z) = L (a + z) / a
+
+so that all lifted warps lie on one line from the fell to the noses, and the shuttle finds one shed. Each shaft has a
+motor; what the shafts need together is the sum over them. Staggered cams: `phases`.                           [derived]
 """
 
-import math
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams import limits
-from ilmek.cams.laws import LAWS
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, jumps, rise
-from ilmek.cams.sizing import CamLimits, pressure_prime
-from ilmek.elements.duty import LoadCycle, MotorDuty, duty
-from ilmek.elements.motors import NO_MOTOR, Motor, Reducer, most_torque, smallest_motor
-from ilmek.elements.square_shaft import SquareShaft, SquareShaftTask, square_shaft
-from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
-from ilmek.machines.shedding.phases import Shed, chosen_shed
+from ilmek.cams.programme import TURN, CamProgramme, jumps
+from ilmek.elements.square_shaft import SquareShaft
+from ilmek.machines.shedding.cam_shaft import CamShaft, SheddingDrive, cam_shaft, of_shaft, smallest_prime
+from ilmek.machines.shedding.guideway import Guideway, guideway_of
+from ilmek.machines.shedding.params import SheddingParams
+from ilmek.machines.shedding.phases import Shed
+from ilmek.machines.shedding.positions import dealt, positions
+from ilmek.machines.shedding.stack import CamStack
+from ilmek.machines.shedding.stack_choice import ChosenStack, chosen_stack
 from ilmek.machines.shedding.warp import lifting_work
 from ilmek.num.piecewise import Extremum, supremum
-from ilmek.plane.contours import polygon_moments
-from ilmek.records import computed, record, result
-from ilmek.report import Json
-
-
-@record
-class CamStack:
-    """The cams on the shaft; cams and guide cams are weighed bored, the stack with the shaft in its bores."""
-
-    thickness: float = result("mm", "thickness of a cam", name="cam_thickness", least=0.0)
-    guide_thickness: float = result("mm", "thickness of a guide cam: the rest of the pitch", least=0.0)
-    guide_radius: float = result("mm", "radius of a guide cam", least=0.0)
-    cam_mass: float = result("kg", "mass of a cam, bored")
-    guide_mass: float = result("kg", "mass of a guide cam, bored")
-    mass: float = result("kg", "mass of all cams, guide cams and the shaft between them")
-    inertia: float = result("kg*m^2", "moment of inertia of all these about the shaft")
-
-
-@record
-class SheddingDrive:
-    """The drive of the shaft: its torque over the turn, its reducer and its motor.
-
-    motor_limit  continuous torque of the motor; where none is strong enough, the most that any gives at that speed
-    duty         of the motor over a turn, the stack's inertia included; None without a motor of the table
-    """
-
-    torque_max: Extremum
-    torque_min: Extremum
-    torque_rms: float = result("Nm", "root mean square of the shaft's torque over the turn")
-    reducer: Reducer
-    motor_torque: float = result("Nm", "required torque of the motor")
-    motor_speed: float = result("rpm", "speed of the motor")
-    motor: Motor | None
-    motor_limit: float
-    duty: MotorDuty | None
-
-    shaft_torque_max = computed("Nm", "largest torque that lifts the warps", lambda it: it.torque_max.value)
-    shaft_torque_min = computed("Nm", "largest torque of the warps on the return", lambda it: it.torque_min.value)
-    motor_power = computed("W", "largest power of the motor", lambda it: it.motor_torque * it.motor_speed)
-    name = computed(
-        "",
-        "class of motor chosen",
-        lambda it: it.motor.name if it.motor else None,
-        name="motor",
-        absent=NO_MOTOR,
-    )
-    motor_torque_rms = computed(
-        "Nm", "rms of the motor's torque over the turn", lambda it: it.duty.rms if it.duty else None, absent=NO_MOTOR
-    )
-    motor_power_mean = computed(
-        "W", "mean power, losses included", lambda it: it.duty.power_mean if it.duty else None, absent=NO_MOTOR
-    )
-    inertia_ratio = computed(
-        "1", "load over rotor inertia", lambda it: it.duty.inertia_ratio if it.duty else None, absent=NO_MOTOR
-    )
+from ilmek.records import computed, record
+from ilmek.report import Choice, Json
+from ilmek.weaving.shed import shed_lengthening
 
 
 @record
 class SheddingDesign:
     """The design of shedding cams.
 
-    even, odd   programmes of the two parities over the shaft's angle; of staggered cams those of the middle
-    shed        all groups of cams, as they are fixed on the shaft
-    across_max  largest force of the lifted warps across the shaft [N]
+    params   as given; of each shaft: `shafts`      guides   what keeps the warps on the cams
+    shafts   the cam shafts, the nearest to the fell first
+    choice   of the number of shafts and the guides; None where both are given
+    Cam, shed, shaft and drive without a shaft named are those of the first one.
     """
 
     params: SheddingParams
-    cam: PlateCam
-    smallest_prime: Extremum
-    even: CamProgramme
-    odd: CamProgramme
-    shed: Shed
-    across_max: Extremum
-    stack: CamStack
-    shaft: SquareShaft
-    drive: SheddingDrive
+    shafts: tuple[CamShaft, ...]
+    guides: str
+    choice: Choice | None
     shuttle_window: tuple[float, float]
 
+    @property
+    def first(self) -> CamShaft:
+        """The shaft nearest to the fell."""
+        return self.shafts[0]
+
+    @property
+    def cam(self) -> PlateCam:
+        """Cam of the first shaft."""
+        return self.first.cam
+
+    @property
+    def even(self) -> CamProgramme:
+        """Programme of the even warps of the first shaft."""
+        return self.first.even
+
+    @property
+    def odd(self) -> CamProgramme:
+        """Programme of the odd warps of the first shaft."""
+        return self.first.odd
+
+    @property
+    def shed(self) -> Shed:
+        """Cams of the first shaft."""
+        return self.first.shed
+
+    @property
+    def across_max(self) -> Extremum:
+        """Largest force of the lifted warps across the first shaft [N]."""
+        return self.first.across_max
+
+    @property
+    def shaft(self) -> SquareShaft:
+        """The first shaft."""
+        return self.first.shaft
+
+    @property
+    def drive(self) -> SheddingDrive:
+        """Drive of the first shaft."""
+        return self.first.drive
+
+    @property
+    def stack(self) -> CamStack:
+        """Stack of the first shaft, with mass and inertia of all."""
+        one, stacks = self.first.stack, [each.stack for each in self.shafts]
+        return CamStack(
+            one.thickness,
+            one.guide_thickness,
+            one.guide_radius,
+            one.cam_mass,
+            one.guide_mass,
+            sum(each.mass for each in stacks),
+            sum(each.inertia for each in stacks),
+            one.shares,
+            one.spacer_mass,
+        )
+
+    @property
+    def parity_numbers(self) -> tuple[int, int]:
+        """Even and odd warps of all shafts."""
+        return sum(one.numbers[0] for one in self.shafts), sum(one.numbers[1] for one in self.shafts)
+
+    @property
+    def guideway(self) -> Guideway:
+        """The tips of the first shaft's lifted cams, on which the shuttle runs."""
+        return guideway_of(self.first, self.shuttle_window)
+
+    def torque(self, angle: FloatArray) -> FloatArray:
+        """Torque of the warps on all shafts together [N m]."""
+        return sum((one.shed.torque(angle) for one in self.shafts), np.zeros_like(angle))
+
+    shaft_count = computed("1", "cam shafts one above the other", lambda it: len(it.shafts), name="shafts")
+    guides_shown = computed(
+        "", "what keeps the warps on their cams: guide cams, or a reed", lambda it: it.guides, name="guides"
+    )
+    shaft_distances = computed(
+        "",
+        "distance of each shaft beyond the first [m]",
+        lambda it: [one.beyond for one in it.shafts],
+        name="shaft_positions",
+    )
+    lifts = computed("", "lift of the warps of each shaft [m]", lambda it: [one.params.lift for one in it.shafts])
     prime_radius = computed("mm", "prime radius of the cam, Rp", lambda it: it.cam.prime_radius, least=0.0)
-    prime_radius_min = computed("mm", "smallest for the pressure angle", lambda it: it.smallest_prime.value)
+    prime_radius_min = computed("mm", "smallest for the pressure angle", lambda it: it.first.smallest_prime.value)
     prime_radius_for_bore = computed(
         "mm",
         "smallest that leaves the wall outside the corners of the square bore",
-        lambda it: it.shaft.bar / math.sqrt(2) + it.params.bore_wall + it.cam.roller_radius,
+        lambda it: it.first.prime_radius_for_bore,
     )
     pressure_angle_max = computed("deg", "largest pressure angle", lambda it: limits.pressure_angle_max(it.cam).value)
     pressure_angle_at = computed("deg", "cam angle of that maximum", lambda it: limits.pressure_angle_max(it.cam).at)
@@ -158,13 +186,18 @@ class SheddingDesign:
         "jumps of the acceleration of the even warps, shaft angle [rad]",
         lambda it: [{"angle": jump.angle, "place": jump.where} for jump in jumps(it.even)],
     )
-    shaft_supports = computed("1", "supports of the shaft, both ends included", lambda it: it.params.spans + 1)
-    warps_across = computed("N", "largest force of the lifted warps across the shaft", lambda it: it.across_max.value)
-    power_max = computed("W", "largest power of the shaft", lambda it: it.drive.shaft_torque_max * it.params.speed)
+    shaft_supports = computed("1", "supports of a shaft, both ends included", lambda it: it.params.spans + 1)
+    warps_across = computed(
+        "N", "largest force of the lifted warps across the shaft", lambda it: it.first.across_max.value
+    )
+    torque_max = computed(
+        "Nm", "largest torque of all shafts together", lambda it: supremum(it.torque, it.shed.knots).value
+    )
+    power_max = computed("W", "largest power of all shafts together", lambda it: it.torque_max * it.params.speed)
     shed_work = computed(
         "J",
         "work of lifting the even warps once, returned when they fall",
-        lambda it: float(it.params.warps // 2 * lifting_work(it.params)),
+        lambda it: float(sum(one.numbers[0] * lifting_work(one.params) for one in it.shafts)),
     )
 
     @computed("", "the cycle of even and odd warps, shaft angles [rad]")
@@ -186,97 +219,53 @@ class SheddingDesign:
         return supremum(lambda angle: np.abs(function(angle)), self.shed.knots).value
 
 
-def lifting(params: SheddingParams, law: str | None = None) -> CamProgramme:
-    """The programme of one cam, by the law of the parameters or another."""
-    motion = LAWS[law or params.law]
-    rest = TURN - params.lifted_angle
-    segments = [
-        rise(params.rise, params.lift, motion),
-        *([dwell(params.dwell)] if params.dwell > 0 else []),
-        fall(params.fall_angle, params.lift, motion),
-        *([dwell(rest)] if rest > NO_DWELL else []),
-    ]
-    return CamProgramme(tuple(segments))
-
-
+@lru_cache(maxsize=16)
 def design(params: SheddingParams) -> SheddingDesign:
-    """Cams, stack, shaft and drive for the parameters. Raises ParameterError where the cam cannot exist."""
-    even = lifting(params)
-    odd = even.shifted(TURN / 2)
-    smallest = pressure_prime(even, CamLimits(params.pressure_angle_limit, params.pressure_angle_limit))
-    cam = PlateCam(even, params.prime_radius or smallest.value, roller_radius=params.roller_radius)
-    thickness = params.cam_thickness or params.warp_pitch / 2
-    guide_radius = cam.prime_radius + params.lift - params.roller_radius + params.guide_height
-    thicknesses = thickness, params.warp_pitch - thickness
-    _, polar = polygon_moments(cam.surface(np.arange(_POINTS) * (TURN / _POINTS))[::-1])
-    areas = limits.area(cam), math.pi * guide_radius**2
-    mass, inertia = (
-        params.warps * params.density * sum(part * thick for part, thick in zip(parts, thicknesses, strict=True))
-        for parts in (areas, (polar, math.pi / 2 * guide_radius**4))
-    )
-    shed = chosen_shed(params, even)
-    drive = _drive(params, shed, inertia)
-    across = supremum(shed.across, shed.knots)
-    torque = max(drive.torque_max.value, -drive.torque_min.value)
-    shaft = square_shaft(_shaft_task(params, mass, across.value, torque))
-    bored = [
-        max(part - shaft.bar**2, 0.0) * thick * params.density for part, thick in zip(areas, thicknesses, strict=True)
-    ]
-    return SheddingDesign(
-        params=params,
-        cam=cam,
-        smallest_prime=smallest,
-        even=even,
-        odd=odd,
-        shed=shed,
-        across_max=across,
-        stack=CamStack(*thicknesses, guide_radius, bored[0], bored[1], mass, inertia),
-        shaft=shaft,
-        drive=drive,
-        shuttle_window=shed.window(),
-    )
+    """Cams, stacks, shafts and drives for the parameters. Raises ParameterError where the cam cannot exist.
+
+    A loom designs its cams to find their spans, and again as one of its machines: the last designs are kept.
+    """
+    prime = params.prime_radius or smallest_prime(params).value
+    chosen = chosen_stack(params, prime / params.lift)
+    shafts = _shafts(params, chosen, prime / params.lift)
+    return SheddingDesign(params, shafts, chosen.guides, chosen.choice, shafts[0].shed.window())
 
 
-_POINTS = 1440
+def _shafts(params: SheddingParams, chosen: ChosenStack, slender: float) -> tuple[CamShaft, ...]:
+    """The shafts, so far apart that the guides of neighbours clear each other also where bores enlarge the cams."""
+    numbers, least_prime = dealt(params.warps, chosen.shafts), 0.0
+    if chosen.shafts == 1:
+        return (cam_shaft(params, numbers[0], chosen.shares),)
+    for _ in range(_TRIALS):
+        along = positions(params, chosen.shafts, slender, least_prime)
+        shafts = tuple(
+            cam_shaft(of_shaft(params, beyond, along[-1], sum(number)), number, chosen.shares, beyond)
+            for beyond, number in zip(along, numbers, strict=True)
+        )
+        enlarged = [one.cam.prime_radius for one in shafts if one.cam.prime_radius > one.params.lift * slender + _SAME]
+        needed = max(enlarged, default=0.0)
+        if needed <= least_prime:
+            break
+        least_prime = needed
+    return shafts
 
 
-def _shaft_task(params: SheddingParams, mass: float, across: float, torque: float) -> SquareShaftTask:
-    """The shaft's task: the mass [kg] of the stack, bores filled, the pull of the warps [N], their torque [N m]."""
-    return SquareShaftTask(
-        length=params.shaft_length or params.warps * params.warp_pitch,
-        spans=params.spans,
-        speed=params.speed,
-        mass=mass,
-        pull=across,
-        pull_angle=params.pull_angle,
-        torque=torque,
-        load=params.shaft_load,
-        safety=params.safety,
-        modulus=params.modulus,
-        strength=params.strength,
-        tensile=params.tensile,
-        slope=params.slope_limit,
-        deflection=params.deflection_limit,
-        twist=params.twist_limit,
-        bar=params.shaft_bar,
-        bearing=params.bearing,
-        bearing_life=params.bearing_life,
-    )
+_TRIALS, _SAME = 4, 1e-6
 
 
-def _drive(params: SheddingParams, shed: Shed, inertia: float) -> SheddingDrive:
-    """Torque over the turn, and the motor with its reducer, the inertia of the stack [kg m^2] included."""
-    most, least = shed.peaks()
-    rms = shed.rms()
-    reducer = Reducer(params.ratio, params.efficiency)
-    # Falling warps drive the cams: the motor brakes what the reducer's friction leaves.
-    braking = -least.value * max(reducer.back_driving_efficiency, 0.0) / params.ratio
-    needed = max(reducer.motor_torque(most.value), braking, 0.0)
-    speed = params.speed * params.ratio
-    motor = smallest_motor(needed, speed) if params.motor_torque is None else None
-    limit = params.motor_torque or (motor.torque if motor else most_torque(speed))
-    if motor is None:
-        return SheddingDrive(most, least, rms, reducer, needed, speed, None, limit, None)
-    angle = np.arange(_POINTS) * (TURN / _POINTS)
-    cycle = LoadCycle(np.full_like(angle, params.speed), np.zeros_like(angle), shed.torque(angle), inertia)
-    return SheddingDrive(most, least, rms, reducer, needed, speed, motor, limit, duty(cycle, motor, reducer))
+def shed_lengthenings(design: SheddingDesign, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Mean lengthening [m] of the even and of the odd warps at angles of the shafts [rad], any shape; 0 without spans.
+
+    The mean over all warps of a parity, as shafts one above the other and staggered groups lengthen theirs differently:
+    times its number of warps (`SheddingDesign.parity_numbers`) it gives what they are lengthened by together.
+    """
+    totals = np.zeros(np.shape(angle)), np.zeros(np.shape(angle))
+    for one in design.shafts:
+        spans = one.params.spans_of_warp
+        if spans is None:
+            continue
+        for total, parity in zip(totals, (one.shed.even, one.shed.odd), strict=True):
+            for number, motion in zip(parity.numbers, parity.motions(angle), strict=True):
+                total += number * shed_lengthening(motion.s, *spans)
+    even, odd = design.parity_numbers
+    return totals[0] / max(even, 1), totals[1] / max(odd, 1)

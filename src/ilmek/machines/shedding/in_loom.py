@@ -1,63 +1,85 @@
 """The shedding cams in a loom: their parameters from its task, their lines in its parts list, their work."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ilmek.elements.drive_parts import motor_part, positive_work, reducer_part
 from ilmek.machines.arrangement.spans import ShedRoom, shed_room, shed_spans, warp_length
 from ilmek.machines.loom_task import LoomTask
+from ilmek.machines.shedding.cam_shaft import CamShaft, smallest_prime
 from ilmek.machines.shedding.design import SheddingDesign, design
 from ilmek.machines.shedding.params import SheddingParams
-from ilmek.report import NOT_WEIGHED, Part, Work
-from ilmek.units import format_quantity, mm
+from ilmek.records import value_record
+from ilmek.report import Part, Work
+from ilmek.units import format_quantity
 
 STEEL = "structural steel"
 
-ITERATIONS = 20
-FIRST_PRIME = 80 * mm
-"""Prime radius for the spans of the first iteration [m]; the cams are then designed for their pressure angle."""
+ITERATIONS = 6
+"""Trials of the spans: the room that the guides need depends on the bars, and these on the warps' forces."""
 
-LARGEST_PRIME = 1.0
-"""Largest prime radius that is tried [m]."""
+SAME = 1e-6
+"""Difference in size that needs no other spans [m]."""
+
+
+@value_record
+class _Outline:
+    """Prime and guide radius of the first and of the last shaft, and the distance between the two [m]."""
+
+    first: tuple[float, float]
+    last: tuple[float, float]
+    apart: float
+
+    def differs(self, other: "_Outline") -> bool:
+        mine, others = ((*one.first, *one.last, one.apart) for one in (self, other))
+        return max(abs(a - b) for a, b in zip(mine, others, strict=True)) > SAME
 
 
 def fit(task: LoomTask) -> SheddingParams:
-    """The parameters for a loom, with a prime radius that leaves room for the shaft's bore.
+    """The parameters for a loom: its warps, between spans that leave the guides of its cam shafts their room.
 
-    A larger cam is heavier and needs a thicker shaft: the prime radius, in whole millimetres, is found by iteration,
-    and with it the spans of the warps that leave the guide cams their room.
+    Carrier and comb have room below the guides of the first shaft, the back rest above those of the last. The carrier
+    runs in the shed in front of the guides, not on the cams' tips.
     """
     room, given = shed_room(task), task.params.machines.of("shedding")
-    prime, found = FIRST_PRIME, _at_prime(task, room, FIRST_PRIME, given)
+    usual = task.parameters("shedding", SheddingParams(lift=task.params.lift))
+    prime = usual.prime_radius or smallest_prime(usual).value
+    usual_outline = prime, prime + usual.lift - usual.roller_radius + usual.guide_height
+    outline = _Outline(usual_outline, usual_outline, 0.0)
     for _ in range(ITERATIONS):
-        made = design(found)
-        least = made.prime_radius_for_bore
-        enough = "prime_radius" in given or made.cam.prime_radius >= least or least > LARGEST_PRIME
-        if enough and made.cam.prime_radius == prime:
+        found = _with_spans(task, room, outline, given)
+        made = _outline_of(design(found))
+        if not made.differs(outline):
             break
-        prime = made.cam.prime_radius if enough else math.ceil(least / mm) * mm
-        found = _at_prime(task, room, prime, given)
+        outline = made
     return found
 
 
-def _at_prime(task: LoomTask, room: ShedRoom, prime: float, given: Mapping[str, Any]) -> SheddingParams:
-    """The parameters with a prime radius [m] and the spans that it needs; those `given` by the user in their place."""
-    params = task.params
-    usual = task.parameters("shedding", SheddingParams(lift=params.lift))
-    spans = shed_spans(room, prime, prime + usual.lift - usual.roller_radius + usual.guide_height)
-    both = {"front_span": spans.front[0], "back_span": spans.back[0]}
-    length = warp_length(room, spans)
+def _outline_of(made: SheddingDesign) -> _Outline:
+    first, last = ((one.cam.prime_radius, one.stack.guide_radius) for one in (made.first, made.shafts[-1]))
+    return _Outline(first, last, made.shafts[-1].beyond)
+
+
+def _with_spans(task: LoomTask, room: ShedRoom, outline: _Outline, given: Mapping[str, Any]) -> SheddingParams:
+    """The parameters with the spans that shafts of an outline need; those `given` by the user in their place."""
+    params, warp = task.params, task.yarns.warp
+    spans = shed_spans(room, *outline.first)
+    back = shed_spans(room, *outline.last).back[0]
+    both = {"front_span": spans.front[0], "back_span": back}
     derived = SheddingParams(
         lift=params.lift,
         warps=task.warps,
         warp_pitch=params.pitch,
+        warp_diameter=warp.diameter,
         tension=task.tension,
         **({"half_span": given["half_span"]} if "half_span" in given else both),
-        warp_stiffness=task.yarns.warp.stiffness,
-        warp_length=length,
+        warp_stiffness=warp.stiffness,
+        warp_length=warp_length(room, spans) + outline.apart + back - spans.back[0],
+        breaking_force=warp.breaking_force,
+        friction=warp.friction,
         shuttle_height=room.opening,
-        prime_radius=None if prime == FIRST_PRIME else prime,
+        guideway=False,
         speed=params.shed_speed,
         shaft_length=task.width,
         spans=math.ceil(task.width / params.shaft_span - 1e-9),
@@ -66,23 +88,39 @@ def _at_prime(task: LoomTask, room: ShedRoom, prime: float, given: Mapping[str, 
 
 
 def parts(made: SheddingDesign) -> tuple[Part, ...]:
-    """Cams, guide cams, shaft, its bearings and steadies, motor and reducer."""
-    params, stack, shaft, drive = made.params, made.stack, made.shaft, made.drive
-    prime, guide, bar = (format_quantity(size, "mm") for size in (made.cam.prime_radius, stack.guide_radius, shaft.bar))
-    mass, ends = shaft.bar**2 * shaft.length * params.density, shaft.seat.bearing
-    bearing, weight = ("none of the table is enough", NOT_WEIGHED) if ends is None else (ends.name, ends.mass)
-    steadies = (Part("steady of the cam shaft", params.spans - 1, "rollers", "", "bearing"),)
-    return (
-        Part("shedding cam", params.warps, f"prime radius {prime}", STEEL, "laser-cut part", stack.cam_mass),
-        Part("guide cam", params.warps, f"radius {guide}", STEEL, "laser-cut part", stack.guide_mass),
-        Part("cam shaft", 1, f"square {bar}", STEEL, "steel bar", mass, shaft.length),
-        Part("bearing of the cam shaft", 2, bearing, "", "bearing", weight),
-        *(steadies if params.spans > 1 else ()),
-        motor_part("motor of the cam shaft", drive.motor, drive.motor_torque, drive.motor_speed),
-        reducer_part("reducer of the cam shaft", drive.reducer.ratio, drive.motor),
+    """Cams, guides and spacers, and of every shaft the bar, its bearings and steadies, motor and reducer."""
+    several = len(made.shafts) > 1
+    return tuple(
+        part
+        for index, one in enumerate(made.shafts)
+        for part in _of_shaft(made, one, f" {index + 1}" if several else "")
     )
 
 
+def _of_shaft(made: SheddingDesign, one: CamShaft, number: str) -> Iterator[Part]:
+    """Lines of a shaft; `number` is added to the names where there are several."""
+    params, stack, shaft, drive, cams = one.params, one.stack, one.shaft, one.drive, sum(one.numbers)
+    prime, guide, bar = (format_quantity(size, "mm") for size in (one.cam.prime_radius, stack.guide_radius, shaft.bar))
+    cut = "laser-cut part"
+    yield Part(f"shedding cam{number}", cams, f"prime radius {prime}", STEEL, cut, stack.cam_mass)
+    if stack.shares.guides:
+        guides = cams * stack.shares.guides
+        yield Part(f"guide cam{number}", guides, f"radius {guide}", STEEL, cut, stack.guide_mass)
+    else:
+        dents = made.params.warps + 1
+        yield Part(f"dent of the reed{number}", dents, f"round {guide}", STEEL, cut, stack.guide_mass)
+    if stack.spacer_mass > 0:
+        ring = format_quantity(stack.shares.spacer, "mm")
+        yield Part(f"spacer of the cams{number}", cams, f"{ring} thick", STEEL, cut, stack.spacer_mass)
+    mass, ends, name = shaft.bar**2 * shaft.length * params.density, shaft.seat.bearing, f"cam shaft{number}"
+    yield Part(name, 1, f"square {bar}", STEEL, "steel bar", mass, shaft.length)
+    yield Part(f"bearing of the {name}", 2, ends.name, "", "bearing", ends.mass)
+    if params.spans > 1:
+        yield Part(f"steady of the {name}", params.spans - 1, "rollers", "", "bearing")
+    yield motor_part(f"motor of the {name}", drive.motor, drive.motor_torque, drive.motor_speed)
+    yield reducer_part(f"reducer of the {name}", drive.reducer.ratio, drive.motor)
+
+
 def work(made: SheddingDesign) -> tuple[Work, ...]:
-    """The work of a row: a turn of the shaft."""
-    return (Work("shedding", positive_work(made.shed.torque), "row"),)
+    """The work of a row: a turn of every shaft, each with a motor of its own, without recovery."""
+    return (Work("shedding", sum(positive_work(one.shed.torque) for one in made.shafts), "row"),)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.cams.programme import TURN
+from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
 from ilmek.params import Params, kind
@@ -11,6 +12,12 @@ from ilmek.units import GPa, MPa, N, deg, format_quantity, hour, mm, rpm
 
 PHASES = ("together", "staggered", "flattest")
 """How the cams of a parity stand on the shaft."""
+
+AUTO, DISCS, REED = "auto", "cams", "reed"
+"""What keeps the warps on their cams: round guide cams between them, or the dents of a fixed reed round the noses."""
+
+MOST_SHAFTS = 4
+"""Most cam shafts one above the other."""
 
 NO_DWELL = 1e-9
 """Angles below this are rounding [rad]."""
@@ -20,9 +27,11 @@ STEEL = MATERIALS["structural steel"]
 
 @dataclass(frozen=True, slots=True)
 class SheddingParams(Params):
-    """Parameters of the cams and the warps on them, of the shaft and of its drive."""
+    """Parameters of the cams and the warps on them, of the shafts and of their drives."""
 
-    lift: float = kind.length(60 * mm, at_least=0.01 * mm, at_most=1.0, doc="lift of a warp: the height of the shed")
+    lift: float = kind.length(
+        60 * mm, at_least=0.01 * mm, at_most=1.0, doc="lift of a warp on the first shaft: the height of the shed"
+    )
     rise: float = kind.angle(90 * deg, at_least=1 * deg, below=TURN, doc="cam angle of the rise", symbol="beta")
     fall: float | None = kind.angle(None, at_least=1 * deg, below=TURN, doc="cam angle of the return; default: rise")
     dwell: float = kind.angle(0.0, at_least=0.0, below=TURN, doc="cam angle for which the warp stays lifted")
@@ -34,16 +43,55 @@ class SheddingParams(Params):
         None,
         at_least=0.1 * mm,
         at_most=2.0,
-        doc="prime radius; default: the smallest for the pressure angle",
+        doc="prime radius on the first shaft; default: the smallest for pressure angle and bore",
         symbol="Rp",
     )
     roller_radius: float = kind.length(0.0, at_least=0.0, at_most=0.5, doc="radius of the warp or roller on the cam")
     warps: int = kind.count(600, at_least=2, at_most=100_000, doc="warps, one cam each")
     warp_pitch: float = kind.length(2 * mm, at_least=0.01 * mm, at_most=50 * mm, doc="distance of two warps")
-    cam_thickness: float | None = kind.length(
-        None, at_least=0.001 * mm, at_most=50 * mm, doc="thickness of a cam; default: half the pitch"
+    shafts: int | None = kind.count(
+        None,
+        at_least=1,
+        at_most=MOST_SHAFTS,
+        doc="cam shafts one above the other, to which the warps are dealt in turn; default: the least number that does",
     )
-    guide_height: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="height of the guide cams above the nose")
+    guides: str = kind.choice(
+        AUTO, (AUTO, DISCS, REED), doc="what keeps the warps on their cams: guide cams, or a fixed reed round the noses"
+    )
+    warp_diameter: float | None = kind.length(
+        None, at_least=0.001 * mm, at_most=50 * mm, doc="diameter of a warp; default: of the usual one at the pitch"
+    )
+    warp_clearance: float = kind.length(
+        0.025 * mm, at_least=0.0, at_most=10 * mm, doc="room of a warp to each side between plates or dents"
+    )
+    cam_thickness: float | None = kind.length(
+        None,
+        at_least=0.001 * mm,
+        at_most=50 * mm,
+        doc="thickness of a cam; default: half the pitch, or what the pitch of the shaft leaves",
+    )
+    least_plate: float = kind.length(
+        0.3 * mm,
+        at_least=0.001 * mm,
+        at_most=10 * mm,
+        doc="least thickness of a cam or guide cam that can be cut and stays plane; assumed by this project",
+    )
+    least_dent: float = kind.length(
+        0.1 * mm,
+        at_least=0.001 * mm,
+        at_most=10 * mm,
+        doc="least thickness of a dent of a reed; assumed by this project",
+    )
+    play_limit: float = kind.ratio(
+        0.2, at_least=1e-3, at_most=1.0, doc="allowed lateral play of a warp over the pitch; assumed by this project"
+    )
+    buckling_safety: float = kind.ratio(
+        2.0, at_least=1.0, at_most=20.0, doc="factor on the warp's force for buckling; assumed by this project"
+    )
+    guide_height: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="height of the guides above the nose")
+    shaft_gap: float = kind.length(
+        10 * mm, at_least=0.0, at_most=1.0, doc="gap between the guides of two shafts, and from guides to a hold"
+    )
     density: float = kind.density(STEEL.density, at_least=1.0, at_most=25e3, doc="density of cams and shaft")
     warp_force: float = kind.force(10 * N, at_least=0.0, at_most=1e4, doc="force of a lifted warp across the cam")
     tension: float | None = kind.force(None, at_least=1e-6, at_most=1e4, doc="tension of a warp, with half_span")
@@ -51,10 +99,10 @@ class SheddingParams(Params):
         None, at_least=0.1 * mm, at_most=10.0, doc="cam to the next hold of the warp: force from tension and lift"
     )
     front_span: float | None = kind.length(
-        None, at_least=0.1 * mm, at_most=10.0, doc="cam to the fell, with back_span instead of half_span"
+        None, at_least=0.1 * mm, at_most=10.0, doc="first shaft to the fell, with back_span instead of half_span"
     )
     back_span: float | None = kind.length(
-        None, at_least=0.1 * mm, at_most=10.0, doc="cam to the hold of the warp behind it, with front_span"
+        None, at_least=0.1 * mm, at_most=10.0, doc="last shaft to the hold of the warp behind it, with front_span"
     )
     warp_stiffness: float | None = kind.force(
         None,
@@ -70,6 +118,12 @@ class SheddingParams(Params):
     strain_limit: float = kind.ratio(
         3.5e-2, unit="%", at_least=1e-6, at_most=1.0, doc="allowed strain of a warp; half of what breaks cotton"
     )
+    breaking_force: float | None = kind.force(
+        None, at_least=1e-6, at_most=1e5, doc="breaking force of a warp; default: of the usual one at the pitch"
+    )
+    breaking_safety: float = kind.ratio(
+        2.0, at_least=1.0, at_most=20.0, doc="breaking force over the tension of a lifted warp; assumed by this project"
+    )
     friction: float = kind.ratio(0.25, at_least=0.0, at_most=2.0, doc="friction coefficient, warp on cam", symbol="f")
     shuttle_height: float = kind.length(40 * mm, at_least=0.01 * mm, at_most=1.0, doc="opening that the shuttle needs")
     shuttle_angle: float | None = kind.angle(
@@ -78,6 +132,10 @@ class SheddingParams(Params):
         below=TURN,
         doc="cam angle for which the shed must be open for the shuttle; "
         "default: half of that of cams in phase for flattest, else not checked",
+    )
+    guideway: bool = kind.flag(True, doc="whether the shuttle runs on the tips of the lifted cams (thesis, Fig. 3.18)")
+    guideway_tolerance: float = kind.length(
+        2 * mm, at_least=1e-6, at_most=0.1, doc="allowed step of the cams' tips over the width; assumed by this project"
     )
     phase: str = kind.choice("together", PHASES, doc="cams of a parity in phase, staggered, or in the flattest phases")
     stagger: float = kind.angle(20 * deg, at_least=0.0, at_most=TURN / 2, doc="angle of spread of staggered cams")
@@ -90,7 +148,7 @@ class SheddingParams(Params):
     )
     spans: int = kind.count(1, at_least=1, at_most=1000, doc="equal spans of the shaft between bearings and steadies")
     shaft_bar: float | None = kind.length(
-        None, at_least=1 * mm, at_most=2.0, doc="side of the square bar; default: the smallest of stock"
+        None, at_least=1 * mm, at_most=2.0, doc="side of the square bar; default: the smallest of stock that does"
     )
     shaft_load: float | None = kind.line_load(
         None, unit="kN/m", at_least=1e-3, at_most=1e7, doc="load of the shaft; default: from cams and warps", symbol="w"
@@ -123,16 +181,27 @@ class SheddingParams(Params):
         if self.lifted_angle > TURN + NO_DWELL:
             given = f"rise + dwell + fall = {format_quantity(self.lifted_angle, 'deg')}"
             raise ParameterError(given, allowed="they must fit one turn, 360 deg", do="shorten one of them")
-        if self.cam_thickness is not None and self.cam_thickness >= self.warp_pitch:
-            pitch = format_quantity(self.warp_pitch, "mm")
-            given = f"cam_thickness={format_quantity(self.cam_thickness, 'mm')} does not fit warp_pitch={pitch}"
-            raise ParameterError(given, allowed=f"below {pitch}", do="leave it out for half the pitch")
+        self._check_thickness()
         self._check_spans()
         if self.phase != "together" and self.stagger_groups > self.warps // 2:
             raise ParameterError(
                 f"stagger_groups={self.stagger_groups} of {self.warps} warps",
                 allowed=f"at most {self.warps // 2}: half of the warps are of a parity",
                 do="set fewer groups",
+            )
+
+    def _check_thickness(self) -> None:
+        """Raise ParameterError where a given cam does not fit the pitch of its shaft, the warps of all shafts on it."""
+        room = self.warp_pitch * (self.shafts or 1)
+        if self.cam_thickness is not None and self.cam_thickness >= room:
+            pitch, most = format_quantity(self.warp_pitch, "mm"), format_quantity(room, "mm")
+            given = f"cam_thickness={format_quantity(self.cam_thickness, 'mm')} does not fit warp_pitch={pitch}"
+            raise ParameterError(
+                given, allowed=f"below {most}", do="leave it out for half the pitch, or set more shafts"
+            )
+        if self.shafts is not None and self.warps < 2 * self.shafts:
+            raise ParameterError(
+                f"{self.warps} warps on {self.shafts} shafts", allowed="two warps a shaft", do="set fewer shafts"
             )
 
     def _check_spans(self) -> None:
@@ -161,6 +230,17 @@ class SheddingParams(Params):
         if self.front_span is not None and self.back_span is not None:
             return self.front_span, self.back_span
         return None if self.half_span is None else (self.half_span, self.half_span)
+
+    @property
+    def diameter(self) -> float:
+        """Diameter of a warp [m]."""
+        return usual_warp(self.warp_pitch).diameter if self.warp_diameter is None else self.warp_diameter
+
+    @property
+    def strongest_tension(self) -> float:
+        """Allowed tension of a lifted warp [N]: its breaking force over the safety."""
+        breaking = usual_warp(self.warp_pitch).breaking_force if self.breaking_force is None else self.breaking_force
+        return breaking / self.breaking_safety
 
     @property
     def fall_angle(self) -> float:

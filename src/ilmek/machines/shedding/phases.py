@@ -73,19 +73,29 @@ def _edge(room: Curve, outside: float, inside: float) -> float:
     return found if np.isfinite(found) else inside
 
 
-def shed_of(params: SheddingParams, even: CamProgramme, spread: float = 0.0, groups: int = 1) -> Shed:
-    """The shed of cams by the programme `even`, odd ones half a turn later, in groups over a spread [rad]."""
-    cams = parities(even, params.warps, spread, groups if spread else 1)
+def shed_of(
+    params: SheddingParams,
+    even: CamProgramme,
+    spread: float = 0.0,
+    groups: int = 1,
+    numbers: tuple[int, int] | None = None,
+) -> Shed:
+    """The shed of cams by the programme `even`, odd ones half a turn later, in groups over a spread [rad].
+
+    numbers  of even and odd cams; default: half of the warps each
+    """
+    evens = params.warps // 2
+    cams = parities(even, numbers or (evens, params.warps - evens), spread, groups if spread else 1)
     return Shed(*cams, spread, partial(warp_force, params), params)
 
 
-def chosen_shed(params: SheddingParams, even: CamProgramme) -> Shed:
-    """The shed of the phase required."""
+def chosen_shed(params: SheddingParams, even: CamProgramme, numbers: tuple[int, int]) -> Shed:
+    """The shed of the phase required, of so many even and odd cams."""
     if params.phase == "together":
-        return shed_of(params, even)
+        return shed_of(params, even, numbers=numbers)
     if params.phase == "staggered":
-        return shed_of(params, even, params.stagger, params.stagger_groups)
-    return flattest(params, even)
+        return shed_of(params, even, params.stagger, params.stagger_groups, numbers)
+    return flattest(params, even, numbers)
 
 
 def required_window(params: SheddingParams, together: float) -> float:
@@ -93,15 +103,15 @@ def required_window(params: SheddingParams, together: float) -> float:
     return together / 2 if params.shuttle_angle is None else params.shuttle_angle
 
 
-def flattest(params: SheddingParams, even: CamProgramme) -> Shed:
+def flattest(params: SheddingParams, even: CamProgramme, numbers: tuple[int, int]) -> Shed:
     """The groups and the spread of least |torque| that leave the shuttle its window; all at once where none does."""
-    together = shed_of(params, even)
+    together = shed_of(params, even, numbers=numbers)
     first, last = together.window()
     widest = _widest(params, even, last - first, required_window(params, last - first))
     most = min(params.stagger_groups, params.warps // 2)
     found = [(*flattest_spread(together.torque, groups, widest), groups) for groups in range(2, most + 1)]
     best = min(found, default=(np.inf, 0.0, 1))
-    return shed_of(params, even, best[1], best[2])
+    return shed_of(params, even, best[1], best[2], numbers)
 
 
 def _widest(params: SheddingParams, even: CamProgramme, together: float, window: float) -> float:

@@ -1,0 +1,266 @@
+"""A cam shaft: the cams of its warps, their stack, the square shaft with its bearings, and its drive.
+
+The speed is low: the torque is that of the warps alone,
+
+    M(theta) = n_even F(s_even) s'_even + n_odd F(s_odd) s'_odd
+
+The prime circle is the smallest that keeps the pressure angle and, in whole millimetres, leaves room for the bore: a
+larger cam is heavier and needs a thicker bar, so that both are found together.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ilmek.cams.laws import LAWS
+from ilmek.cams.plate import PlateCam
+from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
+from ilmek.cams.sizing import CamLimits, pressure_prime
+from ilmek.elements.duty import LoadCycle, MotorDuty, duty
+from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor, strongest_motor
+from ilmek.elements.nose_buckling import nose_buckling
+from ilmek.elements.square_shaft import SquareShaft, SquareShaftTask, square_shaft
+from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
+from ilmek.machines.shedding.phases import Shed, chosen_shed
+from ilmek.machines.shedding.stack import POINTS, CamStack, PitchShares, filled, stack_of
+from ilmek.num.piecewise import Extremum, supremum
+from ilmek.records import computed, record, result
+from ilmek.units import mm
+
+
+@record
+class SheddingDrive:
+    """The drive of a shaft: its torque over the turn, its reducer and its motor.
+
+    motor        None where its torque is given
+    motor_limit  continuous torque of the motor; where none is strong enough, the most that any gives at that speed
+    duty         of the motor over a turn, the stack's inertia included; None without a motor of the table
+    """
+
+    torque_max: Extremum
+    torque_min: Extremum
+    torque_rms: float = result("Nm", "root mean square of the shaft's torque over the turn")
+    reducer: Reducer
+    motor_torque: float = result("Nm", "required torque of the motor")
+    motor_speed: float = result("rpm", "speed of the motor")
+    motor: Motor | None
+    motor_limit: float
+    duty: MotorDuty | None
+
+    shaft_torque_max = computed("Nm", "largest torque that lifts the warps", lambda it: it.torque_max.value)
+    shaft_torque_min = computed("Nm", "largest torque of the warps on the return", lambda it: it.torque_min.value)
+    motor_power = computed("W", "largest power of the motor", lambda it: it.motor_torque * it.motor_speed)
+    name = computed(
+        "",
+        "class of motor chosen; the strongest where none is enough",
+        lambda it: it.motor.name if it.motor else None,
+        name="motor",
+        absent="its torque is given",
+    )
+    motor_torque_rms = computed(
+        "Nm",
+        "rms of the motor's torque over the turn",
+        lambda it: it.duty.rms if it.duty else None,
+        absent="its torque is given",
+    )
+    motor_power_mean = computed(
+        "W",
+        "mean power, losses included",
+        lambda it: it.duty.power_mean if it.duty else None,
+        absent="its torque is given",
+    )
+    inertia_ratio = computed(
+        "1",
+        "load over rotor inertia",
+        lambda it: it.duty.inertia_ratio if it.duty else None,
+        absent="its torque is given",
+    )
+
+
+@record
+class CamShaft:
+    """One of the cam shafts.
+
+    params      of this shaft: lift, spans and warps are its own, the pitch is that of all warps
+    beyond       distance beyond the first shaft, along the warps [m]     numbers  of its even and odd warps
+    even, odd   programmes of the two parities over the shaft's angle; of staggered cams those of the middle
+    shed        all groups of cams, as they are fixed on the shaft
+    across_max  largest force of the lifted warps across the shaft [N]
+    """
+
+    params: SheddingParams
+    beyond: float
+    numbers: tuple[int, int]
+    cam: PlateCam
+    smallest_prime: Extremum
+    even: CamProgramme
+    odd: CamProgramme
+    shed: Shed
+    across_max: Extremum
+    stack: CamStack
+    shaft: SquareShaft
+    drive: SheddingDrive
+
+    @property
+    def prime_radius_for_bore(self) -> float:
+        """Smallest prime radius that leaves the wall outside the corners of the square bore [m]."""
+        return _for_bore(self.params, self.shaft.bar)
+
+    @property
+    def base_radius(self) -> float:
+        """Radius on which the warps at rest lie [m]."""
+        return self.cam.prime_radius - self.cam.roller_radius
+
+    @property
+    def reach(self) -> float:
+        """Half of the length of the warps' line that the guides, and the gap beside them, take up [m]."""
+        return math.sqrt(self.stack.guide_radius**2 - self.base_radius**2) + self.params.shaft_gap
+
+    def buckling(self) -> tuple[float, float]:
+        """Force on the tip where the nose is nearest to buckling, and the force at which it buckles there [N]."""
+        angle = np.linspace(0.0, self.params.rise, _NOSE)
+        cosine = np.cos(self.cam.pressure_angle(angle))
+        force = self.shed.force(self.even.at(angle).s) / cosine
+        critical = np.asarray(
+            nose_buckling(self.stack.thickness, self.params.lift, cosine, self.params.modulus), dtype=float
+        )
+        worst = int(np.argmax(force / critical))
+        return float(force[worst]), float(critical[worst])
+
+
+_NOSE = 91
+
+LARGEST_PRIME = 1.0
+"""Largest prime radius that is tried for the bore [m]."""
+
+
+def lifting(params: SheddingParams, law: str | None = None) -> CamProgramme:
+    """The programme of one cam, by the law of the parameters or another."""
+    motion = LAWS[law or params.law]
+    rest = TURN - params.lifted_angle
+    segments = [
+        rise(params.rise, params.lift, motion),
+        *([dwell(params.dwell)] if params.dwell > 0 else []),
+        fall(params.fall_angle, params.lift, motion),
+        *([dwell(rest)] if rest > NO_DWELL else []),
+    ]
+    return CamProgramme(tuple(segments))
+
+
+def smallest_prime(params: SheddingParams) -> Extremum:
+    """The smallest prime radius for the pressure angle [m], and its cam angle."""
+    allowed = params.pressure_angle_limit
+    return pressure_prime(lifting(params), CamLimits(allowed, allowed))
+
+
+def cam_shaft(params: SheddingParams, numbers: tuple[int, int], shares: PitchShares, beyond: float = 0.0) -> CamShaft:
+    """A cam shaft with so many even and odd warps, for its own parameters. Raises ParameterError as `PlateCam`."""
+    even, smallest, cams = lifting(params), smallest_prime(params), sum(numbers)
+    shed = chosen_shed(params, even, numbers)
+    peaks, across = shed.peaks(), supremum(shed.across, shed.knots)
+    torque = max(peaks[0].value, -peaks[1].value)
+    cam = PlateCam(even, params.prime_radius or smallest.value, roller_radius=params.roller_radius)
+    while True:
+        mass, inertia = filled(params, cam, shares, cams)
+        shaft = square_shaft(_shaft_task(params, mass, across.value, torque))
+        least = _for_bore(params, shaft.bar)
+        if params.prime_radius is not None or cam.prime_radius >= least or least > LARGEST_PRIME:
+            break
+        cam = cam.resized(math.ceil(least / mm - _ROUNDING) * mm)
+    return CamShaft(
+        params=params,
+        beyond=beyond,
+        numbers=numbers,
+        cam=cam,
+        smallest_prime=smallest,
+        even=even,
+        odd=even.shifted(TURN / 2),
+        shed=shed,
+        across_max=across,
+        stack=stack_of(params, cam, shares, cams, shaft.bar),
+        shaft=shaft,
+        drive=_drive(params, shed, peaks, inertia),
+    )
+
+
+_ROUNDING = 1e-9
+
+
+def _for_bore(params: SheddingParams, bar: float) -> float:
+    return bar / math.sqrt(2) + params.bore_wall + params.roller_radius
+
+
+def of_shaft(params: SheddingParams, beyond: float, last: float, number: int) -> SheddingParams:
+    """The parameters of a shaft at a distance beyond the first one, the last one at `last` [m], for its warps.
+
+    The warps of all shafts open one line from the fell on: the lift is in proportion to the distance from it. Without
+    spans the lift is that of the first.
+    """
+    spans, prime = params.spans_of_warp, params.prime_radius
+    own = replace(
+        params,
+        shafts=None,
+        cam_thickness=None,
+        warps=max(number, 2),
+        stagger_groups=max(min(params.stagger_groups, number // 2), 1),
+        shaft_length=params.shaft_length or params.warps * params.warp_pitch,
+    )
+    if spans is None:
+        return own
+    front, back = spans
+    higher = min((front + beyond) / front, HIGHEST_LIFT / params.lift)
+    return replace(
+        own,
+        lift=params.lift * higher,
+        prime_radius=None if prime is None else min(prime * higher, _LARGEST_PRIME),
+        half_span=None,
+        front_span=min(front + beyond, _LONGEST),
+        back_span=min(back + last - beyond, _LONGEST),
+        warp_length=None if params.warp_length is None else max(params.warp_length, front + back + last),
+    )
+
+
+HIGHEST_LIFT, _LARGEST_PRIME, _LONGEST = 1.0, 2.0, 10.0
+"""Bounds of the parameters of a shaft [m]."""
+
+
+def _shaft_task(params: SheddingParams, mass: float, across: float, torque: float) -> SquareShaftTask:
+    """The shaft's task: the mass [kg] of the stack, bores filled, the pull of the warps [N], their torque [N m]."""
+    return SquareShaftTask(
+        length=params.shaft_length or params.warps * params.warp_pitch,
+        spans=params.spans,
+        speed=params.speed,
+        mass=mass,
+        pull=across,
+        pull_angle=params.pull_angle,
+        torque=torque,
+        load=params.shaft_load,
+        safety=params.safety,
+        modulus=params.modulus,
+        strength=params.strength,
+        tensile=params.tensile,
+        slope=params.slope_limit,
+        deflection=params.deflection_limit,
+        twist=params.twist_limit,
+        bar=params.shaft_bar,
+        bearing=params.bearing,
+        bearing_life=params.bearing_life,
+    )
+
+
+def _drive(params: SheddingParams, shed: Shed, peaks: tuple[Extremum, Extremum], inertia: float) -> SheddingDrive:
+    """Torque over the turn, and the motor with its reducer, the inertia of the stack [kg m^2] included."""
+    most, least = peaks
+    rms, reducer = shed.rms(), Reducer(params.ratio, params.efficiency)
+    # Falling warps drive the cams: the motor brakes what the reducer's friction leaves.
+    braking = -least.value * max(reducer.back_driving_efficiency, 0.0) / params.ratio
+    needed = max(reducer.motor_torque(most.value), braking, 0.0)
+    speed = params.speed * params.ratio
+    if params.motor_torque is not None:
+        return SheddingDrive(most, least, rms, reducer, needed, speed, None, params.motor_torque, None)
+    enough = smallest_motor(needed, speed)
+    motor, limit = (enough, enough.torque) if enough else (strongest_motor(speed), most_torque(speed))
+    angle = np.arange(POINTS) * (TURN / POINTS)
+    cycle = LoadCycle(np.full_like(angle, params.speed), np.zeros_like(angle), shed.torque(angle), inertia)
+    return SheddingDrive(most, least, rms, reducer, needed, speed, motor, limit, duty(cycle, motor, reducer))

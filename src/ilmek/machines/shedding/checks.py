@@ -1,0 +1,189 @@
+"""The checks of shedding cams. Of checks that every shaft has, the one of the shaft that keeps it worst counts."""
+
+import math
+from collections.abc import Iterator
+
+from ilmek.cams.limits import convex_radius_min, pressure_angle_max
+from ilmek.cams.programme import TURN
+from ilmek.machines.shedding.analysis import SheddingAnalysis, lengthening_of, strain_of
+from ilmek.machines.shedding.cam_shaft import CamShaft
+from ilmek.machines.shedding.design import SheddingDesign
+from ilmek.machines.shedding.phases import required_window
+from ilmek.machines.shedding.stack_choice import buckling_check, line_check, plate_checks
+from ilmek.machines.shedding.warp import nose_radius, shed_warp
+from ilmek.report import Check, at_least, at_most
+from ilmek.report.verdict import weight
+
+THESIS = "thesis, 3.2"
+STRONGER = "set more spans, a lower tension, or more shafts"
+
+
+def checks(found: SheddingAnalysis) -> tuple[Check, ...]:
+    """Cams, plates, shed, shafts, bearings, motors and warps."""
+    design = found.design
+    params, shares = design.params, design.first.stack.shares
+    return (
+        *worst([tuple(_cam_checks(one)) for one in design.shafts]),
+        *plate_checks(params, shares),
+        *worst([tuple(_nose_checks(one)) for one in design.shafts]),
+        *_shed_checks(found),
+        *worst([tuple(_shaft_checks(one)) for one in design.shafts]),
+        *worst([tuple(_warp_checks(one)) for one in design.shafts]),
+    )
+
+
+def worst(of_shafts: list[tuple[Check, ...]]) -> tuple[Check, ...]:
+    """Of the checks with one name the one that fails most, or that is nearest to its limit."""
+    return tuple(max(alike, key=_severity) for alike in zip(*of_shafts, strict=True))
+
+
+def _severity(check: Check) -> tuple[bool, float]:
+    if not check.ok:
+        return True, weight(check)
+    return False, -weight(check)
+
+
+def _cam_checks(one: CamShaft) -> Iterator[Check]:
+    params, cam = one.params, one.cam
+    buckling, norton = f"{THESIS}: a thin cam must not buckle", "Norton, Cam Design and Manufacturing, 7"
+    larger = "set a larger prime_radius"
+    mu = pressure_angle_max(cam).value
+    yield at_most("pressure angle", mu, params.pressure_angle_limit, "deg", buckling, cure=larger)
+    yield at_least(
+        "convex radius of the pitch curve (no undercut)",
+        convex_radius_min(cam).value,
+        cam.roller_radius,
+        "mm",
+        f"{norton}: rho > roller radius",
+        cure=larger,
+    )
+    bore = one.prime_radius_for_bore
+    yield at_least("prime radius round the bore", cam.prime_radius, bore, "mm", "bore_wall", cure=larger)
+
+
+def _nose_checks(one: CamShaft) -> Iterator[Check]:
+    """Buckling of the nose, and its stress under the warp: T / rho along its edge, over the thickness."""
+    force, critical = one.buckling()
+    yield buckling_check(one.params.buckling_safety * force, critical)
+    warp, radius = shed_warp(one.params), nose_radius(one.cam)
+    if warp is not None and radius > 0:
+        stress = float(warp.tension_at(one.params.lift)) / (radius * one.stack.thickness)
+        source = "yield strength; T / (rho t) of the warp round the nose"
+        yield at_most("stress at the nose", stress, one.params.strength, "MPa", source, cure="set a lower tension")
+
+
+def _shed_checks(found: SheddingAnalysis) -> Iterator[Check]:
+    design, params = found.design, found.design.params
+    higher = "set a larger lift, or a lower shuttle_height"
+    yield at_least(
+        "shed for the shuttle", design.shed_opening, params.shuttle_height, "mm", "shuttle_height", cure=higher
+    )
+    yield from _window_checks(found)
+    yield at_most(
+        "one parity down while the other is up",
+        params.lifted_angle,
+        TURN / 2,
+        "deg",
+        f"{THESIS}, Fig. 3.19",
+        cure="set a shorter rise, dwell or fall",
+    )
+    if params.guideway:
+        yield at_most(
+            "step of the shuttle's guideway on the tips",
+            design.guideway.step,
+            params.guideway_tolerance,
+            "mm",
+            "Fig. 3.18 of the thesis; assumed by this project: parameter guideway_tolerance",
+            cure="set phase=together and more spans, or guideway=no where the shuttle has a guide of its own",
+        )
+    yield from _span_checks(design)
+
+
+def _window_checks(found: SheddingAnalysis) -> Iterator[Check]:
+    """The shuttle's window against the required one, if any."""
+    design, required = found.design, found.design.params.shuttle_angle
+    if required is None and design.params.phase == "flattest":
+        first, last = found.together.window()
+        required = required_window(design.params, last - first)
+    if required is not None:
+        wider = "set a larger lift or dwell, or a lower shuttle_height"
+        yield at_least(
+            "window of the shuttle", design.shuttle_window_angle, required, "deg", "shuttle_angle", cure=wider
+        )
+
+
+def _span_checks(design: SheddingDesign) -> Iterator[Check]:
+    """The guides against the holds of the warps at both ends, and the shed lines of the shafts against each other."""
+    first, last = design.first, design.shafts[-1]
+    spans = design.params.spans_of_warp
+    if spans is None:
+        return
+    ends = (("front", first, spans[0], "front_span"), ("back", last, spans[1], "back_span"))
+    for name, shaft, span, parameter in ends:
+        yield at_most(
+            f"guides and cams clear of the {name} hold",
+            shaft.reach,
+            span,
+            "mm",
+            f"{parameter} or half_span; shaft_gap",
+            cure=f"set a longer {parameter}, or a lower lift",
+        )
+    if len(design.shafts) > 1:
+        yield line_check([one.params.lift for one in design.shafts], [spans[0] + one.beyond for one in design.shafts])
+        yield at_least(
+            "gap between the guides of two shafts",
+            min(_gaps(design)),
+            design.params.shaft_gap,
+            "mm",
+            "shaft_gap",
+            cure="set fewer shafts, or a lower lift",
+        )
+
+
+def _gaps(design: SheddingDesign) -> list[float]:
+    """Gap between the guides of each shaft and the next [m]."""
+    return [
+        after.beyond - before.beyond - after.stack.guide_radius - before.stack.guide_radius
+        for before, after in zip(design.shafts, design.shafts[1:], strict=False)
+    ]
+
+
+def _shaft_checks(one: CamShaft) -> Iterator[Check]:
+    params, shaft = one.params, one.shaft
+    width = sum(one.numbers) * one.stack.shares.pitch
+    room = shaft.length + one.stack.shares.pitch - params.warp_pitch
+    longer = "set a longer shaft_length"
+    deflection = f"{THESIS} and eq. 3.4, 1 mm"
+    yield at_most("width of the cams on the shaft", width, room, "mm", "shaft_length", cure=longer)
+    yield at_most("slope of the shaft", shaft.slope, params.slope_limit, "rad", f"{THESIS} and eq. 3.5", cure=STRONGER)
+    yield at_most("deflection of the shaft", shaft.deflection, params.deflection_limit, "mm", deflection, cure=STRONGER)
+    lag, steel = "twist_limit: lag of the far cams", "yield strength, von Mises"
+    lower = "set a lower tension, or more shafts"
+    yield at_most("twist of the shaft", shaft.twist, params.twist_limit, "deg", lag, cure=lower)
+    yield at_most("stress of the shaft", shaft.stress, params.strength, "MPa", steel, cure=STRONGER)
+    yield at_least("fatigue of the shaft", shaft.endurance, 1.0, "1", "Goodman, hot rolled, 99 %", cure=STRONGER)
+    half = "half of its critical speed"
+    yield at_most("speed of the shaft", params.speed, shaft.critical / 2, "rpm", half, cure="set more spans")
+    seat, bar = shaft.seat, shaft.bar
+    life, stronger = params.bearing_life, "set more spans, or another bearing"
+    yield at_least("life of the bearings", seat.life, life, "h", "ISO 281, bearing_life", cure=stronger)
+    bore, torsion = seat.bearing.bore, "torsion, von Mises"
+    yield at_least("bore of the bearing for the torque", bore, seat.journal, "mm", torsion, cure=stronger)
+    yield at_most("bore of the bearing in the bar", bore, bar, "mm", "journal of the bar", cure=stronger)
+    drive = one.drive
+    continuous, other = "continuous torque of the motor", "set another ratio, or more shafts"
+    yield at_most("motor torque", drive.motor_torque, drive.motor_limit, "Nm", continuous, cure=other)
+
+
+def _warp_checks(one: CamShaft) -> Iterator[Check]:
+    """Strain and tension of a lifted warp; nothing where only its force is given."""
+    params, warp = one.params, shed_warp(one.params)
+    if warp is None:
+        return
+    looser = "set a longer warp_length, more compensation, or a lower lift"
+    tension = float(warp.tension_at(params.lift))
+    breaking = "breaking_force over breaking_safety (assumed by this project)"
+    yield at_most("tension of a lifted warp", tension, params.strongest_tension, "N", breaking, cure=looser)
+    strain = strain_of(params, lengthening_of(params))
+    if strain is not None and math.isfinite(strain):
+        yield at_most("strain of a lifted warp", strain, params.strain_limit, "%", "strain_limit", cure=looser)
