@@ -10,7 +10,7 @@ follower is
 The load is what the tool's work takes, i times the force on the tool (virtual work), positive against the lift.
 
 The contact force is N = F / cos(mu), the torque F s'. The spring is the weakest one whose force doubles over the lift
-and that keeps the follower on the cam at 1.2 times the speed; a groove requires none. Prime circle and forces are
+and that keeps the follower on the cam up to 1.2 times the speed; a groove requires none. Prime circle and forces are
 maxima over samples every 1/8 degree and on both sides of every joint of the motion.
 
 The torque of the shaft is the sum of F s' of all cams. At constant speed its mean over a turn is the torque of brakes
@@ -65,7 +65,7 @@ class LoadedPlateCam:
     load             of the tool's work over the turn, against the lift [N]
     force, contact   F and N over the turn [N]  pressure Hertz, over the turn [Pa]
     lift_off         speed of the shaft at which the follower would leave the cam [rad/s]
-    area [m²]        of the face without bore   inertia  about the axis [kg m²]
+    area [m²]        of the face without bore   inertia  about the axis [kg m²]      speed  of the shaft [rad/s]
     """
 
     name: str
@@ -89,11 +89,19 @@ class LoadedPlateCam:
     area: float
     inertia: float
     thickness: float
+    speed: float
 
     @property
     def torque(self) -> FloatArray:
         """Torque on the cam shaft over the turn [N m]."""
         return np.asarray(self.force * self.motion.ds)
+
+    @property
+    def inertial_torque(self) -> FloatArray:
+        """Torque on the cam shaft that is proportional to its speed squared, of masses and brake [N m]."""
+        forward, back = self.mass_moved
+        need = np.where(self.motion.ds >= 0, forward, back) * self.speed**2 * self.motion.dds
+        return np.asarray((need + self.brake * (self.motion.ds > 0)) * self.motion.ds)
 
     @property
     def pressure_angle(self) -> float:
@@ -176,7 +184,7 @@ def loaded_plate_cam(
     need = need + brake * (motion.ds > 0)
     load = np.zeros(angle.shape) if task.load is None else task.load(angle)
     weight = 1 + motion.s / lift
-    preload = _preload(task, need * FASTER**2 + load, weight)
+    preload = _preload(task, np.minimum(need, 0.0) * FASTER**2 + load, weight)  # at every speed from 0 on
     force = need + load + (preload * weight + task.contact_force if task.closure == "spring" else 0.0)
     contact = np.abs(force) / np.cos(trace.pressure_angle)
     width = task.thickness
@@ -204,6 +212,7 @@ def loaded_plate_cam(
         area=area,
         inertia=polar * width * STEEL.density,
         thickness=width,
+        speed=speed,
     )
 
 

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from ilmek.cams.laws import LAWS
+from ilmek.errors import ParameterError
 from ilmek.machines.weaver.motions import (
     CENTRE_GRASP,
     CENTRE_MOTION,
@@ -31,7 +32,7 @@ SOURCE = "thesis, 2.2.3: order of the knotting sequence"
 TUBE_TURN, DRAW_TURN, PRESENT_TURN = 90 * deg, 110 * deg, 70 * deg
 """Rotations of the handler to the tube, drawing the pile, and to the side grippers; it turns on to come home."""
 
-_ITERATIONS, _SAME = 20, 1e-9
+_SAME = 1e-9
 
 _Needed: TypeAlias = tuple[float, float | None]
 """Times of the cutter and of the arms [s]."""
@@ -182,21 +183,35 @@ def optimised(
     """
     tracks = tuple(replace(track, limits=limits[track.name]) for track in required.tracks)
     limited = replace(required, tracks=tracks)
-    shortest = _shortest(limited, gap, (cutting, arms))
-    if shortest.period >= required.period:
+    needed = cutting, arms
+    if _within(limited, gap, needed, required.period) is None:
+        shortest = _shortest(limited, gap, needed)
         return replace(shortest, period=shortest.period * (1 + _SAME))
-    return least_acceleration(_ordered(limited, gap, (cutting, arms), required.period)).cyclogram
+    return least_acceleration(_ordered(limited, gap, needed, required.period)).cyclogram
 
 
 def _shortest(limited: Cyclogram, gap: float, needed: _Needed) -> Cyclogram:
-    """The shortest cycle in which cutter and arms have their times; the angles follow the cycle: found by iteration."""
-    found = least_period(_ordered(limited, gap, (0.0, needed[1] and 0.0), 1.0)).cyclogram
-    for _ in range(_ITERATIONS):
-        then = least_period(_ordered(limited, gap, needed, found.period)).cyclogram
-        if abs(then.period - found.period) <= _SAME * found.period:
-            break
-        found = then
-    return then
+    """The shortest cycle in which cutter and arms have their times; their angles follow the cycle, so bisection."""
+    least = least_period(_ordered(limited, gap, (0.0, needed[1] and 0.0), 1.0)).cyclogram
+    low = high = least.period
+    best = _within(limited, gap, needed, high)
+    while best is None:
+        low, high = high, 2 * high
+        best = _within(limited, gap, needed, high)
+    while high - low > _SAME * high:
+        middle = (low + high) / 2
+        found = _within(limited, gap, needed, middle)
+        low, high, best = (low, middle, found) if found else (middle, high, best)
+    return replace(best, period=high)
+
+
+def _within(limited: Cyclogram, gap: float, needed: _Needed, period: float) -> Cyclogram | None:
+    """The shortest cyclogram with the angles that cutter and arms need at a period [s], where it is no longer."""
+    try:
+        found = least_period(_ordered(limited, gap, needed, period)).cyclogram
+    except ParameterError:  # the times take more than the turn
+        return None
+    return found if found.period <= period * (1 + _SAME) else None
 
 
 def _ordered(limited: Cyclogram, gap: float, needed: _Needed, period: float) -> Cyclogram:

@@ -5,7 +5,7 @@ springs, warps and yarn do not grow with the speed. So from the cycle T of the d
 
     tools       T such that no track exceeds speed and acceleration      cutter   sqrt(4 h / a) over its share of a turn
     cams        T p / p_limit         since p² is as the force           carriage its step over the window's share
-    motor       the least at which the motor still gives 1.25 times the torque, T sqrt(M / M(w))
+    motor       the least at which the motor still gives 1.25 times the torque of inertia and work
 
 The cutter's blade moves h = 2 d across the yarn from rest to rest. Cutting takes at most the force that breaks all the
 fibres of the pile yarn at once.
@@ -21,7 +21,7 @@ from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
 from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import FULL_STEPS, NO_MOTOR, Motor, smallest_motor
 from ilmek.elements.yarns import WOOL
-from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.design import Weaver, shaft_torque
 from ilmek.machines.weaver.motions import HANDLER
 from ilmek.num.brackets import bracketed_roots
 from ilmek.records import computed, group, record, result
@@ -126,14 +126,20 @@ def head_mass(weaver: Weaver) -> float:
 
 
 def _motor_limit(weaver: Weaver) -> float:
-    """The shortest cycle that the head's motor allows [s]."""
+    """The shortest cycle that the head's motor allows [s]; its inertia goes as 1/T², springs and tools' work stay."""
     servo, cycle = weaver.drive.servo, weaver.cycle
     if servo is None:
         return math.inf
-    peak = MARGIN * servo.duty.peak
+    angle = weaver.cams[0].angle
+    total = shaft_torque(weaver, angle)
+    inertial = sum(np.interp(angle, cam.angle, cam.inertial_torque, period=turn) for cam in weaver.cams)
+    most = float(np.max(np.abs(total)))
 
     def spare(time: FloatArray) -> FloatArray:
-        return np.asarray(servo.motor.peak_at(servo.reducer.ratio * turn / time) - peak * (cycle / time) ** 2)
+        share = ((cycle / np.ravel(time)) ** 2 - 1)[:, None]
+        peak = np.max(np.abs(total + share * inertial), axis=1).reshape(np.shape(time)) / most
+        allowed = servo.motor.peak_at(servo.reducer.ratio * turn / time)
+        return np.asarray(allowed - MARGIN * servo.duty.peak * peak)
 
     found = float(bracketed_roots(spare, np.array([cycle * _SHORTEST]), np.array([cycle]))[0])
     return found if math.isfinite(found) else cycle
