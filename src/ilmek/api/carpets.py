@@ -124,6 +124,7 @@ def weave(
     aim: str | None = None,
     warp_pitch: Setting = None,
     loom: Mapping[str, Setting] = MappingProxyType({}),
+    loom_file: str | Path | None = None,
     force: bool = False,
     progress: Progress = SILENT,
 ) -> WeaveResult:
@@ -134,6 +135,7 @@ def weave(
     aim              "price" or "time": what is least in the choice of all that is left open; default: price
     warp_pitch       distance of two warps; default: that of the quality
     loom             parameters of the loom by name, those of its machines dotted: {"shedding.law": "modified-sine"}
+    loom_file        of a loom that exists, written by `weave` as machine.json or by `ilmek design --json`
     force            replace a folder that ilmek made
 
     Settings are texts with units or numbers in SI. Where the loom cannot weave the carpet, `weaves` of the result is
@@ -150,5 +152,13 @@ def weave(
         keep_lone=keep_lone,
         pile_height=pile_height,
     )
-    wanted = read_loom_order(order, heads=heads, deadline=deadline, aim=aim, warp_pitch=warp_pitch, loom=loom)
+    wanted = read_loom_order(
+        order,
+        heads=heads,
+        deadline=deadline,
+        aim=aim,
+        warp_pitch=warp_pitch,
+        loom=loom,
+        loom_file=None if loom_file is None else Path(loom_file),
+    )
     return weaving.weave(order, wanted, Path(out), force=force, progress=progress)

@@ -13,7 +13,6 @@ import click
 
 from ilmek.errors import printable
 from ilmek.progress import SILENT, Progress
-from ilmek.units import format_quantity
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -66,16 +65,19 @@ def show_pairs(pairs: Sequence[tuple[str, str]]) -> None:
 
 def show_checks(checks: "Sequence[Check]") -> None:
     """Print checks with value and limit, failed ones first."""
+    from ilmek.report import in_words
+
     ordered = sorted(checks, key=lambda check: check.ok)
     rows = [
         (
             "pass" if check.ok else "FAIL",
             check.name,
-            format_quantity(check.value, check.unit),
-            f"{check.relation} {format_quantity(check.limit, check.unit)}",
+            value,
+            f"{check.relation} {limit}" if limit != "yes" else limit,
             check.source,
         )
         for check in ordered
+        for value, limit in [in_words(check)]
     ]
     show_table(("check", "", "value", "limit", "source"), rows, right=(2,))
 

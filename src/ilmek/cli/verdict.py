@@ -6,8 +6,7 @@ import click
 
 from ilmek.cli.terminal import note
 from ilmek.errors import printable
-from ilmek.report import Check, Reason, reasons
-from ilmek.units import format_quantity
+from ilmek.report import Check, Reason, in_words, reasons
 
 CHECK_FAILS = 3
 """Exit code of a command that is done and has a check that fails."""
@@ -29,7 +28,7 @@ def show_verdict(checks: Sequence[Check], headline: str = CHECKS) -> None:
         failed = reasons(checks)
         click.echo(f"{headline}: {_words(checks, failed, headline)}")
         for reason in failed:
-            click.echo(printable(f"  {in_words(reason)}"))
+            click.echo(printable(f"  {line(reason)}"))
 
 
 def note_verdict(checks: Sequence[Check], headline: str = CHECKS) -> None:
@@ -39,15 +38,16 @@ def note_verdict(checks: Sequence[Check], headline: str = CHECKS) -> None:
         note(f"{headline}: {_words(checks, failed, headline)}: {names}")
 
 
-def in_words(reason: Reason) -> str:
+def line(reason: Reason) -> str:
     """A reason in one line.
 
-    >>> in_words(Reason("sag", 0.003, 0.002, "mm", "set a stiffer rail", "rail_sag", "<="))
+    >>> line(Reason("sag", 0.003, 0.002, "mm", "set a stiffer rail", "rail_sag", "<="))
     'sag: 3 mm, must be at most 2 mm; set a stiffer rail'
     """
-    value, limit = (format_quantity(number, reason.unit) for number in (reason.value, reason.limit))
-    relation = {"<=": "at most", ">=": "at least"}.get(reason.relation, reason.relation)
-    return f"{reason.name}: {value}, must be {relation} {limit}{'; ' if reason.cure else ''}{reason.cure}"
+    value, limit = in_words(reason)
+    relation = {"<=": "at most ", ">=": "at least "}.get(reason.relation, f"{reason.relation} ")
+    must = f"{value}, must be {relation}{limit}" if limit != "yes" else f"{value}, {reason.source}"
+    return f"{reason.name}: {must}{'; ' if reason.cure else ''}{reason.cure}"
 
 
 def _words(checks: Sequence[Check], failed: Sequence[Reason], headline: str) -> str:

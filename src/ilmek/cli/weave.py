@@ -7,7 +7,7 @@ import click
 
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import carpet_inputs, carpet_options, force_option, json_option
-from ilmek.cli.settings import read_settings, setting_files
+from ilmek.cli.settings import loom_settings, read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
 from ilmek.cli.verdict import WEAVES, exit_code, note_verdict, show_verdict
 from ilmek.jobs.loom import read_loom_order
@@ -23,6 +23,7 @@ Examples:
   ilmek weave photo.jpg --size 120x180cm --quality 40x40/dm --yarns wool.toml --knot symmetric --deadline 72h
   ilmek weave photo.jpg --size kelle --colours 8 --heads 6 --out carpet --force
   ilmek weave photo.jpg --loom beat=comb --loom shedding.law=modified-sine --loom prices=@prices.txt
+  ilmek weave other.jpg --size 80x120cm --loom carpet/machine.json
 
 Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1,000 heads.
 """
@@ -44,8 +45,9 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
     "--loom",
     "settings",
     multiple=True,
-    metavar="NAME=VALUE",
-    help="Set a parameter of the loom or its machines: beat=comb, shedding.law=modified-sine; @FILE reads a file.",
+    metavar="NAME=VALUE|FILE",
+    help="Set a parameter of the loom or its machines: beat=comb, shedding.law=modified-sine; @FILE reads a file. "
+    "FILE alone: weave on that loom, written by design automated-loom --json or by weave as machine.json.",
 )
 @force_option
 @json_option
@@ -68,11 +70,18 @@ def command(
     no programme, and the command ends with 3.
     """
     order = read_order(**carpet)
+    loom_file, settings = loom_settings(settings)
     loom_order = read_loom_order(
-        order, heads=heads, deadline=deadline, aim=aim, warp_pitch=warp_pitch, loom=read_settings(settings)
+        order,
+        heads=heads,
+        deadline=deadline,
+        aim=aim,
+        warp_pitch=warp_pitch,
+        loom=read_settings(settings),
+        loom_file=loom_file,
     )
     folder = out or free_folder(order.picture, "carpet")
-    inputs = {**carpet_inputs(carpet), **setting_files(settings)}
+    inputs = {**carpet_inputs(carpet), "--loom": loom_file, **setting_files(settings)}
     with call_outputs({"--json": json_to}, force=force, inputs=inputs) as call:
         woven = weave(order, loom_order, folder, outputs=call.outputs, progress=call.progress)
         call.give_json(lambda: weave_json(woven))

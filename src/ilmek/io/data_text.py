@@ -40,27 +40,30 @@ class DataText(NamedTuple):
     lines: KeyLines
 
 
-def read_data(path: Path, kind: str, error: type[IlmekError]) -> DataText:
+def read_data(
+    path: Path, kind: str, error: type[IlmekError], *, largest: int = LARGEST, longest: int = LONGEST_TEXT
+) -> DataText:
     """The data of a .toml or .json file.
 
-    kind  of the file in messages: mechanism, cyclogram
+    kind     of the file in messages: mechanism, cyclogram
+    largest  size of the file [bytes]      longest  number of characters of a text or number
     Raises `error` with the file and, for an error in the text, the line.
     """
     noun = f"{kind} file, .toml or .json"
     try:
-        text = read_text(path, noun=noun, largest=LARGEST, error=error, do="check the path")
+        text = read_text(path, noun=noun, largest=largest, error=error, do="check the path")
         if path.suffix.lower() not in (".toml", ".json"):
             raise error(f"ends in {path.suffix!r}", allowed=f"a {kind} file is .toml or .json")
     except error as failed:
         raise error(f"{kind} file {path} {failed.given}", allowed=failed.allowed, do=failed.do) from None
-    return parse_data(text, name=str(path), toml=path.suffix.lower() == ".toml", error=error)
+    return parse_data(text, name=str(path), toml=path.suffix.lower() == ".toml", error=error, longest=longest)
 
 
-def parse_data(text: str, *, name: str, toml: bool, error: type[IlmekError]) -> DataText:
+def parse_data(text: str, *, name: str, toml: bool, error: type[IlmekError], longest: int = LONGEST_TEXT) -> DataText:
     """The data of a TOML or JSON text; messages call it `name`. Raises `error` with the line."""
     try:
         found = list(tokens(text))
-        _check_tokens(found)
+        _check_tokens(found, longest)
         data, lines = (_toml if toml else _json)(text, found)
         _check_texts(data, lines)
     except IlmekError as failed:
@@ -86,13 +89,13 @@ def _json(text: str, found: list[Token]) -> DataText:
         raise IlmekError(f"line {failed.lineno}, column {failed.colno}: {reason}", do="correct that line") from None
 
 
-def _check_tokens(found: list[Token]) -> None:
+def _check_tokens(found: list[Token], longest: int) -> None:
     """Raise IlmekError for brackets or dotted keys that are too deep, and for a text or number that is too long."""
     depth = dots = 0
     for kind, text, line in found:
-        if len(text) > LONGEST_TEXT and kind != "rest":
+        if len(text) > longest and kind != "rest":
             given = f"line {line}: {shortened(text)} is too long"
-            raise IlmekError(given, allowed=f"at most {LONGEST_TEXT} characters in a text or number")
+            raise IlmekError(given, allowed=f"at most {longest} characters in a text or number")
         if kind == "mark" and text != ".":
             depth += (text in "[{") - (text in "]}")
         if kind in ("mark", "newline"):

@@ -3,12 +3,22 @@
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.pile import knot_length
 from ilmek.errors import IlmekError, ParameterError, UnitError
+from ilmek.jobs.existing_loom import (
+    ExistingLoom,
+    carpet_checks,
+    for_rows,
+    heads_used,
+    read_existing_loom,
+    row_pitch_left,
+    yarns_on,
+)
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.wishes import Wishes, heads_for_wishes, require_price
 from ilmek.loom.programme import Programme, make_programme
@@ -26,11 +36,13 @@ class LoomOrder:
     params    parameters of the loom, as far as they are known without the picture
     wishes    number of heads, and time for the whole carpet
     settings  names of the parameters that the user set
+    existing  the loom that exists; default: one is designed
     """
 
     params: AutomatedLoomParams
     wishes: Wishes
     settings: tuple[str, ...] = ()
+    existing: ExistingLoom | None = None
 
     @property
     def deadline(self) -> float | None:
@@ -45,6 +57,7 @@ class LoomOrder:
             "deadline": wishes.deadline,
             "warp_pitch": self.params.pitch,
             "aim": self.params.aim,
+            "loom_file": None if self.existing is None else str(self.existing.path),
         }
 
 
@@ -52,15 +65,20 @@ class LoomOrder:
 class LoomResult:
     """A loom for a chart, and the programme that weaves the chart on it.
 
-    report  of the loom; without a design it has the reason as a failed check
-    checks  of the loom for this chart: its deadline
-    design, programme  None where the loom cannot be designed
+    report   of the loom; without a design it has the reason as a failed check
+    checks   of the loom for this chart: its deadline; of a loom that exists, what the carpet needs of it
+    design, programme  None where the loom cannot be designed; no programme either where it exists and the carpet does
+             not fit it
+    row_pitch_left     distance of the rows that the beat leaves [m]; None without a design
+    notes    on the use of a loom that exists
     """
 
     report: Report
     checks: tuple[Check, ...]
     design: LoomDesign | None = None
     programme: Programme | None = None
+    row_pitch_left: float | None = None
+    notes: tuple[str, ...] = ()
 
 
 OF_THE_CARPET = {
@@ -89,16 +107,21 @@ def read_loom_order(
     aim: str | None = None,
     warp_pitch: Setting = None,
     loom: Mapping[str, Setting] = MappingProxyType({}),
+    loom_file: Path | None = None,
 ) -> LoomOrder:
     """The order for a loom, from texts.
 
-    loom  further parameters of the loom, by name
-    Raises ParameterError, UnitError, or LoomError if the quality does not fit the warp pitch.
+    loom       further parameters of the loom, by name
+    loom_file  of a loom that exists; then only its `yarns.*` can be set, and fewer heads
+    Raises ParameterError, UnitError, or LoomError if the quality does not fit the warp pitch or the file is no loom.
     """
     for name in loom:
         if name in OF_THE_CARPET:
             raise ParameterError(f"{name} of the loom follows from the carpet", do=f"set it by {OF_THE_CARPET[name]}")
     limit = None if deadline is None else _deadline(deadline)
+    if loom_file is not None:
+        fixed = {"--aim": aim, "--warp-pitch": warp_pitch}
+        return _order_on(read_existing_loom(loom_file), Wishes(heads, limit), loom, fixed)
     given = {"heads": heads, "deadline": limit, "aim": aim, "warp_pitch": warp_pitch, **loom}
     given = {name: value for name, value in given.items() if value is not None}
     settings: dict[str, Setting] = dict(
@@ -111,6 +134,20 @@ def read_loom_order(
     )
     params = AutomatedLoomParams.read(settings)
     return LoomOrder(params, Wishes(heads, limit, params.price_limit), tuple(given))
+
+
+def _order_on(
+    existing: ExistingLoom, wishes: Wishes, loom: Mapping[str, Setting], fixed: Mapping[str, Setting]
+) -> LoomOrder:
+    """The order for a loom that exists. Raises ParameterError for what cannot be set of it."""
+    for option, value in fixed.items():
+        if value is not None:
+            raise ParameterError(f"{option} is given beside {existing.path}", do=f"the loom exists: leave {option} out")
+    most = existing.design.heads
+    if wishes.heads is not None and not 1 <= wishes.heads <= most:
+        raise ParameterError(f"{wishes.heads} heads", allowed=f"{existing.path} has {most}", do="give fewer")
+    params = replace(existing.design.params, yarns=yarns_on(existing, loom))
+    return LoomOrder(params, wishes, tuple(loom), existing)
 
 
 def _deadline(text: str) -> float:
@@ -129,6 +166,8 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
     Raises ParameterError for wishes that contradict each other, and the errors of a design that only settings prevent.
     """
     params = params_for(loom_order, order, chart)
+    if loom_order.existing is not None:
+        return _on_existing(loom_order, loom_order.existing, order, chart, progress)
     try:
         made = heads_for_wishes(params, loom_order.wishes, chart, progress.part(0.0, 0.7))
         programme = make_programme(
@@ -140,7 +179,25 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
         return LoomResult(_without_design(params, error), ())
     report = MACHINE.report(made)
     require_price(loom_order.wishes, made, report, programme.duration)
-    return LoomResult(report, deadline_checks(loom_order.deadline, programme), made, programme)
+    left = made.beat.row_pitch_left
+    return LoomResult(report, deadline_checks(loom_order.deadline, programme), made, programme, left)
+
+
+def _on_existing(
+    loom_order: LoomOrder, existing: ExistingLoom, order: CarpetOrder, chart: Chart, progress: Progress
+) -> LoomResult:
+    """The loom that exists, with what the chart needs of it as checks; a programme where it fits."""
+    yarns = params_for(loom_order, order, chart).yarns
+    checks = carpet_checks(existing, order, chart, yarns, yarn_of_a_knot(order, chart))
+    row_pitch = 1 / order.quality.along
+    made, left = for_rows(existing, row_pitch), row_pitch_left(existing, row_pitch)
+    if not all(check.ok for check in checks):
+        return LoomResult(existing.report, checks, made, None, left)
+    heads = min(heads_used(existing, chart), loom_order.wishes.heads or made.heads)
+    notes = (f"{heads} of the loom's {made.heads} heads are used; the others are parked",) if heads < made.heads else ()
+    programme = make_programme(chart.knots, len(chart.yarns), heads, made.times, progress=progress)
+    checks = (*checks, *deadline_checks(loom_order.deadline, programme))
+    return LoomResult(existing.report, checks, made, programme, left, notes)
 
 
 def params_for(loom_order: LoomOrder, order: CarpetOrder, chart: Chart) -> AutomatedLoomParams:

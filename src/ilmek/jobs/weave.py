@@ -69,7 +69,7 @@ class WeaveResult:
     @property
     def warnings(self) -> tuple[str, ...]:
         """All warnings: of the carpet, the loom and its machines."""
-        return (*self.charted.warnings, *self.loom.all_warnings, *self.left_out)
+        return (*self.charted.warnings, *self.loomed.notes, *self.loom.all_warnings, *self.left_out)
 
     @property
     def notes(self) -> tuple[FileNote, ...]:
@@ -142,7 +142,7 @@ def weave_results(woven: WeaveResult) -> dict[str, Any]:
     programme, made = woven.loomed.programme, woven.loomed.design
     return {
         "weaves": woven.weaves,
-        "row_pitch_left": woven.loom["row_pitch_left"],
+        "row_pitch_left": woven.loomed.row_pitch_left,
         **chart_results(woven.charted),
         "heads": programme and programme.heads,
         "heads_max": made and made.heads_max,
@@ -196,7 +196,7 @@ def _page(woven: WeaveResult) -> CarpetPage:
         reports=(woven.loom.own(), *woven.loom.children),
         checks=woven.own_checks,
         files=woven.notes,
-        warnings=(*woven.charted.warnings, *woven.charted.notes, *woven.left_out),
+        warnings=(*woven.charted.warnings, *woven.charted.notes, *woven.loomed.notes, *woven.left_out),
         choices=woven.loom.all_choices,
     )
 

@@ -6,7 +6,7 @@ machine. Values are SI; the unit beside a value is the one to show it in.
 
 from ilmek.records import DeclaredResult, computed, declared_results, group, record, result
 from ilmek.report.bill import NOT_WEIGHED, Part, Work
-from ilmek.report.check import Check, at_least, at_most, must, snap_to_limit
+from ilmek.report.check import Check, at_least, at_most, in_words, must, snap_to_limit
 from ilmek.report.choice import Alternative, Choice, choose, failing
 from ilmek.report.document import Report
 from ilmek.report.figure import (
@@ -79,6 +79,7 @@ __all__ = [
     "declared_results",
     "failing",
     "group",
+    "in_words",
     "must",
     "plain",
     "reasons",

@@ -2,9 +2,10 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from ilmek.report.json import plain
+from ilmek.units import format_quantity
 
 ROUNDING = 1e-9
 """Relative difference to a limit that counts as rounding: a part made for exactly its limit keeps it."""
@@ -28,6 +29,17 @@ class Check:
         return {name: plain(getattr(self, name)) for name in Check.__slots__}
 
 
+class Judged(Protocol):
+    """A check, or a reason: a value against a limit."""
+
+    @property
+    def value(self) -> float: ...  # noqa: D102
+    @property
+    def limit(self) -> float: ...  # noqa: D102
+    @property
+    def unit(self) -> str: ...  # noqa: D102
+
+
 def at_most(name: str, value: float, limit: float, unit: str, source: str, *, cure: str = "") -> Check:
     """The check value <= limit; a value that differs from the limit by rounding keeps it, NaN fails.
 
@@ -47,6 +59,17 @@ def at_least(name: str, value: float, limit: float, unit: str, source: str, *, c
 def must(name: str, holds: bool, source: str, *, cure: str = "") -> Check:
     """The check of a plain yes or no, 1 or 0: what the machine must do, or a part that it must have."""
     return Check(name, float(holds), 1.0, "", holds, source, ">=", cure)
+
+
+def in_words(check: Judged) -> tuple[str, str]:
+    """Value and limit in the check's unit; of a plain yes or no, these words.
+
+    >>> in_words(at_most("sag", 0.003, 0.002, "mm", "given")), in_words(must("knot tied", False, "its path"))
+    (('3 mm', '2 mm'), ('no', 'yes'))
+    """
+    if not check.unit and check.limit == 1 and check.value in (0, 1):
+        return ("yes" if check.value else "no"), "yes"
+    return format_quantity(check.value, check.unit), format_quantity(check.limit, check.unit)
 
 
 def snap_to_limit(value: float, limit: float) -> float:

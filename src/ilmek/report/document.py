@@ -125,7 +125,10 @@ class Report:
         return own | {child.key: child.results_as_json() for child in self.children}
 
     def as_json(self) -> dict[str, Any]:
-        """The contract of `--json`: machine, verdict, parameters, results, checks, choices; SI, full precision."""
+        """The contract of `--json`: machine, verdict, parameters, results, checks, choices; SI, full precision.
+
+        `machines` has the parameters in force of the machines in it.
+        """
         results = self.results_as_json()
         return {
             "machine": self.machine,
@@ -136,6 +139,15 @@ class Report:
             "checks": [check.as_json() for check in self.all_checks],
             "choices": [choice.as_json() for choice in self.all_choices],
             "warnings": list(self.all_warnings),
+            **({"machines": self._machines()} if self.children else {}),
+        }
+
+    def _machines(self) -> dict[str, Any]:
+        """The parameters of the machines in it, by their names, each with those of its own machines."""
+        return {
+            child.machine: {"parameters": plain(child.parameters)}
+            | ({"machines": child._machines()} if child.children else {})
+            for child in self.children
         }
 
     def own(self) -> "Report":

@@ -17,7 +17,7 @@ from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
 from ilmek.errors import encodable
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Animation, Check, Choice, Figure, Reason, Report, Timing, reasons
+from ilmek.report import Animation, Check, Choice, Figure, Reason, Report, Timing, in_words, reasons
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.animation import SECONDS
 from ilmek.viz.number_format import amount, cells, count, fixed, number, quantity, sign, words
@@ -204,6 +204,7 @@ def _environment() -> Environment:
         "words": words,
         "sign": sign,
         "cells": cells,
+        "judged": in_words,
         "unit": shown_unit,
         "with_unit": with_unit,
     }

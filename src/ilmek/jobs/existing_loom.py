@@ -1,0 +1,271 @@
+"""A loom that exists, and another carpet on it: nothing is redesigned, what the carpet needs is checked.
+
+The loom is the design for the parameters in its file, with what was chosen; the parameters of its machines and the
+results in the file prove that it is the same loom.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.design import knot_grid
+from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, carpet_yarns
+from ilmek.errors import IlmekError, LoomError, ParameterError
+from ilmek.io.loom_file import LoomFile, read_loom_file
+from ilmek.jobs.order import CarpetOrder
+from ilmek.loom.sharing import heads_that_fit
+from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom.choice import ROW_TOLERANCE
+from ilmek.machines.automated_loom.cyclogram import cyclogram
+from ilmek.params import Setting
+from ilmek.report import Check, Report, at_least, at_most, must, plain
+from ilmek.units import dm, format_quantity
+
+SAME = 1e-9
+"""Relative difference of numbers that are the same, written and read."""
+
+SAME_PITCH = 5e-3
+"""Share by which the quality may differ from that of the loom's warp pitch: dealers allow ten."""
+
+OF_THE_YARNS = "yarns."
+"""Parameters of the loom that belong to the carpet, and can be set beside a loom's file."""
+
+WISHES = ("deadline", "price_limit")
+"""Parameters that limit what was chosen for the first carpet; they do not change the loom."""
+
+
+@dataclass(frozen=True, slots=True)
+class ExistingLoom:
+    """A loom from a file: its design and report, and the names of what differs from its file."""
+
+    path: Path
+    design: LoomDesign
+    report: Report
+    differs: tuple[str, ...] = ()
+
+
+def read_existing_loom(path: Path) -> ExistingLoom:
+    """The loom of a file. Raises LoomError for a file that is none, or whose loom cannot be designed."""
+    file = read_loom_file(path, MACHINE.name)
+    settings = {name: value for name, value in file.parameters.items() if name not in WISHES}
+    try:
+        made = design(AutomatedLoomParams.read(settings))
+    except IlmekError as error:
+        raise LoomError(f"{path}, parameters: {error.given}", allowed=error.allowed, do=error.do) from None
+    report = MACHINE.report(made)
+    return ExistingLoom(path, made, report, tuple(_differences(file, report)))
+
+
+def _differences(file: LoomFile, report: Report) -> Iterator[str]:
+    """Names of parameters and results of the file that the loom has otherwise; those that either lacks are left out."""
+    for child in report.children:
+        inner = file.machines.get(child.machine, {})
+        yield from (f"{child.machine}.{name}" for name in _differing(inner, plain(child.parameters), ""))
+    judged = ("weaves", "reasons")
+    yield from (name for name in _differing(file.results, report.results_as_json(), "") if name not in judged)
+
+
+def _differing(given: Any, found: Any, path: str) -> Iterator[str]:
+    if isinstance(given, Mapping) and isinstance(found, Mapping):
+        for name in given.keys() & found.keys():
+            yield from _differing(given[name], found[name], f"{path}.{name}" if path else name)
+    elif isinstance(given, list) and isinstance(found, list) and len(given) == len(found):
+        if any(True for one, other in zip(given, found, strict=True) for _ in _differing(one, other, path)):
+            yield path
+    elif not _same(given, found):
+        yield path
+
+
+def _same(given: Any, found: Any) -> bool:
+    numbers = not isinstance(given, bool) and isinstance(given, int | float) and isinstance(found, int | float)
+    if numbers and math.isfinite(found):
+        return math.isclose(given, found, rel_tol=SAME, abs_tol=1e-15)
+    return bool(given == found) or (given is None and isinstance(found, float))
+
+
+def yarns_on(existing: ExistingLoom, settings: Mapping[str, Setting]) -> CarpetYarnParams:
+    """The yarns of a carpet on the loom: as of its first carpet, with settings `yarns.*` in their place.
+
+    Raises ParameterError for a setting that is none of a yarn, and one that is out of bounds.
+    """
+    for name in settings:
+        if not name.startswith(OF_THE_YARNS):
+            given = f"{name} is set beside {existing.path}"
+            raise ParameterError(given, allowed="the loom exists: only yarns.* can be set", do=f"leave {name} out")
+    own = {name.removeprefix(OF_THE_YARNS): setting for name, setting in settings.items()}
+    read: Any = CarpetYarnParams.read(own, prefix=OF_THE_YARNS)
+    return replace(existing.design.params.yarns, **{name: getattr(read, name) for name in own})
+
+
+def heads_used(existing: ExistingLoom, chart: Chart) -> int:
+    """Heads that share a row of the chart: those of the loom, or fewer, if only so many fit; the others are parked."""
+    made = existing.design
+    return min(made.heads, heads_that_fit(chart.columns, made.knot_pitch, made.head_width))
+
+
+def for_rows(existing: ExistingLoom, row_pitch: float) -> LoomDesign:
+    """The same loom with the take-up set to another distance of rows [m]."""
+    made = existing.design
+    timing = replace(made.row_timing, row_pitch=row_pitch)
+    moved = {track.name: track for track in cyclogram(timing, made.row_cyclogram.period).tracks}
+    tracks = tuple(moved.get(track.name, track) for track in made.row_cyclogram.tracks)
+    return replace(made, row_timing=timing, row_cyclogram=replace(made.row_cyclogram, tracks=tracks))
+
+
+def row_pitch_left(existing: ExistingLoom, row_pitch: float) -> float:
+    """Distance of the rows [m] that the loom's beat leaves of rows required at a distance [m]."""
+    beat = existing.design.beat
+    finer = row_pitch / existing.design.task.row_pitch
+    fabric = beat.fabric
+    scaled = replace(fabric, laid=fabric.laid * finer, jammed=fabric.jammed * finer, packing=fabric.packing * finer)
+    return float(scaled.spacing(beat.beat_force_warp))
+
+
+def carpet_checks(
+    existing: ExistingLoom, order: CarpetOrder, chart: Chart, yarns: CarpetYarnParams, knot_yarn: float
+) -> tuple[Check, ...]:
+    """What a carpet needs, against what the loom has.
+
+    yarns  of the carpet, the pile as of the chart       knot_yarn  the longest pile yarn of a knot [m]
+    """
+    made, params = existing.design, existing.design.params
+    same = "; ".join(existing.differs[:5])
+    return (
+        must(
+            "loom: as in its file",
+            not existing.differs,
+            f"{existing.path.name}{f' differs in {same}' if same else ''}",
+            cure="design the loom again with this version of ilmek, or leave its file as it was written",
+        ),
+        *_fit_checks(made, order, chart),
+        *_row_checks(existing, order),
+        at_most(
+            "carpet: colours",
+            chart.colours,
+            params.colours,
+            "1",
+            "tubes of a head of the loom",
+            cure=f"set --colours {params.colours}",
+        ),
+        *_yarn_checks(made, carpet_yarns(yarns, params.pitch), knot_yarn),
+    )
+
+
+def _fit_checks(made: LoomDesign, order: CarpetOrder, chart: Chart) -> tuple[Check, ...]:
+    """Warps, their pitch, the knot and the length."""
+    params, quality = made.params, order.quality
+    own = 0.5 / params.pitch
+    pitch, dense = format_quantity(params.pitch, "mm"), f"{own * dm:.4g}"
+    columns = knot_grid(order.size, order.quality)[1]
+    widest = format_quantity((made.warps - params.selvedge_warps) * params.pitch, "cm")
+    source = f"cams, slots and heads of the loom stand at warps {pitch} apart: {dense} knots/dm"
+    return (
+        at_most(
+            "carpet: knots across beside those of the loom",
+            abs(quality.across / own - 1),
+            SAME_PITCH,
+            "%",
+            source,
+            cure=f"set --quality {dense}x{quality.along * dm:.4g}/dm",
+        ),
+        at_most(
+            "carpet: warps",
+            2 * columns + params.selvedge_warps,
+            made.warps,
+            "1",
+            "cams, slots and healds of the loom",
+            cure=f"set a size of at most {widest} width",
+        ),
+        must(
+            "carpet: knot",
+            chart.knot == params.knot,
+            f"the heads tie the {params.knot} knot",
+            cure=f"set --knot {params.knot}",
+        ),
+        at_most(
+            "carpet: length",
+            order.size.length,
+            params.length,
+            "m",
+            "warp and roll of the loom's cylinders",
+            cure=f"set a size of at most {format_quantity(params.length, 'm')} length",
+        ),
+    )
+
+
+def _row_checks(existing: ExistingLoom, order: CarpetOrder) -> tuple[Check, ...]:
+    """The distance of rows: what the beat leaves, and what the take-up moves."""
+    row_pitch, own = 1 / order.quality.along, existing.design.task.row_pitch
+    most = row_pitch * (1 + ROW_TOLERANCE)
+    source = "row pitch of the quality, 2 % more allowed; fabric as assumed by this project"
+    dense = f"{existing.design.params.quality.along * dm:.4g}"
+    return (
+        at_most(
+            "carpet: distance of the rows that the beat leaves",
+            row_pitch_left(existing, row_pitch),
+            most,
+            "mm",
+            source,
+            cure="set a coarser quality along, or take a loom with a stronger beat",
+        ),
+        at_most(
+            "carpet: take-up of a row",
+            row_pitch,
+            own,
+            "mm",
+            "the take-up is timed for the loom's own rows",
+            cure=f"set {dense} rows/dm or more",
+        ),
+    )
+
+
+def _yarn_checks(made: LoomDesign, yarns: CarpetYarns, knot_yarn: float) -> tuple[Check, ...]:
+    """The yarns, against those that slots, opener, grippers and handler were made for."""
+    own, head = made.task.yarns, made.weaver
+    drawn = made.params.knot_yarn or head.drawn
+    finer = "take a finer yarn"
+    return (
+        at_most(
+            "carpet: diameter of a warp",
+            yarns.warp.diameter,
+            own.warp.diameter,
+            "mm",
+            "slots of the spacer",
+            cure=finer,
+        ),
+        at_most(
+            "carpet: stiffness of a warp",
+            yarns.warp.stiffness,
+            own.warp.stiffness,
+            "N",
+            "tension of the open shed",
+            cure=finer,
+        ),
+        at_least(
+            "carpet: strength of a warp",
+            yarns.warp.breaking_force,
+            own.warp.breaking_force,
+            "N",
+            "tension of the open shed and of the beat",
+            cure="take a stronger warp",
+        ),
+        at_most(
+            "carpet: thickness of the pile in a gripper",
+            yarns.pressed,
+            own.pressed,
+            "mm",
+            "grippers and gaps",
+            cure=finer,
+        ),
+        at_most(
+            "carpet: pile yarn of a knot",
+            knot_yarn,
+            drawn,
+            "mm",
+            "motion of the pile handler",
+            cure="set a lower --pile-height",
+        ),
+    )
