@@ -16,7 +16,7 @@ OUT = Path(__file__).parents[1] / "docs" / "_static"
 
 
 def head() -> Head:
-    """The head for warps of 0.8 mm, 2 mm apart."""
+    """The head for the usual warps, 2 mm apart."""
     made = design(KnottingDyadParams()).head
     if made is None:
         raise SystemExit("no head was made")

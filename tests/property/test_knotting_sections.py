@@ -12,7 +12,7 @@ from ilmek.linkage.swivelled_arm import SwivelledArm
 from ilmek.machines.knotting_dyad import KnottingDyadParams
 from ilmek.machines.knotting_dyad.clearance import arm_bars, to_warps
 from ilmek.machines.knotting_dyad.head import Head, head_of
-from ilmek.machines.knotting_dyad.search import _tried, best_arm
+from ilmek.machines.knotting_dyad.search import MISSED, _tried, best_arm
 from ilmek.machines.knotting_dyad.section import section_of
 from ilmek.plane.round_bars import LeastDistance, least
 
@@ -73,7 +73,7 @@ def test_no_random_arm_that_fits_sweeps_less() -> None:
     at = [rng.uniform(np.log(low), np.log(0.15), count), rng.uniform(-section.tilt, section.tilt, count)]
     at += [rng.uniform(np.log(section.reach / 10), np.log(0.15), count)]
     tried = _tried(params, section, np.stack(at, axis=-1), rng.choice([-1.0, 1.0], count))
-    fits = np.flatnonzero(np.isfinite(tried.cost))
+    fits = np.flatnonzero(tried.cost < MISSED)
     arms = [
         replace(best, pivot=tried.pivot[k], first=tried.first[k], second=tried.second[k], side=int(tried.side[k]))
         for k in fits

@@ -60,7 +60,8 @@ def test_the_angle_off_straight_is_that_of_the_triangle_of_each_arm(settings: di
 
 
 def test_the_warning_names_the_least_distance_and_what_would_help() -> None:
-    (warning,) = answer(clearance="0.55mm").warnings
+    closed = dict(opening="0mm", pair_opened="2mm", warp_diameter="0.8mm")
+    (warning,) = answer(clearance="0.55mm", **closed).warnings
     assert warning.startswith("arms to warps: 0.32 mm, 0.55 mm is required; take a needle of 0.1 mm or less")
 
 
@@ -113,10 +114,7 @@ def test_figures_show_every_arm_and_the_points() -> None:
         ({"points": POINTS + " and so on", "angles": ANGLES}, "no list of points"),
         ({"points": CIRCLE, "angles": "0 90deg 180deg 270deg"}, "a family of dyads"),
         ({"points": LINE, "angles": "95deg 125deg 250deg 125deg"}, "points lie on a line: no arm of finite links"),
-        ({"warp_pitch": "0.8mm"}, "touch each other; a pitch above 0.8 mm"),
-        ({"depth": "0.5mm"}, "is among the warps; a depth of 0.65 mm or more"),
-        ({"link_limit": "5mm"}, "no arm with links of 5 mm or less ties this knot"),
-        ({"bend_limit": "89deg"}, "none reaches the hand-over bent enough"),
+        ({"depth": "0.5mm"}, "is among the warps; a depth of 0.723 mm or more"),
         ({"knot": "symmetrical"}, "did you mean symmetric"),
         ({"warp_pitch": "2"}, "did you mean 2mm"),
     ],
@@ -125,3 +123,53 @@ def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
     with pytest.raises(ParameterError) as refused:
         answer(**settings)
     assert said in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("settings", "failed"),
+    [
+        ({"warp_diameter": "2.2mm"}, "gap between two warps"),
+        ({"link_limit": "5mm"}, "longest link of the arm to build"),
+        ({"bend_limit": "89deg"}, "angle between its links, off straight, along the way"),
+        ({"pivot_room": "1m"}, "room of the motors between the pivots"),
+        ({"opening": "0mm", "pair_opened": "2mm"}, "needle and pile yarn together, between the pair"),
+        ({"opening": "0mm"}, "needle and pile yarn together, beside the pair"),
+        ({"yarn_pressed": "1.5mm", "pair_opened": "2mm"}, "pile yarn in the gap between the warps"),
+        ({"needle_breadth": "0.02mm", "needle_diameter": "0.1mm"}, "needle against buckling under the yarn's pull"),
+        ({"elbow_mass": "90kg"}, "servos of the joints"),
+    ],
+)
+def test_what_cannot_be_kept_is_a_failed_check_and_drops_none(settings: dict[str, str], failed: str) -> None:
+    usual, hard = answer(), answer(**settings)
+    assert not usual.failed
+    assert [check.name for check in hard.checks] == [check.name for check in usual.checks]
+    assert any(check.name.startswith(failed) and check.cure for check in hard.failed)
+
+
+@pytest.mark.parametrize("knot", ["symmetric", "asymmetric"])
+@pytest.mark.parametrize("pitch", ["0.25mm", "0.5mm", "1mm", "2mm", "4mm"])
+def test_arms_with_an_opener_tie_both_knots_at_every_pitch_with_needle_and_yarn_in_the_gap(
+    pitch: str, knot: str
+) -> None:
+    """The widths again, from the coordinates of the warps and the tilt at the hand-over."""
+    made = design(KnottingDyadParams.read({"warp_pitch": pitch, "knot": knot}))
+    report = MACHINE.report(made)
+    assert not report.failed
+    assert report.as_json()["results"]["knot_tied"] == knot
+    assert made.head is not None
+    section = made.head.section
+    left, first, second = section.warps[5:8].real
+    needle = made.head.arm.path(np.array([1.0])).theta[0, 1]
+    across = (first - left) * abs(math.sin(needle))
+    assert across - section.warp >= section.needle + section.yarn - 1e-9
+    assert second - first - section.warp >= section.needle + section.yarn - 1e-9
+
+
+def test_a_given_depth_widens_the_gaps_and_a_depth_that_no_gap_helps_fails() -> None:
+    shallow, usual = (design(KnottingDyadParams(depth=depth)).head for depth in (3e-3, None))
+    assert shallow is not None
+    assert usual is not None
+    assert shallow.section.outer > usual.section.outer
+    assert shallow.section.beside == pytest.approx(shallow.section.needle + shallow.section.yarn, rel=1e-9)
+    names = [check.name for check in answer(depth="1mm").failed]
+    assert "needle and pile yarn together, beside the pair" in names

@@ -30,11 +30,14 @@ def head(**settings: str) -> Head:
     return found
 
 
+CLOSED = dict(opening="0mm", warp_diameter="0.8mm")
+"""Warps of 0.8 mm without an opener, with `pair_opened` as the pitch."""
+
 SECTIONS: list[dict[str, str]] = [
     {},
     {"warp_pitch": "1.25mm", "warp_diameter": "0.5mm", "yarn_diameter": "0.6mm"},
     {"warp_pitch": "10mm"},
-    {"warp_pitch": "1.5mm", "warp_diameter": "0.5mm", "opening": "0.4mm"},
+    {"warp_pitch": "1.5mm", "warp_diameter": "0.5mm", "opening": "0.7mm"},
     {
         "warp_pitch": "0.5mm",
         "warp_diameter": "0.2mm",
@@ -121,7 +124,7 @@ def test_no_sampled_distance_is_less_than_the_least_that_is_reported(settings: d
 
 
 def test_there_are_six_warps_on_each_side_of_the_pair_and_the_opener_moves_them_aside() -> None:
-    shut, opened = (section_of(KnottingDyadParams(opening=one)).warps for one in (0.0, 0.7e-3))
+    shut, opened = (section_of(KnottingDyadParams(opening=one, pair_opened=2e-3)).warps for one in (0.0, 0.7e-3))
     assert len(shut) == 2 * NEIGHBOURS + 2
     assert np.diff(shut.real) == pytest.approx(np.full(13, 0.002))
     wide = np.full(13, 0.002)
@@ -176,6 +179,7 @@ def test_a_hand_over_at_two_positions_is_reported_with_the_distance() -> None:
 def test_a_needle_that_just_passes_the_warps_is_distinguished_from_one_that_does_not() -> None:
     """A long way past warps that leave it 0.02 mm: coarse samples do not tell on which side it passes."""
     fine = dict(warp_pitch="0.54mm", warp_diameter="0.43mm", needle_diameter="0.05mm", clearance="0mm", depth="2.4mm")
+    fine |= dict(opening="0mm", pair_opened="0.54mm")
     found = head(**fine, leg="33mm")
     assert 0 < found.clearance_min < 0.03e-3
     assert found.tied.knot == found.knot
@@ -184,7 +188,7 @@ def test_a_needle_that_just_passes_the_warps_is_distinguished_from_one_that_does
 def test_an_end_left_behind_the_warps_is_no_knot() -> None:
     found = head()
     left = _carried(found.sequence, 0, LEFT, LEFT, "", "", "", "", "")
-    assert "4 mm behind the front of the warps" in tied_by(found.section, found.arm, left).words
+    assert "4.701 mm behind the front of the warps" in tied_by(found.section, found.arm, left).words
 
 
 def test_the_needle_bends_as_the_curvature_of_a_clamped_bar_adds_up() -> None:
@@ -207,21 +211,28 @@ def test_the_needle_bends_as_the_curvature_of_a_clamped_bar_adds_up() -> None:
 
 def test_a_thin_needle_bends_into_the_warps_and_is_reported() -> None:
     found = MACHINE.report(made(needle_diameter="0.1mm"))
-    assert [check.name for check in found.failed] == ["needle bent aside by the yarn"]
+    assert [check.name for check in found.failed] == [
+        "needle bent aside by the yarn",
+        "needle against buckling under the yarn's pull",
+    ]
     assert "the yarn bends the needle" in found.warnings[0]
 
 
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
-        ({"warp_pitch": "1mm"}, "take finer warps, or a pitch of 1.5 mm or more"),
-        ({"warp_pitch": "1.4mm"}, "take a needle of 0.4 mm or less, or a pitch of 1.5 mm or more"),
-        ({"depth": "1mm"}, "try a depth of 2.27 mm or an opening of 4.68 mm"),
+        ({"warp_pitch": "1mm", "pair_opened": "1mm"}, "take finer warps, or a pair of warps 1.5 mm apart"),
+        (
+            {"warp_pitch": "1.4mm", "pair_opened": "1.4mm"},
+            "take a needle of 0.4 mm or less, or a pair of warps 1.5 mm apart",
+        ),
+        ({"depth": "1mm", "pair_opened": "2mm"}, "try a depth of 2.27 mm or an opening of 4.68 mm"),
     ],
 )
 def test_too_little_room_is_a_failed_check_and_a_warning_that_says_what_to_change(
     settings: dict[str, str], said: str
 ) -> None:
+    settings = {**CLOSED, **settings}
     found = MACHINE.report(made(**settings))
     assert [check.name for check in found.failed if "clearance" in check.name] == ["clearance over the whole cycle"]
     assert said in found.warnings[0]
@@ -230,15 +241,17 @@ def test_too_little_room_is_a_failed_check_and_a_warning_that_says_what_to_chang
 
 def test_what_a_warning_advises_helps() -> None:
     for better in (
-        {"depth": "2.27mm"},
-        {"depth": "1mm", "opening": "4.68mm"},
-        {"warp_pitch": "1.4mm", "needle_diameter": "0.3mm"},
+        {"depth": "2.27mm", "pair_opened": "2mm"},
+        {"depth": "1mm", "opening": "4.68mm", "pair_opened": "2mm"},
+        {"warp_pitch": "1.4mm", "needle_diameter": "0.3mm", "pair_opened": "1.4mm"},
     ):
-        assert head(**better).clearance_min >= 1e-4 - 1e-6
+        assert head(**{**CLOSED, **better}).clearance_min >= 1e-4 - 1e-6
 
 
 def test_a_given_depth_is_kept_and_a_deeper_hand_over_has_more_room() -> None:
-    assert head(depth="2.27mm").clearance_min < head().clearance_min < head(depth="6mm").clearance_min
+    shut = {**CLOSED, "pair_opened": "2mm"}
+    least, usual, most = (head(**shut, **depth).clearance_min for depth in ({"depth": "2.27mm"}, {}, {"depth": "6mm"}))
+    assert least < usual < most
     assert head(depth="6mm").section.depth == pytest.approx(0.006)
 
 

@@ -50,8 +50,11 @@ def checks(found: DyadAnalysis) -> tuple[Check, ...]:
 def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
     missed = max(design.residual(dyad) / design.size(dyad) for dyad in design.dyads)
     links = sum(1 for dyad in design.dyads if dyad.first)
-    closes = at_most("closure of every arm at the points, of its size", missed, CLOSURE, "1", "loop equation")
-    real = at_least("real arms of two links", links, 1, "", "the task has three roots")
+    move = "move a point or an angle"
+    closes = at_most(
+        "closure of every arm at the points, of its size", missed, CLOSURE, "1", "loop equation", cure=move
+    )
+    real = at_least("real arms of two links", links, 1, "", "the task has three roots", cure=move)
     if design.built is None:
         return closes, real
     where = "at the points" if design.head is None else "along the way"
@@ -61,9 +64,21 @@ def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
     return (
         closes,
         real,
-        at_most("longest link of the arm to build", longest, limits.link_limit, "mm", "link_limit"),
+        at_most(
+            "longest link of the arm to build",
+            longest,
+            limits.link_limit,
+            "mm",
+            "link_limit",
+            cure="set a larger link_limit, a smaller pivot_room or bend_limit, or a shorter leg",
+        ),
         at_least(
-            f"angle between its links, off straight, {where}", off + ROUNDING, limits.bend_limit, "deg", "bend_limit"
+            f"angle between its links, off straight, {where}",
+            off + ROUNDING,
+            limits.bend_limit,
+            "deg",
+            "bend_limit",
+            cure="set a smaller bend_limit, or a larger link_limit",
         ),
     )
 
@@ -103,7 +118,14 @@ def _head_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
             "Euler; assumed by this project: parameters buckling_safety, yarn_pull",
             cure="set a broader or thicker needle, or narrower links",
         ),
-        at_most("arm and centre gripper apart at the hand-over", apart, MISSED, "um", "grip of the tips"),
+        at_most(
+            "arm and centre gripper apart at the hand-over",
+            apart,
+            MISSED,
+            "um",
+            "grip of the tips",
+            cure="leave the arm to the design",
+        ),
         at_most(
             "pile yarn in the gap between the warps",
             section.yarn,
@@ -150,14 +172,28 @@ def _head_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
 def _motion_checks(motion: HeadMotion) -> tuple[Check, ...]:
     used = "greatest use of a drive's limit: speed, acceleration, jerk"
     return (
-        at_most(used, motion.cycle.usage, 1 + TOLERANCE, "1", "limits of joints and centre gripper"),
+        at_most(
+            used,
+            motion.cycle.usage,
+            1 + TOLERANCE,
+            "1",
+            "limits of joints and centre gripper",
+            cure="set higher limits of speed, acceleration and jerk",
+        ),
         must(
             "servos of the joints",
             all(joint.motor for joint in motion.joints),
             "servos of the table",
             cure="set a lower joint_acceleration, or a gear_ratio",
         ),
-        at_most("power balance of the torques", motion.power_error, BALANCE, "1", "virtual power"),
+        at_most(
+            "power balance of the torques",
+            motion.power_error,
+            BALANCE,
+            "1",
+            "virtual power",
+            cure="set masses and speeds within their usual sizes",
+        ),
     )
 
 
