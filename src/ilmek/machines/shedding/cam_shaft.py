@@ -10,6 +10,7 @@ larger cam is heavier and needs a thicker bar, so that both are found together.
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -87,6 +88,7 @@ class CamShaft:
     even, odd   programmes of the two parities over the shaft's angle; of staggered cams those of the middle
     shed        all groups of cams, as they are fixed on the shaft
     across_max  largest force of the lifted warps across the shaft [N]
+    window      shaft angles between which the even shed is open for the shuttle [rad]
     """
 
     params: SheddingParams
@@ -101,6 +103,7 @@ class CamShaft:
     stack: CamStack
     shaft: SquareShaft
     drive: SheddingDrive
+    window: tuple[float, float]
 
     @property
     def prime_radius_for_bore(self) -> float:
@@ -156,11 +159,10 @@ def smallest_prime(params: SheddingParams) -> Extremum:
 
 def cam_shaft(params: SheddingParams, numbers: tuple[int, int], shares: PitchShares, beyond: float = 0.0) -> CamShaft:
     """A cam shaft with so many even and odd warps, for its own parameters. Raises ParameterError as `PlateCam`."""
-    even, smallest, cams = lifting(params), smallest_prime(params), sum(numbers)
-    shed = chosen_shed(params, even, numbers)
-    peaks, across = shed.peaks(), supremum(shed.across, shed.knots)
-    torque = max(peaks[0].value, -peaks[1].value)
-    cam = PlateCam(even, params.prime_radius or smallest.value, roller_radius=params.roller_radius)
+    loads, cams = _loads(replace(params, speed=_ANY_SPEED), numbers), sum(numbers)
+    smallest, across, shed = loads.smallest, loads.across, replace(loads.shed, params=params)
+    torque = max(loads.peaks[0].value, -loads.peaks[1].value)
+    cam = PlateCam(loads.even, params.prime_radius or smallest.value, roller_radius=params.roller_radius)
     while True:
         mass, inertia = filled(params, cam, shares, cams)
         shaft = square_shaft(_shaft_task(params, mass, across.value, torque))
@@ -174,14 +176,40 @@ def cam_shaft(params: SheddingParams, numbers: tuple[int, int], shares: PitchSha
         numbers=numbers,
         cam=cam,
         smallest_prime=smallest,
-        even=even,
-        odd=even.shifted(TURN / 2),
+        even=loads.even,
+        odd=loads.even.shifted(TURN / 2),
         shed=shed,
         across_max=across,
         stack=stack_of(params, cam, shares, cams, shaft.bar),
         shaft=shaft,
-        drive=_drive(params, shed, peaks, inertia),
+        drive=_drive(params, shed, loads, inertia),
+        window=loads.window,
     )
+
+
+@record
+class _Loads:
+    """What the warps do to a shaft, whatever its speed: programme, shed, torque, force across it, window."""
+
+    even: CamProgramme
+    smallest: Extremum
+    shed: Shed
+    peaks: tuple[Extremum, Extremum]
+    rms: float
+    across: Extremum
+    window: tuple[float, float]
+
+
+@lru_cache(maxsize=16)
+def _loads(params: SheddingParams, numbers: tuple[int, int]) -> _Loads:
+    """Loads by the warps; a loom designs the same cams at several speeds: the last ones are kept."""
+    even = lifting(params)
+    shed = chosen_shed(params, even, numbers)
+    across = supremum(shed.across, shed.knots)
+    return _Loads(even, smallest_prime(params), shed, shed.peaks(), shed.rms(), across, shed.window())
+
+
+_ANY_SPEED = 1.0
 
 
 _ROUNDING = 1e-9
@@ -249,10 +277,10 @@ def _shaft_task(params: SheddingParams, mass: float, across: float, torque: floa
     )
 
 
-def _drive(params: SheddingParams, shed: Shed, peaks: tuple[Extremum, Extremum], inertia: float) -> SheddingDrive:
+def _drive(params: SheddingParams, shed: Shed, loads: _Loads, inertia: float) -> SheddingDrive:
     """Torque over the turn, and the motor with its reducer, the inertia of the stack [kg m^2] included."""
-    most, least = peaks
-    rms, reducer = shed.rms(), Reducer(params.ratio, params.efficiency)
+    (most, least), rms = loads.peaks, loads.rms
+    reducer = Reducer(params.ratio, params.efficiency)
     # Falling warps drive the cams: the motor brakes what the reducer's friction leaves.
     braking = -least.value * max(reducer.back_driving_efficiency, 0.0) / params.ratio
     needed = max(reducer.motor_torque(most.value), braking, 0.0)

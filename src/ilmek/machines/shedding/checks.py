@@ -9,7 +9,7 @@ from ilmek.machines.shedding.analysis import SheddingAnalysis, lengthening_of, s
 from ilmek.machines.shedding.cam_shaft import CamShaft
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.phases import required_window
-from ilmek.machines.shedding.stack_choice import buckling_check, line_check, plate_checks
+from ilmek.machines.shedding.stack_choice import buckling_check, height_check, line_check, plate_checks
 from ilmek.machines.shedding.warp import nose_radius, shed_warp
 from ilmek.report import Check, at_least, at_most
 from ilmek.report.verdict import weight
@@ -97,6 +97,7 @@ def _shed_checks(found: SheddingAnalysis) -> Iterator[Check]:
             cure="set phase=together and more spans, or guideway=no where the shuttle has a guide of its own",
         )
     yield from _span_checks(design)
+    yield from _neighbour_checks(design)
 
 
 def _window_checks(found: SheddingAnalysis) -> Iterator[Check]:
@@ -130,6 +131,12 @@ def _span_checks(design: SheddingDesign) -> Iterator[Check]:
         )
     if len(design.shafts) > 1:
         yield line_check([one.params.lift for one in design.shafts], [spans[0] + one.beyond for one in design.shafts])
+
+
+def _neighbour_checks(design: SheddingDesign) -> Iterator[Check]:
+    """Several shafts: room between neighbours, and for all of them."""
+    if len(design.shafts) > 1:
+        yield height_check(design.params, design.shafts[-1].beyond)
         yield at_least(
             "gap between the guides of two shafts",
             min(_gaps(design)),

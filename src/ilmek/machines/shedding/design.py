@@ -228,7 +228,7 @@ def design(params: SheddingParams) -> SheddingDesign:
     prime = params.prime_radius or smallest_prime(params).value
     chosen = chosen_stack(params, prime / params.lift)
     shafts = _shafts(params, chosen, prime / params.lift)
-    return SheddingDesign(params, shafts, chosen.guides, chosen.choice, shafts[0].shed.window())
+    return SheddingDesign(params, shafts, chosen.guides, chosen.choice, shafts[0].window)
 
 
 def _shafts(params: SheddingParams, chosen: ChosenStack, slender: float) -> tuple[CamShaft, ...]:

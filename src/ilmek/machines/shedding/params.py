@@ -98,6 +98,9 @@ class SheddingParams(Params):
     half_span: float | None = kind.length(
         None, at_least=0.1 * mm, at_most=10.0, doc="cam to the next hold of the warp: force from tension and lift"
     )
+    shafts_height: float = kind.length(
+        1.5, unit="m", at_least=1 * mm, at_most=20.0, doc="room for the shafts, first to last; assumed by this project"
+    )
     front_span: float | None = kind.length(
         None, at_least=0.1 * mm, at_most=10.0, doc="first shaft to the fell, with back_span instead of half_span"
     )

@@ -6,11 +6,16 @@ the lift or at least that of the bore, the guide radius G(z) = max(c L(z), Rb) +
     z(j) = z(j-1) + G(z(j-1)) + g + G(z(j))
 
 G is the larger of two lines, so that z(j) is the larger of the solutions with each of them. Where a line rises by 1 or
-more there is none, as the shafts grow faster than they move apart: the lift is then the highest allowed.      [derived]
+more there is none, as the shafts grow faster than they move apart; z is then so large that its check fails.  [derived]
 """
 
-from ilmek.machines.shedding.cam_shaft import HIGHEST_LIFT
+import math
+
 from ilmek.machines.shedding.params import SheddingParams
+from ilmek.units import m
+
+FARTHEST = 20 * m
+"""Distance at which shafts that grow faster than they move apart are computed."""
 
 
 def dealt(warps: int, shafts: int) -> tuple[tuple[int, int], ...]:
@@ -41,12 +46,8 @@ def positions(params: SheddingParams, shafts: int, slender: float, least_prime: 
     for _ in range(1, shafts):
         near = found[-1] + before + params.shaft_gap + beyond
         lines = (((slender + 1) * lift, (slender + 1) * rate), (least_prime + lift, rate))
-        solved = [(near + height) / (1 - slope) if slope < 1 else float("inf") for height, slope in lines]
-        highest = (HIGHEST_LIFT / lift - 1) / rate if rate > 0 else float("inf")
-        beyond = max(solved)
-        if beyond > highest:
-            beyond = near + max(slender * HIGHEST_LIFT, least_prime) + HIGHEST_LIFT
-        found.append(beyond)
-        own = min(lift + rate * beyond, HIGHEST_LIFT)
+        solved = [(near + height) / (1 - slope) if slope < 1 else math.inf for height, slope in lines]
+        found.append(min(max(solved), FARTHEST))
+        own = lift + rate * found[-1]
         before = max(slender * own, least_prime) + own + beyond
     return tuple(found)

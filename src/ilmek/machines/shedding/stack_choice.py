@@ -120,9 +120,22 @@ def _standing_checks(params: SheddingParams, shafts: int, shares: PitchShares, s
     force = float(warp_force(last, np.array(last.lift))) / cosine
     critical = float(nose_buckling(shares.thickness, last.lift, cosine, params.modulus))
     spans = params.spans_of_warp
-    front = spans[0] if spans else math.inf
-    line = () if math.isinf(front) else (line_check([params.lift, last.lift], [front, front + along[-1]]),)
-    return (buckling_check(params.buckling_safety * force, critical), *line)
+    stands = buckling_check(params.buckling_safety * force, critical), height_check(params, along[-1])
+    if spans is None:
+        return stands
+    return *stands, line_check([params.lift, last.lift], [spans[0], spans[0] + along[-1]])
+
+
+def height_check(params: SheddingParams, last: float) -> Check:
+    """Distance of the last shaft beyond the first [m] against the room for the shafts."""
+    return at_most(
+        "distance of the first and the last cam shaft",
+        last,
+        params.shafts_height,
+        "m",
+        "assumed by this project: parameter shafts_height",
+        cure="set fewer shafts, a longer front_span, or a lower lift",
+    )
 
 
 def buckling_check(force: float, critical: float) -> Check:
