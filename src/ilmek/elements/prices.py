@@ -48,6 +48,7 @@ PRICES: Mapping[str, PriceRates] = {
     "head mechanism": PriceRates(each=600.0, per_kg=80.0),
     "yarn tube": PriceRates(each=15.0),
     "bearing": PriceRates(each=15.0),
+    "spring": PriceRates(each=5.0, per_kg=6.0),
     "linear axis": PriceRates(each=150.0, per_m=300.0),
     "stepper": PriceRates(each=90.0, per_W=0.5),
     "servo": PriceRates(each=350.0, per_W=0.5),

@@ -10,6 +10,8 @@ and ground: two coils more, solid length (n + 2) d.   [EN 13906-1; Shigley, 10-1
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from ilmek.elements.catalogue import pick
 from ilmek.errors import ParameterError
 from ilmek.units import GPa, MPa, mm
@@ -185,20 +187,30 @@ def choose_spring(
             allowed="a rate above 0, preload and travel 0 or more",
         )
     deflection = preload / rate + travel
-    fitting = []
-    for thick in WIRE_DIAMETERS:
-        for index in INDICES:
-            mean = thick * index
-            coils = kind.shear_modulus * thick**4 / (8 * mean**3 * rate)
-            if coils < 3 or mean + thick > outer or mean - thick < inner:
-                continue
-            spring = CompressionSpring(kind.name, thick, mean, coils, (coils + 2) * thick + (1 + CLASH) * deflection)
-            if (
-                spring.free_length - preload / rate <= length
-                and spring.solid_stress <= spring.allowed
-                and spring.surge >= surge
-                and spring.fatigue_safety(preload, preload + rate * travel) >= fatigue
-                and spring.buckling_deflection(end) > deflection
-            ):
-                fitting.append(spring)
-    return min(fitting, key=lambda spring: spring.mass, default=None)
+    thick, mean = (grid.ravel() for grid in np.meshgrid(WIRE_DIAMETERS, INDICES, indexing="ij"))
+    mean = thick * mean
+    coils = kind.shear_modulus * thick**4 / (8 * mean**3 * rate)
+    # What no spring can be seen from without its properties: the wound shape, then its stress at the solid length.
+    index, solid = mean / thick, (1 + CLASH) * deflection * rate
+    wahl = (4 * index - 1) / (4 * index - 4) + 0.615 / index
+    allowed = kind.share * kind.strength * (thick / mm) ** -kind.power
+    strong = wahl * 8 * solid * mean <= np.pi * thick**3 * allowed * _LOOSE
+    wound = (coils >= 3) & (mean + thick <= outer) & (mean - thick >= inner) & strong
+    light = thick**2 * mean * coils
+    for at in np.flatnonzero(wound)[np.argsort(light[wound], kind="stable")].tolist():
+        wire_diameter, turns = float(thick[at]), float(coils[at])
+        free = (turns + 2) * wire_diameter + (1 + CLASH) * deflection
+        spring = CompressionSpring(kind.name, wire_diameter, float(mean[at]), turns, free)
+        if (
+            spring.free_length - preload / rate <= length
+            and spring.solid_stress <= spring.allowed
+            and spring.surge >= surge
+            and spring.fatigue_safety(preload, preload + rate * travel) >= fatigue
+            and spring.buckling_deflection(end) > deflection
+        ):
+            return spring
+    return None
+
+
+_LOOSE = 1 + 1e-9
+"""Factor on the allowed stress where springs are only sorted out."""

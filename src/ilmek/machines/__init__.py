@@ -34,6 +34,9 @@ ENTRIES = {
         "comb that beats the rows: force per warp, rows it leaves, uniformity, stroke or crank-rockers",
         beats=("linkage", "comb", "guide-cams"),
     ),
+    "tension-compensator": Entry(
+        "sprung back rest that relieves the lifted warps: levers, springs, tension over the turn", part=True
+    ),
     "warp-tension": Entry(
         "cylinder that tensions the warps: slope, deflection, torque, reducer and motor, take-up", part=True
     ),

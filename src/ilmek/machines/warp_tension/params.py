@@ -72,7 +72,7 @@ class WarpTensionParams(Params):
         None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual warp"
     )
     slot_width: float | None = kind.length(
-        None, above=0.0, at_most=50 * mm, doc="width of a slot; default: 1.1 warps, at most half-way to the pitch"
+        None, above=0.0, at_most=50 * mm, doc="width of a slot; default: 1.1 warps, at most the mean of warp and pitch"
     )
     slot_depth: float | None = kind.length(
         None, at_least=0.0, at_most=20 * mm, doc="depth of a slot; default: one warp"

@@ -1,0 +1,232 @@
+"""Design of the tension compensator: number of bars, rollers, synthesised levers with springs, members."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.elements.carpet_yarns import usual_warp
+from ilmek.elements.tubes import Tube
+from ilmek.machines.tension_compensator.members import Loads, Members, bar_checks, bar_tubes, members_for, pick
+from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
+from ilmek.machines.tension_compensator.synthesis import BarTask, SprungLever, synthesise
+from ilmek.records import computed, record, result
+from ilmek.report import Check, Choice, at_least, at_most
+from ilmek.units import turn
+from ilmek.weaving.shed import shed_lengthening
+
+STEPS = 33
+"""Rotations between rest and open shed at which the tension is computed."""
+
+STEP = 1e-4
+"""Step of the finite differences of the arms [rad]."""
+
+
+@record
+class TensionCompensator:
+    """The compensator, designed.
+
+    bars      sprung bars                                 one   lever of a bar with its springs
+    members   tubes, levers, pins, beams                  loads in the open shed
+    """
+
+    params: TensionCompensatorParams
+    one: SprungLever
+    members: Members
+    loads: Loads
+    choice: Choice
+    bars: int = result("1", "sprung bars: one for all warps, or one for each parity", name="bars")
+    lengthening: float = result("mm", "lengthening of a lifted warp in the open shed", name="shed_lengthening")
+    tension_open: float = result("N", "greatest tension of a lifted warp, while its shed opens")
+    tension_low: float = result("N", "tension of the other warps then")
+    frequency: float = result("Hz", "least natural frequency of a bar on springs and warps", name="natural_frequency")
+    moving_mass: float = result("kg", "moving mass of a bar, its levers and springs, referred to the bar")
+
+    tension_fixed = computed(
+        "N",
+        "tension of a lifted warp without the compensator",
+        lambda it: it.fixed_tension,
+        name="tension_not_compensated",
+    )
+    relief = computed(
+        "1",
+        "share of the lengthening that the compensator gives to a lifted warp",
+        lambda it: 1 - (it.tension_open - it.params.tension) / (it.one.task.rate * it.lengthening),
+        name="compensation",
+    )
+    levers = computed("1", "levers of a bar", lambda it: it.params.levers)
+    springs = computed("1", "springs on a lever", lambda it: it.one.springs, name="springs_per_lever")
+    spring_rate = computed("N/mm", "rate of a spring", lambda it: it.one.rate)
+    spring_preload = computed("N", "force of a spring at rest", lambda it: it.one.preload)
+    spring_force = computed("N", "force of a spring in the open shed", lambda it: it.one.force)
+    spring_wire = computed("mm", "wire of a spring", lambda it: it.wound("wire_diameter"), absent="none is enough")
+    spring_diameter = computed("mm", "mean diameter of a spring", lambda it: it.wound("diameter"), absent="as above")
+    spring_coils = computed("1", "active coils of a spring", lambda it: it.wound("coils"), absent="none is enough")
+    spring_length = computed("mm", "its length without load", lambda it: it.wound("free_length"), absent="as above")
+    spring_lean = computed("deg", "lean of the springs at rest", lambda it: float(it.one.lever.lean))
+    lever_angle = computed("deg", "rotation of a lever from rest to the open shed", lambda it: it.one.angle)
+    bar_travel = computed(
+        "mm",
+        "travel of a bar from rest to the open shed",
+        lambda it: 2 * it.params.bar_arm * math.sin(it.one.angle / 2),
+    )
+    strand_angle_least = computed(
+        "deg",
+        "least deflection of a strand, in the open shed",
+        lambda it: float(min(it.one.lever.path.strands(it.one.lever.bar(it.one.angle)))),
+    )
+    bar_tube = computed("", "tube of bars and rods", lambda it: it.members.tube.name)
+    lever_height = computed("mm", "height of a lever", lambda it: it.members.lever)
+    pivot_pin = computed("mm", "pin of a lever's pivot", lambda it: it.members.pin)
+    beam = computed("", "square hollow section of the levers' beams", lambda it: it.members.beam.name)
+    height = computed(
+        "mm", "from the top of the upper rods to the foot of the lower ones", lambda it: 2 * it.span, name="height"
+    )
+    half_depth = computed(
+        "mm",
+        "from the middle plane to the sheet of a parity: the bars keep a radius between them",
+        lambda it: -it.one.lever.rest.real + 1.5 * it.radius,
+    )
+
+    @property
+    def swing(self) -> float:
+        """Length of the warps' run that it takes, from rod to rod [m]."""
+        return 2 * self.span
+
+    @property
+    def roller_radius(self) -> float:
+        """Radius of its bars and rods [m]."""
+        return self.radius
+
+    @property
+    def fixed_tension(self) -> float:
+        """Tension of a lifted warp on fixed bars [N]."""
+        return self.params.tension + self.one.task.rate * self.lengthening
+
+    @property
+    def radius(self) -> float:
+        """Radius of bars and rods [m]."""
+        return self.one.lever.path.radius
+
+    @property
+    def span(self) -> float:
+        """From the bar to the outer side of a rod [m]."""
+        return self.one.lever.path.half + self.radius
+
+    def wound(self, attribute: str) -> float | None:
+        """A property of the spring; None where there is none."""
+        return None if self.one.spring is None else float(getattr(self.one.spring, attribute))
+
+
+def design(params: TensionCompensatorParams) -> TensionCompensator:
+    """The compensator for the parameters; with the largest of the tables where nothing is enough."""
+    rate = (params.warp_stiffness or usual_warp(params.warp_pitch).stiffness) / params.warp_length
+    longer = float(shed_lengthening(params.lift, params.front_span, params.back_span))
+    tasks = {number: bar_task(params, rate, longer, number) for number in ((params.bars,) if params.bars else (1, 2))}
+    bars, choice = pick("bars", tuple(tasks), str, lambda number: swing_checks(params, *swing(params, tasks[number])))
+    task = tasks[bars]
+    tube = _tube(params, task)
+    one = synthesise(params, task, tube[0].outer_radius)
+    loads = _loads(params, one)
+    mean = float(equilibrium_tension(one, np.linspace(0.0, one.angle, STEPS)).max())
+    apart = rate * (longer - task.lengthening)
+    found = TensionCompensator(
+        params=params,
+        one=one,
+        members=members_for(params, tube, loads),
+        loads=loads,
+        choice=choice,
+        bars=bars,
+        lengthening=longer,
+        tension_open=mean + apart,
+        tension_low=mean - apart if bars == 1 else params.tension,
+        frequency=0.0,
+        moving_mass=0.0,
+    )
+    mass = moving_mass(found)
+    stiff = min(stiffness(one, angle) for angle in (0.0, one.angle))
+    frequency = math.sqrt(max(stiff, 0.0) / (mass / params.levers * params.bar_arm**2)) / turn
+    return replace(found, frequency=frequency, moving_mass=mass)
+
+
+def bar_task(params: TensionCompensatorParams, rate: float, lengthening: float, bars: int) -> BarTask:
+    """Task of one of 1 or 2 bars: the mean lengthening of its warps in the open shed."""
+    return BarTask(params.warps / bars / params.levers, rate, params.tension, lengthening * bars / 2)
+
+
+def swing(params: TensionCompensatorParams, task: BarTask) -> tuple[float, float]:
+    """Greatest and least tension of a warp in the open shed [N] with the rate of the compensator that is wished.
+
+    The warps of one bar for all lengthen by twice its mean, or not at all.
+    """
+    mean = task.open_tension(params.rate_share)
+    if task.warps * params.levers < params.warps * (1 - 1e-9):
+        return mean, params.tension
+    apart = task.rate * task.lengthening
+    return mean + apart, mean - apart
+
+
+def swing_checks(params: TensionCompensatorParams, most: float, least: float) -> tuple[Check, ...]:
+    """Greatest and least tension in the open shed [N] against those that are allowed."""
+    rest, source = params.tension, "assumed by this project: parameter "
+    high, low = params.tension_most * rest, params.tension_least * rest
+    cure = "set bars=2, a lower rate_share, or a longer warp"
+    return (
+        at_most("tension in the open shed", most, high, "N", f"{source}tension_most", cure=cure),
+        at_least("least tension of a warp", least, low, "N", f"{source}tension_least", cure=cure),
+    )
+
+
+def _tube(params: TensionCompensatorParams, task: BarTask) -> tuple[Tube, Choice]:
+    """Tube of bars and rods: at rest and in the open shed the strands deflect by nearly the same angle."""
+    tension = max(task.tension, task.open_tension(params.rate_share))
+    line = task.warps * params.levers / params.width * tension * 2 * math.sin(params.strand_angle)
+    return pick("bar_tube", bar_tubes(params), lambda one: one.name, lambda one: bar_checks(params, one, line))
+
+
+def _loads(params: TensionCompensatorParams, one: SprungLever) -> Loads:
+    """Greatest loads of rest and open shed."""
+    lever, task, line, torque, pivot = one.lever, one.task, 0.0, 0.0, 0.0
+    for angle, spring in ((0.0, one.preload), (one.angle, one.force)):
+        tension = task.tension + task.rate * (task.lengthening * (angle > 0) - float(lever.slack(angle)))
+        pull = complex(lever.path.pull(lever.bar(angle))) * task.warps * tension
+        torque = max(torque, task.warps * tension * float(lever.warp_arm(angle)))
+        turned = complex(math.cos(angle), -math.sin(angle)) * lever.reach + lever.pivot
+        along = turned - complex(lever.anchor)
+        pivot = max(pivot, abs(pull + one.springs * spring * along / abs(along)))
+        line = max(line, abs(pull) * params.levers / params.width)
+    return Loads(line, torque, pivot)
+
+
+def equilibrium_tension(one: SprungLever, angle: FloatArray) -> FloatArray:
+    """Mean tension of a bar's warps [N] that holds its springs in equilibrium at rotations of the lever [rad]."""
+    force = one.rate * (one.free_length - one.lever.spring_length(angle))
+    return np.asarray(
+        one.springs * force * one.lever.spring_moment_arm(angle) / (one.task.warps * one.lever.warp_arm(angle))
+    )
+
+
+def stiffness(one: SprungLever, angle: float) -> float:
+    """Stiffness of a lever about its pivot [N m/rad]: minus the derivative of the torque of warps and springs."""
+    return (torque(one, angle - STEP, angle) - torque(one, angle + STEP, angle)) / (2 * STEP)
+
+
+def torque(one: SprungLever, angle: float, about: float) -> float:
+    """Torque on a lever [N m] at an angle, with the shed held as it is in equilibrium `about` an angle [rad]."""
+    lever, task = one.lever, one.task
+    opened = task.lengthening if about > 0 else 0.0
+    tension = task.tension + task.rate * (opened - float(lever.slack(angle)))
+    force = one.rate * (one.free_length - float(lever.spring_length(angle)))
+    driven = task.warps * tension * float(lever.warp_arm(angle))
+    return driven - one.springs * force * float(lever.spring_moment_arm(angle))
+
+
+def moving_mass(made: TensionCompensator) -> float:
+    """Moment of inertia of a bar with its levers and a third of its springs over the square of its arm [kg]."""
+    params, one = made.params, made.one
+    bar = made.members.tube.mass(STEEL.density) * params.width
+    flat = params.lever_thickness * made.members.lever * STEEL.density / 3
+    levers = flat * (params.bar_arm**3 + params.spring_arm**3) / params.bar_arm**2
+    springs = one.springs * (one.spring.mass if one.spring else 0.0) / 3 * (params.spring_arm / params.bar_arm) ** 2
+    return bar + params.levers * (levers + springs)

@@ -1,0 +1,127 @@
+"""Bars, levers, pins and beams of the compensator: each the lightest of its table that keeps its checks.
+
+A bar rests on m levers in the middle of m equal parts p of its width: its ends overhang by p/2. Under a load w
+
+    M = w p^2 / 8,      deflection of an end = 7 w p^4 / (384 E I)   [derived; exact for two levers, more bend less]
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from ilmek.elements.beam import uniform
+from ilmek.elements.columns import SECTIONS, HollowSquare
+from ilmek.elements.tubes import TUBES, Tube, find_tube
+from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
+from ilmek.report import Alternative, Check, Choice, at_most, choose
+from ilmek.units import MPa, format_quantity, mm
+
+T = TypeVar("T")
+
+HEIGHTS = tuple(size * mm for size in (30, 40, 50, 60, 80, 100, 120, 150, 200, 250, 300))
+"""Heights of flat bars for the levers [m]: a choice from EN 10058."""
+
+PINS = tuple(size * mm for size in (12, 16, 20, 25, 30, 40, 50, 60, 80))
+"""Diameters of pivot pins [m]."""
+
+PRESSURE = 20 * MPa
+"""Allowed pressure of a pin in its bush, twice its diameter long; bronze, assumed by this project."""
+
+SHEAR = 0.577
+"""Yield strength in shear over that in tension [von Mises]."""
+
+CURE = "set a lower tension or lift, or a shorter support_span"
+
+
+@dataclass(frozen=True, slots=True)
+class Loads:
+    """Loads in the open shed: of a bar [N/m], torque of the warps on a lever [N m], force on its pivot [N]."""
+
+    line: float
+    torque: float
+    pivot: float
+
+
+@dataclass(frozen=True, slots=True)
+class Members:
+    """What was chosen: tube of bars and rods, height of a lever [m], its pin [m], the beam; and the choices."""
+
+    tube: Tube
+    lever: float
+    pin: float
+    beam: HollowSquare
+    choices: tuple[Choice, ...]
+
+
+def bar_tubes(params: TensionCompensatorParams) -> tuple[Tube, ...]:
+    """The tubes offered for bars and rods, the lightest first."""
+    if params.bar_tube is not None:
+        return (find_tube(params.bar_tube),)
+    return tuple(sorted(TUBES.values(), key=lambda tube: tube.area))
+
+
+def members_for(params: TensionCompensatorParams, tube: tuple[Tube, Choice], loads: Loads) -> Members:
+    """Levers, pins and beam for the loads, with the tube of the bars that was chosen before."""
+    sections = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area)
+    lever, of_lever = pick(
+        "lever", HEIGHTS, lambda one: format_quantity(one, "mm"), lambda one: lever_checks(params, one, loads)
+    )
+    pin, of_pin = pick("pin", PINS, lambda one: format_quantity(one, "mm"), lambda one: pin_checks(params, one, loads))
+    beam, of_beam = pick("beam", sections, lambda one: one.name, lambda one: beam_checks(params, one, loads))
+    given = () if params.bar_tube else (tube[1],)
+    return Members(tube[0], lever, pin, beam, (*given, of_lever, of_pin, of_beam))
+
+
+def pick(
+    name: str, offered: Sequence[T], label: Callable[[T], str], checks: Callable[[T], tuple[Check, ...]]
+) -> tuple[T, Choice]:
+    """The first of some in ascending order of price that keeps its checks, the last where none does; the choice."""
+    judged: list[Alternative] = []
+    for one in offered:
+        judged.append(Alternative(label(one), checks(one)))
+        if not judged[-1].failed:
+            return one, choose(name, judged)[1]
+    return offered[-1], Choice(name, label(offered[-1]), "the largest of the table")
+
+
+def bar_checks(params: TensionCompensatorParams, tube: Tube, line: float) -> tuple[Check, ...]:
+    """Deflection and stress of a bar under a load [N/m]."""
+    span = params.width / params.levers
+    sag = 7 * line * span**4 / (384 * STEEL.modulus * tube.inertia)
+    return (
+        at_most("deflection of a bar", sag, params.bar_deflection, "mm", "parameter bar_deflection", cure=CURE),
+        at_most("stress of a bar", line * span**2 / 8 / tube.modulus, *_limit(params), cure=CURE),
+    )
+
+
+def lever_checks(params: TensionCompensatorParams, height: float, loads: Loads) -> tuple[Check, ...]:
+    """Bending of a lever of a height [m] at its pivot, whose bore takes a third of it."""
+    section = params.lever_thickness * height**2 / 6 * (1 - 3.0**-3)
+    return (at_most("stress of a lever", loads.torque / section, *_limit(params), cure="set a larger lever_thickness"),)
+
+
+def pin_checks(params: TensionCompensatorParams, pin: float, loads: Loads) -> tuple[Check, ...]:
+    """Shear of a pin of a diameter [m] in two sections, and its pressure in the bush."""
+    shear = loads.pivot / (2 * 0.785398 * pin**2)
+    cure, source = "set a longer spring_arm", "bronze, assumed by this project"
+    return (
+        at_most("shear of a pivot pin", shear, SHEAR * params.strength / params.safety, "MPa", "yield", cure=cure),
+        at_most("pressure of a pivot pin", loads.pivot / (2 * pin**2), PRESSURE, "MPa", source, cure=cure),
+    )
+
+
+def beam_checks(params: TensionCompensatorParams, section: HollowSquare, loads: Loads) -> tuple[Check, ...]:
+    """Deflection and stress of the beam that carries the levers, from column to column."""
+    given = loads.line, params.width
+    sag = float(uniform.deflection_max(*given, STEEL.modulus, section.inertia))
+    stress = float(uniform.bending_stress(uniform.moment_max(*given), section.side / 2, section.inertia))
+    source = "assumed by this project: parameter beam_sag"
+    cure = "set a lower tension, a narrower loom, or a larger beam_sag"
+    return (
+        at_most("deflection of the levers' beam", sag, params.beam_sag * params.width, "mm", source, cure=cure),
+        at_most("stress of the levers' beam", stress, *_limit(params), cure=cure),
+    )
+
+
+def _limit(params: TensionCompensatorParams) -> tuple[float, str, str]:
+    return params.strength / params.safety, "MPa", "yield over the parameter safety"

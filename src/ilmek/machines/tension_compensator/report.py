@@ -1,0 +1,117 @@
+"""The report of the tension compensator: checks, choices, tables."""
+
+import math
+
+from ilmek.machines.tension_compensator.analysis import CompensatorAnalysis
+from ilmek.machines.tension_compensator.design import TensionCompensator, swing_checks
+from ilmek.machines.tension_compensator.members import bar_checks, beam_checks, lever_checks, pin_checks
+from ilmek.machines.tension_compensator.synthesis import SPRINGS, shared
+from ilmek.report import Alternative, Check, Choice, Table, at_least, choose, columns, must
+from ilmek.units import deg, mm, turn
+
+STRAND_LEAST = 10 * deg
+"""Least deflection of a strand at the bar: below it the warps would leave the rods; assumed by this project."""
+
+CLEARANCE = 3 * mm
+"""Least distance of a lever from a rod's surface, its warps between them; assumed by this project."""
+
+SHARE_TOLERANCE = 0.02
+"""Share by which the rate of the synthesised linkage may miss that which is wished; assumed by this project."""
+
+
+def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
+    """Tensions over the turn, springs, stiffness, room and strength."""
+    design, params = found.design, found.design.params
+    members, loads = design.members, design.loads
+    return (
+        *swing_checks(params, found.tension_max, found.tension_min),
+        spring_check(design),
+        *_motion_checks(design),
+        *bar_checks(params, members.tube, loads.line),
+        *lever_checks(params, members.lever, loads),
+        *pin_checks(params, members.pin, loads),
+        *beam_checks(params, members.beam, loads),
+    )
+
+
+def spring_check(design: TensionCompensator) -> Check:
+    """Whether there is a spring that is strong enough, lasts, and fits."""
+    source = "stress at the solid length, fatigue, buckling and length [EN 13906-1]"
+    cure = "set a longer spring_arm or strut, more springs, or a shorter support_span"
+    return must("springs of the table", design.one.spring is not None, source, cure=cure)
+
+
+def _motion_checks(design: TensionCompensator) -> tuple[Check, ...]:
+    """Natural frequency, deflection of the strands, room of the levers."""
+    params = design.params
+    shed = params.speed / params.lifted_angle
+    assumed = "assumed by this project"
+    return (
+        at_least(
+            *("natural frequency", design.frequency, params.frequency_ratio * shed, "Hz"),
+            f"{assumed}: parameter frequency_ratio",
+            cure="set a lower speed, or a larger rate_share",
+        ),
+        at_least(
+            *("deflection of the strands in the open shed", design.strand_angle_least, STRAND_LEAST, "deg", assumed),
+            cure="set a larger strand_angle or guide_span",
+        ),
+        at_least(
+            *("room between lever and rod", clearance(design), CLEARANCE, "mm", assumed),
+            cure="set a larger arm_angle or guide_span",
+        ),
+    )
+
+
+def clearance(design: TensionCompensator) -> float:
+    """Least distance of a lever's edge from the lower rod [m], at rest and in the open shed."""
+    lever = design.one.lever
+    rod, least = complex(-design.radius, -lever.path.half), math.inf
+    for angle in (0.0, design.one.angle):
+        arm = complex(lever.bar(angle)) - lever.pivot
+        along = ((rod - lever.pivot) * arm.conjugate()).real / abs(arm) ** 2
+        least = min(least, abs(rod - lever.pivot - min(max(along, 0.0), 1.0) * arm))
+    return least - design.radius - design.members.lever / 2
+
+
+def choices(design: TensionCompensator) -> tuple[Choice, ...]:
+    """Number of bars, springs, tube, lever, pin and beam, as far as they were left open."""
+    params = design.params
+    bars = () if params.bars else (design.choice,)
+    return (*bars, *(() if params.springs else (_spring_choice(design),)), *design.members.choices)
+
+
+def _spring_choice(design: TensionCompensator) -> Choice:
+    """The springs on a lever, and why fewer are not enough."""
+    tried = [number for number in SPRINGS if number <= design.springs]
+    candidates = []
+    for number in tried:
+        one = design.one if number == design.springs else shared(design.params, design.one, number)
+        found = must("springs of the table", one.spring is not None, "EN 13906-1")
+        candidates.append(Alternative(str(number), (found,)))
+    return choose("springs", candidates)[1]
+
+
+def tables(found: CompensatorAnalysis) -> tuple[Table, ...]:
+    """Tensions with and without the compensator."""
+    design = found.design
+    rest, held = design.params.tension, design.fixed_tension
+    rows = (
+        ("fixed rods", held, rest, held / rest),
+        (
+            f"{design.bars} sprung bar{'s' if design.bars > 1 else ''}",
+            *(design.tension_open, design.tension_low, design.tension_open / rest),
+        ),
+    )
+    heads = columns("back rest", "lifted warp [N]", "other warp [N]", "lifted over rest")
+    return (Table("tension-compensator-swing", "Tension in the open shed", heads, rows),)
+
+
+def warnings(found: CompensatorAnalysis) -> tuple[str, ...]:
+    """A linkage that cannot give as much warp as the shed lengthens it."""
+    design = found.design
+    wished = design.one.task.open_tension(design.params.rate_share)
+    mean = (design.tension_open + (design.tension_low if design.bars == 1 else design.tension_open)) / 2
+    if mean > wished * (1 + SHARE_TOLERANCE):
+        return (f"a lever turns by {design.one.angle / turn * 360:.3g} deg at most: it gives less warp than it should",)
+    return ()

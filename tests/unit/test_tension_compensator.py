@@ -1,0 +1,186 @@
+"""The tension compensator: equilibrium against the least energy, energy balance, swing, strength, choices."""
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ilmek.elements.beam.model import Beam, LineLoad
+from ilmek.elements.beam.solve import bend
+from ilmek.elements.tubes import find_tube
+from ilmek.machines.tension_compensator import MACHINE, TensionCompensator, TensionCompensatorParams, design
+from ilmek.machines.tension_compensator.analysis import CompensatorAnalysis, analyse, equilibrium, mean_tension
+from ilmek.machines.tension_compensator.design import bar_task, equilibrium_tension, stiffness, swing
+from ilmek.machines.tension_compensator.geometry import WarpPath
+from ilmek.machines.tension_compensator.linkage import spring_forces
+from ilmek.machines.tension_compensator.members import STEEL, bar_checks
+from ilmek.machines.tension_compensator.report import clearance
+from ilmek.units import deg, mm
+from ilmek.weaving.shed import shed_lengthening
+
+LIFT = float(shed_lengthening(60 * mm, 170 * mm, 170 * mm))
+
+
+@cache
+def usual() -> TensionCompensator:
+    return design(TensionCompensatorParams())
+
+
+@cache
+def turned(bars: int) -> CompensatorAnalysis:
+    return analyse(design(TensionCompensatorParams(bars=bars)))
+
+
+def failed(**given_settings: str) -> set[str]:
+    return {one.name for one in MACHINE.report(design(TensionCompensatorParams.read(given_settings))).failed}
+
+
+def potential(made: TensionCompensator, phi: np.ndarray, lengthening: float) -> np.ndarray:
+    """Energy of a lever's warps and springs [J], written from their lengths alone."""
+    one, task = made.one, made.one.task
+    longer = lengthening - one.lever.slack(phi)
+    warps = task.warps * (task.tension * longer + task.rate * longer**2 / 2)
+    short = one.free_length - one.lever.spring_length(phi)
+    return warps + one.springs * one.rate * short**2 / 2
+
+
+@pytest.mark.parametrize("share", [0.0, 0.1, 0.4, 0.75, 1.0])
+@pytest.mark.parametrize("bars", [1, 2])
+def test_equilibrium_is_the_least_energy_by_brute_force(bars: int, share: float) -> None:
+    made = design(TensionCompensatorParams(bars=bars))
+    longer = share * made.one.task.lengthening
+    grid = np.linspace(-0.02, made.one.angle + 0.02, 400_001)
+    least = grid[np.argmin(potential(made, grid, longer))]
+    assert float(equilibrium(made.one, np.array([longer]))[0]) == pytest.approx(least, abs=2 * (grid[1] - grid[0]))
+
+
+@pytest.mark.parametrize("bars", [1, 2])
+def test_the_linkage_engine_finds_no_torque_missing(bars: int) -> None:
+    found = turned(bars)
+    torque = found.design.loads.torque
+    assert np.abs(found.effort).max() < 1e-9 * torque
+
+
+def test_the_work_of_the_shed_is_the_energy_of_warps_and_springs() -> None:
+    """Slowly opened: the integral of the warps' tension over their lengthening."""
+    made = usual()
+    longer = np.linspace(0.0, made.one.task.lengthening, 2001)
+    rotation = equilibrium(made.one, longer)
+    tension = mean_tension(made.one.task, longer, made.one.lever.slack(rotation))
+    work = made.one.task.warps * float(np.trapezoid(tension, longer))
+    ends = [float(potential(made, np.array([phi]), at)[0]) for phi, at in ((rotation[0], 0.0), (rotation[-1], LIFT))]
+    assert ends[1] - ends[0] == pytest.approx(work, rel=1e-6)
+    springs = made.one.springs * np.trapezoid(
+        spring_forces(made.one, rotation), -made.one.lever.spring_length(rotation)
+    )
+    assert turned(2).stored == pytest.approx(made.levers * springs, rel=1e-6)
+
+
+def test_a_linear_compensator_gives_the_closed_form() -> None:
+    """x = N k l / (K + N k): two springs in series; what is left is the gain of the tension."""
+    params, rate = usual().params, usual().one.task.rate
+    own = 0.1 * rate
+    gives = rate * LIFT / (own + rate)
+    assert swing(params, bar_task(params, rate, LIFT, 2)) == pytest.approx((15 + rate * (LIFT - gives), 15.0))
+    both = rate * (LIFT / 2) / (own + rate)
+    one_bar = 15 + rate * (LIFT - both), 15 - rate * both
+    assert swing(params, bar_task(params, rate, LIFT, 1)) == pytest.approx(one_bar)
+    assert float(usual().one.lever.slack(usual().one.angle)) == pytest.approx(gives)
+
+
+def test_two_bars_relieve_the_lifted_half_and_leave_the_other() -> None:
+    found = turned(2)
+    assert usual().fixed_tension == pytest.approx(15 + usual().one.task.rate * LIFT)
+    assert usual().fixed_tension > 2 * 15
+    assert found.tension_max == pytest.approx(usual().tension_open, rel=1e-3)
+    assert usual().tension_open < 1.15 * 15
+    assert found.tension_min == pytest.approx(15.0, rel=1e-6)
+    assert found.odd == pytest.approx(found.even[::-1], abs=1e-6)
+    quarter = len(found.angle) // 4
+    assert found.even[quarter] == pytest.approx(15 + usual().one.task.rate * LIFT / 11)
+
+
+def test_one_bar_slackens_the_warps_that_are_not_lifted() -> None:
+    found = turned(1)
+    assert found.tension_min < 0.5 * 15
+    assert found.tension_max > 1.5 * 15
+    assert failed(bars="1") >= {"tension in the open shed", "least tension of a warp"}
+    choice = MACHINE.choices(usual())[0]
+    assert (choice.name, choice.chosen, choice.next_cheaper) == ("bars", "2", "1")
+    assert design(TensionCompensatorParams(lift=20 * mm)).bars == 1
+
+
+@settings(max_examples=25, deadline=None)
+@given(first=st.floats(0.02, 0.5), more=st.floats(1.1, 3.0))
+def test_a_stiffer_compensator_swings_more(first: float, more: float) -> None:
+    soft, stiff = (design(TensionCompensatorParams(bars=2, rate_share=share)) for share in (first, first * more))
+    assert 15.0 < soft.tension_open < stiff.tension_open < usual().fixed_tension
+    assert soft.relief > stiff.relief
+
+
+@settings(max_examples=25, deadline=None)
+@given(strand=st.floats(20.0, 60.0), x=st.floats(-0.02, 0.02), y=st.floats(-0.02, 0.02))
+def test_the_force_of_the_warps_is_minus_the_gradient_of_their_length(strand: float, x: float, y: float) -> None:
+    path = WarpPath(0.12, 0.03)
+    bar = path.at_rest(strand * deg) + complex(x, y)
+    assert path.strands(np.asarray(path.at_rest(strand * deg)))[0] == pytest.approx(strand * deg)
+    step, pull = 1e-6, complex(path.pull(np.asarray(bar)))
+    for along in (1.0, 1j):
+        change = float(path.length(np.asarray(bar + step * along)) - path.length(np.asarray(bar - step * along)))
+        assert -change / (2 * step) == pytest.approx((pull * np.conj(along)).real, abs=1e-7)
+
+
+def test_natural_frequency_from_the_energy_alone() -> None:
+    made = usual()
+    step = 1e-4
+    energy = potential(made, np.array([-step, 0.0, step]), 0.0)
+    second = (energy[0] - 2 * energy[1] + energy[2]) / step**2
+    assert stiffness(made.one, 0.0) == pytest.approx(second, rel=1e-4)
+    moment = made.moving_mass / made.levers * made.params.bar_arm**2
+    stiff = min(stiffness(made.one, angle) for angle in (0.0, made.one.angle))
+    assert made.frequency == pytest.approx(math.sqrt(stiff / moment) / (2 * math.pi))
+
+
+@pytest.mark.parametrize("levers", [2, 3, 5])
+def test_a_bar_bends_no_more_than_its_checks_say(levers: int) -> None:
+    width, line, tube = 0.6 * levers, 5000.0, find_tube("60.3x5")
+    params = TensionCompensatorParams(width=width, support_span=0.6)
+    assert params.levers == levers
+    at = tuple(float(one) for one in (np.arange(levers) + 0.5) * 0.6)
+    bent = bend(Beam(width, at, (LineLoad(0.0, width, line),)))
+    sag, stress = bar_checks(params, tube, line)
+    largest = bent.deflection_max(STEEL.modulus * tube.inertia).size
+    assert largest <= sag.value * (1 + 1e-9)
+    assert sag.value == pytest.approx(largest) or levers > 2
+    assert stress.value == pytest.approx(line * 0.6**2 / 8 / tube.modulus)
+
+
+def test_tensions_on_the_way_hold_the_springs() -> None:
+    angles = np.linspace(0.0, usual().one.angle, 5)
+    tension = equilibrium_tension(usual().one, angles)
+    longer = usual().one.lever.slack(angles) + (tension - 15) / usual().one.task.rate
+    assert equilibrium(usual().one, longer) == pytest.approx(angles, abs=1e-9)
+
+
+def test_springs_hold_their_force_and_fit() -> None:
+    spring = usual().one.spring
+    assert spring is not None
+    assert spring.rate == pytest.approx(usual().spring_rate)
+    assert spring.fatigue_safety(usual().spring_preload, usual().spring_force) >= usual().params.spring_fatigue
+    assert spring.free_length - usual().spring_preload / spring.rate < usual().params.strut
+    assert clearance(usual()) > 0
+
+
+def test_where_no_spring_is_enough_the_check_fails() -> None:
+    assert "springs of the table" in failed(tension="1000N", warp_stiffness="1e6N")
+    weak = MACHINE.report(design(TensionCompensatorParams(tension=1000.0, warp_stiffness=1e6)))
+    assert all(check.cure for check in weak.failed)
+
+
+@pytest.mark.parametrize("width", ["0.6m", "1.2m", "2.4m", "6m"])
+def test_a_compensator_for_every_width(width: str) -> None:
+    warps = str(round(float(width[:-1]) / 0.002))
+    assert failed(width=width, warps=warps) == set()
