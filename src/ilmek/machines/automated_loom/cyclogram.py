@@ -37,6 +37,10 @@ from ilmek.units import deg, turn
 
 EVEN, ODD, SHUTTLE, BEATER, TAKE_UP = "even warps", "odd warps", "shuttle", "beater", "take-up"
 SOURCE = "thesis, 3.3: the four steps of a row"
+HEADS = "heads"
+RETREAT_END = 36 * deg
+"""Cam angle at which the heads have retreated from the warps; they return behind the second beat."""
+
 GAP = 2 * deg
 """Least angle between the shuttle in the shed and the beater."""
 
@@ -50,6 +54,7 @@ class RowTiming:
     lift, law        of the warps [m]                window  shed angles between which the shuttle has room [rad]
     shuttle_stroke   from rest to rest [m]           beat_end, take_up_end  angles of each, and of the second, half
     beat             the beater's motion             row_pitch  carpet taken up for a row [m]
+    retreat          of the heads from the warps [m]
     """
 
     lift: float
@@ -60,6 +65,7 @@ class RowTiming:
     beat_end: float
     row_pitch: float
     take_up_end: float
+    retreat: float = 0.0
 
 
 CARRIAGE = "carriage"
@@ -127,6 +133,7 @@ def cyclogram(timing: RowTiming, period: float) -> Cyclogram:
         _shuttle(timing),
         _beater(timing, period),
         _take_up(timing),
+        _heads(timing),
     )
     return Cyclogram("row", period, tracks, relations())
 
@@ -194,6 +201,21 @@ def _take_up(timing: RowTiming) -> Track:
     start = _HALF + timing.beat_end
     part = TrackSegment("take up", start, _HALF + timing.take_up_end, 0.0, timing.row_pitch, TAKE_UP_LAW)
     return Track(TAKE_UP, "warp cylinder", (part,), revolves=timing.row_pitch)
+
+
+def _heads(timing: RowTiming) -> Track:
+    """The heads' rail: away from the warps while the shed opens, and back behind the second beat."""
+    law = _law("cycloidal")
+    parts = (
+        TrackSegment("retreat", 0.0, RETREAT_END, 0.0, timing.retreat, law),
+        TrackSegment("return", _HALF + timing.beat_end, turn, timing.retreat, 0.0, law),
+    )
+    return Track(HEADS, "linear axes", parts)
+
+
+def shortest_retreat(timing: RowTiming, speed_limit: float, acceleration_limit: float) -> float:
+    """The shortest turn of the cams [s] in which the heads' rail keeps its limits."""
+    return shortest_period(_heads(timing), speed_limit, acceleration_limit)
 
 
 def take_up_time(timing: RowTiming, period: float) -> float:

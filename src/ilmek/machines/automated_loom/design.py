@@ -13,7 +13,14 @@ from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import loom_parts
 from ilmek.machines.arrangement.side_view import SideView, laid_out
 from ilmek.machines.automated_loom.choice import beat_options, chosen_beat, chosen_heads
-from ilmek.machines.automated_loom.cyclogram import RowTiming, cyclogram, knot_cyclogram, shortest_row, take_up_time
+from ilmek.machines.automated_loom.cyclogram import (
+    RowTiming,
+    cyclogram,
+    knot_cyclogram,
+    shortest_retreat,
+    shortest_row,
+    take_up_time,
+)
 from ilmek.machines.automated_loom.knotting import KnottingHead, knotting_head
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.beat import Beat, BeatDrive
@@ -219,6 +226,7 @@ def _require_room(params: AutomatedLoomParams, most: int, wide: float) -> None:
 
 def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
     params = task.params
+    assert task.side is not None
     return RowTiming(
         lift=cams.params.lift,
         law=cams.params.law,
@@ -228,6 +236,7 @@ def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
         beat_end=params.beat_end,
         row_pitch=task.row_pitch,
         take_up_end=params.take_up_end,
+        retreat=task.side.retreat,
     )
 
 
@@ -249,4 +258,5 @@ def _row_period(params: AutomatedLoomParams, timing: RowTiming, cams: SheddingDe
         )
     if params.take_up_end <= params.beat_end:
         raise LoomError("the take-up ends before the beat", do="set take_up_end after beat_end")
-    return max(turn / cams.params.speed, shortest)
+    heads = shortest_retreat(timing, params.retreat_speed, params.retreat_acceleration)
+    return max(turn / cams.params.speed, shortest, heads)

@@ -140,6 +140,12 @@ class AutomatedLoomParams(Params):
         2.0, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the heads' rail between columns and posts"
     )
     rail_sag: float = kind.length(0.2 * mm, at_least=1e-6, at_most=0.05, doc="allowed sag of the heads' rail")
+    retreat_speed: float = kind.speed(
+        0.3, at_least=1e-3, at_most=10.0, doc="allowed speed of the heads' rail from and to the warps"
+    )
+    retreat_acceleration: float = kind.acceleration(
+        2.0, at_least=1e-3, at_most=100.0, doc="allowed acceleration of the heads' rail from and to the warps"
+    )
     drive_efficiency: float = param(0.7, at_least=0.01, at_most=1.0, doc="efficiency from the mains to a shaft")
     standby_power: float = kind.power(10.0, at_least=0.0, at_most=1e4, doc="power of an axis that stands still")
     prices: str | None = param(

@@ -1,0 +1,109 @@
+"""Whether all that moves in a loom has room: the least clearance of every two bodies over both cyclograms."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import combinations
+
+from ilmek.machines.arrangement.clearances import Clearance, MovingBody, least_clearances, samples
+from ilmek.machines.automated_loom.bodies import (
+    BACK_REST,
+    BAR,
+    CARPET,
+    GUIDE_CAMS,
+    HEAD,
+    LEAVES,
+    LOWER,
+    RAIL,
+    SPACER,
+    UPPER,
+    WARPS,
+    knot_bodies,
+    row_bodies,
+)
+from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.records import record
+from ilmek.report import Check, at_least
+from ilmek.timing.cyclogram import Cyclogram
+from ilmek.timing.track import joints
+from ilmek.units import deg, mm
+
+HORIZON = 50 * mm
+"""Bodies whose swept boxes are farther apart are clear of each other [m]."""
+
+TOOLS = ("side grippers", "opener", "centre gripper", "sley")
+SHEETS = (EVEN, ODD, WARPS)
+
+_GROOVES = "warps run in the grooves between the guide cams"
+_BETWEEN = "a leaf stands between two warps"
+_IN_THE_WARPS = "a tool reaches between the opened warps: plan view of the head"
+
+TOUCHING: Mapping[frozenset[str], str] = {
+    **{frozenset((GUIDE_CAMS, sheet)): _GROOVES for sheet in SHEETS},
+    **{frozenset((LEAVES, sheet)): _BETWEEN for sheet in SHEETS},
+    **{frozenset((BACK_REST, sheet)): "warps run over the back rest" for sheet in SHEETS},
+    **{frozenset((CARPET, sheet)): "warps end in the carpet" for sheet in SHEETS},
+    frozenset((EVEN, ODD)): "the sheets cross where the shed changes",
+    frozenset((LEAVES, BAR)): "one part",
+    frozenset((LEAVES, CARPET)): "the comb beats the fell",
+    frozenset((CARPET, SPACER)): "the carpet runs down the spacer",
+    frozenset((CARPET, LOWER)): "the carpet is wound on the lower cylinder",
+    **{frozenset((WARPS, tool)): _IN_THE_WARPS for tool in TOOLS},
+    frozenset(("sley", CARPET)): "the sley pushes the knot to the fell",
+    **{frozenset(pair): "plan view of the head" for pair in combinations((*TOOLS, HEAD), 2)},
+    frozenset((HEAD, RAIL)): "the rail carries the heads",
+    **{frozenset((tool, RAIL)): "the rail carries the heads" for tool in TOOLS},
+}
+"""Pairs that may touch, by intention, and why."""
+
+FRAME = frozenset((CARPET, BACK_REST, UPPER, SPACER, LOWER))
+"""What stands, and need not clear its like by more than nothing."""
+
+CURES: Mapping[str, str] = {
+    "weft's carrier": "set a larger lift, or a lower shuttle_height",
+    GUIDE_CAMS: "leave the spans of the shed open, or set a smaller lift",
+    HEAD: "set a larger clearance",
+}
+
+
+@record
+class RoomFound:
+    """The least clearance of two bodies over both cyclograms, and the cyclogram in which it occurs."""
+
+    clearance: Clearance
+    cyclogram: str
+
+
+def clearances(loom: LoomDesign) -> tuple[RoomFound, ...]:
+    """The least clearance of every two bodies that must not touch, the least of both cyclograms."""
+    knot, row = loom.cyclograms
+    found: dict[frozenset[str], RoomFound] = {}
+    for cyclogram, bodies in (
+        (row, row_bodies(loom.side, row, loom.params.beat)),
+        (knot, knot_bodies(loom.side, knot)),
+    ):
+        for clearance in _of_cyclogram(cyclogram, bodies, loom.params.clearance):
+            pair = frozenset((clearance.first, clearance.second))
+            if pair not in found or clearance.value < found[pair].clearance.value:
+                found[pair] = RoomFound(clearance, cyclogram.name)
+    return tuple(sorted(found.values(), key=lambda one: one.clearance.value))
+
+
+def _of_cyclogram(cyclogram: Cyclogram, bodies: tuple[MovingBody, ...], limit: float) -> tuple[Clearance, ...]:
+    ends = [angle for body in bodies for window in body.windows for angle in window]
+    angles = samples([*ends, *(angle for track in cyclogram.tracks for angle in joints(track).tolist())])
+    return least_clearances(bodies, angles, limit, TOUCHING, HORIZON)
+
+
+def room_checks(loom: LoomDesign, found: tuple[RoomFound, ...]) -> tuple[Check, ...]:
+    """The clearances against the least that is allowed."""
+    return tuple(_check(one, loom.params.clearance) for one in found)
+
+
+def _check(found: RoomFound, limit: float) -> Check:
+    one = found.clearance
+    where = f"parameter clearance, assumed by this project; least at {one.angle / deg:.1f} deg of a {found.cyclogram}"
+    names = (one.first, one.second)
+    limit = 0.0 if FRAME.issuperset(names) else limit
+    cure = next((CURES[name] for name in CURES if name in names), "leave the spans of the shed open")
+    return replace(at_least(f"clearance: {one.first} and {one.second}", one.value, limit, "mm", where), cure=cure)
