@@ -65,7 +65,7 @@ def loads_in_loom(task: LoomTask) -> WarpLoads:
     fabric = assumed_fabric(task.row_pitch, tension, stiffness, side.warp_length)
     compensator = task.designs.get("tension-compensator")
     if compensator is None:
-        longer = float(shed_lengthening(side.lift, side.front_span, side.back_span))
+        longer = float(shed_lengthening(side.cams[0].lift, side.front_span, side.back_span))
         lifted, others = tension + stiffness / side.warp_length * longer, tension
     else:
         lifted, others = compensator.tension_open, compensator.tension_low

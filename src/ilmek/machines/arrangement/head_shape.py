@@ -5,11 +5,9 @@ Tools reach out of the body to the warps. Their boxes contain the rods at every 
 machine states are assumed by this project.
 """
 
-from ilmek.arrays import FloatArray
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.records import record
-from ilmek.timing.track import sample
 from ilmek.units import mm
 
 CASE = 10 * mm
@@ -127,8 +125,3 @@ def _with_arms(weaver: Weaver, clearance: float) -> HeadShape:
     )
     least = min(tool.corner.real for tool in tools)
     return HeadShape(complex(face, top - deep), complex(deep, deep), tools, least)
-
-
-def moved(tool: HeadTool, weaver: Weaver, angle: FloatArray) -> FloatArray:
-    """Positions of a tool's track [m] at angles of the knot's cyclogram [rad]."""
-    return sample(weaver.cyclogram.track(tool.track), angle).position.clip(max=tool.limit)

@@ -69,27 +69,34 @@ class SideBox:
 
 
 @record
+class CamPosition:
+    """A cam shaft: its axis, the radius of its guides, and the lift of its warps [m]."""
+
+    at: complex
+    guide_radius: float
+    lift: float
+
+
+@record
 class SideView:
     """The side view of a loom.
 
     room, spans   what the spans of the shed leave room for, and the spans
-    cams          axes of the cam shafts, the lowest first [m]
-    prime_radius, guide_radius   of cams and guide cams [m]       lift  of the warps at the cams [m]
+    cams          the cam shafts, the lowest first
     carrier       of the weft, while it runs through the even shed; in the odd shed it is in the same position
     comb          leaves and bar at rest
     back_rest, upper, spacer, lower                                roll  radius of the lower cylinder with the carpet
+    compensator   of the warps' tension, between back rest and upper cylinder
     head          while it knots                                   rail  of the heads while they knot
     """
 
     room: ShedRoom
     spans: ShedSpans
-    cams: tuple[complex, ...]
-    prime_radius: float
-    guide_radius: float
-    lift: float
+    cams: tuple[CamPosition, ...]
     carrier: SideBox
     comb: tuple[SideBox, ...]
     back_rest: Roller
+    compensator: SideBox
     upper: Roller
     spacer: Roller
     lower: Roller
@@ -119,7 +126,7 @@ class SideView:
     @computed("m", "from the rearmost part to the rail of the retreated heads", name="loom_depth")
     def loom_depth(self) -> float:
         rear = min(
-            *(axis.real - self.guide_radius for axis in self.cams),
+            *(cam.at.real - cam.guide_radius for cam in self.cams),
             *(one.at.real - one.radius for one in (self.upper, self.spacer)),
             self.lower.at.real - self.roll,
         )
@@ -133,7 +140,7 @@ class SideView:
     @property
     def top(self) -> float:
         """Height of the columns' ends over the fell [m]."""
-        highest = max(axis.imag + self.guide_radius for axis in self.cams)
+        highest = (self.compensator.corner + self.compensator.size).imag
         return max(self.upper.at.imag + self.upper.radius, highest) + ABOVE_CYLINDER
 
 
@@ -154,14 +161,16 @@ def laid_out(task: "LoomTask") -> SideView:
         room=room,
         spans=spans,
         cams=tuple(
-            complex(-one.cam.prime_radius, height) for one, height in zip(shedding.shafts, spans.front, strict=True)
+            CamPosition(complex(-one.cam.prime_radius, height), one.stack.guide_radius, one.params.lift)
+            for one, height in zip(shedding.shafts, spans.front, strict=True)
         ),
-        prime_radius=prime,
-        guide_radius=guide,
-        lift=shedding.params.lift,
         carrier=_carrier(room, spans),
         comb=comb,
         back_rest=Roller(rest, room.back_rest),
+        compensator=SideBox(
+            rest + 1j * room.back_rest - complex(room.back_rest + room.swing, room.half_depth),
+            complex(room.swing, 2 * room.half_depth),
+        ),
         upper=Roller(rest - behind + 1j * (room.back_rest - radius), radius),
         spacer=spacer,
         lower=lower,

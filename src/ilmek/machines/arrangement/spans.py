@@ -11,8 +11,9 @@ at the height y. A carrier of depth d, with the clearance e to both sheets of wa
 
     y/a = (d + 2 e + D) / o = r       upwards, so that      a (1 - r) = c + h + w + 2 e
 
-with the carrier's width w along the warps. Above the guide cams stand the back rest, and the upper cylinder behind it;
-both clear the guide cams. The back span is never shorter than the front span: it would strain the warps more.
+with the carrier's width w along the warps. Above the guide cams stand the back rest, and behind it the tension
+compensator and the upper cylinder; all clear the guide cams. The back span is never shorter than the front span: it
+would strain the warps more.
 [derived from the geometry; clearances and sizes before they are designed are assumed by this project]
 """
 
@@ -28,8 +29,8 @@ if TYPE_CHECKING:
 BACK_REST = 30 * mm
 """Radius of the back rest before it is designed [m]."""
 
-BACK_REST_SWING = 30 * mm
-"""Room for the swing of the back rest [m]."""
+COMPENSATOR, COMPENSATOR_DEPTH = 0.28, 0.35
+"""Room of the tension compensator before it is designed: along the warps, and to either side of them [m]."""
 
 TUBE_SHARE = 0.06
 """Radius of a cylinder over the width of the loom, before it is designed."""
@@ -66,7 +67,8 @@ class ShedRoom:
     carrier_depth, carrier_width  of the weft's carrier, across the shed and along the warps
     opening      of the shed at the cams from which on the carrier moves
     leaf_height  of the comb                              head      height of the head's tools above the fell
-    back_rest, swing   its radius, and the room for its swing
+    back_rest    its radius                               swing     length of the tension compensator behind it
+    half_depth   of the compensator, to either side of the warps
     tube         radius of the upper cylinder             warp      diameter of a warp
     clearance    least distance of what moves
     """
@@ -78,6 +80,7 @@ class ShedRoom:
     head: float
     back_rest: float
     swing: float
+    half_depth: float
     tube: float
     warp: float
     clearance: float
@@ -110,15 +113,16 @@ class ShedSpans:
 def shed_room(task: "LoomTask") -> ShedRoom:
     """What must have room in the shed of a loom; parts that are not yet designed have their usual size."""
     params = task.params
-    spare = SPARE * params.clearance
+    spare, made = SPARE * params.clearance, task.designs.get("tension-compensator")
     return ShedRoom(
         carrier_depth=params.shuttle_height,
         carrier_width=params.shuttle_width,
         opening=params.open_share * params.lift,
         leaf_height=task.params.machines.of("hammer").get("leaf_height", LEAF_HEIGHT),
         head=USUAL_HEAD,
-        back_rest=BACK_REST,
-        swing=BACK_REST_SWING,
+        back_rest=made.roller_radius if made else BACK_REST,
+        swing=made.swing if made else COMPENSATOR,
+        half_depth=made.half_depth if made else COMPENSATOR_DEPTH,
         tube=max(TUBE_SHARE * task.width, LEAST_TUBE),
         warp=task.yarns.warp.diameter,
         clearance=spare,
@@ -130,7 +134,7 @@ def shed_spans(room: ShedRoom, prime_radius: float, guide_radius: float, shafts:
 
     prime_radius, guide_radius  of cams and guide cams [m]      shafts  number of cam shafts
 
-    >>> room = ShedRoom(0.024, 0.036, 0.054, 0.02, 0.05, 0.03, 0.03, 0.07, 0.001, 0.003)
+    >>> room = ShedRoom(0.024, 0.036, 0.054, 0.02, 0.05, 0.03, 0.28, 0.35, 0.07, 0.001, 0.003)
     >>> spans = shed_spans(room, 0.078, 0.148)
     >>> round(spans.front[0], 3), round(spans.comb - spans.carrier, 3)
     (0.448, 0.039)
@@ -151,8 +155,11 @@ def expected_spans(room: ShedRoom, lift: float) -> ShedSpans:
 def spans_at(
     room: ShedRoom, prime_radius: float, guide_radius: float, front: tuple[float, ...], back: tuple[float, ...]
 ) -> ShedSpans:
-    """Given spans [m], with carrier and comb as near below the lowest guide cams as their clearances allow."""
-    carrier = front[0] - _above_carrier(room, prime_radius, guide_radius)
+    """Given spans [m], with carrier and comb as near below the lowest guide cams as their clearances allow.
+
+    Where the spans are too short for that, the carrier runs just above the fell, and their clearances fail.
+    """
+    carrier = max(front[0] - _above_carrier(room, prime_radius, guide_radius), room.clearance)
     return ShedSpans(front, back, carrier, carrier + room.carrier_width + room.clearance)
 
 
@@ -173,11 +180,15 @@ def cylinder_offset(room: ShedRoom) -> float:
 
 
 def _back_span(room: ShedRoom, prime_radius: float, guide_radius: float) -> float:
-    """The least distance of the back rest above the cam shaft [m]: it and the upper cylinder clear the guide cams."""
+    """The least distance of the back rest above the cam shaft [m].
+
+    It, the compensator on the level run behind it and the upper cylinder clear the guide cams.
+    """
     roller, axis = room.back_rest, -prime_radius
-    rest = _chord(guide_radius + roller + room.swing + room.clearance, -roller - axis)
+    rest = _chord(guide_radius + roller + room.clearance, -roller - axis)
     cylinder = _chord(guide_radius + room.tube + room.clearance, -roller - cylinder_offset(room) - axis)
-    return max(rest, cylinder - roller + room.tube)
+    compensator = guide_radius + room.clearance + room.half_depth
+    return max(rest, cylinder - roller + room.tube, compensator - roller)
 
 
 def _chord(radius: float, offset: float) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.arrangement.clearances import ConvexPart, MovingBody, moving, standing
 from ilmek.machines.arrangement.head_shape import HeadTool
-from ilmek.machines.arrangement.side_view import Roller, SideBox, SideView
+from ilmek.machines.arrangement.side_view import CamPosition, Roller, SideBox, SideView
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, SHUTTLE
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, sample
@@ -19,6 +19,7 @@ BACK_REST, UPPER, SPACER, LOWER = "back rest", "upper cylinder", "spacer cylinde
 Displacement: TypeAlias = Callable[[FloatArray], ComplexArray]
 """Angles of a cyclogram [rad] -> displacement [m]."""
 
+COMPENSATOR = "tension compensator"
 HEAD, RAIL, WARPS = "head", "heads' rail", "warps"
 
 
@@ -74,16 +75,21 @@ def _box(box: SideBox) -> ConvexPart:
 def _sheets(side: SideView, row: Cyclogram) -> tuple[MovingBody, ...]:
     """Even and odd warps: from the fell over the point of lift at each cam shaft to the back rest."""
 
-    def part(track: Track, axis: complex, share: float, end: complex) -> ConvexPart:
+    def part(track: Track, cam: CamPosition, end: complex) -> ConvexPart:
+        share = cam.lift / side.cams[0].lift
+
         def corners(angle: FloatArray) -> ComplexArray:
-            lifted = share * sample(track, np.mod(angle, turn)).position + 1j * axis.imag
+            lifted = share * sample(track, np.mod(angle, turn)).position + 1j * cam.at.imag
             return np.stack([lifted, np.full_like(lifted, end)], axis=-1)
 
         return ConvexPart(corners, side.room.warp / 2)
 
     ends = 0j, 1j * side.spans.back_rest
     return tuple(
-        MovingBody(name, tuple(part(row.track(name), axis, 1.0, end) for axis in side.cams for end in ends))
+        MovingBody(
+            name,
+            tuple(part(row.track(name), cam, end) for cam in side.cams for end in ends),
+        )
         for name in (EVEN, ODD)
     )
 
@@ -91,8 +97,8 @@ def _sheets(side: SideView, row: Cyclogram) -> tuple[MovingBody, ...]:
 def _cams(side: SideView, stack: Displacement | None) -> MovingBody:
     """The guide cams: discs that contain the cams too."""
     parts = (
-        moving(np.array([axis]), stack, side.guide_radius) if stack else standing(np.array([axis]), side.guide_radius)
-        for axis in side.cams
+        moving(np.array([cam.at]), stack, cam.guide_radius) if stack else standing(np.array([cam.at]), cam.guide_radius)
+        for cam in side.cams
     )
     return MovingBody(GUIDE_CAMS, tuple(parts))
 
@@ -128,5 +134,6 @@ def _frame(side: SideView) -> tuple[MovingBody, ...]:
     )
     return (
         MovingBody(CARPET, (standing(carpet),)),
+        MovingBody(COMPENSATOR, (_box(side.compensator),)),
         *(MovingBody(name, (standing(np.array([roller.at]), radius),)) for name, roller, radius in rollers),
     )

@@ -12,6 +12,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
+from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks
 from ilmek.machines.beat import BeatDrive
 from ilmek.records import computed, record
 from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns
@@ -46,6 +47,7 @@ class LoomAnalysis:
     listed: PartsList
     energy: Energy
     beat: BeatDrive
+    room: tuple[RoomFound, ...]
 
     weaving_time = computed("h", "the carpet, estimated; a programme gives it exactly", lambda it: it.time)
     row_time = computed("s", "a row with its knots, estimated", lambda it: it.time / it.loom.rows)
@@ -67,6 +69,10 @@ class LoomAnalysis:
     warp_pitch = computed("mm", "distance of two warps", lambda it: it.loom.params.pitch)
     tension = computed("N", "tension of a warp", lambda it: it.loom.warp_tension.params.tension)
 
+    @computed("mm", "least clearance of two bodies that must not touch, over both cyclograms; below 0 they collide")
+    def least_clearance(self) -> float:
+        return min((one.clearance.value for one in self.room), default=HORIZON)
+
     @computed("mm", "stock tube of the warp cylinders")
     def tube(self) -> Json:
         diameter, wall = self.loom.tube
@@ -76,7 +82,8 @@ class LoomAnalysis:
 def analyse(loom: LoomDesign) -> LoomAnalysis:
     """Time, parts and energy of a loom."""
     listed = parts_of_loom(loom)
-    return LoomAnalysis(loom, estimated_time(loom), time_shares(loom), listed, energy_of(loom, listed.axes), loom.beat)
+    energy = energy_of(loom, listed.axes)
+    return LoomAnalysis(loom, estimated_time(loom), time_shares(loom), listed, energy, loom.beat, clearances(loom))
 
 
 def results(found: LoomAnalysis) -> tuple[Any, ...]:
@@ -102,6 +109,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
         *(replace(check, name=f"row: {check.name}") for check in check_all(row, row.relations)),
         *(replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}") for one in knot.exclusions),
+        *room_checks(loom, found.room),
         *found.listed.frame.checks,
     )
 

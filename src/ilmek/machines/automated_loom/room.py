@@ -9,6 +9,7 @@ from ilmek.machines.automated_loom.bodies import (
     BACK_REST,
     BAR,
     CARPET,
+    COMPENSATOR,
     GUIDE_CAMS,
     HEAD,
     LEAVES,
@@ -22,6 +23,7 @@ from ilmek.machines.automated_loom.bodies import (
 )
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.weaver.motions import LEFT_ARM, RIGHT_ARM
 from ilmek.records import record
 from ilmek.report import Check, at_least
 from ilmek.timing.cyclogram import Cyclogram
@@ -31,7 +33,7 @@ from ilmek.units import deg, mm
 HORIZON = 50 * mm
 """Bodies whose swept boxes are farther apart are clear of each other [m]."""
 
-TOOLS = ("side grippers", "opener", "centre gripper", "sley")
+TOOLS = ("side grippers", LEFT_ARM, RIGHT_ARM, "centre gripper", "opener", "sley")
 SHEETS = (EVEN, ODD, WARPS)
 
 _GROOVES = "warps run in the grooves between the guide cams"
@@ -51,12 +53,15 @@ TOUCHING: Mapping[frozenset[str], str] = {
     **{frozenset((WARPS, tool)): _IN_THE_WARPS for tool in TOOLS},
     frozenset(("sley", CARPET)): "the sley pushes the knot to the fell",
     **{frozenset(pair): "plan view of the head" for pair in combinations((*TOOLS, HEAD), 2)},
+    **{frozenset((COMPENSATOR, sheet)): "warps run through the compensator" for sheet in SHEETS},
+    frozenset((COMPENSATOR, BACK_REST)): "warps run from one to the other",
+    frozenset((COMPENSATOR, UPPER)): "warps run from one to the other",
     frozenset((HEAD, RAIL)): "the rail carries the heads",
     **{frozenset((tool, RAIL)): "the rail carries the heads" for tool in TOOLS},
 }
 """Pairs that may touch, by intention, and why."""
 
-FRAME = frozenset((CARPET, BACK_REST, UPPER, SPACER, LOWER))
+FRAME = frozenset((CARPET, BACK_REST, COMPENSATOR, UPPER, SPACER, LOWER))
 """What stands, and need not clear its like by more than nothing."""
 
 CURES: Mapping[str, str] = {

@@ -19,6 +19,9 @@ STEEL = "structural steel"
 ITERATIONS = 6
 """Trials of the spans: the room that the guides need depends on the bars, and these on the warps' forces."""
 
+USUAL_SPAN = 0.4
+"""Spans of the warps before they are known [m]."""
+
 SAME = 1e-6
 """Difference in size that needs no other spans [m]."""
 
@@ -43,7 +46,7 @@ def fit(task: LoomTask) -> SheddingParams:
     runs in the shed in front of the guides, not on the cams' tips.
     """
     room, given = shed_room(task), task.params.machines.of("shedding")
-    usual = task.parameters("shedding", SheddingParams(lift=task.params.lift))
+    usual = task.parameters("shedding", _usual(task, given))
     prime = usual.prime_radius or smallest_prime(usual).value
     usual_outline = prime, prime + usual.lift - usual.roller_radius + usual.guide_height
     outline = _Outline(usual_outline, usual_outline, 0.0)
@@ -54,6 +57,12 @@ def fit(task: LoomTask) -> SheddingParams:
             break
         outline = made
     return found
+
+
+def _usual(task: LoomTask, given: Mapping[str, Any]) -> SheddingParams:
+    """Parameters with the loom's lift, for spans of which the user may set one or all."""
+    both = {} if "half_span" in given else {"front_span": USUAL_SPAN, "back_span": USUAL_SPAN}
+    return SheddingParams(lift=task.params.lift, tension=task.tension, **{"half_span": given.get("half_span"), **both})
 
 
 def _outline_of(made: SheddingDesign) -> _Outline:
