@@ -53,7 +53,7 @@ RAIL = 80 * mm
 
 
 @record
-class Roller:
+class RoundPart:
     """A roller or cylinder: its axis and its radius [m]."""
 
     at: complex
@@ -95,11 +95,11 @@ class SideView:
     cams: tuple[CamPosition, ...]
     carrier: SideBox
     comb: tuple[SideBox, ...]
-    back_rest: Roller
+    back_rest: RoundPart
     compensator: SideBox
-    upper: Roller
-    spacer: Roller
-    lower: Roller
+    upper: RoundPart
+    spacer: RoundPart
+    lower: RoundPart
     roll: float
     pile: float
     head: HeadShape
@@ -166,12 +166,12 @@ def laid_out(task: "LoomTask") -> SideView:
         ),
         carrier=_carrier(room, spans),
         comb=comb,
-        back_rest=Roller(rest, room.back_rest),
+        back_rest=RoundPart(rest, room.back_rest),
         compensator=SideBox(
             rest + 1j * room.back_rest - complex(room.back_rest + room.swing, room.half_depth),
             complex(room.swing, 2 * room.half_depth),
         ),
-        upper=Roller(rest - behind + 1j * (room.back_rest - radius), radius),
+        upper=RoundPart(rest - behind + 1j * (room.back_rest - radius), radius),
         spacer=spacer,
         lower=lower,
         roll=roll,
@@ -194,7 +194,7 @@ def _comb(room: ShedRoom, spans: ShedSpans) -> tuple[SideBox, ...]:
     return leaves, SideBox(complex(LEAF_REACH, spans.comb), complex(BAR, room.leaf_height))
 
 
-def _lower_cylinders(task: "LoomTask", radius: float, head: Weaver) -> tuple[Roller, Roller, float]:
+def _lower_cylinders(task: "LoomTask", radius: float, head: Weaver) -> tuple[RoundPart, RoundPart, float]:
     """Spacer, lower cylinder, and the radius of this with the whole carpet wound on it [m].
 
     A carpet of length L and thickness t fills the ring pi (R² - r²) = L t.
@@ -203,4 +203,4 @@ def _lower_cylinders(task: "LoomTask", radius: float, head: Weaver) -> tuple[Rol
     roll = math.sqrt(radius**2 + task.params.length * thickness / math.pi)
     spacer = complex(-radius, -SPACER_BELOW - radius)
     lower = spacer - 1j * (radius + BETWEEN_CYLINDERS + roll)
-    return Roller(spacer, radius), Roller(lower, radius), roll
+    return RoundPart(spacer, radius), RoundPart(lower, radius), roll

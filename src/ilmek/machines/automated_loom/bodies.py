@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.arrangement.clearances import ConvexPart, MovingBody, moving, standing
 from ilmek.machines.arrangement.head_shape import HeadTool
-from ilmek.machines.arrangement.side_view import CamPosition, Roller, SideBox, SideView
+from ilmek.machines.arrangement.side_view import CamPosition, RoundPart, SideBox, SideView
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, SHUTTLE
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, sample
@@ -126,7 +126,7 @@ def _tool(tool: HeadTool, knot: Cyclogram) -> MovingBody:
 def _frame(side: SideView) -> tuple[MovingBody, ...]:
     """What stands: carpet, back rest and cylinders, the lower one with the whole carpet."""
     carpet = _corners(complex(-side.room.warp, side.lower.at.imag), complex(side.pile, -side.lower.at.imag))
-    rollers: tuple[tuple[str, Roller, float], ...] = (
+    rollers: tuple[tuple[str, RoundPart, float], ...] = (
         (BACK_REST, side.back_rest, side.back_rest.radius),
         (UPPER, side.upper, side.upper.radius),
         (SPACER, side.spacer, side.spacer.radius),
