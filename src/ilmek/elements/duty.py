@@ -130,10 +130,23 @@ def size_motor(
     kind  "stepper" or "servo"; default: either      margin, inertia_ratio  as for `bears`
     Of several sufficient reducers the one with the least rms torque is chosen.
     """
+    ratios = np.array([reducer.ratio for reducer in reducers])[:, None]
+    loads = np.stack([reducer.input_torque(cycle.effort, cycle.speed) for reducer in reducers])
+    speeds = ratios * cycle.speed
     for motor in sorted(MOTORS, key=lambda one: one.power):
         if kind in (None, motor.kind):
-            drives = [ServoDrive(motor, reducer, duty(cycle, motor, reducer)) for reducer in reducers]
+            # All reducers at once; `bears` judges those that are left.
+            torques = loads + motor.inertia * ratios * cycle.acceleration
+            enough = np.all(np.abs(torques) * margin <= motor.peak_at(speeds) * (1 + _CLOSE), axis=1)
+            drives = [
+                ServoDrive(motor, reducer, duty(cycle, motor, reducer))
+                for reducer, passes in zip(reducers, enough, strict=True)
+                if passes
+            ]
             able = [one for one in drives if bears(motor, one.duty, margin=margin, inertia_ratio=inertia_ratio)]
             if able:
                 return min(able, key=lambda one: one.duty.rms)
     return None
+
+
+_CLOSE = 1e-9

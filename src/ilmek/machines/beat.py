@@ -6,34 +6,66 @@ and designs its drive after:
     plan = MACHINES[BEATS[kind]].beat(task, kind)           `plan.beat`: stroke and time, from which the row is timed
     drive = plan.drive(task)                                with `task.period`, and the shedding among `task.designs`
 
-The drive states force, torque, parts and work of all its mechanisms together, and the rows that it leaves. Values that
-the user set for the machine are in both. In the loom it is `Child(MACHINES[drive.name], drive.design, drive.number)`.
+The drive states force, torque, parts and work of all its mechanisms together, the rows that it leaves, and its outline
+and path for the arrangement of the loom. Values that the user set for the machine are in both. In the loom it is
+`Child(MACHINES[drive.name], drive.design, drive.number)`.
 """
 
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import computed, record, result
-from ilmek.report import Part, Work
+from ilmek.report import Check, Part, Work, at_least
+from ilmek.timing.track import MotionLaw
 from ilmek.weaving.fell import Fabric
+
+FORCE_TOLERANCE = 0.05
+"""Share by which the force of a warp may be short: rows are then left less than 2 % too far apart."""
 
 
 @dataclass(frozen=True, slots=True)
 class Beat:
     """A beat in time: forward, pressed, back.
 
-    stroke   of the beater [m]                          time      from rest to rest [s]
-    forward  share of the time until the fell          pressed   share of it in which the beater presses
-    law      of both motions                            actuator  its name on the cyclogram
+    stroke   of the beater, along its path [m]          time      from rest to rest [s]
+    forward  share of the time until the fell           pressed   share of it in which the beater presses
+    law, back_law   of both motions                     actuator  its name on the cyclogram
+    strokes  across the width; between the first and the last of several the beater counts as at the fell
+    slide    run of the slide that carries it across [m]; 0: none
     """
 
     stroke: float
     time: float
     forward: float
     pressed: float
-    law: str
+    law: MotionLaw
+    back_law: MotionLaw
     actuator: str
+    strokes: int = 1
+    slide: float = 0.0
+
+
+@record
+class BeatPath:
+    """The beater in the side view over a beat: x to the front, y up, the tip at the fell is 0.
+
+    outline  of the beater or comb, its tip at the fell [m]     share  of the beat's time, ascending from 0 to 1 [-]
+    tip      displacement of the tip from the fell at the shares [m]
+    """
+
+    outline: ComplexArray
+    share: FloatArray
+    tip: ComplexArray
+
+    def __call__(self, share: RealField) -> ComplexArray:
+        """Displacement of the tip from the fell [m] at shares of the time of a beat [-]."""
+        return np.asarray(
+            np.interp(share, self.share, self.tip.real) + 1j * np.interp(share, self.share, self.tip.imag)
+        )
 
 
 @record
@@ -42,7 +74,8 @@ class BeatDrive:
 
     name, design  of its machine                      beat         in time
     fabric        at the fell, for one warp           torque       greatest, on the crank shaft of all [N m]; else 0
-    parts, work   of all its mechanisms together
+    parts, work   of all its mechanisms together      path         in the side view
+    machine_checks   of its machine: they are in its report
     """
 
     name: str
@@ -53,14 +86,22 @@ class BeatDrive:
     parts: tuple[Part, ...]
     work: tuple[Work, ...]
     torque: float
+    path: BeatPath
+    machine_checks: tuple[Check, ...]
     crank_rockers: int = result(
         "1", "crank-rockers that drive the beater, all alike, on one crank shaft; 0: none", name="beaters"
     )
-    force: float = result("N", "greatest force of the beat on the whole width", name="beat_force")
+    force: float = result("N", "force of the beat on all warps that are beaten at once", name="beat_force")
+    beaten: int = result("1", "warps that are beaten at once", name="beaten_warps", least=0.0)
+    frame_force: float = result("N", "greatest force of the beat on the frame", name="beat_frame_force")
 
-    beat_force_width = computed("N/m", "the same over the width", lambda it: it.force / it.task.params.width)
-    beat_force_warp = computed("N", "the same for a warp", lambda it: it.force / it.task.warps)
-    beat_force_knot = computed("N", "the same for a knot", lambda it: it.force / it.task.columns)
+    beat_strokes = computed("1", "strokes of a beat across the width", lambda it: it.beat.strokes)
+    beat_time = computed("s", "time of a beat from rest to rest, all its strokes", lambda it: it.beat.time)
+    beat_force_width = computed(
+        "N/m", "the same over the width of these warps", lambda it: it.force / (it.beaten * it.task.params.pitch)
+    )
+    beat_force_warp = computed("N", "the same for a warp", lambda it: it.force / it.beaten)
+    beat_force_knot = computed("N", "the same for a knot", lambda it: 2 * it.force / it.beaten)
     beat_torque_max = computed("Nm", "greatest torque on the crank shaft of all crank-rockers", lambda it: it.torque)
 
     @computed("N", "force for a warp that the required row pitch needs, with the fabric as assumed")
@@ -71,10 +112,33 @@ class BeatDrive:
     def row_pitch_left(self) -> float:
         return float(self.fabric.spacing(self.beat_force_warp))
 
+    @computed("N", "tension that the beat adds to a warp", name="beat_warp_tension")
+    def warp_force_extra(self) -> float:
+        return self.fabric.warp_rate * float(self.fabric.fell(min(self.beat_force_warp, self.beat_force_needed)))
+
     @property
     def number(self) -> int:
         """Mechanisms, all alike: the crank-rockers, or one comb."""
         return self.crank_rockers or 1
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """What the loom asks of the beat beside the checks of its machine."""
+        needed = self.beat_force_needed * (1 - FORCE_TOLERANCE)
+        source = "force that the rows need, 5 % less allowed; fabric assumed by this project: hammer.packing, laid_pitch"
+        cure = "set beat=auto, a lower tension, or a coarser quality along"
+        stroke = "room for the weft above the fell"
+        return (
+            at_least("beat: force of a warp", self.beat_force_warp, needed, "N", source, cure=cure),
+            at_least(
+                "beat: stroke", self.beat.stroke, stroke_needed(self.task), "mm", stroke, cure="set a larger stroke"
+            ),
+        )
+
+
+def stroke_needed(task: LoomTask) -> float:
+    """Stroke of the beater [m]: it comes from above the weft, which is laid above the fell."""
+    return task.params.comb_stroke
 
 
 class PlannedBeat(Protocol):

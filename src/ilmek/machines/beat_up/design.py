@@ -266,9 +266,9 @@ def magnitudes(state: BeatUpState) -> dict[str, FloatArray]:
 
 def _links(params: BeatUpParams) -> LinkRatios:
     if is_chosen(params):
-        return links_of_ratio(params.swing, params.crank_rotation, chosen_ratio(params))
+        return links_of_ratio(params.rocker_swing, params.crank_rotation, chosen_ratio(params))
     if params.crank is None or params.coupler is None or params.rocker is None:
-        return member(params.swing, params.crank_rotation, params.beta).links
+        return member(params.rocker_swing, params.crank_rotation, params.beta).links
     return LinkRatios(params.crank / params.ground, params.coupler / params.ground, params.rocker / params.ground)
 
 

@@ -201,13 +201,13 @@ def chosen_ratio(params: BeatUpParams) -> float:
     member is within the limits. Raises ParameterError, with the limits that clash, where no member is.
     """
     given = limits(params)
-    members = family(params.swing, params.crank_rotation, params.members)
+    members = family(params.rocker_swing, params.crank_rotation, params.members)
     bounds = [limit.bound for limit in given if limit.quantity == "crank_coupler_ratio"]
     ends = members.ratio[0], members.ratio[-1]
     ratios = np.unique(np.concatenate([members.ratio, [bound for bound in bounds if ends[0] < bound < ends[1]]]))
 
     def table(ratio: FloatArray) -> Table:
-        member = params.swing, params.crank_rotation, ratio
+        member = params.rocker_swing, params.crank_rotation, ratio
         return tabulate(params, links_of_ratio(*member), beta_of_ratio(*member))
 
     quantity, sign = OBJECTIVES[params.objective or next(iter(OBJECTIVES))]

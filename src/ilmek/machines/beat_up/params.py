@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from ilmek.errors import ParameterError
-from ilmek.params import Params, kind
-from ilmek.units import deg, turn
+from ilmek.machines.beat_up.hand import HAND, hand_positions, hand_swing
+from ilmek.machines.beat_up.use_params import CrankStartParams, StrengthParams, TravelParams
+from ilmek.params import Params, kind, nested
+from ilmek.units import deg, format_quantity, turn
 
 SMALL, LARGE = 1e-4, 1e2
 """Plausible range of lengths [m]."""
@@ -54,8 +56,15 @@ def _length(default: float | None, doc: str, symbol: str = "") -> Any:
 class BeatUpParams(Params):
     """A beat-up mechanism, its masses and its run, or limits by which it is chosen; the defaults are the paper's."""
 
-    swing: float = kind.angle(
-        30 * deg, above=0.0, below=math.pi, doc="swing of the rocker between its dead centres", symbol="ψ"
+    hand: str = kind.text(
+        HAND, doc="first, second and final position of the weaver's hand, which the beater follows: (x,y) (x,y) (x,y)"
+    )
+    swing: float | None = kind.angle(
+        None,
+        above=0.0,
+        below=math.pi,
+        doc="swing of the rocker between its dead centres; default: about the centre of the hand's positions, 30 deg",
+        symbol="ψ",
     )
     crank_rotation: float = kind.angle(
         180 * deg,
@@ -150,6 +159,12 @@ class BeatUpParams(Params):
         doc=f"objectives of the Pareto front, two or more of: {' '.join(OBJECTIVES)}",
     )
     members: int = kind.count(500, at_least=10, at_most=10_000, doc="crank-rockers of the family that are compared")
+    interval: float | None = kind.time(
+        None, above=0.0, at_most=1e6, doc="time from the start of a beat to that of the next; default: no rest between"
+    )
+    strength: StrengthParams = nested(StrengthParams, doc="what links and pins bear")
+    start: CrankStartParams = nested(CrankStartParams, doc="start and stop of the crank")
+    travel: TravelParams = nested(TravelParams, doc="the slide along the carpet")
 
     def check_together(self) -> None:
         """Crank, coupler and rocker together or not at all; limits only where there is something to choose."""
@@ -162,6 +177,12 @@ class BeatUpParams(Params):
                 do="give crank, coupler and rocker, or none of them",
             )
         front_objectives(self.front)
+        if not 0 < self.rocker_swing < math.pi:
+            raise ParameterError(
+                f"the hand's positions give a swing of {format_quantity(self.rocker_swing, 'deg')}",
+                allowed="above 0 and below 180 deg",
+                do="set other positions of the hand, or swing",
+            )
         choosing = [name for name in CHOOSING if getattr(self, name) is not None]
         if choosing and (given or self.beta is not None):
             fixed = "beta" if self.beta is not None else "crank, coupler and rocker"
@@ -170,6 +191,11 @@ class BeatUpParams(Params):
                 allowed=f"with {fixed} nothing is left to choose",
                 do=f"leave out {fixed}, or {' and '.join(choosing)}",
             )
+
+    @property
+    def rocker_swing(self) -> float:
+        """Swing of the rocker [rad]: as given, or about the centre of the hand's positions."""
+        return self.swing or hand_swing(*hand_positions(self.hand))
 
     @property
     def gravity_vector(self) -> complex:

@@ -1,0 +1,290 @@
+"""The crank's start and stop: one turn, or several, from rest with the beater farthest from the fell, and back to rest.
+
+    w(t) = W (3 u^2 - 2 u^3),   u = t / T,   T = 2 D / W      run-up to the speed W over the angle D; the stop mirrored
+    M = J(q) w' + J'(q) w^2 / 2 + F(s) ds/dq                  torque on the crank shaft      [Eksergian; `reduced`]
+
+J is the inertia of all crank-rockers reduced to the crank, s the travel of the beater towards the fell, F the fell's
+force on it. The run-up is over before the beat, a share of the rotation to it, so that the beat has its full speed.
+Bearings and gears lose a share 1 - e: the drive gives M / e where it drives, and gets e M back where it brakes.
+
+Servo: the motor's shaft follows w(t). Clutch and brake: a flywheel with its motor turns on at W; the clutch slips until
+the crank has the speed, loses half of what it transmits, and the brake takes the rest:
+
+    E = int M W dt (slipping) + int M w dt (coupled),   J_f = E / (d W^2),   P = E / (time of a beat and its rest)
+"""
+
+import math
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.dynamics.reduced import reduce
+from ilmek.elements.drive_parts import motor_part, reducer_part
+from ilmek.elements.duty import MARGIN, LoadCycle, ServoDrive, size_motor
+from ilmek.elements.motors import SERVO, Motor, geared_motor
+from ilmek.elements.prices import PRICES
+from ilmek.elements.reducers import DIRECT, PLANETARY, Reducer
+from ilmek.linkage.solve import solve
+from ilmek.machines.beat_up.design import BeatUp
+from ilmek.machines.beat_up.use_params import STARTS, CrankStartParams
+from ilmek.records import computed, record, result
+from ilmek.report import Check, Json, Part, at_most, must
+from ilmek.units import format_quantity, turn
+from ilmek.weaving.fell import Fabric
+
+CLUTCHES = (7.5, 15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0)
+"""Torques of electromagnetic clutches and brakes to choose from [N m]: usual sizes, each twice the one before."""
+
+FLYWHEEL_RADIUS = 0.2
+"""Radius of a flywheel's rim [m]: assumed by this project."""
+
+_SAMPLES = 96
+"""Samples of a run-up, a stop, and a turn between them."""
+
+_RESTS = 24
+"""Most samples of a beat with its rest, relative to those of the beat: a longer rest counts as this one."""
+
+
+@record
+class CrankDuty:
+    """What the crank-rockers of a beat do between two rests.
+
+    linkage  one of them, all alike     number   of them on the crank shaft
+    fabric   at the fell                warps    beaten by all of them     force  of the beat, for a warp [N]
+    strokes  turns of the crank from a start to its stop   starts, pause  of a beat, and the time between two [s]
+    every    time from the start of a beat to that of the next [s]; None: no rest between
+    """
+
+    linkage: BeatUp
+    number: int
+    fabric: Fabric
+    warps: int
+    force: float
+    strokes: int = 1
+    starts: int = 1
+    pause: float = 0.0
+    every: float | None = None
+
+    def time(self, run_up: float) -> float:
+        """Time of a beat from rest to rest [s]; run_up: share of the rotation to the beat."""
+        single = stroke_time(self.linkage, run_up, self.strokes)
+        return self.starts * single + (self.starts - 1) * self.pause
+
+
+@record
+class CrankStart:
+    """The crank's start, its turns and its stop; the arrays are those of a single turn from rest to rest.
+
+    torque  on the crank shaft [N m]      travel  of the beater from the fell, along its path [m]
+    cycle   of the servo, with its rest   servo   None: none is enough, or a clutch is taken
+    clutch  size [N m]; None: servo, or none is enough      motor  of the flywheel, with its reducer
+    """
+
+    duty: CrankDuty
+    params: CrankStartParams
+    time: FloatArray
+    angle: FloatArray
+    speed: FloatArray
+    torque: FloatArray
+    travel: FloatArray
+    fell_force: FloatArray
+    cycle: LoadCycle
+    servo: ServoDrive | None
+    clutch: float | None
+    motor: tuple[Motor, Reducer] | None
+    drive: str = result("", "how the crank starts and stops: servo, or clutch and brake", name="crank_start")
+    beat_time: float = result("s", "time of a beat from rest to rest, all its strokes")
+    run_up_time: float = result("s", "time from rest to the speed of the beat")
+    run_up_work: float = result("J", "work of the drive in the run-up, losses included")
+    run_up_energy: float = result("J", "kinetic energy of crank-rockers and beater at its end")
+    run_up_loss: float = result("J", "lost in the run-up: bearings and gears, and the slip of a clutch")
+    start_work: float = result("J", "work of the drive for a beat, none of it recovered")
+    clutch_torque: float = result("Nm", "torque that clutch and brake need")
+    start_flywheel: float = result("kg*m^2", "flywheel on the motor's side of the clutch")
+
+    start_torque = computed("Nm", "greatest torque on the crank shaft", lambda it: float(np.max(np.abs(it.torque))))
+
+    @computed("", "motor of the crank", absent="none of the table is enough", name="crank_motor")
+    def crank_motor(self) -> Json:
+        pair = self.pair
+        return None if pair is None else {"motor": pair[0].name, "ratio": pair[1].ratio}
+
+    @property
+    def pair(self) -> tuple[Motor, Reducer] | None:
+        """The motor and its reducer."""
+        return (self.servo.motor, self.servo.reducer) if self.servo else self.motor
+
+
+def crank_start(duty: CrankDuty, params: CrankStartParams) -> CrankStart:
+    """The start and stop of the crank shaft; of servo and clutch the given one, or the cheaper that is enough."""
+    time, angle, rate, rise = _motion(duty.linkage, params.run_up)
+    load, turns = _load(duty, angle), _turns_work(duty, params)
+    drives = (params.drive,) if params.drive else STARTS
+    made = [_started(duty, params, drive, (time, rate, rise), load, turns) for drive in drives]
+    able = [one for one in made if one.pair is not None and (one.drive == "servo" or one.clutch is not None)]
+    return min(able or made, key=lambda one: sum(price(part) for part in start_parts(one)))
+
+
+def start_checks(found: CrankStart) -> tuple[Check, ...]:
+    """Whether a motor, and a clutch where there is one, start and stop the crank in its time."""
+    slower = "set a lower speed of the crank, more beaters, or a longer run-up"
+    motor = must(
+        "a motor starts and stops the crank", found.pair is not None, "motor table, margin 1.25", cure=slower
+    )
+    every = found.duty.every or found.beat_time
+    fits = at_most("time of a beat", found.beat_time, every, "s", "time from beat to beat", cure=slower)
+    if found.drive == "servo":
+        return motor, fits
+    largest = f"sizes of clutches, up to {format_quantity(CLUTCHES[-1], 'Nm')}"
+    return motor, fits, at_most("torque of the clutch", found.clutch_torque, CLUTCHES[-1], "Nm", largest, cure=slower)
+
+
+def start_parts(found: CrankStart, name: str = "beat-up") -> tuple[Part, ...]:
+    """Motor, reducer, and clutch, brake and flywheel where there are."""
+    speed, pair = found.duty.linkage.params.speed, found.pair
+    motor, reducer = pair or (None, DIRECT)
+    lines = [motor_part(f"motor of the {name}", motor, found.start_torque, speed)]
+    if reducer.ratio != 1:
+        lines.append(reducer_part(f"reducer of the {name}", reducer.ratio, motor))
+    if found.drive == "clutch":
+        size = format_quantity(found.clutch or found.clutch_torque, "Nm")
+        wheel = found.start_flywheel / FLYWHEEL_RADIUS**2
+        lines.append(Part(f"clutch and brake of the {name}", 1, size, "", "clutch and brake"))
+        lines.append(Part(f"flywheel of the {name}", 1, "on the motor's side", "structural steel", "steel bar", wheel))
+    return tuple(lines)
+
+
+def price(part: Part) -> float:
+    """Price of all pieces of a part by the table of prices."""
+    mass = 0.0 if math.isnan(part.mass) else part.mass
+    return part.number * PRICES[part.kind].price(mass, part.length, part.power)
+
+
+def stroke_time(linkage: BeatUp, run_up: float, strokes: int = 1) -> float:
+    """Time [s] of some turns of the crank from rest to rest: T = (2 pi n + D1 + D2) / W, D1 and D2 run-up and stop."""
+    return (turn * strokes + run_up * turn) / linkage.params.speed
+
+
+def _motion(linkage: BeatUp, run_up: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Time, crank angle, speed and acceleration of one turn from rest to rest, the beat within it."""
+    speed, back = linkage.params.speed, linkage.crank_rotation
+    first, last = run_up * (turn - back), run_up * back
+    u = np.linspace(0.0, 1.0, _SAMPLES + 1)
+    ramp, slope = 3 * u**2 - 2 * u**3, 6 * u - 6 * u**2
+    way = 2 * (u**3 - u**4 / 2)
+    up, down, even = 2 * first / speed, 2 * last / speed, (turn - first - last) / speed
+    time = np.concatenate([up * u, (up + even * u)[1:], (up + even + down * u)[1:]])
+    angle = np.concatenate(
+        [first * way, (first + (turn - first - last) * u)[1:], (turn - last * way[::-1])[1:]]
+    )
+    rate = np.concatenate([speed * ramp, np.full(_SAMPLES, speed), speed * ramp[::-1][1:]])
+    rise = np.concatenate([speed / up * slope, np.zeros(_SAMPLES), -speed / down * slope[::-1][1:]])
+    return time, linkage.back_angle + angle, rate, rise
+
+
+@record
+class _Load:
+    """J and dJ/dq of all crank-rockers, travel from the fell and its slope, force of the fell, at crank angles."""
+
+    angle: FloatArray
+    inertia: FloatArray
+    bend: FloatArray
+    travel: FloatArray
+    slope: FloatArray
+    fell: FloatArray
+
+
+def _load(duty: CrankDuty, angle: FloatArray) -> _Load:
+    linkage = duty.linkage
+    terms, motion = reduce(linkage.plan, linkage.bodies).terms(angle), solve(linkage.plan, angle, 1.0)
+    arm, (at_beat, back) = linkage.lengths["beater"], linkage.rocker_angles
+    travel = arm * np.abs(np.angle(np.exp(1j * (motion.angle("rocker") - at_beat))))
+    slope = arm * motion.omega("rocker") * np.sign(back - at_beat)
+    fell = duty.warps * duty.fabric.over_stroke(duty.force, travel, slope > 0)
+    return _Load(angle, duty.number * terms.inertia, duty.number * terms.slope, travel, slope, fell)
+
+
+def _started(
+    duty: CrankDuty,
+    params: CrankStartParams,
+    drive: str,
+    motion: tuple[FloatArray, FloatArray, FloatArray],
+    load: _Load,
+    turns: float,
+) -> CrankStart:
+    """With a servo, or clutch and brake; turns: work of the turns between run-up and stop [J]."""
+    speed, end = duty.linkage.params.speed, _SAMPLES
+    time, rate, rise = motion
+    # The travel from the fell falls on the way to it: there the fell resists.
+    moved = load.inertia * rise + load.bend * rate**2 / 2 - load.fell * load.slope
+    lossy = np.where(moved * rate >= 0, moved / params.efficiency, moved * params.efficiency)
+    clutch = drive == "clutch"
+    shaft = np.where(np.arange(time.size) <= end, speed, rate) if clutch else rate
+    run_up = float(_integral(lossy * rate, time)[end])
+    slip = float(_integral(np.maximum(lossy, 0.0) * (shaft - rate), time)[end])
+    energy = float(load.inertia[end] * speed**2 / 2)
+    resisted = float(_integral(-load.fell * load.slope * rate, time)[end])
+    drawn = duty.starts * (float(np.trapezoid(np.maximum(lossy, 0.0) * shaft, time)) + turns)
+    total, torque = duty.time(params.run_up), float(np.max(np.abs(lossy)))
+    power = drawn / max(duty.every or total, total)
+    cycle = _cycle(duty, total, time, rate, rise, lossy, float(load.inertia.max()))
+    return CrankStart(
+        duty=duty,
+        params=params,
+        time=time,
+        angle=load.angle,
+        speed=rate,
+        torque=moved,
+        travel=load.travel,
+        fell_force=load.fell,
+        cycle=cycle,
+        servo=None if clutch else size_motor(cycle, kind=SERVO),
+        clutch=next((size for size in CLUTCHES if size >= torque), None) if clutch else None,
+        motor=geared_motor(MARGIN * power / speed, speed, (DIRECT, *PLANETARY)) if clutch else None,
+        drive=drive,
+        beat_time=total,
+        run_up_time=float(time[end]),
+        run_up_work=run_up + slip,
+        run_up_energy=energy,
+        run_up_loss=run_up + slip - energy - resisted,
+        start_work=drawn,
+        clutch_torque=torque if clutch else 0.0,
+        start_flywheel=drawn / duty.starts / (params.speed_drop * speed**2) if clutch else 0.0,
+    )
+
+
+def _integral(values: FloatArray, time: FloatArray) -> FloatArray:
+    """Running integral by trapezoids."""
+    return np.concatenate([[0.0], np.cumsum((values[1:] + values[:-1]) / 2 * np.diff(time))])
+
+
+def _turns_work(duty: CrankDuty, params: CrankStartParams) -> float:
+    """Work of the drive for the turns at speed between run-up and stop [J], none of it recovered."""
+    if duty.strokes == 1:
+        return 0.0
+    angle = duty.linkage.back_angle + np.linspace(0.0, turn, 2 * _SAMPLES + 1)
+    load = _load(duty, angle)
+    torque = load.bend * duty.linkage.params.speed**2 / 2 - load.fell * load.slope
+    return (duty.strokes - 1) * float(np.trapezoid(np.maximum(torque, 0.0), angle)) / params.efficiency
+
+
+def _cycle(
+    duty: CrankDuty,
+    total: float,
+    time: FloatArray,
+    rate: FloatArray,
+    rise: FloatArray,
+    torque: FloatArray,
+    inertia: float,
+) -> LoadCycle:
+    """The servo's load at equal steps of time: turns from rest to rest, and the rest until the next beat.
+
+    Several strokes count as one turn after the other, each started and stopped: more than they need.
+    """
+    turns = duty.strokes * duty.starts
+    every = max((duty.every or total) / turns, time[-1])
+    count = min(max(round(every / time[-1] * _SAMPLES), _SAMPLES), _RESTS * _SAMPLES)
+    at = np.linspace(0.0, every, count, endpoint=False)
+    on = at <= time[-1]
+    speed, acceleration, effort = (np.where(on, np.interp(at, time, curve), 0.0) for curve in (rate, rise, torque))
+    return LoadCycle(speed, acceleration, effort - inertia * acceleration, inertia)

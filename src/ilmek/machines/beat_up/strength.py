@@ -1,0 +1,151 @@
+"""Strength of a beat-up's links and pins over a turn of the crank at its speed.
+
+    crank     bent by the force of the coupler across it        s = M / Z + N / A
+    coupler   pulled and pushed, bent by its own inertia        s = N / A + m a l / (8 Z),   P_k = pi^2 E I / l^2
+    rocker    bent at B by the beater beyond it                 s = F (AE - AB) / Z
+    pins      in forks                                          t = 2 F / (pi d^2),   p = F / (d b),   (p v)_mean
+
+w x b is the section of a link, d the diameter of its pins: A = (w - d) b, Z = b (w^3 - d^3) / (6 w), and I = w b^3 / 12
+out of the plane of motion, the smaller one of flat links. v = d/2 times the relative angular velocity of the two
+links. The forces are those of the empty beat: the fell's resistance opposes the inertia of the beater and
+relieves the pins.                                                                    [theory of beams; Euler's column]
+"""
+
+import math
+
+import numpy as np
+
+from ilmek.machines.beat_up.design import PINS, BeatUp
+from ilmek.machines.beat_up.use_params import StrengthParams
+from ilmek.plane.vectors import dot
+from ilmek.records import record, result
+from ilmek.report import Check, at_least, at_most
+from ilmek.units import GPa, MPa, mm
+
+PIN_DIAMETERS = tuple(size * mm for size in (6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 63, 80, 100))
+"""Diameters of pins to choose from [m]: of ISO 2341 and 2340."""
+
+WIDEST_PIN = 0.6
+"""Largest diameter of a pin over the width of its links; assumed by this project."""
+
+
+@record
+class LinkStrength:
+    """Greatest stresses of links and pins; limits: those in force."""
+
+    limits: StrengthParams
+    pin_diameter: float = result("mm", "diameter of the pins: as given, or chosen", least=0.0)
+    crank_stress: float = result("MPa", "greatest stress of the crank")
+    coupler_stress: float = result("MPa", "greatest stress of the coupler")
+    rocker_stress: float = result("MPa", "greatest stress of the rocker, at its pin to the coupler")
+    coupler_buckling: float = result("1", "safety of the coupler against buckling", least=0.0)
+    pin_shear: float = result("MPa", "greatest shear stress of a pin, in a fork")
+    pin_pressure: float = result("MPa", "greatest pressure of a pin on its bush")
+    pin_wear: float = result("1", "greatest mean of pressure times sliding speed of a pin, in MPa m/s")
+
+
+def link_strength(design: BeatUp, limits: StrengthParams) -> LinkStrength:
+    """Stresses of the links and pins of a beat-up; of the stock pins the first that is enough, else the largest."""
+    widest = WIDEST_PIN * design.params.width
+    stock = [size for size in PIN_DIAMETERS if size <= widest] or [widest]
+    offered = [limits.pin_diameter] if limits.pin_diameter else stock
+    loads = _loads(design)
+    found = [_with_pins(design, loads, limits, size) for size in offered]
+    return next((one for one in found if all(check.ok for check in pin_checks(one))), found[-1])
+
+
+def strength_checks(found: LinkStrength) -> tuple[Check, ...]:
+    """Whether links and pins bear a beat."""
+    limits, wider = found.limits, "set wider or thicker links, a shorter ground, or a lower speed"
+    source = "parameter strength.stress"
+    return (
+        at_most("stress of the crank", found.crank_stress, limits.stress, "MPa", source, cure=wider),
+        at_most("stress of the coupler", found.coupler_stress, limits.stress, "MPa", source, cure=wider),
+        at_most("stress of the rocker", found.rocker_stress, limits.stress, "MPa", source, cure=wider),
+        at_least(
+            "buckling of the coupler",
+            found.coupler_buckling,
+            limits.buckling,
+            "1",
+            "Euler, hinged; safety assumed by this project: parameter strength.buckling",
+            cure="set thicker links",
+        ),
+        *pin_checks(found),
+    )
+
+
+def pin_checks(found: LinkStrength) -> tuple[Check, ...]:
+    """Whether the pins bear a beat."""
+    limits, cure = found.limits, "set wider and thicker links for larger pins, or a lower speed"
+    assumed = "assumed by this project: parameter strength."
+    return (
+        at_most("shear of the pins", found.pin_shear, limits.pin_shear, "MPa", f"{assumed}pin_shear", cure=cure),
+        at_most(
+            "pressure of the pins", found.pin_pressure, limits.pin_pressure, "MPa", f"{assumed}pin_pressure", cure=cure
+        ),
+        at_most(
+            "wear of the pins, p v", found.pin_wear, limits.pin_wear, "1", f"{assumed}pin_wear, in MPa m/s", cure=cure
+        ),
+    )
+
+
+@record
+class _Loads:
+    """Greatest loads over a turn: moment and pull of the crank, thrust of the coupler, tip of the rocker, pins, wear."""
+
+    crank_moment: float
+    crank_pull: float
+    thrust: float
+    tip: float
+    pin: float
+    wear: float
+
+
+def _loads(design: BeatUp) -> _Loads:
+    params, state = design.params, design.state
+    crank, coupler = state.motion.direction("crank"), state.motion.direction("coupler")
+    at_crank, at_coupler = state.forces.pin("C"), state.forces.pin("B")
+    along = np.maximum(np.abs(dot(at_coupler, coupler)), np.abs(dot(at_crank, coupler)))
+    reach = max(design.lengths["beater"], design.lengths["rocker"])
+    overhung = design.masses["rocker"] * _beyond(design) / reach / 2
+    tip = (params.beater_mass + overhung) * np.abs(state.beater.acceleration - params.gravity_vector)
+    return _Loads(
+        crank_moment=float(np.max(np.abs(dot(at_crank, 1j * crank)))) * design.lengths["crank"],
+        crank_pull=float(np.max(np.abs(dot(at_crank, crank)))),
+        thrust=float(np.max(along)),
+        tip=float(np.max(tip)),
+        pin=max(float(state.pins[pin].max()) for pin in PINS),
+        wear=max(_wear(design, pin) for pin in PINS),
+    )
+
+
+def _beyond(design: BeatUp) -> float:
+    """The rocker beyond its pin to the coupler [m]."""
+    return abs(design.lengths["beater"] - design.lengths["rocker"])
+
+
+def _with_pins(design: BeatUp, loads: _Loads, limits: StrengthParams, diameter: float) -> LinkStrength:
+    w, b = design.params.width, design.params.thickness
+    area, modulus = max(w - diameter, 1e-9) * b, b * max(w**3 - diameter**3, 1e-18) / (6 * w)
+    lengths, speed = design.lengths, design.params.speed
+    own = design.masses["coupler"] * speed**2 * lengths["crank"] * lengths["coupler"] / 8
+    euler = math.pi**2 * limits.modulus * min(w * b**3, b * w**3) / 12 / lengths["coupler"] ** 2
+    return LinkStrength(
+        limits=limits,
+        pin_diameter=diameter,
+        crank_stress=loads.crank_moment / modulus + loads.crank_pull / area,
+        coupler_stress=loads.thrust / area + own / modulus,
+        rocker_stress=loads.tip * _beyond(design) / modulus,
+        coupler_buckling=euler / loads.thrust if loads.thrust > 0 else math.inf,
+        pin_shear=2 * loads.pin / (math.pi * diameter**2),
+        pin_pressure=loads.pin / (diameter * b),
+        pin_wear=loads.wear / b / MPa,
+    )
+
+
+def _wear(design: BeatUp, pin: str) -> float:
+    """Mean over a turn of half the force of a pin times the relative angular velocity of its links [N/s]."""
+    joint = next(one for one in design.plan.mechanism.joints if one.name == pin)
+    motion = design.state.motion
+    sliding = np.abs(motion.omega(joint.second) - motion.omega(joint.first))
+    return float(np.mean((design.state.pins[pin] * sliding)[:-1])) / 2

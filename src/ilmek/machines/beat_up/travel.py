@@ -1,0 +1,168 @@
+"""The beater that travels along the carpet and strokes along its width.      [Topalbekiroglu and Celik, 2.1.1, Fig 1]
+
+    k = floor(F / R),   n = ceil(N / k)                         warps of a stroke, strokes across the N warps
+    T = (2 pi n + D1 + D2) / W                                  the crank turns on from stroke to stroke (through)
+    T = n (2 pi + D1 + D2) / W + (n - 1) max(0, t - t_out)       it stands between them (start-stop)
+
+F is the force of the beater at the beat, R the force of a warp that the rows need, D1 + D2 the angles of run-up and
+stop. "There must be a slider mechanism which moves along the carpet width together with beat-up mechanism": a belt axis
+moves the beat-up by its width k p, limited in speed, acceleration and jerk, while the beater's teeth are out of the
+warps. The pivot of the rocker stands level with the fell, so that the beater strikes along the warps; at the rocker's
+angle d from the beat it has left them by AE (1 - cos d). With t_out the time for which that is more than the teeth's
+reach, the crank can turn on where the step's time t <= t_out.
+"""
+
+import math
+
+import numpy as np
+
+from ilmek.dynamics.attached import attached
+from ilmek.elements.drive_parts import PULLEY, motor_part, reducer_part
+from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
+from ilmek.elements.materials import GRAVITY
+from ilmek.linkage.solve import solve
+from ilmek.machines.beat_up.crank_start import stroke_time
+from ilmek.machines.beat_up.design import BeatUp
+from ilmek.machines.beat_up.use_params import TravelParams
+from ilmek.records import computed, record, result
+from ilmek.report import Check, Part, at_least, at_most, must
+from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
+from ilmek.units import mm, turn
+from ilmek.weaving.fell import assumed_fabric
+
+_SAMPLES = 200
+_TURN_SAMPLES = 1440
+
+
+@record
+class Travel:
+    """The beater along the width; step: its motion from stroke to stroke."""
+
+    params: TravelParams
+    step: SCurve
+    slide: ServoDrive | None
+    thrust: float
+    stroke_force: float = result("N", "force of the beater at the beat")
+    stroke_warps: int = result("1", "warps of a stroke", least=0.0)
+    strokes: int = result("1", "strokes across the width")
+    mode: str = result("", "crank between two strokes: through or start-stop", name="stroke_mode")
+    step_time: float = result("s", "time of a step of the slide")
+    out_time: float = result("s", "time of a turn for which the beater is out of the warps")
+    clear: float = result("mm", "way of the beater out of the warps, at its farthest")
+    pause: float = result("s", "time for which the crank stands between two strokes", name="stroke_pause")
+    slide_mass: float = result("kg", "mass on the slide")
+
+    stroke_warp_force = computed("N", "force of the beat for a warp", lambda it: it.stroke_force / it.stroke_warps)
+    beater_width = computed("mm", "width of the beater", lambda it: it.stroke_warps * it.params.warp_pitch)
+    slide_run = computed(
+        "mm", "run of the slide", lambda it: max(it.params.warps - it.stroke_warps, 0) * it.params.warp_pitch
+    )
+
+
+def travel(design: BeatUp, params: TravelParams, run_up: float) -> Travel:
+    """Strokes, steps and time of a beat along the width; run_up: share of the rotation to the beat."""
+    force = force_at_beat(design)
+    able = min(max(int(force / params.warp_force * (1 + 1e-9)), 1), params.warps)
+    warps = min(params.stroke_warps or able, params.warps)
+    strokes = math.ceil(params.warps / warps)
+    step = s_curve(warps * params.warp_pitch, AxisLimits(params.speed, params.acceleration, params.jerk))
+    clear, out = _out_of_the_warps(design, params.reach)
+    mode = params.mode or ("through" if step.time <= out or strokes == 1 else "start-stop")
+    single = stroke_time(design, run_up)
+    # Standing at the far dead centre, the slide may begin before the crank stands, and end after it has begun.
+    pause = max(0.0, step.time - out) if mode == "start-stop" else 0.0
+    mass = params.slide_mass or 2 * (design.params.beater_mass + sum(design.masses.values()))
+    cycle = _slide_cycle(params, step, mass, turn / design.params.speed if mode == "through" else single + pause)
+    return Travel(
+        params=params,
+        step=step,
+        slide=size_motor(cycle),
+        thrust=float(np.max(np.abs(cycle.effort))) / PULLEY,
+        stroke_force=force,
+        stroke_warps=warps,
+        strokes=strokes,
+        mode=mode,
+        step_time=step.time,
+        out_time=out,
+        clear=clear,
+        pause=pause,
+        slide_mass=mass,
+    )
+
+
+def force_at_beat(design: BeatUp) -> float:
+    """Force between rocker and beater at the beat [N]: m (a - g), as much as the fell can take."""
+    motion = solve(design.plan, np.array([design.beta]), design.params.speed)
+    beater = attached(motion, "rocker", design.plan.mechanism.point("rocker", "E"))
+    return design.params.beater_mass * float(abs(beater.acceleration[0] - design.params.gravity_vector))
+
+
+def usual_warp_force(tension: float) -> float:
+    """Force of a warp [N] that rows need, with the fabric as assumed; independent of their distance."""
+    fabric = assumed_fabric(4 * mm, tension, 1000.0, 1.0)
+    return float(fabric.resistance(4 * mm))
+
+
+def travel_checks(found: Travel) -> tuple[Check, ...]:
+    """Whether the beater beats every warp hard enough, leaves the warps, and steps on in time."""
+    params, carried = found.params, "set a higher speed of the crank, or a heavier beater"
+    checks = (
+        at_least(
+            "force of a stroke for a warp",
+            found.stroke_warp_force,
+            params.warp_force,
+            "N",
+            "force that the rows need, fabric assumed by this project: hammer.packing, laid_pitch, jammed_pitch",
+            cure=carried,
+        ),
+        at_least(
+            "beater out of the warps, at its farthest",
+            found.clear,
+            params.reach,
+            "mm",
+            "parameter travel.reach",
+            cure="set shorter teeth, a longer ground, or a larger swing",
+        ),
+        must(
+            "a motor moves the slide",
+            found.slide is not None,
+            "motor table, margin 1.25",
+            cure="set a lower acceleration of the slide",
+        ),
+    )
+    if found.mode == "start-stop" or found.strokes == 1:
+        return checks
+    cure = "set travel.mode=start-stop, or a quicker slide"
+    return (*checks, at_most("time of a step of the slide", found.step_time, found.out_time, "s", "turn", cure=cure))
+
+
+def _out_of_the_warps(design: BeatUp, reach: float) -> tuple[float, float]:
+    """Way of the beater out of the warps [m], and the time of a turn [s] for which it is beyond their reach."""
+    angle = np.arange(_TURN_SAMPLES) * (turn / _TURN_SAMPLES)
+    rocker = solve(design.plan, angle).angle("rocker") - design.rocker_angles[0]
+    out = design.lengths["beater"] * (1 - np.cos(rocker))
+    return design.lengths["beater"] * (1 - math.cos(design.swing)), float(np.mean(out > reach)) * design.period
+
+
+def _slide_cycle(params: TravelParams, step: SCurve, mass: float, every: float) -> LoadCycle:
+    """Load of the slide's motor over a step and the rest until the next one."""
+    time = np.linspace(0.0, max(every, step.time), _SAMPLES)
+    _, speed, acceleration, _ = step.at(time)
+    friction = params.friction * mass * GRAVITY * np.sign(speed)
+    return LoadCycle(speed / PULLEY, acceleration / PULLEY, friction * PULLEY, mass * PULLEY**2)
+
+
+def travel_parts(found: Travel) -> tuple[Part, ...]:
+    """The slide along the carpet and its motor."""
+    motor = found.slide.motor if found.slide else None
+    width = found.params.warps * found.params.warp_pitch
+    speed = found.step.speed / PULLEY
+    return (
+        Part("slide of the beater", 1, "belt drive along the carpet", "", "linear axis", length=width),
+        motor_part("motor of the slide", motor, found.thrust * PULLEY, speed),
+        *(
+            (reducer_part("reducer of the slide", found.slide.reducer.ratio, motor),)
+            if found.slide and found.slide.reducer.ratio != 1
+            else ()
+        ),
+    )

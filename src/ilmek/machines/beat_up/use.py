@@ -1,0 +1,48 @@
+"""A beat-up in use: strength of links and pins, start and stop of its crank, its way along the carpet."""
+
+from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks
+from ilmek.machines.beat_up.design import BeatUp
+from ilmek.machines.beat_up.strength import LinkStrength, link_strength, strength_checks
+from ilmek.machines.beat_up.travel import Travel, travel, travel_checks
+from ilmek.records import group, record
+from ilmek.report import Check
+from ilmek.weaving.fell import Fabric, assumed_fabric
+from ilmek.weaving.tension import usual_tension
+
+WARP_STIFFNESS, WARP_LENGTH = 1350.0, 1.5
+"""Force over strain [N] and length [m] of the thesis' warp: the fell's stiffness where no loom gives it."""
+
+
+@record
+class BeatUpUse:
+    """Strength, travel and start of a beat-up, by its own parameters."""
+
+    strength: LinkStrength = group()
+    travel: Travel = group()
+    start: CrankStart = group()
+
+
+def in_use(design: BeatUp, fabric: Fabric | None = None) -> BeatUpUse:
+    """The beat-up that beats along the width; fabric: at the fell, default: of the thesis' warps at their pitch."""
+    params = design.params
+    across = travel(design, params.travel, params.start.run_up)
+    if fabric is None:
+        pitch = params.travel.warp_pitch
+        fabric = assumed_fabric(2 * pitch, usual_tension(pitch), WARP_STIFFNESS, WARP_LENGTH)
+    duty = CrankDuty(
+        linkage=design,
+        number=1,
+        fabric=fabric,
+        warps=across.stroke_warps,
+        force=across.stroke_warp_force,
+        strokes=across.strokes if across.mode == "through" else 1,
+        starts=1 if across.mode == "through" else across.strokes,
+        pause=across.pause,
+        every=params.interval,
+    )
+    return BeatUpUse(link_strength(design, params.strength), across, crank_start(duty, params.start))
+
+
+def use_checks(found: BeatUpUse) -> tuple[Check, ...]:
+    """Whether links, pins, motor and slide do their work."""
+    return (*strength_checks(found.strength), *travel_checks(found.travel), *start_checks(found.start))

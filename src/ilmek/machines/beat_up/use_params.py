@@ -1,0 +1,76 @@
+"""Parameters of a beat-up in use: strength of its links, start of its crank, its way along the carpet."""
+
+from dataclasses import dataclass
+
+from ilmek.params import Params, kind
+from ilmek.units import GPa, MPa, mm
+
+STARTS = ("servo", "clutch")
+MODES = ("through", "start-stop")
+
+
+@dataclass(frozen=True, slots=True)
+class StrengthParams(Params):
+    """What links and pins bear; the defaults are for grey cast iron, in bushes of sintered bronze."""
+
+    stress: float = kind.pressure(
+        50 * MPa,
+        at_least=0.1 * MPa,
+        at_most=1e10,
+        doc="allowed alternating stress of the links; fatigue limit of grey cast iron, 75 MPa, over a safety of 1.5",
+    )
+    modulus: float = kind.pressure(
+        110 * GPa, unit="GPa", at_least=1 * MPa, at_most=2e12, doc="Young's modulus of the links; grey cast iron"
+    )
+    buckling: float = kind.ratio(3.0, at_least=1.0, at_most=100.0, doc="required safety of the coupler in buckling")
+    pin_diameter: float | None = kind.length(
+        None, at_least=0.5 * mm, at_most=1.0, doc="diameter of the pins; default: the least of stock that is enough"
+    )
+    pin_shear: float = kind.pressure(60 * MPa, at_least=0.1 * MPa, at_most=1e10, doc="allowed shear stress of the pins")
+    pin_pressure: float = kind.pressure(
+        15 * MPa, at_least=0.01 * MPa, at_most=1e10, doc="allowed pressure of a pin on its bush"
+    )
+    pin_wear: float = kind.ratio(
+        1.0, at_least=1e-3, at_most=1e3, doc="allowed mean of pressure times sliding speed of a pin [MPa m/s]"
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class CrankStartParams(Params):
+    """How the crank is started and stopped."""
+
+    drive: str | None = kind.choice(
+        None, STARTS, doc="servo, or clutch and brake on a flywheel; default: the cheaper that is enough"
+    )
+    run_up: float = kind.ratio(
+        0.75, above=0.0, at_most=1.0, doc="share of the crank's rotation to the beat in which it reaches its speed"
+    )
+    efficiency: float = kind.ratio(0.9, at_least=0.05, at_most=1.0, doc="efficiency of bearings and gears")
+    speed_drop: float = kind.ratio(
+        0.1, at_least=1e-3, at_most=0.9, doc="allowed loss of the flywheel's speed in a beat, with a clutch"
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class TravelParams(Params):
+    """The slide along the carpet, and what the beater beats there; the defaults are the thesis' loom."""
+
+    warps: int = kind.count(600, at_least=2, at_most=100_000, doc="warps across the carpet")
+    warp_pitch: float = kind.length(2 * mm, at_least=0.01 * mm, at_most=50 * mm, doc="distance of two warps")
+    warp_force: float = kind.force(
+        10.0, at_least=1e-6, at_most=1e5, doc="force for each warp that the rows need; 10 N for 15 N of tension"
+    )
+    stroke_warps: int | None = kind.count(
+        None, at_least=1, at_most=100_000, doc="warps of a stroke; default: as many as the force is enough for"
+    )
+    mode: str | None = kind.choice(
+        None, MODES, doc="crank between two strokes: runs through, or stands; default: through where the step fits"
+    )
+    reach: float = kind.length(20 * mm, at_least=0.1 * mm, at_most=1.0, doc="reach of the beater's teeth in the warps")
+    slide_mass: float | None = kind.mass(
+        None, above=0.0, at_most=1e4, doc="mass on the slide; default: beater, links, and as much again for the rest"
+    )
+    speed: float = kind.speed(1.0, above=0.0, at_most=100.0, doc="allowed speed of the slide")
+    acceleration: float = kind.acceleration(10.0, above=0.0, at_most=1e4, doc="allowed acceleration of the slide")
+    jerk: float = kind.jerk(1000.0, above=0.0, at_most=1e7, doc="allowed jerk of the slide")
+    friction: float = kind.ratio(0.02, at_least=0.0, at_most=1.0, doc="friction of the slide's guideway")
