@@ -53,11 +53,11 @@ class Beat:
 class BeatPath:
     """The beater in the side view over a beat: x to the front, y up, the tip at the fell is 0.
 
-    outline  of the beater or comb, its tip at the fell [m]     share  of the beat's time, ascending from 0 to 1 [-]
-    tip      displacement of the tip from the fell at the shares [m]
+    outline  convex polygons of the beater or comb, its tip at the fell [m]
+    share    of the beat's time, ascending from 0 to 1 [-]      tip  displacement of the tip from the fell at them [m]
     """
 
-    outline: ComplexArray
+    outline: tuple[ComplexArray, ...]
     share: FloatArray
     tip: ComplexArray
 
@@ -122,10 +122,17 @@ class BeatDrive:
         return self.crank_rockers or 1
 
     @property
+    def outline(self) -> tuple[ComplexArray, ...]:
+        """Convex polygons of what strikes, in the side view, its striking edge at 0 when it is at the fell [m]."""
+        return self.path.outline
+
+    @property
     def checks(self) -> tuple[Check, ...]:
         """What the loom asks of the beat beside the checks of its machine."""
         needed = self.beat_force_needed * (1 - FORCE_TOLERANCE)
-        source = "force that the rows need, 5 % less allowed; fabric assumed by this project: hammer.packing, laid_pitch"
+        source = (
+            "force that the rows need, 5 % less allowed; fabric assumed by this project: hammer.packing, laid_pitch"
+        )
         cure = "set beat=auto, a lower tension, or a coarser quality along"
         stroke = "room for the weft above the fell"
         return (
@@ -138,7 +145,11 @@ class BeatDrive:
 
 def stroke_needed(task: LoomTask) -> float:
     """Stroke of the beater [m]: it comes from above the weft, which is laid above the fell."""
-    return task.params.comb_stroke
+    return task.side.beat_stroke if task.side is not None else USUAL_STROKE
+
+
+USUAL_STROKE = 0.1
+"""Stroke of the comb [m] where there is no side view: assumed by this project."""
 
 
 class PlannedBeat(Protocol):

@@ -46,7 +46,7 @@ def beat_options(task: LoomTask, period_of: Callable[[PlannedBeat], float]) -> t
         period = period_of(plan)
         drive = plan.drive(replace(task, period=period))
         price = sum(price_of(part, prices) for part in drive.parts)
-        checks = (row_check(drive), *component.checks(component.analysis(drive.design)))
+        checks = (row_check(drive), *drive.checks, *drive.machine_checks)
         options.append(BeatOption(kind, plan, period, drive, price, checks))
     by_time = params.aim == "time"
     return tuple(sorted(options, key=lambda one: (one.period, one.price) if by_time else (one.price, one.period)))

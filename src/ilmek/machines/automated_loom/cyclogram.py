@@ -190,8 +190,8 @@ def _beater(timing: RowTiming, period: float) -> Track:
         start = end - spent
         middle = start + beat.forward * spent
         parts += [
-            TrackSegment(f"beat {number}", start, middle, 0.0, beat.stroke, _law(beat.law)),
-            TrackSegment(f"back {number}", middle + beat.pressed * spent, end, beat.stroke, 0.0, _law(beat.law)),
+            TrackSegment(f"beat {number}", start, middle, 0.0, beat.stroke, beat.law),
+            TrackSegment(f"back {number}", middle + beat.pressed * spent, end, beat.stroke, 0.0, beat.back_law),
         ]
     events = (TrackEvent("beat", parts[0].end), TrackEvent("beat", parts[2].end))
     return Track(BEATER, beat.actuator, tuple(parts), events)

@@ -9,13 +9,13 @@ It is greatest near the extended dead centre, where the beater reverses at the f
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.beat_up.design import BeatUp, design
+from ilmek.machines.beat_up.design import BeatUp, design, ground_for
 from ilmek.machines.beat_up.in_loom import fit, parts, planned_beat, work
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.report import BeatUpAnalysis, analyse, checks, figures, plates, tables, warnings
 from ilmek.machines.component import Component
 
-__all__ = ["MACHINE", "BeatUp", "BeatUpParams", "design"]
+__all__ = ["MACHINE", "BeatUp", "BeatUpParams", "design", "ground_for"]
 
 MACHINE = Component(
     name="beat-up",

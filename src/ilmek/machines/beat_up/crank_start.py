@@ -13,8 +13,6 @@ the crank has the speed, loses half of what it transmits, and the brake takes th
     E = int M W dt (slipping) + int M w dt (coupled),   J_f = E / (d W^2),   P = E / (time of a beat and its rest)
 """
 
-import math
-
 import numpy as np
 
 from ilmek.arrays import FloatArray
@@ -22,7 +20,7 @@ from ilmek.dynamics.reduced import reduce
 from ilmek.elements.drive_parts import motor_part, reducer_part
 from ilmek.elements.duty import MARGIN, LoadCycle, ServoDrive, size_motor
 from ilmek.elements.motors import SERVO, Motor, geared_motor
-from ilmek.elements.prices import PRICES
+from ilmek.elements.prices import PRICES, price_of
 from ilmek.elements.reducers import DIRECT, PLANETARY, Reducer
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up.design import BeatUp
@@ -122,15 +120,13 @@ def crank_start(duty: CrankDuty, params: CrankStartParams) -> CrankStart:
     drives = (params.drive,) if params.drive else STARTS
     made = [_started(duty, params, drive, (time, rate, rise), load, turns) for drive in drives]
     able = [one for one in made if one.pair is not None and (one.drive == "servo" or one.clutch is not None)]
-    return min(able or made, key=lambda one: sum(price(part) for part in start_parts(one)))
+    return min(able or made, key=lambda one: sum(price_of(part, PRICES) for part in start_parts(one)))
 
 
 def start_checks(found: CrankStart) -> tuple[Check, ...]:
     """Whether a motor, and a clutch where there is one, start and stop the crank in its time."""
     slower = "set a lower speed of the crank, more beaters, or a longer run-up"
-    motor = must(
-        "a motor starts and stops the crank", found.pair is not None, "motor table, margin 1.25", cure=slower
-    )
+    motor = must("a motor starts and stops the crank", found.pair is not None, "motor table, margin 1.25", cure=slower)
     every = found.duty.every or found.beat_time
     fits = at_most("time of a beat", found.beat_time, every, "s", "time from beat to beat", cure=slower)
     if found.drive == "servo":
@@ -154,12 +150,6 @@ def start_parts(found: CrankStart, name: str = "beat-up") -> tuple[Part, ...]:
     return tuple(lines)
 
 
-def price(part: Part) -> float:
-    """Price of all pieces of a part by the table of prices."""
-    mass = 0.0 if math.isnan(part.mass) else part.mass
-    return part.number * PRICES[part.kind].price(mass, part.length, part.power)
-
-
 def stroke_time(linkage: BeatUp, run_up: float, strokes: int = 1) -> float:
     """Time [s] of some turns of the crank from rest to rest: T = (2 pi n + D1 + D2) / W, D1 and D2 run-up and stop."""
     return (turn * strokes + run_up * turn) / linkage.params.speed
@@ -174,9 +164,7 @@ def _motion(linkage: BeatUp, run_up: float) -> tuple[FloatArray, FloatArray, Flo
     way = 2 * (u**3 - u**4 / 2)
     up, down, even = 2 * first / speed, 2 * last / speed, (turn - first - last) / speed
     time = np.concatenate([up * u, (up + even * u)[1:], (up + even + down * u)[1:]])
-    angle = np.concatenate(
-        [first * way, (first + (turn - first - last) * u)[1:], (turn - last * way[::-1])[1:]]
-    )
+    angle = np.concatenate([first * way, (first + (turn - first - last) * u)[1:], (turn - last * way[::-1])[1:]])
     rate = np.concatenate([speed * ramp, np.full(_SAMPLES, speed), speed * ramp[::-1][1:]])
     rise = np.concatenate([speed / up * slope, np.zeros(_SAMPLES), -speed / down * slope[::-1][1:]])
     return time, linkage.back_angle + angle, rate, rise
@@ -204,7 +192,7 @@ def _load(duty: CrankDuty, angle: FloatArray) -> _Load:
     return _Load(angle, duty.number * terms.inertia, duty.number * terms.slope, travel, slope, fell)
 
 
-def _started(
+def _started(  # noqa: PLR0917
     duty: CrankDuty,
     params: CrankStartParams,
     drive: str,
@@ -268,7 +256,7 @@ def _turns_work(duty: CrankDuty, params: CrankStartParams) -> float:
     return (duty.strokes - 1) * float(np.trapezoid(np.maximum(torque, 0.0), angle)) / params.efficiency
 
 
-def _cycle(
+def _cycle(  # noqa: PLR0917
     duty: CrankDuty,
     total: float,
     time: FloatArray,

@@ -8,6 +8,7 @@ at the crank angle beta, is the beat.
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 
 import numpy as np
 
@@ -213,6 +214,18 @@ def design(params: BeatUpParams) -> BeatUp:
         ),
         at=None if params.crank_angle is None else state(np.array([params.crank_angle])),
     )
+
+
+@lru_cache(maxsize=8)
+def _stroke_of_a_metre() -> float:
+    """Stroke of the beater of the paper's linkage with a ground of 1 m, along its path [m]."""
+    params = BeatUpParams(ground=1.0)
+    return _lengths(params, _links(params))["beater"] * params.rocker_swing
+
+
+def ground_for(stroke: float) -> float:
+    """Distance of the pivots [m] of the paper's linkage with a stroke of the beater [m], along its path."""
+    return stroke / _stroke_of_a_metre()
 
 
 def mechanism(lengths: Mapping[str, float]) -> Mechanism:

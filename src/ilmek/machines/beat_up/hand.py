@@ -1,4 +1,4 @@
-"""Swing of the rocker from three positions of the weaver's hand.                [Topalbekiroglu and Celik, 2.1.2, Fig 2]
+"""Swing of the rocker from three positions of the weaver's hand.               [Topalbekiroglu and Celik, 2.1.2, Fig 2]
 
 The beater follows the hand where the rocker's pivot M is the centre of the circle through the three positions, which is
 the three-point synthesis: |M - P1| = |M - P2| = |M - P3|. The swing is the angle P1 M P3 on the side of P2.

@@ -1,93 +1,126 @@
-"""Crank-rockers that beat the rows of a loom.
+"""The paper's beat-up in a loom: it travels along the carpet on its slide and strokes along the width."""
 
-The paper's beat-up rides along the carpet on a slide, and the width of its beater is not printed; here one comb strikes
-the whole width at once [thesis 3.3]. Crank-rockers on one crank shaft share its mass and its force.
-"""
-
-import math
+from dataclasses import replace
 
 import numpy as np
 
+from ilmek.arrays import ComplexArray
 from ilmek.elements.drive_parts import motor_part
 from ilmek.elements.motors import smallest_motor
-from ilmek.machines.beat import Beat, BeatDrive
-from ilmek.machines.beat_up.design import BeatUp, design
+from ilmek.machines.beat import Beat, BeatDrive, stroke_needed
+from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
+from ilmek.machines.beat_up.crank_start import crank_start, start_parts
+from ilmek.machines.beat_up.design import BeatUp, design, ground_for
 from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.machines.beat_up.report import criteria
+from ilmek.machines.beat_up.travel import travel_parts
+from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
+from ilmek.machines.beat_up.use_params import TravelParams
+from ilmek.machines.fell_of_loom import loom_fabric
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
 from ilmek.report import Part, Work
-from ilmek.units import format_quantity, turn
-from ilmek.weaving.fell import assumed_fabric
+from ilmek.units import format_quantity, mm, turn
+from ilmek.weaving.fell import Fabric
 
 STEEL = "structural steel"
 
+TOOTH, BAR = 10 * mm, 30 * mm
+"""Height of the beater's teeth, and height and depth of its bar: assumed by this project."""
+
 
 def fit(task: LoomTask) -> BeatUpParams:
-    """One of the loom's crank-rockers: its share of the beater and of the force."""
-    params = task.params
-    share = params.width / crank_rockers(task)
+    """The paper's beat-up for the loom's warps: the force that its rows need, the time from beat to beat."""
+    needed = float(loom_fabric(task).resistance(task.row_pitch))
+    every = task.period / 2
     return BeatUpParams(
-        speed=params.beat_speed, beater_mass=params.beater_density * share, beat_force=params.beat_force * share
+        speed=task.params.beat_speed,
+        ground=ground_for(stroke_needed(task)),
+        beat_force=needed,
+        interval=every if every > 0 else None,
+        travel=TravelParams(warps=task.warps, warp_pitch=task.params.pitch, warp_force=needed),
     )
 
 
-def crank_rockers(task: LoomTask) -> int:
-    """The smallest number of crank-rockers that leaves none more than `beater_width`."""
-    return math.ceil(task.params.width / task.params.beater_width - 1e-9)
-
-
-def parts(linkage: BeatUp, number: int = 1) -> tuple[Part, ...]:
-    """Comb, links and motor of a number of crank-rockers on one shaft."""
-    torque, speed = number * linkage.drive_torque_max, linkage.params.speed
-    links = (
+def links_parts(linkage: BeatUp, number: int = 1) -> tuple[Part, ...]:
+    """Links of a number of crank-rockers."""
+    return tuple(
         Part(f"{name} of the beat-up", number, format_quantity(linkage.lengths[name], "mm"), STEEL, "machined link", m)
         for name, m in linkage.masses.items()
     )
-    comb = number * linkage.params.beater_mass
-    return (
-        Part("comb of the beater", 1, "a leaf between two warps", STEEL, "laser-cut part", comb),
-        *links,
-        motor_part("motor of the beat-up", smallest_motor(torque, speed), torque, speed),
-    )
 
 
-def work(linkage: BeatUp, number: int = 1) -> tuple[Work, ...]:
-    """Work of a beat: a turn of the crank without recovery, of a number of crank-rockers."""
+def parts(linkage: BeatUp) -> tuple[Part, ...]:
+    """Beater, links, and the motor that turns the crank at its speed."""
+    torque, speed = linkage.drive_torque_max, linkage.params.speed
+    motor = motor_part("motor of the beat-up", smallest_motor(torque, speed), torque, speed)
+    return (_beater(linkage), *links_parts(linkage), motor)
+
+
+def _beater(linkage: BeatUp) -> Part:
+    return Part("beater", 1, "a tooth between two warps", STEEL, "laser-cut part", linkage.params.beater_mass)
+
+
+def work(linkage: BeatUp) -> tuple[Work, ...]:
+    """Work of a turn of the crank without recovery."""
     state = linkage.state
     step = turn / (state.angle.size - 1)
-    return (Work("beating", number * float(np.sum(np.maximum(state.torque[:-1], 0.0)) * step), "beat"),)
+    return (Work("beating", float(np.sum(np.maximum(state.torque[:-1], 0.0)) * step), "beat"),)
+
+
+def frame_force(linkage: BeatUp) -> float:
+    """Greatest force on the frame over a turn [N]: of both pivots together, at the speed, on an empty beat."""
+    return float(np.max(np.abs(linkage.state.forces.pin("A") + linkage.state.forces.pin("D"))))
+
+
+def outline(reach: float) -> tuple[ComplexArray, ...]:
+    """The beater in the side view [m]: its teeth through the warps, and the bar in front of their roots."""
+    tooth = np.array([-reach / 2, reach / 2, reach / 2, -reach / 2])
+    bar, up = np.array([0.0, BAR, BAR, 0.0]) + reach / 2, np.array([0, 0, 1j, 1j])
+    return tooth + TOOTH * up, bar + BAR * up
 
 
 @record
-class CrankRockers:
-    """A beat by a number of crank-rockers, all alike."""
+class TravellingBeat:
+    """A beat by the travelling beater."""
 
     design: BeatUp
-    number: int
+    use: BeatUpUse
 
     @property
     def beat(self) -> Beat:
-        """A turn of the crank, drawn harmonic; the true motion is the crank-rocker's."""
-        forward = 1 - self.design.crank_rotation / turn
-        return Beat(self.design.beater_stroke, self.design.period, forward, 0.0, "harmonic", "beat-up crank")
+        """All strokes across the width, from the start of the crank to its stop."""
+        return crank_beat(self.use.start, self.use.travel.slide_run)
 
     def drive(self, task: LoomTask) -> BeatDrive:
-        """The same with forces, parts and work of all; nothing in it depends on the period of the row."""
-        assert task.side is not None
+        """The same for the time from beat to beat."""
+        params, fabric = task.parameters("beat-up", fit(task)), loom_fabric(task)
+        # Only the time from beat to beat is new: it decides on motor and flywheel.
+        made = replace(self.design, params=params)
+        duty = replace(self.use.start.duty, linkage=made, every=params.interval)
+        use = replace(self.use, start=crank_start(duty, params.start))
+        across = use.travel
+        sliding = across.strokes * across.slide_mass * across.step.speed**2 / 2
         return BeatDrive(
             name="beat-up",
-            design=self.design,
+            design=made,
             task=task,
-            beat=self.beat,
-            fabric=assumed_fabric(task.row_pitch, task.tension, task.yarns.warp.stiffness, task.side.warp_length),
-            parts=parts(self.design, self.number),
-            work=work(self.design, self.number),
-            torque=self.number * self.design.drive_torque_max,
-            crank_rockers=self.number,
-            force=self.number * self.design.beater_force_max,
+            beat=crank_beat(use.start, across.slide_run),
+            fabric=fabric,
+            parts=(_beater(made), *links_parts(made), *start_parts(use.start), *travel_parts(across)),
+            work=(Work("beating", use.start.start_work + sliding, "beat"),),
+            torque=use.start.start_torque,
+            path=crank_path(use.start, outline(params.travel.reach)),
+            machine_checks=(*criteria(made), *use_checks(use)),
+            crank_rockers=1,
+            force=across.stroke_force,
+            beaten=across.stroke_warps,
+            frame_force=frame_force(made),
         )
 
 
-def planned_beat(task: LoomTask, _kind: str) -> CrankRockers:
-    """The crank-rockers of a loom. Raises the errors of `beat_up.design`."""
-    return CrankRockers(design(task.parameters("beat-up", fit(task))), crank_rockers(task))
+def planned_beat(task: LoomTask, _kind: str) -> TravellingBeat:
+    """The travelling beater of a loom. Raises the errors of `beat_up.design`."""
+    fabric: Fabric = loom_fabric(task)
+    made = design(task.parameters("beat-up", fit(task)))
+    return TravellingBeat(made, in_use(made, fabric))

@@ -10,6 +10,7 @@ from ilmek.machines.beat_up.family import QUANTITIES, FamilyResult, limits
 from ilmek.machines.beat_up.family_figures import family_figures
 from ilmek.machines.beat_up.figures import figures_of
 from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
 from ilmek.records import record
 from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group
 from ilmek.synthesis.crank_rocker.dead_centres import grashof_margin
@@ -44,12 +45,13 @@ class BeatUpAnalysis:
     running: MotorRun = group()
     last_turn: LastTurn | None = group()
     family: FamilyResult = group()
+    use: BeatUpUse = group()
 
 
 def analyse(design: BeatUp) -> BeatUpAnalysis:
     """The run and the family of a design."""
     running = design.motor_run()
-    return BeatUpAnalysis(design, design.balance, running, running.last_turn, design.family())
+    return BeatUpAnalysis(design, design.balance, running, running.last_turn, design.family(), in_use(design))
 
 
 def checks(found: BeatUpAnalysis) -> tuple[Check, ...]:
@@ -65,7 +67,7 @@ def checks(found: BeatUpAnalysis) -> tuple[Check, ...]:
         )
         for limit in limits(design.params)
     )
-    return (*_criteria(design), *_running_checks(design.params, found.running), *given)
+    return (*criteria(design), *_running_checks(design.params, found.running), *given, *use_checks(found.use))
 
 
 def tables(found: BeatUpAnalysis) -> tuple[Table, ...]:
@@ -91,7 +93,8 @@ def plates(design: BeatUp) -> tuple[Plate, ...]:
     return link_plates(links, width=params.width, thickness=params.thickness, material=material)
 
 
-def _criteria(design: BeatUp) -> tuple[Check, ...]:
+def criteria(design: BeatUp) -> tuple[Check, ...]:
+    """The paper's criteria."""
     wanted, tolerated = (math.pi / 2 - deviation for deviation in DEVIATIONS)
     angle, ratio = design.transmission_angle_min, design.crank_coupler_ratio
     margin, force = float(grashof_margin(design.links)), design.beater_force_max

@@ -7,11 +7,13 @@
 
 w x b is the section of a link, d the diameter of its pins: A = (w - d) b, Z = b (w^3 - d^3) / (6 w), and I = w b^3 / 12
 out of the plane of motion, the smaller one of flat links. v = d/2 times the relative angular velocity of the two
-links. The forces are those of the empty beat: the fell's resistance opposes the inertia of the beater and
+links,
+averaged over the time from one turn to the next. The forces are those of the empty beat: the fell's resistance opposes the inertia of the beater and
 relieves the pins.                                                                    [theory of beams; Euler's column]
 """
 
 import math
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -20,7 +22,7 @@ from ilmek.machines.beat_up.use_params import StrengthParams
 from ilmek.plane.vectors import dot
 from ilmek.records import record, result
 from ilmek.report import Check, at_least, at_most
-from ilmek.units import GPa, MPa, mm
+from ilmek.units import MPa, mm
 
 PIN_DIAMETERS = tuple(size * mm for size in (6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 63, 80, 100))
 """Diameters of pins to choose from [m]: of ISO 2341 and 2340."""
@@ -41,17 +43,73 @@ class LinkStrength:
     coupler_buckling: float = result("1", "safety of the coupler against buckling", least=0.0)
     pin_shear: float = result("MPa", "greatest shear stress of a pin, in a fork")
     pin_pressure: float = result("MPa", "greatest pressure of a pin on its bush")
-    pin_wear: float = result("1", "greatest mean of pressure times sliding speed of a pin, in MPa m/s")
+    pin_wear: float = result("1", "greatest mean of pressure times sliding speed of a pin over the time, in MPa m/s")
 
 
-def link_strength(design: BeatUp, limits: StrengthParams) -> LinkStrength:
-    """Stresses of the links and pins of a beat-up; of the stock pins the first that is enough, else the largest."""
-    widest = WIDEST_PIN * design.params.width
+@record
+class LinkLoads:
+    """Greatest loads over a turn: moment and pull of the crank, thrust of the coupler, beater, pins and their wear."""
+
+    crank_moment: float
+    crank_pull: float
+    thrust: float
+    tip: float
+    pin: float
+    wear: float
+
+    def scaled(self, mass: float, speed: float, share: float) -> "LinkLoads":
+        """The loads of another beater at another speed, over this one's mass and speed: forces go with m w^2.
+
+        share  of the time for which the crank turns
+        """
+        force = mass * speed**2
+        return LinkLoads(
+            self.crank_moment * force,
+            self.crank_pull * force,
+            self.thrust * force,
+            self.tip * force,
+            self.pin * force,
+            self.wear * force * speed * share,
+        )
+
+
+@record
+class LinkSection:
+    """Section of all links: width in their plane, thickness [m], mass per length [kg/m]."""
+
+    width: float
+    thickness: float
+    line_mass: float
+
+
+def link_strength(design: BeatUp, limits: StrengthParams, every: float | None = None) -> LinkStrength:
+    """Stresses of the links and pins of a beat-up; of the stock pins the first that is enough, else the largest.
+
+    every  time from one turn of the crank to the next [s]; default: it turns on
+    """
+    params = design.params
+    section = LinkSection(params.width, params.thickness, params.width * params.thickness * params.density)
+    return section_strength(section, link_loads(design, every), design.lengths, params.speed, limits)
+
+
+def section_strength(
+    section: LinkSection, loads: LinkLoads, lengths: Mapping[str, float], speed: float, limits: StrengthParams
+) -> LinkStrength:
+    """The same for links of a section under given loads, at a speed of the crank [rad/s]."""
+    widest = WIDEST_PIN * section.width
     stock = [size for size in PIN_DIAMETERS if size <= widest] or [widest]
     offered = [limits.pin_diameter] if limits.pin_diameter else stock
-    loads = _loads(design)
-    found = [_with_pins(design, loads, limits, size) for size in offered]
-    return next((one for one in found if all(check.ok for check in pin_checks(one))), found[-1])
+    own = section.line_mass * lengths["coupler"] ** 2 * speed**2 * lengths["crank"] / 8
+    return _next_enough(_with_pins(section, loads, lengths, own, limits, size) for size in offered)
+
+
+def _next_enough(tried: Iterable[LinkStrength]) -> LinkStrength:
+    one = None
+    for one in tried:
+        if all(check.ok for check in pin_checks(one)):
+            break
+    assert one is not None
+    return one
 
 
 def strength_checks(found: LinkStrength) -> tuple[Check, ...]:
@@ -89,53 +147,48 @@ def pin_checks(found: LinkStrength) -> tuple[Check, ...]:
     )
 
 
-@record
-class _Loads:
-    """Greatest loads over a turn: moment and pull of the crank, thrust of the coupler, tip of the rocker, pins, wear."""
-
-    crank_moment: float
-    crank_pull: float
-    thrust: float
-    tip: float
-    pin: float
-    wear: float
-
-
-def _loads(design: BeatUp) -> _Loads:
+def link_loads(design: BeatUp, every: float | None = None) -> LinkLoads:
+    """The greatest loads over a turn at the speed, and the mean wear over the time from turn to turn [s]."""
+    share = 1.0 if every is None else min(design.period / every, 1.0)
     params, state = design.params, design.state
     crank, coupler = state.motion.direction("crank"), state.motion.direction("coupler")
     at_crank, at_coupler = state.forces.pin("C"), state.forces.pin("B")
     along = np.maximum(np.abs(dot(at_coupler, coupler)), np.abs(dot(at_crank, coupler)))
     reach = max(design.lengths["beater"], design.lengths["rocker"])
-    overhung = design.masses["rocker"] * _beyond(design) / reach / 2
+    overhung = design.masses["rocker"] * _beyond(design.lengths) / reach / 2
     tip = (params.beater_mass + overhung) * np.abs(state.beater.acceleration - params.gravity_vector)
-    return _Loads(
+    return LinkLoads(
         crank_moment=float(np.max(np.abs(dot(at_crank, 1j * crank)))) * design.lengths["crank"],
         crank_pull=float(np.max(np.abs(dot(at_crank, crank)))),
         thrust=float(np.max(along)),
         tip=float(np.max(tip)),
         pin=max(float(state.pins[pin].max()) for pin in PINS),
-        wear=max(_wear(design, pin) for pin in PINS),
+        wear=share * max(_wear(design, pin) for pin in PINS),
     )
 
 
-def _beyond(design: BeatUp) -> float:
+def _beyond(lengths: Mapping[str, float]) -> float:
     """The rocker beyond its pin to the coupler [m]."""
-    return abs(design.lengths["beater"] - design.lengths["rocker"])
+    return abs(lengths["beater"] - lengths["rocker"])
 
 
-def _with_pins(design: BeatUp, loads: _Loads, limits: StrengthParams, diameter: float) -> LinkStrength:
-    w, b = design.params.width, design.params.thickness
+def _with_pins(  # noqa: PLR0917
+    section: LinkSection,
+    loads: LinkLoads,
+    lengths: Mapping[str, float],
+    own: float,
+    limits: StrengthParams,
+    diameter: float,
+) -> LinkStrength:
+    w, b = section.width, section.thickness
     area, modulus = max(w - diameter, 1e-9) * b, b * max(w**3 - diameter**3, 1e-18) / (6 * w)
-    lengths, speed = design.lengths, design.params.speed
-    own = design.masses["coupler"] * speed**2 * lengths["crank"] * lengths["coupler"] / 8
     euler = math.pi**2 * limits.modulus * min(w * b**3, b * w**3) / 12 / lengths["coupler"] ** 2
     return LinkStrength(
         limits=limits,
         pin_diameter=diameter,
         crank_stress=loads.crank_moment / modulus + loads.crank_pull / area,
         coupler_stress=loads.thrust / area + own / modulus,
-        rocker_stress=loads.tip * _beyond(design) / modulus,
+        rocker_stress=loads.tip * _beyond(lengths) / modulus,
         coupler_buckling=euler / loads.thrust if loads.thrust > 0 else math.inf,
         pin_shear=2 * loads.pin / (math.pi * diameter**2),
         pin_pressure=loads.pin / (diameter * b),

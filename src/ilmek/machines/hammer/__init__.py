@@ -8,9 +8,10 @@ from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.hammer.axis import CombDrive
 from ilmek.machines.hammer.comb import Comb
-from ilmek.machines.hammer.design import CombLinkage, Hammer, design
+from ilmek.machines.hammer.design import Hammer, design
 from ilmek.machines.hammer.figures import figures
 from ilmek.machines.hammer.in_loom import fit, parts, planned_beat, work
+from ilmek.machines.hammer.linkage import CombLinkage
 from ilmek.machines.hammer.params import HammerParams
 from ilmek.machines.hammer.report import cam_tables, checks, tables, warnings
 
@@ -31,6 +32,7 @@ MACHINE = Component(
     cam_tables=cam_tables,
     parts=parts,
     work=work,
+    choices=lambda hammer: hammer.choices,
     fit=fit,
     beat=planned_beat,
 )

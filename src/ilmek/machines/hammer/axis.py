@@ -9,8 +9,11 @@ and falls on the way up as the fell returns. Against the motion a screw of the l
 a belt on a pulley of radius r needs F r / eta; along the motion they give eta F p / (2 pi) and eta F r. The axes share
 the force evenly. Neither locks itself: a brake holds (1 - c) m g p / (2 pi) or (1 - c) m g r on each axis' share.
 
-A screw is as long as the stroke and its ends and must not buckle under three times its force (Euler, one end clamped).
+A screw is as long as the stroke and its ends; `screws` chooses it. Where the number of axes is left open, it is that of
+the comb's supports, or the next larger one whose screws and servos are enough.
 """
+
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,20 +23,17 @@ from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
 from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import SERVO
-from ilmek.elements.screws import BALL_SCREWS, ball_screw_for
 from ilmek.machines.hammer.comb import comb_mass
-from ilmek.machines.hammer.params import STACK, STEEL, HammerParams
-from ilmek.records import computed, record, result
-from ilmek.report import Json
+from ilmek.machines.hammer.params import STACK, HammerParams
+from ilmek.machines.hammer.screws import SCREW_ENDS, AxisScrew, ScrewLoad, screw_checks, screw_for
+from ilmek.records import computed, group, record, result
+from ilmek.report import Alternative, Check, Choice, Json, at_least, choose
 from ilmek.weaving.fell import Fabric
 
 SAMPLES = 720
 
-SCREW_ENDS = 0.2
-"""Length of a screw beyond its stroke [m]: nut and bearings."""
-
-BUCKLING = 3.0
-"""Required safety of a screw against buckling."""
+MOST_AXES = 60
+"""Most axes that are tried where their number is left open."""
 
 _STILL = 1e-12
 
@@ -63,10 +63,7 @@ class CombDrive:
     contact_speed: float = result("mm/s", "speed of the comb where it meets the row: it presses, it does not strike")
     axes: int = result("1", "vertical axes: ball screws or toothed belts", least=0.0)
     brake: float = result("Nm", "torque that holds a screw or pulley: neither locks itself", name="brake_torque")
-    screw: float | None = result("mm", "diameter of a ball screw", name="screw_diameter", absent="belts", least=0.0)
-    buckling: float | None = result(
-        "1", "safety of a screw against buckling, Euler", name="buckling_safety", absent="belts"
-    )
+    screw: AxisScrew | None = group()
 
     speed_max = computed("mm/s", "largest speed of the comb", lambda it: _most(it.speed))
     acceleration_max = computed("m/s^2", "largest acceleration of the comb", lambda it: _most(it.acceleration))
@@ -111,6 +108,36 @@ def stroke_programme(params: HammerParams) -> CamProgramme:
     return CamProgramme((*once, *once))
 
 
+def axis_checks(found: CombDrive) -> tuple[Check, ...]:
+    """Whether stroke, screws and servos are enough."""
+    reserve = found.drive.duty.reserve if found.drive else 0.0
+    stroke = float(np.max(found.travel))
+    cure = "set more axes, a smaller lead, or a lower comb_acceleration"
+    return (
+        at_least("stroke for the comb's way", stroke, found.stroke_needed, "mm", "fabric", cure="set a larger stroke"),
+        *(() if found.screw is None else screw_checks(found.screw)),
+        at_least("torque of the servo over what is asked", reserve, 1.0, "1", "motor table, margin 1.25", cure=cure),
+    )
+
+
+def chosen_axes(
+    params: HammerParams, fabric: Fabric, force: float
+) -> tuple[HammerParams, CombDrive, tuple[Choice, ...]]:
+    """The axes that press with a force [N] for each warp, the parameters with their number, and the choice."""
+    if params.axes is not None:
+        return params, axis_for(params, fabric, force), ()
+    number, tried = params.axis_count, []
+    while number <= MOST_AXES:
+        made = axis_for(replace(params, axes=number), fabric, force)
+        tried.append((number, made))
+        if all(check.ok for check in axis_checks(made)):
+            break
+        number = max(number + 1, round(number * 1.5))
+    index, choice = choose("axes", [Alternative(str(number), axis_checks(made)) for number, made in tried])
+    number, made = tried[index]
+    return replace(params, axes=number), made, (choice,)
+
+
 def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
     """The drive that presses with a force [N] for each warp."""
     programme = stroke_programme(params)
@@ -132,13 +159,10 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
         inertia=mass * arm**2 / params.axis_count,
     )
     contact = (speed > 0) & (press > 0)
-    screw = buckling = None
+    screw = None
     if params.axis == "screw":
-        load, length = _most(total) / params.axis_count, params.stroke + SCREW_ENDS
-        offered = (params.screw_diameter,) if params.screw_diameter else BALL_SCREWS
-        screw, buckling = ball_screw_for(
-            load, length, params.lead, modulus=STEEL.modulus, safety=BUCKLING, offered=offered
-        )
+        share = ScrewLoad(total / params.axis_count, speed / arm, params.stroke + SCREW_ENDS)
+        screw = screw_for(params, share)
     return CombDrive(
         programme=programme,
         angle=angle,
@@ -156,5 +180,4 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
         axes=params.axis_count,
         brake=balance * arm / params.axis_count,
         screw=screw,
-        buckling=buckling,
     )

@@ -2,40 +2,22 @@
 
 The comb is pressed: the force of the drive for each warp, F, equals the resistance of the fell, R(p) = F, so that the
 distance p of the row, and with it the knots along the length, are an outcome. Comb: the axes are sized for the force
-that the required rows need, or for the given one. Linkage: the force is what the crank-rockers' motion gives at the
+that the required rows need, or for the given one. Linkage: the force is what the crank-rockers' motion can give at the
 beat. There each rocker turns its share of the comb back with m a: the fell can take so much force before the load of
-the pins changes sign, and so much is counted on. It grows with the square of the speed.
+the pins changes sign, and so much is counted on. It grows with the square of the speed; where it is more than the rows
+need, the fell takes what they need.
 """
-
-import math
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.machines import beat_up
-from ilmek.machines.hammer.axis import CombDrive, axis_for
-from ilmek.machines.hammer.comb import Comb, comb_for, comb_mass, with_depth
+from ilmek.machines.hammer.axis import CombDrive, chosen_axes
+from ilmek.machines.hammer.comb import Comb, comb_for, with_depth
+from ilmek.machines.hammer.linkage import CombLinkage, chosen_linkage
 from ilmek.machines.hammer.params import HammerParams
 from ilmek.records import computed, record, result
+from ilmek.report import Choice
 from ilmek.weaving.fell import Fabric
-
-
-@record
-class CombLinkage:
-    """Crank-rockers that share the comb, all alike: `one` of them."""
-
-    one: beat_up.BeatUp
-    number: int = result("1", "crank-rockers that share the comb", name="beaters", least=0.0)
-    force: float = result("N", "force of all at the beat, by the comb's inertia", name="linkage_force")
-    torque: float = result("Nm", "largest torque on their crank shaft", name="linkage_torque")
-    energy: float = result("J", "kinetic energy of the comb at its largest speed", name="swing_energy")
-    speed_needed: float | None = result(
-        "rad/s", "speed of the crank that the required rows need", absent="no speed is enough"
-    )
-
-    transmission_angle_min = computed(
-        "deg", "least transmission angle of the crank-rockers", lambda it: it.one.transmission_angle_min
-    )
 
 
 @record
@@ -51,6 +33,7 @@ class Hammer:
     comb: Comb
     axis: CombDrive | None
     linkage: CombLinkage | None
+    choices: tuple[Choice, ...]
     spacing: float = result("mm", "distance of the rows that the beat leaves: the outcome", name="row_pitch")
     force: float = result("N", "mean force on the fell for each warp", name="force_warp")
     needed: float = result("N", "force for each warp that the required rows need", name="force_needed")
@@ -85,7 +68,10 @@ class Hammer:
     def mass(self) -> float:
         if self.axis is not None:
             return self.axis.mass
-        return self.comb.mass + (self.linkage.number * sum(self.linkage.one.masses.values()) if self.linkage else 0.0)
+        linkage = self.linkage
+        return self.comb.mass + (
+            linkage.ballast + linkage.number * sum(linkage.one.masses.values()) if linkage else 0.0
+        )
 
     @property
     def energy(self) -> float:
@@ -116,30 +102,21 @@ def design(params: HammerParams) -> Hammer:
     """The hammer for the parameters. Raises MechanismError where its crank-rockers do not move."""
     fabric = params.fabric
     needed = float(fabric.resistance(params.required_pitch))
-    params = with_depth(params, fabric, params.force or needed)
-    linkage = linkage_for(params, needed) if params.drive == "linkage" else None
-    force = params.force or (linkage.force / params.warps if linkage else needed)
+    axis = linkage = None
+    if params.drive == "linkage":
+        params, linkage, choices = chosen_linkage(params, fabric, needed)
+        force = min(params.force or needed, linkage.force / params.warps)
+    else:
+        force = params.force or needed
+        params, axis, choices = chosen_axes(with_depth(params, fabric, force), fabric, force)
     return Hammer(
         params=params,
         fabric=fabric,
         comb=comb_for(params, fabric, force),
-        axis=None if linkage else axis_for(params, fabric, force),
+        axis=axis,
         linkage=linkage,
+        choices=choices,
         spacing=float(fabric.spacing(force)),
         force=force,
         needed=needed,
     )
-
-
-def linkage_for(params: HammerParams, needed: float) -> CombLinkage:
-    """The crank-rockers of the comb; needed: force for each warp that the required rows need [N]."""
-    number = params.rockers
-    share = comb_mass(params) / number
-    one = beat_up.design(
-        beat_up.BeatUpParams(ground=params.ground, speed=params.beat_speed, beater_mass=share, beat_force=0.0)
-    )
-    force = number * float(np.abs(one.state_at(np.array([one.beta])).beater_force[0]))
-    # Without weight every force grows with the square of the speed.
-    speed = params.beat_speed * math.sqrt(needed * params.warps / force) if force else None
-    energy = 0.5 * number * share * one.beater_velocity_max**2
-    return CombLinkage(one, number, force, number * one.drive_torque_max, energy, speed)

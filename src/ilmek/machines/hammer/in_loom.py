@@ -1,8 +1,8 @@
-"""The comb on the guide cams that beats the rows of a loom.                                                [thesis 3.3]
+"""The comb that beats the rows of a loom: on crank-rockers, on axes of its own, or on the guide cams.      [thesis 3.3]
 
-It goes down with the whole cam system, presses, and goes up, as quickly as the loom's `comb_acceleration` a allows: a
-stroke h by a law whose peak acceleration is Ca, down and up in a share (1 - q)/2 of the time each and pressing for q,
-takes T = 2/(1 - q) sqrt(Ca h / a).
+On axes it goes down, alone or with the whole cam system, presses, and goes up, as quickly as the loom's
+`comb_acceleration` a allows: a stroke h by a law whose peak acceleration is Ca, down and up in a share (1 - q)/2 of the
+time each and pressing for q, takes T = 2/(1 - q) sqrt(Ca h / a). On crank-rockers it takes a turn from rest to rest.
 """
 
 import math
@@ -10,34 +10,47 @@ from dataclasses import replace
 
 import numpy as np
 
+from ilmek.arrays import ComplexArray
 from ilmek.cams.laws import LAWS
 from ilmek.elements.drive_parts import motor_part, reducer_part
 from ilmek.elements.materials import GRAVITY
-from ilmek.machines.beat import Beat, BeatDrive
-from ilmek.machines.beat_up import in_loom as crank_rockers
+from ilmek.machines import beat_up
+from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
+from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
 from ilmek.machines.hammer.design import Hammer, design
+from ilmek.machines.hammer.linkage import chosen_linkage, linkage_parts
 from ilmek.machines.hammer.params import STEEL, HammerParams
+from ilmek.machines.hammer.report import checks
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
-from ilmek.report import Part, Work
-from ilmek.units import format_quantity, turn
+from ilmek.report import Choice, Part, Work
+from ilmek.units import format_quantity, mm, turn
+
+BEHIND = 5 * mm
+"""Reach of the leaves behind the warps [m]: assumed by this project."""
+
+_SHARES = 181
 
 
 def fit(task: LoomTask, kind: str = "comb") -> HammerParams:
     """The comb for the loom's warps and rows, within the row's time; with the shedding's cams on it for guide-cams."""
     beat = planned_beat(task, kind).beat
+    return _in_the_row(_of_carpet(task, kind), task, beat, kind)
+
+
+def _in_the_row(params: HammerParams, task: LoomTask, beat: Beat, kind: str) -> HammerParams:
+    """The parameters with what follows from the row's time, and the mass of the cams."""
     return replace(
-        _of_carpet(task, kind),
+        params,
         shed_speed=turn / task.period,
-        step=beat.time / task.period * turn,
+        step=min(beat.time / task.period, 0.5) * turn,
         stack_mass=task.designs["shedding"].stack.mass if kind == "guide-cams" else 0.0,
     )
 
 
 def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
     """The comb for the loom's warps and rows; what depends on the row's time is left as it is."""
-    params = task.params
-    assert task.side is not None
+    params, stroke = task.params, stroke_needed(task)
     return HammerParams(
         warps=task.warps,
         warp_pitch=params.pitch,
@@ -45,21 +58,26 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
         tension=task.tension,
         warp_stiffness=task.yarns.warp.stiffness,
         drive="linkage" if kind == "linkage" else "comb",
-        warp_length=task.side.warp_length,
-        stroke=task.side.beat_stroke,
+        warp_length=task.side.warp_length if task.side else USUAL_WARP_LENGTH,
+        stroke=stroke,
+        shed_speed=params.shed_speed,
+        ground=beat_up.ground_for(stroke),
+        stack_mass=0.0 if kind == "comb" else None,
     )
 
 
 def parts(hammer: Hammer) -> tuple[Part, ...]:
-    """Comb and vertical axes, or the crank-rockers."""
-    if hammer.axis is None:
-        return crank_rockers.parts(hammer.linkage.one, hammer.linkage.number) if hammer.linkage else ()
+    """Comb, and vertical axes or crank-rockers."""
+    bar = f"bar {format_quantity(hammer.params.depth, 'mm')} high, a leaf between two warps"
+    comb = Part("comb of the hammer", 1, bar, STEEL.name, "laser-cut part", hammer.comb.mass)
+    if hammer.linkage is not None:
+        return (comb, *linkage_parts(hammer.linkage))
+    assert hammer.axis is not None
     number, drive, load = hammer.params.axis_count, hammer.axis.drive, hammer.axis.cycle
     torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
     motor, axis = drive.motor if drive else None, "vertical axis"
-    bar = f"bar {format_quantity(hammer.params.depth, 'mm')} high, a leaf between two warps"
     return (
-        Part("comb of the hammer", 1, bar, STEEL.name, "laser-cut part", hammer.comb.mass),
+        comb,
         Part(axis, number, hammer.params.axis, "", "linear axis", length=hammer.params.stroke),
         motor_part(f"motor of a {axis}", motor, torque, speed, number),
         *((reducer_part(f"reducer of a {axis}", drive.reducer.ratio, motor, number),) if drive else ()),
@@ -67,34 +85,48 @@ def parts(hammer: Hammer) -> tuple[Part, ...]:
 
 
 def work(hammer: Hammer) -> tuple[Work, ...]:
-    """Work of a beat: of the comb on its rows, and to lift all that moves; or of the crank-rockers."""
-    if hammer.axis is None:
-        return crank_rockers.work(hammer.linkage.one, hammer.linkage.number) if hammer.linkage else ()
+    """Work of a beat: of the comb on its rows, and to lift all that moves; or of the crank-rockers with their start."""
+    if hammer.linkage is not None:
+        return (Work("beating", hammer.linkage.start.start_work, "beat"),)
     lifted = (1 - hammer.params.counterbalance) * hammer.mass * GRAVITY * hammer.params.stroke
     return (Work("beating", hammer.params.warps * hammer.energy + lifted, "beat"),)
 
 
+def outline(params: HammerParams) -> tuple[ComplexArray, ...]:
+    """The comb in the side view [m]: its leaves through the warps, and the bar in front of their roots."""
+    leaf = np.array([-BEHIND, params.leaf_reach, params.leaf_reach, -BEHIND], dtype=complex)
+    bar = np.array([0.0, params.comb_thickness, params.comb_thickness, 0.0]) + params.leaf_reach
+    up = np.array([0, 0, 1j, 1j])
+    return leaf + params.leaf_height * up, bar + params.depth * up
+
+
 @record
 class CombBeat:
-    """A beat by the comb, with its parameters as far as they do not depend on the row's time."""
+    """A beat by the comb, with its parameters as far as they do not depend on the row's time; linkage: chosen."""
 
     params: HammerParams
     acceleration: float
     kind: str
+    made: Beat | None
+    choices: tuple[Choice, ...] = ()
 
     @property
     def beat(self) -> Beat:
         """The comb's beat, as quick as its acceleration allows; of crank-rockers a turn of the crank."""
+        if self.made is not None:
+            return self.made
         params = self.params
-        if self.kind == "linkage":
-            return Beat(params.stroke, turn / params.beat_speed, 0.5, 0.0, "harmonic", "beat-up crank")
-        peak, share = LAWS[params.law].acceleration_peak, (1 - params.press_share) / 2
-        time = math.sqrt(peak * params.stroke / self.acceleration) / share
-        return Beat(params.stroke, time, share, params.press_share, params.law, "vertical axes")
+        law, share = LAWS[params.law], (1 - params.press_share) / 2
+        time = math.sqrt(law.acceleration_peak * params.stroke / self.acceleration) / share
+        return Beat(params.stroke, time, share, params.press_share, law, law, "vertical axes")
 
     def drive(self, task: LoomTask) -> BeatDrive:
         """The comb at the period of the row, with the shedding's cams on it."""
-        hammer = design(task.parameters("hammer", fit(task, self.kind)))
+        params = task.parameters("hammer", _in_the_row(self.params, task, self.beat, self.kind))
+        hammer = design(params)
+        hammer = replace(hammer, choices=(*self.choices, *hammer.choices))
+        linkage = hammer.linkage
+        force = linkage.frame_force if linkage else float(np.max(np.abs(hammer.axis.force))) if hammer.axis else 0.0
         return BeatDrive(
             name="hammer",
             design=hammer,
@@ -103,12 +135,29 @@ class CombBeat:
             fabric=hammer.fabric,
             parts=parts(hammer),
             work=work(hammer),
-            torque=0.0,
-            crank_rockers=0,
+            torque=linkage.start.start_torque if linkage else 0.0,
+            path=crank_path(linkage.start, outline(hammer.params)) if linkage else self._path(hammer.params),
+            machine_checks=checks(hammer),
+            crank_rockers=linkage.number if linkage else 0,
             force=hammer.params.warps * hammer.force,
+            beaten=hammer.params.warps,
+            frame_force=force,
         )
+
+    def _path(self, params: HammerParams) -> BeatPath:
+        """Straight down to the fell and up again."""
+        beat, share = self.beat, np.linspace(0.0, 1.0, _SHARES)
+        down = np.asarray(beat.law.s(np.clip(share / beat.forward, 0.0, 1.0)))
+        up = np.asarray(beat.back_law.s(np.clip((share - beat.forward - beat.pressed) / beat.forward, 0.0, 1.0)))
+        return BeatPath(outline(params), share, 1j * params.stroke * (1 - down + up))
 
 
 def planned_beat(task: LoomTask, kind: str) -> CombBeat:
     """The comb's beat in a loom. Raises ParameterError where values set for it contradict each other."""
-    return CombBeat(task.parameters("hammer", _of_carpet(task, kind)), task.params.comb_acceleration, kind)
+    params = task.parameters("hammer", _of_carpet(task, kind))
+    made, choices = None, ()
+    if params.drive == "linkage":
+        fabric = params.fabric
+        params, linkage, choices = chosen_linkage(params, fabric, float(fabric.resistance(params.required_pitch)))
+        made = crank_beat(linkage.start)
+    return CombBeat(params, task.params.comb_acceleration, kind, made, choices)

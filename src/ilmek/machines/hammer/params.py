@@ -7,8 +7,9 @@ from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
-from ilmek.params import Params, kind
-from ilmek.units import MPa, deg, format_quantity, mm, rpm, turn
+from ilmek.machines.beat_up.use_params import CrankStartParams, StrengthParams
+from ilmek.params import Params, kind, nested
+from ilmek.units import MPa, deg, format_quantity, hour, mm, rpm, turn
 from ilmek.weaving.fell import CLOTH_LENGTH, JAMMED, LAID, PACKING, Fabric
 from ilmek.weaving.tension import usual_tension
 
@@ -25,6 +26,21 @@ DEPTHS = tuple(depth * 10 * mm for depth in range(2, 51))
 
 BEATER_WIDTH = 1.5
 """Width of the comb for each crank-rocker, and for each vertical axis beyond the first [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class CombLinkParams(StrengthParams):
+    """What the links of structural steel bear that carry a comb."""
+
+    stress: float = kind.pressure(
+        108 * MPa,
+        at_least=0.1 * MPa,
+        at_most=1e10,
+        doc="allowed alternating stress of the links; fatigue limit of S235, 162 MPa, over a safety of 1.5",
+    )
+    modulus: float = kind.pressure(
+        STEEL.modulus, unit="GPa", at_least=1 * MPa, at_most=2e12, doc="Young's modulus of the links; steel"
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,20 +133,49 @@ class HammerParams(Params):
     )
     counterbalance: float = kind.ratio(0.0, at_least=0.0, at_most=1.0, doc="share of the weight that is balanced")
     axes: int | None = kind.count(
-        None, at_least=1, at_most=200, doc="vertical axes of the comb; default: one a support"
+        None,
+        at_least=1,
+        at_most=200,
+        doc="vertical axes of the comb; default: one a support, or more where these fail",
     )
     axis: str = kind.choice("screw", AXES, doc="ball screws or toothed belts")
     lead: float = kind.length(10 * mm, at_least=0.5 * mm, at_most=0.2, doc="lead of the screws")
     screw_diameter: float | None = kind.length(
-        None, at_least=5 * mm, at_most=0.5, doc="diameter of a screw; default: the least of stock that does not buckle"
+        None, at_least=5 * mm, at_most=0.5, doc="diameter of a screw; default: the least of stock that is enough"
     )
     pulley_radius: float = kind.length(25 * mm, at_least=5 * mm, at_most=0.5, doc="pitch radius of the belts' pulleys")
     axis_efficiency: float = kind.ratio(0.9, at_least=0.05, at_most=1.0, doc="efficiency of screw or belt")
-    beat_speed: float = kind.angular_speed(15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the crank")
+    axis_life: float = kind.time(
+        10_000 * hour, unit="h", at_least=1.0, at_most=1e10, doc="required life of the screws' nuts"
+    )
+    axis_speed_value: float = kind.speed(
+        100_000 * mm * rpm,
+        at_least=1e-3,
+        at_most=1e3,
+        doc="allowed product of a screw's diameter and angular speed",
+    )
+    beat_speed: float | None = kind.angular_speed(
+        None,
+        unit="rad/s",
+        at_least=0.1,
+        at_most=1e3,
+        doc="speed of the crank; default: the cheapest that gives the force",
+    )
+    ballast: float | None = kind.mass(
+        None, at_least=0.0, at_most=1e5, doc="mass added to the comb on crank-rockers; default: what the force needs"
+    )
     beaters: int | None = kind.count(
-        None, at_least=1, at_most=100, doc="crank-rockers; default: one per 1.5 m of width"
+        None, at_least=1, at_most=100, doc="crank-rockers; default: one per 1.5 m of width, or more if that is cheaper"
     )
     ground: float = kind.length(0.3, at_least=1 * mm, at_most=10.0, doc="distance of the pivots of crank and rocker")
+    link_width: float | None = kind.length(
+        None, at_least=1 * mm, at_most=1.0, doc="width of the links, in their plane; default: the least of stock"
+    )
+    link_thickness: float | None = kind.length(
+        None, at_least=1 * mm, at_most=1.0, doc="thickness of the links; default: of the stock section"
+    )
+    links: CombLinkParams = nested(CombLinkParams, doc="what links and pins of the crank-rockers bear")
+    start: CrankStartParams = nested(CrankStartParams, doc="start and stop of the crank")
 
     def check_together(self) -> None:
         """Raise ParameterError where rows, leaves or supports do not fit."""

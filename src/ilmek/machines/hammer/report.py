@@ -5,8 +5,9 @@ import math
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.machines.hammer.axis import BUCKLING
+from ilmek.machines.hammer.axis import axis_checks
 from ilmek.machines.hammer.design import Hammer
+from ilmek.machines.hammer.linkage import linkage_checks
 from ilmek.report import CamTable, Check, Table, at_least, at_most, columns
 from ilmek.units import dm, format_quantity
 
@@ -16,31 +17,30 @@ THESIS = "thesis, 3.3"
 def checks(design: Hammer) -> tuple[Check, ...]:
     """Rows, fell and comb, and the drive."""
     params, comb = design.params, design.comb
+    harder, tight = "set a larger force", "set a higher tension, or a longer cloth_length"
+    deep, leaf = "set a deeper comb, or more supports", "set a higher leaf, or a shorter reach of it"
     return (
-        at_most("distance of the rows", design.spacing, params.required_pitch, "mm", "row_pitch"),
-        at_most("force before the cloth is slack", design.force, design.fabric.bump, "N", "T (1 + kw / kc)"),
-        at_least("uniformity across the width", comb.uniformity, params.uniformity_limit, "1", f"{THESIS}: even"),
-        at_most("stress of the comb", comb.stress, params.strength, "MPa", "strength"),
-        at_most("stress of a leaf", comb.leaf_stress, params.strength, "MPa", "strength"),
+        at_most("distance of the rows", design.spacing, params.required_pitch, "mm", "row_pitch", cure=harder),
+        at_most("force before the cloth is slack", design.force, design.fabric.bump, "N", "T (1 + kw/kc)", cure=tight),
+        at_least(
+            "uniformity across the width", comb.uniformity, params.uniformity_limit, "1", f"{THESIS}: even", cure=deep
+        ),
+        at_most("stress of the comb", comb.stress, params.strength, "MPa", "strength", cure=deep),
+        at_most("stress of a leaf", comb.leaf_stress, params.strength, "MPa", "strength", cure=leaf),
         *_drive_checks(design),
     )
 
 
 def _drive_checks(design: Hammer) -> tuple[Check, ...]:
-    axis, linkage, params = design.axis, design.linkage, design.params
-    if axis is None:
-        force = linkage.force if linkage else 0.0
-        return (at_least("force of the crank-rockers", force, design.whole_force, "N", "inertia at the beat"),)
-    reserve = axis.drive.duty.reserve if axis.drive else 0.0
-    return (
-        at_least("stroke for the comb's way", params.stroke, axis.stroke_needed, "mm", "fabric"),
-        *(
-            (at_least("buckling of the screws", axis.buckling, BUCKLING, "1", "Euler, one end clamped"),)
-            if axis.buckling is not None
-            else ()
-        ),
-        at_least("torque of the servo over what is asked", reserve, 1.0, "1", "motor table, margin 1.25"),
+    if design.axis is not None:
+        return axis_checks(design.axis)
+    assert design.linkage is not None
+    needed, cure = (
+        (design.params.force or design.needed) * design.params.warps,
+        "set a higher beat_speed, or more ballast",
     )
+    force = at_least("force of the crank-rockers", design.linkage.force, needed, "N", "inertia at the beat", cure=cure)
+    return (force, *linkage_checks(design.linkage))
 
 
 def tables(design: Hammer) -> tuple[Table, ...]:

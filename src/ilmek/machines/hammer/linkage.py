@@ -1,0 +1,219 @@
+"""Crank-rockers across the width that are as strong as needed: number, speed, ballast and links at least price.
+
+    F = m a,   a = c W^2   at the beat;   m = max(comb, F / (c W^2)),   ballast = m - comb
+
+c is the acceleration of the beater at the beat for a crank speed of 1 rad/s. For each number of crank-rockers and each
+speed the mass follows from the force that the rows need; links and pins of stock from the greatest loads, which go with
+m W^2; then the price is estimated. The cheapest two are designed in full, and the cheaper one whose checks hold is
+taken. The comb's weight is taken to be balanced by springs: the paper leaves weight out.
+
+The comb also bears its own inertia: between supports s apart, with s / 2 beyond the last ones, the greatest moment of
+q = m a / L is q s^2 / 8, that of the overhang.                                                        [theory of beams]
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
+
+from ilmek.elements.prices import PRICES, price_of
+from ilmek.machines import beat_up
+from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks, start_parts
+from ilmek.machines.beat_up.in_loom import frame_force, links_parts
+from ilmek.machines.beat_up.strength import (
+    LinkLoads,
+    LinkSection,
+    LinkStrength,
+    link_loads,
+    link_strength,
+    section_strength,
+    strength_checks,
+)
+from ilmek.machines.beat_up.travel import force_at_beat
+from ilmek.machines.hammer.comb import comb_mass, with_depth
+from ilmek.machines.hammer.params import HammerParams
+from ilmek.records import computed, group, record, result
+from ilmek.report import Alternative, Check, Choice, Part, at_most, choose
+from ilmek.units import format_quantity, mm, turn
+from ilmek.weaving.fell import Fabric
+
+SPEEDS = (8.0, 10.0, 12.5, 15.5, 20.0, 25.0, 31.5, 40.0)
+"""Speeds of the crank to choose from [rad/s]; 15.5 is the paper's."""
+
+SECTIONS = tuple(
+    (width * mm, thickness * mm)
+    for width, thickness in (
+        (30, 10), (40, 12), (50, 15), (60, 20), (80, 25), (100, 30), (120, 40), (150, 50), (200, 60), (250, 80),
+    )
+)  # fmt: skip
+"""Width and thickness of links to choose from [m]: flat steel."""
+
+MORE_BEATERS = 3
+"""Numbers of crank-rockers that are compared, from the least on."""
+
+_DESIGNED = 2
+_RESERVE = 1.001
+
+
+@record
+class CombLinkage:
+    """Crank-rockers that share the comb, all alike: `one` of them. limit: strength of the comb [Pa]."""
+
+    one: beat_up.BeatUp
+    limit: float
+    number: int = result("1", "crank-rockers that share the comb", name="beaters", least=0.0)
+    ballast: float = result("kg", "mass added to the comb, for the force of the beat")
+    force: float = result("N", "force of all at the beat, by the comb's inertia", name="linkage_force")
+    torque: float = result("Nm", "largest torque on their crank shaft, at constant speed", name="linkage_torque")
+    energy: float = result("J", "kinetic energy of the comb at its largest speed", name="swing_energy")
+    speed_needed: float | None = result(
+        "rad/s", "speed of the crank that the required rows need with this comb", absent="no speed is enough"
+    )
+    inertia_stress: float = result("MPa", "stress of the comb by its own inertia at the beat")
+    strength: LinkStrength = group()
+    start: CrankStart = group()
+
+    transmission_angle_min = computed(
+        "deg", "least transmission angle of the crank-rockers", lambda it: it.one.transmission_angle_min
+    )
+    beat_speed = computed("rad/s", "speed of the crank", lambda it: it.one.params.speed)
+    frame_force = computed(
+        "N",
+        "greatest force of all crank-rockers on the frame, on an empty beat",
+        lambda it: it.number * frame_force(it.one),
+    )
+
+
+def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
+    """Whether comb, links, pins and motor bear the beat."""
+    cure = "set more beaters, or a deeper comb"
+    return (
+        at_most("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength", cure=cure),
+        *strength_checks(found.strength),
+        *start_checks(found.start),
+    )
+
+
+def linkage_parts(found: CombLinkage) -> tuple[Part, ...]:
+    """Links, ballast, and what drives the crank shaft."""
+    ballast = Part("ballast of the comb", 1, "along its bar", "structural steel", "steel bar", found.ballast)
+    return (*((ballast,) if found.ballast else ()), *links_parts(found.one, found.number), *start_parts(found.start))
+
+
+def chosen_linkage(
+    params: HammerParams, fabric: Fabric, needed: float
+) -> tuple[HammerParams, CombLinkage, tuple[Choice, ...]]:
+    """The crank-rockers for a force of a warp [N], the parameters with what was chosen, and the choice.
+
+    Raises MechanismError where the crank-rockers do not move.
+    """
+    ranked = sorted(
+        _options(params, fabric, needed), key=lambda one: (not one[1], _estimated(one[0], fabric, needed))
+    )
+    made = [(option, linkage_for(option, fabric, needed)) for option, _ in ranked[:_DESIGNED]]
+    made.sort(key=lambda one: sum(price_of(part, PRICES) for part in linkage_parts(one[1])))
+    candidates = [Alternative(_named(one), linkage_checks(linkage)) for one, linkage in made]
+    index, choice = choose("crank-rockers", candidates)
+    option, linkage = made[index]
+    return option, linkage, (choice,) if len(ranked) > 1 else ()
+
+
+def _named(params: HammerParams) -> str:
+    speed = format_quantity(params.beat_speed or 0.0, "rad/s", 3)
+    return f"{params.rockers} at {speed}, ballast {format_quantity(params.ballast or 0.0, 'kg', 3)}"
+
+
+def _options(params: HammerParams, fabric: Fabric, needed: float) -> Iterator[tuple[HammerParams, bool]]:
+    """Each number of crank-rockers and speed, with ballast and links, and whether there are links strong enough."""
+    acceleration = force_at_beat(_unit(params.ground))
+    for number in (params.beaters,) if params.beaters else range(params.rockers, params.rockers + MORE_BEATERS):
+        shared = with_depth(replace(params, beaters=number), fabric, params.force or needed)
+        comb = comb_mass(shared)
+        for speed in (params.beat_speed,) if params.beat_speed else SPEEDS:
+            mass = _RESERVE * (params.force or needed) * params.warps / (acceleration * speed**2)
+            ballast = max(mass - comb, 0.0) if params.ballast is None else params.ballast
+            yield _with_links(replace(shared, beat_speed=speed, ballast=ballast), (comb + ballast) / number)
+
+
+def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]:
+    """The parameters with the first section whose links and pins bear a share of the comb [kg], and whether one does.
+
+    Where none does, the largest.
+    """
+    speed = params.beat_speed or 1.0
+    unit = _unit(params.ground)
+    offered, enough = SECTIONS, False
+    if params.link_width or params.link_thickness:
+        widest = params.link_width or (params.link_thickness or 0.0) * 3
+        offered = ((widest, params.link_thickness or widest / 3),)
+    lengths = unit.lengths
+    for width, thickness in offered:
+        links = width * thickness * params.density
+        # The links' own inertia counts as that of their whole mass at the beater.
+        own = links * (lengths["coupler"] + lengths["beater"])
+        loads = _unit_loads(params.ground).scaled(share + own, speed, turn / speed / (params.turn_time / 2))
+        found = section_strength(LinkSection(width, thickness, links), loads, lengths, speed, params.links)
+        enough = all(check.ok for check in strength_checks(found))
+        if enough:
+            break
+    return replace(params, link_width=width, link_thickness=thickness), enough
+
+
+@lru_cache(maxsize=32)
+def _unit(ground: float) -> beat_up.BeatUp:
+    """The crank-rocker with a beater of 1 kg at 1 rad/s, its links almost without mass."""
+    return beat_up.design(beat_up.BeatUpParams(ground=ground, speed=1.0, beater_mass=1.0, density=1e-3, beat_force=0.0))
+
+
+@lru_cache(maxsize=32)
+def _unit_loads(ground: float) -> LinkLoads:
+    return link_loads(_unit(ground))
+
+
+def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
+    """Price of what differs between the options, roughly: comb, ballast, links, and the cheaper of both starts."""
+    speed, number = params.beat_speed or 1.0, params.rockers
+    unit, steel, link = _unit(params.ground), PRICES["steel bar"], PRICES["machined link"]
+    comb, ballast = comb_mass(params), params.ballast or 0.0
+    section = (params.link_width or 0.0) * (params.link_thickness or 0.0) * params.density
+    links = sum(link.price(section * unit.lengths[name]) for name in ("crank", "coupler", "beater"))
+    swing = (comb + ballast) * (unit.beater_velocity_max * speed) ** 2 / 2
+    work = 2.5 * swing + fabric.energy(params.force or needed) * params.warps
+    clutch = 500.0 + steel.price(work / (params.start.speed_drop * speed**2 * 0.04))
+    servo = PRICES["servo"].price(power=0.4 * swing * speed) + 250.0
+    return PRICES["laser-cut part"].price(comb) + steel.price(ballast) + number * links + min(clutch, servo)
+
+
+def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLinkage:
+    """The crank-rockers of given speed, ballast and links; needed: force of a warp that the required rows need [N]."""
+    number, speed, ballast = params.rockers, params.beat_speed or 1.0, params.ballast or 0.0
+    mass = comb_mass(params) + ballast
+    one = beat_up.design(
+        beat_up.BeatUpParams(
+            ground=params.ground,
+            speed=speed,
+            beater_mass=mass / number,
+            beat_force=0.0,
+            density=params.density,
+            width=params.link_width or SECTIONS[0][0],
+            thickness=params.link_thickness or SECTIONS[0][1],
+        )
+    )
+    force = number * force_at_beat(one)
+    asked = min(params.force or needed, force / params.warps)
+    duty = CrankDuty(one, number, fabric, params.warps, asked, every=params.turn_time / 2)
+    moment = force / params.width * (params.width / number) ** 2 / 8
+    return CombLinkage(
+        one=one,
+        limit=params.strength,
+        number=number,
+        ballast=ballast,
+        force=force,
+        torque=number * one.drive_torque_max,
+        energy=mass * one.beater_velocity_max**2 / 2,
+        # Without weight every force grows with the square of the speed.
+        speed_needed=speed * math.sqrt(needed * params.warps / force) if force else None,
+        inertia_stress=6 * moment / (params.comb_thickness * params.depth**2),
+        strength=link_strength(one, params.links, params.turn_time / 2),
+        start=crank_start(duty, params.start),
+    )
