@@ -1,5 +1,6 @@
 """The beat-up's family: every member as `design` makes it, the choice against brute force, the front against pairs."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -36,17 +37,12 @@ def asked(draw: st.DrawFn) -> dict[str, Any]:
 @given(asked(), st.integers(2, 37))
 def test_a_member_has_the_peaks_that_its_design_has(asked_of: dict[str, Any], place: int) -> None:
     params = BeatUpParams(**asked_of)
-    members = family(params.swing, params.crank_rotation, 40)
+    members = family(params.rocker_swing, params.crank_rotation, 40)
     table = tabulate(params, members.links, members.beta)
     assert list(table) == list(QUANTITIES)
     links = [float(np.asarray(link)[place]) * params.ground for link in members.links]
-    outright = BeatUpParams(
-        **{
-            **params.as_dict(),
-            **dict(zip(("crank", "coupler", "rocker"), links, strict=True)),
-            "crank_angle": float(members.beta[place]),
-        }
-    )
+    given = dict(zip(("crank", "coupler", "rocker"), links, strict=True))
+    outright = replace(params, **given, crank_angle=float(members.beta[place]))
     made = design(outright)
     peaks = made.peaks
     expected = {
@@ -72,7 +68,7 @@ def test_no_member_within_the_limits_beats_the_chosen_one(
     asked_of: dict[str, Any], objective: str, first: float, second: float
 ) -> None:
     params = BeatUpParams(**asked_of)
-    members = family(params.swing, params.crank_rotation, 400)
+    members = family(params.rocker_swing, params.crank_rotation, 400)
     table = tabulate(params, members.links, members.beta)
     # Two limits that a part of the members keeps.
     picked = ("transmission_min", "torque_max")
@@ -83,12 +79,12 @@ def test_no_member_within_the_limits_beats_the_chosen_one(
     kept = np.ones(len(members), dtype=bool)
     for name, bound in bounds.items():
         kept &= LIMITS[name][1] * (table[LIMITS[name][0]] - bound) >= 0
-    asked_for = BeatUpParams(**{**params.as_dict(), **bounds, "objective": objective, "members": 100})
+    asked_for = replace(params, **bounds, objective=objective, members=100)
     if not kept.any():
         with pytest.raises(ParameterError, match="clash"):
             chosen_ratio(asked_for)
         return
-    place = params.swing, params.crank_rotation, np.array([chosen_ratio(asked_for)])
+    place = params.rocker_swing, params.crank_rotation, np.array([chosen_ratio(asked_for)])
     own = {name: float(of[0]) for name, of in tabulate(params, links_of_ratio(*place), beta_of_ratio(*place)).items()}
     for name, bound in bounds.items():
         assert LIMITS[name][1] * (own[LIMITS[name][0]] - bound) >= -1e-8 * bound

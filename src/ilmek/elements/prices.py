@@ -53,7 +53,7 @@ PRICES: Mapping[str, PriceRates] = {
     "stepper": PriceRates(each=90.0, per_W=0.5),
     "servo": PriceRates(each=350.0, per_W=0.5),
     "reducer": PriceRates(each=180.0, per_W=0.2),
-    "clutch and brake": PriceRates(each=450.0),
+    "clutch and brake": PriceRates(each=350.0, per_kg=10.0),
     "control": PriceRates(each=3000.0),
     "axis of the control": PriceRates(each=120.0),
 }

@@ -116,15 +116,6 @@ class AutomatedLoomParams(Params):
     beat_speed: float = kind.angular_speed(
         15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the beat-up's crank"
     )
-    beater_density: float = kind.line_density(
-        2.5 / 1.2, unit="kg/m", at_least=0.0, at_most=1e3, doc="mass of the beater over the width"
-    )
-    beater_width: float = kind.length(
-        1.5, unit="m", at_least=0.1, at_most=20.0, doc="most width of the beater for each of its crank-rockers"
-    )
-    beat_force: float = kind.line_load(
-        50.0, at_least=0.0, at_most=1e5, doc="required force on the beater over the width"
-    )
     beat_end: float = kind.angle(158 * deg, above=0.0, below=turn / 2, doc="cam angle at which the beater is back")
     take_up_end: float = kind.angle(
         178 * deg, above=0.0, at_most=turn / 2, doc="cam angle, after half a turn, at which the take-up ends"

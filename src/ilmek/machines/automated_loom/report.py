@@ -103,6 +103,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width"),
         *(apart if loom.heads > 1 else ()),
         row_check(found.beat),
+        *found.beat.checks,
         *_wishes(found),
         at_most("shuttle: speed", speed, params.shuttle_speed, "m/s", "shuttle_speed"),
         at_most("shuttle: acceleration", acceleration, params.shuttle_acceleration, "m/s^2", "shuttle_acceleration"),

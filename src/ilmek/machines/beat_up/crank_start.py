@@ -30,8 +30,11 @@ from ilmek.report import Check, Json, Part, at_most, must
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
-CLUTCHES = (7.5, 15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0)
-"""Torques of electromagnetic clutches and brakes to choose from [N m]: usual sizes, each twice the one before."""
+CLUTCHES = (7.5, 15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0)
+"""Torques of clutches and brakes to choose from [N m], each twice the one before: usual sizes."""
+
+CLUTCH_MASS = 0.1
+"""Mass of clutch and brake for each N m of their torque [kg]: assumed by this project."""
 
 FLYWHEEL_RADIUS = 0.2
 """Radius of a flywheel's rim [m]: assumed by this project."""
@@ -145,7 +148,8 @@ def start_parts(found: CrankStart, name: str = "beat-up") -> tuple[Part, ...]:
     if found.drive == "clutch":
         size = format_quantity(found.clutch or found.clutch_torque, "Nm")
         wheel = found.start_flywheel / FLYWHEEL_RADIUS**2
-        lines.append(Part(f"clutch and brake of the {name}", 1, size, "", "clutch and brake"))
+        mass = CLUTCH_MASS * (found.clutch or found.clutch_torque)
+        lines.append(Part(f"clutch and brake of the {name}", 1, size, "", "clutch and brake", mass))
         lines.append(Part(f"flywheel of the {name}", 1, "on the motor's side", "structural steel", "steel bar", wheel))
     return tuple(lines)
 

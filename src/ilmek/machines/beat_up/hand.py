@@ -37,7 +37,7 @@ def hand_swing(first: complex, second: complex, third: complex) -> float:
 
     >>> import numpy as np
     >>> on_arc = 0.3 * np.exp(1j * np.radians([150, 165, 180]))
-    >>> round(np.degrees(hand_swing(*on_arc)), 9)
+    >>> round(float(np.degrees(hand_swing(*on_arc))), 9)
     30.0
     """
     centre = pivot(first, second, third)

@@ -67,7 +67,7 @@ def checks(found: BeatUpAnalysis) -> tuple[Check, ...]:
         )
         for limit in limits(design.params)
     )
-    return (*criteria(design), *_running_checks(design.params, found.running), *given, *use_checks(found.use))
+    return (*criteria(design), *_running_checks(design.params, found.running), *use_checks(found.use), *given)
 
 
 def tables(found: BeatUpAnalysis) -> tuple[Table, ...]:

@@ -7,9 +7,8 @@
 
 w x b is the section of a link, d the diameter of its pins: A = (w - d) b, Z = b (w^3 - d^3) / (6 w), and I = w b^3 / 12
 out of the plane of motion, the smaller one of flat links. v = d/2 times the relative angular velocity of the two
-links,
-averaged over the time from one turn to the next. The forces are those of the empty beat: the fell's resistance opposes the inertia of the beater and
-relieves the pins.                                                                    [theory of beams; Euler's column]
+links; the mean of p v is that over the time from one turn to the next. The forces are those of the empty beat: the
+fell's resistance opposes the inertia of the beater and relieves the pins.            [theory of beams; Euler's column]
 """
 
 import math

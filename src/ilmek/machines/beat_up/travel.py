@@ -35,7 +35,7 @@ _TURN_SAMPLES = 1440
 
 
 @record
-class Travel:
+class BeaterTravel:
     """The beater along the width; step: its motion from stroke to stroke."""
 
     params: TravelParams
@@ -48,7 +48,7 @@ class Travel:
     mode: str = result("", "crank between two strokes: through or start-stop", name="stroke_mode")
     step_time: float = result("s", "time of a step of the slide")
     out_time: float = result("s", "time of a turn for which the beater is out of the warps")
-    clear: float = result("mm", "way of the beater out of the warps, at its farthest")
+    clear: float = result("mm", "distance of the beater from the warps, at its farthest")
     pause: float = result("s", "time for which the crank stands between two strokes", name="stroke_pause")
     slide_mass: float = result("kg", "mass on the slide")
 
@@ -59,7 +59,7 @@ class Travel:
     )
 
 
-def travel(design: BeatUp, params: TravelParams, run_up: float) -> Travel:
+def travel(design: BeatUp, params: TravelParams, run_up: float) -> BeaterTravel:
     """Strokes, steps and time of a beat along the width; run_up: share of the rotation to the beat."""
     force = force_at_beat(design)
     able = min(max(int(force / params.warp_force * (1 + 1e-9)), 1), params.warps)
@@ -73,7 +73,7 @@ def travel(design: BeatUp, params: TravelParams, run_up: float) -> Travel:
     pause = max(0.0, step.time - out) if mode == "start-stop" else 0.0
     mass = params.slide_mass or 2 * (design.params.beater_mass + sum(design.masses.values()))
     cycle = _slide_cycle(params, step, mass, turn / design.params.speed if mode == "through" else single + pause)
-    return Travel(
+    return BeaterTravel(
         params=params,
         step=step,
         slide=size_motor(cycle),
@@ -103,7 +103,7 @@ def usual_warp_force(tension: float) -> float:
     return float(fabric.resistance(4 * mm))
 
 
-def travel_checks(found: Travel) -> tuple[Check, ...]:
+def travel_checks(found: BeaterTravel) -> tuple[Check, ...]:
     """Whether the beater beats every warp hard enough, leaves the warps, and steps on in time."""
     params, carried = found.params, "set a higher speed of the crank, or a heavier beater"
     checks = (
@@ -137,7 +137,7 @@ def travel_checks(found: Travel) -> tuple[Check, ...]:
 
 
 def _out_of_the_warps(design: BeatUp, reach: float) -> tuple[float, float]:
-    """Way of the beater out of the warps [m], and the time of a turn [s] for which it is beyond their reach."""
+    """Greatest distance of the beater from the warps [m], and the time of a turn [s] beyond the teeth's reach."""
     angle = np.arange(_TURN_SAMPLES) * (turn / _TURN_SAMPLES)
     rocker = solve(design.plan, angle).angle("rocker") - design.rocker_angles[0]
     out = design.lengths["beater"] * (1 - np.cos(rocker))
@@ -152,7 +152,7 @@ def _slide_cycle(params: TravelParams, step: SCurve, mass: float, every: float) 
     return LoadCycle(speed / PULLEY, acceleration / PULLEY, friction * PULLEY, mass * PULLEY**2)
 
 
-def travel_parts(found: Travel) -> tuple[Part, ...]:
+def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:
     """The slide along the carpet and its motor."""
     motor = found.slide.motor if found.slide else None
     width = found.params.warps * found.params.warp_pitch

@@ -1,9 +1,9 @@
-"""A beat-up in use: strength of links and pins, start and stop of its crank, its way along the carpet."""
+"""A beat-up in use: strength of links and pins, start and stop of its crank, its travel along the carpet."""
 
 from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.strength import LinkStrength, link_strength, strength_checks
-from ilmek.machines.beat_up.travel import Travel, travel, travel_checks
+from ilmek.machines.beat_up.travel import BeaterTravel, travel, travel_checks
 from ilmek.records import group, record
 from ilmek.report import Check
 from ilmek.weaving.fell import Fabric, assumed_fabric
@@ -18,7 +18,7 @@ class BeatUpUse:
     """Strength, travel and start of a beat-up, by its own parameters."""
 
     strength: LinkStrength = group()
-    travel: Travel = group()
+    travel: BeaterTravel = group()
     start: CrankStart = group()
 
 

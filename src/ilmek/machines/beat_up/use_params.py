@@ -1,4 +1,4 @@
-"""Parameters of a beat-up in use: strength of its links, start of its crank, its way along the carpet."""
+"""Parameters of a beat-up in use: strength of its links, start of its crank, its travel along the carpet."""
 
 from dataclasses import dataclass
 

@@ -13,6 +13,7 @@ A screw is as long as the stroke and its ends; `screws` chooses it. Where the nu
 the comb's supports, or the next larger one whose screws and servos are enough.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -24,10 +25,11 @@ from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import SERVO
 from ilmek.machines.hammer.comb import comb_mass
-from ilmek.machines.hammer.params import STACK, HammerParams
+from ilmek.machines.hammer.params import LEADS, STACK, HammerParams
 from ilmek.machines.hammer.screws import SCREW_ENDS, AxisScrew, ScrewLoad, screw_checks, screw_for
 from ilmek.records import computed, group, record, result
 from ilmek.report import Alternative, Check, Choice, Json, at_least, choose
+from ilmek.units import format_quantity
 from ilmek.weaving.fell import Fabric
 
 SAMPLES = 720
@@ -124,18 +126,34 @@ def chosen_axes(
     params: HammerParams, fabric: Fabric, force: float
 ) -> tuple[HammerParams, CombDrive, tuple[Choice, ...]]:
     """The axes that press with a force [N] for each warp, the parameters with their number, and the choice."""
-    if params.axes is not None:
-        return params, axis_for(params, fabric, force), ()
-    number, tried = params.axis_count, []
-    while number <= MOST_AXES:
-        made = axis_for(replace(params, axes=number), fabric, force)
-        tried.append((number, made))
-        if all(check.ok for check in axis_checks(made)):
-            break
-        number = max(number + 1, round(number * 1.5))
-    index, choice = choose("axes", [Alternative(str(number), axis_checks(made)) for number, made in tried])
-    number, made = tried[index]
-    return replace(params, axes=number), made, (choice,)
+    leads = (params.screw_lead,) if params.lead or params.axis == "belt" else LEADS
+    tried: list[tuple[HammerParams, CombDrive]] = []
+    for number in _numbers(params):
+        for lead in leads:
+            taken = replace(params, axes=number, lead=lead)
+            tried.append((taken, axis_for(taken, fabric, force)))
+            if all(check.ok for check in axis_checks(tried[-1][1])):
+                break
+        else:
+            continue
+        break
+    if len(tried) == 1:
+        return *tried[0], ()
+    index, choice = choose("axes", [Alternative(_named(taken), axis_checks(made)) for taken, made in tried])
+    return *tried[index], (choice,)
+
+
+def _named(params: HammerParams) -> str:
+    lead = f", lead {format_quantity(params.screw_lead, 'mm')}" if params.axis == "screw" else ""
+    return f"{params.axis_count}{lead}"
+
+
+def _numbers(params: HammerParams) -> Iterator[int]:
+    """Numbers of axes to try, ascending: as given, or from one for each support on."""
+    number = params.axis_count
+    yield number
+    while params.axes is None and (number := max(number + 1, round(number * 1.5))) <= MOST_AXES:
+        yield number
 
 
 def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
@@ -149,7 +167,7 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
     balance = (1 - params.counterbalance) * mass * GRAVITY
     press = params.warps * fabric.over_stroke(force, params.stroke - at.s, speed < -_STILL)
     total = mass * acceleration - balance + press
-    arm = params.lead / TURN if params.axis == "screw" else params.pulley_radius
+    arm = params.screw_lead / TURN if params.axis == "screw" else params.pulley_radius
     resisting = press - balance
     lost = np.where(resisting * speed >= 0, 1 / params.axis_efficiency, params.axis_efficiency)
     cycle = LoadCycle(

@@ -16,9 +16,20 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 
+from ilmek.elements.duty import MARGIN
+from ilmek.elements.motors import MOTORS, SERVO
 from ilmek.elements.prices import PRICES, price_of
 from ilmek.machines import beat_up
-from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks, start_parts
+from ilmek.machines.beat_up.crank_start import (
+    CLUTCH_MASS,
+    CLUTCHES,
+    FLYWHEEL_RADIUS,
+    CrankDuty,
+    CrankStart,
+    crank_start,
+    start_checks,
+    start_parts,
+)
 from ilmek.machines.beat_up.in_loom import frame_force, links_parts
 from ilmek.machines.beat_up.strength import (
     LinkLoads,
@@ -107,9 +118,7 @@ def chosen_linkage(
 
     Raises MechanismError where the crank-rockers do not move.
     """
-    ranked = sorted(
-        _options(params, fabric, needed), key=lambda one: (not one[1], _estimated(one[0], fabric, needed))
-    )
+    ranked = sorted(_options(params, fabric, needed), key=lambda one: (not one[1], _estimated(one[0], fabric, needed)))
     made = [(option, linkage_for(option, fabric, needed)) for option, _ in ranked[:_DESIGNED]]
     made.sort(key=lambda one: sum(price_of(part, PRICES) for part in linkage_parts(one[1])))
     candidates = [Alternative(_named(one), linkage_checks(linkage)) for one, linkage in made]
@@ -179,8 +188,13 @@ def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
     links = sum(link.price(section * unit.lengths[name]) for name in ("crank", "coupler", "beater"))
     swing = (comb + ballast) * (unit.beater_velocity_max * speed) ** 2 / 2
     work = 2.5 * swing + fabric.energy(params.force or needed) * params.warps
-    clutch = 500.0 + steel.price(work / (params.start.speed_drop * speed**2 * 0.04))
-    servo = PRICES["servo"].price(power=0.4 * swing * speed) + 250.0
+    torque = unit.drive_torque_max * (comb + ballast) * speed**2 / params.start.efficiency
+    wheel = work / (params.start.speed_drop * speed**2 * FLYWHEEL_RADIUS**2)
+    clutch = PRICES["clutch and brake"].price(CLUTCH_MASS * torque) + steel.price(wheel) + 200.0
+    powers = [one.power for one in MOTORS if one.kind == SERVO and one.peak * one.speed / speed >= MARGIN * torque]
+    servo = PRICES["servo"].price(power=min(powers)) + 300.0 if powers else math.inf
+    if torque > CLUTCHES[-1]:
+        clutch = math.inf
     return PRICES["laser-cut part"].price(comb) + steel.price(ballast) + number * links + min(clutch, servo)
 
 

@@ -24,6 +24,9 @@ STEEL = MATERIALS["structural steel"]
 DEPTHS = tuple(depth * 10 * mm for depth in range(2, 51))
 """Heights of a comb's bar to choose from [m]."""
 
+LEADS = (10 * mm, 20 * mm, 40 * mm)
+"""Leads of screws to choose from [m]."""
+
 BEATER_WIDTH = 1.5
 """Width of the comb for each crank-rocker, and for each vertical axis beyond the first [m]."""
 
@@ -139,7 +142,9 @@ class HammerParams(Params):
         doc="vertical axes of the comb; default: one a support, or more where these fail",
     )
     axis: str = kind.choice("screw", AXES, doc="ball screws or toothed belts")
-    lead: float = kind.length(10 * mm, at_least=0.5 * mm, at_most=0.2, doc="lead of the screws")
+    lead: float | None = kind.length(
+        None, at_least=0.5 * mm, at_most=0.2, doc="lead of the screws; default: the least of stock that is enough"
+    )
     screw_diameter: float | None = kind.length(
         None, at_least=5 * mm, at_most=0.5, doc="diameter of a screw; default: the least of stock that is enough"
     )
@@ -243,6 +248,11 @@ class HammerParams(Params):
     def axis_count(self) -> int:
         """Vertical axes that share the comb."""
         return self.axes or self.support_count
+
+    @property
+    def screw_lead(self) -> float:
+        """Lead of the screws [m]; where none is set, the least of `LEADS`."""
+        return self.lead or LEADS[0]
 
     @property
     def depth(self) -> float:

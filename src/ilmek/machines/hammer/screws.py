@@ -9,7 +9,6 @@ its diameter and speed within that of its nut.
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -52,7 +51,7 @@ class AxisScrew:
     life: float = result("h", "life of a screw's nut, ISO 3408-5", name="screw_life")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ScrewLoad:
     """Load of a screw over a turn of the cams: force [N] and angular speed [rad/s] at equal steps; length [m]."""
 
@@ -96,7 +95,7 @@ def _screw(params: HammerParams, load: ScrewLoad, diameter: float) -> AxisScrew:
     size = max(below) if below else min(LOADS)
     scale = 1.0 if below else (diameter / size) ** 2
     dynamic, static = (rating * scale for rating in LOADS[size])
-    ball = Screw(diameter, params.lead, CORE * diameter, BALL_FRICTION)
+    ball = Screw(diameter, params.screw_lead, CORE * diameter, BALL_FRICTION)
     force, speed = np.abs(load.force), np.abs(load.speed)
     most, quickest, turned = float(force.max()), float(speed.max()), float(speed.sum())
     mean = float(np.sum(force**3 * speed) / turned) ** (1 / 3) if turned > 0 else 0.0
