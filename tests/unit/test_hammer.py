@@ -219,7 +219,7 @@ def test_screws_are_thick_enough_for_load_speed_and_life() -> None:
     turned = np.abs(axis.speed) / 0.01
     damage = np.mean((np.abs(axis.force) / 2 / 14e3) ** 3 * turned) / 1e6
     assert screw.life == pytest.approx(1 / damage, rel=1e-9)
-    thin = answer(screw_diameter=16 * mm)
+    thin = answer(screw_diameter=16 * mm, axes=2, lead=10 * mm)
     assert "life of the screws" in [check.name for check in thin.failed]
     assert screw.life >= 10_000 * 3600
 

@@ -145,7 +145,7 @@ def value_of(params: AutomatedLoomParams, dotted: str) -> object:
         ({"warp_tension.ratio": "25"}, "warp-tension", "ratio", 25.0),
         ({"weaver.lever": "1.9"}, "weaver", "lever", 1.9),
         ({"beat-up.swing": "32deg"}, "beat-up", "swing", 32 * deg),
-        ({"hammer": "comb", "hammer.comb_depth": "90mm"}, "hammer", "comb_depth", 0.09),
+        ({"beat": "comb", "hammer.comb_depth": "90mm"}, "hammer", "comb_depth", 0.09),
     ],
 )
 def test_a_machine_in_the_loom_is_designed_with_the_value_set_for_it(

@@ -6,14 +6,15 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.laws import Law, law_of
+from ilmek.linkage.solve import solve
 from ilmek.machines.beat import Beat, BeatPath
 from ilmek.machines.beat_up.crank_start import CrankStart
 from ilmek.units import turn
 
-_POINTS = np.linspace(0.0, 1.0, 18)[1:-1]
+_POINTS = np.linspace(0.0, 1.0, 26)[1:-1]
 """Shares of a motion at which the law on the cyclogram is the true one."""
 
-_SAMPLES = 181
+_TURN_SAMPLES = 41
 _ACTUATOR = "beat-up crank"
 
 
@@ -53,17 +54,37 @@ def _times(start: CrankStart) -> tuple[float, float]:
 
 
 def crank_path(start: CrankStart, outline: tuple[ComplexArray, ...]) -> BeatPath:
-    """Path of the beater: it leaves the fell upwards and to the front, about a pivot in front of the fell.
-
-    Of several strokes the first and the last are kept, each stretched to half of the beat.
-    """
-    arm = start.duty.linkage.lengths["beater"]
-    share = np.linspace(0.0, 1.0, _SAMPLES)
-    there, _ = _times(start)
-    middle = there / start.time[-1]
-    shares: FloatArray = start.time / start.time[-1]
-    single = np.interp(share, shares, start.travel)
-    if start.duty.strokes * start.duty.starts > 1:
-        share = np.where(share <= middle, share / middle / 2, 0.5 + (share - middle) / (1 - middle) / 2)
-    swing = single / arm
+    """Path of the beater: it leaves the fell upwards and to the front, about a pivot in front of the fell."""
+    arm, total = start.duty.linkage.lengths["beater"], start.beat_time
+    there, back = _times(start)
+    time, travel = start.time, start.travel
+    first, last = time <= there, time >= there
+    between_time, between = _between(start)
+    cycle = between_time[-1] if between_time.size else 0.0
+    number = start.duty.strokes * start.duty.starts - 1
+    times = [time[first], np.array([there])]
+    travels = [travel[first], np.zeros(1)]
+    for one in range(number):
+        times.append(there + one * cycle + between_time)
+        travels.append(between)
+    times.append(time[last] - there + total - back)
+    travels.append(travel[last])
+    swing = np.concatenate(travels) / arm
+    share: FloatArray = np.concatenate(times) / total
     return BeatPath(outline, share, arm * (1 - np.cos(swing) + 1j * np.sin(swing)))
+
+
+def _between(start: CrankStart) -> tuple[FloatArray, FloatArray]:
+    """Time and travel of the beater from one beat of a stroke to the next [s, m]; empty for a single stroke."""
+    duty = start.duty
+    if duty.strokes * duty.starts == 1:
+        return np.zeros(0), np.zeros(0)
+    linkage = duty.linkage
+    if duty.starts == 1:
+        turned = np.linspace(0.0, turn, _TURN_SAMPLES)
+        rocker = solve(linkage.plan, linkage.beta + turned).angle("rocker") - linkage.rocker_angles[0]
+        return turned / linkage.params.speed, linkage.lengths["beater"] * np.abs(rocker)
+    there, back = _times(start)
+    returning, going = start.time >= there, start.time <= there
+    times = (start.time[returning] - there, start.time[going] + back + duty.pause, [there + back + duty.pause])
+    return np.concatenate(times), np.concatenate([start.travel[returning], start.travel[going], [0.0]])
