@@ -84,7 +84,7 @@ class SweptBody:
 
 
 @dataclass(frozen=True, slots=True)
-class LeastDistance:
+class BodyDistance:
     """The least distance of two bodies [m], and the angle of the turn at which it occurs [rad]."""
 
     first: str
@@ -122,7 +122,7 @@ def least_clearances(
     allowed: float,
     ignored: Collection[frozenset[str]] = (),
     horizon: float = math.inf,
-) -> tuple[LeastDistance, ...]:
+) -> tuple[BodyDistance, ...]:
     """The least distance of every two bodies at and between angles of the turn [rad].
 
     allowed  distance [m], above which there is no need of the exact one
@@ -136,14 +136,14 @@ def least_clearances(
 
 def _least_of_bodies(
     one: SweptBody, other: SweptBody, angles: FloatArray, limits: tuple[float, float]
-) -> LeastDistance | None:
+) -> BodyDistance | None:
     """The least distance of two bodies; None where they are never together, or beyond the horizon."""
     present = np.flatnonzero(one.present & other.present)
     near = [(a, b) for a in one.parts for b in other.parts if _gap_of_boxes(a.whole, b.whole) <= limits[1]]
     if not len(present) or not near:
         return None
     value, angle = min(_least(a, b, angles, present, limits[0]) for a, b in near)
-    return LeastDistance(one.body.name, other.body.name, value, angle)
+    return BodyDistance(one.body.name, other.body.name, value, angle)
 
 
 def _swept_part(part: ConvexPart, angles: FloatArray) -> SweptPart:

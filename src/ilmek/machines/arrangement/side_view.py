@@ -133,6 +133,11 @@ class SideView:
         return (self.rail.corner + self.rail.size).real + self.retreat - rear
 
     @property
+    def lift(self) -> float:
+        """Lift of the warps at the lowest cam shaft [m]."""
+        return self.cams[0].lift
+
+    @property
     def floor(self) -> float:
         """Height of the floor, the fell at 0 [m]."""
         return self.lower.at.imag - self.roll - ABOVE_FLOOR

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from itertools import combinations
 
-from ilmek.machines.arrangement.clearances import LeastDistance, MovingBody, least_clearances, samples
+from ilmek.machines.arrangement.clearances import BodyDistance, MovingBody, least_clearances, samples
 from ilmek.machines.automated_loom.bodies import (
     BACK_REST,
     BAR,
@@ -75,7 +75,7 @@ CURES: Mapping[str, str] = {
 class RoomFound:
     """The least clearance of two bodies over both cyclograms, and the cyclogram in which it occurs."""
 
-    clearance: LeastDistance
+    clearance: BodyDistance
     cyclogram: str
 
 
@@ -94,7 +94,7 @@ def clearances(loom: LoomDesign) -> tuple[RoomFound, ...]:
     return tuple(sorted(found.values(), key=lambda one: one.clearance.value))
 
 
-def _of_cyclogram(cyclogram: Cyclogram, bodies: tuple[MovingBody, ...], limit: float) -> tuple[LeastDistance, ...]:
+def _of_cyclogram(cyclogram: Cyclogram, bodies: tuple[MovingBody, ...], limit: float) -> tuple[BodyDistance, ...]:
     ends = [angle for body in bodies for window in body.windows for angle in window]
     angles = samples([*ends, *(angle for track in cyclogram.tracks for angle in joints(track).tolist())])
     return least_clearances(bodies, angles, limit, TOUCHING, HORIZON)
