@@ -46,7 +46,7 @@ def test_the_programme_counts_its_stops_and_the_deadline_too() -> None:
     assert heads_for(knots, 2, plain.duration, TIMES, 4, bobbins=stopped.bobbins) > 2
     assert heads_for(knots, 2, stopped.duration, TIMES, 4, bobbins=stopped.bobbins) == 2
     with pytest.raises(LoomError, match="at most 4 heads fit this width"):
-        heads_for(knots, 2, 600.0 + 700.0, TIMES, 4, bobbins=stopped.bobbins)
+        heads_for(knots, 2, 900.0 + 700.0, TIMES, 4, bobbins=stopped.bobbins)
 
 
 def test_a_bobbin_for_less_than_a_row_is_refused() -> None:

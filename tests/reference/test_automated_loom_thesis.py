@@ -3,7 +3,7 @@
 import pytest
 
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
-from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD, SHUTTLE
+from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.timing.cyclogram import Moment, moment_angle
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import deg, mm
@@ -46,7 +46,12 @@ def test_four_steps_of_chapter_3_3(loom: LoomDesign) -> None:
         )
     ]
     assert angles == pytest.approx([90, 180, 270, 360])
-    order = (Moment(SHUTTLE, "pass"), Moment(BEATER, "beat 1"), Moment(SHUTTLE, "pass back"), Moment(BEATER, "beat 2"))
+    order = (
+        Moment("shuttle", "pass"),
+        Moment(BEATER, "beat 1"),
+        Moment("shuttle", "pass back"),
+        Moment(BEATER, "beat 2"),
+    )
     steps = [int(moment_angle(loom.row_cyclogram, moment) / deg // 90) for moment in order]
     assert steps == [0, 1, 2, 3]
 

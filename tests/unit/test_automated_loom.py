@@ -19,7 +19,7 @@ from ilmek.machines.automated_loom import (
     production_time,
     programme_for,
 )
-from ilmek.machines.automated_loom.cyclogram import BEATER, SHUTTLE
+from ilmek.machines.automated_loom.cyclogram import BEATER
 from ilmek.report import Drawing, Plot, Report, Timing
 from ilmek.timing.track import peak_acceleration, peak_speed, sample
 from ilmek.units import deg, dm, hour, mm
@@ -93,7 +93,7 @@ def test_a_pitch_too_fine_for_arms_is_said_and_no_failure_of_the_loom(pitch: flo
 def test_shuttle_and_beater_are_never_in_the_shed_together() -> None:
     loom = design(AutomatedLoomParams())
     angle = np.linspace(0, 2 * math.pi, 7201)
-    moving = np.abs(sample(loom.row_cyclogram.track(SHUTTLE), angle).slope) > 1e-6
+    moving = np.abs(sample(loom.row_cyclogram.track("shuttle"), angle).slope) > 1e-6
     beating = sample(loom.row_cyclogram.track(BEATER), angle).position > 1e-6
     assert moving.any()
     assert beating.any()
@@ -103,8 +103,8 @@ def test_shuttle_and_beater_are_never_in_the_shed_together() -> None:
 
 
 def test_a_wide_loom_takes_the_time_that_its_shuttle_needs() -> None:
-    loom = design(AutomatedLoomParams(width=5.0, shuttle_speed=2.0))
-    shuttle, period = loom.row_cyclogram.track(SHUTTLE), loom.row_cyclogram.period
+    loom = design(AutomatedLoomParams.read({"width": 5.0, "weft.speed": 2.0}))
+    shuttle, period = loom.row_cyclogram.track("shuttle"), loom.row_cyclogram.period
     assert period > 12.0
     assert peak_speed(shuttle, period) == pytest.approx(2.0)
     assert peak_acceleration(shuttle, period) < 20.0
@@ -207,7 +207,7 @@ def test_parameters_out_of_bounds(settings: dict[str, Any]) -> None:
         dict(margin=0.0),
         dict(head_width=1.0, heads=1),
         dict(knot_cycle=0.001),
-        dict(shuttle_run=1.0),
+        dict(weft="rapier"),
         dict(beat_speed=0.01),
     ],
 )
@@ -220,7 +220,8 @@ def test_more_heads_weave_sooner() -> None:
     loom = design(AutomatedLoomParams())
     times = [estimated_time(loom, heads) for heads in range(1, loom.heads_max + 1)]
     assert times == sorted(times, reverse=True)
-    assert times[0] == pytest.approx(450 * (12 + 300 * (2 + 0.06 * loom.weaver.colour_change)))
+    stops = 90.0 * sum(one.changes(450) for one in loom.bobbins)
+    assert times[0] == pytest.approx(450 * (12 + 300 * (2 + 0.06 * loom.weaver.colour_change)) + stops)
 
 
 def chart() -> Indices:
@@ -234,7 +235,7 @@ def test_from_chart_and_deadline_to_heads_and_time() -> None:
     assert programme.times == loom.times
     spent = production_time(programme)
     assert spent.total == programme.duration <= 24 * hour
-    parts = spent.wefts + spent.tying + spent.changing + spent.travelling + spent.waiting
+    parts = spent.wefts + spent.stops + spent.tying + spent.changing + spent.travelling + spent.waiting
     assert parts == pytest.approx(spent.total)
     assert spent.tying == pytest.approx(135000 * 2.0 / 4)
     assert spent.by_hand == pytest.approx(135000 * 2.4)

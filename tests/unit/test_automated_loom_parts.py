@@ -14,7 +14,7 @@ from ilmek.elements.prices import PRICES, read_prices
 from ilmek.errors import ParameterError
 from ilmek.machines import warp_tension
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
-from ilmek.machines.automated_loom.cyclogram import BEATER, SHUTTLE
+from ilmek.machines.automated_loom.cyclogram import BEATER
 from ilmek.machines.automated_loom.energy import energy_of
 from ilmek.machines.automated_loom.estimate import estimated_time, estimated_times_at, time_shares
 from ilmek.machines.automated_loom.frame import (
@@ -268,7 +268,7 @@ def test_a_loom_beats_with_one_of_them():
 def test_the_comb_beats_within_its_acceleration_and_after_the_shuttle():
     row = comb_loom().row_cyclogram
     assert peak_acceleration(row.track(BEATER), row.period) == pytest.approx(comb_loom().params.comb_acceleration)
-    assert row.track(BEATER).segment("beat 1").start > row.track(SHUTTLE).segment("pass").end
+    assert row.track(BEATER).segment("beat 1").start > row.track("shuttle").segment("pass").end
     slow = design(AutomatedLoomParams(hammer="comb", comb_acceleration=0.5))
     assert slow.row_cyclogram.period > row.period  # a longer beat needs a longer turn
     pressed = row.track(BEATER).segment("back 1").start - row.track(BEATER).segment("beat 1").end

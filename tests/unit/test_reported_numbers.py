@@ -25,7 +25,6 @@ from ilmek.machines.knotting_dyad.motion import drive_angles
 from ilmek.params import declared
 from ilmek.plane.contours import circle
 from ilmek.report import Plate, Report
-from ilmek.timing.track import sample
 from ilmek.units import mm, turn
 
 
@@ -54,16 +53,15 @@ def energy(share: str) -> float:
 
 
 def shuttle_passages() -> float:
-    """Two passages a row, each with the shuttle's energy at its greatest speed, found along its track."""
+    """Two passages and an empty run a row: energy of motion at the greatest speed, found by differences, and drag."""
     loom = find_machine("automated-loom")
-    params = loom.params.read({})
-    assert loom.cyclograms is not None
-    row = next(one for one in loom.cyclograms(loom.design(params)) if one.name == "row")
-    angle = np.linspace(0.0, turn, 200_001)
-    speed = np.gradient(sample(row.track("shuttle"), angle).position, angle[1] * row.period / turn)
-    return (
-        2 * results("automated-loom")["rows"] * 0.5 * params.shuttle_mass * speed.max() ** 2 / params.drive_efficiency
-    )
+    made = loom.design(loom.params.read({}))
+    weft, passage = made.weft, made.weft.passage
+    time = np.linspace(0.0, passage.time, 200_001)
+    speed = np.gradient(passage.at(time)[0], time[1])
+    moved = weft.axis.mass * speed.max() ** 2 + 0.5 * (weft.axis.mass - weft.carried.full) * speed.max() ** 2
+    dragged = 2 * weft.resisting / weft.params.belt_efficiency * np.trapezoid(speed, time)
+    return made.rows * (moved + dragged) / made.params.drive_efficiency
 
 
 def hertz_limit() -> float:

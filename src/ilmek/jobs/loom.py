@@ -171,7 +171,12 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
     try:
         made = heads_for_wishes(params, loom_order.wishes, chart, progress.part(0.0, 0.7))
         programme = make_programme(
-            chart.knots, len(chart.yarns), made.heads, made.times, progress=progress.part(0.7, 1.0)
+            chart.knots,
+            len(chart.yarns),
+            made.heads,
+            made.times,
+            bobbins=made.bobbins,
+            progress=progress.part(0.7, 1.0),
         )
     except IlmekError as error:
         if loom_order.settings and _can_be_designed(_without_settings(params)):

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from ilmek.carpet.chart import Chart
 from ilmek.errors import LoomError, ParameterError
+from ilmek.loom.bobbins import stop_time
 from ilmek.loom.programme import least_heads, weaving_time
 from ilmek.loom.sharing import MOST_HEADS
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
@@ -81,7 +82,7 @@ def _deadline_needs(deadline: float, made: LoomDesign, chart: Chart) -> str:
     needed = _needed(deadline, made, chart, min(MOST_HEADS, max(1, chart.columns // 2)), SILENT)
     if needed is not None:
         return f"the deadline of {_hours(deadline)} needs {_heads(needed)}"
-    wefts = chart.rows * made.times.weft
+    wefts = chart.rows * made.times.weft + stop_time(made.bobbins, chart.rows)
     alone = f": the wefts and beats of {chart.rows} rows alone take {_hours(wefts)}" if wefts >= deadline else ""
     return f"the deadline of {_hours(deadline)} cannot be met by any number of heads{alone}"
 
@@ -91,11 +92,13 @@ def _error(parts: list[str], do: str) -> ParameterError:
 
 
 def _time(made: LoomDesign, chart: Chart, heads: int, deadline: float = math.inf) -> float:
-    return weaving_time(chart.knots, len(chart.yarns), heads, made.times, deadline)
+    return weaving_time(chart.knots, len(chart.yarns), heads, made.times, deadline, bobbins=made.bobbins)
 
 
 def _needed(deadline: float, made: LoomDesign, chart: Chart, most: int, progress: Progress) -> int | None:
-    return least_heads(chart.knots, len(chart.yarns), deadline, made.times, most, progress=progress)
+    return least_heads(
+        chart.knots, len(chart.yarns), deadline, made.times, most, bobbins=made.bobbins, progress=progress
+    )
 
 
 def _heads(number: int) -> str:

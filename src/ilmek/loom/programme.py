@@ -164,20 +164,22 @@ def weaving_time(
     times: Times,
     deadline: float = math.inf,
     *,
+    bobbins: Sequence[Bobbin] = (),
     progress: Progress = SILENT,
 ) -> float:
-    """Weaving time [s] without the programme and without stops.
+    """Weaving time [s], stops included, without the programme.
 
     Beyond the deadline [s], a lower bound that exceeds the deadline.
     """
     _require_chart(knots, yarns)
     layout = Layout(yarns, heads, share(knots.shape[1], heads))
-    return _run(knots, layout, times, np.zeros((0, 1, 3), np.uint8), deadline, progress=progress)[1]
+    stops = stop_time(bobbins, knots.shape[0])
+    return stops + _run(knots, layout, times, np.zeros((0, 1, 3), np.uint8), deadline - stops, progress=progress)[1]
 
 
-def least_time(rows: int, columns: int, heads: int, times: Times) -> float:
+def least_time(rows: int, columns: int, heads: int, times: Times, bobbins: Sequence[Bobbin] = ()) -> float:
     """Weaving time [s] without colour changes and idle travel: the lower bound for a chart of this size."""
-    return rows * _least_row(share(columns, heads), heads, times)
+    return rows * _least_row(share(columns, heads), heads, times) + stop_time(bobbins, rows)
 
 
 def heads_for(
@@ -200,10 +202,10 @@ def heads_for(
     heads = least_heads(knots, yarns, deadline, times, heads_max, bobbins=bobbins, progress=progress)
     if heads is not None:
         return heads
-    reached = weaving_time(knots, yarns, heads_max, times, progress=progress.part(1.0, 1.0))
+    reached = weaving_time(knots, yarns, heads_max, times, bobbins=bobbins, progress=progress.part(1.0, 1.0))
     raise LoomError(
         f"the deadline of {_hours(deadline)} cannot be met",
-        allowed=f"at most {heads_max} heads fit this width; they weave it in {_hours(reached + stops)}",
+        allowed=f"at most {heads_max} heads fit this width; they weave it in {_hours(reached)}",
         do="give more time, a coarser quality, a faster knot or narrower heads",
     )
 

@@ -29,6 +29,7 @@ ENTRIES = {
         "crank-rocker that beats weft and knots to the fell: links, motion, forces", beats=("travelling",)
     ),
     "cam": Entry("a cam and its follower: profile, pressure angle, curvature, forces, spring, roller"),
+    "weft": Entry("shuttles or a rapier that lay the wefts: bobbins, stops, tension, motion, axis", part=True),
     "shedding": Entry("cams that open the shed: profile, pressure angle, curvature, torque, square shaft", part=True),
     "hammer": Entry(
         "comb that beats the rows: force per warp, rows it leaves, uniformity, stroke or crank-rockers",
@@ -66,6 +67,10 @@ SUMMARIES = {name: entry.summary for name, entry in ENTRIES.items()}
 
 BEATS = {beat: name for name, entry in ENTRIES.items() for beat in entry.beats}
 """Machines that can beat in a loom, by the kind of beat."""
+
+
+WEFT_CARRIERS = ("shuttle", "rapier")
+"""What can carry the weft through the shed."""
 
 
 def loom_parts() -> tuple[str, ...]:

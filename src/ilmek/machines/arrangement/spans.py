@@ -112,11 +112,11 @@ class ShedSpans:
 
 def shed_room(task: "LoomTask") -> ShedRoom:
     """What must have room in the shed of a loom; parts that are not yet designed have their usual size."""
-    params = task.params
+    params, weft = task.params, task.designs["weft"]
     spare, made = SPARE * params.clearance, task.designs.get("tension-compensator")
     return ShedRoom(
-        carrier_depth=params.shuttle_height,
-        carrier_width=params.shuttle_width,
+        carrier_depth=weft.carrier_depth,
+        carrier_width=weft.carrier_width,
         opening=params.open_share * params.lift,
         leaf_height=task.params.machines.of("hammer").get("leaf_height", LEAF_HEIGHT),
         head=USUAL_HEAD,

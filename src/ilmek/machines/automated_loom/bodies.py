@@ -9,7 +9,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.arrangement.clearances import ConvexPart, MovingBody, moving, standing
 from ilmek.machines.arrangement.head_shape import HeadTool
 from ilmek.machines.arrangement.side_view import CamPosition, RoundPart, SideBox, SideView
-from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, SHUTTLE
+from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, weft_windows
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, sample
 from ilmek.units import turn
@@ -31,7 +31,7 @@ def row_bodies(side: SideView, row: Cyclogram, kind: str) -> tuple[MovingBody, .
     beater, heads = row.track(BEATER), row.track(HEADS)
     down, away = _along(beater, -1j), _along(heads, 1 + 0j)
     stack = down if kind == "guide-cams" else None
-    windows = tuple((one.start, one.end) for one in row.track(SHUTTLE).segments)
+    windows = weft_windows(row)
     return (
         *_sheets(side, row),
         _cams(side, stack),

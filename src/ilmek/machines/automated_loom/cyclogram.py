@@ -2,18 +2,21 @@
 
 A row is two wefts and two beats on one turn of the shedding cams.                               [thesis, 3.3]
 
-    1   0 to  90 deg    cams lift the even warps; the shuttle passes while the shed is open for it
+    1   0 to  90 deg    cams lift the even warps; the straight weft is laid while the shed is open for its carrier
     2  90 to 180 deg    they come down; the beater beats and is back
-    3 180 to 270 deg    cams lift the odd warps; the shuttle passes back
+    3 180 to 270 deg    cams lift the odd warps; the sinuous weft is laid
     4 270 to 360 deg    they come down; the beater beats; the carpet is taken up by a row
 
 The heads stand clear of the warps for the whole turn; the knots of the row were tied before it began. The thesis prints
-the four steps of 90 degrees and the harmonic law; where within them shuttle, beater and take-up move is chosen here.
+the four steps of 90 degrees and the harmonic law; where within them weft, beater and take-up move is chosen here. A
+shuttle passes over and another back (`ilmek.machines.weft`): in every second row both start at the other edge, so that
+the carriage's position is to be taken from there. A rapier goes in and out in each shed.
 """
 
 import math
 
 from ilmek.cams.laws import LAWS, law_of
+from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.beat import Beat
 from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.warp_tension.design import TAKE_UP_LAW
@@ -28,6 +31,7 @@ from ilmek.machines.weaver.motions import (
     SIDE_MOTION,
     SLEY,
 )
+from ilmek.machines.weft import WeftPassage
 from ilmek.records import value_record
 from ilmek.report import CamTable
 from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, Track, TrackEvent, TrackSegment, Zone, riding
@@ -35,14 +39,14 @@ from ilmek.timing.s_curve import s_curve
 from ilmek.timing.track import MotionLaw, shortest_period
 from ilmek.units import deg, turn
 
-EVEN, ODD, SHUTTLE, BEATER, TAKE_UP = "even warps", "odd warps", "shuttle", "beater", "take-up"
+EVEN, ODD, BEATER, TAKE_UP = "even warps", "odd warps", "beater", "take-up"
 SOURCE = "thesis, 3.3: the four steps of a row"
 HEADS = "heads"
 RETREAT_END = 36 * deg
 """Cam angle at which the heads have retreated from the warps; they return behind the second beat."""
 
 GAP = 2 * deg
-"""Least angle between the shuttle in the shed and the beater."""
+"""Least angle between the weft's carrier in the shed and the beater."""
 
 _HALF = turn / 2
 
@@ -51,16 +55,17 @@ _HALF = turn / 2
 class RowTiming:
     """What the cyclogram of a row is made of.
 
-    lift, law        of the warps [m]                window  shed angles between which the shuttle has room [rad]
-    shuttle_stroke   from rest to rest [m]           beat_end, take_up_end  angles of each, and of the second, half
-    beat             the beater's motion             row_pitch  carpet taken up for a row [m]
-    retreat          of the heads from the warps [m]
+    lift, law   of the warps [m]             window  shed angles between which the weft's carrier has room [rad]
+    carrier     of the weft, and its passage beat_end, take_up_end  angles of each, and of the second, half
+    beat        the beater's motion          row_pitch  carpet taken up for a row [m]
+    retreat     of the heads from the warps [m]
     """
 
     lift: float
     law: str
     window: tuple[float, float]
-    shuttle_stroke: float
+    carrier: str
+    passage: WeftPassage
     beat: Beat
     beat_end: float
     row_pitch: float
@@ -111,45 +116,49 @@ _IN_THE_WARPS = (SIDE_MOTION, CENTRE_MOTION, OPENER, LEFT_ARM, RIGHT_ARM, CENTRE
 _CLEAR = "the head moves along the row only while no tool of it is in the warps"
 
 
-def shortest_row(timing: RowTiming, speed_limit: float, acceleration_limit: float) -> float:
-    """The shortest turn of the cams [s] in which the shuttle keeps its limits and the beat fits behind it.
+def shortest_row(timing: RowTiming) -> float:
+    """The shortest turn of the cams [s] in which the weft's carrier keeps its limits and the beat fits behind it.
 
-    inf where no angle is left between shuttle and beat.
+    inf where no angle is left for the passage, or between carrier and beat.
     """
-    room = timing.beat_end - timing.window[1] - GAP
-    if room <= 0:
+    first, last = timing.window
+    room = timing.beat_end - last - GAP
+    if room <= 0 or last <= first:
         return math.inf
-    return max(shortest_period(_shuttle(timing), speed_limit, acceleration_limit), timing.beat.time * turn / room)
+    return max(timing.passage.time * turn / (last - first), timing.beat.time * turn / room)
 
 
 def cyclogram(timing: RowTiming, period: float) -> Cyclogram:
     """The cyclogram of a row at a period of the shedding cams [s].
 
-    Raises ParameterError where shuttle, beat and take-up do not follow each other.
+    Raises ParameterError where weft, beat and take-up do not follow each other.
     """
     tracks = (
         _warps(EVEN, timing, 0.0),
         _warps(ODD, timing, _HALF),
-        _shuttle(timing),
+        _weft(timing),
         _beater(timing, period),
         _take_up(timing),
         _heads(timing),
     )
-    return Cyclogram("row", period, tracks, relations())
+    return Cyclogram("row", period, tracks, relations(timing))
 
 
-def relations() -> tuple[Relation, ...]:
+def relations(timing: RowTiming) -> tuple[Relation, ...]:
     """What must come after what on the turn."""
-    room = "the shuttle moves only where the shed has room for it"
-    clear = "beater and shuttle are never in the shed together"
+    name = timing.carrier
+    first, second = _passes(timing)
+    room = f"the {name} moves only where the shed has room for it"
+    clear = f"beater and {name} are never in the shed together"
+    begins, ends = f"room for the {name}", "room ends"
     order = (
-        (Moment(SHUTTLE, "pass", "start"), Moment(EVEN, "room for the shuttle", "event"), 0.0, room),
-        (Moment(EVEN, "room ends", "event"), Moment(SHUTTLE, "pass", "end"), 0.0, room),
-        (Moment(BEATER, "beat 1", "start"), Moment(SHUTTLE, "pass", "end"), GAP, clear),
-        (Moment(SHUTTLE, "pass back", "start"), Moment(BEATER, "back 1", "end"), GAP, clear),
-        (Moment(SHUTTLE, "pass back", "start"), Moment(ODD, "room for the shuttle", "event"), 0.0, room),
-        (Moment(ODD, "room ends", "event"), Moment(SHUTTLE, "pass back", "end"), 0.0, room),
-        (Moment(BEATER, "beat 2", "start"), Moment(SHUTTLE, "pass back", "end"), GAP, clear),
+        (Moment(name, first[0].name, "start"), Moment(EVEN, begins, "event"), 0.0, room),
+        (Moment(EVEN, ends, "event"), Moment(name, first[-1].name, "end"), 0.0, room),
+        (Moment(BEATER, "beat 1", "start"), Moment(name, first[-1].name, "end"), GAP, clear),
+        (Moment(name, second[0].name, "start"), Moment(BEATER, "back 1", "end"), GAP, clear),
+        (Moment(name, second[0].name, "start"), Moment(ODD, begins, "event"), 0.0, room),
+        (Moment(ODD, ends, "event"), Moment(name, second[-1].name, "end"), 0.0, room),
+        (Moment(BEATER, "beat 2", "start"), Moment(name, second[-1].name, "end"), GAP, clear),
         (Moment(ODD, "lift", "start"), Moment(EVEN, "lower", "end"), 0.0, SOURCE),
         (Moment(TAKE_UP, "take up", "start"), Moment(BEATER, "back 2", "end"), 0.0, "the beater is off the fell"),
     )
@@ -167,19 +176,39 @@ def _warps(name: str, timing: RowTiming, shift: float) -> Track:
         TrackSegment("lower", shift + quarter, shift + _HALF, timing.lift, 0.0, law),
     )
     first, last = timing.window
-    events = (TrackEvent("room for the shuttle", shift + first), TrackEvent("room ends", shift + last))
+    events = (TrackEvent(f"room for the {timing.carrier}", shift + first), TrackEvent("room ends", shift + last))
     return Track(name, "shedding cams", parts, events)
 
 
-def _shuttle(timing: RowTiming) -> Track:
-    first, last = timing.window
-    law, stroke = _law("cycloidal"), timing.shuttle_stroke
-    parts = (
-        TrackSegment("pass", first, last, 0.0, stroke, law),
-        TrackSegment("pass back", _HALF + first, _HALF + last, stroke, 0.0, law),
-    )
-    events = (riding("straight weft laid", parts[0]), riding("sinuous weft laid", parts[1]))
-    return Track(SHUTTLE, "linear axis", parts, events)
+def _passes(timing: RowTiming) -> tuple[tuple[TrackSegment, ...], tuple[TrackSegment, ...]]:
+    """The motions of the weft's carrier in the even and in the odd shed, each stretched to the window."""
+    (first, last), passage = timing.window, timing.passage
+    law, stroke = passage.law, passage.stroke
+    if not passage.back:
+        over = TrackSegment("pass", first, last, 0.0, stroke, law)
+        return (over,), (TrackSegment("pass back", _HALF + first, _HALF + last, stroke, 0.0, law),)
+    spent = passage.share * (last - first)
+
+    def there_and_back(number: int, shift: float) -> tuple[TrackSegment, ...]:
+        return (
+            TrackSegment(f"insert {number}", shift + first, shift + first + spent, 0.0, stroke, law),
+            TrackSegment(f"withdraw {number}", shift + last - spent, shift + last, stroke, 0.0, law),
+        )
+
+    return there_and_back(1, 0.0), there_and_back(2, _HALF)
+
+
+def _weft(timing: RowTiming) -> Track:
+    straight, sinuous = _passes(timing)
+    events = (riding("straight weft laid", straight[-1]), riding("sinuous weft laid", sinuous[-1]))
+    return Track(timing.carrier, "linear axis", (*straight, *sinuous), events)
+
+
+def weft_windows(row: Cyclogram) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Angles between which the weft's carrier is in the even and in the odd shed [rad]."""
+    moves = next(track for track in row.tracks if track.name in WEFT_CARRIERS).segments
+    first, second = moves[: len(moves) // 2], moves[len(moves) // 2 :]
+    return (first[0].start, first[-1].end), (second[0].start, second[-1].end)
 
 
 def _beater(timing: RowTiming, period: float) -> Track:

@@ -8,6 +8,7 @@ from ilmek.carpet.design import knot_grid
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.elements.carpet_yarns import carpet_yarns
 from ilmek.errors import LoomError
+from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.programme import Times, least_time
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import loom_parts
@@ -30,6 +31,7 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding import SheddingDesign
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.weaver import Weaver
+from ilmek.machines.weft import Weft
 from ilmek.records import record
 from ilmek.report import Choice
 from ilmek.timing.cyclogram import Cyclogram
@@ -37,7 +39,7 @@ from ilmek.timing.s_curve import move_time, travel_time
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.tension import usual_tension
 
-BEFORE_THE_ROW = ("weaver", "shedding")
+BEFORE_THE_ROW = ("weft", "weaver", "shedding")
 """Machines whose designs set the timing of a row; all others are designed for it."""
 
 
@@ -73,6 +75,17 @@ class LoomDesign:
         """The knotting head."""
         design: Weaver = self.machines["weaver"].design
         return design
+
+    @property
+    def weft(self) -> Weft:
+        """What lays the wefts."""
+        design: Weft = self.machines["weft"].design
+        return design
+
+    @property
+    def bobbins(self) -> tuple[Bobbin, ...]:
+        """Bobbins of weft, for which the loom stops."""
+        return self.weft.bobbins
 
     @property
     def shedding(self) -> SheddingDesign:
@@ -133,26 +146,22 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     and beat; CarpetError for a carpet without knots; the errors of the machines where those cannot be made.
     """
     rows, columns = knot_grid(CarpetSize(params.width, params.length), params.quality)
-    yarns = carpet_yarns(params.yarns, params.pitch)
-    tension = params.tension or usual_tension(params.pitch, yarns.warp.linear_density)
-    task = LoomTask(params, rows, columns, yarns, tension, {})
+    laid, task = _made("weft", _task(params, rows, columns))
     knotting, of_knotting = knotting_head(task)
-    machines: dict[str, Child] = dict(knotting.children)
+    machines: dict[str, Child] = {**knotting.children, "weft": laid}
     task = replace(task, designs={name: child.design for name, child in machines.items()})
     machines["shedding"], task = _made("shedding", task)
     task = replace(task, side=laid_out(task))
-    head, cams = knotting.weaver, machines["shedding"].design
+    head, weft, cams = knotting.weaver, laid.design, machines["shedding"].design
     options = beat_options(task, lambda plan: _row_period(params, _row_timing(task, cams, plan.beat), cams))
     option, choices = chosen_beat(options, params.aim)
     timing, period = _row_timing(task, cams, option.plan.beat), option.period
-    if period > turn / cams.params.speed:
-        component = machines["shedding"].component
-        machines["shedding"] = Child(component, component.design(replace(cams.params, speed=turn / period)))
+    machines["shedding"] = _at_period(machines["shedding"], period)
     times = times_at(head, 2 * params.pitch, period)
     most = heads_that_fit(columns, 2 * params.pitch, head.width)
     _require_room(params, most, head.width)
     busy = with_changes(times, params.changes_per_knot)
-    heads, of_heads = chosen_heads(params, most, lambda number: least_time(rows, columns, number, busy))
+    heads, of_heads = chosen_heads(params, most, lambda number: least_time(rows, columns, number, busy, weft.bobbins))
     task = replace(
         task,
         designs={name: child.design for name, child in machines.items()},
@@ -166,10 +175,7 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
             machines[name], task = _made(name, task)
     side = laid_out(task)
     machines |= {name: replace(machines[name], number=heads) for name in knotting.children}
-    row = cyclogram(timing, period)
-    tracks = (track for child in machines.values() for track in child.component.tracks(child.design))
-    row = replace(row, tracks=(*row.tracks, *tracks))
-    chosen = replace(params, beat=option.kind, heads=heads, knotting=knotting.kind)
+    chosen = replace(params, beat=option.kind, heads=heads, knotting=knotting.kind, weft=weft.carrier)
     return LoomDesign(
         params=chosen,
         rows=rows,
@@ -182,10 +188,32 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
         head=knotting,
         beat=beat,
         row_timing=timing,
-        row_cyclogram=row,
+        row_cyclogram=_row_cyclogram(timing, period, machines),
         times=times,
         choices=(*of_knotting, *choices, *of_heads),
     )
+
+
+def _task(params: AutomatedLoomParams, rows: int, columns: int) -> LoomTask:
+    """The task of the first machine: carpet, yarns, and tension of the warps."""
+    yarns = carpet_yarns(params.yarns, params.pitch)
+    tension = params.tension or usual_tension(params.pitch, yarns.warp.linear_density)
+    return LoomTask(params, rows, columns, yarns, tension, {})
+
+
+def _at_period(shedding: Child, period: float) -> Child:
+    """The shedding cams at the time of a row's wefts and beats [s], slower where these need more time."""
+    params = shedding.design.params
+    if period <= turn / params.speed:
+        return shedding
+    return Child(shedding.component, shedding.component.design(replace(params, speed=turn / period)))
+
+
+def _row_cyclogram(timing: RowTiming, period: float, machines: Mapping[str, Child]) -> Cyclogram:
+    """The cyclogram of a row with the tracks of all machines."""
+    row = cyclogram(timing, period)
+    tracks = (track for child in machines.values() for track in child.component.tracks(child.design))
+    return replace(row, tracks=(*row.tracks, *tracks))
 
 
 def _made(name: str, task: LoomTask) -> tuple[Child, LoomTask]:
@@ -225,13 +253,14 @@ def _require_room(params: AutomatedLoomParams, most: int, wide: float) -> None:
 
 
 def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
-    params = task.params
+    params, weft = task.params, task.designs["weft"]
     assert task.side is not None
     return RowTiming(
         lift=cams.params.lift,
         law=cams.params.law,
         window=cams.shuttle_window,
-        shuttle_stroke=task.cloth_width + 2 * params.shuttle_run,
+        carrier=weft.carrier,
+        passage=weft.passage,
         beat=beat,
         beat_end=params.beat_end,
         row_pitch=task.row_pitch,
@@ -241,19 +270,19 @@ def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
 
 
 def _row_period(params: AutomatedLoomParams, timing: RowTiming, cams: SheddingDesign) -> float:
-    """Time of a turn of the shedding cams [s]: the given one, or the shortest that shuttle and beat allow."""
-    shed, window = format_quantity(timing.lift, "mm"), timing.window
+    """Time of a turn of the shedding cams [s]: the given one, or the shortest that weft and beat allow."""
+    shed, window, name = format_quantity(timing.lift, "mm"), timing.window, timing.carrier
     if window[1] - window[0] < 1e-6:
         raise LoomError(
             f"a shed of {shed} is never as open as open_share={params.open_share:g} of it",
-            allowed="an opening that lasts, for the shuttle to pass",
+            allowed=f"an opening that lasts, for the {name} to pass",
             do="set a smaller open_share",
         )
-    shortest = shortest_row(timing, params.shuttle_speed, params.shuttle_acceleration)
+    shortest = shortest_row(timing)
     if not math.isfinite(shortest):
         raise LoomError(
             f"the beater is to be back at {format_quantity(params.beat_end, 'deg')}",
-            allowed=f"the shed is free of the shuttle from {format_quantity(window[1], 'deg')} on",
+            allowed=f"the shed is free of the {name} from {format_quantity(window[1], 'deg')} on",
             do="set a later beat_end, or a larger open_share for a shorter passage",
         )
     if params.take_up_end <= params.beat_end:

@@ -9,12 +9,9 @@ within the efficiency.
 
 from collections.abc import Mapping
 
-from ilmek.machines.automated_loom.cyclogram import SHUTTLE
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.estimate import estimated_time
 from ilmek.records import computed, record
-from ilmek.report import Work
-from ilmek.timing.track import peak_speed
 
 
 @record
@@ -48,14 +45,8 @@ def energy_of(loom: LoomDesign, axes: int) -> Energy:
     }
     shares: dict[str, float] = {}
     works = (work for child in loom.machines.values() for work in child.work)
-    for work in (*works, *loom.beat.work, shuttle_work(loom)):
+    for work in (*works, *loom.beat.work):
         shares[work.name] = shares.get(work.name, 0.0) + work.energy * times[work.per] / params.drive_efficiency
     time = estimated_time(loom)
     shares["standing by"] = params.standby_power * axes * time
     return Energy(shares, time, params.width * params.length)
-
-
-def shuttle_work(loom: LoomDesign) -> Work:
-    """Work of a passage of the shuttle: its kinetic energy at its greatest speed."""
-    row = loom.row_cyclogram
-    return Work("shuttle", 0.5 * loom.params.shuttle_mass * peak_speed(row.track(SHUTTLE), row.period) ** 2, "pass")

@@ -1,9 +1,9 @@
 """How long a loom weaves, estimated before there is a chart, and its programme once there is one.
 
-    estimate = rows * ( wefts + (n_first + n_second) * (t_knot + c t_change) )
+    estimate = rows * ( wefts + (n_first + n_second) * (t_knot + c t_change) ) + stops
 
-n knots of the widest part in each half of a row, c colour changes a knot. Waiting for the slower of two heads is not in
-the estimate; a programme has it.
+n knots of the widest part in each half of a row, c colour changes a knot; stops to change bobbins of weft. Waiting for
+the slower of two heads is not in the estimate; a programme has it.
 """
 
 from collections.abc import Sequence
@@ -16,6 +16,7 @@ from ilmek.carpet.design import knot_grid
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import LoomError
+from ilmek.loom.bobbins import stop_time
 from ilmek.loom.programme import Programme, heads_for, least_time, make_programme
 from ilmek.machines.automated_loom.design import LoomDesign, design, times_at, with_changes
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
@@ -38,42 +39,51 @@ def programme_for(
             do="give the loom the size and quality of the chart",
         )
     if deadline is not None:
-        loom = design(replace(params, heads=heads_for(knots, yarns, deadline, loom.times, loom.heads_max)))
-    return loom, make_programme(knots, yarns, loom.heads, loom.times)
+        loom = design(
+            replace(params, heads=heads_for(knots, yarns, deadline, loom.times, loom.heads_max, bobbins=loom.bobbins))
+        )
+    return loom, make_programme(knots, yarns, loom.heads, loom.times, bobbins=loom.bobbins)
 
 
 def estimated_time(loom: LoomDesign, heads: int | None = None) -> float:
     """Weaving time [s] without a chart, for the loom's heads or another number."""
-    return least_time(
-        loom.rows, loom.columns, heads or loom.heads, with_changes(loom.times, loom.params.changes_per_knot)
-    )
+    busy = with_changes(loom.times, loom.params.changes_per_knot)
+    return least_time(loom.rows, loom.columns, heads or loom.heads, busy, loom.bobbins)
 
 
 def estimated_times_at(loom: LoomDesign, pitch: float, heads: Sequence[int]) -> FloatArray:
     """Weaving times [s] of the same carpet on warps of another pitch [m], rows closer by the same measure, by heads.
 
     Wefts, beats and the knot itself take what they take on this loom; steps of the carriage are of the other pitch.
+    Usual wefts are the thinner the finer the pitch, so that the stops for their bobbins are as many.
     """
     finer = loom.params.pitch / pitch
     quality = loom.params.quality
     size = CarpetSize(loom.params.width, loom.params.length)
     rows, columns = knot_grid(size, Quality(quality.across * finer, quality.along * finer))
     times = with_changes(times_at(loom.weaver, 2 * pitch, loom.times.weft), loom.params.changes_per_knot)
-    return np.array([least_time(rows, columns, number, times) for number in heads])
+    stops = stop_time(loom.bobbins, loom.rows)
+    return np.array([least_time(rows, columns, number, times) + stops for number in heads])
 
 
 @record
 class TimeShares:
-    """Where the estimated time goes: shares of tying, of colour changes, and of wefts with beats; together 1."""
+    """Where the estimated time goes: tying, colour changes, wefts with beats, stops for bobbins; together 1."""
 
     knotting: float
     colour_changes: float
     wefts: float
+    stops: float
     utilisation: float = result("%", "time that a head ties or changes colour, as the mean of the heads")
 
     @computed("%", "where the time goes")
     def time_shares(self) -> dict[str, float]:
-        return {"knotting": self.knotting, "colour changes": self.colour_changes, "wefts and beats": self.wefts}
+        return {
+            "knotting": self.knotting,
+            "colour changes": self.colour_changes,
+            "wefts and beats": self.wefts,
+            "stops for bobbins": self.stops,
+        }
 
     @computed("", "the largest share of the time")
     def bottleneck(self) -> str:
@@ -85,7 +95,9 @@ def time_shares(loom: LoomDesign) -> TimeShares:
     """Where the estimated time of a loom goes."""
     times, changes, total = loom.times, loom.params.changes_per_knot, estimated_time(loom)
     wefts = loom.rows * times.weft / total
+    stops = stop_time(loom.bobbins, loom.rows) / total
     change = changes * times.colour_change
-    knotting = (1 - wefts) * times.knot / (times.knot + change)
+    tying = 1 - wefts - stops
+    knotting = tying * times.knot / (times.knot + change)
     busy = loom.rows * loom.columns * (times.knot + change) / loom.heads
-    return TimeShares(knotting, 1 - wefts - knotting, wefts, busy / total)
+    return TimeShares(knotting, tying - knotting, wefts, stops, busy / total)

@@ -9,7 +9,7 @@ from ilmek.carpet.sizes import LARGEST, SMALLEST
 from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
-from ilmek.machines import BEATS, loom_machines
+from ilmek.machines import BEATS, WEFT_CARRIERS, loom_machines
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import Overrides, Params, kind, nested, overrides, param
 from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
@@ -93,16 +93,8 @@ class AutomatedLoomParams(Params):
     open_share: float = kind.ratio(
         0.9, at_least=0.05, at_most=1.0, doc="opening of the shed at the cams, over the lift, at which a weft may pass"
     )
-    shuttle_height: float = kind.length(
-        24 * mm, at_least=1 * mm, at_most=0.3, doc="depth of the shuttle across the shed, from warps to warps"
-    )
-    shuttle_width: float = kind.length(
-        36 * mm, at_least=1 * mm, at_most=0.5, doc="height of the shuttle along the warps"
-    )
-    shuttle_run: float = kind.length(150 * mm, above=0.0, at_most=1.0, doc="run of the shuttle beyond each edge")
-    shuttle_speed: float = kind.speed(3.0, at_least=0.01, at_most=100.0, doc="allowed speed of the shuttle")
-    shuttle_acceleration: float = kind.acceleration(
-        20.0, at_least=0.01, at_most=1e5, doc="allowed acceleration of the shuttle"
+    weft: str = param(
+        AUTO, choices=(AUTO, *WEFT_CARRIERS), doc="what lays the weft: shuttles or a rapier; auto: chosen by aim"
     )
     beat: str = param(
         AUTO,
@@ -126,7 +118,6 @@ class AutomatedLoomParams(Params):
     tube_mass: float = kind.mass(
         0.02, at_least=0.0, at_most=10.0, doc="mass of a yarn tube with its share of the slide"
     )
-    shuttle_mass: float = kind.mass(0.5, at_least=0.0, at_most=50.0, doc="mass of the shuttle with its weft")
     rail_span: float = kind.length(
         2.0, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the heads' rail between columns and posts"
     )

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ilmek.elements.drive_parts import belt_motor_part
 from ilmek.elements.prices import PriceRates, price_of, read_prices
-from ilmek.machines.automated_loom.cyclogram import HEADS, SHUTTLE
+from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
 from ilmek.machines.weaver import head_mass
@@ -89,16 +89,12 @@ def _of_machines(loom: LoomDesign) -> Iterator[Part]:
 
 
 def _own(loom: LoomDesign) -> tuple[Part, ...]:
-    """The rail of the heads with the axes of its retreat, and the shuttle with its axis."""
-    params, row = loom.params, loom.row_cyclogram
-    track, heads = row.track(SHUTTLE), row.track(HEADS)
+    """The rail of the heads with the axes of its retreat."""
+    row = loom.row_cyclogram
+    heads = row.track(HEADS)
     moved = loom.heads * head_mass(loom.weaver) * peak_acceleration(heads, row.period)
-    thrust = params.shuttle_mass * peak_acceleration(track, row.period)
     return (
         Part("rail of the heads", 1, "with a belt for each head", "", "linear axis", length=loom.task.width),
-        Part("shuttle", 1, "with its bobbin", "", "machined link", params.shuttle_mass),
-        Part("axis of the shuttle", 1, "belt drive", "", "linear axis", length=track.stroke),
-        belt_motor_part("motor of the shuttle", thrust, peak_speed(track, row.period)),
         Part("axis of the rail's retreat", 2, "belt drive, one at each column", "", "linear axis", length=heads.stroke),
         belt_motor_part("motor of the rail's retreat", moved, peak_speed(heads, row.period)),
     )

@@ -7,7 +7,7 @@ import numpy as np
 
 from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
-from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, SHUTTLE, TAKE_UP, cam_tables_of
+from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, TAKE_UP, cam_tables_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
@@ -92,12 +92,12 @@ def results(found: LoomAnalysis) -> tuple[Any, ...]:
 
 
 def checks(found: LoomAnalysis) -> tuple[Check, ...]:
-    """Room of the heads, limits of the shuttle, the order of the motions, strength and stiffness of the frame."""
-    loom, params = found.loom, found.loom.params
+    """Room of the heads, limits of the weft's carrier, order of the motions, strength and stiffness of the frame."""
+    loom = found.loom
     knot, row = loom.cyclograms
-    shuttle = row.track(SHUTTLE)
-    speed, acceleration = peak_speed(shuttle, row.period), peak_acceleration(shuttle, row.period)
-    shed = loom.shedding.params.shuttle_height
+    carrier, weft = loom.row_timing.carrier, loom.weft
+    moving = row.track(carrier)
+    speed, acceleration = peak_speed(moving, row.period), peak_acceleration(moving, row.period)
     apart = (at_least("distance of two heads", loom.head_distance, loom.head_width, "mm", "head_width"),)
     return (
         at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width"),
@@ -105,9 +105,15 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         row_check(found.beat),
         *found.beat.checks,
         *_wishes(found),
-        at_most("shuttle: speed", speed, params.shuttle_speed, "m/s", "shuttle_speed"),
-        at_most("shuttle: acceleration", acceleration, params.shuttle_acceleration, "m/s^2", "shuttle_acceleration"),
-        at_least("shuttle: room in the shed", _least_room(loom), shed, "mm", "shuttle_height"),
+        at_most(f"{carrier}: speed", speed, weft.params.speed, "m/s", "weft.speed"),
+        at_most(f"{carrier}: acceleration", acceleration, weft.params.acceleration, "m/s^2", "weft.acceleration"),
+        at_least(
+            f"{carrier}: room in the shed",
+            _least_room(loom),
+            loom.shedding.params.shuttle_height,
+            "mm",
+            "open_share of the lift",
+        ),
         *(replace(check, name=f"row: {check.name}") for check in check_all(row, row.relations)),
         *(replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}") for one in knot.exclusions),
         *room_checks(loom, found.room),
@@ -136,9 +142,8 @@ def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
 
 
 def _least_room(loom: LoomDesign) -> float:
-    """The least opening of the shed while the shuttle is in it [m]; it is least when it enters and when it leaves."""
-    passing = loom.row_cyclogram.track(SHUTTLE).segment("pass")
-    return float(loom.shedding.shed.opening(np.array([passing.start, passing.end])).min())
+    """The least opening of the shed while the carrier is in it [m]; it is least when it enters and when it leaves."""
+    return float(loom.shedding.shed.opening(np.array(loom.row_timing.window)).min())
 
 
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
@@ -188,9 +193,9 @@ def _row_table(loom: LoomDesign) -> Table:
 
 
 def cam_tables(loom: LoomDesign) -> tuple[CamTable, ...]:
-    """Electronic cams of shuttle, beater, take-up and carriage."""
+    """Electronic cams of the weft's carrier, beater, take-up and carriage."""
     knot, row = loom.cyclograms
-    return (*cam_tables_of(row, (SHUTTLE, BEATER, TAKE_UP)), *cam_tables_of(knot, (CARRIAGE,)))
+    return (*cam_tables_of(row, (loom.row_timing.carrier, BEATER, TAKE_UP)), *cam_tables_of(knot, (CARRIAGE,)))
 
 
 def warnings(found: LoomAnalysis) -> tuple[str, ...]:
@@ -203,5 +208,7 @@ def warnings(found: LoomAnalysis) -> tuple[str, ...]:
         texts.append(f"a cylinder weighs {mass}, {part} of what the warps pull: weave narrower, or support it between")
     if loom.times.weft > turn / params.shed_speed * (1 + 1e-9):
         slower = format_quantity(turn / loom.times.weft, "rpm")
-        texts.append(f"the shedding cams turn at {slower} only: shuttle and beat need that time at this width")
+        texts.append(
+            f"the shedding cams turn at {slower} only: {loom.row_timing.carrier} and beat need that time at this width"
+        )
     return tuple(texts)

@@ -65,7 +65,7 @@ FRAME = frozenset((CARPET, BACK_REST, COMPENSATOR, UPPER, SPACER, LOWER))
 """What stands, and need not clear its like by more than nothing."""
 
 CURES: Mapping[str, str] = {
-    "weft's carrier": "set a larger lift, or a lower shuttle_height",
+    "weft's carrier": "set a larger lift, or a smaller weft.bobbin_diameter",
     GUIDE_CAMS: "leave the spans of the shed open, or set a smaller lift",
     HEAD: "set a larger clearance",
 }

@@ -1,0 +1,222 @@
+"""The weft's design: what a row needs of each weft, the carrier, its passage, its axis, the stops for new bobbins.
+
+Both carriers are designed where it is left open. The cheaper one whose checks hold is chosen, or the one that takes the
+least time for the carpet: passages, stretched to the window of the shed, and stops.
+"""
+
+import math
+from dataclasses import replace
+from typing import TypeAlias
+
+from ilmek.carpet.ground import WeftLengths, weft_lengths
+from ilmek.elements.carpet_yarns import YarnProperties
+from ilmek.elements.materials import GRAVITY
+from ilmek.elements.prices import price_of, read_prices
+from ilmek.loom.bobbins import Bobbin, change_stops, stop_time
+from ilmek.machines import WEFT_CARRIERS
+from ilmek.machines.weft.axis import BeltAxis, belt_axis
+from ilmek.machines.weft.params import AUTO, RAPIER, SHUTTLE, WeftParams
+from ilmek.machines.weft.parts import parts_of
+from ilmek.machines.weft.passage import WeftPassage
+from ilmek.machines.weft.rapier import Rapier, rapier_checks, rapier_for, reach
+from ilmek.machines.weft.shuttle import BOX_END, Shuttle, friction, shuttle_checks, shuttle_for
+from ilmek.machines.weft.tension import draw_off_tension
+from ilmek.records import computed, record, result
+from ilmek.report import Alternative, Check, Choice, Part, at_least, at_most, choose, must
+from ilmek.timing.s_curve import s_curve
+from ilmek.units import turn
+from ilmek.weaving.selvedge import in_front, warps_let_go
+
+Carrier: TypeAlias = Shuttle | Rapier
+
+
+@record
+class Weft:
+    """The weft side, designed.
+
+    params    those in force, with the carrier        lengths   of each weft for a row
+    carried   the carrier                             passage   through the shed      axis  that moves it
+    """
+
+    params: WeftParams
+    lengths: WeftLengths
+    carried: Carrier
+    passage: WeftPassage
+    axis: BeltAxis
+    tension: dict[str, float] = result("N", "largest tension of each weft while it is drawn off", name="weft_tension")
+    choices: tuple[Choice, ...] = ()
+    alternatives: tuple["Weft", ...] = ()
+
+    carrier = computed("", "what carries the weft", lambda it: it.params.carrier)
+    weft_length = computed(
+        "m",
+        "length of each weft for a row, with its turn",
+        lambda it: {"straight weft": it.lengths.straight, "sinuous weft": it.lengths.sinuous},
+    )
+    weft_need = computed(
+        "m",
+        "length of each weft for the carpet",
+        lambda it: {name: it.params.rows * length for name, length in it.weft_length.items()},
+    )
+    stops = computed(
+        "1", "stops of the loom for new bobbins", lambda it: len(change_stops(it.bobbins, it.params.rows)), name="stops"
+    )
+    stop_time = computed("min", "time of all stops", lambda it: stop_time(it.bobbins, it.params.rows))
+
+    @computed("m", "room beside the cloth, at the edge that needs more")
+    def side_room(self) -> float:
+        made = self.carried
+        if isinstance(made, Shuttle):
+            return self.params.edge + made.length + BOX_END
+        return self.params.edge + made.length
+
+    @computed("J", "energy of a passage: what moves, from rest to its largest speed, friction and weft")
+    def passage_energy(self) -> float:
+        moves = 2 if self.passage.back else 1
+        resisting = self.resisting / self.params.belt_efficiency
+        return moves * (0.5 * self.axis.mass * self.passage.speed**2 + resisting * self.passage.stroke)
+
+    @property
+    def carrier_depth(self) -> float:
+        """Size of the carrier across the shed [m]."""
+        return self.carried.depth
+
+    @property
+    def carrier_width(self) -> float:
+        """Size of the carrier along the warps [m]."""
+        return self.carried.width
+
+    @property
+    def resisting(self) -> float:
+        """Friction of the carrier and tension of its weft [N]."""
+        return _friction(self.params, self.carried) + max(self.tension.values())
+
+    @property
+    def bobbins(self) -> tuple[Bobbin, ...]:
+        """The bobbins in the shuttles; none where the weft comes from packages at rest."""
+        made = self.carried
+        if not isinstance(made, Shuttle):
+            return ()
+        return tuple(Bobbin(one.name, max(1, one.rows), self.params.change_time) for one in made.windings)
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """Lines of the parts list."""
+        return parts_of(self.params, self.carried, self.passage, self.axis)
+
+    @property
+    def price(self) -> float:
+        """Price of all parts, with their axes of the control."""
+        prices = read_prices(self.params.prices)
+        control = prices["axis of the control"].price()
+        return sum(price_of(part, prices) + (part.number * control if part.drives else 0.0) for part in self.parts)
+
+    @property
+    def time(self) -> float:
+        """Time of wefts and stops for the carpet [s], in a harmonic shed that opens and closes within half a turn."""
+        window = turn / 2 - 2 * math.asin(math.sqrt(self.params.open_share))
+        needed = self.passage.time * turn / window if window > 0 else math.inf
+        return self.params.rows * max(self.params.turn_time, needed) + self.stop_time
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Whether the weft can be laid."""
+        made, passage, tight = self.carried, self.passage, max(self.tension.values())
+        own = (
+            shuttle_checks(self.params, made, passage.acceleration, tight)
+            if isinstance(made, Shuttle)
+            else rapier_checks(self.params, made, passage.acceleration, tight)
+        )
+        return (*own, *_tension_checks(self), *_axis_checks(self), *_edge_checks(self.params))
+
+
+def design(params: WeftParams) -> Weft:
+    """The weft side for a cloth, with the carrier that the parameters name, or the best of both."""
+    kinds = WEFT_CARRIERS if params.carrier == AUTO else (params.carrier,)
+    made = [_with(replace(params, carrier=kind)) for kind in kinds]
+    by_time = params.aim == "time"
+    made.sort(key=lambda one: (one.time, one.price) if by_time else (one.price, one.time))
+    index, choice = choose("carrier", [Alternative(one.params.carrier, one.checks) for one in made], params.aim)
+    chosen = made[index]
+    others = tuple(one for one in made if one is not chosen)
+    return replace(chosen, choices=(*((choice,) if others else ()), *chosen.choices), alternatives=others)
+
+
+def _with(params: WeftParams) -> Weft:
+    """The weft side with the carrier of the parameters."""
+    yarns = params.carpet_yarns
+    lengths = weft_lengths(params.cloth_width, params.warp_pitch, yarns, params.turn)
+    carried, choices = shuttle_for(params, lengths) if params.carrier == SHUTTLE else rapier_for(params)
+    passage = _passage(params, carried)
+    drawn = (params.cloth_width, passage.acceleration) if params.carrier == RAPIER else (0.0, 0.0)
+    tension = {
+        name: draw_off_tension(yarn, _brake(params, yarn), passage.speed, params.wrap, *drawn)
+        for name, yarn in (("straight weft", yarns.straight_weft), ("sinuous weft", yarns.sinuous_weft))
+    }
+    moved = params.carriage_mass + (carried.full if isinstance(carried, Shuttle) else carried.mass)
+    axis = belt_axis(params, passage, moved, _friction(params, carried) + max(tension.values()))
+    return Weft(params, lengths, carried, passage, axis, tension, choices)
+
+
+def _passage(params: WeftParams, carried: Carrier) -> WeftPassage:
+    if isinstance(carried, Shuttle):
+        stroke = params.cloth_width + 2 * params.edge + carried.length
+        return WeftPassage(s_curve(stroke, params.limits), False, 0.0, params.edge + carried.length / 2)
+    return WeftPassage(s_curve(reach(params), params.limits), True, params.grip_time, params.edge)
+
+
+def _brake(params: WeftParams, yarn: YarnProperties) -> float:
+    """Tension of a weft behind its brake [N]."""
+    return params.brake_share * yarn.breaking_force if params.brake is None else params.brake
+
+
+def _friction(params: WeftParams, carried: Carrier) -> float:
+    """Friction of the carrier on warps or guide [N]."""
+    if isinstance(carried, Shuttle):
+        return friction(params)
+    return params.yarns.friction * carried.mass * GRAVITY
+
+
+def _tension_checks(made: Weft) -> tuple[Check, ...]:
+    yarns = made.params.carpet_yarns
+    source = "share of the breaking force, assumed by this project: parameter tension_share"
+    breaks = {"straight weft": yarns.straight_weft.breaking_force, "sinuous weft": yarns.sinuous_weft.breaking_force}
+    cure = "set a lower weft.speed, weft.acceleration or weft.brake, or a heavier weft"
+    return tuple(
+        at_most(f"tension of the {name}", tension, made.params.tension_share * breaks[name], "N", source, cure=cure)
+        for name, tension in made.tension.items()
+    )
+
+
+def _axis_checks(made: Weft) -> tuple[Check, ...]:
+    axis, passage, params = made.axis, made.passage, made.params
+    reserve = axis.drive.duty.reserve if axis.drive else 0.0
+    cure = "set a lower weft.acceleration or weft.speed"
+    return (
+        at_most("speed of the passage", passage.speed, params.speed, "m/s", "speed", cure=cure),
+        at_most("acceleration of the passage", passage.acceleration, params.acceleration, "m/s^2", "acceleration"),
+        must("belt of the axis", not math.isnan(axis.width), "pull of the teeth in mesh, widths of stock", cure=cure),
+        at_least("torque of the axis' servo", reserve, 1.0, "1", "motor table, margin 1.25", cure=cure),
+    )
+
+
+def _edge_checks(params: WeftParams) -> tuple[Check, ...]:
+    """Whether selvedges bind the wefts' turns, or their tucked ends."""
+    source = "a warp without knots at each edge for the turn of a weft; assumed by this project"
+    bound = at_least(
+        "selvedge warps at an edge", params.edge_warps, 1, "1", source, cure="set selvedge_warps to 2 or more"
+    )
+    if params.carrier == RAPIER:
+        return (bound,)
+    why = "each weft turns in the same shed: the other holds its turn, where they cross so (weaving.selvedge)"
+    cure = "set weft.crossed=yes: exchange the cells of the shuttles' boxes"
+    return (bound, at_most("outermost warps that a turn lets go", let_go(params), 0, "1", why, cure=cure))
+
+
+def let_go(params: WeftParams) -> int:
+    """Outermost warps, of both wefts at both edges, that a turn lets go.
+
+    Where the wefts cross rightly, each passes the other at its turn on the side away from that of the outermost warp.
+    """
+    fronts = [in_front(warp, shed) for warp in (0, params.warps - 1) for shed in (0, 1)]
+    return sum(warps_let_go(front, front != params.crossed) for front in fronts)

@@ -1,0 +1,37 @@
+"""The weft side in a loom: its parameters from the loom's task, its work."""
+
+from ilmek.machines.arrangement.spans import SPARE
+from ilmek.machines.loom_task import LoomTask
+from ilmek.machines.weft.design import Weft
+from ilmek.machines.weft.params import WeftParams
+from ilmek.machines.weft.shuttle import Shuttle
+from ilmek.report import Work
+from ilmek.units import turn
+
+
+def fit(task: LoomTask) -> WeftParams:
+    """The parameters for a loom's cloth and shed."""
+    params = task.params
+    return WeftParams(
+        carrier=params.weft,
+        aim=params.aim,
+        rows=task.rows,
+        warps=task.warps,
+        selvedge_warps=params.selvedge_warps,
+        warp_pitch=params.pitch,
+        yarns=params.yarns,
+        lift=params.lift,
+        open_share=params.open_share,
+        play=SPARE * params.clearance,
+        turn_time=turn / params.shed_speed,
+        prices=params.prices,
+    )
+
+
+def work(made: Weft) -> tuple[Work, ...]:
+    """The work of a passage, and of the carriage's empty run to the other edge after every row of a shuttle."""
+    name, carried = made.params.carrier, made.carried
+    passage = Work(name, made.passage_energy, "pass")
+    if not isinstance(carried, Shuttle):
+        return (passage,)
+    return passage, Work(name, 0.5 * (made.axis.mass - carried.full) * made.passage.speed**2, "row")

@@ -1,0 +1,60 @@
+"""What is reported of the weft side: tables of bobbins, carriers and stops."""
+
+from ilmek.loom.bobbins import change_stops
+from ilmek.machines.weft.bobbin import stock_sizes, windings
+from ilmek.machines.weft.design import Weft
+from ilmek.machines.weft.params import SHUTTLE
+from ilmek.machines.weft.shuttle import Shuttle
+from ilmek.report import Table, columns
+
+MOST_STOPS = 200
+"""Largest number of stops in the table."""
+
+
+def results(made: Weft) -> tuple[object, ...]:
+    """The records whose results are reported."""
+    return (made, made.carried, made.passage, made.axis)
+
+
+def tables(made: Weft) -> tuple[Table, ...]:
+    """Carriers, and for shuttles bobbins and stops."""
+    carriers = (_carriers(made),) if made.alternatives else ()
+    return (*carriers, *((_bobbins(made), _stops(made)) if made.params.carrier == SHUTTLE else ()))
+
+
+def _carriers(made: Weft) -> Table:
+    heads = columns("carrier", "price", "wefts and stops [h]", "passage [s]", "room beside the cloth [m]", "fails")
+    rows = tuple(
+        (
+            one.params.carrier,
+            one.price,
+            one.time,
+            one.passage.time,
+            one.side_room,
+            ", ".join(check.name for check in one.checks if not check.ok) or "nothing",
+        )
+        for one in (made, *made.alternatives)
+    )
+    return Table("weft-carriers", "Carriers of the weft", heads, rows)
+
+
+def _bobbins(made: Weft) -> Table:
+    """Rows that bobbins of all sizes last."""
+    carried, params = made.carried, made.params
+    own = {carried.bobbin.diameter: carried.bobbin} if isinstance(carried, Shuttle) else {}
+    usual = {one.diameter: one for one in stock_sizes()}
+    rows = []
+    for size in dict(sorted({**usual, **own}.items())).values():
+        straight, sinuous = windings(params, size, made.lengths)
+        rows.append((size.diameter, size.length, straight.capacity, straight.rows, sinuous.capacity, sinuous.rows))
+    heads = columns(
+        "bobbin [mm]", "length [mm]", "straight weft [m]", "lasts rows", "sinuous weft [m]", "sinuous lasts rows"
+    )
+    return Table("weft-bobbins", "Bobbins: length of weft, and rows that it lasts", heads, tuple(rows))
+
+
+def _stops(made: Weft) -> Table:
+    heads = columns("before row", "new bobbins", "time [s]")
+    stops = change_stops(made.bobbins, made.params.rows)[:MOST_STOPS]
+    rows = tuple((one.row + 1, " and ".join(one.yarns), one.time) for one in stops)
+    return Table("weft-stops", "Stops for new bobbins, rows from the bottom", heads, rows)

@@ -1,0 +1,141 @@
+"""The shuttles: one for each weft, with its bobbin, dragged through the shed by a carriage on a belt axis.
+
+The carriage runs in front of the warps and drags a shuttle by magnets through the lifted ones, which glide between the
+two. A guideway on the tips of the cams [thesis, Fig 3.18] would move with the cams while they turn, so that the
+carriage's axis is the guide. At each edge a box with two cells holds both shuttles: one arrives, the box shifts, the
+other leaves. The straight weft is laid one way, the sinuous weft back; in every second row both start at the other
+edge, to which the carriage runs empty while the knots are tied.
+
+    force on the magnets   sqrt( (m a + f N + T)² + (m g)² )
+
+m full shuttle, a its acceleration, f friction on the warps, N pull of the magnets, T tension of the weft; the weight
+acts along the warps, which are upright.                                                                       [derived]
+"""
+
+import math
+
+from ilmek.carpet.ground import WeftLengths
+from ilmek.elements.materials import GRAVITY
+from ilmek.machines.weft.bobbin import BobbinSize, Winding, bobbin_sizes, windings
+from ilmek.machines.weft.params import WeftParams
+from ilmek.machines.weft.shed import needed_opening, shed_check
+from ilmek.records import computed, record, result
+from ilmek.report import Alternative, Check, Choice, Json, at_least, at_most, choose
+
+SUPPORTS = 3
+"""Lifted warps on which a shuttle bears at every instant: with two it would tilt at each change; assumed here."""
+
+BOX_END = 0.02
+"""End of a shuttle's box beyond the shuttle [m]."""
+
+
+@record
+class Shuttle:
+    """A shuttle with a full bobbin of the straight weft; that of the sinuous weft is of the same size."""
+
+    bobbin: BobbinSize
+    windings: tuple[Winding, Winding]
+    depth: float = result("mm", "depth of the carrier across the shed", name="carrier_depth")
+    length: float = result("mm", "length of the carrier", name="carrier_length")
+    opening: float = result("mm", "opening of the shed that the carrier needs where it runs", name="shed_needed")
+    empty: float = result("kg", "mass of a shuttle without its bobbin", name="mass_empty")
+    full: float = result("kg", "mass of a shuttle with its full bobbin, the heavier of both", name="mass_full")
+    supports: int = result("1", "lifted warps on which a shuttle bears, at least", least=0.0)
+
+    @computed("", "diameter, core and length of a bobbin's winding [m]", name="bobbin")
+    def bobbin_size(self) -> Json:
+        return {"diameter": self.bobbin.diameter, "core": self.bobbin.core, "length": self.bobbin.length}
+
+    @computed("m", "length of each weft on a full bobbin")
+    def capacity(self) -> dict[str, float]:
+        return {one.name: one.capacity for one in self.windings}
+
+    @computed("1", "rows that a bobbin of each weft lasts")
+    def rows_of_a_bobbin(self) -> dict[str, int]:
+        return {one.name: one.rows for one in self.windings}
+
+    @property
+    def width(self) -> float:
+        """Size along the warps [m]: as its depth."""
+        return self.depth
+
+
+def shuttle_for(params: WeftParams, lengths: WeftLengths) -> tuple[Shuttle, tuple[Choice, ...]]:
+    """The shuttle with the smallest bobbin whose checks hold, or the largest for the least time, and that choice."""
+    tried = [_shuttle(params, size, lengths) for size in bobbin_sizes(params)]
+    if params.aim == "time":
+        tried.reverse()
+    named = [Alternative(one.bobbin.name, size_checks(params, one)) for one in tried]
+    index, choice = choose("bobbin", named, params.aim)
+    return tried[index], (choice,) if len(tried) > 1 else ()
+
+
+def _shuttle(params: WeftParams, size: BobbinSize, lengths: WeftLengths) -> Shuttle:
+    wound = windings(params, size, lengths)
+    depth, bay = size.diameter + 2 * params.wall, size.length + 2 * params.wall
+    hollow = math.pi / 4 * (size.diameter**2 - size.core**2) * size.length
+    empty = params.shuttle_density * (depth**2 * (bay + params.nose) - hollow) + params.fittings
+    return Shuttle(
+        bobbin=size,
+        windings=wound,
+        depth=depth,
+        length=bay + 2 * params.nose,
+        opening=needed_opening(params, depth),
+        empty=empty,
+        full=empty + max(one.mass for one in wound),
+        supports=math.floor(bay / (2 * params.warp_pitch) * (1 + 1e-12)),
+    )
+
+
+def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
+    """The checks that the size of the bobbin decides."""
+    lasts = min(*(one.rows for one in made.windings), params.rows)
+    least = min(params.least_rows, params.rows)
+    where = "assumed by this project: parameters least_rows, packing, reserve"
+    cure = "set a higher lift, weft=rapier, or a smaller weft.least_rows"
+    supports = "every second warp is lifted; three supports, assumed by this project"
+    return (
+        at_least("rows between two changes of a bobbin", lasts, least, "1", where, cure=cure),
+        shed_check(params, made.opening),
+        at_least(
+            "lifted warps under the shuttle",
+            made.supports,
+            SUPPORTS,
+            "1",
+            supports,
+            cure="set a longer weft.bobbin_length",
+        ),
+        at_most(
+            "gap that the shuttle bridges at the edge",
+            params.edge + 2 * params.warp_pitch,
+            made.length / 2,
+            "mm",
+            "its middle is supported until its tip bears on the first lifted warp",
+            cure="set a smaller weft.edge or a longer bobbin",
+        ),
+    )
+
+
+def shuttle_checks(params: WeftParams, made: Shuttle, acceleration: float, tension: float) -> tuple[Check, ...]:
+    """All checks of the shuttle at an acceleration [m/s²] and a tension of its weft [N]."""
+    return (
+        *size_checks(params, made),
+        at_most(
+            "force on the shuttle's magnets",
+            params.safety * coupling_force(params, made, acceleration, tension),
+            params.coupling,
+            "N",
+            "m a, friction, tension and weight, by parameter safety; assumed by this project: parameter coupling",
+            cure="set a lower weft.acceleration or stronger magnets, weft.coupling",
+        ),
+    )
+
+
+def friction(params: WeftParams) -> float:
+    """Friction of the shuttle on the warps [N]."""
+    return params.yarns.friction * params.attraction
+
+
+def coupling_force(params: WeftParams, made: Shuttle, acceleration: float, tension: float) -> float:
+    """Force on the magnets of the full shuttle [N]."""
+    return math.hypot(made.full * acceleration + friction(params) + tension, made.full * GRAVITY)
