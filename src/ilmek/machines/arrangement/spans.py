@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from ilmek.machines.loom_task import LoomTask
 
 BACK_REST = 30 * mm
-"""Radius of the back rest before it is designed [m]."""
+"""Radius kept for the back rest [m]."""
 
 COMPENSATOR, COMPENSATOR_DEPTH = 0.28, 0.35
-"""Room of the tension compensator before it is designed: along the warps, and to either side of them [m]."""
+"""Room kept for the tension compensator: along the warps, and to either side of them [m]."""
 
 TUBE_SHARE = 0.06
 """Radius of a cylinder over the width of the loom, before it is designed."""
@@ -120,9 +120,9 @@ def shed_room(task: "LoomTask") -> ShedRoom:
         opening=params.open_share * params.lift,
         leaf_height=task.params.machines.of("hammer").get("leaf_height", LEAF_HEIGHT),
         head=USUAL_HEAD,
-        back_rest=made.roller_radius if made else BACK_REST,
-        swing=made.swing if made else COMPENSATOR,
-        half_depth=made.half_depth if made else COMPENSATOR_DEPTH,
+        back_rest=max(made.roller_radius, BACK_REST) if made else BACK_REST,
+        swing=max(made.swing, COMPENSATOR) if made else COMPENSATOR,
+        half_depth=max(made.half_depth, COMPENSATOR_DEPTH) if made else COMPENSATOR_DEPTH,
         tube=max(TUBE_SHARE * task.width, LEAST_TUBE),
         warp=task.yarns.warp.diameter,
         clearance=spare,

@@ -71,7 +71,7 @@ class LoomAnalysis:
 
     @computed("mm", "least clearance of two bodies that must not touch, over both cyclograms; below 0 they collide")
     def least_clearance(self) -> float:
-        return min((one.clearance.value for one in self.room), default=HORIZON)
+        return min((one.distance.value for one in self.room), default=HORIZON)
 
     @computed("mm", "stock tube of the warp cylinders")
     def tube(self) -> Json:

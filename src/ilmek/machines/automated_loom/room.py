@@ -75,7 +75,7 @@ CURES: Mapping[str, str] = {
 class RoomFound:
     """The least clearance of two bodies over both cyclograms, and the cyclogram in which it occurs."""
 
-    clearance: BodyDistance
+    distance: BodyDistance
     cyclogram: str
 
 
@@ -89,9 +89,9 @@ def clearances(loom: LoomDesign) -> tuple[RoomFound, ...]:
     ):
         for clearance in _of_cyclogram(cyclogram, bodies, loom.params.clearance):
             pair = frozenset((clearance.first, clearance.second))
-            if pair not in found or clearance.value < found[pair].clearance.value:
+            if pair not in found or clearance.value < found[pair].distance.value:
                 found[pair] = RoomFound(clearance, cyclogram.name)
-    return tuple(sorted(found.values(), key=lambda one: one.clearance.value))
+    return tuple(sorted(found.values(), key=lambda one: one.distance.value))
 
 
 def _of_cyclogram(cyclogram: Cyclogram, bodies: tuple[MovingBody, ...], limit: float) -> tuple[BodyDistance, ...]:
@@ -106,7 +106,7 @@ def room_checks(loom: LoomDesign, found: tuple[RoomFound, ...]) -> tuple[Check, 
 
 
 def _check(found: RoomFound, limit: float) -> Check:
-    one = found.clearance
+    one = found.distance
     where = f"parameter clearance, assumed by this project; least at {one.angle / deg:.1f} deg of a {found.cyclogram}"
     names = (one.first, one.second)
     limit = 0.0 if FRAME.issuperset(names) else limit
