@@ -114,3 +114,12 @@ def test_parts_and_work_of_the_cylinders() -> None:
     (work,) = warp_tension.MACHINE.work(made)
     assert (work.name, work.per) == ("take-up", "carpet")
     assert work.energy == pytest.approx(600 * 15 * 1.8 / 0.45)
+
+
+@pytest.mark.parametrize("settings", [{}, {"tension-compensator.bars": "2"}, {"lift": "100mm"}])
+def test_cams_are_designed_for_the_tension_that_the_compensator_leaves(settings: dict[str, str]) -> None:
+    loom = design(AutomatedLoomParams.read(settings))
+    compensator = loom.machines["tension-compensator"].design
+    assert loom.shedding.params.compensation == pytest.approx(compensator.relief, abs=0.02)
+    assert loom.warp_tension.loads.lifted == pytest.approx(compensator.tension_open, rel=0.01)
+    assert compensator.swing == loom.side.room.swing

@@ -9,6 +9,7 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.records import computed, record, result
 from ilmek.weaving.fell import Fabric, assumed_fabric
 from ilmek.weaving.shed import shed_lengthening
+from ilmek.weaving.tension import RATE_SHARE, TENSION_LEAST, TENSION_MOST, bars_needed, compensated_tension
 
 STANDING, SHED, BEAT = "standing", "shed open", "beat"
 
@@ -53,6 +54,18 @@ def beat_tension(fabric: Fabric, row_pitch: float) -> float:
     """
     needed = float(fabric.resistance(row_pitch))
     return fabric.tension + fabric.warp_rate * float(fabric.fell(needed))
+
+
+def planned_compensation(task: LoomTask, gain: float) -> float:
+    """Share of a lifted warp's lengthening that the compensator will give to it, before it is designed.
+
+    gain  of the warp's tension in the open shed on a fixed back rest [N]
+    """
+    given = task.params.machines.of("tension-compensator")
+    share, most = float(given.get("rate_share", RATE_SHARE)), float(given.get("tension_most", TENSION_MOST))
+    least = float(given.get("tension_least", TENSION_LEAST))
+    bars = int(given.get("bars") or bars_needed(task.tension, gain, share, most, least))
+    return 1 - (compensated_tension(task.tension, gain, bars, share)[0] - task.tension) / gain if gain > 0 else 0.0
 
 
 def loads_in_loom(task: LoomTask) -> WarpLoads:

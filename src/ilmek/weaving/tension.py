@@ -12,6 +12,10 @@ its tension by EA d / L. With w the carpet woven between two take-ups and c the 
 So the tension does not drop between two take-ups. Weaving tightens the warps, and the upper cylinder releases w c more
 than the lower one winds. The carpet counts as stiff as its warps. Yarn creeps under
 a steady tension; this is not considered.
+
+Shed on a sprung back rest. Held fast, a lifted warp gains g = EA dL / L. A bar of a rate s times that of its warps
+leaves them s / (1 + s) of their mean gain. With a bar for each parity that is g; with one bar for all warps it is
+g / 2, and the lifted warps are g / 2 tighter than the mean, the others as much slacker.
 [derived]
 """
 
@@ -70,6 +74,41 @@ def take_up_tension(tension: float, rate: float, woven: float, crimp: float, len
     """
     after = tension + rate * woven * crimp
     return TakeUpTension(rate, tension, after, after + rate * lengthening, after + rate * woven)
+
+
+RATE_SHARE, TENSION_MOST, TENSION_LEAST = 0.1, 1.5, 0.5
+"""Of a sprung back rest: its rate over that of its warps; greatest and least tension in the shed over that at rest.
+
+Assumed by this project."""
+
+
+def compensated_tension(tension: float, gain: float, bars: int, share: float = RATE_SHARE) -> tuple[float, float]:
+    """Tensions [N] of a lifted and of another warp in the open shed, on a sprung back rest.
+
+    tension  at rest [N]      gain   of a lifted warp on a fixed back rest [N]
+    bars     2, one for each parity, or 1 for all       share  rate of a bar over that of its warps
+
+    >>> [round(one, 6) for one in compensated_tension(15.0, 11.0, 2)], compensated_tension(15.0, 11.0, 1)
+    ([16.0, 15.0], (21.0, 10.0))
+    """
+    mean = tension + gain * bars / 2 * share / (1 + share)
+    apart = gain * (1 - bars / 2)
+    return mean + apart, mean - apart if bars == 1 else tension
+
+
+def bars_needed(
+    tension: float,
+    gain: float,
+    share: float = RATE_SHARE,
+    most: float = TENSION_MOST,
+    least: float = TENSION_LEAST,
+) -> int:
+    """Bars of a sprung back rest that keep its tensions, 1 or 2; arguments as of `compensated_tension`.
+
+    most, least  allowed in the open shed, over the tension at rest
+    """
+    high, low = compensated_tension(tension, gain, 1, share)
+    return 1 if high <= most * tension and low >= least * tension else 2
 
 
 def tension_history(tension: TakeUpTension, rows_between: int, rows: int) -> tuple[FloatArray, FloatArray]:

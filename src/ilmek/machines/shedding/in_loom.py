@@ -10,9 +10,11 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding.cam_shaft import CamShaft, smallest_prime
 from ilmek.machines.shedding.design import SheddingDesign, design
 from ilmek.machines.shedding.params import SheddingParams
+from ilmek.machines.warp_loads import planned_compensation
 from ilmek.records import value_record
 from ilmek.report import Part, Work
 from ilmek.units import format_quantity
+from ilmek.weaving.shed import shed_lengthening
 
 STEEL = "structural steel"
 
@@ -76,6 +78,8 @@ def _with_spans(task: LoomTask, room: ShedRoom, outline: _Outline, given: Mappin
     spans = shed_spans(room, *outline.first)
     back = shed_spans(room, *outline.last).back[0]
     both = {"front_span": spans.front[0], "back_span": back}
+    length = warp_length(room, spans) + outline.apart + back - spans.back[0]
+    gain = warp.stiffness / length * float(shed_lengthening(params.lift, spans.front[0], back))
     derived = SheddingParams(
         lift=params.lift,
         warps=task.warps,
@@ -84,7 +88,8 @@ def _with_spans(task: LoomTask, room: ShedRoom, outline: _Outline, given: Mappin
         tension=task.tension,
         **({"half_span": given["half_span"]} if "half_span" in given else both),
         warp_stiffness=warp.stiffness,
-        warp_length=warp_length(room, spans) + outline.apart + back - spans.back[0],
+        warp_length=length,
+        compensation=planned_compensation(task, gain),
         breaking_force=warp.breaking_force,
         friction=warp.friction,
         shuttle_height=room.opening,

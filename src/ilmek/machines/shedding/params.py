@@ -117,7 +117,7 @@ class SheddingParams(Params):
     warp_length: float | None = kind.length(
         None, unit="m", at_least=0.1 * mm, at_most=100.0, doc="warp that stretches, fell to beam; default: both spans"
     )
-    compensation: float = kind.ratio(0.0, at_least=0.0, at_most=1.0, doc="share of elongation taken up by the cylinder")
+    compensation: float = kind.ratio(0.0, at_least=0.0, at_most=1.0, doc="share of elongation that the back rest gives")
     strain_limit: float = kind.ratio(
         3.5e-2, unit="%", at_least=1e-6, at_most=1.0, doc="allowed strain of a warp; half of what breaks cotton"
     )

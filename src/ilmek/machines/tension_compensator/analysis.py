@@ -98,7 +98,8 @@ def analyse(design: TensionCompensator) -> CompensatorAnalysis:
     angle = np.linspace(0.0, TURN, SAMPLES)
     spans = params.front_span, params.back_span
     programme = lifting(params)
-    even, odd = (shed_lengthening(programme.at(angle - lag).s, *spans) for lag in (0.0, math.pi))
+    scale = params.longer / float(shed_lengthening(params.lift, *spans))
+    even, odd = (scale * shed_lengthening(programme.at(angle - lag).s, *spans) for lag in (0.0, math.pi))
     mean = even if design.bars == 2 else (even + odd) / 2
     rotation = equilibrium(one, mean)
     tension = mean_tension(one.task, mean, one.lever.slack(rotation))

@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.tubes import Tube
 from ilmek.machines.tension_compensator.members import Loads, Members, bar_checks, bar_tubes, members_for, pick
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
@@ -14,7 +13,7 @@ from ilmek.machines.tension_compensator.synthesis import BarTask, SprungLever, s
 from ilmek.records import computed, record, result
 from ilmek.report import Check, Choice, at_least, at_most
 from ilmek.units import turn
-from ilmek.weaving.shed import shed_lengthening
+from ilmek.weaving.tension import compensated_tension
 
 STEPS = 33
 """Rotations between rest and open shed at which the tension is computed."""
@@ -121,11 +120,9 @@ class TensionCompensator:
 
 def design(params: TensionCompensatorParams) -> TensionCompensator:
     """The compensator for the parameters; with the largest of the tables where nothing is enough."""
-    rate = (params.warp_stiffness or usual_warp(params.warp_pitch).stiffness) / params.warp_length
-    longer = float(shed_lengthening(params.lift, params.front_span, params.back_span))
-    tasks = {number: bar_task(params, rate, longer, number) for number in ((params.bars,) if params.bars else (1, 2))}
-    bars, choice = pick("bars", tuple(tasks), str, lambda number: swing_checks(params, *swing(params, tasks[number])))
-    task = tasks[bars]
+    rate, longer = params.rate, params.longer
+    bars, choice = _bars(params)
+    task = bar_task(params, bars)
     tube = _tube(params, task)
     one = synthesise(params, task, tube[0].outer_radius)
     loads = _loads(params, one)
@@ -150,21 +147,21 @@ def design(params: TensionCompensatorParams) -> TensionCompensator:
     return replace(found, frequency=frequency, moving_mass=mass)
 
 
-def bar_task(params: TensionCompensatorParams, rate: float, lengthening: float, bars: int) -> BarTask:
+def _bars(params: TensionCompensatorParams) -> tuple[int, Choice]:
+    """The number of bars: as given, or the least that keeps the tensions within their limits."""
+    offered = (params.bars,) if params.bars else (1, 2)
+    return pick("bars", offered, str, lambda number: swing_checks(params, *swing(params, number)))
+
+
+def bar_task(params: TensionCompensatorParams, bars: int) -> BarTask:
     """Task of one of 1 or 2 bars: the mean lengthening of its warps in the open shed."""
-    return BarTask(params.warps / bars / params.levers, rate, params.tension, lengthening * bars / 2)
+    return BarTask(params.warps / bars / params.levers, params.rate, params.tension, params.longer * bars / 2)
 
 
-def swing(params: TensionCompensatorParams, task: BarTask) -> tuple[float, float]:
-    """Greatest and least tension of a warp in the open shed [N] with the rate of the compensator that is wished.
-
-    The warps of one bar for all lengthen by twice its mean, or not at all.
-    """
-    mean = task.open_tension(params.rate_share)
-    if task.warps * params.levers < params.warps * (1 - 1e-9):
-        return mean, params.tension
-    apart = task.rate * task.lengthening
-    return mean + apart, mean - apart
+def swing(params: TensionCompensatorParams, bars: int) -> tuple[float, float]:
+    """Greatest and least tension of a warp in the open shed [N] with 1 or 2 bars of the rate that is wished."""
+    gain = params.rate * params.longer
+    return compensated_tension(params.tension, gain, bars, params.rate_share)
 
 
 def swing_checks(params: TensionCompensatorParams, most: float, least: float) -> tuple[Check, ...]:

@@ -1,17 +1,23 @@
 """The tension compensator in a loom: its parameters from the task, its lines in the parts list."""
 
+import numpy as np
+
 from ilmek.machines.loom_task import LoomTask
+from ilmek.machines.shedding import shed_lengthenings
 from ilmek.machines.tension_compensator.design import TensionCompensator
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
 from ilmek.report import NOT_WEIGHED, Part
 from ilmek.units import format_quantity, mm, turn
 
+SAMPLES = 73
+"""Angles of the cam shaft at which the lengthening of the warps is computed, 5 degrees apart."""
+
 
 def fit(task: LoomTask) -> TensionCompensatorParams:
     """The parameters for a loom: its warps, and the shed of its cams."""
-    params, shed = task.params, task.designs["shedding"].params
-    side = task.side
+    params, cams, side = task.params, task.designs["shedding"], task.side
     assert side is not None
+    shed, turns = cams.params, np.linspace(0.0, turn, SAMPLES)
     return task.parameters(
         "tension-compensator",
         TensionCompensatorParams(
@@ -24,6 +30,7 @@ def fit(task: LoomTask) -> TensionCompensatorParams:
             lift=side.lift,
             front_span=side.front_span,
             back_span=side.back_span,
+            lengthening=float(max(parity.max() for parity in shed_lengthenings(cams, turns))),
             rise=shed.rise,
             dwell=shed.dwell,
             fall=shed.fall_angle,

@@ -3,11 +3,14 @@
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
+from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.springs import WIRES
 from ilmek.errors import ParameterError
 from ilmek.params import Params, kind
 from ilmek.units import MPa, N, deg, m, mm, rpm, turn
+from ilmek.weaving.shed import shed_lengthening
+from ilmek.weaving.tension import RATE_SHARE, TENSION_LEAST, TENSION_MOST
 
 STEEL = MATERIALS["structural steel"]
 
@@ -29,27 +32,33 @@ class TensionCompensatorParams(Params):
     lift: float = kind.length(60 * mm, at_least=0.01 * mm, at_most=0.5, doc="lift of a warp for the shed")
     front_span: float = kind.length(170 * mm, at_least=1 * mm, at_most=10.0, doc="shedding cam to the hold in front")
     back_span: float = kind.length(170 * mm, at_least=1 * mm, at_most=10.0, doc="shedding cam to the hold behind")
+    lengthening: float | None = kind.length(
+        None, above=0.0, at_most=1.0, doc="mean lengthening of the lifted warps in the open shed; default: by the spans"
+    )
     rise: float = kind.angle(90 * deg, at_least=1 * deg, below=turn, doc="cam angle of the rise")
     dwell: float = kind.angle(0.0, at_least=0.0, below=turn, doc="cam angle for which the warp stays lifted")
     fall: float = kind.angle(90 * deg, at_least=1 * deg, below=turn, doc="cam angle of the return")
     law: str = kind.choice("harmonic", SMOOTH_LAWS, doc="motion law of rise and return")
     speed: float = kind.angular_speed(5 * rpm, at_least=1e-6 * rpm, at_most=600 * rpm, doc="speed of the cam shaft")
     tension_most: float = kind.ratio(
-        1.5, at_least=1.0, at_most=100.0, doc="greatest tension in the open shed over that at rest"
+        TENSION_MOST, at_least=1.0, at_most=100.0, doc="greatest tension in the open shed over that at rest"
     )
-    tension_least: float = kind.ratio(0.5, at_least=0.0, at_most=1.0, doc="least tension over that at rest")
+    tension_least: float = kind.ratio(TENSION_LEAST, at_least=0.0, at_most=1.0, doc="least tension over that at rest")
     bars: int | None = kind.count(
         None, at_least=1, at_most=2, doc="sprung bars: 1 for all warps, 2 one for each parity; default: as required"
     )
     rate_share: float = kind.ratio(
-        0.1,
+        RATE_SHARE,
         at_least=1e-3,
         at_most=100.0,
         doc="rate of the compensator over that of its warps: the less, the less swing; the more, the less it sways",
     )
     strand_angle: float = kind.angle(40 * deg, at_least=10 * deg, at_most=75 * deg, doc="deflection of a warp at rest")
     guide_span: float | None = kind.length(
-        None, above=0.0, at_most=2.0, doc="height of the rods above and below the bar; default: 4 radii, or more"
+        None,
+        above=0.0,
+        at_most=2.0,
+        doc="bar to the height of the rods on both sides; default: 4 radii, or more",
     )
     bar_arm: float = kind.length(200 * mm, at_least=10 * mm, at_most=2.0, doc="pivot of the lever to the bar")
     arm_angle: float = kind.angle(50 * deg, at_least=0.0, below=90 * deg, doc="of that arm at rest from the warps")
@@ -70,6 +79,16 @@ class TensionCompensatorParams(Params):
     frequency_ratio: float = kind.ratio(
         10.0, at_least=1.0, at_most=1e4, doc="required natural frequency over that of the shed"
     )
+
+    @property
+    def rate(self) -> float:
+        """Gain of a warp's tension over its lengthening, EA / L [N/m]."""
+        return (self.warp_stiffness or usual_warp(self.warp_pitch).stiffness) / self.warp_length
+
+    @property
+    def longer(self) -> float:
+        """Lengthening of a lifted warp in the open shed [m]."""
+        return self.lengthening or float(shed_lengthening(self.lift, self.front_span, self.back_span))
 
     @property
     def levers(self) -> int:

@@ -30,11 +30,11 @@ from ilmek.units import deg, mm
 LEANS = np.arange(0.0, 46.0, 1.0) * deg
 """Leans of the springs that are tried [rad]; beyond 45 deg small errors of the pins change the arm too much."""
 
-SPRINGS = (1, 2, 3, 4, 6, 8, 12)
+SPRINGS = (1, 2, 3, 4, 6, 8, 12, 16, 20)
 """Springs on a lever that are tried."""
 
-SPREAD = 6.0
-"""Height of the rods over the bar, over the warp that a bar gives; assumed by this project."""
+SPREAD, ARM_SHARE = 6.0, 0.55
+"""Least height of the rods over the bar, over the warp that a bar gives and over its arm; assumed by this project."""
 
 SEATS = 40 * mm
 """Of the springs' length from pin to pin, taken by their seats and pins; assumed by this project."""
@@ -87,7 +87,7 @@ def lever_for(params: TensionCompensatorParams, radius: float, slack: float) -> 
 
     The rods stand so far from the bar that the strands' deflection changes little.
     """
-    path = WarpPath(params.guide_span or max(4 * radius, SPREAD * slack), radius)
+    path = WarpPath(params.guide_span or max(4 * radius, SPREAD * slack, ARM_SHARE * params.bar_arm), radius)
     rest = path.at_rest(params.strand_angle)
     return Lever(path, rest, params.bar_arm, params.arm_angle, params.spring_arm, params.strut, 0.0)
 
@@ -123,9 +123,12 @@ def synthesise(params: TensionCompensatorParams, task: BarTask, radius: float) -
     best = int(np.argmin(energy))
     found = SprungLever(
         replace(upright, lean=float(LEANS[best])),
-        *(task, angle, 1, float(preload[best]), float(force[best]), float(abs(rate[best])), None),
+        *(task, angle, 1, float(preload[best]), float(force[best]), float(rate[best]), None),
     )
-    return with_springs(params, found)
+    if np.isfinite(energy[best]):
+        return with_springs(params, found)
+    # No lean gives so small a torque: springs of any rate do, and their check fails.
+    return replace(found, force=found.preload, rate=found.preload / params.strut)
 
 
 def with_springs(params: TensionCompensatorParams, one: SprungLever) -> SprungLever:

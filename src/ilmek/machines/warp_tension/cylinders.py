@@ -35,7 +35,7 @@ from ilmek.elements.bearings import (
 from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.tubes import TUBES, Tube, find_tube
-from ilmek.machines.warp_tension.design import WarpTensionDesign, keeps_limits, tube_weight, worst_load
+from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, tube_weight, worst_load
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.records import computed, record, result
 from ilmek.report import Check, at_least, at_most
@@ -222,9 +222,9 @@ _KINDS = (INSERT, DEEP_GROOVE, CYLINDRICAL)
 
 
 def spacer_tubes(params: WarpTensionParams) -> tuple[Tube, ...]:
-    """The stock tubes with metal enough under the slots, the lightest first."""
+    """The tubes with metal enough under the slots, the lightest first."""
     depth = slots_of(params).depth
-    thick = [tube for tube in TUBES.values() if tube.wall >= depth + LEAST_WALL]
+    thick = [tube for tube in (*TUBES.values(), *LARGE_TUBES) if tube.wall >= depth + LEAST_WALL]
     return tuple(sorted(thick or [max(TUBES.values(), key=lambda tube: tube.wall)], key=lambda tube: tube.area))
 
 

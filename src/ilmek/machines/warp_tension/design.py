@@ -32,12 +32,15 @@ INNER_RADIUS = 65 * mm
 LIGHTEST, USUAL = "lightest", "usual"
 """Values of the parameter `tube`: the lightest of all stock tubes, and of the usual ones."""
 
+LARGE_TUBES = tuple(Tube(outer * mm, wall * mm, "EN 10210-2") for outer, wall in ((508, 25), (610, 30), (711, 40)))
+"""Large tubes for wide looms."""
+
 USUAL_TUBES = (
     *map(find_tube, ("140x5", "139.7x10", "168.3x6.3", "168.3x10", "193.7x8", "219.1x8", "219.1x12.5", "244.5x10")),
     *map(find_tube, ("273x10", "273x16", "323.9x12.5", "355.6x16", "406.4x16", "457x20")),
-    *(Tube(outer * mm, wall * mm, "EN 10210-2") for outer, wall in ((508, 25), (610, 30), (711, 40))),
+    *LARGE_TUBES,
 )
-"""Tubes for the cylinders of a loom: the thesis' 140 x 5 mm, others of stock, and three large ones for wide looms."""
+"""Tubes for the cylinders of a loom: the thesis' 140 x 5 mm, others of stock, and the large ones."""
 
 STEPS = 1000
 """Millimetres by which the radius of a tube is increased at most."""
