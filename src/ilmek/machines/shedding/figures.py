@@ -8,6 +8,7 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.figures import deflection_plot
 from ilmek.machines.shedding.analysis import SheddingAnalysis
 from ilmek.machines.shedding.design import SheddingDesign
+from ilmek.machines.shedding.shed_figures import side_view, stack_section
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series
 from ilmek.units import format_quantity
 
@@ -22,6 +23,8 @@ def figures(found: SheddingAnalysis) -> tuple[Figure, ...]:
     inertia = float(uniform.square_inertia(shaft.bar))
     drawn: tuple[Drawing | Plot, ...] = (
         cam_figures.cam_drawing(cam, shaft.bar, design.stack.guide_radius),
+        *side_view(design),
+        stack_section(design),
         *cam_figures.motion_plots(
             programmes, params.speed, _shuttle_marks(design), cam_figures.jump_note(design.even, "even warps: ")
         ),
