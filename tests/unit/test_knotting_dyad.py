@@ -136,7 +136,7 @@ def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
         ({"opening": "0mm"}, "needle and pile yarn together, beside the pair"),
         ({"yarn_pressed": "1.5mm", "pair_opened": "2mm"}, "pile yarn in the gap between the warps"),
         ({"needle_breadth": "0.02mm", "needle_diameter": "0.1mm"}, "needle against buckling under the yarn's pull"),
-        ({"elbow_mass": "90kg"}, "servos of the joints"),
+        ({"gear_ratio": "9000"}, "servos of the joints"),
     ],
 )
 def test_what_cannot_be_kept_is_a_failed_check_and_drops_none(settings: dict[str, str], failed: str) -> None:
