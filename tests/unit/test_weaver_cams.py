@@ -129,7 +129,7 @@ def test_five_cams_on_the_shaft_and_the_sleys_on_a_geared_one() -> None:
 def test_the_limits_of_the_cycle_are_where_they_are_stated(faster: float) -> None:
     """Designed for a cycle a little shorter or longer than a limit, the head breaks or keeps it."""
     found = cycle_limits(usual())
-    assert found["tools"] < found["motor"] < usual().cycle  # the motor is the smallest that is enough for its cycle
+    assert max(found, key=lambda name: found[name]) == "tools"
     free = WeaverParams(cycle=faster * found["cutter"], acceleration_limit=1e4)
     head = design(free)
     assert (head.params.cutting_time <= cut_share(head) * head.cycle) == (faster > 1)

@@ -1,9 +1,11 @@
 """The knotting head in the side view: its body and its tools, from its cams and grippers.
 
-The knot is tied at a height above the fell that leaves the grippers room over the last row; the sley pushes it down.
+The knot is tied between the two plates of the opener; the sley waits above them, and pushes it down to the fell.
 Tools reach out of the body to the warps. Their boxes contain the rods at every rotation by the screw; sizes that no
 machine states are assumed by this project.
 """
+
+from collections.abc import Iterator
 
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
@@ -15,15 +17,6 @@ CASE = 10 * mm
 
 SLEY_HEIGHT, SLEY_DEPTH = 15 * mm, 10 * mm
 """Of the sley, along the warps and to the front [m]."""
-
-OPENER_HEIGHT = 3 * mm
-"""Of the opener, along the warps [m]."""
-
-ARM_THICKNESS = 12 * mm
-"""Of two links one behind the other, their blades within, along the warps [m]."""
-
-LAST_ROW = 2 * mm
-"""Height of the last knots above the fell before the beat [m]."""
 
 
 @record
@@ -62,31 +55,25 @@ class HeadShape:
 
 
 def head_shape(weaver: Weaver, clearance: float) -> HeadShape:
-    """The shape of a head; its tools keep a clearance [m] from the last row and from each other."""
+    """The shape of a head; its body keeps a clearance [m] from the yarn that its tools draw."""
     grippers, params = weaver.grippers, weaver.params
     if params.with_arms:
         return _with_arms(weaver, clearance)
-    tied = LAST_ROW + clearance + (grippers.lift + grippers.finger) / 2
-    low = tied - (grippers.lift + grippers.finger) / 2
-    high = tied + grippers.height + grippers.finger / 2
+    low = params.opener.front_span + params.clearance
+    height = grippers.lift + grippers.finger
+    tied = low + height / 2
     front, tip = grippers.warp / 2 + clearance, grippers.front + grippers.opening
-    rest = tip + params.pull_back
-    face = max(rest, weaver.drawn / 2) + clearance
-    deep = 2 * max(cam.radius for cam in weaver.cams) + 2 * CASE
-    opener = max(params.opener.front_span - OPENER_HEIGHT / 2, high + clearance)
-    sley = max(params.sley_stroke, high + clearance)
-    top = max(sley + SLEY_HEIGHT, opener + OPENER_HEIGHT) + CASE
+    face = max(tip + params.pull_back, weaver.drawn / 2) + clearance
     forward = grippers.opening + grippers.crossing
     tools = (
-        HeadTool("side grippers", SIDE_MOTION, complex(tip, low), complex(face - tip + forward, high - low), -1 + 0j),
         HeadTool(
-            "opener",
+            "side grippers",
             SIDE_MOTION,
-            complex(grippers.opening - front, opener),
-            complex(face - grippers.opening + front + forward, OPENER_HEIGHT),
+            complex(tip, low),
+            complex(face - tip + forward, height / 2 + grippers.height + grippers.finger / 2),
             -1 + 0j,
-            grippers.opening,
         ),
+        *_opener(weaver, SIDE_MOTION, complex(grippers.opening - front, face + forward), grippers.opening),
         HeadTool(
             "centre gripper",
             CENTRE_MOTION,
@@ -94,34 +81,48 @@ def head_shape(weaver: Weaver, clearance: float) -> HeadShape:
             complex(face + grippers.depth, grippers.finger),
             -1 + 0j,
         ),
-        HeadTool("sley", SLEY, complex(front, sley), complex(face - front, SLEY_HEIGHT), -1j),
+        _sley(weaver, complex(front, face)),
     )
-    return HeadShape(
-        complex(face, top - deep), complex(deep, deep), tools, min(tool.corner.real for tool in tools if tool.track)
-    )
+    return _around(weaver, tools, face)
+
+
+def _opener(weaver: Weaver, track: str, span: complex, limit: float) -> Iterator[HeadTool]:
+    """Both plates of the opener; span: from their points at rest to the far end, as x + i x [m]."""
+    own = weaver.params.opener
+    for name, height in (
+        ("lower plate of the opener", own.front_span - own.plate),
+        ("opener", own.front_span + own.height),
+    ):
+        size = complex(span.imag - span.real, own.plate)
+        yield HeadTool(name, track, complex(span.real, height), size, -1 + 0j, limit)
+
+
+def _sley(weaver: Weaver, span: complex) -> HeadTool:
+    """The sley at rest, above the opener; span: see `_opener`."""
+    own = weaver.params.opener
+    height = max(weaver.params.sley_stroke, own.front_span + own.height + own.plate)
+    return HeadTool("sley", SLEY, complex(span.real, height), complex(span.imag - span.real, SLEY_HEIGHT), -1j)
+
+
+def _around(weaver: Weaver, tools: tuple[HeadTool, ...], face: float) -> HeadShape:
+    """The head with its tools: the body in front of its face [m], as deep as its largest cam."""
+    deep = 2 * max(cam.radius for cam in weaver.cams) + 2 * CASE
+    top = max((tool.corner + tool.size).imag for tool in tools) + CASE
+    return HeadShape(complex(face, top - deep), complex(deep, deep), tools, min(tool.corner.real for tool in tools))
 
 
 def _with_arms(weaver: Weaver, clearance: float) -> HeadShape:
     """The shape of a head with arms: they swing in a plane across the warps, of which the side view shows the edge."""
     params = weaver.params
-    radius, travel = params.warp / 2, weaver.cyclogram.track(LEFT_ARM).stroke
-    tied = LAST_ROW + clearance + ARM_THICKNESS / 2
-    front = max(params.opening, weaver.cyclogram.track(CENTRE_ARM).stroke, travel) + radius
-    face = max(front, weaver.drawn / 2) + clearance
-    deep = 2 * max(cam.radius for cam in weaver.cams) + 2 * CASE
-    low, high = tied - ARM_THICKNESS / 2, tied + ARM_THICKNESS / 2
-    opener = max(params.opener.front_span - OPENER_HEIGHT / 2, high + clearance)
-    sley = max(params.sley_stroke, high + clearance)
-    top = max(sley + SLEY_HEIGHT, opener + OPENER_HEIGHT) + CASE
+    radius, tracks = params.warp / 2, [weaver.cyclogram.track(name) for name in (LEFT_ARM, RIGHT_ARM, CENTRE_ARM)]
+    travel = max(track.stroke for track in tracks)
+    face = max(params.opening + radius, travel + radius, weaver.drawn / 2) + clearance
     rest, out = params.arms.rest - radius, params.opening - radius - clearance
-    arms = (
-        HeadTool(name, name, complex(rest, low), complex(face - rest + travel, ARM_THICKNESS), -1 + 0j)
-        for name in (LEFT_ARM, RIGHT_ARM, CENTRE_ARM)
-    )
+    size = complex(face - rest + travel, params.arms.breadth)
+    corner = complex(rest, params.opener.front_span + (params.opener.height - params.arms.breadth) / 2)
     tools = (
-        *arms,
-        HeadTool("opener", OPENER, complex(out, opener), complex(face - out + params.opening, OPENER_HEIGHT), -1 + 0j),
-        HeadTool("sley", SLEY, complex(radius + clearance, sley), complex(face - radius - clearance, SLEY_HEIGHT), -1j),
+        *(HeadTool(track.name, track.name, corner, size, -1 + 0j) for track in tracks),
+        *_opener(weaver, OPENER, complex(out, face + params.opening), params.opening),
+        _sley(weaver, complex(radius + clearance, face)),
     )
-    least = min(tool.corner.real for tool in tools)
-    return HeadShape(complex(face, top - deep), complex(deep, deep), tools, least)
+    return _around(weaver, tools, face)

@@ -97,6 +97,7 @@ def _head(kind: str, task: LoomTask) -> KnottingHead:
             outer=inside.outer,
             width=arms.head.width,
             rest=inside.front,
+            breadth=arms.params.needle_breadth,
             mass=sum(part.mass_all for part in MACHINES[DYAD].parts(arms)),
         ),
     )

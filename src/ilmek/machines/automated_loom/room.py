@@ -33,7 +33,7 @@ from ilmek.units import deg, mm
 HORIZON = 50 * mm
 """Bodies whose swept boxes are farther apart are clear of each other [m]."""
 
-TOOLS = ("side grippers", LEFT_ARM, RIGHT_ARM, "centre gripper", "opener", "sley")
+TOOLS = ("side grippers", LEFT_ARM, RIGHT_ARM, "centre gripper", "opener", "lower plate of the opener", "sley")
 SHEETS = (EVEN, ODD, WARPS)
 
 _GROOVES = "warps run in the grooves between the guide cams"

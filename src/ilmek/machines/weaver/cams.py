@@ -12,7 +12,7 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam, PlateCamTask, loaded_plate_cam
 from ilmek.cams.programme import CamProgramme, CamSegment, dwell
 from ilmek.machines.weaver.forces import HeadForces, load_on
-from ilmek.machines.weaver.motions import HANDLER
+from ilmek.machines.weaver.motions import HANDLER, SLEY
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.track import Track
 from ilmek.units import turn
@@ -30,7 +30,7 @@ def cams_for(head: HeadForces) -> tuple[LoadedPlateCam, ...]:
 def _cam_for(head: HeadForces, track: Track) -> LoadedPlateCam:
     params, speed, handler_radius = head.params, head.cyclogram.speed, head.radius
     turns = track.name == HANDLER
-    ratio = 1 / params.pinion if turns else params.lever
+    ratio = 1 / params.pinion if turns else params.sley_lever if track.name == SLEY else params.lever
     moved = params.tool_mass * ((handler_radius * ratio) ** 2 if turns else ratio**2)
     task = PlateCamTask(
         speed=speed,

@@ -191,12 +191,28 @@ def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
             cure="set a longer weaver.opening",
         ),
         at_most(
-            "opener: bend of its walls",
+            "opener: bend of its teeth",
             opener.bend,
             own.bend_limit,
             "mm",
             "assumed by this project: parameter opener.bend_limit",
-            cure="set a thicker weaver.opener.wall, or a lower tension",
+            cure="set a wider weaver.opener.wall, or a lower tension",
+        ),
+        at_least(
+            "opener: room of the tools between its plates",
+            own.height,
+            _tools_height(weaver),
+            "mm",
+            "height of the grippers, or of a needle, with their clearances",
+            cure="set a larger weaver.opener.height",
+        ),
+        at_least(
+            "sley: stroke from above the opener to the fell",
+            params.sley_stroke,
+            own.front_span + own.height + own.plate,
+            "mm",
+            "opener.front_span, height and plate",
+            cure="set a longer weaver.sley_stroke",
         ),
         at_most(
             "opener: width of the warps that it displaces",
@@ -207,6 +223,14 @@ def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
             cure="leave head_width to the design, or set thinner warps",
         ),
     )
+
+
+def _tools_height(weaver: Weaver) -> float:
+    """Height along the warps that the tools take between the opener's plates [m]."""
+    params, by = weaver.params, weaver.grippers
+    if params.with_arms:
+        return params.arms.breadth + 2 * params.clearance
+    return by.height + by.lift + 2 * params.finger + 2 * params.clearance
 
 
 def _room_checks(weaver: Weaver) -> tuple[Check, ...]:

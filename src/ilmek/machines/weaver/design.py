@@ -172,7 +172,7 @@ def _opener(params: WeaverParams, grippers: Grippers) -> Opener:
     spans = WarpSpans(
         tension=usual_tension(pitch) if own.warp_tension is None else own.warp_tension,
         stiffness=usual.stiffness if own.warp_stiffness is None else own.warp_stiffness,
-        length=max(own.warp_length, own.front_span + own.back_span),
+        length=max(own.warp_length, own.front_span + own.height + own.back_span),
         front=own.front_span,
         back=own.back_span,
     )
@@ -187,7 +187,7 @@ def _opener(params: WeaverParams, grippers: Grippers) -> Opener:
         params.warp,
         spans,
         params.forces.friction,
-        (own.wall, own.breadth, reach),
+        (own.wall, 2 * own.plate, reach),
     )
 
 

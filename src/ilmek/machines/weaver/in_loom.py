@@ -43,10 +43,10 @@ def params_for(task: LoomTask) -> WeaverParams:
 
 def opener_for(task: LoomTask) -> OpenerParams:
     """The opener's parameters for a loom: its warps, and its position between fell and comb at rest."""
-    front, warp, room = OpenerParams().front_span, task.yarns.warp, shed_room(task)
+    usual, warp, room = OpenerParams(), task.yarns.warp, shed_room(task)
     spans = expected_spans(room, task.params.lift)
     return OpenerParams(
-        back_span=max(spans.comb - front, front),
+        back_span=max(spans.comb - usual.front_span - usual.height, usual.front_span),
         warp_length=warp_length(room, spans),
         warp_tension=task.tension,
         warp_stiffness=warp.stiffness,

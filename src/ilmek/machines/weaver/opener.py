@@ -1,8 +1,9 @@
 """The warp opener: where it holds the warps, how far it crowds them, and what it takes to push it in.
 
-Its points enter on both sides of the pair and between the next warps, its slots widen the pair from the pitch p to the
-distance g, and its walls push the nearest neighbours from 1.5 p to the distance w from the middle, evenly over the
-travel q. So the wall has the slope e/q with e = w - 1.5 p, a slot (g - p)/2q. With the force F of the warps on a wall
+Two plates, one below the tools and one above them, hold the warps parallel where the tools work. Their points enter on
+both sides of the pair and between the next warps, their slots widen the pair from the pitch p to the distance g, and
+their teeth push the nearest neighbours from 1.5 p to the distance w from the middle, evenly over the travel q. So the
+wall of a tooth has the slope e/q with e = w - 1.5 p, a slot (g - p)/2q. With the force F of the warps on a wall
 [`ilmek.weaving.warp_opening`] and the friction mu, each wall of the slope h takes along the travel
 
     in  F (h + mu) / (1 - mu h)       out  F (h - mu) / (1 + mu h)       without friction F h, the energy's derivative
@@ -32,7 +33,7 @@ class Opener:
 
     pair      distance g in the slots     aside    distance w of the nearest neighbour from the middle [m]
     travel    q that opens the warps      pitch, diameter  of the warps [m]      friction  of yarn on steel
-    wall, breadth, reach  of a wall: thickness, breadth along the warps, length that the warps bear on [m]
+    wall, breadth, reach  of a tooth: width, breadth along the warps of both plates, length that the warps bear on [m]
     sides, slots  force of the warps on a wall, and of a warp of the pair on its slot [N], evenly over the travel
     """
 
@@ -63,7 +64,7 @@ class Opener:
     def force_max(self) -> float:
         return float(np.max(self.force(self.positions, np.ones(POSITIONS))))
 
-    @computed("mm", "deflection of a wall's end under the force of the warps", name="opener_bend")
+    @computed("mm", "deflection of a tooth's end under the force of the warps", name="opener_bend")
     def bend(self) -> float:
         # A cantilever under an even load.                                         [y = w L^4 / 8 E I, w = F / L]
         inertia = self.breadth * self.wall**3 / 12
@@ -124,7 +125,7 @@ def opener_for(  # noqa: PLR0917
 ) -> Opener:
     """The opener for a pair and its nearest neighbours: see `Opener`.
 
-    wall  thickness, breadth along the warps, length that they bear on [m]
+    wall  width of a tooth, its breadth along the warps in both plates, length that the warps bear on [m]
     """
     share = np.linspace(0.0, 1.0, POSITIONS)
     shift, slot = max(aside - 1.5 * pitch, 0.0), abs(pair - pitch) / 2

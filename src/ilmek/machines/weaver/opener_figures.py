@@ -25,6 +25,8 @@ def _plan(opener: Opener) -> Drawing:
     radius, shown = opener.diameter / 2, 4 * opener.diameter
     # The wall ends one radius before the nearest warp; where there is no opening it stands in the gap.
     wall = opener.aside - radius - opener.wall / 2 + 1j * np.array([-2, 2]) * opener.diameter
+    if opener.wall > opener.aside - opener.pair / 2 - 2 * radius:  # a tooth as wide as the gap
+        wall = (opener.aside + opener.pair / 2) / 2 + 1j * wall.imag
     strokes: list[Stroke] = []
     for side in (-1, 1):
         pair = side * opener.pair / 2
@@ -33,7 +35,7 @@ def _plan(opener: Opener) -> Drawing:
             *(Stroke(side * x - 1j * shown + radius * _RING, "construction", closed=True) for x in (*natural,)),
             Stroke(pair + radius * _RING, "outline", closed=True, filled=True),
             Stroke(side * opener.pitch / 2 - 1j * shown + radius * _RING, "construction", closed=True),
-            Stroke(side * wall.real + 1j * wall.imag, "link", "wall of the opener" if side > 0 else ""),
+            Stroke(side * wall.real + 1j * wall.imag, "link", "tooth of the opener" if side > 0 else ""),
         ]
     number, most = 2 * len(moved), format_quantity(opener.shift, "mm", 3)
     note = f"{number} warps are displaced, by {most} at most; below, dashed: the same warps without the opener"

@@ -99,7 +99,7 @@ class WeaverParams(Params):
     )
     tail: float = kind.length(2 * mm, at_least=0.0, at_most=0.05, doc="yarn held in a side gripper, each end")
     centre_stroke: float = kind.length(25 * mm, above=0.0, at_most=0.3, doc="centre gripper forward")
-    sley_stroke: float = kind.length(25 * mm, above=0.0, at_most=0.3, doc="sley down")
+    sley_stroke: float = kind.length(50 * mm, above=0.0, at_most=0.3, doc="sley down")
     knot_yarn: float | None = kind.length(
         None, above=0.0, at_most=0.3, doc="pile yarn of a knot by its bill, waste included; default: by the pile"
     )
@@ -122,6 +122,7 @@ class WeaverParams(Params):
     acceleration_limit: float = _acceleration(20.0, "allowed acceleration of the same")
     tool_mass: float = kind.mass(0.15, at_least=0.0, at_most=100.0, doc="mass that each cam moves")
     lever: float = kind.ratio(2.0, above=0.05, at_most=20.0, doc="motion of a tool over its cam's follower")
+    sley_lever: float = kind.ratio(4.0, above=0.05, at_most=20.0, doc="motion of the sley over its cam's follower")
     pinion: float = kind.length(
         6 * mm, at_least=1e-3, at_most=0.1, doc="radius of the handler's pinion on its cam's rack"
     )

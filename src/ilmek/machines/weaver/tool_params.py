@@ -9,11 +9,17 @@ from ilmek.units import mm
 
 @dataclass(frozen=True, slots=True)
 class OpenerParams(Params):
-    """The warp opener, and the warps as strings between the holds in front of it and behind it."""
+    """The warp opener, two plates with slots, and the warps as strings between the holds below it and above it."""
 
-    front_span: float = kind.length(60 * mm, at_least=1e-3, at_most=5.0, doc="from the opener to the fell")
+    front_span: float = kind.length(
+        25 * mm, at_least=1e-3, at_most=5.0, doc="from the fell to the opener's lower plate: above it knots are tied"
+    )
+    height: float = kind.length(
+        20 * mm, at_least=1e-3, at_most=0.5, doc="from its lower to its upper plate: between them the tools work"
+    )
+    plate: float = kind.length(4 * mm, at_least=1e-4, at_most=0.05, doc="thickness of a plate, along the warps")
     back_span: float = kind.length(
-        110 * mm, at_least=1e-3, at_most=20.0, doc="from the opener to the next hold of the warps"
+        125 * mm, at_least=1e-3, at_most=20.0, doc="from its upper plate to the next hold of the warps"
     )
     warp_length: float = kind.length(1.5, unit="m", at_least=0.05, at_most=100.0, doc="warp from cylinder to cylinder")
     warp_tension: float | None = kind.force(
@@ -34,9 +40,8 @@ class OpenerParams(Params):
     placing: float = kind.length(
         0.04 * mm, at_least=0.0, at_most=0.05, doc="error of the head's position against the warps"
     )
-    wall: float = kind.length(2 * mm, at_least=1e-4, at_most=0.05, doc="thickness of the walls that hold warps away")
-    breadth: float = kind.length(8 * mm, at_least=1e-4, at_most=0.1, doc="breadth of the walls, along the warps")
-    bend_limit: float = kind.length(0.5 * mm, above=0.0, at_most=0.05, doc="allowed deflection of a wall's end")
+    wall: float = kind.length(2 * mm, at_least=1e-4, at_most=0.05, doc="width of the teeth that hold warps away")
+    bend_limit: float = kind.length(0.5 * mm, above=0.0, at_most=0.05, doc="allowed deflection of a tooth's end")
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +77,7 @@ class ArmsInHead(Params):
         None, above=0.0, at_most=0.1, doc="from a warp of the pair to the next warp; default: the pitch"
     )
     width: float = kind.length(40 * mm, at_least=0.0, at_most=5.0, doc="width of the head that they take")
-    depth: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="reach of the opener's walls past the warps")
+    depth: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="reach of the opener's teeth past the warps")
     mass: float = kind.mass(0.0, at_least=0.0, at_most=500.0, doc="mass of their links, servos and gears")
     rest: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="their tips above the warps at rest")
+    breadth: float = kind.length(2 * mm, at_least=0.0, at_most=0.5, doc="breadth of their needles, along the warps")
