@@ -62,10 +62,14 @@ def planned_compensation(task: LoomTask, gain: float) -> float:
     gain  of the warp's tension in the open shed on a fixed back rest [N]
     """
     given = task.params.machines.of("tension-compensator")
-    share, most = float(given.get("rate_share", RATE_SHARE)), float(given.get("tension_most", TENSION_MOST))
-    least = float(given.get("tension_least", TENSION_LEAST))
-    bars = int(given.get("bars") or bars_needed(task.tension, gain, share, most, least))
-    return 1 - (compensated_tension(task.tension, gain, bars, share)[0] - task.tension) / gain if gain > 0 else 0.0
+    usual = {"rate_share": RATE_SHARE, "tension_most": TENSION_MOST, "tension_least": TENSION_LEAST, "bars": 0}
+    share, most, least, bars = (_number(given.get(name), value) for name, value in usual.items())
+    number = int(bars) or bars_needed(task.tension, gain, share, most, least)
+    return 1 - (compensated_tension(task.tension, gain, number, share)[0] - task.tension) / gain if gain > 0 else 0.0
+
+
+def _number(value: object, usual: float) -> float:
+    return float(value) if isinstance(value, int | float) else usual
 
 
 def loads_in_loom(task: LoomTask) -> WarpLoads:
